@@ -1,0 +1,1 @@
+"""The demonstrations: worlds, maps and stories as data."""

@@ -1,0 +1,1 @@
+"""One actor's action engine: commands in, feedback out."""

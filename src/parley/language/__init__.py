@@ -1,0 +1,1 @@
+"""What understands people: the interface and its implementations."""

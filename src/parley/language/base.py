@@ -1,0 +1,154 @@
+"""What understands people: one interface, several implementations (design section 5).
+
+A `Situation` holds everything that may be used to understand a message; what comes back is a `ChatAction`,
+checked against the catalogue by whoever asked. Everything in a situation except `message` is data, never an
+instruction.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Mapping, Sequence
+from dataclasses import dataclass, field
+from typing import Any, Literal, Protocol
+
+from parley.errors import FailureCode
+from parley.messages.chat import ActionCall, ChatAction
+from parley.messages.memory import MemoryEntry
+from parley.messages.status import ActionInfo
+from parley.robots.base import CameraImage
+from parley.world.geometry import Pose2D
+from parley.world.object_map import MapObject
+
+__all__ = [
+    "ErrorSituation",
+    "Grounding",
+    "InspectionReport",
+    "Language",
+    "ReplyReading",
+    "Situation",
+    "Turn",
+]
+
+Status = Literal["idle", "running", "paused"]
+
+
+@dataclass(frozen=True, slots=True)
+class Turn:
+    """One turn of the conversation so far."""
+
+    role: Literal["operator", "assistant"]
+    content: str
+
+
+@dataclass(frozen=True, slots=True)
+class Situation:
+    """What is known when a message of the operator is to be understood."""
+
+    message: str
+    memory: tuple[MemoryEntry, ...] = ()
+    """Oldest first: later facts win."""
+    history: tuple[Turn, ...] = ()
+    """Oldest first, without `message`."""
+    queue: tuple[ActionCall, ...] = ()
+    """Pending actions; 0 is the one being executed."""
+    status: Status = "idle"
+    objects: tuple[MapObject, ...] = ()
+    robot_pose: Pose2D | None = None
+    robot: str = ""
+    """The robot that is spoken to."""
+    robots: tuple[str, ...] = ()
+    """All robots there are."""
+    catalogue: tuple[ActionInfo, ...] = ()
+    """What `robot` can do."""
+
+
+@dataclass(frozen=True, slots=True)
+class ErrorSituation:
+    """What is known when a step failed."""
+
+    error_message: str
+    failed_action: ActionCall
+    code: FailureCode = FailureCode.INTERNAL
+    details: Mapping[str, Any] = field(default_factory=dict)
+    completed: tuple[ActionCall, ...] = ()
+    pending: tuple[ActionCall, ...] = ()
+    memory: tuple[MemoryEntry, ...] = ()
+    objects: tuple[MapObject, ...] = ()
+    dialogue: tuple[Turn, ...] = ()
+    """Questions and answers about this failure so far."""
+    reply: str | None = None
+    """What the operator just answered; None for the attempt without asking."""
+    robot: str = ""
+    robot_pose: Pose2D | None = None
+    catalogue: tuple[ActionInfo, ...] = ()
+
+
+@dataclass(frozen=True, slots=True)
+class Grounding:
+    """Which object of the map a description means."""
+
+    outcome: Literal["match", "ambiguous", "none"]
+    candidates: tuple[MapObject, ...] = ()
+    """One for a match, the equals for ambiguous, the nearest misses (may be empty) for none."""
+
+
+@dataclass(frozen=True, slots=True)
+class InspectionReport:
+    """What a look at a picture gave."""
+
+    text: str
+    """For the operator, plain words."""
+    found: bool | None = None
+    """Whether what was looked for is there; None if nothing in particular was looked for."""
+    wanted: str = ""
+    """What was looked for, if anything in particular."""
+    attention: bool = False
+    """Whether a person should decide what follows."""
+
+
+@dataclass(frozen=True, slots=True)
+class ReplyReading:
+    """How an answer to a question is meant."""
+
+    kind: Literal["yes", "no", "choice", "control", "unclear"]
+    """`yes` includes "done", "I did it"; `control` is a stop word and the like, handled elsewhere."""
+    choice: str = ""
+    """For `choice`: which of the offered ones, verbatim."""
+
+
+class Language(Protocol):
+    """The questions that need understanding.
+
+    All may raise `parley.errors.LanguageError`; all are safe to call concurrently.
+    """
+
+    @property
+    def label(self) -> str:
+        """What operators are told about this engine, e.g. that it works without a model."""
+        ...
+
+    async def interpret(self, situation: Situation) -> ChatAction:
+        """What the operator's message asks for: reply, actions, commands, memories."""
+        ...
+
+    async def select_memories(self, query: str, index: Sequence[MemoryEntry]) -> list[str]:
+        """The names of those memories of a short list that matter for `query`."""
+        ...
+
+    async def resolve(self, situation: ErrorSituation) -> ChatAction:
+        """How to repair a failure; `success` False asks the operator with `message_response` and `choices`."""
+        ...
+
+    async def ground(
+        self, description: str, objects: Sequence[MapObject], pose: Pose2D | None = None
+    ) -> Grounding:
+        """Which object a description means, seen from `pose`."""
+        ...
+
+    async def inspect(self, image: CameraImage, request: str) -> InspectionReport:
+        """What a picture shows, with regard to `request`."""
+        ...
+
+    async def read_reply(self, question: str, reply: str, choices: Sequence[str] = ()) -> ReplyReading:
+        """How an answer to a question is meant."""
+        ...

@@ -1,0 +1,1 @@
+"""Understanding operators' English without any model."""

@@ -1,0 +1,217 @@
+"""Conversation payloads: what people say, what Parley answers, and what follows from it (Chat Action).
+
+Thesis 4.3.5 and design section 2. Keys are the thesis's; `reason`, `flow`, `sources`, `choices`, `id` and
+`reply_to` are ours and ignored by other programs.
+"""
+
+from __future__ import annotations
+
+from typing import Any, Literal
+
+from pydantic import Field, field_validator, model_serializer, model_validator
+
+from parley.messages.base import ParameterTree, Payload
+
+__all__ = [
+    "SYSTEM_COMMANDS",
+    "ActionCall",
+    "ChatAction",
+    "ChatFeedback",
+    "ChatInput",
+    "CommandName",
+    "Flow",
+    "FlowIf",
+    "SystemCommand",
+]
+
+CommandName = Literal["stop", "pause", "start", "clear", "pop", "skip", "add_memory", "remove_memory"]
+"""The closed table of system commands; `pause` is an alias of `stop`."""
+
+SYSTEM_COMMANDS: tuple[CommandName, ...] = (
+    "stop", "pause", "start", "clear", "pop", "skip", "add_memory", "remove_memory",
+)  # fmt: skip
+
+
+class ChatInput(Payload):
+    """`chat_interface_input`: what an operator wrote."""
+
+    message: str
+    targets: tuple[str, ...] = ()
+    """Robots it is meant for."""
+    type: Literal["request", "response"] = "request"
+    """`response` answers a question that a robot asked."""
+    id: str = ""
+    """Ours: chosen by the sender, to recognise a message sent twice."""
+    reply_to: str = ""
+    """Ours: `id` of the question that is answered."""
+
+
+class ChatFeedback(Payload):
+    """`chat_interface_feedback`: what an operator is told or asked."""
+
+    message: str
+    targets: tuple[str, ...] = ()
+    """Robots it comes from."""
+    type: Literal["response", "request", "info", "error"] = "response"
+    """`request` asks and awaits an answer."""
+    sources: tuple[str, ...] = ()
+    """Ours: names of the memories that were used."""
+    choices: tuple[str, ...] = ()
+    """Ours: answers that can be tapped."""
+    id: str = ""
+    """Ours: identifies a question."""
+
+
+class FlowIf(Payload):
+    """Run only if an earlier step ended with this result."""
+
+    step: int
+    """0-based index of a step of the same queue."""
+    result: bool = True
+
+
+class Flow(Payload):
+    """Ours: how a queue item runs beyond "after the one before"."""
+
+    if_: FlowIf | None = Field(default=None, alias="if")
+    together_with: int | None = None
+    repeat: int | None = Field(default=None, ge=1, le=1000)
+
+
+class ActionCall(Payload):
+    """One action of a queue. In JSON ``{"<name>": {"input_parameters": .., "output_parameters": ..}}``."""
+
+    name: str = Field(min_length=1)
+    input_parameters: ParameterTree = Field(default_factory=dict)
+    output_parameters: ParameterTree = Field(default_factory=dict)
+    reason: str = ""
+    """Ours: why this step, in words for the operator."""
+    flow: Flow | None = None
+
+    @model_serializer
+    def _write(self) -> dict[str, Any]:
+        from parley.messages.pvf import write_parameters
+
+        body: dict[str, Any] = {
+            "input_parameters": write_parameters(self.input_parameters),
+            "output_parameters": write_parameters(self.output_parameters),
+        }
+        if self.reason:
+            body["reason"] = self.reason
+        if self.flow is not None:
+            body["flow"] = self.flow.model_dump(by_alias=True, exclude_none=True)
+        return {self.name: body}
+
+    @model_validator(mode="before")
+    @classmethod
+    def _read(cls, value: Any) -> Any:
+        if not isinstance(value, dict) or "name" in value:
+            return value
+        if len(value) != 1:
+            raise ValueError(f"expected one action name with its parameters, got {len(value)} keys")
+        name, body = next(iter(value.items()))
+        if body is None:
+            body = {}
+        if not isinstance(body, dict):
+            raise ValueError(f"{name}: expected an object with input_parameters and output_parameters")
+        return {"name": name, **body}
+
+
+class SystemCommand(Payload):
+    """One system command. In JSON ``{"<command>": {..arguments..}}``."""
+
+    command: CommandName
+    arguments: dict[str, Any] = Field(default_factory=dict)
+
+    @model_serializer
+    def _write(self) -> dict[str, Any]:
+        return {self.command: self.arguments}
+
+    @model_validator(mode="before")
+    @classmethod
+    def _read(cls, value: Any) -> Any:
+        if isinstance(value, str):
+            return {"command": value}
+        if not isinstance(value, dict) or "command" in value:
+            return value
+        if len(value) != 1:
+            raise ValueError(f"expected one command with its arguments, got {len(value)} keys")
+        command, arguments = next(iter(value.items()))
+        if command not in SYSTEM_COMMANDS:
+            raise ValueError(f"unknown command {command!r}; known are {', '.join(SYSTEM_COMMANDS)}")
+        return {"command": command, "arguments": arguments if isinstance(arguments, dict) else {}}
+
+    @property
+    def pop_index(self) -> int | None:
+        """The 0-based index of a `pop` (number or numeric text), or None if it has none."""
+        raw = self.arguments.get("parameters", self.arguments.get("index"))
+        if isinstance(raw, bool):
+            return None
+        if isinstance(raw, float) and raw.is_integer():
+            return int(raw)
+        if isinstance(raw, int):
+            return raw
+        return int(raw) if isinstance(raw, str) and raw.strip().isdecimal() else None
+
+
+class ChatAction(Payload):
+    """`chat_action`, `umrf_correction` and the answer of the language engine to a message or an error."""
+
+    message_response: str = ""
+    queue: tuple[ActionCall, ...] = ()
+    system_cmd: tuple[SystemCommand, ...] = ()
+    targets: tuple[str, ...] = ()
+    success: bool | None = None
+    """Only for error resolutions: whether the correction is complete."""
+    choices: tuple[str, ...] = ()
+    sources: tuple[str, ...] = ()
+
+    @model_validator(mode="before")
+    @classmethod
+    def _read(cls, value: Any) -> Any:
+        """Accept `message` for `message_response` and `target` for `targets` (error handler's spelling)."""
+        if not isinstance(value, dict):
+            return value
+        value = dict(value)
+        if "message_response" not in value and isinstance(value.get("message"), str):
+            value["message_response"] = value["message"]
+        if "targets" not in value and isinstance(value.get("target"), str):
+            value["targets"] = [value["target"]]
+        return value
+
+    @field_validator("queue", mode="before")
+    @classmethod
+    def _split_items(cls, value: Any) -> Any:
+        """A queue item may hold several actions; each becomes one of its own, in order."""
+        if not isinstance(value, list | tuple):
+            return value
+        split: list[Any] = []
+        for item in value:
+            if isinstance(item, dict) and "name" not in item and len(item) > 1:
+                split.extend({name: body} for name, body in item.items())
+            else:
+                split.append(item)
+        return split
+
+    @field_validator("system_cmd", mode="before")
+    @classmethod
+    def _split_commands(cls, value: Any) -> Any:
+        if isinstance(value, dict):
+            return [{name: body} for name, body in value.items()]
+        return value
+
+    def to_wire(self) -> dict[str, Any]:
+        """The JSON object of the thesis; our extras only where they say something."""
+        wire: dict[str, Any] = {
+            "message_response": self.message_response,
+            "queue": [call.model_dump() for call in self.queue],
+            "system_cmd": [command.model_dump() for command in self.system_cmd],
+            "targets": list(self.targets),
+        }
+        if self.success is not None:
+            wire["success"] = self.success
+        if self.choices:
+            wire["choices"] = list(self.choices)
+        if self.sources:
+            wire["sources"] = list(self.sources)
+        return wire

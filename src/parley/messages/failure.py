@@ -1,0 +1,69 @@
+"""What travels about a failure: from the action's log into the error handler (thesis 4.3.7, spec 12.6)."""
+
+from __future__ import annotations
+
+import json
+from typing import Any
+
+from pydantic import Field, ValidationError
+
+from parley.errors import ActionFailure, FailureCode
+from parley.messages.base import Payload
+from parley.messages.chat import ActionCall
+
+__all__ = ["ErrorHandlingMessage", "FailureReport"]
+
+
+class FailureReport(Payload):
+    """The JSON text that a failing action leaves as its last runtime message."""
+
+    message: str
+    process_instructions: str = Field(default="", alias="process_instrutions")
+    """The thesis's (misspelt) key is what other programs read."""
+    process_data_text: str = ""
+    process_data_images: tuple[str, ...] = ()
+    code: FailureCode = FailureCode.INTERNAL
+    """Ours."""
+    details: dict[str, Any] = Field(default_factory=dict)
+    """Ours: facts for recovery, e.g. candidates."""
+
+    @classmethod
+    def of(cls, failure: ActionFailure) -> FailureReport:
+        """The report of a failure that an action raised."""
+        return cls(message=failure.message, code=failure.code, details=failure.details)
+
+    @classmethod
+    def parse(cls, text: str) -> FailureReport:
+        """Read a runtime message: our JSON, the thesis's JSON, or any text at all."""
+        try:
+            value = json.loads(text)
+            if isinstance(value, dict) and isinstance(value.get("message"), str):
+                return cls.model_validate(value)
+        except (ValueError, ValidationError):
+            pass
+        return cls(message=text)
+
+    def to_text(self) -> str:
+        """The runtime message."""
+        return self.model_dump_json(by_alias=True)
+
+
+class ErrorHandlingMessage(Payload):
+    """`error_handling_message`: planner -> error handler."""
+
+    error_message: str
+    action_called: ActionCall
+    umrf_queue: tuple[ActionCall, ...] = ()
+    """Pending actions behind the failed one."""
+    target: str
+    process_instructions: str = Field(default="", alias="process_instrutions")
+    process_data_text: str = ""
+    process_data_images: tuple[str, ...] = ()
+    code: FailureCode = FailureCode.INTERNAL
+    """Ours."""
+    details: dict[str, Any] = Field(default_factory=dict)
+    """Ours."""
+    completed: tuple[ActionCall, ...] = ()
+    """Ours: what was done before."""
+    failure_id: str = ""
+    """Ours: graph and node that failed; the same failure is never handled twice."""

@@ -1,0 +1,177 @@
+"""Our own topics under `/parley/` (design section 2): presence, events, plans, stop, refusals."""
+
+from __future__ import annotations
+
+from typing import Any, Literal
+
+from pydantic import Field
+
+from parley.messages.base import ParameterTree, Payload
+from parley.messages.chat import ActionCall
+
+__all__ = [
+    "ActionInfo",
+    "ActorStatus",
+    "GraphEvent",
+    "PlanDecision",
+    "PlanProposal",
+    "PlanStep",
+    "PlanUpdate",
+    "PoseInfo",
+    "Rejection",
+    "RejectionProblem",
+    "StopCommand",
+    "StopReport",
+]
+
+
+class PoseInfo(Payload):
+    """A planar pose in the map frame (REP 103: metres, radians)."""
+
+    x: float
+    y: float
+    yaw: float = 0.0
+
+
+class ActionInfo(Payload):
+    """One action of a robot's catalogue, as language and people need it."""
+
+    name: str
+    inputs: dict[str, str] = Field(default_factory=dict)
+    """Flat parameter name -> PVF type."""
+    outputs: dict[str, str] = Field(default_factory=dict)
+    description: str = ""
+    phrases: tuple[str, ...] = ()
+    """How people ask for it; ``{parameter}`` stands for a value."""
+    effects: tuple[str, ...] = ()
+    """What holds afterwards, from a small open vocabulary: `moves`, `looks`, `asks_operator`, ..."""
+    risk: Literal["none", "low", "high"] = "low"
+    capabilities: tuple[str, ...] = ()
+    """What the robot must have, e.g. `drive`, `camera`."""
+
+
+class ActorStatus(Payload):
+    """`/parley/actor_status`: heartbeat of one engine."""
+
+    actor: str
+    state: Literal["idle", "running", "paused", "stopped", "leaving"] = "idle"
+    """`stopped`: latched by an emergency stop."""
+    sequence: int = 0
+    """Counts heartbeats of one run of the engine; a smaller number means a restart."""
+    pose: PoseInfo | None = None
+    at_rest: bool | None = None
+    """Whether the measured velocity is zero; None if the robot cannot tell."""
+    graphs: dict[str, str] = Field(default_factory=dict)
+    """Graph name -> graph state."""
+    catalogue: tuple[ActionInfo, ...] = ()
+    """Sent with every heartbeat, so that who comes late knows it too."""
+    map_name: str = ""
+
+
+class GraphEvent(Payload):
+    """`/parley/graph_events`: every transition once, in order."""
+
+    actor: str
+    graph_name: str
+    sequence: int
+    """Per graph, from 0, without gaps."""
+    kind: Literal["graph", "node", "progress"]
+    state: str = ""
+    """Node or graph state after the transition; empty for progress."""
+    node: str = ""
+    """Full name of the node; empty for graph transitions."""
+    instance_id: int = -1
+    cause: str = ""
+    """What brought it about: `start`, `edge`, `stop`, `pause`, `resume`, `modify`, `run`, `dry`, ..."""
+    result: str = ""
+    """`on_true`, `on_false`, `on_error`, `on_stopped` when a node ended."""
+    outputs: ParameterTree = Field(default_factory=dict)
+    message: str = ""
+    """Newest log line of a node that failed."""
+    progress: float | None = None
+    """0 to 1."""
+    progress_text: str = ""
+    robot_time_s: float = 0.0
+    unix_ms: int = 0
+
+
+class PlanStep(Payload):
+    """One step of a plan as people see it."""
+
+    action: ActionCall
+    node: str = ""
+    """Full name of its node in the graph; empty before the graph exists."""
+    state: Literal["queued", "running", "finished", "failed", "stopped", "skipped", "paused", "waiting"] = (
+        "queued"
+    )
+
+
+class PlanUpdate(Payload):
+    """`/parley/plan`, kind `update`: the plan of one robot as the planner sees it, after each change."""
+
+    kind: Literal["update"] = "update"
+    target: str
+    graph_name: str = ""
+    state: Literal["idle", "awaiting_approval", "running", "paused", "held"] = "idle"
+    steps: tuple[PlanStep, ...] = ()
+
+
+class PlanProposal(Payload):
+    """`/parley/plan`, kind `proposal`: steps that wait for a person's yes."""
+
+    kind: Literal["proposal"] = "proposal"
+    id: str
+    target: str
+    message: str = ""
+    steps: tuple[ActionCall, ...] = ()
+
+
+class PlanDecision(Payload):
+    """`/parley/plan_decision`: what a person decided about a proposal, or a change of policy."""
+
+    id: str = ""
+    target: str
+    decision: Literal["approve", "reject", "edit", "policy"]
+    steps: tuple[ActionCall, ...] = ()
+    """For `edit`: the steps to run instead."""
+    policy: Literal["run_at_once", "ask_first", ""] = ""
+    """For `policy`."""
+
+
+class StopCommand(Payload):
+    """`/parley/stop`: emergency stop or its reset; empty `targets` means all."""
+
+    command: Literal["stop", "reset"] = "stop"
+    targets: tuple[str, ...] = ()
+    id: str = ""
+
+
+class StopReport(Payload):
+    """`/parley/stop_report`: an engine says what became of a stop command."""
+
+    actor: str
+    id: str = ""
+    state: Literal["received", "at_rest", "reset"]
+
+
+class RejectionProblem(Payload):
+    """One reason of a refusal."""
+
+    path: str = ""
+    message: str
+    remedy: str = ""
+    code: str = "invalid"
+
+
+class Rejection(Payload):
+    """`/parley/rejection`: a graph, command or message was refused and nothing was changed."""
+
+    source: str
+    """The node or engine that refuses."""
+    target: str = ""
+    """The robot it concerns, if known."""
+    what: str
+    """E.g. `umrf_graph_start` or `chat_interface_input`."""
+    graph_name: str = ""
+    problems: tuple[RejectionProblem, ...] = ()
+    detail: dict[str, Any] = Field(default_factory=dict)

@@ -1,0 +1,124 @@
+"""The table of topics and services: name, ROS type, quality of service (design section 2).
+
+Each name is written here and nowhere else.
+"""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+from typing import Generic, TypeVar
+
+from parley.messages import ros
+
+__all__ = ["ALL_SERVICES", "ALL_TOPICS", "QoS", "Service", "Topic", "display_topic"]
+
+M = TypeVar("M")
+Req = TypeVar("Req")
+Res = TypeVar("Res")
+
+
+@dataclass(frozen=True, slots=True)
+class QoS:
+    """Quality of service, as much of it as we use."""
+
+    reliable: bool = True
+    latched: bool = False
+    """Late subscribers get the last message (ROS: transient local)."""
+    depth: int = 10
+    """How many messages wait for a slow subscriber; older ones are dropped (ROS: keep last)."""
+
+
+@dataclass(frozen=True, slots=True)
+class Topic(Generic[M]):
+    """A topic and everything both sides must agree on."""
+
+    name: str
+    type: type[M]
+    ros_type: str
+    qos: QoS = QoS()
+
+
+@dataclass(frozen=True, slots=True)
+class Service(Generic[Req, Res]):
+    """A service and everything both sides must agree on."""
+
+    name: str
+    request: type[Req]
+    response: type[Res]
+    ros_type: str
+
+
+def _string(name: str, *, latched: bool = False, depth: int = 100) -> Topic[ros.String]:
+    return Topic(name, ros.String, "std_msgs/msg/String", QoS(latched=latched, depth=depth))
+
+
+CHAT_INPUT = _string("chat_interface_input")
+CHAT_FEEDBACK = _string("chat_interface_feedback")
+CHAT_ACTION = _string("chat_action")
+UMRF_CORRECTION = _string("umrf_correction")
+ERROR_HANDLING = _string("error_handling_message")
+ADD_TO_MEMORY = _string("add_to_memory")
+REMOVE_MEMORY = _string("remove_memory")
+DISPLAY_FEED = _string("display_feed", depth=10)
+
+GRAPH_START = Topic("umrf_graph_start", ros.UmrfGraphStart, "temoto_msgs/msg/UmrfGraphStart", QoS(depth=10))
+GRAPH_MODIFY = Topic(
+    "umrf_graph_modify", ros.UmrfGraphModify, "temoto_msgs/msg/UmrfGraphModify", QoS(depth=10)
+)
+GRAPH_PAUSE = Topic("umrf_graph_pause", ros.UmrfGraphPause, "temoto_msgs/msg/UmrfGraphPause", QoS(depth=10))
+GRAPH_PAUSE_TEMOTO = Topic(
+    "umrf_pause_pause", ros.UmrfGraphPause, "temoto_msgs/msg/UmrfGraphPause", QoS(depth=10)
+)
+"""The reference engine's misspelling (spec W1); engines listen to both."""
+GRAPH_RESUME = Topic(
+    "umrf_graph_resume", ros.UmrfGraphResume, "temoto_msgs/msg/UmrfGraphResume", QoS(depth=10)
+)
+GRAPH_STOP = Topic("umrf_graph_stop", ros.UmrfGraphStop, "temoto_msgs/msg/UmrfGraphStop", QoS(depth=10))
+GRAPH_FEEDBACK = Topic(
+    "umrf_graph_feedback", ros.UmrfGraphFeedback, "temoto_msgs/msg/UmrfGraphFeedback", QoS(depth=10)
+)
+
+ACTOR_STATUS = _string("/parley/actor_status")
+GRAPH_EVENTS = _string("/parley/graph_events", depth=10_000)
+PLAN = _string("/parley/plan")
+PLAN_DECISION = _string("/parley/plan_decision")
+STOP = _string("/parley/stop")
+STOP_REPORT = _string("/parley/stop_report")
+REJECTION = _string("/parley/rejection")
+SYNC = _string("/parley/sync")
+MEMORY_EVENT = _string("/parley/memory_event")
+
+GET_MEMORY = Service("get_memory", ros.ChatRequest, ros.ChatResponse, "nl_interface_msgs/srv/Chat")
+GRAPH_GET = Service(
+    "umrf_graph_get", ros.UmrfGraphGetRequest, ros.UmrfGraphGetResponse, "temoto_msgs/srv/UmrfGraphGet"
+)
+
+ALL_TOPICS: tuple[Topic[ros.String] | Topic[ros.UmrfGraphStart] | Topic[ros.UmrfGraphModify]
+                  | Topic[ros.UmrfGraphPause] | Topic[ros.UmrfGraphResume] | Topic[ros.UmrfGraphStop]
+                  | Topic[ros.UmrfGraphFeedback], ...] = (
+    CHAT_INPUT, CHAT_FEEDBACK, CHAT_ACTION, UMRF_CORRECTION, ERROR_HANDLING, ADD_TO_MEMORY, REMOVE_MEMORY,
+    DISPLAY_FEED, GRAPH_START, GRAPH_MODIFY, GRAPH_PAUSE, GRAPH_PAUSE_TEMOTO, GRAPH_RESUME, GRAPH_STOP,
+    GRAPH_FEEDBACK, ACTOR_STATUS, GRAPH_EVENTS, PLAN, PLAN_DECISION, STOP, STOP_REPORT, REJECTION, SYNC,
+    MEMORY_EVENT,
+)  # fmt: skip
+ALL_SERVICES = (GET_MEMORY, GRAPH_GET)
+
+
+def display_topic(target: str, name: str) -> Topic[ros.CompressedImage]:
+    """The topic of one finished display feed; characters ROS does not allow become underscores."""
+    return Topic(
+        f"/webapp/display_feed/{_ros_name(target)}/{_ros_name(name)}",
+        ros.CompressedImage, "sensor_msgs/msg/CompressedImage", QoS(latched=True, depth=1),
+    )  # fmt: skip
+
+
+def actor_graph_get(actor: str) -> Service[ros.UmrfGraphGetRequest, ros.UmrfGraphGetResponse]:
+    """The query service of one engine."""
+    return Service(
+        f"/{_ros_name(actor)}/umrf_graph_get", GRAPH_GET.request, GRAPH_GET.response, GRAPH_GET.ros_type
+    )
+
+
+def _ros_name(text: str) -> str:
+    cleaned = "".join(char if char.isascii() and (char.isalnum() or char == "_") else "_" for char in text)
+    return f"_{cleaned}" if not cleaned or cleaned[0].isdigit() else cleaned

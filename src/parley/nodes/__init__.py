@@ -1,0 +1,1 @@
+"""The five nodes; each wires one thing to topics."""

@@ -1,0 +1,1 @@
+"""Robots behind one interface: simulated, Nav2, ROS 1."""

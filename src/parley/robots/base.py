@@ -1,0 +1,127 @@
+"""What an action can ask of a robot, whatever stands behind it (design section 7).
+
+Frames follow REP 103 and 105: x forward, y left, metres and radians; poses are in the `map` frame.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Callable
+from dataclasses import dataclass
+from typing import Literal, Protocol
+
+import numpy as np
+from numpy.typing import NDArray
+
+from parley.world.geometry import Pose2D
+
+__all__ = ["CameraImage", "Detection", "LaserScan", "NavigationControl", "Robot", "Velocity"]
+
+
+@dataclass(frozen=True, slots=True)
+class Velocity:
+    """Planar velocity in the robot's frame."""
+
+    linear_mps: float = 0.0
+    angular_radps: float = 0.0
+
+
+@dataclass(frozen=True, slots=True)
+class LaserScan:
+    """One sweep of the lidar; invalid or out-of-range beams are `inf`."""
+
+    angle_min_rad: float
+    angle_increment_rad: float
+    ranges_m: NDArray[np.float32]
+    range_max_m: float
+    stamp_s: float
+
+
+@dataclass(frozen=True, slots=True)
+class Detection:
+    """Something that the robot's detector recognised in a picture."""
+
+    label: str
+    """What it is, in words, e.g. the description in the world."""
+    pixels: int
+    """How much of the picture it covers."""
+    box: tuple[int, int, int, int]
+    """left, top, right, bottom in pixels (right and bottom exclusive)."""
+    distance_m: float | None = None
+    """Median distance, where the camera knows depth."""
+
+
+@dataclass(frozen=True, slots=True)
+class CameraImage:
+    """One picture, with what the robot's own detector saw in it (None: it has no detector)."""
+
+    width: int
+    height: int
+    encoding: Literal["rgb8"]
+    data: NDArray[np.uint8]
+    """Shape (height, width, 3)."""
+    stamp_s: float
+    detections: tuple[Detection, ...] | None = None
+
+
+@dataclass(frozen=True, slots=True)
+class NavigationControl:
+    """How the caller watches and holds a drive."""
+
+    on_progress: Callable[[float], None]
+    """Gets the remaining distance in metres, a few times a second."""
+    paused: Callable[[], bool]
+    """While true the robot stands still and waits."""
+
+
+class Robot(Protocol):
+    """One robot."""
+
+    name: str
+
+    @property
+    def capabilities(self) -> frozenset[str]:
+        """What it has: `drive`, `camera`, `lidar`, ..."""
+        ...
+
+    @property
+    def radius_m(self) -> float:
+        """Radius of its footprint."""
+        ...
+
+    def pose(self) -> Pose2D:
+        """Where it believes it is, in the map frame."""
+        ...
+
+    def velocity(self) -> Velocity:
+        """Measured, not commanded."""
+        ...
+
+    def scan(self) -> LaserScan:
+        """The newest lidar sweep."""
+        ...
+
+    async def image(self) -> CameraImage:
+        """Take a picture now.
+
+        Raises:
+            ActionFailure: `hardware` if the camera gives none, `not_capable` if there is no camera.
+        """
+        ...
+
+    async def navigate(self, goal: Pose2D, control: NavigationControl, *, timeout_s: float) -> Pose2D:
+        """Drive to `goal` and return where it ended; cancelling stops the robot.
+
+        Raises:
+            ActionFailure: `unreachable` (no way on the map), `blocked` (something unexpected in the way),
+                `timed_out` (robot time), `hardware`.
+        """
+        ...
+
+    async def stop(self) -> None:
+        """Stop now and refuse to move until `release`; ends a running `navigate` no differently than standing
+        still: after `release` it goes on, unless it was cancelled meanwhile."""
+        ...
+
+    async def release(self) -> None:
+        """Allow motion again after `stop`."""
+        ...

@@ -1,0 +1,121 @@
+"""The doorway between nodes: publish, subscribe, serve, call (design section 3).
+
+Handlers run on the loop, one message of a subscription after the other. `Publisher.publish` never blocks and
+never raises because of a subscriber. A handler that raises is logged and goes on with the next message.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Awaitable, Callable
+from dataclasses import dataclass
+from types import TracebackType
+from typing import Any, Protocol, Self, TypeVar
+
+from parley.messages.topics import Service, Topic
+
+__all__ = ["Endpoint", "Handler", "Publisher", "Server", "Subscription", "Transport"]
+
+M = TypeVar("M")
+M_contra = TypeVar("M_contra", contravariant=True)
+Req = TypeVar("Req")
+Res = TypeVar("Res")
+
+Handler = Callable[[M], Awaitable[None] | None]
+"""Gets each message; plain or async."""
+
+
+@dataclass(frozen=True, slots=True)
+class Endpoint:
+    """One end of a topic or service, as seen in the graph of who is there."""
+
+    name: str
+    ros_type: str
+    role: str
+    """`publisher`, `subscription`, `server`."""
+
+
+class Publisher(Protocol[M_contra]):
+    """The sending end of a topic."""
+
+    def publish(self, message: M_contra) -> None:
+        """Hand the message over; returns at once."""
+        ...
+
+    def close(self) -> None:
+        """Take the end away; idempotent."""
+        ...
+
+
+class Subscription(Protocol):
+    """The receiving end of a topic."""
+
+    @property
+    def dropped(self) -> int:
+        """Messages that were dropped because this subscriber was slower than its depth allows."""
+        ...
+
+    async def close(self) -> None:
+        """Stop receiving; a handler that runs is finished first or cancelled. Idempotent."""
+        ...
+
+
+class Server(Protocol):
+    """The answering end of a service."""
+
+    async def close(self) -> None:
+        """Stop answering. Idempotent."""
+        ...
+
+
+class Transport(Protocol):
+    """One backend. Use as ``async with``; everything opened through it is closed with it."""
+
+    async def __aenter__(self) -> Self: ...
+
+    async def __aexit__(
+        self, kind: type[BaseException] | None, error: BaseException | None, trace: TracebackType | None
+    ) -> None: ...
+
+    def publisher(self, topic: Topic[M]) -> Publisher[M]:
+        """Open the sending end of `topic`.
+
+        Raises:
+            TypeMismatchError: The name is in use with another type.
+        """
+        ...
+
+    async def subscribe(
+        self, topic: Topic[M], handler: Handler[M], *, depth: int | None = None
+    ) -> Subscription:
+        """Open the receiving end of `topic`; a latched topic hands over its last message first.
+
+        Raises:
+            TypeMismatchError: The name is in use with another type.
+        """
+        ...
+
+    async def serve(self, service: Service[Req, Res], handler: Callable[[Req], Awaitable[Res]]) -> Server:
+        """Answer `service`.
+
+        Raises:
+            UnavailableError: Somebody answers it already.
+        """
+        ...
+
+    async def call(self, service: Service[Req, Res], request: Req, *, timeout_s: float) -> Res:
+        """Call a service and wait for its answer, at most `timeout_s` of wall time.
+
+        Raises:
+            UnavailableError: Nobody answers this name.
+            TransportTimeoutError: No answer in time.
+            TransportError: The server's handler failed.
+        """
+        ...
+
+    def endpoints(self) -> tuple[Endpoint, ...]:
+        """Who is there now."""
+        ...
+
+    def on_endpoints_changed(self, handler: Callable[[], Any]) -> Callable[[], None]:
+        """Call `handler` whenever `endpoints` changes; returns how to stop that."""
+        ...

@@ -1,0 +1,183 @@
+"""UMRF graphs as values (`spec/umrf.md` sections 1 to 6 and 8).
+
+Frozen and complete: reading, writing, checking and running all speak in these types.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Mapping
+from dataclasses import dataclass, field
+from enum import StrEnum
+from typing import Any
+
+from parley.messages.pvf import Parameter
+
+__all__ = [
+    "DEFAULT_CONDITIONS",
+    "ENTRY",
+    "EXIT",
+    "ChildRelation",
+    "Graph",
+    "GraphState",
+    "LogMessage",
+    "Node",
+    "NodeRef",
+    "NodeState",
+    "ParentRelation",
+    "Response",
+    "Result",
+]
+
+
+class NodeState(StrEnum):
+    """State of an action node (8.1); the spellings are the contract."""
+
+    UNINITIALIZED = "UNINITIALIZED"
+    INITIALIZED = "INITIALIZED"
+    RUNNING = "RUNNING"
+    PAUSE_REQUESTED = "PAUSE_REQUESTED"
+    PAUSED = "PAUSED"
+    STOPPING = "STOPPING"
+    FINISHED = "FINISHED"
+    BYPASSED = "BYPASSED"
+    ERROR = "ERROR"
+
+
+class GraphState(StrEnum):
+    """State of a graph (8.2)."""
+
+    UNINITIALIZED = "UNINITIALIZED"
+    INITIALIZED = "INITIALIZED"
+    RUNNING = "RUNNING"
+    PAUSED = "PAUSED"
+    STOPPING = "STOPPING"
+    STOPPED = "STOPPED"
+    FINISHED = "FINISHED"
+    ERROR = "ERROR"
+    HALTED = "HALTED"
+    CLEARING = "CLEARING"
+
+
+class Result(StrEnum):
+    """How a node ended (5.3), and how a whole graph did (8.3)."""
+
+    ON_TRUE = "on_true"
+    ON_FALSE = "on_false"
+    ON_STOPPED = "on_stopped"
+    ON_ERROR = "on_error"
+    ON_HALTED = "on_halted"
+    """Graphs only."""
+
+
+class Response(StrEnum):
+    """What a child does when a parent ended so (5.3)."""
+
+    RUN = "run"
+    STOP = "stop"
+    PAUSE = "pause"
+    BYPASS = "bypass"
+    IGNORE = "ignore"
+    RESTART = "restart"
+
+
+DEFAULT_CONDITIONS: Mapping[Result, Response] = {
+    Result.ON_TRUE: Response.RUN,
+    Result.ON_FALSE: Response.RUN,
+    Result.ON_STOPPED: Response.IGNORE,
+    Result.ON_ERROR: Response.BYPASS,
+}
+"""Responses where a relation does not say (5.3)."""
+
+
+@dataclass(frozen=True, slots=True, order=True)
+class NodeRef:
+    """Names a node inside its graph."""
+
+    name: str
+    instance_id: int = 0
+
+    @property
+    def full_name(self) -> str:
+        """``<name>_<instance_id>`` (1)."""
+        return f"{self.name}_{self.instance_id}"
+
+
+ENTRY = NodeRef("graph_entry", 0)
+EXIT = NodeRef("graph_exit", 0)
+
+
+@dataclass(frozen=True, slots=True)
+class ChildRelation:
+    """An entry of `children` or `graph_entry` (5.1)."""
+
+    node: NodeRef
+    remap: tuple[tuple[str, str], ...] = ()
+    """(parent output, child input), flat names."""
+
+
+@dataclass(frozen=True, slots=True)
+class ParentRelation:
+    """An entry of `parents` or `graph_exit` (5.2)."""
+
+    node: NodeRef
+    required: bool = True
+    conditions: Mapping[Result, Response] = field(default_factory=dict)
+    """Only what was stated; `response` fills in the defaults."""
+
+    def response(self, result: Result) -> Response:
+        """What to do when the parent ended with `result`."""
+        return self.conditions.get(result, DEFAULT_CONDITIONS[result])
+
+
+@dataclass(frozen=True, slots=True)
+class LogMessage:
+    """One entry of `runtime.messages`."""
+
+    timestamp: int
+    """Milliseconds since the Unix epoch."""
+    message: str
+
+
+@dataclass(frozen=True, slots=True)
+class Node:
+    """One action node (3)."""
+
+    name: str
+    instance_id: int = 0
+    type: str = "sync"
+    actor: str = ""
+    description: str = ""
+    state: NodeState = NodeState.UNINITIALIZED
+    input_parameters: Mapping[str, Parameter] = field(default_factory=dict)
+    output_parameters: Mapping[str, Parameter] = field(default_factory=dict)
+    parents: tuple[ParentRelation, ...] = ()
+    children: tuple[ChildRelation, ...] = ()
+    gui_attributes: Any = None
+    messages: tuple[LogMessage, ...] = ()
+    """At most the 10 newest, oldest first."""
+
+    @property
+    def ref(self) -> NodeRef:
+        """How relations name this node."""
+        return NodeRef(self.name, self.instance_id)
+
+    @property
+    def full_name(self) -> str:
+        """``<name>_<instance_id>``."""
+        return self.ref.full_name
+
+
+@dataclass(frozen=True, slots=True)
+class Graph:
+    """One UMRF graph (2)."""
+
+    name: str
+    nodes: tuple[Node, ...] = ()
+    entry: tuple[ChildRelation, ...] = ()
+    exit: tuple[ParentRelation, ...] = ()
+    description: str = ""
+    state: GraphState = GraphState.UNINITIALIZED
+
+    def node(self, full_name: str) -> Node | None:
+        """The node of that full name, or None."""
+        return next((node for node in self.nodes if node.full_name == full_name), None)

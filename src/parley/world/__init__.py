@@ -1,0 +1,1 @@
+"""Where things are: object map, occupancy map, path planning, geometry."""

@@ -1,0 +1,149 @@
+"""The object map in the thesis's JSON: what stands where, in words.
+
+::
+
+    {"classes": ["chair"],
+     "items": {"chair": [{"id": "chair_1", "description": "chair by the window",
+                          "coordinates": {"x": 1.0, "y": 2.0}, "dimensions": {"height": 0.5, "width": 0.4}}]}}
+
+`dimensions` are the bounding box in the map plane: `width` along x, `height` along y, in metres. Ours, optional:
+`aliases` (other names people use for it).
+"""
+
+from __future__ import annotations
+
+import json
+from dataclasses import dataclass, field
+from pathlib import Path
+from typing import Any
+
+from pydantic import BaseModel, ConfigDict, Field, ValidationError
+
+from parley.errors import FileFormatError
+
+__all__ = ["MapObject", "ObjectMap"]
+
+
+@dataclass(frozen=True, slots=True)
+class MapObject:
+    """One thing that people may name."""
+
+    id: str
+    description: str
+    x_m: float
+    y_m: float
+    class_name: str = ""
+    width_m: float = 0.0
+    """Extent along the map's x."""
+    height_m: float = 0.0
+    """Extent along the map's y."""
+    aliases: tuple[str, ...] = ()
+
+
+class _Coordinates(BaseModel):
+    model_config = ConfigDict(extra="ignore")
+    x: float
+    y: float
+
+
+class _Dimensions(BaseModel):
+    model_config = ConfigDict(extra="ignore")
+    height: float = Field(ge=0)
+    width: float = Field(ge=0)
+
+
+class _Item(BaseModel):
+    model_config = ConfigDict(extra="ignore")
+    id: str = Field(min_length=1, coerce_numbers_to_str=True)
+    description: str = Field(min_length=1)
+    coordinates: _Coordinates
+    dimensions: _Dimensions
+    aliases: list[str] = Field(default_factory=list)
+
+
+class _File(BaseModel):
+    model_config = ConfigDict(extra="ignore")
+    classes: list[str]
+    items: dict[str, list[_Item]]
+
+
+@dataclass(frozen=True, slots=True)
+class ObjectMap:
+    """All objects of one map, ids unique."""
+
+    objects: tuple[MapObject, ...] = field(default=())
+
+    def get(self, object_id: str) -> MapObject | None:
+        """The object of that id, or None."""
+        return next((item for item in self.objects if item.id == object_id), None)
+
+    @classmethod
+    def load(cls, path: Path) -> ObjectMap:
+        """Read an object map file.
+
+        Raises:
+            FileFormatError: Names the file and the field.
+        """
+        try:
+            return cls.parse(path.read_text(encoding="utf-8"), file=path.name)
+        except OSError as error:
+            raise FileFormatError(path.name, "", f"cannot be read: {error.strerror}") from error
+        except UnicodeDecodeError as error:
+            raise FileFormatError(path.name, "", f"is not UTF-8 text: {error.reason}") from error
+
+    @classmethod
+    def parse(cls, text: str, file: str = "object map") -> ObjectMap:
+        """Read the JSON text of an object map; `file` is only for messages.
+
+        Raises:
+            FileFormatError: Names the file and the field.
+        """
+        try:
+            raw = json.loads(text)
+        except ValueError as error:
+            raise FileFormatError(file, "", f"not valid JSON: {error}") from error
+        try:
+            parsed = _File.model_validate(raw)
+        except ValidationError as error:
+            first = error.errors(include_url=False, include_input=False)[0]
+            where = "".join(f"[{p}]" if isinstance(p, int) else f".{p}" for p in first["loc"]).lstrip(".")
+            raise FileFormatError(file, where, first["msg"]) from error
+        return cls(tuple(_objects(parsed, file)))
+
+    def to_json(self) -> dict[str, Any]:
+        """The thesis's form."""
+        items: dict[str, list[dict[str, Any]]] = {}
+        for item in self.objects:
+            body: dict[str, Any] = {
+                "id": item.id,
+                "description": item.description,
+                "coordinates": {"x": item.x_m, "y": item.y_m},
+                "dimensions": {"height": item.height_m, "width": item.width_m},
+            }
+            if item.aliases:
+                body["aliases"] = list(item.aliases)
+            items.setdefault(item.class_name, []).append(body)
+        return {"classes": sorted(items), "items": items}
+
+
+def _objects(parsed: _File, file: str) -> list[MapObject]:
+    found: list[MapObject] = []
+    seen: set[str] = set()
+    for class_name, items in parsed.items.items():
+        for index, item in enumerate(items):
+            if item.id in seen:
+                raise FileFormatError(file, f"items.{class_name}[{index}].id", f"{item.id!r} is used twice")
+            seen.add(item.id)
+            found.append(
+                MapObject(
+                    id=item.id,
+                    description=item.description,
+                    x_m=item.coordinates.x,
+                    y_m=item.coordinates.y,
+                    class_name=class_name,
+                    width_m=item.dimensions.width,
+                    height_m=item.dimensions.height,
+                    aliases=tuple(item.aliases),
+                )
+            )
+    return found
