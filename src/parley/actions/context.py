@@ -11,8 +11,8 @@ from parley.language.base import Language
 from parley.messages.memory import MemoryEntry
 from parley.robots.base import CameraImage, Robot
 from parley.umrf.action import RunHandle
-from parley.world.occupancy import OccupancyMap
 from parley.world.object_map import ObjectMap
+from parley.world.occupancy import OccupancyMap
 
 __all__ = ["ActionContext", "Display", "MemoryAccess", "Operator", "World"]
 

@@ -136,7 +136,7 @@ class Language(Protocol):
         ...
 
     async def resolve(self, situation: ErrorSituation) -> ChatAction:
-        """How to repair a failure; `success` False asks the operator with `message_response` and `choices`."""
+        """How to repair a failure; `success` False asks with `message_response` and `choices`."""
         ...
 
     async def ground(

@@ -118,8 +118,11 @@ class Robot(Protocol):
         ...
 
     async def stop(self) -> None:
-        """Stop now and refuse to move until `release`; ends a running `navigate` no differently than standing
-        still: after `release` it goes on, unless it was cancelled meanwhile."""
+        """Stop now and refuse to move until `release`.
+
+        To a running `navigate` it is no more than standing still: after `release` it goes on, unless it was
+        cancelled meanwhile.
+        """
         ...
 
     async def release(self) -> None:

@@ -4,11 +4,7 @@
 
     @action(phrases=("wave at {target}",), effects=("moves",), risk="low")
     async def wave_at(ctx: ActionContext, target: str) -> Waved:
-        '''Wave at somebody.
-
-        Args:
-            target: Whom to wave at.
-        '''
+        '''Wave at somebody (google style; an ``Args`` section describes the parameters).'''
 
 The first argument is the context; every other one is an input parameter. ``str``, ``float``/``int``, ``bool``
 and lists of them become the PVF types `string`, `number`, `bool`, `strings`, `numbers`, `bools`; a frozen

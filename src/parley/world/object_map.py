@@ -6,8 +6,8 @@
      "items": {"chair": [{"id": "chair_1", "description": "chair by the window",
                           "coordinates": {"x": 1.0, "y": 2.0}, "dimensions": {"height": 0.5, "width": 0.4}}]}}
 
-`dimensions` are the bounding box in the map plane: `width` along x, `height` along y, in metres. Ours, optional:
-`aliases` (other names people use for it).
+`dimensions` are the bounding box in the map plane: `width` along x, `height` along y, in metres.
+Ours, optional: `aliases` (other names people use for it).
 """
 
 from __future__ import annotations
