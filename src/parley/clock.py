@@ -12,7 +12,12 @@ import heapq
 import itertools
 import time
 from collections.abc import AsyncIterator, Iterator
-from contextlib import asynccontextmanager, contextmanager
+from contextlib import (
+    AbstractAsyncContextManager,
+    AbstractContextManager,
+    asynccontextmanager,
+    contextmanager,
+)
 from typing import Protocol
 
 __all__ = ["Clock", "SimClock", "WallClock"]
@@ -37,27 +42,17 @@ class Clock(Protocol):
         """Wait for `seconds` of robot time."""
         ...
 
-    def timeout(self, seconds: float) -> _Timeout:
+    def timeout(self, seconds: float) -> AbstractAsyncContextManager[None]:
         """``async with clock.timeout(s):`` raises `TimeoutError` after `seconds` of robot time."""
         ...
 
-    def hold(self) -> _Hold:
+    def hold(self) -> AbstractContextManager[None]:
         """``with clock.hold():`` robot time does not advance meanwhile (simulation only).
 
         For short computing that a real robot would do in no time worth mentioning. Never around anything that
         can hang: it would stop every robot of the simulation.
         """
         ...
-
-
-class _Timeout(Protocol):
-    async def __aenter__(self) -> None: ...
-    async def __aexit__(self, *exc: object) -> bool | None: ...
-
-
-class _Hold(Protocol):
-    def __enter__(self) -> None: ...
-    def __exit__(self, *exc: object) -> bool | None: ...
 
 
 class WallClock:

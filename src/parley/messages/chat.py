@@ -60,6 +60,8 @@ class ChatFeedback(Payload):
     """Ours: answers that can be tapped."""
     id: str = ""
     """Ours: identifies a question."""
+    closes: str = ""
+    """Ours: `id` of a question that is settled and awaits no answer any more."""
 
 
 class FlowIf(Payload):
@@ -114,7 +116,7 @@ class ActionCall(Payload):
             body = {}
         if not isinstance(body, dict):
             raise ValueError(f"{name}: expected an object with input_parameters and output_parameters")
-        return {"name": name, **body}
+        return {**body, "name": name}
 
 
 class SystemCommand(Payload):
@@ -139,7 +141,9 @@ class SystemCommand(Payload):
         command, arguments = next(iter(value.items()))
         if command not in SYSTEM_COMMANDS:
             raise ValueError(f"unknown command {command!r}; known are {', '.join(SYSTEM_COMMANDS)}")
-        return {"command": command, "arguments": arguments if isinstance(arguments, dict) else {}}
+        if not isinstance(arguments, dict):
+            arguments = {} if arguments is None else {"parameters": arguments}
+        return {"command": command, "arguments": arguments}
 
     @property
     def pop_index(self) -> int | None:
@@ -151,7 +155,8 @@ class SystemCommand(Payload):
             return int(raw)
         if isinstance(raw, int):
             return raw
-        return int(raw) if isinstance(raw, str) and raw.strip().isdecimal() else None
+        text = raw.strip() if isinstance(raw, str) else ""
+        return int(text) if text.isdecimal() and len(text) < 10 else None
 
 
 class ChatAction(Payload):

@@ -39,7 +39,7 @@ class FailureReport(Payload):
             value = json.loads(text)
             if isinstance(value, dict) and isinstance(value.get("message"), str):
                 return cls.model_validate(value)
-        except (ValueError, ValidationError):
+        except (ValueError, ValidationError, RecursionError):
             pass
         return cls(message=text)
 

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from typing import Any, Literal
+from typing import Annotated, Any, Literal
 
 from pydantic import Field, RootModel
 
@@ -17,6 +17,8 @@ __all__ = [
     "MemoryReply",
     "RemoveMemory",
 ]
+
+MemoryName = Annotated[str, Field(min_length=1, max_length=200)]
 
 RETURN_ALL = "return all memories"
 """The request text that returns everything (thesis)."""
@@ -39,7 +41,7 @@ class MemoryBody(Payload):
 class MemoryEntry(MemoryBody):
     """A memory with its name and, when it comes from the store, its time."""
 
-    name: str = Field(min_length=1, max_length=200)
+    name: MemoryName
     created_unix_ms: int = 0
     """When it was first added; 0 while it is not stored."""
     updated_unix_ms: int = 0
@@ -52,7 +54,7 @@ class MemoryEntry(MemoryBody):
         }  # fmt: skip
 
 
-class AddToMemory(RootModel[dict[str, MemoryBody]]):
+class AddToMemory(RootModel[dict[MemoryName, MemoryBody]]):
     """`add_to_memory`: name -> body."""
 
     def entries(self) -> list[MemoryEntry]:
@@ -72,7 +74,7 @@ class GetMemory(Payload):
     """Ours: only global memories and those of this robot; empty = all."""
 
 
-class MemoryReply(RootModel[dict[str, MemoryBody]]):
+class MemoryReply(RootModel[dict[MemoryName, MemoryBody]]):
     """Response of `get_memory`: name -> body, oldest first."""
 
     def entries(self) -> list[MemoryEntry]:

@@ -20,6 +20,7 @@ __all__ = [
     "PoseInfo",
     "Rejection",
     "RejectionProblem",
+    "StepCommand",
     "StopCommand",
     "StopReport",
 ]
@@ -39,6 +40,8 @@ class ActionInfo(Payload):
     name: str
     inputs: dict[str, str] = Field(default_factory=dict)
     """Flat parameter name -> PVF type."""
+    optional: tuple[str, ...] = ()
+    """Inputs that may be left without a value."""
     outputs: dict[str, str] = Field(default_factory=dict)
     description: str = ""
     phrases: tuple[str, ...] = ()
@@ -136,6 +139,20 @@ class PlanDecision(Payload):
     """For `edit`: the steps to run instead."""
     policy: Literal["run_at_once", "ask_first", ""] = ""
     """For `policy`."""
+
+
+class StepCommand(Payload):
+    """`/parley/step`: end one running step of a graph.
+
+    It becomes FINISHED as stopped, and its edges say what follows. UMRF has commands for whole graphs only;
+    "skip this" needs one for a node.
+    """
+
+    target: str
+    graph_name: str
+    node: str
+    """Full name of the node to end."""
+    command: Literal["end"] = "end"
 
 
 class StopCommand(Payload):

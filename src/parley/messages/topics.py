@@ -6,7 +6,7 @@ Each name is written here and nowhere else.
 from __future__ import annotations
 
 from dataclasses import dataclass
-from typing import Generic, TypeVar
+from typing import Any, Generic, TypeVar
 
 from parley.messages import ros
 
@@ -82,6 +82,7 @@ ACTOR_STATUS = _string("/parley/actor_status")
 GRAPH_EVENTS = _string("/parley/graph_events", depth=10_000)
 PLAN = _string("/parley/plan")
 PLAN_DECISION = _string("/parley/plan_decision")
+STEP = _string("/parley/step")
 STOP = _string("/parley/stop")
 STOP_REPORT = _string("/parley/stop_report")
 REJECTION = _string("/parley/rejection")
@@ -93,12 +94,10 @@ GRAPH_GET = Service(
     "umrf_graph_get", ros.UmrfGraphGetRequest, ros.UmrfGraphGetResponse, "temoto_msgs/srv/UmrfGraphGet"
 )
 
-ALL_TOPICS: tuple[Topic[ros.String] | Topic[ros.UmrfGraphStart] | Topic[ros.UmrfGraphModify]
-                  | Topic[ros.UmrfGraphPause] | Topic[ros.UmrfGraphResume] | Topic[ros.UmrfGraphStop]
-                  | Topic[ros.UmrfGraphFeedback], ...] = (
+ALL_TOPICS: tuple[Topic[Any], ...] = (
     CHAT_INPUT, CHAT_FEEDBACK, CHAT_ACTION, UMRF_CORRECTION, ERROR_HANDLING, ADD_TO_MEMORY, REMOVE_MEMORY,
     DISPLAY_FEED, GRAPH_START, GRAPH_MODIFY, GRAPH_PAUSE, GRAPH_PAUSE_TEMOTO, GRAPH_RESUME, GRAPH_STOP,
-    GRAPH_FEEDBACK, ACTOR_STATUS, GRAPH_EVENTS, PLAN, PLAN_DECISION, STOP, STOP_REPORT, REJECTION, SYNC,
+    GRAPH_FEEDBACK, ACTOR_STATUS, GRAPH_EVENTS, PLAN, PLAN_DECISION, STEP, STOP, STOP_REPORT, REJECTION, SYNC,
     MEMORY_EVENT,
 )  # fmt: skip
 ALL_SERVICES = (GET_MEMORY, GRAPH_GET)

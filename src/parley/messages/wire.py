@@ -6,6 +6,7 @@ Nodes parse here, at the border, and hand plain objects on.
 from __future__ import annotations
 
 import json
+import math
 from typing import Any, TypeVar
 
 from pydantic import BaseModel, ValidationError
@@ -14,9 +15,12 @@ from parley.errors import InvalidMessageError
 from parley.messages.chat import ChatAction
 from parley.messages.ros import String
 
-__all__ = ["MAX_MESSAGE_CHARS", "decode", "encode", "load_json", "to_string"]
+__all__ = ["MAX_MESSAGE_CHARS", "MAX_NESTING", "decode", "encode", "load_json", "to_string"]
 
 P = TypeVar("P", bound=BaseModel)
+
+MAX_NESTING = 100
+"""How deep objects and arrays may stand inside each other."""
 
 MAX_MESSAGE_CHARS = 32 * 1024 * 1024
 """Larger texts are refused unread: the largest honest message is a raw picture."""
@@ -44,28 +48,64 @@ def decode(kind: type[P], text: str) -> P:
     try:
         return kind.model_validate(value)
     except ValidationError as error:
-        first = error.errors(include_url=False, include_input=False)[0]
-        path = ".".join(str(part) for part in first["loc"])
-        raise InvalidMessageError(kind.__name__, path, first["msg"]) from error
+        errors = error.errors(include_url=False, include_input=False)
+        field = errors[0]["loc"][:1]
+        # Where a field may be one of several things, the attempt that came furthest says what is wrong.
+        told = max((item for item in errors if item["loc"][:1] == field), key=lambda item: len(item["loc"]))
+        path = ".".join(str(part) for part in told["loc"])
+        raise InvalidMessageError(kind.__name__, path, told["msg"]) from error
 
 
 def load_json(what: str, text: str) -> Any:
-    """Parse JSON text; NaN and infinities are refused as JSON itself does.
+    """Parse JSON text; NaN, infinities and halves of characters are refused, as in JSON itself.
 
     Raises:
-        InvalidMessageError: It is too large or not JSON; says where.
+        InvalidMessageError: It is too large, nested too deeply or not JSON; says where.
     """
     if len(text) > MAX_MESSAGE_CHARS:
         raise InvalidMessageError(
             what, "", f"{len(text)} characters is more than the {MAX_MESSAGE_CHARS} allowed"
         )
     try:
-        return json.loads(text, parse_constant=_refuse_constant)
+        value = json.loads(text, parse_constant=_refuse_constant, parse_float=_finite)
+        _check_nesting(text, value)
+        _check_characters(text, value)
     except RecursionError as error:
         raise InvalidMessageError(what, "", "nested too deeply") from error
     except ValueError as error:
         raise InvalidMessageError(what, "", f"not valid JSON: {error}") from error
+    return value
 
 
 def _refuse_constant(name: str) -> Any:
     raise ValueError(f"{name} is not allowed")
+
+
+def _finite(text: str) -> float:
+    number = float(text)
+    if not math.isfinite(number):
+        raise ValueError(f"{text} is too large a number")
+    return number
+
+
+def _check_nesting(text: str, value: Any) -> None:
+    """Refuse what could be read, but not written again."""
+    if text.count("[") + text.count("{") <= MAX_NESTING:
+        return
+    level = [value]
+    for _ in range(MAX_NESTING):
+        inner = [item.values() if isinstance(item, dict) else item for item in level]
+        level = [child for items in inner for child in items if isinstance(child, dict | list)]
+        if not level:
+            return
+    raise RecursionError
+
+
+def _check_characters(text: str, value: Any) -> None:
+    """Refuse halves of surrogate pairs: nothing downstream (UTF-8, SQLite) can hold them."""
+    if text.isascii() and "\\u" not in text:
+        return
+    try:
+        json.dumps(value, ensure_ascii=False).encode()
+    except UnicodeEncodeError as error:
+        raise ValueError("it holds half a character (a lone surrogate)") from error

@@ -1,0 +1,53 @@
+"""AskOperator: a step for what no action of the robot can do: a person does it and says so."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+from typing import Final
+
+from parley.actions.context import ActionContext
+from parley.errors import ActionFailure, FailureCode
+from parley.umrf.action import action
+
+__all__ = ["ATTEMPTS", "Answer", "ask_operator"]
+
+ATTEMPTS: Final = 3
+"""How often the question is put before not being understood counts as a failure."""
+
+
+@dataclass(frozen=True, slots=True)
+class Answer:
+    """What the operator said."""
+
+    answer: str
+
+
+@action(phrases=("ask {question}",), effects=("asks_operator",), risk="none", pausable=False)
+async def ask_operator(ctx: ActionContext, question: str) -> Answer:
+    """Ask the operator something and wait for the answer.
+
+    Args:
+        question: The question or request, in plain words.
+    """
+    asked = question
+    for _ in range(ATTEMPTS):
+        reply = await ctx.operator.ask(asked)
+        reading = await ctx.language.read_reply(question, reply)
+        match reading.kind:
+            case "yes" | "choice":
+                return Answer(reply)
+            case "no":
+                raise ActionFailure(
+                    FailureCode.DECLINED,
+                    f"You said no to: {question}",
+                    {"question": question, "reply": reply},
+                )
+            case "control":
+                asked = question
+            case "unclear":
+                asked = f"I did not understand that. {question}"
+    raise ActionFailure(
+        FailureCode.NOT_UNDERSTOOD,
+        f"I could not understand your answers to: {question}",
+        {"question": question},
+    )

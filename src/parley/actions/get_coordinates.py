@@ -1,0 +1,72 @@
+"""GetCoordinates: from words to a free spot in front of the thing that is meant (thesis 5.1.1)."""
+
+from __future__ import annotations
+
+import asyncio
+from dataclasses import dataclass
+
+from parley.actions.context import ActionContext
+from parley.actions.pose import Pose
+from parley.errors import ActionFailure, FailureCode, LanguageError
+from parley.language.base import Grounding
+from parley.umrf.action import action
+from parley.world.approach import approach_pose
+from parley.world.object_map import MapObject
+
+__all__ = ["Coordinates", "get_coordinates"]
+
+
+@dataclass(frozen=True, slots=True)
+class Coordinates:
+    """Where to stand."""
+
+    pose: Pose
+    """In the map frame, facing the object."""
+
+
+@action(effects=("locates",), risk="none", pausable=False)
+async def get_coordinates(ctx: ActionContext, target: str) -> Coordinates:
+    """Find where to stand to be at a thing or place that is described in words.
+
+    Args:
+        target: The thing or place, as people call it.
+    """
+    here = ctx.robot.pose()
+    try:
+        grounding = await ctx.language.ground(target, ctx.world.objects.objects, here)
+    except LanguageError as error:
+        raise ActionFailure(FailureCode.UNAVAILABLE, "I cannot look up places just now.") from error
+    thing = _single(target, grounding)
+    with ctx.clock.hold():
+        spot = await asyncio.to_thread(
+            approach_pose, ctx.world.occupancy, thing, here, radius_m=ctx.robot.radius_m
+        )
+    if spot is None:
+        raise ActionFailure(
+            FailureCode.UNREACHABLE,
+            f"I know the {thing.description}, but I see no free spot in front of it that I can get to.",
+            {"target": target, "object": thing.id},
+        )
+    return Coordinates(Pose.of(spot))
+
+
+def _single(target: str, grounding: Grounding) -> MapObject:
+    """The one object that is meant.
+
+    Raises:
+        ActionFailure: `no_match` or `ambiguous`, with the candidates in its details.
+    """
+    if grounding.outcome == "match":
+        return grounding.candidates[0]
+    details = {
+        "target": target,
+        "candidates": [{"id": item.id, "description": item.description} for item in grounding.candidates],
+    }
+    if grounding.outcome == "ambiguous":
+        names = _join([item.description for item in grounding.candidates])
+        raise ActionFailure(FailureCode.AMBIGUOUS, f"Several places fit “{target}”: {names}.", details)
+    raise ActionFailure(FailureCode.NO_MATCH, f"I do not know any “{target}” here.", details)
+
+
+def _join(names: list[str]) -> str:
+    return names[0] if len(names) == 1 else f"{', '.join(names[:-1])} and {names[-1]}"

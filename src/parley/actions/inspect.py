@@ -1,0 +1,85 @@
+"""Inspect: look with the camera and report (thesis 5.1.3)."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+from typing import Final
+
+from parley.actions.context import ActionContext
+from parley.errors import ActionFailure, FailureCode, LanguageError
+from parley.robots.base import CameraImage
+from parley.umrf.action import action
+from parley.world.object_map import ObjectMap
+
+__all__ = ["FEED", "Inspection", "inspect"]
+
+FEED: Final = "inspection"
+"""Name of the display feed that gets the pictures."""
+
+COVERING_SHARE: Final = 0.04
+"""A thing that nobody expects and that covers more of the picture than this may hide what is looked for."""
+
+
+@dataclass(frozen=True, slots=True)
+class Inspection:
+    """What was seen."""
+
+    inspection_result: str
+    """In words for the operator."""
+
+
+@action(
+    phrases=("inspect {inspect}", "look at {inspect}", "check {inspect}", "look for {inspect}"),
+    effects=("looks",),
+    risk="none",
+    capabilities=("camera",),
+    pausable=False,
+)
+async def inspect(ctx: ActionContext, inspect: str) -> Inspection:
+    """Take a picture of what is in front, show it, and say what can be seen.
+
+    Args:
+        inspect: What to look for or to look at.
+    """
+    image = await ctx.robot.image()
+    ctx.display.show(FEED, image, {"request": inspect})
+    try:
+        report = await ctx.language.inspect(image, inspect)
+    except LanguageError as error:
+        raise ActionFailure(
+            FailureCode.UNAVAILABLE, "I took the picture, but I cannot tell what is in it just now."
+        ) from error
+    ctx.operator.tell(report.text)
+    if report.found is False:
+        raise _not_seen(image, report.wanted or inspect, report.text, ctx.world.objects)
+    if report.attention:
+        raise ActionFailure(FailureCode.ATTENTION, report.text, {"wanted": report.wanted})
+    return Inspection(report.text)
+
+
+def _not_seen(image: CameraImage, wanted: str, text: str, known: ObjectMap) -> ActionFailure:
+    """Missing and hidden call for different help, so they are different failures."""
+    hiding = _in_the_way(image, known)
+    seen = [detection.label for detection in image.detections or ()]
+    if hiding:
+        return ActionFailure(
+            FailureCode.BLOCKED,
+            f"I cannot see the {wanted}: a {hiding} is in the way.",
+            {"wanted": wanted, "in_the_way": hiding, "seen": seen},
+        )
+    return ActionFailure(FailureCode.NO_MATCH, text, {"wanted": wanted, "seen": seen})
+
+
+def _in_the_way(image: CameraImage, known: ObjectMap) -> str:
+    """The label of something large in the picture that is on no map, or an empty text."""
+    expected = {
+        name.lower() for item in known.objects for name in (item.description, item.class_name, item.id)
+    }
+    threshold = COVERING_SHARE * image.width * image.height
+    strangers = [
+        detection
+        for detection in image.detections or ()
+        if detection.pixels >= threshold and detection.label.lower() not in expected
+    ]
+    strangers.sort(key=lambda detection: detection.distance_m or 0.0)
+    return strangers[0].label if strangers else ""

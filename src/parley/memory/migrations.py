@@ -1,0 +1,133 @@
+"""How the memory file came to its present form: one function per step, run once each, never edited later."""
+
+from __future__ import annotations
+
+from collections.abc import Awaitable, Callable
+
+import aiosqlite
+
+from parley.errors import StoreError
+
+__all__ = ["MIGRATIONS", "migrate"]
+
+
+async def create_memory(db: aiosqlite.Connection) -> None:
+    """One row per version of a memory; rows are never changed, only ended.
+
+    Exactly one version per name and scope is current (`ended_unix_ms` null). Triggers end the older version
+    and keep the full-text index in step, so that each change of the store is a single statement: atomic, and
+    durable when it returns. Ids grow with time, so they order memories from the oldest to the newest.
+    """
+    await db.execute(
+        """
+        CREATE TABLE memory (
+            id INTEGER PRIMARY KEY AUTOINCREMENT,
+            name TEXT NOT NULL,
+            scope TEXT NOT NULL,
+            type TEXT NOT NULL CHECK (type IN ('text', 'image')),
+            data TEXT NOT NULL,
+            info TEXT NOT NULL,
+            source TEXT NOT NULL,
+            name_key TEXT NOT NULL,
+            created_unix_ms INTEGER NOT NULL,
+            updated_unix_ms INTEGER NOT NULL,
+            ended_unix_ms INTEGER
+        ) STRICT
+        """
+    )
+    await db.execute("CREATE UNIQUE INDEX memory_current ON memory (name, scope) WHERE ended_unix_ms IS NULL")
+    await db.execute("CREATE INDEX memory_current_key ON memory (name_key) WHERE ended_unix_ms IS NULL")
+    await db.execute("CREATE INDEX memory_ended ON memory (name, scope, id) WHERE ended_unix_ms IS NOT NULL")
+    await db.execute(
+        """
+        CREATE VIRTUAL TABLE memory_search USING fts5 (
+            name, info, data, content = '', tokenize = 'porter unicode61'
+        )
+        """
+    )
+    await db.execute(
+        """
+        CREATE TRIGGER memory_end_older BEFORE INSERT ON memory BEGIN
+            UPDATE memory SET ended_unix_ms = NEW.updated_unix_ms
+            WHERE name = NEW.name AND scope = NEW.scope AND ended_unix_ms IS NULL;
+        END
+        """
+    )
+    await db.execute(
+        """
+        CREATE TRIGGER memory_index AFTER INSERT ON memory BEGIN
+            INSERT INTO memory_search (rowid, name, info, data) VALUES (
+                NEW.id, NEW.name_key, NEW.info, CASE NEW.type WHEN 'text' THEN NEW.data ELSE '' END
+            );
+        END
+        """
+    )
+    await db.execute(
+        """
+        CREATE TRIGGER memory_unindex AFTER UPDATE OF ended_unix_ms ON memory
+        WHEN OLD.ended_unix_ms IS NULL AND NEW.ended_unix_ms IS NOT NULL BEGIN
+            INSERT INTO memory_search (memory_search, rowid, name, info, data) VALUES (
+                'delete', OLD.id, OLD.name_key, OLD.info, CASE OLD.type WHEN 'text' THEN OLD.data ELSE '' END
+            );
+        END
+        """
+    )
+
+
+async def bound_history(db: aiosqlite.Connection) -> None:
+    """Keep the newest 50 ended versions of a memory: some are overwritten every second."""
+    await db.execute(
+        """
+        CREATE TRIGGER memory_bound_history AFTER UPDATE OF ended_unix_ms ON memory
+        WHEN NEW.ended_unix_ms IS NOT NULL BEGIN
+            DELETE FROM memory
+            WHERE name = NEW.name AND scope = NEW.scope AND ended_unix_ms IS NOT NULL AND id <= (
+                SELECT id FROM memory
+                WHERE name = NEW.name AND scope = NEW.scope AND ended_unix_ms IS NOT NULL
+                ORDER BY id DESC LIMIT 1 OFFSET 50
+            );
+        END
+        """
+    )
+
+
+MIGRATIONS: tuple[Callable[[aiosqlite.Connection], Awaitable[None]], ...] = (create_memory, bound_history)
+"""In order. Their names are recorded in the file: do not rename, do not edit, append."""
+
+
+async def migrate(db: aiosqlite.Connection, *, unix_ms: int) -> list[str]:
+    """Run the steps that this file has not seen, all in one transaction with the record that they ran.
+
+    Args:
+        db: A connection in autocommit mode that nobody else uses yet.
+        unix_ms: When, for the record.
+
+    Returns:
+        The names of the steps that ran.
+
+    Raises:
+        StoreError: The file was written by a newer Parley.
+    """
+    await db.execute("BEGIN IMMEDIATE")
+    try:
+        await db.execute(
+            "CREATE TABLE IF NOT EXISTS migration (name TEXT PRIMARY KEY, unix_ms INTEGER NOT NULL) STRICT"
+        )
+        seen = {name for (name,) in await db.execute_fetchall("SELECT name FROM migration")}
+        unknown = seen - {step.__name__ for step in MIGRATIONS}
+        if unknown:
+            raise StoreError(
+                f"the memory file was written by a newer version of Parley ({', '.join(sorted(unknown))}); "
+                "update Parley or use another file"
+            )
+        ran = []
+        for step in MIGRATIONS:
+            if step.__name__ not in seen:
+                await step(db)
+                await db.execute("INSERT INTO migration VALUES (?, ?)", (step.__name__, unix_ms))
+                ran.append(step.__name__)
+    except BaseException:
+        await db.execute("ROLLBACK")
+        raise
+    await db.execute("COMMIT")
+    return ran

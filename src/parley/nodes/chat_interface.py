@@ -1,0 +1,316 @@
+"""The chat interface node: from what an operator writes to a reply and a Chat Action (thesis 4.3.5).
+
+Stop words and their kin are recognised in code before any language engine is asked and never wait behind it.
+"""
+
+from __future__ import annotations
+
+import asyncio
+import uuid
+from collections import deque
+from collections.abc import Callable, Sequence
+from typing import ClassVar, Final
+
+from parley.clock import Clock
+from parley.errors import LanguageError
+from parley.language.base import Language, Situation, Turn
+from parley.language.control import Control, control_of
+from parley.memory.client import recall
+from parley.messages import topics
+from parley.messages.chat import ChatAction, ChatFeedback, ChatInput, SystemCommand
+from parley.messages.memory import MemoryEvent
+from parley.messages.ros import String
+from parley.messages.status import ActorStatus, PlanUpdate, Rejection, RejectionProblem, StopCommand
+from parley.nodes.base import Mailboxes, Node
+from parley.nodes.conversation import Conversation
+from parley.nodes.plan_check import check_calls, complete_calls
+from parley.nodes.presence import Presence
+from parley.nodes.questions import OpenQuestions
+from parley.transport.base import Transport
+from parley.world.geometry import Pose2D
+from parley.world.object_map import MapObject
+
+__all__ = ["MAX_CHARS", "ChatInterface"]
+
+MAX_CHARS: Final = 10_000
+"""A longer message is not a request that a person wrote."""
+MEMORY_WITHIN_S: Final = 5.0
+"""Wall time in which the memory must have confirmed what the reply promises."""
+
+_CONTROL_REPLIES: Final[dict[Control, str]] = {
+    "stop": "I have stopped. Say “carry on” when I should go on.",
+    "start": "I am going on.",
+    "skip": "I will leave that step out.",
+    "clear": "I have dropped everything.",
+    "emergency_stop": "Emergency stop! I will not move until the stop is released.",
+}
+
+
+class ChatInterface(Node):
+    """Understands messages, one conversation per robot, different robots side by side.
+
+    Args:
+        transport: Where the topics are.
+        language: What understands.
+        clock: Wall time.
+        objects: The things a robot's map knows, by the robot's name.
+        language_timeout_s: Wall time an answer of the language engine may take.
+        history_exchanges: How many exchanges are remembered as context.
+        known_robots: Robots that send no heartbeat of ours.
+    """
+
+    name: ClassVar[str] = "chat_interface"
+
+    def __init__(
+        self,
+        transport: Transport,
+        language: Language,
+        clock: Clock,
+        *,
+        objects: Callable[[str], Sequence[MapObject]] = lambda _: (),
+        language_timeout_s: float = 30.0,
+        history_exchanges: int = 10,
+        known_robots: Sequence[str] = (),
+    ) -> None:
+        super().__init__(transport)
+        self._language, self._objects = language, objects
+        self._language_timeout_s, self._history_exchanges = language_timeout_s, history_exchanges
+        self._presence = Presence(clock, tuple(known_robots))
+        self._questions = OpenQuestions()
+        self._mailboxes: Mailboxes[str] = Mailboxes(self._on_defect)
+        self._conversations: dict[str, Conversation] = {}
+        self._plans: dict[str, PlanUpdate] = {}
+        self._seen_ids: deque[str] = deque(maxlen=1000)
+        self._memory_waits: dict[str, asyncio.Future[MemoryEvent]] = {}
+
+    async def open(self) -> None:
+        """See `Node.open`."""
+        await self.opened.enter_async_context(self._mailboxes)
+        await self.subscribe(topics.ACTOR_STATUS, ActorStatus, self._presence.on_status)
+        await self.subscribe(topics.CHAT_FEEDBACK, ChatFeedback, self._questions.on_feedback)
+        await self.subscribe(topics.MEMORY_EVENT, MemoryEvent, self._on_memory_event)
+        await self.subscribe_raw(topics.PLAN, self._on_plan)
+        await self.subscribe(topics.CHAT_INPUT, ChatInput, self._on_input)
+
+    # -- from the wire ---------------------------------------------------------------------------------
+
+    def _on_input(self, said: ChatInput) -> None:
+        if said.id:
+            if said.id in self._seen_ids:
+                return  # sent twice, e.g. after a reconnect
+            self._seen_ids.append(said.id)
+        if problem := _unreadable(said.message):
+            self._say(said.targets, problem, "error")
+            return
+        targets = self._addressed(said)
+        control = control_of(said.message, self._presence.names())
+        if control is not None:
+            targets = self._named(said.message) or targets
+        for target in targets:
+            question = self._questions.first(target) if said.type == "response" else None
+            if control is not None and not (question and control == "start"):
+                self._control(target, control, said.message)
+            elif question is None:
+                self._mailboxes.post(target, lambda target=target: self._answer(target, said.message))  # type: ignore[misc]
+        self._questions.on_input(said)
+
+    def _addressed(self, said: ChatInput) -> list[str]:
+        """The robots a message is for; without an addressee nothing may move."""
+        self._presence.expire()
+        names = self._presence.names()
+        if not said.targets and len(names) == 1:
+            return [names[0]]
+        if not said.targets:
+            self._say((), f"Which robot do you mean? {self._known()}", "error")
+        found: list[str] = []
+        for name in said.targets:
+            known = self._presence.resolve(name)
+            if known is None:
+                self._say((name,), f"There is no robot called {name}. {self._known()}", "error")
+                problem = RejectionProblem(
+                    path="targets", message=f"unknown robot {name!r}", code="unknown_robot"
+                )
+                self.publish(
+                    topics.REJECTION,
+                    Rejection(
+                        source=self.name, target=name, what=topics.CHAT_INPUT.name, problems=(problem,)
+                    ),
+                )
+            elif known not in found:
+                found.append(known)
+        return found
+
+    def _named(self, message: str) -> list[str]:
+        """Robots called by name in a message; they win over the selected ones."""
+        words = {word.strip(".,:;!?").casefold() for word in message.split()}
+        return [name for name in self._presence.names() if name.casefold() in words]
+
+    def _on_plan(self, message: String) -> None:
+        if '"kind":"update"' in message.data.replace(" ", ""):
+            update = PlanUpdate.model_validate_json(message.data)
+            self._plans[update.target] = update
+
+    def _on_memory_event(self, event: MemoryEvent) -> None:
+        wait = self._memory_waits.get(event.name)
+        if wait is not None and not wait.done():
+            wait.set_result(event)
+
+    # -- control ---------------------------------------------------------------------------------------
+
+    def _control(self, target: str, control: Control, message: str) -> None:
+        """Act at once, ahead of anything that is still being understood."""
+        if control == "emergency_stop":
+            self.publish(topics.STOP, StopCommand(targets=(target,), id=uuid.uuid4().hex))
+        else:
+            command = SystemCommand(command=control)
+            self.publish(topics.CHAT_ACTION, ChatAction(system_cmd=(command,), targets=(target,)))
+        reply = _CONTROL_REPLIES[control]
+        self._conversation(target).operator(message)
+        self._conversation(target).assistant(reply)
+        self._say((target,), reply, "response")
+
+    # -- understanding ---------------------------------------------------------------------------------
+
+    async def _answer(self, target: str, message: str) -> None:
+        situation = await self._situation(target, message)
+        try:
+            async with asyncio.timeout(self._language_timeout_s):
+                understood = await self._language.interpret(situation)
+        except (LanguageError, TimeoutError) as error:
+            self.log.warning("not understood", target=target, error=repr(error))
+            self._say(
+                (target,),
+                "I could not work that out just now. Nothing was started; please try again.",
+                "error",
+            )
+            return
+        order = self._trusted(target, understood)
+        if order is None:
+            text = "I worked out a plan that I cannot carry out, so I did nothing. Please say it another way."
+            self._say((target,), text, "error")
+            return
+        order, confirmations = self._name_memories(order)
+        if order.queue or order.system_cmd:
+            self.publish(topics.CHAT_ACTION, order)
+        failed = await self._confirmed(confirmations)
+        reply = failed or understood.message_response or "Done."
+        conversation = self._conversation(target)
+        conversation.operator(message)
+        conversation.assistant(reply)
+        asks = bool(understood.choices) and not understood.queue
+        self.publish(
+            topics.CHAT_FEEDBACK,
+            ChatFeedback(
+                message=reply,
+                targets=(target,),
+                type="error" if failed else "response",
+                sources=understood.sources,
+                choices=understood.choices if asks else (),
+            ),
+        )
+
+    async def _situation(self, target: str, message: str) -> Situation:
+        turns = self._conversation(target).turns
+        memory = await recall(self.transport, _memory_query(message, turns), scope=target)
+        status, plan = self._presence.get(target), self._plans.get(target)
+        pending = (
+            [s.action for s in plan.steps if s.state not in ("finished", "skipped", "stopped")]
+            if plan
+            else []
+        )
+        state = plan.state if plan else "idle"
+        return Situation(
+            message=message,
+            memory=memory,
+            history=turns,
+            queue=tuple(pending),
+            status="paused" if state in ("paused", "held") else "running" if state == "running" else "idle",
+            objects=tuple(self._objects(target)),
+            robot_pose=Pose2D(status.pose.x, status.pose.y, status.pose.yaw)
+            if status and status.pose
+            else None,
+            robot=target,
+            robots=self._presence.names(),
+            catalogue=status.catalogue if status else (),
+        )
+
+    def _trusted(self, target: str, understood: ChatAction) -> ChatAction | None:
+        """The order with its addressees, if each robot named can carry it out; None if not."""
+        named = [self._presence.resolve(name) for name in understood.targets]
+        targets = tuple(name for name in named if name is not None) or (target,)
+        if None in named:
+            return None
+        for name in targets:
+            status = self._presence.get(name)
+            if status is None or not status.catalogue or not understood.queue:
+                continue
+            problems = check_calls(complete_calls(understood.queue, status.catalogue), status.catalogue)
+            if problems:
+                self.log.warning("plan refused", target=name, problems=[str(problem) for problem in problems])
+                return None
+        return understood.model_copy(update={"targets": targets})
+
+    # -- memory ----------------------------------------------------------------------------------------
+
+    def _name_memories(self, order: ChatAction) -> tuple[ChatAction, list[asyncio.Future[MemoryEvent]]]:
+        """Give each new memory a name, so that its confirmation can be recognised."""
+        waits: list[asyncio.Future[MemoryEvent]] = []
+        commands: list[SystemCommand] = []
+        for command in order.system_cmd:
+            if command.command in ("add_memory", "remove_memory"):
+                name = str(command.arguments.get("name") or f"memory_{uuid.uuid4().hex[:12]}")
+                command = SystemCommand(
+                    command=command.command, arguments={**command.arguments, "name": name}
+                )
+                wait: asyncio.Future[MemoryEvent] = asyncio.get_running_loop().create_future()
+                self._memory_waits[name] = wait
+                waits.append(wait)
+            commands.append(command)
+        return order.model_copy(update={"system_cmd": tuple(commands)}), waits
+
+    async def _confirmed(self, waits: list[asyncio.Future[MemoryEvent]]) -> str:
+        """Wait until what the reply promises is stored; the plain reason if it is not."""
+        if not waits:
+            return ""
+        try:
+            async with asyncio.timeout(MEMORY_WITHIN_S):
+                events = await asyncio.gather(*waits)
+        except TimeoutError:
+            return "I could not store that: the memory does not answer. Please tell me again later."
+        finally:
+            self._memory_waits = {k: w for k, w in self._memory_waits.items() if w not in waits}
+        failed = next((event for event in events if event.kind == "failed"), None)
+        return f"I could not store that: {failed.message}" if failed else ""
+
+    # -- helpers ---------------------------------------------------------------------------------------
+
+    def _conversation(self, target: str) -> Conversation:
+        return self._conversations.setdefault(target, Conversation(self._history_exchanges))
+
+    def _known(self) -> str:
+        names = self._presence.names()
+        return f"I know {', '.join(names)}." if names else "No robot is there at the moment."
+
+    def _say(self, targets: Sequence[str], text: str, kind: str) -> None:
+        feedback = ChatFeedback.model_validate({"message": text, "targets": tuple(targets), "type": kind})
+        self.publish(topics.CHAT_FEEDBACK, feedback)
+
+    def _on_defect(self, target: str, error: Exception) -> None:
+        self._say(
+            (target,), "Something went wrong on my side. Nothing was started; please try again.", "error"
+        )
+
+
+def _unreadable(message: str) -> str:
+    """Why a message cannot be a request, in plain words; empty if it can."""
+    if not message.strip():
+        return "I did not get any words. Please write what I should do."
+    if len(message) > MAX_CHARS:
+        return f"That message is too long for me ({len(message)} characters). Please use fewer words."
+    return ""
+
+
+def _memory_query(message: str, turns: Sequence[Turn]) -> str:
+    """What to look up: the message, and what it may refer back to."""
+    last = next((turn.content for turn in reversed(turns) if turn.role == "operator"), "")
+    return f"{message}\n{last}" if last else message

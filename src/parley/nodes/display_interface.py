@@ -1,0 +1,97 @@
+"""The display interface: pictures of any kind come in, JPEGs for the screen go out (thesis 4.3.9)."""
+
+from __future__ import annotations
+
+import asyncio
+from dataclasses import dataclass
+from typing import ClassVar
+
+from parley.clock import Clock
+from parley.errors import InvalidMessageError
+from parley.messages import topics
+from parley.messages.display import DisplayFeed
+from parley.messages.ros import CompressedImage, Header, Time
+from parley.messages.topics import Topic, display_topic
+from parley.nodes.base import Node
+from parley.nodes.display_images import to_jpeg
+from parley.transport.base import Transport
+
+__all__ = ["DisplayInterface"]
+
+MAX_FEEDS = 256
+"""More feeds than any screen has room for are somebody's mistake."""
+
+
+@dataclass(slots=True)
+class _Feed:
+    """One feed that is being shown: its newest picture that still waits, if any."""
+
+    topic: Topic[CompressedImage]
+    waiting: DisplayFeed | None = None
+
+
+class DisplayInterface(Node):
+    """Turns `display_feed` into one topic of JPEGs per feed.
+
+    The newest picture wins: those that come while one is at work or too soon replace each other, and the last
+    one is always shown. Feeds do not wait for each other.
+
+    Args:
+        transport: Where everybody is.
+        clock: For time stamps; the pace is wall time.
+        quality: JPEG quality where encoding is needed.
+        min_interval_s: Least wall time between two pictures of a feed.
+    """
+
+    name: ClassVar[str] = "display_interface"
+
+    def __init__(
+        self, transport: Transport, clock: Clock, *, quality: int = 85, min_interval_s: float = 0.1
+    ) -> None:
+        super().__init__(transport)
+        self._clock, self._quality, self._min_interval_s = clock, quality, min_interval_s
+        self._known: set[str] = set()
+        self._busy: dict[str, _Feed] = {}
+
+    async def open(self) -> None:
+        """See `Node.open`."""
+        # Many feeds share this topic, and a burst of one must not push out the last picture of another.
+        await self.subscribe(topics.DISPLAY_FEED, DisplayFeed, self._on_picture, depth=MAX_FEEDS)
+
+    def _on_picture(self, picture: DisplayFeed) -> None:
+        topic = display_topic(picture.target, picture.name)
+        if topic.name not in self._known and len(self._known) >= MAX_FEEDS:
+            problem = f"more than {MAX_FEEDS} feeds; use fewer names"
+            self.refuse(
+                topics.DISPLAY_FEED.name,
+                InvalidMessageError("DisplayFeed", "name", problem),
+                target=picture.target,
+            )
+            return
+        self._known.add(topic.name)
+        feed = self._busy.get(topic.name)
+        if feed is not None:
+            feed.waiting = picture
+            return
+        self._busy[topic.name] = feed = _Feed(topic, picture)
+        self.spawn(self._show(feed), name=topic.name)
+
+    async def _show(self, feed: _Feed) -> None:
+        """Show what waits, at the allowed pace, until nothing does."""
+        try:
+            while (picture := feed.waiting) is not None:
+                feed.waiting = None
+                await self._show_one(feed.topic, picture)
+                await asyncio.sleep(self._min_interval_s)
+        finally:
+            del self._busy[feed.topic.name]
+
+    async def _show_one(self, topic: Topic[CompressedImage], picture: DisplayFeed) -> None:
+        unix_ms = self._clock.unix_ms()
+        try:
+            jpeg = await asyncio.to_thread(to_jpeg, picture.image, quality=self._quality)
+        except InvalidMessageError as error:
+            self.refuse(topics.DISPLAY_FEED.name, error, target=picture.target)
+            return
+        stamp = Time(unix_ms // 1000, unix_ms % 1000 * 1_000_000)
+        self.send(topic, CompressedImage(Header(stamp, frame_id=picture.name), "jpeg", jpeg))

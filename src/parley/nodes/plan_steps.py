@@ -1,0 +1,160 @@
+"""The pieces of a plan: its steps, what is sent because of it, and the graph it makes. Pure."""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from dataclasses import dataclass, field
+from typing import Any, Final, Literal
+
+from parley.messages.chat import ActionCall
+from parley.messages.failure import ErrorHandlingMessage
+from parley.umrf.model import ChildRelation, Graph, Node, NodeRef, ParentRelation, Response, Result
+
+__all__ = [
+    "OPEN_STATES", "Effect", "EndStep", "ModifyGraph", "PauseGraph", "ReportFailure", "ResumeGraph",
+    "RunState", "Say", "StartGraph", "Step", "StepState", "StopGraph", "build_graph", "handed_over",
+    "with_values",
+]  # fmt: skip
+
+StepState = Literal["queued", "running", "finished", "failed", "stopped", "skipped", "paused", "waiting"]
+RunState = Literal["none", "starting", "running", "paused", "halted", "stopping"]
+
+OPEN_STATES: Final = frozenset({"queued", "running", "paused", "waiting"})
+"""States of steps that are still to be done."""
+
+_EDGE = {
+    Result.ON_TRUE: Response.RUN,
+    Result.ON_FALSE: Response.RUN,
+    Result.ON_STOPPED: Response.IGNORE,
+    Result.ON_ERROR: Response.IGNORE,
+}
+_EXIT = dict.fromkeys((Result.ON_TRUE, Result.ON_FALSE, Result.ON_STOPPED, Result.ON_ERROR), Response.IGNORE)
+
+
+@dataclass(frozen=True, slots=True)
+class StartGraph:
+    """Publish on `umrf_graph_start`."""
+
+    graph: Graph
+
+
+@dataclass(frozen=True, slots=True)
+class ModifyGraph:
+    """Publish on `umrf_graph_modify`."""
+
+    graph: Graph
+    continue_from: str = ""
+
+
+@dataclass(frozen=True, slots=True)
+class PauseGraph:
+    """Publish on `umrf_graph_pause`."""
+
+    graph_name: str
+
+
+@dataclass(frozen=True, slots=True)
+class ResumeGraph:
+    """Publish on `umrf_graph_resume`."""
+
+    graph_name: str
+
+
+@dataclass(frozen=True, slots=True)
+class StopGraph:
+    """Publish on `umrf_graph_stop`."""
+
+    graph_name: str
+
+
+@dataclass(frozen=True, slots=True)
+class EndStep:
+    """Publish on `/parley/step`."""
+
+    graph_name: str
+    node: str
+
+
+@dataclass(frozen=True, slots=True)
+class ReportFailure:
+    """Publish on `error_handling_message`."""
+
+    message: ErrorHandlingMessage
+
+
+@dataclass(frozen=True, slots=True)
+class Say:
+    """Tell the operator."""
+
+    text: str
+    type: Literal["info", "error"] = "info"
+
+
+Effect = StartGraph | ModifyGraph | PauseGraph | ResumeGraph | StopGraph | EndStep | ReportFailure | Say
+
+
+@dataclass(slots=True)
+class Step:
+    """One action of the plan."""
+
+    call: ActionCall
+    instance_id: int = -1
+    """-1 until it is part of a graph."""
+    state: StepState = "queued"
+    outputs: dict[str, Any] = field(default_factory=dict)
+    """Values the engine reported when it finished, by flat name."""
+    fed: frozenset[str] = frozenset()
+    """Inputs without a value of their own that the step before hands over."""
+    ending: bool = False
+    """The operator skipped it while it ran; its end is awaited."""
+
+    @property
+    def node(self) -> str:
+        """Full name of its node, empty before it has one."""
+        return f"{self.call.name}_{self.instance_id}" if self.instance_id >= 0 else ""
+
+
+def build_graph(name: str, steps: Sequence[Step]) -> Graph:
+    """The linear graph of `steps` in the planner's style (`spec/umrf.md` 12.6): errors and ends halt it."""
+    nodes = []
+    for index, step in enumerate(steps):
+        before = steps[index - 1] if index else None
+        after = steps[index + 1] if index + 1 < len(steps) else None
+        nodes.append(
+            Node(
+                name=step.call.name,
+                instance_id=step.instance_id,
+                description=step.call.reason,
+                input_parameters=step.call.input_parameters,
+                output_parameters=step.call.output_parameters,
+                parents=(ParentRelation(_ref(before), True, _EDGE),) if before else (),
+                children=(ChildRelation(_ref(after)),) if after else (),
+            )
+        )
+    return Graph(
+        name=name,
+        nodes=tuple(nodes),
+        entry=(ChildRelation(nodes[0].ref),) if nodes else (),
+        exit=(ParentRelation(nodes[-1].ref, True, _EXIT),) if nodes else (),
+    )
+
+
+def _ref(step: Step) -> NodeRef:
+    return NodeRef(step.call.name, step.instance_id)
+
+
+def handed_over(call: ActionCall, before: Step | None) -> frozenset[str]:
+    """The inputs without a value of their own that the step before gives."""
+    if before is None:
+        return frozenset()
+    blank = {name for name, parameter in call.input_parameters.items() if not parameter.has_data}
+    return frozenset(blank & set(before.call.output_parameters))
+
+
+def with_values(call: ActionCall, values: dict[str, Any]) -> ActionCall:
+    """The call with values written into its blank inputs."""
+    inputs = {
+        name: parameter.with_value(values[name]) if name in values and not parameter.has_data else parameter
+        for name, parameter in call.input_parameters.items()
+    }
+    return call.model_copy(update={"input_parameters": inputs})

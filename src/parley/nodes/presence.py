@@ -1,0 +1,73 @@
+"""Who is there: robots known by their heartbeats (`/parley/actor_status`), without any registration."""
+
+from __future__ import annotations
+
+from collections.abc import Callable
+from dataclasses import dataclass
+from typing import Final
+
+from parley.clock import Clock
+from parley.messages.status import ActorStatus
+
+__all__ = ["LOST_AFTER_S", "Presence"]
+
+LOST_AFTER_S: Final = 5.0
+"""Wall time without a heartbeat after which a robot counts as gone."""
+
+
+@dataclass(slots=True)
+class _Seen:
+    status: ActorStatus
+    at_s: float
+
+
+class Presence:
+    """The newest status of each robot.
+
+    Args:
+        clock: Its wall time decides who is gone.
+        known: Names that exist although they send no heartbeat (engines that are not ours).
+        on_change: Called with a robot's name and whether it joined (True) or left (False).
+    """
+
+    def __init__(
+        self,
+        clock: Clock,
+        known: tuple[str, ...] = (),
+        on_change: Callable[[str, bool], None] | None = None,
+    ) -> None:
+        self._clock, self._known, self._on_change = clock, known, on_change
+        self._seen: dict[str, _Seen] = {}
+
+    def on_status(self, status: ActorStatus) -> None:
+        """Take over a heartbeat."""
+        joined = status.actor not in self._seen
+        if status.state == "leaving":
+            self._leave(status.actor)
+            return
+        self._seen[status.actor] = _Seen(status, self._clock.wall_s())
+        if joined and self._on_change is not None:
+            self._on_change(status.actor, True)
+
+    def expire(self) -> None:
+        """Forget who was silent for too long; called now and then."""
+        limit = self._clock.wall_s() - LOST_AFTER_S
+        for name in [name for name, seen in self._seen.items() if seen.at_s < limit]:
+            self._leave(name)
+
+    def get(self, name: str) -> ActorStatus | None:
+        """The newest status of a robot that is there, or None."""
+        seen = self._seen.get(name)
+        return seen.status if seen is not None else None
+
+    def names(self) -> tuple[str, ...]:
+        """Everybody who is there or configured, sorted."""
+        return tuple(sorted({*self._seen, *self._known}))
+
+    def resolve(self, name: str) -> str | None:
+        """The robot that `name` means, whatever its capitals; None if there is none."""
+        return next((known for known in self.names() if known.casefold() == name.strip().casefold()), None)
+
+    def _leave(self, name: str) -> None:
+        if self._seen.pop(name, None) is not None and self._on_change is not None:
+            self._on_change(name, False)
