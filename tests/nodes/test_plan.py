@@ -299,9 +299,10 @@ def test_pause_keeps_the_plan_and_changes_wait_for_going_on(plan: TargetPlan, en
     engine.report()
     assert plan.update().state == "paused"
     assert plan.append([look("lid")]) == []
-    (modify,) = plan.start()
+    modify, resume = plan.start()
     assert isinstance(modify, ModifyGraph)
     assert len(modify.graph.nodes) == 3
+    assert resume == ResumeGraph("graph_0")
 
 
 def test_going_on_unchanged_resumes(plan: TargetPlan, engine: Engine) -> None:

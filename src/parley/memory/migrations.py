@@ -2,23 +2,26 @@
 
 from __future__ import annotations
 
-from collections.abc import Awaitable, Callable
+import sqlite3
+from collections.abc import Callable
 
-import aiosqlite
+import structlog
 
 from parley.errors import StoreError
 
 __all__ = ["MIGRATIONS", "migrate"]
 
+log = structlog.get_logger(__name__)
 
-async def create_memory(db: aiosqlite.Connection) -> None:
+
+def create_memory(db: sqlite3.Connection) -> None:
     """One row per version of a memory; rows are never changed, only ended.
 
     Exactly one version per name and scope is current (`ended_unix_ms` null). Triggers end the older version
-    and keep the full-text index in step, so that each change of the store is a single statement: atomic, and
-    durable when it returns. Ids grow with time, so they order memories from the oldest to the newest.
+    and keep the full-text index in step, so that each change of the store is a single statement: it happens
+    wholly or not at all. Ids grow with time: they order memories from the oldest to the newest.
     """
-    await db.execute(
+    db.execute(
         """
         CREATE TABLE memory (
             id INTEGER PRIMARY KEY AUTOINCREMENT,
@@ -35,17 +38,17 @@ async def create_memory(db: aiosqlite.Connection) -> None:
         ) STRICT
         """
     )
-    await db.execute("CREATE UNIQUE INDEX memory_current ON memory (name, scope) WHERE ended_unix_ms IS NULL")
-    await db.execute("CREATE INDEX memory_current_key ON memory (name_key) WHERE ended_unix_ms IS NULL")
-    await db.execute("CREATE INDEX memory_ended ON memory (name, scope, id) WHERE ended_unix_ms IS NOT NULL")
-    await db.execute(
+    db.execute("CREATE UNIQUE INDEX memory_current ON memory (name, scope) WHERE ended_unix_ms IS NULL")
+    db.execute("CREATE INDEX memory_current_key ON memory (name_key) WHERE ended_unix_ms IS NULL")
+    db.execute("CREATE INDEX memory_ended ON memory (name, scope, id) WHERE ended_unix_ms IS NOT NULL")
+    db.execute(
         """
         CREATE VIRTUAL TABLE memory_search USING fts5 (
             name, info, data, content = '', tokenize = 'porter unicode61'
         )
         """
     )
-    await db.execute(
+    db.execute(
         """
         CREATE TRIGGER memory_end_older BEFORE INSERT ON memory BEGIN
             UPDATE memory SET ended_unix_ms = NEW.updated_unix_ms
@@ -53,7 +56,7 @@ async def create_memory(db: aiosqlite.Connection) -> None:
         END
         """
     )
-    await db.execute(
+    db.execute(
         """
         CREATE TRIGGER memory_index AFTER INSERT ON memory BEGIN
             INSERT INTO memory_search (rowid, name, info, data) VALUES (
@@ -62,7 +65,7 @@ async def create_memory(db: aiosqlite.Connection) -> None:
         END
         """
     )
-    await db.execute(
+    db.execute(
         """
         CREATE TRIGGER memory_unindex AFTER UPDATE OF ended_unix_ms ON memory
         WHEN OLD.ended_unix_ms IS NULL AND NEW.ended_unix_ms IS NOT NULL BEGIN
@@ -74,9 +77,9 @@ async def create_memory(db: aiosqlite.Connection) -> None:
     )
 
 
-async def bound_history(db: aiosqlite.Connection) -> None:
+def bound_history(db: sqlite3.Connection) -> None:
     """Keep the newest 50 ended versions of a memory: some are overwritten every second."""
-    await db.execute(
+    db.execute(
         """
         CREATE TRIGGER memory_bound_history AFTER UPDATE OF ended_unix_ms ON memory
         WHEN NEW.ended_unix_ms IS NOT NULL BEGIN
@@ -91,43 +94,37 @@ async def bound_history(db: aiosqlite.Connection) -> None:
     )
 
 
-MIGRATIONS: tuple[Callable[[aiosqlite.Connection], Awaitable[None]], ...] = (create_memory, bound_history)
+MIGRATIONS: tuple[Callable[[sqlite3.Connection], None], ...] = (create_memory, bound_history)
 """In order. Their names are recorded in the file: do not rename, do not edit, append."""
 
 
-async def migrate(db: aiosqlite.Connection, *, unix_ms: int) -> list[str]:
+def migrate(db: sqlite3.Connection, *, unix_ms: int) -> None:
     """Run the steps that this file has not seen, all in one transaction with the record that they ran.
 
     Args:
-        db: A connection in autocommit mode that nobody else uses yet.
+        db: A connection in autocommit mode.
         unix_ms: When, for the record.
-
-    Returns:
-        The names of the steps that ran.
 
     Raises:
         StoreError: The file was written by a newer Parley.
     """
-    await db.execute("BEGIN IMMEDIATE")
+    db.execute("BEGIN IMMEDIATE")
     try:
-        await db.execute(
+        db.execute(
             "CREATE TABLE IF NOT EXISTS migration (name TEXT PRIMARY KEY, unix_ms INTEGER NOT NULL) STRICT"
         )
-        seen = {name for (name,) in await db.execute_fetchall("SELECT name FROM migration")}
-        unknown = seen - {step.__name__ for step in MIGRATIONS}
-        if unknown:
+        seen = {name for (name,) in db.execute("SELECT name FROM migration")}
+        if unknown := seen - {step.__name__ for step in MIGRATIONS}:
             raise StoreError(
                 f"the memory file was written by a newer version of Parley ({', '.join(sorted(unknown))}); "
                 "update Parley or use another file"
             )
-        ran = []
         for step in MIGRATIONS:
             if step.__name__ not in seen:
-                await step(db)
-                await db.execute("INSERT INTO migration VALUES (?, ?)", (step.__name__, unix_ms))
-                ran.append(step.__name__)
+                step(db)
+                db.execute("INSERT INTO migration VALUES (?, ?)", (step.__name__, unix_ms))
+                log.debug("memory file brought up to date", step=step.__name__)
     except BaseException:
-        await db.execute("ROLLBACK")
+        db.execute("ROLLBACK")
         raise
-    await db.execute("COMMIT")
-    return ran
+    db.execute("COMMIT")

@@ -142,9 +142,8 @@ class TargetPlan:
             return self._replace_failed([self.failed.call])
         if self._pause_wanted or self.run == "paused":
             self._pause_wanted = False
-            if self._dirty:
-                return self._modify()
-            return [ResumeGraph(self.graph_name)]
+            changes = self._modify() if self._dirty else []
+            return [*changes, ResumeGraph(self.graph_name)]
         if self.run == "none" and self.pending:
             return self._push()
         if self.pending:

@@ -74,6 +74,11 @@ class _LocalSubscription(Generic[M]):
             answer = self._handler(message)
             if inspect.isawaitable(answer):
                 await answer
+        except asyncio.CancelledError:
+            if _being_cancelled():
+                raise
+            # The handler waited for something that was cancelled; the topic must not fall silent for that.
+            log.info("handler was cancelled", topic=self._topic.name)
         except Exception:
             # The border of every node: a defect in one handler must not silence the topic, but must be seen.
             self._transport.handler_failures += 1
@@ -168,19 +173,26 @@ class LocalTransport:
         if entry is None:
             raise UnavailableError(f"nobody answers service {service.name}; is its node running?")
         self._check_type(service.name, service.ros_type)
+        if not isinstance(request, service.request):
+            raise TypeMismatchError(
+                f"{service.name} takes {service.ros_type}; got a {type(request).__name__}"
+            )
         task: asyncio.Task[Res] = asyncio.ensure_future(entry[2](request))
         self._calls.add(task)
         task.add_done_callback(self._calls.discard)
+        limit = asyncio.timeout(timeout_s)
         try:
-            async with asyncio.timeout(timeout_s):
+            async with limit:
                 return await task
-        except TimeoutError as error:
-            raise TransportTimeoutError(
-                f"service {service.name} did not answer within {timeout_s} s"
-            ) from error
-        except TransportError:
-            raise
+        except asyncio.CancelledError:
+            if _being_cancelled():
+                raise
+            raise UnavailableError(f"service {service.name} went away before it answered") from None
         except Exception as error:
+            if limit.expired():
+                raise TransportTimeoutError(
+                    f"service {service.name} did not answer within {timeout_s} s"
+                ) from error
             raise TransportError(f"service {service.name} failed: {error}") from error
 
     def endpoints(self) -> tuple[Endpoint, ...]:
@@ -227,6 +239,12 @@ class LocalTransport:
     def _changed(self) -> None:
         for watcher in list(self._watchers):
             watcher()
+
+
+def _being_cancelled() -> bool:
+    """Whether a CancelledError is meant for the current task, not for something it waited for."""
+    task = asyncio.current_task()
+    return task is not None and task.cancelling() > 0
 
 
 def _absolute(name: str) -> str:

@@ -10,23 +10,46 @@ The first argument is the context; every other one is an input parameter. ``str`
 and lists of them become the PVF types `string`, `number`, `bool`, `strings`, `numbers`, `bools`; a frozen
 dataclass becomes a name level (``pose: Pose`` with ``position: Position`` gives ``pose::position::x``). An
 argument with a default is not required. Outputs are the fields of the returned dataclass, flattened likewise;
-returning None or True means `on_true` without outputs, returning False means `on_false`. To end with
-`on_false` *and* outputs, or otherwise spelt parameters, see `Outcome` and `action(inputs=.., outputs=..)`.
+returning None or True means `on_true` without outputs, returning False means `on_false` (an action that may
+do either is annotated ``-> Found | bool``). To end with
+`on_false` *and* outputs, or otherwise spelt parameters, see `Outcome` and `action(inputs=.., outputs=..)`:
+an argument then stands for a flat name with ``__`` for ``::``.
 
 The action's name is the function's name in camel case (``get_coordinates`` -> ``GetCoordinates``).
 Plain (not async) functions run in a thread. Failing is raising `parley.errors.ActionFailure`.
+
+An action that has to remember something between runs of one node is a class without constructor arguments
+and with a method ``run(self, ctx, ...)``; each node of each graph run gets an instance of its own.
 """
 
 from __future__ import annotations
 
+import functools
+import inspect
 from collections.abc import Callable, Mapping
 from dataclasses import dataclass, field
-from typing import Any, Literal, Protocol
+from typing import Any, Generic, Literal, ParamSpec, Protocol, TypeVar, overload
 
 from parley.clock import Clock
-from parley.messages.pvf import Parameter
+from parley.errors import ActionFailure, FailureCode
+from parley.messages.pvf import NATIVE_TYPES, SEPARATOR, Parameter, fits_type
+from parley.umrf.signature import (
+    MISSING,
+    build_argument,
+    docstring_parts,
+    flatten_type,
+    flatten_value,
+    is_record,
+    resolve_hints,
+    strip_optional,
+)
 
-__all__ = ["ActionSpec", "Outcome", "RunHandle"]
+__all__ = ["Action", "ActionSpec", "Outcome", "RunHandle", "action", "bind_inputs", "outcome_of"]
+
+P = ParamSpec("P")
+R = TypeVar("R")
+
+Risk = Literal["none", "low", "high"]
 
 
 class RunHandle(Protocol):
@@ -80,9 +103,162 @@ class ActionSpec:
     type: str = "sync"
     phrases: tuple[str, ...] = ()
     effects: tuple[str, ...] = ()
-    risk: Literal["none", "low", "high"] = "low"
+    risk: Risk = "low"
     capabilities: tuple[str, ...] = ()
     pausable: bool = True
     """Whether the action honours a pause itself; if not, it is let finish and its children are held."""
     run: Callable[..., Any] | None = None
-    """``run(context, **arguments)``, plain or async; None for a bare descriptor."""
+    """``run(context, **bind_inputs(spec, values))``, plain or async; None for a bare descriptor."""
+    arguments: Mapping[str, Any] = field(default_factory=dict)
+    """Python argument of `run` -> its type; empty where `run` takes flat names (``__`` for ``::``)."""
+    help: Mapping[str, str] = field(default_factory=dict)
+    """Argument -> what it means, from the docstring."""
+    units: Mapping[str, str] = field(default_factory=dict)
+    """Flat parameter name -> unit, where it has one."""
+    make: Callable[[], Any] | None = None
+    """For class actions: makes the object whose `run` runs one node."""
+
+    def runner(self) -> Callable[..., Any] | None:
+        """What runs one node of one graph; a class action gets a fresh object each time this is called."""
+        runner: Callable[..., Any] | None = self.run if self.make is None else self.make().run
+        return runner
+
+
+class Action(Generic[P, R]):
+    """A function (or class) that is an action: called as ever, and described by `spec`."""
+
+    def __init__(self, target: Callable[P, R], spec: ActionSpec) -> None:
+        self.spec = spec
+        self._target = target
+        functools.update_wrapper(self, target)
+
+    def __call__(self, *args: P.args, **kwargs: P.kwargs) -> R:
+        """Call the function itself, with Python arguments."""
+        return self._target(*args, **kwargs)
+
+
+@overload
+def action(target: Callable[P, R], /) -> Action[P, R]: ...
+
+
+@overload
+def action(
+    *,
+    name: str = "",
+    description: str = "",
+    phrases: tuple[str, ...] = (),
+    effects: tuple[str, ...] = (),
+    risk: Risk = "low",
+    capabilities: tuple[str, ...] = (),
+    pausable: bool = True,
+    type: Literal["sync", "async", "spontaneous"] = "sync",
+    inputs: Mapping[str, Parameter | str] | None = None,
+    outputs: Mapping[str, Parameter | str] | None = None,
+    units: Mapping[str, str] | None = None,
+) -> Callable[[Callable[P, R]], Action[P, R]]: ...
+
+
+def action(target: Callable[..., Any] | None = None, /, **options: Any) -> Any:
+    """Make an action of a function or class (see the module's text).
+
+    Args:
+        target: The function, when used without brackets.
+        **options: `name` and `description` instead of those of the function; `phrases`, `effects`, `risk`,
+            `capabilities`, `pausable`, `type` as in `ActionSpec`; `inputs` and `outputs` (flat name ->
+            `Parameter` or PVF type) instead of what the signature says; `units` (flat name -> unit).
+
+    Raises:
+        TypeError: The signature cannot be described; says which argument.
+    """
+    if target is not None:
+        return Action(target, _describe(target, {}))
+    return lambda wrapped: Action(wrapped, _describe(wrapped, options))
+
+
+def _describe(target: Callable[..., Any], options: Mapping[str, Any]) -> ActionSpec:
+    rest = dict(options)
+    is_class = inspect.isclass(target)
+    function: Callable[..., Any] = getattr(target, "run") if is_class else target  # noqa: B009 - not typed
+    hints, returned = resolve_hints(function, skip=2 if is_class else 1)
+    inputs, outputs = rest.pop("inputs", None), rest.pop("outputs", None)
+    description, texts = docstring_parts(target)
+    return ActionSpec(
+        name=rest.pop("name", "") or _camel_case(target.__name__),
+        description=rest.pop("description", "") or description,
+        inputs=_derive_inputs(hints, inspect.signature(function))
+        if inputs is None
+        else _as_parameters(inputs),
+        outputs=_derive_outputs(returned) if outputs is None else _as_parameters(outputs),
+        run=None if is_class else target,
+        make=target if is_class else None,
+        arguments=hints if inputs is None else {},
+        help=texts,
+        units=rest.pop("units", None) or {},
+        **rest,
+    )
+
+
+def _derive_inputs(hints: Mapping[str, Any], signature: inspect.Signature) -> dict[str, Parameter]:
+    flat: dict[str, Parameter] = {}
+    for name, hint in hints.items():
+        default = signature.parameters[name].default
+        flat |= flatten_type(name, hint, MISSING if default is inspect.Parameter.empty else default)
+    return flat
+
+
+def _derive_outputs(returned: Any) -> dict[str, Parameter]:
+    kind = strip_optional(returned, bool)
+    if kind in (None, type(None), bool, Outcome, Any):
+        return {}
+    if not is_record(kind):
+        raise TypeError(f"an action returns None, bool, a dataclass or Outcome, not {kind}")
+    return flatten_type("", kind)
+
+
+def _as_parameters(given: Mapping[str, Parameter | str]) -> dict[str, Parameter]:
+    return {name: Parameter(item) if isinstance(item, str) else item for name, item in given.items()}
+
+
+def _camel_case(name: str) -> str:
+    return "".join(part[:1].upper() + part[1:] for part in name.split("_"))
+
+
+def bind_inputs(spec: ActionSpec, values: Mapping[str, Any]) -> dict[str, Any]:
+    """The keyword arguments of ``spec.run`` from flat `values`; what has no data is left to its default.
+
+    Raises:
+        ActionFailure: `internal`: a value is missing or does not fit the argument.
+    """
+    if not spec.arguments:
+        return {name.replace(SEPARATOR, "__"): value for name, value in values.items()}
+    built = {name: build_argument(name, hint, values) for name, hint in spec.arguments.items()}
+    return {name: value for name, value in built.items() if value is not MISSING}
+
+
+def outcome_of(spec: ActionSpec, returned: Any) -> Outcome:
+    """What an action returned, as a result with outputs by flat name.
+
+    Raises:
+        ActionFailure: `internal`: an output is not declared or not of its type (NaN is no number here).
+    """
+    if returned is None or isinstance(returned, bool):
+        return Outcome(result=returned is not False)
+    if isinstance(returned, Outcome):
+        result = returned.result
+        flat: dict[str, Any] = {}
+        for name, value in returned.outputs.items():
+            flat |= flatten_value(value, name)
+    else:
+        result, flat = True, flatten_value(returned)
+    for name, value in flat.items():
+        parameter = spec.outputs.get(name)
+        if parameter is None:
+            raise ActionFailure(
+                FailureCode.INTERNAL, f"{spec.name} returned {name or type(returned).__name__!r}, no output."
+            )
+        if parameter.type in NATIVE_TYPES and not fits_type(parameter.type, value):
+            raise ActionFailure(
+                FailureCode.INTERNAL,
+                f"{spec.name} returned {value!r} as {name}, which is no {parameter.type}.",
+            )
+    return Outcome(result, flat)

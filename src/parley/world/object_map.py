@@ -7,7 +7,8 @@
                           "coordinates": {"x": 1.0, "y": 2.0}, "dimensions": {"height": 0.5, "width": 0.4}}]}}
 
 `dimensions` are the bounding box in the map plane: `width` along x, `height` along y, in metres.
-Ours, optional: `aliases` (other names people use for it).
+Ours, optional: `aliases` (other names people use for it) and `front` (the direction its open or usable side
+faces, radians in the map frame: stand there to use it).
 """
 
 from __future__ import annotations
@@ -38,6 +39,8 @@ class MapObject:
     height_m: float = 0.0
     """Extent along the map's y."""
     aliases: tuple[str, ...] = ()
+    front_rad: float | None = None
+    """Map-frame direction its usable side faces; None: it can be used from anywhere."""
 
 
 class _Coordinates(BaseModel):
@@ -59,6 +62,7 @@ class _Item(BaseModel):
     coordinates: _Coordinates
     dimensions: _Dimensions
     aliases: list[str] = Field(default_factory=list)
+    front: float | None = Field(default=None, allow_inf_nan=False)
 
 
 class _File(BaseModel):
@@ -122,6 +126,8 @@ class ObjectMap:
             }
             if item.aliases:
                 body["aliases"] = list(item.aliases)
+            if item.front_rad is not None:
+                body["front"] = item.front_rad
             items.setdefault(item.class_name, []).append(body)
         return {"classes": sorted(items), "items": items}
 
@@ -144,6 +150,7 @@ def _objects(parsed: _File, file: str) -> list[MapObject]:
                     width_m=item.dimensions.width,
                     height_m=item.dimensions.height,
                     aliases=tuple(item.aliases),
+                    front_rad=item.front,
                 )
             )
     return found

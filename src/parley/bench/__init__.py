@@ -1,0 +1,1 @@
+"""Measurements: figures for people to compare, never tests that time."""

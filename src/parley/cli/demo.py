@@ -1,0 +1,119 @@
+"""`parley demo`: everything in one process; chatting in the terminal, or playing a script."""
+
+from __future__ import annotations
+
+import asyncio
+import os
+import tempfile
+from pathlib import Path
+from typing import Annotated, Any
+
+import typer
+
+from parley.cli.output import emit_json, fail, quiet_logs
+from parley.config import SystemConfig
+from parley.demos.catalogue import DEMOS, Demo, load_demo
+from parley.demos.runner import StoryResult, play
+from parley.demos.story import Story, Variant
+from parley.errors import ConfigError
+from parley.system import System
+from parley.terminal import TerminalClient
+
+__all__ = ["register"]
+
+
+def register(app: typer.Typer) -> None:
+    """Add the command."""
+    app.command("demo")(demo)
+
+
+def demo(
+    name: Annotated[str, typer.Argument(help=f"One of: {', '.join(DEMOS)}.")] = "nursing-home",
+    script: Annotated[
+        bool, typer.Option("--script", help="Play the demonstration's story (or STORY) instead of chatting.")
+    ] = False,
+    story: Annotated[
+        Path | None, typer.Argument(help="A story file for --script; default: the demonstration's own.")
+    ] = None,
+    variant: Annotated[str, typer.Option(help="Play this variant of the story.")] = "",
+    json: Annotated[bool, typer.Option("--json", help="One JSON object per event.")] = False,
+    terminal: Annotated[bool, typer.Option("--terminal", help="Chat in the terminal (the default).")] = False,
+    speed: Annotated[
+        float | None,
+        typer.Option(help="Simulated seconds per second; default: 1 when chatting, full speed for scripts."),
+    ] = None,
+    seed: Annotated[int, typer.Option(help="Seed of the simulation's noise.")] = 0,
+    data: Annotated[
+        Path | None, typer.Option(help="Folder for memories; default: kept for chatting, fresh for scripts.")
+    ] = None,
+    ask_first: Annotated[
+        bool, typer.Option("--ask-first", help="Show each plan and wait for your yes.")
+    ] = False,
+    lang: Annotated[str, typer.Option(help="Language of the terminal: en or et.")] = "",
+    verbose: Annotated[bool, typer.Option("--verbose", help="Show the log.")] = False,
+) -> None:
+    """Run a demonstration: no ROS, no key, no GPU, no network."""
+    quiet_logs(verbose)
+    loaded = load_demo(name)
+    if speed is not None and speed <= 0:
+        raise ConfigError("--speed must be a positive number")
+    settings: dict[str, Any] = {"seed": seed, "approval": "ask_first" if ask_first else "run_at_once"}
+    if script:
+        raise typer.Exit(_script(loaded, story, variant, settings | {"speed": speed}, data, json))
+    if story is not None or variant:
+        raise ConfigError("a story file and --variant go with --script")
+    folder = data or _data_folder(name)
+    asyncio.run(_chat(loaded, SystemConfig(**settings, speed=speed or 1.0, data_dir=folder), lang))
+
+
+def _script(
+    demo: Demo, file: Path | None, variant: str, settings: dict[str, Any], data: Path | None, as_json: bool
+) -> int:
+    story = Story.load(file) if file is not None else demo.story
+    with tempfile.TemporaryDirectory(prefix="parley-") as fresh:
+        config = SystemConfig(**settings, data_dir=data or Path(fresh))
+
+        def make_system(different: Variant) -> System:
+            return demo.system(config, different)
+
+        emit = emit_json if as_json else _tell
+        result = asyncio.run(play(story, make_system, variant=variant, emit=emit))
+    if not result.held:
+        return fail(_verdict(result), code=1)
+    if not as_json:
+        typer.echo(_verdict(result))
+    return 0
+
+
+def _verdict(result: StoryResult) -> str:
+    factor = result.robot_s / result.wall_s if result.wall_s else 0.0
+    times = f"{result.robot_s:.0f} s of robot time in {result.wall_s:.1f} s, {factor:.0f} times real time"
+    return f"{result.text} ({times})" if result.held else f"{result.reason}: {result.text} ({times})"
+
+
+def _tell(event: dict[str, Any]) -> None:
+    """A story as a transcript for people."""
+    match event["event"]:
+        case "operator":
+            typer.echo(f"You: {event['text']}")
+        case "said":
+            typer.echo(f"{event['robot']}: {event['text']}")
+        case "plan" if event["steps"]:
+            typer.echo("  " + " → ".join(f"{step['action']} ({step['state']})" for step in event["steps"]))
+        case "restart":
+            typer.echo("— everything is shut down and started again —")
+
+
+def _data_folder(name: str) -> Path:
+    base = os.environ.get("XDG_DATA_HOME")
+    return (Path(base) if base else Path.home() / ".local" / "share") / "parley" / name
+
+
+async def _chat(demo: Demo, config: SystemConfig, lang: str) -> None:
+    async with demo.system(config) as system:
+        client = TerminalClient(system.transport, lang=lang or _language())
+        await client.run(greeting=list(demo.story.examples))
+
+
+def _language() -> str:
+    return "et" if os.environ.get("LANG", "").startswith("et") else "en"

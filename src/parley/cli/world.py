@@ -1,0 +1,70 @@
+"""`parley world`: check world files, make maps and pictures of them."""
+
+from __future__ import annotations
+
+import asyncio
+from pathlib import Path
+from typing import Annotated
+
+import typer
+from PIL import Image
+
+from parley.clock import SimClock
+from parley.errors import ConfigError
+from parley.sim.simulator import Simulator
+from parley.sim.world_file import WorldFile
+
+__all__ = ["app"]
+
+app = typer.Typer(help="Check world files, make maps and pictures of them.", no_args_is_help=True)
+
+WorldArgument = Annotated[Path, typer.Argument(help="A world file (YAML).")]
+RobotOption = Annotated[str, typer.Option(help="Whose eyes or height; default: the world's first robot.")]
+
+
+@app.command("check")
+def check(file: WorldArgument) -> None:
+    """Read a world file and say what is in it, or what is wrong with it."""
+    world = WorldFile.load(file)
+    things, robots = len(world.things), ", ".join(robot.name for robot in world.robots)
+    typer.echo(f"{world.name}: {things} things, robots: {robots}")
+
+
+@app.command("map")
+def make_map(
+    file: WorldArgument,
+    out: Annotated[Path, typer.Argument(help="Folder for map.yaml and map.pgm.")],
+    robot: RobotOption = "",
+) -> None:
+    """Survey the world as a robot's lidar would and save a ROS map."""
+    world = WorldFile.load(file)
+    simulator = Simulator(world, clock=SimClock())
+    simulator.occupancy(_robot(world, robot)).save(out, "map")
+
+
+@app.command("picture")
+def picture(
+    file: WorldArgument,
+    out: Annotated[Path, typer.Argument(help="The picture (PNG).")],
+    camera: Annotated[
+        bool, typer.Option("--camera", help="What the robot sees, instead of the map view.")
+    ] = False,
+    robot: RobotOption = "",
+    width: Annotated[int, typer.Option(min=64, max=4096, help="Width of the map view in pixels.")] = 900,
+) -> None:
+    """Take a picture of a world from above, or with a robot's camera."""
+    world = WorldFile.load(file)
+    asyncio.run(_picture(world, out, _robot(world, robot) if camera else "", width))
+
+
+async def _picture(world: WorldFile, out: Path, robot: str, width: int) -> None:
+    async with Simulator(world, clock=SimClock()) as simulator:
+        pixels = (await simulator.photograph(robot)).frame.rgb if robot else await simulator.top_down(width)
+    Image.fromarray(pixels).save(out)
+
+
+def _robot(world: WorldFile, name: str) -> str:
+    names = [robot.name for robot in world.robots]
+    if name and name not in names:
+        raise ConfigError(f"there is no robot {name!r} in {world.name}; there are: {', '.join(names)}")
+    return name or names[0]

@@ -1,0 +1,302 @@
+"""Plays a story on a real system and says whether it held, and if not, why."""
+
+from __future__ import annotations
+
+import time
+from collections.abc import Callable, Mapping
+from contextlib import AsyncExitStack
+from dataclasses import dataclass, field
+from typing import Any, Final
+
+from parley.demos.observer import Emit, Observer
+from parley.demos.story import Finished, Story, StoryStep, Variant
+from parley.messages.chat import ChatFeedback
+from parley.system import System
+from parley.world.object_map import MapObject
+
+__all__ = ["StoryBroken", "StoryResult", "play"]
+
+PATIENCE_S: Final = 120.0
+"""Wall time to wait for one thing to happen; a drive through a building takes seconds at full speed."""
+
+
+class StoryBroken(Exception):  # noqa: N818 - an outcome, not an error of the program
+    """The story went another way.
+
+    Attributes:
+        reason: One word: the code of the failure behind it, or `timed_out`, `not_asked`, `other_question`,
+            `other_reply`, `other_plan`, `not_remembered`, `elsewhere`, `not_shown`, `not_finished`.
+        text: What was expected and what happened.
+    """
+
+    def __init__(self, reason: str, text: str) -> None:
+        self.reason, self.text = reason, text
+        super().__init__(f"{reason}: {text}")
+
+
+@dataclass(frozen=True, slots=True)
+class StoryResult:
+    """How it ended."""
+
+    held: bool
+    """Whether everything happened as written."""
+    as_expected: bool
+    """Whether it ended as the variant says: held, or broken for its reason."""
+    reason: str
+    text: str
+    wall_s: float
+    robot_s: float
+    """Robot time that passed, over all restarts."""
+    latencies_s: tuple[float, ...] = field(default=())
+    """Wall time from each message to the reply."""
+
+
+MakeSystem = Callable[[Variant], System]
+
+
+async def play(
+    story: Story, make_system: MakeSystem, *, variant: str = "", emit: Emit = lambda _: None
+) -> StoryResult:
+    """Play `story`.
+
+    Args:
+        story: What is said and expected.
+        make_system: Builds a system for the variant; called again for every restart in the story.
+        variant: Name of the variant, empty for the story as written.
+        emit: Gets every event.
+
+    Raises:
+        FileFormatError: There is no such variant.
+    """
+    different = story.variant(variant)
+    player = _Player(story, different, make_system, emit)
+    started_s = time.perf_counter()
+    reason, text = "", "The story held."
+    async with player:
+        try:
+            await player.play()
+        except StoryBroken as broken:
+            reason, text = broken.reason, broken.text
+    result = StoryResult(
+        held=not reason,
+        as_expected=reason == different.fails,
+        reason=reason,
+        text=text,
+        wall_s=time.perf_counter() - started_s,
+        robot_s=player.robot_s,
+        latencies_s=tuple(player.latencies_s),
+    )
+    emit(
+        {
+            "event": "story",
+            "variant": variant,
+            "held": result.held,
+            "as_expected": result.as_expected,
+            "reason": result.reason,
+            "text": result.text,
+            "wall_s": round(result.wall_s, 2),
+            "robot_s": round(result.robot_s, 2),
+        }
+    )
+    return result
+
+
+class _Player:
+    def __init__(self, story: Story, variant: Variant, make_system: MakeSystem, emit: Emit) -> None:
+        self._story, self._variant, self._make_system, self._emit = story, variant, make_system, emit
+        self._stack = AsyncExitStack()
+        self._system: System
+        self._observer: Observer
+        self._earlier_s = 0.0
+        self._heard = 0
+        self.latencies_s: list[float] = []
+
+    async def __aenter__(self) -> _Player:
+        await self._open()
+        return self
+
+    async def __aexit__(self, *exc: object) -> None:
+        await self._close()
+
+    async def _open(self) -> None:
+        system = self._make_system(self._variant)
+        try:
+            self._system = await self._stack.enter_async_context(system)
+            self._observer = await self._stack.enter_async_context(
+                Observer(system.transport, system.clock, self._emit)
+            )
+            await self._observer.until(lambda: self._robot in self._observer.robots, timeout_s=PATIENCE_S)
+        except BaseException:
+            await self._stack.aclose()
+            raise
+        self._heard = 0
+
+    async def _close(self) -> None:
+        self._earlier_s += self._system.clock.now_s()
+        await self._stack.aclose()
+
+    @property
+    def robot_s(self) -> float:
+        """Robot time that passed, valid after closing."""
+        return self._earlier_s
+
+    @property
+    def _robot(self) -> str:
+        return self._story.robot
+
+    async def play(self) -> None:
+        for step in self._story.steps:
+            if step.id and step.id in self._variant.leave_out:
+                continue
+            if step.say is not None:
+                await self._say(step, step.say)
+            elif step.asked is not None:
+                await self._answer(step, step.asked)
+            elif step.finished is not None:
+                await self._finish(step.finished)
+            else:
+                self._emit({"event": "restart"})
+                await self._close()
+                await self._open()
+
+    # -- the kinds of steps ----------------------------------------------------------------------------
+
+    async def _say(self, step: StoryStep, text: str) -> None:
+        before_s = time.perf_counter()
+        self._observer.say(text, self._robot)
+        reply = await self._next_said(lambda said: said.type in ("response", "error"))
+        self.latencies_s.append(time.perf_counter() - before_s)
+        missing = [part for part in step.reply if part.lower() not in reply.message.lower()]
+        if missing:
+            raise StoryBroken("other_reply", f"“{text}” was answered “{reply.message}”; expected {missing}")
+        if step.plan:
+            await self._expect_plan(step)
+        if step.remembered:
+            await self._expect_memory(step.remembered)
+
+    async def _expect_plan(self, step: StoryStep) -> None:
+        def planned() -> tuple[str, ...]:
+            plan = self._observer.plans.get(self._robot)
+            return tuple(item.action.name for item in plan.steps) if plan is not None else ()
+
+        try:
+            await self._observer.until(lambda: planned() == step.plan, timeout_s=5.0)
+        except TimeoutError as error:
+            raise StoryBroken(
+                "other_plan", f"planned {list(planned())}, expected {list(step.plan)}"
+            ) from error
+
+    async def _expect_memory(self, text: str) -> None:
+        store = self._system.store
+        entries = await store.all() if store is not None else []
+        if not any(text.lower() in entry.data.lower() for entry in entries):
+            raise StoryBroken("not_remembered", f"no memory contains “{text}”")
+
+    async def _answer(self, step: StoryStep, expected: tuple[str, ...]) -> None:
+        question = await self._question()
+        if self._variant.answers is not None:
+            await self._answer_stubbornly(self._variant.answers)
+        heard = question.message.lower()
+        if any(part.lower() not in heard for part in expected):
+            reason = self._last_failure() or "other_question"
+            raise StoryBroken(reason, f"asked “{question.message}”; expected {list(expected)}")
+        offered = {choice.lower() for choice in question.choices}
+        if not {choice.lower() for choice in step.choices} <= offered:
+            raise StoryBroken("other_question", f"offered {list(question.choices)}, not {list(step.choices)}")
+        self._observer.say(step.answer, self._robot, answer=True)
+
+    async def _question(self) -> ChatFeedback:
+        """The robot's next open question; it is a break of the story if the plan ends without one."""
+        observer = self._observer
+
+        def over() -> bool:
+            return observer.questions.first(self._robot) is not None or self._idle()
+
+        await self._wait(over, "a question")
+        question = observer.questions.first(self._robot)
+        if question is None:
+            raise StoryBroken(self._last_failure() or "not_asked", "the plan ended and nothing was asked")
+        return question
+
+    async def _answer_stubbornly(self, answer: str) -> None:
+        """Give the same answer to everything until the robot asks no more."""
+        for _ in range(20):
+            question = self._observer.questions.first(self._robot)
+            if question is None:
+                break
+            self._observer.say(answer, self._robot, answer=True)
+            heard = len(self._observer.said)
+            await self._wait(lambda heard=heard: len(self._observer.said) > heard, "a reaction")  # type: ignore[misc]
+        raise StoryBroken(self._last_failure() or "other_question", f"the operator only ever says “{answer}”")
+
+    async def _finish(self, expected: Finished) -> None:
+        observer = self._observer
+        await self._wait(lambda: self._idle() or observer.questions.first(self._robot) is not None, "the end")
+        question = observer.questions.first(self._robot)
+        if question is not None:
+            raise StoryBroken(self._last_failure() or "other_question", f"asked “{question.message}”")
+        states = [step.state for step in observer.plans[self._robot].steps]
+        if any(state != "finished" for state in states):
+            raise StoryBroken(self._last_failure() or "not_finished", f"the steps ended as {states}")
+        for feed in expected.shown:
+            if (self._robot, feed) not in observer.feeds:
+                raise StoryBroken("not_shown", f"nothing was shown on {feed}")
+        if expected.near:
+            self._expect_near(expected)
+
+    def _expect_near(self, expected: Finished) -> None:
+        thing = self._system.objects.get(expected.near)
+        if thing is None:
+            raise StoryBroken("elsewhere", f"there is no object {expected.near}")
+        distance_m = _distance_m(self._system, self._robot, thing)
+        if distance_m > expected.within_m:
+            raise StoryBroken("elsewhere", f"the robot is {distance_m:.2f} m away from {expected.near}")
+
+    # -- helpers ---------------------------------------------------------------------------------------
+
+    def _idle(self) -> bool:
+        plan = self._observer.plans.get(self._robot)
+        return plan is not None and plan.state == "idle"
+
+    def _last_failure(self) -> str:
+        return self._observer.failures[-1].code.value if self._observer.failures else ""
+
+    async def _next_said(self, wanted: Callable[[ChatFeedback], bool]) -> ChatFeedback:
+        found: list[ChatFeedback] = []
+
+        def look() -> bool:
+            said = self._observer.said
+            while self._heard < len(said) and not found:
+                if wanted(said[self._heard]):
+                    found.append(said[self._heard])
+                self._heard += 1
+            return bool(found)
+
+        await self._wait(look, "a reply")
+        return found[0]
+
+    async def _wait(self, condition: Callable[[], bool], what: str) -> None:
+        try:
+            await self._observer.until(condition, timeout_s=PATIENCE_S)
+        except TimeoutError as error:
+            raise StoryBroken(self._last_failure() or "timed_out", f"waited in vain for {what}") from error
+
+
+def _distance_m(system: System, robot: str, thing: MapObject) -> float:
+    """From the robot's middle to the object's bounding box."""
+    pose = system.robots[robot].pose()
+    dx = max(abs(pose.x_m - thing.x_m) - thing.width_m / 2, 0.0)
+    dy = max(abs(pose.y_m - thing.y_m) - thing.height_m / 2, 0.0)
+    return float((dx * dx + dy * dy) ** 0.5)
+
+
+def summary(result: StoryResult) -> Mapping[str, Any]:
+    """The figures of a result for people."""
+    factor = result.robot_s / result.wall_s if result.wall_s else 0.0
+    return {
+        "held": result.held,
+        "reason": result.reason,
+        "wall_s": round(result.wall_s, 2),
+        "robot_s": round(result.robot_s, 2),
+        "real_time_factor": round(factor, 1),
+    }

@@ -1,0 +1,143 @@
+"""Stories: what an operator says and what must come of it, as data (YAML).
+
+::
+
+    robot: A
+    examples: ["go to the box"]
+    steps:
+      - {say: "The key is in the box", remembered: "key"}
+      - {say: "bring me the key", plan: [GetCoordinates, NavigateTo]}
+      - {id: which, asked: ["which box"], choices: ["red box", "blue box"], answer: "the red one"}
+      - {restart: true}
+      - {finished: {near: box_1, within_m: 1.0, shown: [inspection]}}
+    variants:
+      no_key: {world: {remove: [key_1]}, fails: no_match}
+
+A variant changes the world (or the operator) of one run and says how the story must then end.
+"""
+
+from __future__ import annotations
+
+from pathlib import Path
+from typing import Annotated, Any, Self
+
+import yaml
+from pydantic import BaseModel, ConfigDict, Field, ValidationError, model_validator
+
+from parley.errors import FileFormatError
+from parley.sim.world_file import WorldChanges
+
+__all__ = ["Finished", "Story", "StoryStep", "Variant"]
+
+
+class _Entry(BaseModel):
+    model_config = ConfigDict(frozen=True, extra="forbid")
+
+
+class Finished(_Entry):
+    """Everything is done; and then."""
+
+    near: str = ""
+    """Id of an object the robot must be next to."""
+    within_m: float = Field(default=1.2, gt=0)
+    """How close its middle must be to the object's bounding box."""
+    shown: tuple[str, ...] = ()
+    """Display feeds that must have had a picture."""
+
+
+class StoryStep(_Entry):
+    """One thing that happens; exactly one of `say`, `asked`, `restart`, `finished`."""
+
+    id: str = ""
+    say: str | None = None
+    """The operator says this ..."""
+    reply: tuple[str, ...] = ()
+    """... and each of these texts (any case) is in the reply,"""
+    remembered: str = ""
+    """a memory with this text is stored,"""
+    plan: tuple[str, ...] = ()
+    """and these actions are planned, in this order."""
+    asked: tuple[str, ...] | None = None
+    """The robot asks something that has each of these texts in it ..."""
+    choices: tuple[str, ...] = ()
+    """... offering these choices ..."""
+    answer: str = ""
+    """... and the operator answers."""
+    restart: bool = False
+    """Everything is shut down and started again."""
+    finished: Finished | None = None
+    """Every action has ended well and the robot waits."""
+
+    @model_validator(mode="after")
+    def _one_kind(self) -> Self:
+        kinds = [self.say is not None, self.asked is not None, self.restart, self.finished is not None]
+        if sum(kinds) != 1:
+            raise ValueError("expected exactly one of say, asked, restart, finished")
+        return self
+
+
+class Variant(_Entry):
+    """One thing that is different in a run, and how the story then ends."""
+
+    world: WorldChanges = Field(default_factory=WorldChanges)
+    answers: str | None = None
+    """The operator answers every question with this."""
+    leave_out: tuple[str, ...] = ()
+    """Ids of steps that do not happen."""
+    fails: str = ""
+    """The reason the story must report; empty: it holds."""
+
+
+class Story(_Entry):
+    """A whole story."""
+
+    robot: str
+    examples: tuple[str, ...] = ()
+    """Sentences a newcomer may try."""
+    steps: tuple[StoryStep, ...] = Field(min_length=1)
+    variants: dict[Annotated[str, Field(min_length=1)], Variant] = Field(default_factory=dict)
+
+    @classmethod
+    def load(cls, path: Path) -> Self:
+        """Read a story file.
+
+        Raises:
+            FileFormatError: Names the file and the field.
+        """
+        try:
+            return cls.parse(path.read_text(encoding="utf-8"), file=path.name)
+        except OSError as error:
+            raise FileFormatError(path.name, "", f"cannot be read: {error.strerror}") from error
+        except UnicodeDecodeError as error:
+            raise FileFormatError(path.name, "", f"is not UTF-8 text: {error.reason}") from error
+
+    @classmethod
+    def parse(cls, text: str, file: str = "story") -> Self:
+        """Read the YAML text of a story; `file` is only for messages.
+
+        Raises:
+            FileFormatError: Names the file and the field.
+        """
+        try:
+            raw: Any = yaml.safe_load(text)
+        except yaml.YAMLError as error:
+            raise FileFormatError(file, "", f"not valid YAML: {error}") from error
+        try:
+            return cls.model_validate(raw)
+        except ValidationError as error:
+            first = error.errors(include_url=False, include_input=False)[0]
+            where = "".join(f"[{p}]" if isinstance(p, int) else f".{p}" for p in first["loc"]).lstrip(".")
+            raise FileFormatError(file, where, first["msg"]) from error
+
+    def variant(self, name: str) -> Variant:
+        """The variant of that name; an empty name is the story as written.
+
+        Raises:
+            FileFormatError: There is no such variant.
+        """
+        if not name:
+            return Variant()
+        if name not in self.variants:
+            known = ", ".join(self.variants) or "none"
+            raise FileFormatError("story", f"variants.{name}", f"there is no such variant; known: {known}")
+        return self.variants[name]

@@ -1,0 +1,118 @@
+"""The heartbeat by which others know that an actor is there, what it can do and how it fares."""
+
+from __future__ import annotations
+
+import asyncio
+from collections.abc import Callable, Sequence
+from typing import Final, Literal
+
+from parley.errors import ActionFailure
+from parley.messages.status import ActionInfo, ActorStatus, PoseInfo
+from parley.robots.base import Robot
+from parley.umrf.model import GraphState
+
+from .runs import GraphRuns
+
+__all__ = ["Presence", "is_at_rest"]
+
+REST_LINEAR_MPS: Final = 0.01
+REST_ANGULAR_RADPS: Final = 0.02
+"""Measured velocities below these count as standing still: sensors are never quite silent."""
+
+State = Literal["idle", "running", "paused", "stopped", "leaving"]
+
+
+def is_at_rest(robot: Robot) -> bool:
+    """Whether the measured velocity is zero."""
+    velocity = robot.velocity()
+    return abs(velocity.linear_mps) <= REST_LINEAR_MPS and abs(velocity.angular_radps) <= REST_ANGULAR_RADPS
+
+
+class Presence:
+    """Sends the status every `heartbeat_s` of wall time, and at once when it changes.
+
+    Args:
+        actor: Whose status it is.
+        runs: Its graphs.
+        catalogue: Its actions.
+        robot: Its robot, if it has one.
+        publish: Where the status goes.
+        heartbeat_s: Wall time between two unchanged ones.
+    """
+
+    def __init__(
+        self,
+        actor: str,
+        runs: GraphRuns,
+        catalogue: Sequence[ActionInfo],
+        robot: Robot | None,
+        publish: Callable[[ActorStatus], None],
+        *,
+        heartbeat_s: float,
+    ) -> None:
+        self._actor, self._runs, self._catalogue = actor, runs, tuple(catalogue)
+        self._robot, self._publish, self._heartbeat_s = robot, publish, heartbeat_s
+        self._sequence = 0
+        self._changed = asyncio.Event()
+        self._task: asyncio.Task[None] | None = None
+
+    def open(self) -> None:
+        """Start to beat."""
+        self._task = asyncio.create_task(self._beat(), name=f"heartbeat {self._actor}")
+
+    def changed(self) -> None:
+        """The status may be different now."""
+        self._changed.set()
+
+    async def close(self) -> None:
+        """Say goodbye and stop. Idempotent."""
+        task, self._task = self._task, None
+        if task is None:
+            return
+        task.cancel()
+        await asyncio.wait([task])
+        self._send("leaving")
+
+    async def _beat(self) -> None:
+        while True:
+            self._changed.clear()
+            self._send(self._state())
+            try:
+                async with asyncio.timeout(self._heartbeat_s):
+                    await self._changed.wait()
+            except TimeoutError:
+                continue
+
+    def _send(self, state: State) -> None:
+        pose, at_rest = self._measure()
+        self._publish(
+            ActorStatus(
+                actor=self._actor,
+                state=state,
+                sequence=self._sequence,
+                pose=pose,
+                at_rest=at_rest,
+                graphs={run.name: run.state.value for run in self._runs.all},
+                catalogue=self._catalogue,
+            )
+        )
+        self._sequence += 1
+
+    def _state(self) -> State:
+        if self._runs.latched:
+            return "stopped"
+        runs = self._runs.all
+        if any(run.state is GraphState.RUNNING and not run.holding for run in runs):
+            return "running"
+        if any(run.holding for run in runs):
+            return "paused"
+        return "running" if any(run.state is GraphState.STOPPING for run in runs) else "idle"
+
+    def _measure(self) -> tuple[PoseInfo | None, bool | None]:
+        if self._robot is None:
+            return None, None
+        try:
+            pose = self._robot.pose()
+            return PoseInfo(x=pose.x_m, y=pose.y_m, yaw=pose.yaw_rad), is_at_rest(self._robot)
+        except ActionFailure:  # a robot without localisation is still there
+            return None, None

@@ -1,0 +1,133 @@
+"""What an action's context does over the transport: speak to the operator, show pictures, remember."""
+
+from __future__ import annotations
+
+import asyncio
+import base64
+import io
+import uuid
+from collections import deque
+from collections.abc import Mapping, Sequence
+from types import TracebackType
+from typing import Any, Final, Self
+
+from PIL import Image
+
+from parley.errors import InvalidMessageError
+from parley.memory.client import recall
+from parley.messages import topics
+from parley.messages.chat import ChatFeedback, ChatInput
+from parley.messages.display import DisplayFeed
+from parley.messages.memory import AddToMemory, MemoryBody, MemoryEntry
+from parley.messages.ros import String
+from parley.messages.wire import decode, to_string
+from parley.robots.base import CameraImage
+from parley.transport.base import Publisher, Subscription, Transport
+
+__all__ = ["JPEG_QUALITY", "ContextServices"]
+
+JPEG_QUALITY: Final = 85
+
+
+class ContextServices:
+    """Implements `Operator`, `Display` and `MemoryAccess` of `parley.actions.context` for one actor."""
+
+    def __init__(self, actor: str, transport: Transport) -> None:
+        self._actor, self._transport = actor, transport
+        self._questions: deque[tuple[str, asyncio.Future[str]]] = deque()
+        self._publishers: dict[str, Publisher[String]] = {}
+        self._subscription: Subscription | None = None
+
+    async def __aenter__(self) -> Self:
+        for topic in (topics.CHAT_FEEDBACK, topics.DISPLAY_FEED, topics.ADD_TO_MEMORY):
+            self._publishers[topic.name] = self._transport.publisher(topic)
+        self._subscription = await self._transport.subscribe(topics.CHAT_INPUT, self._on_chat_input)
+        return self
+
+    async def __aexit__(
+        self, kind: type[BaseException] | None, error: BaseException | None, trace: TracebackType | None
+    ) -> None:
+        if self._subscription is not None:
+            await self._subscription.close()
+        for _, answer in self._questions:
+            answer.cancel()
+        for publisher in self._publishers.values():
+            publisher.close()
+
+    # -- Operator --------------------------------------------------------------------------------------
+
+    def tell(self, text: str) -> None:
+        """See `Operator.tell`."""
+        self._feedback(ChatFeedback(message=text, targets=(self._actor,), type="info"))
+
+    async def ask(self, question: str, choices: Sequence[str] = ()) -> str:
+        """See `Operator.ask`."""
+        question_id = uuid.uuid4().hex
+        answer: asyncio.Future[str] = asyncio.get_running_loop().create_future()
+        self._questions.append((question_id, answer))
+        self._feedback(
+            ChatFeedback(
+                message=question,
+                targets=(self._actor,),
+                type="request",
+                choices=tuple(choices),
+                id=question_id,
+            )
+        )
+        try:
+            return await answer
+        except asyncio.CancelledError:
+            self._feedback(
+                ChatFeedback(
+                    message="You need not answer my question any more.",
+                    targets=(self._actor,),
+                    type="info",
+                    closes=question_id,
+                )
+            )
+            raise
+        finally:
+            self._questions.remove((question_id, answer))
+
+    def _on_chat_input(self, message: String) -> None:
+        """Hand an answer to the question it answers: the named one, or the one that waits longest."""
+        try:
+            said = decode(ChatInput, message.data)
+        except InvalidMessageError:
+            return  # the chat interface refuses it and tells the sender
+        if said.type != "response" or self._actor not in said.targets:
+            return
+        for question_id, answer in self._questions:
+            if not answer.done() and said.reply_to in ("", question_id):
+                answer.set_result(said.message)
+                return
+
+    def _feedback(self, feedback: ChatFeedback) -> None:
+        self._publishers[topics.CHAT_FEEDBACK.name].publish(to_string(feedback))
+
+    # -- Display ---------------------------------------------------------------------------------------
+
+    def show(self, feed: str, image: CameraImage, info: Mapping[str, Any] | None = None) -> None:
+        """See `Display.show`."""
+        buffer = io.BytesIO()
+        Image.fromarray(image.data).save(buffer, format="JPEG", quality=JPEG_QUALITY)
+        picture = base64.b64encode(buffer.getvalue()).decode("ascii")
+        message = DisplayFeed(target=self._actor, name=feed, image=picture, info=dict(info or {}))
+        self._publishers[topics.DISPLAY_FEED.name].publish(to_string(message))
+
+    # -- Memory ----------------------------------------------------------------------------------------
+
+    async def find(self, request: str) -> list[MemoryEntry]:
+        """See `MemoryAccess.find`; empty when the memory does not answer."""
+        return list(await recall(self._transport, request))
+
+    def add(self, entry: MemoryEntry) -> None:
+        """See `MemoryAccess.add`."""
+        body = MemoryBody(
+            type=entry.type,
+            data=entry.data,
+            info=entry.info,
+            scope=entry.scope,
+            source=entry.source or self._actor,
+        )
+        self._publishers[topics.ADD_TO_MEMORY.name].publish(to_string(AddToMemory({entry.name: body})))

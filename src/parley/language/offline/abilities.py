@@ -1,0 +1,53 @@
+"""What the robot can do, said in words people use."""
+
+from __future__ import annotations
+
+from parley.language.offline.catalogue import text_inputs
+from parley.language.offline.saying import listing, whole_sentence
+from parley.language.offline.scene import Scene
+from parley.language.offline.text import split_name
+from parley.messages.status import ActionInfo
+
+__all__ = ["abilities", "can_list", "cannot"]
+
+_BY_ROLE = {
+    "motion": "go to places and things I know", "look": "look at things and tell you what I see", "search": "look for things and people",
+    "grasp": "pick things up", "handover": "hand things over", "fetch": "bring things", "place": "put things down",
+    "speak": "say something", "answer": "answer questions", "follow": "follow people", "guide": "lead people", "meet": "meet people",
+    "count": "count things", "ask_operator": "ask you when I need help", "wait": "wait", "dock": "go to my charger",
+}  # fmt: skip
+
+
+def can_list(scene: Scene) -> list[str]:
+    """One phrase for each thing the robot can do."""
+    result: dict[str, None] = {}
+    for info in scene.catalogue.infos:
+        roles = scene.catalogue.roles(info)
+        known = [_BY_ROLE[role] for role in sorted(roles) if role in _BY_ROLE]
+        if known:
+            result.update(dict.fromkeys(known))
+        elif "locate" not in roles:
+            result[_described(info)] = None
+    return list(result)
+
+
+def _described(info: ActionInfo) -> str:
+    if info.description:
+        first = info.description.strip().split(". ")[0].rstrip(".")
+        return first[0].lower() + first[1:]
+    rest = " something" if text_inputs(info) else ""
+    return " ".join(split_name(info.name)) + rest
+
+
+def abilities(scene: Scene) -> str:
+    """A sentence saying what the robot can do."""
+    can = can_list(scene)
+    if not can:
+        return "I have no actions at the moment."
+    return whole_sentence(f"I can {listing([*can, 'remember what you tell me'])}")
+
+
+def cannot(what: str, scene: Scene) -> str:
+    """That something is not possible, and what is."""
+    shown = what if len(what) <= 80 else what[:77] + "..."
+    return f"I cannot {shown}. {abilities(scene)}"

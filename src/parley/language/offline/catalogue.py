@@ -1,0 +1,196 @@
+"""What a robot can do, read from its own catalogue: roles of actions, values for their parameters, chains.
+
+Nothing here knows an action by name. What an action is good for follows from its declared effects, else from the
+words of its name, phrases and description; an input that nobody says in words is fetched from the action whose
+outputs carry exactly that name and type.
+"""
+
+from __future__ import annotations
+
+import re
+from collections.abc import Mapping, Sequence
+from typing import Any
+
+from parley.language.offline.lexicon import lexicon
+from parley.language.offline.text import lemma, split_name
+from parley.messages.chat import ActionCall
+from parley.messages.pvf import Parameter
+from parley.messages.status import ActionInfo
+
+__all__ = ["Catalogue", "call", "parameter_role", "roles_of", "text_inputs"]
+
+_PARAMETER_ROLES = {
+    "place": "target location place destination goal position where room area waypoint spot point loc dest".split(),
+    "person": "person who name recipient human people user patient to receiver whom".split(),
+    "text": "text message utterance sentence speech question answer words content say what query prompt topic".split(),
+    "object": "object obj item thing things theme target inspect product entity".split(),
+}  # fmt: skip
+
+
+def parameter_role(name: str) -> str:
+    """What kind of words an input takes, by its name: place, person, text, object or empty."""
+    words = split_name(name.replace("::", "_"))
+    for role, known in _PARAMETER_ROLES.items():
+        if any(word in known for word in words):
+            return role
+    return ""
+
+
+def text_inputs(info: ActionInfo) -> list[str]:
+    """The inputs that take words."""
+    return [name for name, kind in info.inputs.items() if kind == "string"]
+
+
+def roles_of(info: ActionInfo) -> frozenset[str]:
+    """What an action is good for."""
+    lex = lexicon()
+    declared = frozenset(lex.effects[effect] for effect in info.effects if effect in lex.effects)
+    if declared:
+        return declared
+    words = split_name(info.name)
+    if not words:
+        return frozenset()
+    numeric = [kind for kind in info.outputs.values() if kind in {"number", "numbers"}]
+    if text_inputs(info) and len(numeric) >= 2:
+        return frozenset({"locate"})
+    if words[0] == "ask" or text_inputs(info) == ["question"] and words[0] != "answer":
+        return frozenset({"ask_operator"})
+    roles = _by_words(words)
+    if roles:
+        return roles
+    phrase_words = [re.split(r"[^a-z]+", phrase.lower()) for phrase in info.phrases]
+    described = re.findall(r"[a-z]+", info.description.lower())[:3]
+    for candidate in (*phrase_words, described):
+        roles = _by_words(tuple(word for word in candidate if word))
+        if roles:
+            return roles
+    return frozenset()
+
+
+def _by_words(words: tuple[str, ...]) -> frozenset[str]:
+    lex = lexicon()
+    if not words:
+        return frozenset()
+    base = (lemma(words[0]), *words[1:])
+    found = lex.verbs.match(base)
+    if found is not None and found[0] > 1:
+        return frozenset({found[1].partition(":")[0]})
+    if base[0] in lex.action_words:
+        return frozenset({lex.action_words[base[0]]})
+    if found is not None and not found[1].startswith("other:"):
+        return frozenset({found[1].partition(":")[0]})
+    return frozenset()
+
+
+def call(info: ActionInfo, values: Mapping[str, Any], reason: str = "") -> ActionCall:
+    """One step: given values written in, everything that is handed over left without value."""
+    return ActionCall(
+        name=info.name,
+        input_parameters={name: Parameter(kind, values.get(name)) for name, kind in info.inputs.items()},
+        output_parameters={name: Parameter(kind) for name, kind in info.outputs.items()},
+        reason=reason,
+    )
+
+
+class Catalogue:
+    """The actions of one robot."""
+
+    def __init__(self, infos: Sequence[ActionInfo]) -> None:
+        self.infos = tuple(infos)
+        self._roles = {info.name: roles_of(info) for info in infos}
+        self.verbs = tuple(sorted(self._verb_table(), key=len, reverse=True))
+        """First words by which actions of no common role can be asked for."""
+
+    def roles(self, info: ActionInfo) -> frozenset[str]:
+        """What one of the actions is good for."""
+        return self._roles[info.name]
+
+    def with_role(self, *roles: str) -> ActionInfo | None:
+        """The first action that is good for any of `roles`, in the order of the roles."""
+        for role in roles:
+            for info in self.infos:
+                if role in self._roles[info.name]:
+                    return info
+        return None
+
+    def all_with_role(self, role: str) -> list[ActionInfo]:
+        """Every action that is good for `role`."""
+        return [info for info in self.infos if role in self._roles[info.name]]
+
+    def get(self, name: str) -> ActionInfo | None:
+        """The action of that name."""
+        return next((info for info in self.infos if info.name == name), None)
+
+    def for_verb(self, verb: str) -> ActionInfo | None:
+        """The action whose name or phrase begins with a verb."""
+        words = tuple(verb.split())
+        return self._verb_table().get(words)
+
+    @property
+    def mover(self) -> ActionInfo | None:
+        """The action that brings the robot to a place."""
+        for info in self.all_with_role("motion"):
+            if text_inputs(info) or self.chain(info, {}, "?") is not None:
+                return info
+        return None
+
+    def chain(self, info: ActionInfo, values: Mapping[str, Any], words: str, reason: str = "") -> list[ActionCall] | None:
+        """The step with everything before it that provides what no words give; None if nothing does.
+
+        Args:
+            info: The action wanted.
+            values: Its inputs that are known.
+            words: What the operator calls the thing, for the action that turns words into data.
+            reason: Why, for the operator.
+        """
+        return self._chain(info, values, words, reason, frozenset())
+
+    def _chain(
+        self, info: ActionInfo, values: Mapping[str, Any], words: str, reason: str, seen: frozenset[str]
+    ) -> list[ActionCall] | None:
+        known = dict(values)
+        missing = {name: kind for name, kind in info.inputs.items() if name not in known}
+        before: list[ActionCall] = []
+        while True:
+            handed_over = {n: k for n, k in missing.items() if k != "string" or seen}
+            if not handed_over or not words:
+                break
+            provider = self._provider(handed_over, seen | {info.name})
+            if provider is None:
+                break
+            steps = self._chain(provider, {}, words, "", seen | {info.name})
+            if steps is None:
+                return None
+            before += steps
+            missing = {n: k for n, k in missing.items() if provider.outputs.get(n) != k}
+        texts = [name for name, kind in missing.items() if kind == "string"]
+        if texts and words and not any(kind == "string" for name, kind in info.inputs.items() if name in known):
+            known[texts[0]] = words
+            missing.pop(texts[0])
+        if any(kind != "string" for kind in missing.values()):
+            return None
+        return [*before, call(info, known, reason)]
+
+    def _provider(self, missing: Mapping[str, str], seen: frozenset[str]) -> ActionInfo | None:
+        """The action that provides most of what is missing."""
+
+        def provided(info: ActionInfo) -> int:
+            return sum(info.outputs.get(name) == kind for name, kind in missing.items())
+
+        usable = [info for info in self.infos if info.name not in seen and provided(info) and text_inputs(info)]
+        return max(usable, key=provided, default=None)
+
+    def _verb_table(self) -> dict[tuple[str, ...], ActionInfo]:
+        table: dict[tuple[str, ...], ActionInfo] = {}
+        for info in self.infos:
+            words = split_name(info.name)
+            if words:
+                base = (lemma(words[0]), *words[1:])
+                for end in range(len(base), 0, -1):
+                    if end == len(base) or end == 1 or base[end - 1] in {"for", "to", "at", "up"}:
+                        table.setdefault(base[:end], info)
+            for phrase in info.phrases:
+                start = tuple(re.findall(r"[a-z']+", phrase.lower().partition("{")[0]))
+                if start and not (len(start) == 1 and start[0] in {"go", "get", "the", "a"}):
+                    table.setdefault((lemma(start[0]), *start[1:]), info)
+        return table

@@ -1,0 +1,132 @@
+"""Which of several offered things an answer means."""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+
+from parley.language.offline.grounding import ground_phrase
+from parley.language.offline.lexicon import lexicon
+from parley.language.offline.nouns import bare
+from parley.language.offline.spatial import nearest_to
+from parley.language.offline.text import Phrase, keys, lemma, tokens
+from parley.world.geometry import Pose2D
+from parley.world.object_map import MapObject
+
+__all__ = ["choose", "choose_object"]
+
+_LEAD_INS = (
+    "i mean", "i meant", "it is", "that is", "he is", "she is", "they are", "he is on", "she is on", "i think", "i would say", "the answer is", "take", "choose", "pick", "use", "go to",
+    "go for", "go with", "try", "i want", "i would like", "i choose", "i pick", "let us take", "let us go with", "select", "please", "well", "oh", "um", "sorry", "yes", "no", "maybe", "option", "number", "of course",
+    "on", "in", "at", "near", "by", "to", "drive to", "head to", "move to", "definitely", "probably", "obviously", "he sits on", "she sits on", "he is at", "she is at", "he is in", "it is on", "it is in", "it is at", "i was thinking of", "i am talking about",
+)  # fmt: skip
+_LEAD_TABLE = tuple(sorted((tuple(text.split()) for text in _LEAD_INS), key=len, reverse=True))
+_ANY = frozenset("any either whichever whatever anyone".split())
+_ANY_PHRASES = (("does", "not", "matter"), ("do", "not", "care"), ("you", "choose"), ("you", "decide"), ("up", "to", "you"), ("do", "not", "mind"))  # fmt: skip
+
+
+def choose(texts: Sequence[str], reply: str) -> int | None:
+    """Index of the offered text that `reply` means, or None if it means none or several."""
+    items = [MapObject(id="?" * (index + 1), description=text, x_m=0.0, y_m=0.0) for index, text in enumerate(texts)]
+    found = choose_object(items, reply)
+    return None if found is None else items.index(found)
+
+
+def choose_object(
+    candidates: Sequence[MapObject],
+    reply: str,
+    objects: Sequence[MapObject] = (),
+    pose: Pose2D | None = None,
+) -> MapObject | None:
+    """The candidate that `reply` means, by words, place, number or exclusion.
+
+    Args:
+        candidates: What was offered, in the order in which it was named.
+        reply: The answer.
+        objects: The whole map, for answers like "the one near the door".
+        pose: The robot's, for "the nearest".
+    """
+    words = tuple(word for word in tokens(reply) if word.is_word)
+    if not words or not candidates:
+        return None
+    by_text = [item for item in candidates if item.description.lower() == reply.strip().lower()]
+    if len(by_text) == 1:
+        return by_text[0]
+    if _is_any(keys(words)):
+        return nearest_to(candidates, pose.x_m, pose.y_m)[0] if pose is not None else candidates[0]
+    excluded = _excluded(words, candidates, objects, pose)
+    if excluded is not None:
+        return excluded
+    meant = _strip(words)
+    return _by_words(meant, candidates, objects, pose) or _by_position(keys(bare(meant)), candidates)
+
+
+def _is_any(flat: tuple[str, ...]) -> bool:
+    if any(flat[i : i + len(p)] == p for p in _ANY_PHRASES for i in range(len(flat))):
+        return True
+    return bool(set(flat[:2]) & _ANY) and len(flat) <= 5
+
+
+def _excluded(
+    words: Phrase, candidates: Sequence[MapObject], objects: Sequence[MapObject], pose: Pose2D | None
+) -> MapObject | None:
+    """ "Not the large one" leaves the other of two."""
+    flat = keys(words)
+    if "not" not in flat or len(candidates) != 2:
+        return None
+    at = flat.index("not")
+    refused = _by_words(_strip(words[at + 1 :]), candidates, objects, pose)
+    return next((item for item in candidates if refused is not None and item != refused), None)
+
+
+def _strip(words: Phrase) -> Phrase:
+    stripped = True
+    while stripped and words:
+        stripped = False
+        for lead in _LEAD_TABLE:
+            flat = keys(words)
+            head = tuple(lemma(word) if index == 0 else word for index, word in enumerate(flat[: len(lead)]))
+            if (flat[: len(lead)] == lead or head == lead) and len(words) > len(lead):
+                words, stripped = words[len(lead) :], True
+                break
+    return words
+
+
+def _by_words(
+    words: Phrase, candidates: Sequence[MapObject], objects: Sequence[MapObject], pose: Pose2D | None
+) -> MapObject | None:
+    if not words:
+        return None
+    found = ground_phrase(words, candidates, pose)
+    if found.outcome == "match":
+        return found.candidates[0]
+    among_all = ground_phrase(words, _with_all(candidates, objects), pose)
+    fitting = [item for item in among_all.candidates if item in candidates]
+    if among_all.outcome != "none" and len(fitting) == 1:
+        return fitting[0]
+    nouns = [word for word in words if word.key not in lexicon().vocabulary or word.key in lexicon().synonyms]
+    if found.outcome == "none" and len(nouns) != len(words) and nouns:
+        looser = ground_phrase(tuple(nouns), candidates, pose)
+        return looser.candidates[0] if looser.outcome == "match" else None
+    return None
+
+
+def _with_all(candidates: Sequence[MapObject], objects: Sequence[MapObject]) -> list[MapObject]:
+    known = {item.id for item in candidates}
+    return [*candidates, *(item for item in objects if item.id not in known)]
+
+
+def _by_position(flat: tuple[str, ...], candidates: Sequence[MapObject]) -> MapObject | None:
+    lex = lexicon()
+    words = tuple(word for word in flat if word not in {"one", "option", "number", "choice", "the", "of", "them", "two"} or len(flat) == 1)
+    if len(words) != 1:
+        return None
+    word = words[0]
+    if word in {"last", "latter"}:
+        return candidates[-1]
+    if word in {"former"}:
+        return candidates[0]
+    if len(word) == 1 and word.isalpha():
+        number = ord(word) - ord("a") + 1
+    else:
+        number = lex.ordinals.get(word) or lex.numbers.get(word) or (int(word) if word.isdigit() else 0)
+    return candidates[number - 1] if 0 < number <= len(candidates) else None

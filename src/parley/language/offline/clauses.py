@@ -1,0 +1,195 @@
+"""Cutting a message into clauses, in the order in which they are to be done."""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Sequence
+from dataclasses import dataclass, replace
+
+from parley.language.offline.facts import read_statement, strip_openers
+from parley.language.offline.lexicon import lexicon
+from parley.language.offline.text import Phrase, keys, lemma
+
+__all__ = ["Clause", "clauses", "opens_command"]
+
+Opens = Callable[[Phrase], bool]
+
+
+@dataclass(frozen=True, slots=True)
+class Clause:
+    """One clause of a message."""
+
+    words: Phrase
+    is_question: bool = False
+    """Whether its sentence ends with a question mark."""
+    condition: Phrase = ()
+    """What must be so before it is done ("if ...")."""
+    otherwise: bool = False
+    """To be done if the condition of the clause before does not hold."""
+    first: bool = False
+    """To be done before everything else ("but first ...")."""
+    sentence: int = 0
+
+
+def clauses(message: Phrase, opens: Opens) -> list[Clause]:
+    """The clauses of a message.
+
+    Args:
+        message: All words and punctuation.
+        opens: Whether a command begins with these words (it knows the verbs and the catalogue).
+    """
+    result: list[Clause] = []
+    for number, (sentence, asked) in enumerate(_sentences(message)):
+        result.extend(replace(clause, is_question=asked, sentence=number) for clause in _conditional(sentence, opens))
+    ordered: list[Clause] = []
+    for clause in result:
+        if clause.first and ordered:
+            ordered.insert(len(ordered) - 1, clause)
+        else:
+            ordered.append(clause)
+    return ordered
+
+
+def opens_command(words: Phrase, extra_verbs: Sequence[tuple[str, ...]] = ()) -> bool:
+    """Whether a clause begins like an order: a verb in its base form after politeness."""
+    words = strip_openers(words, requests=True)
+    flat = keys(words)
+    if not flat:
+        return False
+    if flat[:2] in {("do", "not"), ("not", "to")} or flat[0] in {"never", "avoid"}:
+        return len(flat) > 2
+    base = (lemma(flat[0]), *flat[1:])
+    if any(base[: len(verb)] == verb for verb in extra_verbs):
+        return True
+    found = lexicon().verbs.match(base)
+    if found is None:
+        return False
+    kind = found[1].partition(":")[0]
+    if flat[0] in lexicon().transition_verbs | lexicon().placing_verbs and base[0] != flat[0]:
+        return False
+    # Many words of the last class are nouns too ("water", "light"): alone they are not an order.
+    return kind != "other" or len(words) > found[0]
+
+
+def _sentences(message: Phrase) -> list[tuple[Phrase, bool]]:
+    result: list[tuple[Phrase, bool]] = []
+    start = 0
+    for index, word in enumerate(message):
+        if word.key in {".", "!", "?", ";", "\n"} or word.key.startswith(".."):
+            if any(part.is_word for part in message[start:index]):
+                result.append((message[start:index], word.key == "?"))
+            start = index + 1
+    if any(part.is_word for part in message[start:]):
+        result.append((message[start:], False))
+    return result
+
+
+def _conditional(sentence: Phrase, opens: Opens) -> list[Clause]:
+    """ "If S, V, otherwise W" and "V if S"; everything else goes on to be cut."""
+    flat = keys(strip_openers(sentence))
+    words = strip_openers(sentence)
+    if flat[:1] == ("if",) or flat[:2] == ("in", "case"):
+        start = 1 if flat[0] == "if" else 2
+        cut = next((i for i in range(start + 2, len(flat)) if flat[i] in {",", "then"} or opens(words[i:]) and not _bare_verb_noun(flat, i)), 0)
+        if cut:
+            condition = _trim(words[start:cut])
+            return _with_otherwise(words[cut:], condition, opens)
+    for index in range(2, len(flat) - 2):
+        before = keys(words[:index])
+        if flat[index] == "if" and lexicon().verbs.match_end((lemma(before[-1]), "if")) == 0 and flat[index + 1] not in {"you", "possible"} and flat[index - 1] not in {"as", "check", "see", "out", "know", "me", "look", "and", "inspect", "tell", "verify"}:
+            condition = _trim(words[index + 1 :])
+            return _with_otherwise(words[:index], condition, opens)
+    return _before_after(sentence, opens)
+
+
+def _bare_verb_noun(flat: tuple[str, ...], index: int) -> bool:
+    return flat[index - 1] in lexicon().determiners | {"to", "of"}
+
+
+def _with_otherwise(words: Phrase, condition: Phrase, opens: Opens) -> list[Clause]:
+    flat = keys(words)
+    cut = next((i for i in range(len(flat)) if flat[i] in {"otherwise", "else"} or flat[i : i + 2] == ("if", "not")), len(flat))
+    then = [replace(c, condition=condition) for c in _before_after(_trim(words[:cut]), opens)]
+    rest = words[cut + (2 if flat[cut : cut + 2] == ("if", "not") else 1) :]
+    return then + [replace(c, condition=condition, otherwise=True) for c in (_before_after(_trim(rest), opens) if rest else [])]
+
+
+def _before_after(sentence: Phrase, opens: Opens) -> list[Clause]:
+    flat = keys(sentence)
+    lead = strip_openers(sentence)
+    lead_flat = keys(lead)
+    if lead_flat[:1] in {("before",), ("after",), ("once",)} and lead_flat[1:2] != ("that",) or lead_flat[:2] == ("as", "soon"):
+        cut = next((i for i in range(2, len(lead)) if lead_flat[i] == ","), 0) or next(
+            (i for i in range(3, len(lead)) if opens(lead[i:]) and not _bare_verb_noun(lead_flat, i)), 0
+        )
+        if cut:
+            head = _trim(_without_you(lead[3 if lead_flat[0] == "as" else 1 : cut]))
+            main = _cut(_trim(lead[cut:]), opens)
+            first = _cut(head, opens)
+            return [*main, *first] if lead_flat[0] == "before" else [*first, *main]
+    for marker in ("before", "after"):
+        for index in range(2, len(flat) - 1):
+            if flat[index] == marker and flat[index + 1] not in {"that", "this", "all", ","}:
+                main, other = _cut(_trim(sentence[:index]), opens), _cut(_trim(_without_you(sentence[index + 1 :])), opens)
+                return [*main, *other] if marker == "before" else [*other, *main]
+    return _cut(sentence, opens)
+
+
+def _without_you(words: Phrase) -> Phrase:
+    flat = keys(words)
+    if flat[:1] in {("you",), ("i",), ("we",)}:
+        skip = 2 if flat[1:2] and flat[1] in lexicon().auxiliaries | lexicon().be else 1
+        return words[skip:]
+    return words
+
+
+def _cut(sentence: Phrase, opens: Opens) -> list[Clause]:
+    """Cut at sequence words, and at commas and conjunctions where a new clause begins."""
+    lex = lexicon()
+    flat = keys(sentence)
+    pieces: list[tuple[int, int, bool]] = []
+    start, index, first = 0, 0, False
+    while index < len(flat):
+        found = lex.sequence.match(flat, index)
+        if found and not (flat[index] == "next" and flat[index + 1 : index + 2] == ("to",)):
+            if index > start:
+                pieces.append((start, index, first))
+            before_that = found[1] == "before that"
+            start, first = index + found[0], before_that
+            index = start
+            continue
+        if index > start and flat[index] in {",", "and", "but", "&", ":"} and _new_clause(sentence, start, index, opens):
+            pieces.append((start, index, first))
+            start = index + 1
+            first = flat[index + 1 : index + 2] == ("first",) and flat[index] == "but"
+        index += 1
+    if len(flat) > start:
+        pieces.append((start, len(flat), first))
+    trimmed = ((_trim(sentence[a:b]), early) for a, b, early in pieces)
+    return [Clause(words, first=early) for words, early in trimmed if words]
+
+
+def _new_clause(sentence: Phrase, start: int, index: int, opens: Opens) -> bool:
+    rest = sentence[index + 1 :]
+    if not rest:
+        return False
+    before = sentence[start:index]
+    if opens(rest) and any(word.is_word for word in before):
+        return not (keys(rest[:1])[0] in lexicon().person_words)
+    rest_flat = keys(strip_openers(rest))
+    if rest_flat[:1] == ("not",) or rest_flat[:2] == ("do", "not"):
+        return True
+    if rest_flat and rest_flat[0] in lexicon().question_starts and rest_flat[1:2] and rest_flat[1] in lexicon().be:
+        return True
+    if sentence[index].key in {",", "and", "but"} and read_statement(before) is not None:
+        return read_statement(rest) is not None
+    if sentence[index].key == "," and len(before) <= 3 and read_statement(rest) is not None:
+        return True
+    return False
+
+
+def _trim(words: Phrase) -> Phrase:
+    while words and (not words[0].is_word or words[0].key in {"and", "then", "but"}):
+        words = words[1:]
+    while words and (not words[-1].is_word or words[-1].key in {"and", "then", "but"}):
+        words = words[:-1]
+    return words

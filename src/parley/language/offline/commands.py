@@ -1,0 +1,262 @@
+"""One clause that asks for something to be done: its verb and what belongs to it."""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Sequence
+from dataclasses import dataclass, replace
+
+from parley.language.offline.facts import strip_openers
+from parley.language.offline.lexicon import lexicon
+from parley.language.offline.nouns import bare, noun_phrase
+from parley.language.offline.text import Phrase, keys, lemma
+
+__all__ = ["Command", "read_command"]
+
+
+@dataclass(frozen=True, slots=True)
+class Command:
+    """What a clause asks for."""
+
+    kind: str
+    """Verb class, or "catalogue" for a verb that only an action's name or phrase knows."""
+    verb: str
+    """Base form."""
+    negated: bool = False
+    theme: Phrase = ()
+    """What is acted on."""
+    place: Phrase = ()
+    """Where to, or where."""
+    source: Phrase = ()
+    """Where from."""
+    recipient: Phrase = ()
+    """Who gets it."""
+    words: Phrase = ()
+    """Everything after the verb."""
+    clause: Phrase = ()
+    """Verb and all."""
+    asked_politely: bool = False
+
+
+IsPerson = Callable[[Phrase], bool]
+
+_NEGATIONS = (("do", "not"), ("never",), ("you", "should", "not"), ("you", "must", "not"), ("you", "do", "not", "have", "to"), ("you", "need", "not"), ("there", "is", "no", "need", "to"), ("no", "need", "to"), ("not",), ("avoid",), ("please", "do", "not"), ("you", "do", "not", "need", "to"), ("i", "do", "not", "want", "you", "to"), ("you", "can", "not"), ("refrain", "from"), ("you", "shall", "not"), ("i", "would", "rather", "you", "did", "not"))  # fmt: skip
+_SERIAL = frozenset({"go", "come", "run", "head", "drive", "move", "walk", "hurry", "proceed", "return", "travel", "roll"})
+_HERE = frozenset({"here", "around", "there", "everything", "surroundings"})
+
+
+def read_command(clause: Phrase, is_person: IsPerson, extra_verbs: Sequence[tuple[str, ...]] = ()) -> Command | None:
+    """Read a clause as a command; None if it does not begin with a verb."""
+    lex = lexicon()
+    words = strip_openers(clause)
+    polite = strip_openers(words, requests=True)
+    requested = len(polite) != len(words)
+    words, negated = _negation(words)
+    if not negated:
+        words, negated = _negation(strip_openers(words, requests=True))
+    if not words:
+        return None
+    words = strip_openers(words, requests=True)
+    while words and words[0].key in {"you"} | (lex.auxiliaries & {"can", "could"}) and len(words) > 1 and negated:
+        words = words[1:]
+    flat = _base(words)
+    extra = max((verb for verb in extra_verbs if flat[: len(verb)] == verb), key=len, default=())
+    found = lex.verbs.match(flat)
+    if extra and (found is None or len(extra) >= found[0]):
+        rest = words[len(extra) :]
+        kind = found[1].partition(":")[0] if found and found[1].partition(":")[2] == " ".join(extra) else "catalogue"
+        kind = "catalogue" if kind == "other" else kind
+        return _fill(Command(kind, " ".join(extra), negated, words=rest, clause=words, asked_politely=requested), is_person)
+    if found is None:
+        return None
+    kind, _, verb = found[1].partition(":")
+    rest = words[found[0] :]
+    serial = _serial(flat[0], rest, kind)
+    if serial is not None:
+        inner = read_command(serial, is_person, extra_verbs)
+        if inner is not None and inner.kind != "other":
+            return replace(inner, negated=negated or inner.negated, asked_politely=requested)
+    return _fill(Command(kind, verb, negated, words=rest, clause=words, asked_politely=requested), is_person)
+
+
+def _base(words: Phrase) -> tuple[str, ...]:
+    flat = keys(words)
+    return (lemma(flat[0]), *flat[1:])
+
+
+def _negation(words: Phrase) -> tuple[Phrase, bool]:
+    flat = keys(words)
+    for negation in sorted(_NEGATIONS, key=len, reverse=True):
+        if flat[: len(negation)] == negation and len(words) > len(negation):
+            return words[len(negation) :], True
+    return words, False
+
+
+def _serial(verb: str, rest: Phrase, kind: str) -> Phrase | None:
+    """ "Go (and) inspect X", "go to check X": the second verb is the one that counts."""
+    if kind not in {"motion", "back"} or verb not in _SERIAL:
+        return None
+    while rest and rest[0].key in {"and", "to", "over", "back", "ahead", "out", "there"} and len(rest) > 1:
+        if rest[0].key == "to" and rest[1].key in lexicon().determiners:
+            return None
+        rest = rest[1:]
+    found = lexicon().verbs.match(_base(rest)) if rest else None
+    if found is None or found[1].partition(":")[0] in {"motion", "other", "wait", "back"} or rest[0].is_capital:
+        return None
+    return rest if len(rest) > found[0] else None
+
+
+def _fill(command: Command, is_person: IsPerson) -> Command:
+    match command.kind:
+        case "motion" | "back" | "wait":
+            return _motion(command)
+        case "look" | "count":
+            return _look(command)
+        case "whether":
+            return _whether(command)
+        case "search" | "meet" | "follow":
+            return _search(command)
+        case "transfer" | "grasp" | "place" | "guide":
+            return _transfer(command, is_person)
+    return replace(command, theme=bare(command.words))
+
+
+def _motion(command: Command) -> Command:
+    lex = lexicon()
+    words = command.words
+    while words:
+        flat = keys(words)
+        skip = lex.goals.match(flat)
+        if skip and skip[0] < len(words) and not (lex.places.match(flat) or (0, ""))[0] > skip[0]:
+            words = words[skip[0] :]
+            continue
+        adverb = lex.adverbs.match(flat)
+        if adverb and adverb[0] < len(words) and not lex.places.match(flat):
+            words = words[adverb[0] :]
+            continue
+        if flat[0] in {"back", "up", "over", "down", "out", "through"} and len(words) > 1:
+            words = words[1:]
+            continue
+        break
+    flat = keys(words)
+    if flat[:1] == ("from",) and "to" in flat:
+        return replace(command, source=bare(words[1 : flat.index("to")]), place=bare(words[flat.index("to") + 1 :]))
+    if flat[:1] in {("in",), ("on",), ("at",), ("inside",)} and len(words) > 1 and not lex.places.match(flat, 0) == (3, "in front of"):
+        single = lex.places.match(flat)
+        if single and single[0] == 1:
+            words = words[1:]
+    return replace(command, place=_trim_article(words))
+
+
+def _trim_article(words: Phrase) -> Phrase:
+    return bare(words)
+
+
+def _look(command: Command) -> Command:
+    words = command.words
+    while len(words) > 1 and words[0].key in {"at", "on", "into", "in", "inside", "over", "around", "the"} and not words[0].key == "the":
+        words = words[1:]
+    flat = keys(words)
+    if flat and (flat[0] in _HERE or words == ()):
+        return replace(command, theme=())
+    if flat[:1] and flat[0] in {"for"} and command.kind == "look":
+        return _search(replace(command, kind="search", words=words[1:]))
+    for index in range(1, len(flat) - 1):
+        if flat[index] == "for" and flat[index + 1] not in {"me", "us", "a"} | lexicon().operator_pronouns:
+            return replace(command, place=bare(words[:index]), theme=bare(words[index + 1 :]))
+        if flat[index : index + 2] == ("to", "see") and flat[index + 2 : index + 3] in {("if",), ("whether",)}:
+            return replace(_whether(replace(command, words=words[index + 3 :])), kind="whether", place=bare(words[:index]))
+        if flat[index] in {"whether", "if"}:
+            return replace(_whether(replace(command, words=words[index + 1 :])), kind="whether", place=bare(words[:index]))
+    return replace(command, theme=bare(words))
+
+
+def _whether(command: Command) -> Command:
+    """ "Whether S": the subject of S is what to look at."""
+    lex = lexicon()
+    words = _trim_end(command.words)
+    flat = keys(words)
+    if flat[:1] == ("there",) and len(flat) > 2 and flat[1] in lex.be:
+        return replace(_search(replace(command, words=words[2:])), kind="whether", words=words)
+    link = next((i for i in range(1, len(flat)) if flat[i] in lex.be | {"has", "have", "looks", "needs", "works", "look", "need", "does", "can", "seems", "still", "stands", "sits", "lies", "hangs", "feels"}), len(flat))
+    subject = bare(words[:link])
+    at = link + 1
+    while at < len(flat) and flat[at] in {"still", "not", "there", "now", "really", "also"}:
+        at += 1
+    found = lex.places.match(flat, at)
+    place = bare(words[at + found[0] :]) if found and link < len(flat) else ()
+    return replace(command, theme=subject, place=place, words=words)
+
+
+def _trim_end(words: Phrase) -> Phrase:
+    while words and not words[-1].is_word:
+        words = words[:-1]
+    return words
+
+
+def _search(command: Command) -> Command:
+    noun = noun_phrase(command.words)
+    if noun.relation and noun.core and noun.anchors and noun.anchors[0]:
+        core = command.words[: _at(keys(command.words), tuple(noun.relation.split()))]
+        return replace(command, theme=bare(core), place=noun.anchors[0])
+    return replace(command, theme=bare(command.words))
+
+
+def _at(flat: tuple[str, ...], wanted: tuple[str, ...]) -> int:
+    return next((i for i in range(len(flat)) if flat[i : i + len(wanted)] == wanted), len(flat))
+
+
+def _transfer(command: Command, is_person: IsPerson) -> Command:
+    """Theme, source, goal and recipient, in either order of objects."""
+    words = _trim_end(command.words)
+    if words and words[0].key in {"up", "over", "back", "along"}:
+        words = words[1:]
+    parts = _cut_at(words, frozenset({"from", "to", "for", "into", "onto", "towards"}))
+    theme = parts.pop("", ())
+    recipient, theme = _double_object(theme, is_person)
+    result = replace(command, recipient=recipient, source=bare(parts.get("from", ())))
+    for marker in ("to", "for", "into", "onto", "towards"):
+        goal = bare(parts.get(marker, ()))
+        if not goal:
+            continue
+        noun = noun_phrase(goal)
+        person = goal if not noun.relation else goal[: _at(keys(goal), tuple(noun.relation.split()))]
+        if is_person(person):
+            place = noun.anchors[0] if noun.anchors else ()
+            result = replace(result, recipient=bare(person), place=place or result.place)
+        elif marker != "for":
+            result = replace(result, place=goal)
+    noun = noun_phrase(theme)
+    if command.kind == "place" and noun.relation and noun.anchors and not result.place:
+        return replace(result, theme=bare(theme[: _at(keys(theme), tuple(noun.relation.split()))]), place=noun.anchors[0])
+    return replace(result, theme=bare(theme))
+
+
+def _cut_at(words: Phrase, markers: frozenset[str]) -> dict[str, Phrase]:
+    parts: dict[str, Phrase] = {}
+    current, start = "", 0
+    for index, word in enumerate(words):
+        if word.key in markers and not (word.key == "to" and index and words[index - 1].key in {"next", "close", "nearest"}):
+            if words[index + 1 : index + 2] and current in parts and word.key == current:
+                continue
+            parts.setdefault(current, words[start:index])
+            current, start = word.key, index + 1
+    parts.setdefault(current, words[start:])
+    return parts
+
+
+def _double_object(words: Phrase, is_person: IsPerson) -> tuple[Phrase, Phrase]:
+    """ "him water", "the man the cup": who gets it stands first."""
+    lex = lexicon()
+    words = tuple(word for word in words if word.is_word)
+    if len(words) < 2:
+        return (), words
+    if words[0].key in (lex.person_pronouns | lex.operator_pronouns) and not (words[0].key == "her" and False):
+        return words[:1], words[1:]
+    for index in range(1, len(words)):
+        starts_theme = words[index].key in lex.determiners | {"something"} and words[index - 1].key not in {"of", "with"}
+        if starts_theme and is_person(bare(words[:index])) and noun_phrase(words[:index]).relation == "":
+            return bare(words[:index]), words[index:]
+    for index in range(1, min(3, len(words))):
+        if is_person(words[:index]) and not is_person(words[: index + 1]):
+            return bare(words[:index]), words[index:]
+    return (), words

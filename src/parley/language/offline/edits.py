@@ -1,0 +1,175 @@
+"""Changes of the plan and of memory: dropping steps, forgetting."""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from dataclasses import dataclass
+
+from parley.language.offline.commands import Command
+from parley.language.offline.facts import find_fact, strip_openers
+from parley.language.offline.lexicon import lexicon
+from parley.language.offline.nouns import bare
+from parley.language.offline.saying import the, whole_sentence
+from parley.language.offline.scene import Scene, UnclearError
+from parley.language.offline.text import Phrase, keys, lemma, plain, singular, split_name, tokens
+from parley.messages.chat import ActionCall, SystemCommand
+
+__all__ = ["Edit", "read_edit", "steps_of"]
+
+_STEP_WORDS = frozenset({"step", "action", "task", "item", "stop", "one", "order", "command", "part", "thing", "waypoint"})
+_FORGET_STARTS = (("forget",), ("do", "not", "remember"), ("delete",), ("remove",), ("erase",), ("unlearn",), ("clear",), ("wipe",))
+_ALL = frozenset({"everything", "all", "anything"})
+
+
+@dataclass(frozen=True, slots=True)
+class Edit:
+    """What changes, and what is said about it."""
+
+    commands: tuple[SystemCommand, ...]
+    reply: str
+
+
+def read_edit(words: Phrase, scene: Scene) -> Edit | None:
+    """A change of plan or memory that a clause asks for, or None."""
+    words = strip_openers(words, requests=True)
+    words = tuple(word for word in words if word.is_word)
+    return _drop(words, scene) or _forget(words, scene)
+
+
+def _drop(words: Phrase, scene: Scene) -> Edit | None:
+    flat = keys(words)
+    if not flat:
+        return None
+    verbs = lexicon().verb_classes["drop_step"]
+    first = lemma(flat[0])
+    size = next((n for n in (3, 2, 1) if " ".join((first, *flat[1:n])) in verbs), 0)
+    if not size or size >= len(flat):
+        return None
+    rest = keys(bare(words[size:]))
+    while rest[-3:] == ("of", "the", "plan") or rest[-3:] == ("from", "the", "plan") or rest[-3:] == ("in", "the", "plan") or rest[-3:] == ("from", "the", "queue") or rest[-3:] == ("in", "the", "queue"):
+        rest = rest[:-3]
+    index = _step_index(rest, len(scene.situation.queue))
+    if index is None:
+        index = _named_step(rest, scene.situation.queue, first)
+    if index is None:
+        return None
+    if scene.situation.queue and index >= len(scene.situation.queue):
+        return Edit((), f"There are only {len(scene.situation.queue)} steps left, so there is no step {index + 1}.")
+    if not scene.situation.queue:
+        return Edit((), "There is nothing planned that I could leave out.")
+    dropped = _said(scene.situation.queue[index])
+    return Edit((SystemCommand(command="pop", arguments={"parameters": index}),), f"I leave out step {index + 1}: {dropped}.")
+
+
+def _step_index(rest: tuple[str, ...], count: int) -> int | None:
+    """The 0-based place of "the second step", "step 3", "number two", "the last one", "the next step"."""
+    lex = lexicon()
+    if not rest or not (set(rest) & _STEP_WORDS or (len(rest) <= 2 and (rest[0] in {"number"} or rest[-1] in lex.ordinals or rest[-1] in {"last", "next"}))):
+        return None
+    if len(rest) > 4:
+        return None
+    for word in rest:
+        if word in lex.ordinals:
+            return lex.ordinals[word] - 1
+        if word.isdigit():
+            return int(word) - 1
+        if word in lex.numbers and (word != "one" or rest[-2:] in {("step", "one"), ("number", "one")}):
+            return lex.numbers[word] - 1
+    if "last" in rest or "final" in rest:
+        return max(count - 1, 0)
+    if "next" in rest or "following" in rest:
+        return 1
+    return None
+
+
+def _named_step(rest: tuple[str, ...], queue: Sequence[ActionCall], verb: str) -> int | None:
+    """ "Drop the inspection", "cancel going to the door": the one step whose name or words say so."""
+    if verb == "forget" or not rest:
+        return None
+    wanted = {singular(lemma(word)) for word in rest} - lexicon().determiners - {"part", "step", "to", "go", "at", "of", "trip", "visit"}
+    hits = []
+    for index, step in enumerate(queue):
+        words = {singular(lemma(word)) for word in (*split_name(step.name), *step.reason.lower().split())}
+        for parameter in step.input_parameters.values():
+            if isinstance(parameter.value, str):
+                words.update(singular(word.key) for word in tokens(parameter.value))
+        words |= {"inspection"} if words & {"inspect", "look"} else set()
+        if wanted and wanted <= words:
+            hits.append(index)
+    return hits[-1] if len(hits) == 1 else None
+
+
+def _said(step: ActionCall) -> str:
+    return step.reason or " ".join(split_name(step.name))
+
+
+def steps_of(command: Command, scene: Scene) -> list[int]:
+    """Pending steps that do what a negated command forbids, ascending; the one being executed is left alone."""
+    target = plain(bare(command.place or command.theme)).lower()
+    if not target:
+        return []
+    hits: list[int] = []
+    for index, step in enumerate(scene.situation.queue):
+        said = [p.value.lower() for p in step.input_parameters.values() if isinstance(p.value, str)]
+        wanted = any(target in text or text in target for text in said if text)
+        roles = [scene.catalogue.roles(info) for info in scene.catalogue.infos if info.name == step.name]
+        carries_on = bool(hits) and hits[-1] == index - 1 and not said and command.kind == "motion" and any("motion" in r for r in roles)
+        looks = any(r & {"look", "search"} for r in roles)
+        if index and (carries_on or (wanted and looks == (command.kind != "motion"))):
+            hits.append(index)
+    return hits
+
+
+def _forget(words: Phrase, scene: Scene) -> Edit | None:
+    flat = keys(words)
+    start = next((s for s in _FORGET_STARTS if flat[: len(s)] == s), None)
+    if start is None or len(flat) == len(start):
+        return None
+    strong = start in {("forget",), ("do", "not", "remember"), ("unlearn",)} or {"memory", "memories", "remember", "told"} & set(flat)
+    if not strong:
+        return None
+    rest = words[len(start) :]
+    while rest and rest[0].key in {"about", "what", "i", "told", "you", "said", "where", "that", "everything", "all", "the", "fact", "memory", "of", "just", "who", "when", "how", "memories", "my", "is", "are"} and len(rest) > 1:
+        rest = rest[1:]
+    about = bare(rest)
+    drop_tail = {"is", "are", "was", "anymore", "memory", "please", "said"}
+    while about and about[-1].key in drop_tail and len(about) > 1:
+        about = about[:-1]
+    if keys(about)[-1:] in {("everything",), ("all",), ("memories",), ("know",), ("remember",)}:
+        names = [entry.name for entry in scene.situation.memory]
+        return Edit(tuple(_remove(name) for name in names), "I have forgotten everything you told me." if names else "There is nothing to forget.")
+    if not about or keys(about)[0] in {"that", "it", "this", "said", "told"}:
+        return _forget_last(scene)
+    return _forget_about(about, scene)
+
+
+def _remove(name: str) -> SystemCommand:
+    return SystemCommand(command="remove_memory", arguments={"name": name})
+
+
+def _forget_last(scene: Scene) -> Edit:
+    """The newest fact, the one of the last message first of all."""
+    if not scene.situation.memory:
+        return Edit((), "There is nothing to forget.")
+    entry = max(enumerate(scene.situation.memory), key=lambda item: (item[1].updated_unix_ms, item[0]))[1]
+    return Edit((_remove(entry.name),), f"I have forgotten: {whole_sentence(entry.data[:200])}")
+
+
+def _forget_about(about: Phrase, scene: Scene) -> Edit:
+    if len(about) == 1 and about[0].key in lexicon().person_pronouns:
+        about = scene.referent(about)
+    cut = next((i for i, word in enumerate(about) if word.key in lexicon().be and i), len(about))
+    fact, several = find_fact(about[:cut], scene.facts, locations=False)
+    hits = [fact] if fact is not None else several
+    if len({item.entry.name for item in hits}) > 1:
+        same = {keys(item.fact.subject) for item in hits}
+        if len(same) > 1:
+            raise UnclearError(f"Which should I forget: {' or '.join(whole_sentence(h.fact.sentence)[:-1] for h in hits)}?", [h.fact.sentence for h in hits])
+    if not hits:
+        by_name = [e for e in scene.situation.memory if set(keys(about)) <= set(split_name(e.name))]
+        if not by_name:
+            return Edit((), f"I do not remember anything about {the(plain(about))}.")
+        return Edit(tuple(_remove(e.name) for e in by_name), f"I have forgotten what you told me about {the(plain(about))}.")
+    subject = keys(hits[0].fact.subject)
+    names = dict.fromkeys(item.entry.name for item in scene.facts if keys(item.fact.subject) == subject)
+    return Edit(tuple(_remove(name) for name in names), f"I have forgotten what you told me about {the(plain(about[:cut]))}.")

@@ -1,0 +1,57 @@
+"""The offline language engine: the interface, answered by analysis instead of a model."""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+
+from parley.language.base import ErrorSituation, Grounding, InspectionReport, ReplyReading, Situation
+from parley.language.offline import grounding, interpreter, pictures, recall, recovery, replies
+from parley.messages.chat import ChatAction
+from parley.messages.memory import MemoryEntry
+from parley.robots.base import CameraImage
+from parley.world.geometry import Pose2D
+from parley.world.object_map import MapObject
+
+__all__ = ["OfflineLanguage"]
+
+
+class OfflineLanguage:
+    """Understands operators' English without model and network; deterministic, stateless, quick.
+
+    It asks rather than guesses, and uses only the actions of the catalogue it is given.
+    """
+
+    @property
+    def label(self) -> str:
+        """See `Language.label`."""
+        return "built-in language engine (offline, no model: plain English only)"
+
+    async def interpret(self, situation: Situation) -> ChatAction:
+        """See `Language.interpret`."""
+        return interpreter.interpret(situation)
+
+    async def select_memories(self, query: str, index: Sequence[MemoryEntry]) -> list[str]:
+        """See `Language.select_memories`."""
+        return recall.select_memories(query, index)
+
+    async def resolve(self, situation: ErrorSituation) -> ChatAction:
+        """See `Language.resolve`."""
+        return recovery.resolve(situation)
+
+    async def ground(
+        self, description: str, objects: Sequence[MapObject], pose: Pose2D | None = None
+    ) -> Grounding:
+        """See `Language.ground`."""
+        return grounding.ground(description, objects, pose)
+
+    async def inspect(self, image: CameraImage, request: str) -> InspectionReport:
+        """See `Language.inspect`.
+
+        Raises:
+            LanguageError: The robot has no detector, so nothing can be said about its pictures.
+        """
+        return pictures.inspect(image, request)
+
+    async def read_reply(self, question: str, reply: str, choices: Sequence[str] = ()) -> ReplyReading:
+        """See `Language.read_reply`."""
+        return replies.read_reply(reply, choices)

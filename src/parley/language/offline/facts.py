@@ -1,0 +1,312 @@
+"""Statements: what the operator says is so, and what remembered sentences say about where things are."""
+
+from __future__ import annotations
+
+import re
+from collections.abc import Iterable, Sequence
+from dataclasses import dataclass, replace
+
+from parley.language.offline.grounding import ground_phrase
+from parley.language.offline.lexicon import lexicon
+from parley.language.offline.nouns import bare, noun_phrase
+from parley.language.offline.text import Phrase, Word, keys, plain, tokens
+from parley.messages.memory import MemoryEntry
+from parley.world.object_map import MapObject
+
+__all__ = ["Fact", "Remembered", "find_fact", "memory_name", "read_statement", "remembered", "strip_openers"]
+
+
+@dataclass(frozen=True, slots=True)
+class Fact:
+    """Something that is said to be so."""
+
+    subject: Phrase
+    """What it is about, without determiner."""
+    place: Phrase = ()
+    """Where the subject is, without determiner; empty if it is not about a place."""
+    relation: str = ""
+    """Preposition of the place, or the word that links subject and state."""
+    state: Phrase = ()
+    """What else is said of the subject."""
+    negated: bool = False
+    sentence: str = ""
+    """The whole, as a sentence."""
+    another: bool = False
+    """Said of one more thing of that kind, beside those already known."""
+
+    @property
+    def is_location(self) -> bool:
+        """Whether it says where something is."""
+        return bool(self.place)
+
+
+@dataclass(frozen=True, slots=True)
+class Remembered:
+    """A fact with the memory it comes from."""
+
+    fact: Fact
+    entry: MemoryEntry
+
+
+_NOT_SUBJECTS = frozenset("what where who when why how which it that this there you let if whether please can could would will do does did".split())
+_STATE_VERBS = frozenset("has needs likes wants prefers hates loves means takes weighs costs belongs opens closes works lives feels looks".split())
+_NOT_WHERE = frozenset({"of", "from", "with", "against"})
+_NOT_PLACES = frozenset("time order charge trouble fire danger love pain use".split())
+
+
+def strip_openers(phrase: Phrase, *, requests: bool = False, reporting: bool = False) -> Phrase:
+    """Without politeness (and, if asked for, wordings of requests or reports) at the start."""
+    lex = lexicon()
+    tables = [lex.polite, *([lex.requests] if requests else []), *([lex.reporting] if reporting else [])]
+    while phrase:
+        if not phrase[0].is_word:
+            phrase = phrase[1:]
+            continue
+        flat = keys(phrase)
+        sizes = [found[0] for table in tables if (found := table.match(flat)) is not None]
+        if not sizes or max(sizes) >= len(phrase):
+            break
+        phrase = phrase[max(sizes) :]
+    return phrase
+
+
+def read_statement(phrase: Phrase) -> Fact | None:
+    """The fact that a clause states, or None if it states none."""
+    phrase = _without_end(strip_openers(phrase, reporting=True))
+    flat = keys(phrase)
+    if len(flat) < 3 or flat[0] in lexicon().question_starts - {"when"}:
+        return None
+    fact = _there_is(phrase) or _placed(phrase) or _place_first(phrase) or _found(phrase) or _said_of(phrase)
+    return None if fact is None else replace(fact, sentence=_sentence(phrase))
+
+
+def _without_end(phrase: Phrase) -> Phrase:
+    while phrase and not phrase[-1].is_word:
+        phrase = phrase[:-1]
+    return phrase
+
+
+def _there_is(phrase: Phrase) -> Fact | None:
+    flat = keys(phrase)
+    if flat[0] != "there" or not ({flat[1]} <= lexicon().be or flat[1] in {"stands", "lies", "should", "used"}):
+        return None
+    start = 2
+    while start < len(flat) and flat[start] in {"be", "also", "now", "still", "not", "to"}:
+        start += 1
+    negated = "not" in flat[1:start] or flat[start : start + 1] == ("no",)
+    another = "also" in flat[1:start] or flat[start : start + 1] == ("another",)
+    rest = phrase[start + (1 if negated and flat[start] == "no" else 0) :]
+    noun = noun_phrase(rest)
+    if not noun.core or not noun.anchors:
+        return None
+    subject = noun.phrase[: _core_length(noun.phrase, noun.relation)]
+    return Fact(bare(subject), _place(rest, noun.relation), noun.relation, negated=negated, another=another)
+
+
+def _core_length(phrase: Phrase, relation: str) -> int:
+    flat, wanted = keys(phrase), tuple(relation.split())
+    return next((i for i in range(len(flat)) if flat[i : i + len(wanted)] == wanted), len(flat))
+
+
+def _place(phrase: Phrase, relation: str) -> Phrase:
+    cut = _core_length(phrase, relation)
+    return bare(phrase[cut + len(relation.split()) :])
+
+
+def _placed(phrase: Phrase) -> Fact | None:
+    """ "I put the box on the shelf", "we keep the keys in the drawer"."""
+    flat = keys(phrase)
+    lex = lexicon()
+    if flat[0] not in {"i", "we", "somebody", "someone", "they", "he", "she"}:
+        return None
+    verb = next((i for i in range(1, min(4, len(flat))) if flat[i] in lex.placing_verbs), 0)
+    if not verb or any(word not in lex.auxiliaries | {"just", "always", "usually", "also", "already", "now"} for word in flat[1:verb]):
+        return None
+    rest = phrase[verb + 1 :]
+    noun = noun_phrase(rest)
+    if noun.core and noun.relation and noun.anchors and noun.anchors[0]:
+        return Fact(bare(rest[: _core_length(rest, noun.relation)]), _place(rest, noun.relation), noun.relation)
+    for index, word in enumerate(rest):
+        if word.key in {"to", "into", "onto"} and 0 < index < len(rest) - 1:
+            return Fact(bare(rest[:index]), bare(rest[index + 1 :]), "at" if word.key == "to" else word.key[:2])
+    return None
+
+
+def _place_first(phrase: Phrase) -> Fact | None:
+    """ "In the drawer there is a key", "on the desk you will find the box"."""
+    flat = keys(phrase)
+    found = lexicon().places.match(flat)
+    if found is None:
+        return None
+    for index in range(found[0] + 1, len(flat) - 1):
+        if flat[index : index + 2] in {("there", "is"), ("there", "are")} or flat[index] in {"is", "are", "you"}:
+            subject_at = index + 1
+            while subject_at < len(flat) and flat[subject_at] in {"is", "are", "can", "will", "find", "see"}:
+                subject_at += 1
+            subject = bare(phrase[subject_at:])
+            place = bare(phrase[found[0] : index])
+            return Fact(subject, place, found[1]) if subject and place else None
+    return None
+
+
+def _found(phrase: Phrase) -> Fact | None:
+    """ "You can find the keys in the drawer"."""
+    flat = keys(phrase)
+    if flat[0] not in {"you", "one", "we"} or "find" not in flat[1:5]:
+        return None
+    rest = phrase[flat.index("find") + 1 :]
+    noun = noun_phrase(rest)
+    if not noun.core or not noun.anchors:
+        return None
+    return Fact(bare(rest[: _core_length(rest, noun.relation)]), _place(rest, noun.relation), noun.relation)
+
+
+def _said_of(phrase: Phrase) -> Fact | None:
+    """ "X is on the Y", "X has moved to the Y", "X stands by the Y", "X is locked"."""
+    lex = lexicon()
+    flat = keys(phrase)
+    if flat[0] in _NOT_SUBJECTS:
+        return None
+    link = next(
+        (
+            i
+            for i in range(1, len(flat))
+            if flat[i] in lex.be
+            or (flat[i] in {"has", "have", "can", "will", "should"} and set(flat[i + 1 : i + 3]) & (lex.be | lex.transition_verbs | lex.location_verbs))
+            or (flat[i] in lex.location_verbs | lex.transition_verbs and lex.goals.match(flat, i + 1) is None and lex.places.match(flat, i + 1) is not None)
+            or (flat[i] in lex.transition_verbs and flat[i + 1 : i + 2] in {("to",), ("into",), ("onto",)})
+            or flat[i] in lex.location_verbs and lex.places.match(flat, i + 1) is not None and i + 2 < len(flat)
+            or flat[i] in _STATE_VERBS
+        ),
+        0,
+    )
+    subject = bare(phrase[:link])
+    if not link or not subject or link > 9 or any(not word.is_word for word in phrase[:link]):
+        return None
+    subject = _operator(subject)
+    at, negated = _after_link(flat, link)
+    found = lex.places.match(flat, at)
+    moved = bool(set(flat[link:at]) & lex.transition_verbs) or flat[at - 1] in lex.transition_verbs
+    if found is None and moved and flat[at : at + 1] in {("to",), ("into",), ("onto",)}:
+        found = 1, {"to": "at", "into": "in", "onto": "on"}[flat[at]]
+    if found is not None and at + found[0] < len(flat) and flat[at + found[0]] not in _NOT_PLACES and found[1] not in _NOT_WHERE:
+        return Fact(subject, bare(phrase[at + found[0] :]), found[1], negated=negated)
+    if subject[-1].key in {"location", "place", "position"} and len(subject) > 1 and at < len(flat):
+        return Fact(_possessor(subject[:-1]), bare(phrase[at:]), "at", negated=negated)
+    state = phrase[at:]
+    return Fact(subject, relation=flat[link], state=state, negated=negated) if state else None
+
+
+def _possessor(phrase: Phrase) -> Phrase:
+    last = phrase[-1]
+    return (*phrase[:-1], Word(last.key.removesuffix("'s"), last.raw.removesuffix("'s")))
+
+
+def _after_link(flat: Sequence[str], link: int) -> tuple[int, bool]:
+    """Where what is said begins, and whether it is denied."""
+    lex = lexicon()
+    at, negated = link, False
+    fillers = {"now", "currently", "still", "always", "usually", "already", "just", "right", "again", "actually", "also", "there", "over", "recently", "always", "all", "both"}
+    while at < len(flat):
+        if flat[at] in {"not", "never"} or flat[at : at + 2] == ("no", "longer"):
+            negated = True
+            at += 2 if flat[at] == "no" else 1
+        elif (
+            flat[at] in lex.be | fillers
+            or (flat[at] in lex.auxiliaries and at == link and flat[at] not in {"has", "have"})
+            or (flat[at] in {"has", "have"} and set(flat[at + 1 : at + 3]) & (lex.be | lex.transition_verbs | lex.location_verbs | {"not"}))
+            or (flat[at] in lex.location_verbs | lex.transition_verbs and (lex.places.match(flat, at + 1) or flat[at + 1 : at + 2] in {("to",), ("into",), ("onto",)}))
+        ):
+            at += 1
+        else:
+            break
+    return at, negated
+
+
+def _operator(subject: Phrase) -> Phrase:
+    if keys(subject) in {("i",), ("we",)}:
+        return (Word("operator", "operator"),)
+    return subject
+
+
+def _sentence(phrase: Phrase) -> str:
+    """The clause as a sentence about a third person, to be remembered."""
+    flat = keys(phrase)
+    if flat[0] in {"i", "we"} and flat[1] in {"am", "are", "was", "were"}:
+        text = "The operator is " + plain(phrase[2:])
+    elif flat[0] in {"i", "we"}:
+        text = "The operator " + plain(phrase[1:])
+    else:
+        text = plain(phrase)
+        text = text[0].upper() + text[1:]
+    return text.rstrip(" ,;")
+
+
+def remembered(memory: Iterable[MemoryEntry]) -> list[Remembered]:
+    """What the text memories say, newest first."""
+    result: list[Remembered] = []
+    for entry in memory:
+        if entry.type != "text":
+            continue
+        fact = _entry_fact(entry)
+        if fact is not None:
+            result.append(Remembered(fact, entry))
+    return result[::-1]
+
+
+def _entry_fact(entry: MemoryEntry) -> Fact | None:
+    first = re.split(r"(?<=[.!;])\s", entry.data.strip(), maxsplit=1)[0][:400]
+    words = tokens(first)
+    fact = read_statement(words)
+    if fact is not None:
+        return fact
+    about, _, kind = entry.name.rpartition("_")
+    if about and kind in {"location", "place", "position"} and words and len(words) < 12:
+        noun = noun_phrase(words)
+        place = noun.anchors[0] if not noun.core and noun.anchors else noun.phrase
+        return Fact(tokens(about.replace("_", " ")), place, noun.relation or "at", sentence=entry.data)
+    return None
+
+
+def find_fact(
+    about: Phrase, facts: Sequence[Remembered], *, locations: bool = True
+) -> tuple[Remembered | None, list[Remembered]]:
+    """What is remembered about something: the one fact that holds, or several different things it may mean.
+
+    Args:
+        about: The words that name the thing.
+        facts: Newest first.
+        locations: Only where things are.
+    """
+    usable = [f for f in facts if f.fact.is_location and not f.fact.negated] if locations else list(facts)
+    denied = {keys(f.fact.subject) + keys(f.fact.place) for f in facts if f.fact.is_location and f.fact.negated}
+    newest: dict[tuple[str, ...], Remembered] = {}
+    for item in usable:
+        if keys(item.fact.subject) + keys(item.fact.place) in denied:
+            continue
+        name = item.entry.name if item.fact.another else ""
+        newest.setdefault((*keys(item.fact.subject), name), item)
+    listed = list(newest.values())
+    stand_ins = [MapObject(id=f"fact-{'i' * (i + 1)}", description=plain(f.fact.subject), x_m=0.0, y_m=0.0) for i, f in enumerate(listed)]
+    found = ground_phrase(about, stand_ins)
+    if found.outcome == "none":
+        return None, []
+    hits = [listed[stand_ins.index(item)] for item in found.candidates]
+    return (hits[0], []) if len(hits) == 1 else (None, hits)
+
+
+def memory_name(fact: Fact, facts: Sequence[Remembered]) -> str:
+    """A stable name for a fact: the one of the older fact it replaces, or made from subject and relation."""
+    if not fact.another:
+        for item in facts:
+            same_kind = item.fact.is_location == fact.is_location and (fact.is_location or item.fact.relation == fact.relation)
+            if same_kind and keys(item.fact.subject) == keys(fact.subject):
+                return item.entry.name
+    subject = _slug(keys(fact.subject))
+    if fact.is_location:
+        return f"{subject}_location" + (f"_{_slug(keys(fact.place))}" if fact.another else "")
+    return f"{subject}_{'state' if fact.relation in lexicon().be else _slug((fact.relation,))}"
+
+
+def _slug(words: Iterable[str]) -> str:
+    return "_".join(re.sub(r"[^\w]+", "_", word).strip("_") for word in words)[:80].strip("_") or "fact"

@@ -1,0 +1,82 @@
+"""Values for the inputs of an action, found among what a command says."""
+
+from __future__ import annotations
+
+import re
+from typing import Any
+
+from parley.language.offline.catalogue import parameter_role, text_inputs
+from parley.language.offline.commands import Command
+from parley.language.offline.grounding import describe, ground_phrase
+from parley.language.offline.nouns import bare
+from parley.language.offline.scene import Scene
+from parley.language.offline.text import Phrase, keys, lemma, plain, tokens
+from parley.messages.status import ActionInfo
+
+__all__ = ["arguments"]
+
+
+def arguments(info: ActionInfo, command: Command, scene: Scene) -> dict[str, Any]:
+    """What the command says for the inputs of `info`; inputs that nothing is said for are left out."""
+    values: dict[str, Any] = {
+        name: _named(words, scene) for name, words in _by_phrase(info, command).items() if name in text_inputs(info)
+    }
+    by_role: dict[str, Phrase] = {
+        "place": command.place,
+        "person": command.recipient or (command.theme if scene.is_person(command.theme) else ()),
+        "object": command.theme,
+        "text": command.words,
+    }
+    texts = [name for name in text_inputs(info) if name not in values]
+    left: list[str] = []
+    used: list[Phrase] = [()]
+    for name in texts:
+        words = by_role.get(parameter_role(name), ())
+        if words and words not in used:
+            values[name] = plain(bare(words)) if parameter_role(name) == "text" else _named(words, scene)
+            used.append(words)
+        else:
+            left.append(name)
+    spare = [w for w in (command.theme, command.place, command.recipient, command.words) if w and w not in used]
+    if not values and left and spare:
+        values[left[0]] = _named(spare[0], scene)
+    numbers = [float(text) for text in re.findall(r"-?\d+(?:\.\d+)?", plain(command.words))]
+    for name, kind in info.inputs.items():
+        if kind == "number" and "::" not in name and numbers:
+            values[name] = numbers.pop(0)
+    return values
+
+
+def _named(words: Phrase, scene: Scene) -> str:
+    """The words for something: an object of the map by its description, pronouns resolved."""
+    words = bare(scene.referent(words))
+    if keys(words) == ("operator",):
+        return "operator"
+    found = ground_phrase(words, scene.objects, scene.situation.robot_pose)
+    if found.outcome == "match":
+        return describe(found.candidates[0], scene.objects)
+    if found.outcome == "ambiguous":
+        return describe(scene.pick(words, found.candidates), scene.objects)
+    return plain(words)
+
+
+def _by_phrase(info: ActionInfo, command: Command) -> dict[str, Phrase]:
+    """Values where one of the action's own phrases fits the whole clause."""
+    clause = [word for word in command.clause if word.is_word]
+    text = " ".join([lemma(clause[0].key), *(word.key for word in clause[1:])]) if clause else ""
+    for phrase in info.phrases:
+        names = re.findall(r"\{(\w+)\}", phrase)
+        pattern = re.sub(r"\\\{\w+\\\}", "(.+)", re.escape(phrase.lower()))
+        match = re.fullmatch(pattern, text)
+        if match and names and set(names) <= set(info.inputs):
+            return {name: _original(value, clause) for name, value in zip(names, match.groups(), strict=True)}
+    return {}
+
+
+def _original(value: str, clause: list[Any]) -> Phrase:
+    wanted = tuple(value.split())
+    flat = tuple(word.key for word in clause)
+    for index in range(len(flat) - len(wanted) + 1):
+        if flat[index : index + len(wanted)] == wanted:
+            return tuple(clause[index : index + len(wanted)])
+    return tokens(value)

@@ -1,0 +1,419 @@
+"""What a message asks for: the way from words to a Chat Action."""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from dataclasses import dataclass, field, replace
+
+from parley.language.base import Situation
+from parley.language.control import control_of
+from parley.language.offline import addressing, edits, questions, social
+from parley.language.offline.abilities import abilities, cannot
+from parley.language.offline.clauses import Clause, clauses, opens_command
+from parley.language.offline.commands import Command, read_command
+from parley.language.offline.facts import Fact, memory_name, read_statement, strip_openers
+from parley.language.offline.followup import pending_request
+from parley.language.offline.lexicon import lexicon
+from parley.language.offline.nouns import bare, noun_phrase
+from parley.language.offline.saying import listing, the, whole_sentence
+from parley.language.offline.scene import Scene, UnclearError
+from parley.language.offline.tasks import Tasks, UnableError
+from parley.language.offline.text import Phrase, Word, keys, lemma, mend, plain, split_name, tokens
+from parley.messages.chat import ActionCall, ChatAction, CommandName, Flow, FlowIf, SystemCommand
+
+__all__ = ["interpret"]
+
+_LONGEST_CHARS = 6000
+_CONTROL_REPLIES: dict[str, tuple[CommandName, str]] = {
+    "stop": ("stop", "I stop here and wait. Say “carry on” when I may go on."),
+    "emergency_stop": ("stop", "I stop at once."),
+    "start": ("start", "I carry on."),
+    "skip": ("skip", "I leave this step out."),
+    "clear": ("clear", "I cancel everything that was planned."),
+}
+
+
+def interpret(situation: Situation) -> ChatAction:
+    """Understand one message."""
+    message = situation.message.strip()
+    if not any(char.isalnum() for char in message):
+        return _say(situation, "I did not get any words. What can I do for you?")
+    if len(message) > _LONGEST_CHARS:
+        return _say(situation, "That is too long for me to follow. Please tell me in a few short sentences.")
+    control = control_of(message, situation.robots)
+    if control is not None:
+        command, reply = _CONTROL_REPLIES[control]
+        return _say(situation, reply, commands=(SystemCommand(command=command),))
+    words, targets = addressing.addressed(_mended(tokens(message), situation), situation)
+    situation = replace(situation, robot=targets[0] if targets else situation.robot)
+    if not any(word.is_word for word in words):
+        return _say(situation, "Yes? What can I do for you?", targets=targets)
+    answer = social.reply(words)
+    if answer is not None:
+        return _say(situation, answer, targets=targets)
+    request = pending_request(words, situation)
+    if request is not None and request.declined:
+        return _say(situation, "All right, I leave it.", targets=targets)
+    if request is not None:
+        words, targets = addressing.addressed(_mended(tokens(request.message), situation), situation)
+        situation = replace(situation, history=request.history)
+    result = _Reader(Scene.of(situation, request.hints if request else ()), targets).read(words)
+    return result
+
+
+def _say(
+    situation: Situation, text: str, *, commands: Sequence[SystemCommand] = (), targets: Sequence[str] = ()
+) -> ChatAction:
+    return ChatAction(
+        message_response=text,
+        system_cmd=tuple(commands),
+        targets=tuple(targets) or ((situation.robot,) if situation.robot else ()),
+    )
+
+
+def _mended(words: Phrase, situation: Situation) -> Phrase:
+    """Typing errors in small words and verbs put right; nouns are compared loosely later."""
+    known = set(lexicon().vocabulary) | set(_COMMON)
+    for item in situation.objects:
+        known.update(word.key for text in (item.description, *item.aliases, item.class_name, item.id) for word in tokens(text))
+    for entry in situation.memory:
+        known.update(word.key for word in tokens(entry.data[:400]))
+    for info in situation.catalogue:
+        known.update(split_name(info.name))
+    known.update(name.lower() for name in situation.robots)
+    return mend(words, frozenset(known), _mendable())
+
+
+_COMMON = frozenset("whose name your my lot of many much more most than other another back bottom top side middle end thirsty hungry".split())
+_MENDABLE: list[frozenset[str]] = []
+
+
+def _mendable() -> frozenset[str]:
+    if not _MENDABLE:
+        lex = lexicon()
+        verbs = {verb.split()[0] for name, verbs in lex.verb_classes.items() if name != "other" for verb in verbs}
+        small = {"please", "could", "would", "where", "what", "then", "there", "before", "after", "first", "finally", "remember", "cancel", "everything", "second", "step", "the", "and", "thirsty", "hungry", "whether"}
+        _MENDABLE.append(frozenset(verbs | small))
+    return _MENDABLE[0]
+
+
+@dataclass
+class _Reader:
+    """Reads the clauses of one message in order."""
+
+    scene: Scene
+    targets: tuple[str, ...]
+    tasks: Tasks = field(init=False)
+    commands: list[SystemCommand] = field(default_factory=list)
+    replies: list[str] = field(default_factory=list)
+    last: Command | None = None
+
+    def __post_init__(self) -> None:
+        self.tasks = Tasks(self.scene)
+
+    def read(self, words: Phrase) -> ChatAction:
+        self._mention_history()
+        parts = clauses(words, lambda phrase: opens_command(phrase, self.scene.catalogue.verbs))
+        try:
+            for index, clause in enumerate(parts):
+                self._clause(clause, alone=len(parts) == 1, index=index)
+        except UnclearError as unclear:
+            return self._result(unclear.question, (), choices=unclear.choices)
+        except UnableError as unable:
+            return self._result(cannot(unable.what, self.scene), ())
+        self._learned()
+        return self._result(self._reply(), self.tasks.steps)
+
+    # -- clauses -------------------------------------------------------------------------------------------
+
+    def _clause(self, clause: Clause, *, alone: bool, index: int) -> None:
+        start = len(self.tasks.steps)
+        if clause.condition:
+            self._condition(clause)
+            return
+        if self._order(clause, alone, index) or self._spoken(clause):
+            return
+        command = self._command(clause)
+        if command is not None:
+            self._do(command)
+        elif len(self.tasks.steps) == start and not self._statement(clause):
+            self._fallback(clause, alone=alone)
+
+    def _order(self, clause: Clause, alone: bool, index: int) -> bool:
+        """Stop words among other clauses, and changes of the plan."""
+        words = strip_openers(clause.words)
+        control = None if clause.is_question else control_of(plain(words))
+        if control is not None:
+            if control == "start" and not alone and index:
+                return True
+            if control == "stop" and not alone:
+                # "Stop and go to the desk": the new order takes the place of the old ones.
+                control = "clear"
+            command, reply = _CONTROL_REPLIES[control]
+            self._command_once(SystemCommand(command=command), reply)
+            return True
+        edit = edits.read_edit(words, self.scene)
+        if edit is not None:
+            self.commands.extend(edit.commands)
+            self.replies.append(edit.reply)
+            return True
+        return False
+
+    def _spoken(self, clause: Clause) -> bool:
+        """Questions, and what is only social."""
+        answer = questions.answer(clause, self.scene)
+        if answer is not None:
+            if answer.look:
+                self._look_for_answer(answer)
+            else:
+                self.replies.append(answer.text)
+            return True
+        small_talk = social.reply(clause.words, alone=False)
+        if small_talk is not None:
+            if not self.replies and small_talk:
+                self.replies.append(small_talk)
+            return True
+        return False
+
+    def _look_for_answer(self, answer: questions.Answer) -> None:
+        if self.scene.hints and questions.is_yes(self.scene.hints[0]):
+            self.scene.hints.pop(0)
+            command = read_command((Word("check", "check"), Word("whether", "whether"), *answer.look), self.scene.is_person)
+            if command is not None:
+                self.tasks.do(command)
+            return
+        raise UnclearError(answer.text, ("yes", "no"))
+
+    def _command(self, clause: Clause) -> Command | None:
+        command = read_command(clause.words, self.scene.is_person, self.scene.catalogue.verbs)
+        words = strip_openers(clause.words)
+        if command is None:
+            command = self._wish(words) or self._need(words) or self._elliptical(words)
+        if command is not None and command.kind == "other" and read_statement(clause.words) is not None and not opens_command(clause.words):
+            return None
+        return command
+
+    def _wish(self, words: Phrase) -> Command | None:
+        """ "I would like some tea", "he needs the cup": something is to be brought."""
+        found = lexicon().wants.match(keys(words))
+        if found is not None and found[0] < len(words):
+            theme = words[found[0] :]
+            if keys(theme)[0] in {"to", "you"}:
+                return None
+            return read_command((Word("bring", "bring"), Word("me", "me"), *theme), self.scene.is_person)
+        flat = keys(words)
+        for index in range(1, min(4, len(flat) - 1)):
+            if flat[index] in {"needs", "wants", "need", "want"} or flat[index : index + 2] == ("would", "like"):
+                who = words[:index]
+                theme = words[index + (2 if flat[index] == "would" else 1) :]
+                if self.scene.is_person(who) and theme and theme[0].key not in {"to", "you"}:
+                    self.scene.mention(bare(who))
+                    return read_command((Word("bring", "bring"), *theme, Word("to", "to"), *who), self.scene.is_person)
+        return None
+
+    def _need(self, words: Phrase) -> Command | None:
+        """ "X is thirsty": something to drink is to be brought to X, unless the message says what."""
+        flat = keys(words)
+        state = next((w for w in flat[2:] if w in lexicon().needs), None)
+        link = next((i for i in range(1, len(flat)) if flat[i] in lexicon().be | {"feels", "looks", "feel", "seems", "gets"}), 0)
+        if state is None or not link or "not" in flat:
+            return None
+        who = bare(words[:link])
+        if not self.scene.is_person(who):
+            return None
+        self.scene.mention(who)
+        return Command("need", state, theme=tokens(lexicon().needs[state]), recipient=who, words=words, clause=words)
+
+    def _elliptical(self, words: Phrase) -> Command | None:
+        """ "Go to A, then B": a bare noun phrase does again what the clause before did."""
+        if self.last is None or self.last.kind not in {"motion", "look", "search"} or not words or len(words) > 9:
+            return None
+        found = lexicon().goals.match(keys(words))
+        words = bare(words[found[0] :] if found and found[0] < len(words) else words)
+        if not words or any(w.key in lexicon().be for w in words):
+            return None
+        if self.last.kind == "motion":
+            return replace(self.last, place=words, clause=words, negated=False)
+        return replace(self.last, theme=words, place=(), clause=words, negated=False)
+
+    def _do(self, command: Command) -> None:
+        if command.negated:
+            self._do_not(command)
+            return
+        if command.kind == "need":
+            # Said before what is wanted ("X is thirsty, get him Z"), the need only explains; alone it asks.
+            self.last = command
+            return
+        self.last = command
+        self.tasks.do(command)
+
+    def _do_not(self, command: Command) -> None:
+        words = plain(command.clause)
+        dropped = edits.steps_of(command, self.scene)
+        self.commands.extend(SystemCommand(command="pop", arguments={"parameters": i}) for i in reversed(dropped))
+        self.replies.append(whole_sentence(f"All right, I will not {words}"))
+
+    def _statement(self, clause: Clause) -> bool:
+        fact = None if clause.is_question else read_statement(clause.words)
+        if fact is None:
+            return self._note(clause)
+        fact = self._about(fact)
+        if fact.negated and fact.is_location:
+            self._remember(replace(fact, sentence=fact.sentence))
+        else:
+            self._remember(fact)
+        return True
+
+    def _note(self, clause: Clause) -> bool:
+        """ "Remember that <anything>": kept as it was said."""
+        words = strip_openers(clause.words)
+        found = lexicon().reporting.match(keys(words))
+        if found is None or found[0] >= len(words) - 1 or lemma(words[0].key) not in lexicon().verb_classes["remember"] | {"keep", "do", "be", "bear", "know", "please"}:
+            return False
+        rest = strip_openers(words[found[0] :])
+        sentence = plain(rest)
+        self._remember(Fact(rest[:4], relation="note", state=rest, sentence=sentence[:1].upper() + sentence[1:]))
+        return True
+
+    def _about(self, fact: Fact) -> Fact:
+        """Pronouns of a statement replaced by what they stand for."""
+        flat = keys(fact.subject)
+        if len(flat) == 1 and flat[0] in lexicon().person_pronouns | lexicon().thing_pronouns:
+            subject = bare(self.scene.referent(fact.subject))
+            old = plain(fact.subject)
+            rest = fact.sentence[len(old) :] if fact.sentence.lower().startswith(old.lower()) else f" is {fact.relation} {plain(fact.place)}"
+            return replace(fact, subject=subject, sentence=whole_sentence(the(plain(subject)) + rest)[:-1])
+        return fact
+
+    def _remember(self, fact: Fact) -> None:
+        name = memory_name(fact, self.scene.facts)
+        where = f"where {the(plain(fact.subject))} is" if fact.is_location else f"about {the(plain(fact.subject))}"
+        arguments = {"data": fact.sentence, "info": where[0].upper() + where[1:], "name": name}
+        self.commands.append(SystemCommand(command="add_memory", arguments=arguments))
+        self.scene.add_fact(fact, name)
+        self.scene.mention(fact.subject)
+        if fact.place:
+            self.scene.places.append(fact.place)
+        said = fact.sentence
+        first = said.split()[0] if said else ""
+        keep = self.scene.is_person(tokens(first)) or first.isupper() or (fact.subject and plain(fact.subject).startswith(first) and fact.subject[0].is_capital)
+        said = said if keep else said[:1].lower() + said[1:]
+        said = said.replace("the operator", "you", 1).replace("you is", "you are", 1)
+        self.replies.append(f"I will remember that {said}.")
+
+    def _learned(self) -> None:
+        for fact in self.scene.learned:
+            self._remember(fact)
+        self.scene.learned.clear()
+
+    def _condition(self, clause: Clause) -> None:
+        """Look first, then act or not."""
+        if not self._same_condition(clause):
+            protocol = keys(clause.condition)[:1] in {("you",), ("i",), ("we",), ("anyone",), ("somebody",), ("someone",), ("anything",), ("something",)}
+            if protocol:
+                said = f"If {plain(clause.condition)}, {plain(clause.words)}"
+                self._remember(Fact(clause.condition[-2:], relation="protocol", state=clause.words, sentence=said))
+                return
+            look = read_command((Word("check", "check"), Word("whether", "whether"), *clause.condition), self.scene.is_person)
+            if look is None:
+                raise UnclearError(f"How can I tell whether {plain(clause.condition)}?")
+            self.tasks.do(look)
+            self._checked = (clause.condition, len(self.tasks.steps) - 1)
+        start = len(self.tasks.steps)
+        self._clause(replace(clause, condition=()), alone=False, index=1)
+        flow = Flow(if_=FlowIf(step=self._checked[1], result=not clause.otherwise))
+        self.tasks.steps[start:] = [step.model_copy(update={"flow": flow}) for step in self.tasks.steps[start:]]
+        word = "if not" if clause.otherwise else "if so"
+        if self.tasks.will:
+            self.tasks.will[-1] = f"{word}, {self.tasks.will[-1]}"
+
+    _checked: tuple[Phrase, int] = ((), 0)
+
+    def _same_condition(self, clause: Clause) -> bool:
+        return bool(self._checked[0]) and keys(self._checked[0]) == keys(clause.condition)
+
+    def _fallback(self, clause: Clause, *, alone: bool) -> None:
+        words = strip_openers(clause.words)
+        if not words:
+            return
+        if lexicon().insults & set(keys(words)):
+            self.replies.append("I am sorry if I did something wrong. Tell me what I should do.")
+            return
+        noun = noun_phrase(words)
+        found = self._grounded(noun.phrase) if noun.core and len(words) <= 6 else ""
+        if found:
+            raise UnclearError(f"What should I do with {the(found)}? I can go there or have a look at it.")
+        if not alone and (self.tasks.steps or self.commands or self.replies):
+            self.replies.append(whole_sentence(f"I did not understand “{plain(words)[:80]}”"))
+            return
+        raise UnclearError(f"{social.not_understood(words)} {abilities(self.scene)}")
+
+    def _grounded(self, phrase: Phrase) -> str:
+        from parley.language.offline.grounding import ground_phrase
+
+        found = ground_phrase(phrase, self.scene.objects)
+        return plain(phrase) if found.outcome != "none" else ""
+
+    # -- the result ----------------------------------------------------------------------------------------
+
+    def _command_once(self, command: SystemCommand, reply: str) -> None:
+        if command not in self.commands:
+            self.commands.append(command)
+            self.replies.append(reply)
+
+    def _mention_history(self) -> None:
+        """What was spoken of before, for pronouns."""
+        for turn in self.scene.situation.history[-6:]:
+            if turn.role != "operator":
+                continue
+            for part in clauses(tokens(turn.content), opens_command):
+                fact = read_statement(part.words)
+                command = read_command(part.words, self.scene.is_person)
+                if command is not None:
+                    for phrase in (command.source, command.place, command.theme, command.recipient):
+                        self.scene.mention(bare(phrase))
+                    if command.place:
+                        self.scene.places.append(command.place)
+                elif fact is not None:
+                    self.scene.mention(fact.subject)
+                    if fact.place:
+                        self.scene.places.append(fact.place)
+
+    def _reply(self) -> str:
+        if self.last is not None and self.last.kind == "need" and not self.tasks.steps:
+            self._serve_need(self.last)
+            self._learned()
+        parts = [*self.replies, *self.tasks.notes]
+        known = [whole_sentence(f.fact.sentence) for f in self.scene.facts if f.entry.name in self.scene.sources and f.fact.sentence and f not in self._new()]
+        if self.tasks.steps and known:
+            parts.append("I remember: " + " ".join(dict.fromkeys(known)))
+        if self.tasks.will:
+            parts.append(whole_sentence(f"I will {listing(self._will(), 'and then')}"))
+        return " ".join(part for part in parts if part) or "All right."
+
+    def _new(self) -> list[object]:
+        names = {c.arguments.get("name") for c in self.commands if c.command == "add_memory"}
+        return [f for f in self.scene.facts if f.entry.name in names and not f.entry.info]
+
+    def _will(self) -> list[str]:
+        said: list[str] = []
+        for text in self.tasks.will:
+            if not said or said[-1] != text:
+                said.append(text)
+        return said
+
+    def _serve_need(self, need: Command) -> None:
+        try:
+            self.tasks.do(replace(need, kind="transfer", verb="bring"))
+        except UnclearError as unclear:
+            self.replies.append(unclear.question)
+
+    def _result(self, text: str, steps: Sequence[ActionCall], choices: Sequence[str] = ()) -> ChatAction:
+        return ChatAction(
+            message_response=text,
+            queue=tuple(steps),
+            system_cmd=tuple(self.commands),
+            targets=self.targets or ((self.scene.situation.robot,) if self.scene.situation.robot else ()),
+            choices=tuple(choices),
+            sources=tuple(self.scene.sources),
+        )

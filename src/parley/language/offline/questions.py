@@ -1,0 +1,317 @@
+"""Questions: about abilities, places, memory, plan and state, answered at once and without acting."""
+
+from __future__ import annotations
+
+from collections.abc import Callable
+from dataclasses import dataclass
+
+from parley.language.offline.abilities import abilities
+from parley.language.offline.clauses import Clause
+from parley.language.offline.facts import Remembered, find_fact, strip_openers
+from parley.language.offline.grounding import describe, ground_phrase
+from parley.language.offline.lexicon import lexicon
+from parley.language.offline.nouns import bare, noun_phrase
+from parley.language.offline.replies import agrees
+from parley.language.offline.saying import a, listing, the, whole_sentence
+from parley.language.offline.scene import Scene
+from parley.language.offline.text import Phrase, keys, plain, split_name
+from parley.messages.chat import ActionCall
+
+__all__ = ["Answer", "answer", "is_yes"]
+
+
+@dataclass(frozen=True, slots=True)
+class Answer:
+    """What is said; `look` are the words of a yes-or-no question that only looking can answer."""
+
+    text: str
+    look: Phrase = ()
+
+
+_WRAPPERS = (
+    "do you know", "can you tell me", "could you tell me", "please tell me", "tell me", "would you tell me", "will you tell me", "i want to know", "i would like to know", "let me know",
+    "do you remember", "do you have any idea", "any idea", "i wonder", "i was wondering", "please explain", "explain", "remind me", "can you say", "say", "what about", "may i ask", "can i ask", "do you happen to know", "can you remember", "can you remind me", "i ask", "show me", "give me", "list", "can you list", "can you show me", "could you give me", "i need to know", "report", "tell us",
+)  # fmt: skip
+_WRAPPED = tuple(sorted((tuple(text.split()) for text in _WRAPPERS), key=len, reverse=True))
+_ABILITY = ("what can you do", "what are you able to do", "what do you do", "what you can do", "what are your abilities", "what are your skills", "what are your capabilities", "your abilities", "your capabilities", "your skills", "how can you help", "what can you help", "which actions", "what actions", "what functionalities", "what functions", "what tasks can you", "which tasks", "what are you capable of", "what are you good at", "what can i ask you", "what can i tell you", "what else can you do", "what you are able to do", "what commands", "which commands", "what are you for", "how do you work", "what can the robot do", "what kind of things can you", "which things can you", "what things can you", "your functions", "what are my options", "what can i do with you", "what could you do", "what are your functions", "what you are capable of", "what are you useful for", "what is your purpose", "what sort of things can you", "what kinds of things can you")  # fmt: skip
+_STATUS = ("what are you doing", "what are you up to", "what is going on", "what is happening", "are you busy", "what is your status", "your status", "status report", "what is the status", "what are you working on", "what is your current task", "what is the current task", "where are you going", "where are you heading", "where are you off to", "what is your task", "are you moving", "are you driving", "what are you currently doing", "what you are doing", "why are you", "how far are you", "are you still", "are you idle", "are you free", "are you available", "current status", "state report", "what is your job right now", "which step are you", "what step are you", "are you waiting", "are you paused", "are you running", "where you are going", "what is the robot doing", "are you working", "are you stuck")  # fmt: skip
+_LEFT = ("what is left", "what remains", "what is next", "what comes next", "what else do you have", "how many steps", "are you done", "are you finished", "have you finished", "what do you have left", "what is the plan", "what is your plan", "your plan", "the plan", "what will you do", "what are you going to do", "what do you plan", "what is planned", "what is in the queue", "what is on the queue", "what steps", "which steps", "what still needs", "what is still", "how much is left", "how long", "what are the next steps", "next steps", "remaining steps", "what is pending", "what do you still have", "what is to be done", "what happens next", "what do you do next", "your next step", "the next step", "what is the next", "what remains to be done", "what have you planned", "pending actions", "your queue", "what is coming up", "is there anything left", "are there any steps left", "is anything left", "what should you do next", "what are the remaining")  # fmt: skip
+_SELF = ("where are you", "your position", "your location", "where you are", "where is the robot", "which room are you", "what room are you", "where are we", "where do you stand", "where exactly are you")  # fmt: skip
+_NAME = ("who are you", "what is your name", "what are you called", "your name", "what are you", "how are you called", "are you a robot", "are you human", "introduce yourself")  # fmt: skip
+_OBJECTS = ("what objects do you know", "what things do you know", "which objects", "what places do you know", "which places", "what places", "what objects are", "what is on the map", "where can you go", "where can i send you", "what locations", "which locations", "what rooms", "which rooms", "which things do you know", "what is around", "where can you drive", "what do you know on the map", "list all objects", "all objects", "all places", "what is there", "what things are", "what can you find")  # fmt: skip
+_MEMORY = ("what do you remember", "what do you know", "what did i tell you", "what have i told you", "what have you been told", "what is in your memory", "your memory", "your memories", "what do you have in memory", "everything you know", "everything you remember", "what you know", "what you remember", "what did i say", "what have you learned", "what do you recall", "what facts", "which facts", "all memories", "what i told you", "what have you remembered", "what did you remember", "what else do you know", "do you remember anything", "do you know anything", "do you remember what i")  # fmt: skip
+_ROBOTS = ("which robots", "what robots", "how many robots", "who else is there", "other robots", "are there other robots", "names of the robots")  # fmt: skip
+
+
+def is_yes(text: str) -> bool:
+    """Whether an answer agrees."""
+    return agrees(text) is True
+
+
+def answer(clause: Clause, scene: Scene) -> Answer | None:
+    """The answer if the clause is a question, else None.
+
+    Raises:
+        UnclearError: It can be read in several ways.
+    """
+    words = strip_openers(clause.words)
+    words = tuple(word for word in words if word.is_word)
+    words, wrapped = _unwrapped(words)
+    flat = keys(words)
+    if not flat:
+        return None
+    text = " ".join(flat)
+    if text in {"help", "help me", "i need help", "can you help me", "could you help me", "i need your help"}:
+        return Answer(abilities(scene))
+    question = clause.is_question or flat[0] in lexicon().question_starts or flat[0] in lexicon().be or flat[0] in {"do", "did", "have", "has", "does"} or wrapped
+    if not question:
+        return None
+    for starts, reply in _FIXED:
+        for start in starts:
+            if _begins(flat, tuple(start.split())):
+                return Answer(reply(scene, words[len(start.split()) :]))
+    for reader in (_where, _what_in, _who, _whether):
+        found = reader(words, flat, scene, clause.is_question or wrapped)
+        if found is not None:
+            return found
+    return _open_question(flat, clause.is_question)
+
+
+def _unwrapped(words: Phrase) -> tuple[Phrase, bool]:
+    flat = keys(words)
+    for wrapper in _WRAPPED:
+        rest = words[len(wrapper) :]
+        if flat[: len(wrapper)] == wrapper and rest:
+            lead = keys(rest)[0]
+            asked = lead in lexicon().question_starts or lead in {"about", "your", "everything", "all", "if", "whether"} or any(_begins(keys(rest), tuple(text.split())) for text in (*_LEFT, *_MEMORY, *_STATUS, *_OBJECTS))
+            if asked and not (lead in {"if", "whether"} or (lead in {"all", "everything"} and wrapper[0] == "show")):
+                return rest, True
+    return words, False
+
+
+def _begins(flat: tuple[str, ...], start: tuple[str, ...]) -> bool:
+    if len(start) == 2 and start[0] in {"the", "your"} or start[0] in {"all", "next", "remaining", "pending", "current", "everything"}:
+        return flat[: len(start)] == start and len(flat) <= len(start) + 3
+    return flat[: len(start)] == start
+
+
+def _open_question(flat: tuple[str, ...], marked: bool) -> Answer | None:
+    if flat[0] in lexicon().question_starts and not (flat[0] == "when" and not marked):
+        if flat[0] == "how" and flat[1:2] == ("about",):
+            return None
+        return Answer("I do not know that. Tell me, and I will remember it.")
+    return None
+
+
+# -- fixed kinds -----------------------------------------------------------------------------------------------
+
+
+def _say_abilities(scene: Scene, _: Phrase) -> str:
+    return abilities(scene)
+
+
+def _say_status(scene: Scene, _: Phrase) -> str:
+    situation = scene.situation
+    if not situation.queue:
+        return "I am waiting for your instructions." if situation.status != "paused" else "I am standing still; say “carry on” when I may go on."
+    now = step_words(situation.queue[0])
+    if situation.status == "paused":
+        return f"I am paused. Next I would {now}."
+    rest = f" After that I have {len(situation.queue) - 1} more to do." if len(situation.queue) > 1 else ""
+    return f"I am at this step: {now}.{rest}"
+
+
+def _say_left(scene: Scene, _: Phrase) -> str:
+    queue = scene.situation.queue
+    if not queue:
+        return "Nothing is left to do. I am waiting for your instructions."
+    steps = [step_words(step) for step in queue]
+    return f"{len(steps)} {'step is' if len(steps) == 1 else 'steps are'} left: {listing(steps, 'and then')}."
+
+
+def _say_where(scene: Scene, _: Phrase) -> str:
+    pose = scene.situation.robot_pose
+    if pose is None:
+        return "I do not know where I am."
+    near = sorted(scene.objects, key=lambda item: (item.x_m - pose.x_m) ** 2 + (item.y_m - pose.y_m) ** 2)
+    nearest = f" The nearest thing I know is {the(describe(near[0], scene.objects))}." if near else ""
+    return f"I am at x {pose.x_m:.1f} m, y {pose.y_m:.1f} m on the map.{nearest}"
+
+
+def _say_name(scene: Scene, _: Phrase) -> str:
+    name = scene.situation.robot
+    return f"I am {name}, a robot that you can talk to. {abilities(scene)}" if name else f"I am a robot that you can talk to. {abilities(scene)}"
+
+
+def _say_objects(scene: Scene, _: Phrase) -> str:
+    if not scene.objects:
+        return "I know no objects: my map has none."
+    names = [the(describe(item, scene.objects)) for item in scene.objects]
+    shown = names[:30]
+    more = f" and {len(names) - 30} more" if len(names) > 30 else ""
+    return f"On my map are {listing(shown) if not more else ', '.join(shown)}{more}."
+
+
+def _say_memory(scene: Scene, rest: Phrase) -> str:
+    about = bare(rest)
+    while about and about[0].key in {"about", "of", "regarding", "on", "now", "so", "far", "i", "told", "you", "concerning"} and len(about) > 1:
+        about = bare(about[1:])
+    if not about or keys(about)[0] in {"about", "of", "everything", "anything", "so", "now", "far", "i", "all"}:
+        if not scene.situation.memory:
+            return "You have not told me anything to remember yet."
+        return "I remember: " + " ".join(whole_sentence(entry.data[:200] if entry.type == "text" else entry.info) for entry in scene.situation.memory[-20:])
+    about = scene.referent(about)
+    found = _about(about, scene)
+    for item in found:
+        scene.use(item)
+    if found:
+        return " ".join(whole_sentence(item.fact.sentence) for item in found)
+    on_map = ground_phrase(about, scene.objects)
+    if on_map.outcome != "none":
+        return f"I know {listing([the(describe(item, scene.objects)) for item in on_map.candidates])} on the map, and nothing else about it."
+    return f"I do not know anything about {the(plain(about))}. Tell me, and I will remember it."
+
+
+def _about(about: Phrase, scene: Scene) -> list[Remembered]:
+    fact, several = find_fact(about, scene.facts, locations=False)
+    direct = [fact] if fact is not None else several
+    names = {item.entry.name for item in direct}
+    wanted = set(noun_phrase(about).core)
+    related = [i for i in scene.facts if i.entry.name not in names and wanted and wanted <= set(noun_phrase(i.fact.place).core)]
+    return [*direct, *related]
+
+
+def _say_robots(scene: Scene, _: Phrase) -> str:
+    robots = scene.situation.robots or ((scene.situation.robot,) if scene.situation.robot else ())
+    return f"The robots here are {listing(list(robots))}." if robots else "I do not know of any other robots."
+
+
+_FIXED: tuple[tuple[tuple[str, ...], Callable[[Scene, Phrase], str]], ...] = (
+    (_ABILITY, _say_abilities), (_STATUS, _say_status), (_LEFT, _say_left), (_OBJECTS, _say_objects), (_MEMORY, _say_memory),
+    (_SELF, _say_where), (_NAME, _say_name), (_ROBOTS, _say_robots),
+)  # fmt: skip
+
+
+def step_words(step: ActionCall) -> str:
+    """A step in words."""
+    if step.reason:
+        return step.reason
+    values = [str(p.value) for p in step.input_parameters.values() if isinstance(p.value, str)]
+    return " ".join([*split_name(step.name), *values])
+
+
+# -- questions about the world ---------------------------------------------------------------------------------
+
+
+def _where(words: Phrase, flat: tuple[str, ...], scene: Scene, _: bool) -> Answer | None:
+    """ "Where is X?", "where can I find X?", "have you seen X?"."""
+    if flat[0] == "where":
+        rest = words[1:]
+        while len(rest) > 1 and rest[0].key in lexicon().be | lexicon().auxiliaries | {"i", "find", "you", "we", "see", "to", "exactly", "put", "get", "keep"}:
+            rest = rest[1:]
+    elif flat[:3] in {("have", "you", "seen"), ("did", "you", "see"), ("what", "room", "is")}:
+        rest = words[3:]
+    elif flat[:1] in {("which",), ("what",)} and flat[1:2] in {("room",), ("place",)} and "is" in flat:
+        rest = words[flat.index("is") + 1 :]
+    else:
+        return None
+    about = bare(rest)
+    while len(about) > 1 and about[-1].key in lexicon().be | lexicon().location_verbs | {"now", "in", "at"}:
+        about = bare(about[:-1])
+    about = scene.referent(about)
+    fact, several = find_fact(about, scene.facts)
+    hits = [fact] if fact is not None else several
+    for item in hits:
+        scene.use(item)
+    if hits:
+        return Answer(" ".join(whole_sentence(item.fact.sentence) for item in hits))
+    found = ground_phrase(about, scene.objects, scene.situation.robot_pose)
+    if found.outcome == "match":
+        item = found.candidates[0]
+        return Answer(f"{whole_sentence(the(describe(item, scene.objects)))[:-1]} is on my map at x {item.x_m:.1f} m, y {item.y_m:.1f} m.")
+    if found.outcome == "ambiguous":
+        return Answer(f"I know several on my map: {listing([the(describe(i, scene.objects)) for i in found.candidates])}.")
+    return Answer(f"I do not know where {the(plain(about))} is. Tell me and I will remember it.")
+
+
+def _what_in(words: Phrase, flat: tuple[str, ...], scene: Scene, _: bool) -> Answer | None:
+    """ "What is in X?", "who is on X?": the remembered facts about that place."""
+    if flat[0] not in {"what", "who"} or len(flat) < 4 or flat[1] not in lexicon().be:
+        return None
+    found = lexicon().places.match(flat, 2)
+    if found is None:
+        return None
+    place = bare(words[2 + found[0] :])
+    wanted = set(noun_phrase(place).core)
+    hits = [f for f in scene.facts if f.fact.is_location and not f.fact.negated and wanted and wanted <= set(noun_phrase(f.fact.place).core)]
+    for item in hits:
+        scene.use(item)
+    if hits:
+        return Answer(" ".join(whole_sentence(item.fact.sentence) for item in hits))
+    if ground_phrase(place, scene.objects).outcome != "none":
+        return Answer(f"I do not know what is {found[1]} {the(plain(place))}. I can go there and have a look.")
+    return Answer(f"I do not know what is {found[1]} {the(plain(place))}. Tell me and I will remember it.")
+
+
+def _who(words: Phrase, flat: tuple[str, ...], scene: Scene, _: bool) -> Answer | None:
+    if flat[:2] not in {("who", "is"), ("what", "is"), ("what", "are"), ("who", "are")} or len(flat) < 3:
+        return None
+    about = bare(words[2:])
+    found = _about(about, scene)
+    for item in found:
+        scene.use(item)
+    if found:
+        return Answer(" ".join(whole_sentence(item.fact.sentence) for item in found))
+    return Answer(f"I do not know anything about {the(plain(about))}. Tell me, and I will remember it.")
+
+
+def _whether(words: Phrase, flat: tuple[str, ...], scene: Scene, asked: bool) -> Answer | None:
+    """ "Is there an X in the Y?", "is the X open?": from memory, else looking is offered."""
+    if flat[0] not in lexicon().be or len(flat) < 3 or flat[1] == "you" or not asked and flat[1] != "there":
+        return None
+    there = flat[1] == "there"
+    rest = words[2:] if there else words[1:]
+    noun = noun_phrase(rest)
+    cut = _cut(rest, noun.relation)
+    subject = bare(rest[:cut])
+    place = noun.anchors[0] if noun.anchors else ()
+    fact, _ = find_fact(subject, scene.facts) if subject else (None, [])
+    if fact is not None and (there or place):
+        scene.use(fact)
+        same = not place or set(noun_phrase(place).core) <= set(noun_phrase(fact.fact.place).core)
+        return Answer(("Yes: " if same else "As far as I know, no: ") + whole_sentence(fact.fact.sentence))
+    if place and ground_phrase(place, scene.objects).outcome != "none":
+        return Answer(f"I do not know. Shall I go to {the(plain(place))} and have a look?", _statement(there, words))
+    known = ground_phrase(subject, scene.objects) if subject else None
+    if there and known is not None and known.outcome != "none" and not place:
+        return Answer(f"Yes, I know {listing([a(describe(i, scene.objects)) for i in known.candidates])}.")
+    if not there:
+        return _state(rest, scene, words)
+    return Answer(f"I do not know of {a(plain(subject))}{' there' if place else ''}. Tell me if there is one, and where.")
+
+
+def _state(rest: Phrase, scene: Scene, words: Phrase) -> Answer:
+    """ "Is the X open?"."""
+    for size in range(len(rest) - 1, 0, -1):
+        if ground_phrase(rest[:size], scene.objects).outcome == "match":
+            turned = (*rest[:size], words[0], *rest[size:])
+            return Answer(f"I do not know. Shall I go to {the(plain(bare(rest[:size])))} and have a look?", turned)
+    fact, _ = find_fact(bare(rest[:-1]) or rest, scene.facts, locations=False)
+    if fact is not None:
+        scene.use(fact)
+        return Answer("I remember: " + whole_sentence(fact.fact.sentence))
+    return Answer("I do not know that. Tell me, and I will remember it.")
+
+
+def _statement(there: bool, words: Phrase) -> Phrase:
+    """The question turned into what follows "whether"."""
+    if there:
+        return (words[1], words[0], *words[2:])
+    noun = noun_phrase(words[1:])
+    cut = _cut(words[1:], noun.relation)
+    return (*words[1 : 1 + cut], words[0], *words[1 + cut :])
+
+
+def _cut(words: Phrase, relation: str) -> int:
+    flat, wanted = keys(words), tuple(relation.split())
+    return next((i for i in range(len(flat)) if relation and flat[i : i + len(wanted)] == wanted), len(flat))

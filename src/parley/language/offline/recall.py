@@ -1,0 +1,57 @@
+"""Which remembered facts matter for a message: shared words, words of the same meaning, and one hop further."""
+
+from __future__ import annotations
+
+from collections.abc import Iterable, Sequence
+
+from parley.language.offline.facts import remembered
+from parley.language.offline.lexicon import lexicon
+from parley.language.offline.text import lemma, singular, split_name, tokens
+from parley.messages.memory import MemoryEntry
+
+__all__ = ["select_memories"]
+
+
+def select_memories(query: str, index: Sequence[MemoryEntry]) -> list[str]:
+    """Names of the memories that matter for `query`, in the order of `index`."""
+    wanted = _meant(query)
+    about: dict[str, set[str]] = {entry.name: _content(f"{' '.join(split_name(entry.name))} {entry.info} {entry.data[:500]}") for entry in index}
+    chosen = {name for name, words in about.items() if words & wanted}
+    # A place that a chosen fact leads to may have a fact of its own ("area A is closed").
+    places: set[str] = set()
+    for item in remembered([entry for entry in index if entry.name in chosen]):
+        if item.fact.is_location:
+            places |= _labelled(word.key for word in item.fact.place)
+    chosen |= {name for name, words in about.items() if places and places <= words | _labelled(words)}
+    return [entry.name for entry in index if entry.name in chosen]
+
+
+def _labelled(words: Iterable[str]) -> set[str]:
+    return {singular(word) for word in words if word not in lexicon().determiners or len(word) == 1}
+
+
+def _meant(query: str) -> set[str]:
+    lex = lexicon()
+    words = _content(query)
+    wider = set(words)
+    for word in words:
+        for same in lex.synonyms.get(word, ()):
+            wider.update(singular(part) for part in same.split())
+        wider |= {singular(part) for kind in lex.kinds.get(lex.needs.get(word, word), ()) for part in kind.split()}
+    return wider
+
+
+def _content(text: str) -> set[str]:
+    """The words that carry meaning."""
+    lex = lexicon()
+    result: set[str] = set()
+    for word in tokens(text):
+        key = word.key.removesuffix("'s")
+        content = key in lex.synonyms or key in lex.needs or key not in lex.vocabulary or key in _NOUNS
+        if word.is_word and content and len(key) > 1:
+            result.add(singular(key))
+            result.add(lemma(key))
+    return result - {"location", "place", "info", "memory", "fact", "state"}
+
+
+_NOUNS = frozenset({"water", "light", "plant", "book", "phone", "person", "operator", "patient", "guest", "visitor", "robot"})

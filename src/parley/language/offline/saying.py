@@ -1,0 +1,47 @@
+"""Small helpers for writing plain sentences."""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+
+from parley.language.offline.lexicon import lexicon
+
+__all__ = ["a", "capital", "listing", "the", "whole_sentence"]
+
+
+def the(text: str) -> str:
+    """With the article where English wants it: "the box", but "area A", "Anna", "my desk"."""
+    words = text.split()
+    if not words:
+        return text
+    if words[0].lower() in lexicon().determiners | lexicon().quantifiers | lexicon().operator_pronouns:
+        return text
+    label = len(words) > 1 and (words[-1].isdigit() or len(words[-1]) == 1)
+    name = words[0][:1].isupper() and words[0][1:].islower()
+    identifier = "_" in words[0]
+    return text if label or name or identifier else f"the {text}"
+
+
+def a(text: str) -> str:
+    """With the indefinite article."""
+    if not text or text.split()[0].lower() in lexicon().determiners or text[0].isdigit():
+        return text
+    return f"{'an' if text[0].lower() in 'aeiou' else 'a'} {text}"
+
+
+def capital(text: str) -> str:
+    """With a capital letter at the start."""
+    return text[:1].upper() + text[1:]
+
+
+def listing(parts: Sequence[str], last: str = "and") -> str:
+    """ "A, B and C"."""
+    if len(parts) < 2:
+        return "".join(parts)
+    return f"{', '.join(parts[:-1])} {last} {parts[-1]}"
+
+
+def whole_sentence(text: str) -> str:
+    """With a capital letter and a full stop, unless it ends in another mark."""
+    text = capital(text.strip())
+    return text if not text or text[-1] in ".?!" else f"{text}."

@@ -1,0 +1,96 @@
+"""Choosing among objects by where they are (map frame, metres)."""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Callable, Sequence
+
+from parley.world.geometry import Pose2D
+from parley.world.object_map import MapObject
+
+__all__ = ["by_anchor", "by_size", "by_view", "nearest_to"]
+
+_CLEARLY = 1.25
+"""Something is clearly nearer if everything else is this much farther away."""
+_SLACK_M = 0.3
+_ROOM_M2 = 2.0
+"""What is larger can have things inside on the map: a room, an area."""
+
+
+def nearest_to(items: Sequence[MapObject], x_m: float, y_m: float) -> list[MapObject]:
+    """The items that are clearly nearest to a point: one, or several that are about equally near."""
+    return _smallest(items, lambda item: _gap(item, x_m, y_m))
+
+
+def by_size(items: Sequence[MapObject], sign: float) -> list[MapObject]:
+    """The clearly largest (`sign` > 0) or smallest item; all of them if sizes do not tell."""
+    sized = sorted(items, key=lambda item: -sign * item.width_m * item.height_m)
+    areas = [item.width_m * item.height_m for item in sized[:2]]
+    ratio = max(areas) / min(areas) if min(areas) > 0 else 1.0
+    return [sized[0]] if ratio > 1.2 else list(items)
+
+
+def by_view(items: Sequence[MapObject], word: str, pose: Pose2D) -> list[MapObject]:
+    """The nearest, farthest, left or right one as seen from `pose`."""
+    if word in {"nearest", "closest", "nearby"}:
+        return nearest_to(items, pose.x_m, pose.y_m)
+    if word in {"farthest", "furthest"}:
+        return _smallest(items, lambda item: -_gap(item, pose.x_m, pose.y_m), absolute=True)
+    sign = 1.0 if word.startswith("left") else -1.0
+
+    def lateral(item: MapObject) -> float:
+        angle = pose.bearing_to(item.x_m, item.y_m) - pose.yaw_rad
+        return -sign * math.hypot(item.x_m - pose.x_m, item.y_m - pose.y_m) * math.sin(angle)
+
+    return _smallest(items, lateral, absolute=True)
+
+
+def by_anchor(
+    items: Sequence[MapObject], relation: str, anchors: Sequence[MapObject], pose: Pose2D | None
+) -> list[MapObject]:
+    """The items that stand in `relation` to the anchors."""
+    first = anchors[0]
+    if len(anchors) > 1:
+        second = anchors[1]
+        return _smallest(
+            items,
+            lambda item: _gap(item, first.x_m, first.y_m) + _gap(item, second.x_m, second.y_m),
+        )
+    if first.width_m * first.height_m >= _ROOM_M2 and relation in {"in", "inside", "at", "within", "inside of", "on"}:
+        inside = [item for item in items if _inside(item, first)]
+        if inside:
+            return inside
+    if "left" in relation or "right" in relation:
+        on_side = [item for item in items if _on_side(item, first, "left" in relation, pose)]
+        items = on_side or list(items)
+    elif relation == "behind" and pose is not None:
+        beyond = pose.distance_to(Pose2D(first.x_m, first.y_m))
+        items = [i for i in items if pose.distance_to(Pose2D(i.x_m, i.y_m)) > beyond] or list(items)
+    return nearest_to(items, first.x_m, first.y_m)
+
+
+def _on_side(item: MapObject, anchor: MapObject, left: bool, pose: Pose2D | None) -> bool:
+    """Whether the item is left (or right) of the anchor, seen by the robot, or on the map with x to the right."""
+    view = pose.bearing_to(anchor.x_m, anchor.y_m) if pose is not None else math.pi / 2
+    dx, dy = item.x_m - anchor.x_m, item.y_m - anchor.y_m
+    lateral = math.cos(view) * dy - math.sin(view) * dx
+    return lateral > 0.1 if left else lateral < -0.1
+
+
+def _inside(item: MapObject, area: MapObject) -> bool:
+    return abs(item.x_m - area.x_m) <= area.width_m / 2 and abs(item.y_m - area.y_m) <= area.height_m / 2
+
+
+def _gap(item: MapObject, x_m: float, y_m: float) -> float:
+    return math.hypot(item.x_m - x_m, item.y_m - y_m)
+
+
+def _smallest(
+    items: Sequence[MapObject], measure: Callable[[MapObject], float], *, absolute: bool = False
+) -> list[MapObject]:
+    measured = sorted(((measure(item), index, item) for index, item in enumerate(items)), key=lambda m: m[:2])
+    if not measured:
+        return []
+    best = measured[0][0]
+    limit = best + _SLACK_M if absolute else best * _CLEARLY + _SLACK_M
+    return [item for value, _, item in measured if value <= limit]

@@ -1,0 +1,189 @@
+"""Situations as JSON lines, for `parley interpret` (design section 5).
+
+A line is one situation; a line with ``"kind": "error"`` is an error situation. What comes back is one line each,
+in the same order: ``{"id" if given, "output": Chat Action, "latency_s"}``, or ``{"id", "error"}``.
+"""
+
+from __future__ import annotations
+
+import json
+import time
+from collections.abc import AsyncIterator, Iterable, Sequence
+from typing import Any, Literal
+
+from pydantic import BaseModel, ConfigDict, Field, ValidationError
+
+from parley.errors import FailureCode, InvalidMessageError, LanguageError
+from parley.language.base import ErrorSituation, Language, Situation, Turn
+from parley.messages.chat import ActionCall, ChatAction
+from parley.messages.memory import MemoryEntry
+from parley.messages.status import ActionInfo
+from parley.world.geometry import Pose2D
+from parley.world.object_map import MapObject
+
+__all__ = ["interpret_lines", "read_situation", "write_output"]
+
+
+class _Line(BaseModel):
+    model_config = ConfigDict(extra="ignore")
+
+
+class _Turn(_Line):
+    role: Literal["operator", "user", "assistant", "robot", "system"]
+    content: str
+
+
+class _Object(_Line):
+    id: str = Field(min_length=1, coerce_numbers_to_str=True)
+    description: str = ""
+    x: float = 0.0
+    y: float = 0.0
+    class_: str = Field(default="", alias="class")
+    width: float = 0.0
+    height: float = 0.0
+    aliases: list[str] = Field(default_factory=list)
+
+
+class _Pose(_Line):
+    x: float
+    y: float
+    yaw: float = 0.0
+
+
+class _Common(_Line):
+    memory: list[MemoryEntry] = Field(default_factory=list)
+    objects: list[_Object] = Field(default_factory=list)
+    robot_pose: _Pose | None = None
+    robot: str = ""
+    catalogue: list[ActionInfo] | None = None
+
+
+class _Situation(_Common):
+    message: str
+    history: list[_Turn] = Field(default_factory=list)
+    queue: list[ActionCall] = Field(default_factory=list)
+    status: Literal["idle", "running", "paused"] = "idle"
+    robots: list[str] = Field(default_factory=list)
+
+
+class _ErrorSituation(_Common):
+    error_message: str
+    failed_action: ActionCall
+    code: FailureCode = FailureCode.INTERNAL
+    details: dict[str, Any] = Field(default_factory=dict)
+    completed: list[ActionCall] = Field(default_factory=list)
+    pending: list[ActionCall] = Field(default_factory=list)
+    dialogue: list[_Turn] = Field(default_factory=list)
+    reply: str | None = None
+
+
+def read_situation(value: Any, default_catalogue: Sequence[ActionInfo] = (), line: int = 0) -> Situation | ErrorSituation:
+    """Read one situation.
+
+    Args:
+        value: The JSON object of a line.
+        default_catalogue: What the robot can do if the situation does not say.
+        line: 1-based number of the line, for messages.
+
+    Raises:
+        InvalidMessageError: Names the line and the first wrong field.
+    """
+    what = f"line {line}" if line else "situation"
+    if not isinstance(value, dict):
+        raise InvalidMessageError(what, "", "expected a JSON object")
+    try:
+        if value.get("kind") == "error":
+            return _error_situation(_ErrorSituation.model_validate(value), default_catalogue)
+        return _situation(_Situation.model_validate(value), default_catalogue)
+    except ValidationError as error:
+        first = error.errors(include_url=False, include_input=False)[0]
+        raise InvalidMessageError(what, ".".join(str(part) for part in first["loc"]), first["msg"]) from error
+
+
+def _situation(read: _Situation, default: Sequence[ActionInfo]) -> Situation:
+    return Situation(
+        message=read.message,
+        memory=tuple(read.memory),
+        history=_turns(read.history),
+        queue=tuple(read.queue),
+        status=read.status,
+        objects=_objects(read.objects),
+        robot_pose=_pose(read.robot_pose),
+        robot=read.robot,
+        robots=tuple(read.robots),
+        catalogue=tuple(default if read.catalogue is None else read.catalogue),
+    )
+
+
+def _error_situation(read: _ErrorSituation, default: Sequence[ActionInfo]) -> ErrorSituation:
+    return ErrorSituation(
+        error_message=read.error_message,
+        failed_action=read.failed_action,
+        code=read.code,
+        details=read.details,
+        completed=tuple(read.completed),
+        pending=tuple(read.pending),
+        memory=tuple(read.memory),
+        objects=_objects(read.objects),
+        dialogue=_turns(read.dialogue),
+        reply=read.reply,
+        robot=read.robot,
+        robot_pose=_pose(read.robot_pose),
+        catalogue=tuple(default if read.catalogue is None else read.catalogue),
+    )
+
+
+def _turns(turns: Iterable[_Turn]) -> tuple[Turn, ...]:
+    return tuple(Turn("operator" if turn.role in {"operator", "user"} else "assistant", turn.content) for turn in turns)
+
+
+def _objects(objects: Iterable[_Object]) -> tuple[MapObject, ...]:
+    return tuple(
+        MapObject(o.id, o.description or o.id, o.x, o.y, o.class_, o.width, o.height, tuple(o.aliases)) for o in objects
+    )
+
+
+def _pose(pose: _Pose | None) -> Pose2D | None:
+    return None if pose is None else Pose2D(pose.x, pose.y, pose.yaw)
+
+
+def write_output(output: ChatAction, latency_s: float, identifier: Any = None) -> str:
+    """One line of output, without the line end."""
+    line: dict[str, Any] = {} if identifier is None else {"id": identifier}
+    line |= {"output": output.to_wire(), "latency_s": round(latency_s, 6)}
+    return json.dumps(line, ensure_ascii=False)
+
+
+async def interpret_lines(
+    lines: Iterable[str], language: Language, default_catalogue: Sequence[ActionInfo] = ()
+) -> AsyncIterator[str]:
+    """Answer situations line by line; a bad line gives a line with an ``error`` and stops nothing.
+
+    Args:
+        lines: JSON lines; empty ones are passed over.
+        language: What understands.
+        default_catalogue: For situations that name no catalogue of their own.
+    """
+    for number, line in enumerate(lines, 1):
+        if line.strip():
+            yield await _answer(line, number, language, default_catalogue)
+
+
+async def _answer(line: str, number: int, language: Language, default_catalogue: Sequence[ActionInfo]) -> str:
+    identifier: Any = None
+    try:
+        try:
+            value = json.loads(line)
+        except (ValueError, RecursionError) as error:
+            raise InvalidMessageError(f"line {number}", "", f"not valid JSON: {error}") from error
+        identifier = value.get("id") if isinstance(value, dict) else None
+        situation = read_situation(value, default_catalogue, number)
+        start_s = time.perf_counter()
+        if isinstance(situation, ErrorSituation):
+            output = await language.resolve(situation)
+        else:
+            output = await language.interpret(situation)
+        return write_output(output, time.perf_counter() - start_s, identifier)
+    except (InvalidMessageError, LanguageError) as error:
+        body = {} if identifier is None else {"id": identifier}
+        return json.dumps(body | {"error": str(error)}, ensure_ascii=False)

@@ -1,0 +1,230 @@
+"""Driving to a goal with a map and a lidar: plan, follow, plan anew around what the map does not know.
+
+It needs no more of a robot than a pose, a scan and a drive (`Vehicle`), so anything with these can be driven.
+"""
+
+from __future__ import annotations
+
+import asyncio
+import math
+from typing import Protocol
+
+import numpy as np
+import structlog
+
+from parley.clock import Clock
+from parley.errors import ActionFailure, FailureCode
+from parley.robots.base import LaserScan, NavigationControl, Velocity
+from parley.robots.dynamic_window import DriveLimits, choose_velocity
+from parley.robots.obstacles import ObservedObstacles, scan_points
+from parley.world.geometry import Pose2D, wrap_angle
+from parley.world.occupancy import OccupancyMap
+from parley.world.planning import NO_OBSTACLES, NoPathError, Path, plan_path
+
+__all__ = ["Navigator", "Vehicle"]
+
+log = structlog.get_logger(__name__)
+
+CYCLE_S = 0.1
+"""Robot time between two decisions."""
+ARRIVED_M, ARRIVED_RAD = 0.05, 0.05
+"""How near is near enough; the simulated drive ends well within twice that."""
+
+_REPLAN_S = 1.0
+_PROGRESS_S = 0.3
+_LOOKAHEAD_M = 0.4
+_LOOK_AGAIN_S = 4.0
+"""For so long the robot waits and looks before it believes that there is no way."""
+_STUCK_S = 12.0
+_HELD_POLL_S = 0.02
+_PLAN_MARGIN_M = 0.04
+_KEEP_OUT_MARGIN_M = 0.02
+
+
+class Vehicle(Protocol):
+    """What is driven."""
+
+    @property
+    def radius_m(self) -> float:
+        """Of its footprint."""
+        ...
+
+    @property
+    def stopped(self) -> bool:
+        """Whether it is held by `Robot.stop`."""
+        ...
+
+    def pose(self) -> Pose2D:
+        """In the map frame."""
+        ...
+
+    def velocity(self) -> Velocity:
+        """Measured."""
+        ...
+
+    def scan(self) -> LaserScan:
+        """The newest sweep."""
+        ...
+
+    def drive(self, velocity: Velocity) -> None:
+        """Command a velocity."""
+        ...
+
+
+class Navigator:
+    """Drives one vehicle to one goal, once."""
+
+    def __init__(
+        self,
+        vehicle: Vehicle,
+        limits: DriveLimits,
+        occupancy: OccupancyMap,
+        clock: Clock,
+        control: NavigationControl,
+    ) -> None:
+        """Nothing moves until `drive_to`."""
+        self._vehicle, self._map, self._clock, self._control = vehicle, occupancy, clock, control
+        self._limits = limits
+        self._seen = ObservedObstacles(occupancy)
+        self._driven_s = 0.0
+
+    @staticmethod
+    def keep_out_m(radius_m: float) -> float:
+        """What a robot of that radius keeps between its centre and what its lidar sees."""
+        return radius_m + _KEEP_OUT_MARGIN_M
+
+    async def drive_to(self, goal: Pose2D, timeout_s: float) -> Pose2D:
+        """Drive there and return where it ended; time while it is held does not count.
+
+        Raises:
+            ActionFailure: See `Robot.navigate`.
+        """
+        try:
+            while True:
+                path = await self._find_way(goal, timeout_s)
+                if await self._follow(path, timeout_s):
+                    break
+            await self._turn_to(goal.yaw_rad, timeout_s)
+        finally:
+            self._vehicle.drive(Velocity())
+        self._control.on_progress(0.0)
+        return self._vehicle.pose()
+
+    async def _find_way(self, goal: Pose2D, timeout_s: float) -> Path:
+        """Plan around what was seen; without a way, stand and look again for a while before giving up."""
+        waited_s = 0.0
+        while True:
+            try:
+                return await self._plan(goal)
+            except NoPathError as error:
+                if error.at is None:
+                    raise ActionFailure(
+                        FailureCode.UNREACHABLE,
+                        f"I know no way to ({goal.x_m:.1f}, {goal.y_m:.1f}) on my map.",
+                        {"goal": _xy(goal.x_m, goal.y_m)},
+                    ) from error
+                if waited_s >= _LOOK_AGAIN_S:
+                    raise self._blocked(*error.at) from error
+            self._vehicle.drive(Velocity())
+            await self._pass_time(timeout_s)
+            waited_s += CYCLE_S
+            self._seen.update(self._vehicle.scan(), self._vehicle.pose())
+
+    async def _plan(self, goal: Pose2D) -> Path:
+        radius_m = self._vehicle.radius_m + _PLAN_MARGIN_M
+        start, seen = self._vehicle.pose(), self._seen.points_m
+        with self._clock.hold():
+            return await asyncio.to_thread(
+                plan_path,
+                self._map,
+                start,
+                goal,
+                radius_m=radius_m,
+                obstacles=seen if len(seen) else NO_OBSTACLES,
+            )
+
+    async def _follow(self, path: Path, timeout_s: float) -> bool:
+        """Follow a path to its end; False as soon as a new path should be made."""
+        index = 0
+        began_s = told_s = moved_s = self._driven_s
+        seen_before = len(self._seen.points_m)
+        best_m = math.inf
+        end_x, end_y = (float(value) for value in path.points_m[-1])
+        while True:
+            pose, scan = self._vehicle.pose(), self._vehicle.scan()
+            if math.hypot(end_x - pose.x_m, end_y - pose.y_m) <= ARRIVED_M:
+                return True
+            self._seen.update(scan, pose)
+            index = path.nearest(pose.x_m, pose.y_m, index)
+            remaining_m = path.remaining_m(index)
+            if remaining_m < best_m - 0.02:
+                best_m, moved_s = remaining_m, self._driven_s
+            if self._driven_s - moved_s > _STUCK_S:
+                raise self._blocked(*path.ahead(index, _LOOKAHEAD_M))
+            if self._driven_s - told_s >= _PROGRESS_S:
+                told_s = self._driven_s
+                self._control.on_progress(remaining_m)
+            self._vehicle.drive(self._steer(path, index, pose, scan))
+            held = await self._pass_time(timeout_s)
+            news = len(self._seen.points_m) != seen_before
+            if held or (self._driven_s - began_s >= _REPLAN_S and (news or self._strayed(path, index))):
+                return False
+
+    def _steer(self, path: Path, index: int, pose: Pose2D, scan: LaserScan) -> Velocity:
+        x, y = path.ahead(index, _LOOKAHEAD_M)
+        cos, sin = math.cos(pose.yaw_rad), math.sin(pose.yaw_rad)
+        east, north = x - pose.x_m, y - pose.y_m
+        target = cos * east + sin * north, cos * north - sin * east
+        return choose_velocity(
+            self._vehicle.velocity(), target, scan_points(scan, 1.0), self._limits, CYCLE_S
+        )
+
+    def _strayed(self, path: Path, index: int) -> bool:
+        pose = self._vehicle.pose()
+        x, y = path.points_m[index]
+        return math.hypot(x - pose.x_m, y - pose.y_m) > 0.3
+
+    async def _turn_to(self, yaw_rad: float, timeout_s: float) -> None:
+        while abs(error := wrap_angle(yaw_rad - self._vehicle.pose().yaw_rad)) > ARRIVED_RAD:
+            limit = self._limits.max_turn_radps
+            self._vehicle.drive(Velocity(0.0, float(np.clip(2.0 * error, -limit, limit))))
+            await self._pass_time(timeout_s)
+
+    async def _pass_time(self, timeout_s: float) -> bool:
+        """Let one cycle pass; True if the robot was held meanwhile.
+
+        Raises:
+            ActionFailure: `timed_out`.
+        """
+        held = False
+        while self._control.paused() or self._vehicle.stopped:
+            if not held:
+                self._vehicle.drive(Velocity())
+            held = True
+            # Wall time: how long a person holds a robot is not the robot's time, and in simulation
+            # nobody should make time pass by waiting for it here.
+            await asyncio.sleep(_HELD_POLL_S)
+        if not held:
+            began_s = self._clock.now_s()
+            await self._clock.sleep(CYCLE_S)
+            self._driven_s += self._clock.now_s() - began_s
+        if self._driven_s > timeout_s:
+            raise ActionFailure(
+                FailureCode.TIMED_OUT,
+                f"I did not get there within {timeout_s:.0f} seconds.",
+                {"timeout_s": timeout_s},
+            )
+        return held
+
+    def _blocked(self, x_m: float, y_m: float) -> ActionFailure:
+        log.info("way_blocked", x_m=round(x_m, 2), y_m=round(y_m, 2))
+        return ActionFailure(
+            FailureCode.BLOCKED,
+            f"Something that is not on my map stands in the way near ({x_m:.1f}, {y_m:.1f}), "
+            "and I found no way around it.",
+            {"at": _xy(x_m, y_m)},
+        )
+
+
+def _xy(x_m: float, y_m: float) -> dict[str, float]:
+    return {"x": round(x_m, 2), "y": round(y_m, 2)}

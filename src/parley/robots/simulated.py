@@ -1,0 +1,107 @@
+"""A robot of the embedded simulator."""
+
+from __future__ import annotations
+
+from parley.errors import ActionFailure, FailureCode
+from parley.robots.base import CameraImage, Detection, LaserScan, NavigationControl, Velocity
+from parley.robots.dynamic_window import DriveLimits
+from parley.robots.navigator import Navigator
+from parley.sim.simulator import Simulator
+from parley.world.geometry import Pose2D
+from parley.world.occupancy import OccupancyMap
+
+__all__ = ["SimulatedRobot"]
+
+
+class SimulatedRobot:
+    """Drives one robot of a `Simulator`; implements `parley.robots.base.Robot`."""
+
+    def __init__(self, simulator: Simulator, name: str, occupancy: OccupancyMap) -> None:
+        """Take hold of a robot.
+
+        Args:
+            simulator: The world it is in.
+            name: Its name in the world file.
+            occupancy: The map it plans on.
+        """
+        self.name = name
+        self._simulator, self._map = simulator, occupancy
+        self._model = simulator.model(name)
+        self._driving = False
+
+    @property
+    def capabilities(self) -> frozenset[str]:
+        """See `Robot.capabilities`."""
+        return frozenset({"drive", "lidar"} | ({"camera"} if self._model.camera else set()))
+
+    @property
+    def radius_m(self) -> float:
+        """See `Robot.radius_m`."""
+        return self._model.radius_m
+
+    @property
+    def stopped(self) -> bool:
+        """Whether it is held by `stop`."""
+        return self._simulator.stopped(self.name)
+
+    def pose(self) -> Pose2D:
+        """See `Robot.pose`."""
+        return self._simulator.pose(self.name)
+
+    def velocity(self) -> Velocity:
+        """See `Robot.velocity`."""
+        return Velocity(*self._simulator.velocity(self.name))
+
+    def scan(self) -> LaserScan:
+        """See `Robot.scan`."""
+        sweep = self._simulator.scan(self.name)
+        return LaserScan(0.0, sweep.increment_rad, sweep.ranges_m, sweep.range_max_m, sweep.stamp_s)
+
+    def drive(self, velocity: Velocity) -> None:
+        """Command a velocity; must be repeated to keep moving, and does nothing while stopped."""
+        self._simulator.command(self.name, velocity.linear_mps, velocity.angular_radps)
+
+    async def image(self) -> CameraImage:
+        """See `Robot.image`."""
+        if self._model.camera is None:
+            raise ActionFailure(FailureCode.NOT_CAPABLE, f"{self.name} has no camera.")
+        if not self._simulator.camera_works(self.name):
+            raise ActionFailure(FailureCode.HARDWARE, f"{self.name}'s camera gives no picture.")
+        with self._simulator.clock.hold():
+            photograph = await self._simulator.photograph(self.name)
+        height, width, _ = photograph.frame.rgb.shape
+        return CameraImage(
+            width,
+            height,
+            "rgb8",
+            photograph.frame.rgb,
+            photograph.stamp_s,
+            tuple(Detection(s.label, s.pixels, s.box, s.distance_m) for s in photograph.sightings),
+        )
+
+    async def navigate(self, goal: Pose2D, control: NavigationControl, *, timeout_s: float) -> Pose2D:
+        """See `Robot.navigate`; time while it is paused or stopped does not count against `timeout_s`."""
+        if self._driving:
+            raise ActionFailure(FailureCode.INTERNAL, f"{self.name} is driving somewhere else already.")
+        model = self._model
+        limits = DriveLimits(
+            model.max_speed_mps,
+            model.max_turn_radps,
+            model.max_acceleration_mps2,
+            model.max_turn_acceleration_radps2,
+            Navigator.keep_out_m(model.radius_m),
+        )
+        navigator = Navigator(self, limits, self._map, self._simulator.clock, control)
+        self._driving = True
+        try:
+            return await navigator.drive_to(goal, timeout_s)
+        finally:
+            self._driving = False
+
+    async def stop(self) -> None:
+        """See `Robot.stop`."""
+        self._simulator.set_stopped(self.name, True)
+
+    async def release(self) -> None:
+        """See `Robot.release`."""
+        self._simulator.set_stopped(self.name, False)

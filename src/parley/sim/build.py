@@ -1,0 +1,162 @@
+"""From a world file to a MuJoCo model.
+
+Robots are planar bases: two slides and a hinge, driven by velocity servos along the robot's own axes whose
+force is limited, so that a robot accelerates like a real one and cannot push through a wall. Wheels with
+contacts were measured to drift and over-turn.
+"""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Iterable
+from dataclasses import dataclass
+
+import mujoco
+from PIL import ImageColor
+
+from parley.sim.robot_model import RobotModel
+from parley.sim.solids import Solid
+from parley.sim.world_file import RobotEntry, Thing, WorldFile
+
+__all__ = ["STEP_S", "BodyKind", "build_spec", "robot_body", "thing_body"]
+
+STEP_S = 0.005
+"""Length of a physics step."""
+
+_SERVO_TIME_S = 0.05
+_SOLID = {"contype": 1, "conaffinity": 1}
+# Touches nothing, yet rays see it: geoms with contype = conaffinity = 0 that share a body with colliding ones
+# are invisible to mj_multiRay.
+_SEEN_ONLY = {"contype": 4, "conaffinity": 0}
+_GEOM_TYPES = {
+    "box": mujoco.mjtGeom.mjGEOM_BOX,
+    "cylinder": mujoco.mjtGeom.mjGEOM_CYLINDER,
+    "ellipsoid": mujoco.mjtGeom.mjGEOM_ELLIPSOID,
+}
+
+
+@dataclass(frozen=True, slots=True)
+class BodyKind:
+    """The prefixes of body names, so that a body tells what it is."""
+
+    ROBOT = "robot:"
+    THING = "thing:"
+    WALL = "wall:"
+
+
+def robot_body(name: str) -> str:
+    """The name of a robot's body; its joints and actuators carry suffixes."""
+    return BodyKind.ROBOT + name
+
+
+def thing_body(name: str) -> str:
+    """The name of a thing's body."""
+    return BodyKind.THING + name
+
+
+def build_spec(world: WorldFile) -> mujoco.MjSpec:
+    """The whole world as a MuJoCo specification, ready to be compiled.
+
+    Robots stand at the origin: their joint positions are their poses in the map frame, set by who owns the
+    data.
+    """
+    spec = mujoco.MjSpec()
+    spec.option.timestep = STEP_S
+    # Implicit in the servos' velocity: they stay stable although they are stiff.
+    spec.option.integrator = mujoco.mjtIntegrator.mjINT_IMPLICITFAST
+    spec.option.gravity = (0.0, 0.0, 0.0)  # nothing can fall: robots slide in the plane, things are fixed
+    floor = spec.worldbody.add_geom(
+        name="floor", type=mujoco.mjtGeom.mjGEOM_PLANE, size=(0, 0, 1), **_SEEN_ONLY
+    )
+    floor.rgba = _rgba(ImageColor.getrgb(world.floor)[:3])
+    for index, wall in enumerate(world.walls):
+        _add_solids(spec.worldbody.add_body(name=f"{BodyKind.WALL}{index}"), wall.solids())
+    for thing in world.things:
+        add_thing(spec, world, thing)
+    for robot in world.robots:
+        _add_robot(spec, robot)
+    return spec
+
+
+def add_thing(spec: mujoco.MjSpec, world: WorldFile, thing: Thing) -> None:
+    """Put a thing of `world` into a specification (recompile it afterwards)."""
+    _add_solids(spec.worldbody.add_body(name=thing_body(thing.name)), thing.solids(world.base_of(thing)))
+
+
+def _add_solids(body: mujoco.MjsBody, solids: Iterable[Solid]) -> None:
+    for solid in solids:
+        length, width, height = solid.size_m
+        size = (
+            (length / 2, height / 2, 0) if solid.shape == "cylinder" else (length / 2, width / 2, height / 2)
+        )
+        body.add_geom(
+            type=_GEOM_TYPES[solid.shape],
+            size=size,
+            pos=(solid.x_m, solid.y_m, solid.z_m + height / 2),
+            quat=(math.cos(solid.yaw_rad / 2), 0, 0, math.sin(solid.yaw_rad / 2)),
+            rgba=_rgba(solid.rgb),
+            **_SOLID,
+        )
+
+
+def _add_robot(spec: mujoco.MjSpec, entry: RobotEntry) -> None:
+    name, model = robot_body(entry.name), entry.model
+    body = spec.worldbody.add_body(name=name)
+    for suffix, kind, axis in (
+        ("x", mujoco.mjtJoint.mjJNT_SLIDE, (1, 0, 0)),
+        ("y", mujoco.mjtJoint.mjJNT_SLIDE, (0, 1, 0)),
+        ("yaw", mujoco.mjtJoint.mjJNT_HINGE, (0, 0, 1)),
+    ):
+        body.add_joint(name=f"{name}/{suffix}", type=kind, axis=axis)
+    _add_hull(body, model)
+    site = f"{name}/base"
+    body.add_site(name=site)
+    inertia = 0.5 * model.mass_kg * model.radius_m**2
+    force = model.mass_kg * model.max_acceleration_mps2
+    torque = inertia * model.max_turn_acceleration_radps2
+    # The sideways servo holds speed zero as a wheel's grip would, much stronger than the drive.
+    for suffix, gear, mass, limit in (
+        ("forward", (1, 0, 0, 0, 0, 0), model.mass_kg, force),
+        ("sideways", (0, 1, 0, 0, 0, 0), model.mass_kg, 20 * force),
+        ("turn", (0, 0, 0, 0, 0, 1), inertia, torque),
+    ):
+        servo = spec.add_actuator(name=f"{name}/{suffix}", trntype=mujoco.mjtTrn.mjTRN_SITE, target=site)
+        servo.gear = gear
+        servo.set_to_velocity(kv=mass / _SERVO_TIME_S)
+        servo.forcerange = (-limit, limit)
+        servo.forcelimited = True
+
+
+def _add_hull(body: mujoco.MjsBody, model: RobotModel) -> None:
+    """A round collision hull, and over it what makes the robot look like one."""
+    radius, height = model.radius_m, model.height_m
+    colour = _rgba(ImageColor.getrgb(model.colour)[:3])
+    clearance = 0.01
+    body.add_geom(
+        type=mujoco.mjtGeom.mjGEOM_CYLINDER,
+        size=(radius, (height * 0.55 - clearance) / 2, 0),
+        pos=(0, 0, clearance + (height * 0.55 - clearance) / 2),
+        mass=model.mass_kg,
+        rgba=colour,
+        **_SOLID,
+    )
+    body.add_geom(
+        type=mujoco.mjtGeom.mjGEOM_CYLINDER,
+        size=(radius * 0.45, height * 0.225, 0),
+        pos=(0, 0, height * 0.775),
+        mass=0,
+        rgba=(0.75, 0.77, 0.8, 1),
+        **_SEEN_ONLY,
+    )
+    body.add_geom(  # shows where the front is
+        type=mujoco.mjtGeom.mjGEOM_BOX,
+        size=(radius * 0.12, radius * 0.3, height * 0.05),
+        pos=(radius * 0.85, 0, height * 0.6),
+        mass=0,
+        rgba=(0.95, 0.45, 0.1, 1),
+        **_SEEN_ONLY,
+    )
+
+
+def _rgba(rgb: tuple[int, ...]) -> tuple[float, float, float, float]:
+    return rgb[0] / 255, rgb[1] / 255, rgb[2] / 255, 1.0

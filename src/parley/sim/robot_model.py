@@ -1,0 +1,63 @@
+"""What a simulated robot is made of: footprint, speeds, camera and lidar."""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Mapping
+from types import MappingProxyType
+
+from pydantic import BaseModel, ConfigDict, Field
+
+__all__ = ["PRESETS", "CameraModel", "LidarModel", "RobotModel"]
+
+
+class _Part(BaseModel):
+    model_config = ConfigDict(frozen=True, extra="forbid", allow_inf_nan=False)
+
+
+class CameraModel(_Part):
+    """A pinhole camera looking forward."""
+
+    width_px: int = Field(default=320, ge=16, le=1920)
+    height_px: int = Field(default=240, ge=16, le=1080)
+    fov_rad: float = Field(default=math.radians(69.4), gt=0.1, lt=3.0)
+    """Horizontal opening angle."""
+    mount_height_m: float = Field(default=0.25, gt=0)
+    """Above the floor."""
+    mount_forward_m: float = 0.08
+    """In front of the robot's centre."""
+    pitch_rad: float = Field(default=0.12, gt=-1.5, lt=1.5)
+    """Upwards is positive."""
+
+
+class LidarModel(_Part):
+    """A planar scanner turning a whole circle; its first beam points forward."""
+
+    beams: int = Field(default=360, ge=8, le=4096)
+    range_m: float = Field(default=8.0, gt=0)
+    mount_height_m: float = Field(default=0.18, gt=0)
+    noise_m: float = Field(default=0.01, ge=0)
+    """Standard deviation of a range."""
+
+
+class RobotModel(_Part):
+    """A differential-drive robot with a round footprint."""
+
+    radius_m: float = Field(gt=0)
+    height_m: float = Field(gt=0)
+    mass_kg: float = Field(default=2.0, gt=0)
+    max_speed_mps: float = Field(gt=0)
+    max_turn_radps: float = Field(gt=0)
+    max_acceleration_mps2: float = Field(default=0.5, gt=0)
+    max_turn_acceleration_radps2: float = Field(default=3.0, gt=0)
+    colour: str = "#2b2f36"
+    camera: CameraModel | None = CameraModel()
+    lidar: LidarModel = LidarModel()
+
+
+PRESETS: Mapping[str, RobotModel] = MappingProxyType(
+    {
+        "turtlebot3_waffle": RobotModel(radius_m=0.2, height_m=0.3, max_speed_mps=0.26, max_turn_radps=1.82),
+    }
+)
+"""Robots that a world file may name instead of describing them."""

@@ -1,0 +1,310 @@
+"""The terminal client: wires the operator's view and console to the topics of the conversation."""
+
+from __future__ import annotations
+
+import asyncio
+import contextlib
+import sys
+import uuid
+from collections.abc import Callable, Sequence
+
+import structlog
+
+from parley.clock import Clock, WallClock
+from parley.errors import InvalidMessageError, TransportError
+from parley.messages.chat import ChatInput
+from parley.messages.memory import MemoryEntry
+from parley.messages.status import PlanDecision, StopCommand
+from parley.terminal.commands import Command, compose, help_rows, parse, suggest
+from parley.terminal.console import Console, ConsoleEvents, PlainConsole
+from parley.terminal.lines import Fragments, Line
+from parley.terminal.link import Link
+from parley.terminal.prompt import PromptConsole
+from parley.terminal.texts import Texts, choose_language
+from parley.terminal.view import OperatorView, RobotView
+from parley.transport.base import Transport
+
+__all__ = ["TerminalClient", "console_for"]
+
+log = structlog.get_logger(__name__)
+
+_TICK_S = 1.0
+_SECOND_INTERRUPT_S = 2.0
+_FIRST_ROBOT_TIMEOUT_S = 10.0
+_REPLY_TIMEOUT_S = 30.0
+_QUIET_S = 0.5
+_EVERYBODY = "all"
+
+
+def console_for(events: ConsoleEvents) -> Console:
+    """The console that fits standard input and output: a prompt for people, plain lines for pipes."""
+    return PromptConsole(events) if sys.stdin.isatty() and sys.stdout.isatty() else PlainConsole(events)
+
+
+class TerminalClient:
+    """An operator at a terminal, as one more client of the conversation.
+
+    Args:
+        transport: Opened by the caller; only what is opened here is closed here.
+        lang: Code of the language of the terminal's own words; empty takes that of the environment.
+        console: Makes the console; the default looks at standard input and output.
+        clock: For everything that waits; all of it is wall time.
+    """
+
+    def __init__(
+        self,
+        transport: Transport,
+        *,
+        lang: str = "",
+        console: Callable[[ConsoleEvents], Console] = console_for,
+        clock: Clock | None = None,
+    ) -> None:
+        self._clock = clock if clock is not None else WallClock()
+        self._texts = Texts(choose_language(lang))
+        self._view = OperatorView(self._texts)
+        self._link = Link(transport, self._view, self._show, self._clock)
+        self._console = console(self)
+        self._changed = asyncio.Event()
+        self._interrupted_s = float("-inf")
+        self._commands: dict[str, Callable[[str], None]] = {
+            "help": self._help,
+            "plan": self._plan,
+            "approve": self._approve,
+            "stop": self._stop,
+            "reset": self._reset,
+            "robots": self._robots,
+            "robot": self._robot,
+        }
+
+    async def run(self, greeting: Sequence[str] = ()) -> None:
+        """Talk until the operator leaves.
+
+        Args:
+            greeting: Sentences the operator may want to try.
+        """
+        async with contextlib.AsyncExitStack() as stack:
+            await stack.enter_async_context(self._console)
+            self._greet(greeting)
+            await stack.enter_async_context(self._link)
+            ticker = asyncio.create_task(self._tick(), name="terminal-tick")
+            stack.push_async_callback(_cancel, ticker)
+            await self._converse()
+            self._note("goodbye")
+
+    # What the console asks (see `ConsoleEvents`).
+
+    def prompt(self) -> str:
+        """What stands before the operator's words."""
+        return f"{self._texts('you')} → {self._view.selected}: " if self._view.selected else "> "
+
+    def toolbar(self) -> list[Fragments]:
+        """The rows of the live view."""
+        return self._view.toolbar()
+
+    def interrupt(self, *, is_empty: bool) -> bool:
+        """Ctrl-C: an emergency stop, unless there is nothing to stop or it comes twice; True means to leave.
+
+        Args:
+            is_empty: Whether nothing was typed.
+        """
+        now_s = self._clock.wall_s()
+        is_second = now_s - self._interrupted_s <= _SECOND_INTERRUPT_S
+        self._interrupted_s = now_s
+        robot = self._view.current
+        if is_second or (is_empty and (robot is None or not robot.may_move)):
+            return True
+        self.emergency_stop()
+        self._note("interrupt_hint")
+        return False
+
+    def emergency_stop(self) -> None:
+        """Stop the robot that is spoken to, at once."""
+        self._stop("")
+
+    # The conversation.
+
+    async def _converse(self) -> None:
+        if self._console.paced:
+            await self._wait(lambda: bool(self._view.selected), _FIRST_ROBOT_TIMEOUT_S)
+        while (line := await self._console.read()) is not None:
+            text = line.strip()
+            command = parse(text)
+            if command is not None:
+                if command.name == "quit":
+                    return
+                await self._obey(command)
+            elif text:
+                await self._say(text)
+
+    async def _say(self, text: str) -> None:
+        robot = self._view.current
+        if robot is None:
+            self._note("no_robot")
+            return
+        replies = self._view.replies
+        message = compose(robot, text, self._texts, uuid.uuid4().hex)
+        self._echo(message, text)
+        self._link.send(message)
+        self._remind(robot, message)
+        self._console.refresh()
+        if self._console.paced:
+            await self._settle(robot, replies)
+
+    def _echo(self, message: ChatInput | PlanDecision, text: str) -> None:
+        """Say what became of the operator's words where that is not what they typed."""
+        if isinstance(message, PlanDecision):
+            self._note("approved" if message.decision == "approve" else "rejected", robot=message.target)
+        elif message.message != text:
+            self._console.show([Line("said", message.message, speaker=self._texts("you"))])
+
+    def _remind(self, robot: RobotView, message: ChatInput | PlanDecision) -> None:
+        """After an answer, show what else the robot still waits for."""
+        open_question = robot.question
+        if isinstance(message, ChatInput) and message.type == "response" and open_question is not None:
+            self._console.show(
+                [Line("asked", open_question.text, speaker=robot.name, choices=open_question.choices)]
+            )
+
+    async def _settle(self, robot: RobotView, replies: int) -> None:
+        """Wait until the robot has answered and either has nothing to do or needs the operator."""
+        await self._wait(lambda: self._view.replies > replies, _REPLY_TIMEOUT_S)
+        is_quiet = False
+        while not is_quiet:
+            await self._wait(lambda: not robot.is_busy, None)
+            is_quiet = not await self._wait(lambda: robot.is_busy, _QUIET_S)
+
+    async def _wait(self, condition: Callable[[], bool], timeout_s: float | None) -> bool:
+        """Wait until a message makes `condition` true; False if none does within `timeout_s` of wall time."""
+        with contextlib.suppress(TimeoutError):
+            async with asyncio.timeout(timeout_s):
+                while not condition():
+                    self._changed.clear()
+                    await self._changed.wait()
+        return condition()
+
+    # Slash commands.
+
+    async def _obey(self, command: Command) -> None:
+        if command.name == "memory":
+            await self._memory()
+        elif command.name in self._commands:
+            self._commands[command.name](command.argument)
+        elif suggestion := suggest(command.name):
+            self._note("did_you_mean", command=f"/{command.name}", suggestion=f"/{suggestion}")
+        else:
+            self._note("unknown_command", command=f"/{command.name}")
+
+    def _help(self, _: str) -> None:
+        rows = [Line("step", row) for row in help_rows(self._texts)]
+        self._note("help_intro")
+        self._console.show(rows)
+        self._note("help_keys")
+
+    def _plan(self, _: str) -> None:
+        robot = self._current()
+        if robot is not None:
+            self._console.show(self._view.plan_lines(robot))
+
+    def _approve(self, argument: str) -> None:
+        robot = self._current()
+        if robot is None:
+            return
+        if argument == "on":
+            self._note("asks_first", robot=robot.name)
+            decision = PlanDecision(target=robot.name, decision="policy", policy="ask_first")
+        elif argument == "off":
+            self._note("runs_at_once", robot=robot.name)
+            decision = PlanDecision(target=robot.name, decision="policy", policy="run_at_once")
+        else:
+            self._note("approve_usage")
+            return
+        self._link.send(decision)
+
+    def _stop(self, argument: str) -> None:
+        self._command_stop("stop", argument)
+
+    def _reset(self, argument: str) -> None:
+        self._command_stop("reset", argument)
+
+    def _command_stop(self, command: str, argument: str) -> None:
+        """Send a stop or its reset; an emergency stop without a known robot goes to all of them."""
+        robot = self._view.current
+        is_for_all = argument.lower() == _EVERYBODY or (robot is None and command == "stop")
+        if robot is None and not is_for_all:
+            self._note("no_robot")
+            return
+        message = StopCommand(
+            command="stop" if command == "stop" else "reset",
+            targets=() if is_for_all or robot is None else (robot.name,),
+            id=uuid.uuid4().hex,
+        )
+        self._link.send(message)
+        if command == "stop":
+            self._view.note_own_stop(message.id)
+            self._note("stop_sent_all" if is_for_all else "stop_sent", robot=self._view.selected)
+
+    def _robots(self, _: str) -> None:
+        rows = [
+            Line("step", f"{'▶' if robot.name == self._view.selected else ' '} {robot.name}: {state}")
+            for robot in self._view.here
+            for state in [self._texts(f"state_{robot.mood}")]
+        ]
+        self._console.show(rows or [Line("note", self._texts("no_robot"))])
+
+    def _robot(self, name: str) -> None:
+        if name and self._view.select(name) is not None:
+            self._note("selected", robot=self._view.selected)
+            return
+        here = ", ".join(robot.name for robot in self._view.here) or "–"
+        self._note("unknown_robot", name=name or "?", robots=here)
+
+    async def _memory(self) -> None:
+        try:
+            entries = await self._link.memories()
+        except (TransportError, InvalidMessageError) as error:
+            log.warning("memory not available", error=str(error))
+            self._note("memory_unavailable")
+            return
+        if not entries:
+            self._note("memory_empty")
+            return
+        rows = [Line("step", f"• {self._remembered(entry)}") for entry in entries]
+        self._console.show([Line("heading", self._texts("memory_title")), *rows])
+
+    def _remembered(self, entry: MemoryEntry) -> str:
+        if entry.type == "image":
+            return self._texts("memory_picture", info=entry.info or entry.name)
+        return entry.data
+
+    def _current(self) -> RobotView | None:
+        robot = self._view.current
+        if robot is None:
+            self._note("no_robot")
+        return robot
+
+    async def _tick(self) -> None:
+        while True:
+            await asyncio.sleep(_TICK_S)
+            if lines := self._view.tick(self._clock.wall_s()):
+                self._show(lines)
+
+    # Showing.
+
+    def _show(self, lines: Sequence[Line]) -> None:
+        self._console.show(lines)
+        self._changed.set()
+        self._console.refresh()
+
+    def _note(self, key: str, **values: object) -> None:
+        self._console.show([Line("note", self._texts(key, **values))])
+
+    def _greet(self, examples: Sequence[str]) -> None:
+        self._note("welcome")
+        if examples:
+            self._note("try")
+            self._console.show([Line("step", f"“{example}”") for example in examples])
+
+
+async def _cancel(task: asyncio.Task[None]) -> None:
+    task.cancel()
+    await asyncio.gather(task, return_exceptions=True)

@@ -1,0 +1,131 @@
+"""The terminal's end of the topics: what it hears goes into the view, what the operator decides goes out."""
+
+from __future__ import annotations
+
+import contextlib
+from collections.abc import Callable, Sequence
+from typing import Self, TypeVar
+
+import structlog
+from pydantic import BaseModel
+
+from parley.clock import Clock
+from parley.errors import InvalidMessageError
+from parley.messages import topics
+from parley.messages.chat import ChatFeedback, ChatInput
+from parley.messages.memory import RETURN_ALL, GetMemory, MemoryEntry, MemoryReply
+from parley.messages.ros import ChatRequest, String
+from parley.messages.status import (
+    ActorStatus,
+    GraphEvent,
+    PlanDecision,
+    PlanProposal,
+    PlanUpdate,
+    Rejection,
+    StopCommand,
+    StopReport,
+)
+from parley.messages.topics import Topic
+from parley.messages.wire import decode, encode, load_json, to_string
+from parley.terminal.lines import Line
+from parley.terminal.view import OperatorView
+from parley.transport.base import Publisher, Transport
+
+__all__ = ["Link"]
+
+log = structlog.get_logger(__name__)
+
+P = TypeVar("P", bound=BaseModel)
+
+_MEMORY_TIMEOUT_S = 10.0
+
+
+class Link:
+    """Connects an `OperatorView` to a transport. Use as ``async with``.
+
+    Args:
+        transport: Opened by the caller; only what is opened here is closed here.
+        view: Gets every message.
+        on_lines: Gets what each message adds to the conversation, often nothing.
+        clock: For the time at which heartbeats come.
+    """
+
+    def __init__(
+        self,
+        transport: Transport,
+        view: OperatorView,
+        on_lines: Callable[[Sequence[Line]], None],
+        clock: Clock,
+    ) -> None:
+        self._transport, self._view, self._on_lines, self._clock = transport, view, on_lines, clock
+        self._stack = contextlib.AsyncExitStack()
+        self._publishers: dict[type[BaseModel], Publisher[String]] = {}
+
+    async def __aenter__(self) -> Self:
+        """Open the topics."""
+        for kind, topic in _SENT.items():
+            publisher = self._transport.publisher(topic)
+            self._stack.callback(publisher.close)
+            self._publishers[kind] = publisher
+        view = self._view
+        await self._listen(topics.CHAT_FEEDBACK, _reader(ChatFeedback), view.on_feedback)
+        await self._listen(topics.PLAN, _read_plan, view.on_plan)
+        await self._listen(topics.GRAPH_EVENTS, _reader(GraphEvent), view.on_event)
+        await self._listen(topics.ACTOR_STATUS, _reader(ActorStatus), self._on_status)
+        await self._listen(topics.STOP_REPORT, _reader(StopReport), view.on_stop_report)
+        await self._listen(topics.REJECTION, _reader(Rejection), view.on_rejection)
+        return self
+
+    async def __aexit__(self, *exc: object) -> None:
+        """Close them."""
+        await self._stack.aclose()
+
+    def send(self, message: ChatInput | PlanDecision | StopCommand) -> None:
+        """Publish what the operator said or decided on the topic of its kind."""
+        self._publishers[type(message)].publish(to_string(message))
+
+    async def memories(self) -> list[MemoryEntry]:
+        """Everything that is remembered, oldest first.
+
+        Raises:
+            TransportError: The memory does not answer.
+            InvalidMessageError: Its answer cannot be read.
+        """
+        request = ChatRequest(encode(GetMemory(request=RETURN_ALL)))
+        reply = await self._transport.call(topics.GET_MEMORY, request, timeout_s=_MEMORY_TIMEOUT_S)
+        return decode(MemoryReply, reply.response).entries()
+
+    async def _listen(
+        self, topic: Topic[String], read: Callable[[str], P], handle: Callable[[P], list[Line]]
+    ) -> None:
+        def receive(message: String) -> None:
+            try:
+                payload = read(message.data)
+            except InvalidMessageError as error:
+                log.warning("unreadable message", topic=topic.name, error=str(error))
+                return
+            self._on_lines(handle(payload))
+
+        subscription = await self._transport.subscribe(topic, receive)
+        self._stack.push_async_callback(subscription.close)
+
+    def _on_status(self, status: ActorStatus) -> list[Line]:
+        return self._view.on_status(status, self._clock.wall_s())
+
+
+_SENT: dict[type[BaseModel], Topic[String]] = {
+    ChatInput: topics.CHAT_INPUT,
+    PlanDecision: topics.PLAN_DECISION,
+    StopCommand: topics.STOP,
+}
+
+
+def _reader(kind: type[P]) -> Callable[[str], P]:
+    return lambda text: decode(kind, text)
+
+
+def _read_plan(text: str) -> PlanUpdate | PlanProposal:
+    """A message of the plan topic by its `kind`; any other kind is an update, whose check names the fault."""
+    value = load_json("Plan", text)
+    is_proposal = isinstance(value, dict) and value.get("kind") == "proposal"
+    return decode(PlanProposal, text) if is_proposal else decode(PlanUpdate, text)

@@ -1,0 +1,127 @@
+"""How a robot's plan looks: steps in words, icons, the bar of the step that runs. Pure text, no terminal."""
+
+from __future__ import annotations
+
+import re
+from collections.abc import Sequence
+from dataclasses import dataclass
+
+from parley.messages.chat import ActionCall
+from parley.messages.status import PlanStep, PlanUpdate
+from parley.terminal.lines import Fragments
+from parley.terminal.texts import Texts
+
+__all__ = ["ICONS", "Progress", "bar", "compare", "is_over", "label", "plan_rows", "step_row"]
+
+ICONS = {
+    "queued": "○",
+    "running": "▶",
+    "finished": "✓",
+    "failed": "✗",
+    "stopped": "■",
+    "skipped": "»",
+    "paused": "‖",
+    "waiting": "?",
+}
+"""Step state -> one character."""
+
+_STYLES = {"running": "class:now", "finished": "class:done", "failed": "class:bad", "waiting": "class:ask"}
+_WORD_STARTS = re.compile(r"(?<=[a-z0-9])(?=[A-Z])|[_\s]+")
+_MAX_LABEL_CHARS = 60
+
+
+@dataclass(frozen=True, slots=True)
+class Progress:
+    """How far the step that runs is."""
+
+    node: str
+    fraction: float | None
+    """0 to 1; None when that is not known."""
+    text: str = ""
+
+
+def label(call: ActionCall) -> str:
+    """A step in words: its reason, or else what the action is called and given."""
+    if call.reason:
+        return call.reason
+    words = " ".join(part.lower() for part in _WORD_STARTS.split(call.name) if part)
+    given = [str(p.value) for p in call.input_parameters.values() if p.type == "string" and p.has_data]
+    return f"{words}: {', '.join(given)}" if given else words
+
+
+def bar(fraction: float, width: int = 16) -> str:
+    """A progress bar of `width` characters with the percentage behind it."""
+    fraction = min(max(fraction, 0.0), 1.0)
+    full = round(fraction * width)
+    return f"{'█' * full}{'░' * (width - full)} {round(fraction * 100)} %"
+
+
+def step_row(step: PlanStep, texts: Texts, *, number: int = 0, progress: Progress | None = None) -> str:
+    """One step as a row of plain text; what is over has no number any more."""
+    state = _progress_text(progress) or texts(f"step_{step.state}")
+    numbered = f"{number}. " if number and not is_over(step) else ""
+    return f"{ICONS[step.state]} {numbered}{label(step.action)} ({state})"
+
+
+def is_over(step: PlanStep) -> bool:
+    """Whether nothing more will come of a step."""
+    return step.state in ("finished", "failed", "stopped", "skipped")
+
+
+def plan_rows(
+    steps: Sequence[PlanStep], texts: Texts, progress: Progress | None = None, *, max_rows: int = 6
+) -> list[Fragments]:
+    """The live view of a plan, at most `max_rows` rows around the first step that is not over."""
+    current = next((i for i, step in enumerate(steps) if not is_over(step)), len(steps))
+    first = max(0, min(current - 1, len(steps) - max_rows))
+    shown = steps[first : first + max_rows]
+    width = max((len(_short(step)) for step in shown), default=0)
+    rows = [_row(step, texts, progress, width) for step in shown]
+    hidden = len(steps) - first - len(shown)
+    if hidden:
+        rows.append([("class:dim", f"   {texts('more_steps', count=hidden)}")])
+    return rows
+
+
+def compare(before: PlanUpdate | None, after: PlanUpdate) -> tuple[bool, list[PlanStep]]:
+    """Whether `after` plans something that `before` did not, and which steps ended in between."""
+    old = list(before.steps) if before is not None else []
+    old_keys = [_key(step) for step in old]
+    new_keys = [_key(step) for step in after.steps]
+    same_graph = before is not None and before.graph_name == after.graph_name
+    is_new = bool(new_keys) and not (same_graph and _contains(old_keys, new_keys))
+    were_open = {(_key(step), step.node) for step in old if not is_over(step)}
+    ended = [
+        step
+        for step in after.steps
+        if is_over(step) and ((_key(step), step.node) in were_open or (_key(step), "") in were_open)
+    ]
+    return is_new, ended
+
+
+def _row(step: PlanStep, texts: Texts, progress: Progress | None, width: int) -> Fragments:
+    style = _STYLES.get(step.state, "class:dim")
+    mine = progress if progress and step.state == "running" and progress.node == step.node else None
+    state = _progress_text(mine) or texts(f"step_{step.state}")
+    return [(style, f" {ICONS[step.state]} {_short(step):<{width}}  "), (style, state)]
+
+
+def _progress_text(progress: Progress | None) -> str:
+    if progress is None:
+        return ""
+    parts = [bar(progress.fraction)] if progress.fraction is not None else []
+    return "  ".join([*parts, progress.text] if progress.text else parts)
+
+
+def _short(step: PlanStep) -> str:
+    text = label(step.action)
+    return text if len(text) <= _MAX_LABEL_CHARS else f"{text[: _MAX_LABEL_CHARS - 1]}…"
+
+
+def _key(step: PlanStep) -> tuple[str, str]:
+    return step.action.name, label(step.action)
+
+
+def _contains(whole: Sequence[object], part: Sequence[object]) -> bool:
+    """Whether `part` stands in `whole` as it is: a plan that only became shorter is no news."""
+    return any(list(whole[i : i + len(part)]) == list(part) for i in range(len(whole) - len(part) + 1))

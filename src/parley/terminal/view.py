@@ -1,0 +1,286 @@
+"""What the operator sees, computed from messages alone: no transport, no terminal, no clock of its own.
+
+Every ``on_...`` method takes one message and returns the lines that it adds to the conversation.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from dataclasses import dataclass, field
+
+from parley.messages.chat import ChatFeedback
+from parley.messages.status import (
+    ActorStatus,
+    GraphEvent,
+    PlanProposal,
+    PlanStep,
+    PlanUpdate,
+    Rejection,
+    StopReport,
+)
+from parley.terminal.lines import Fragments, Line, LineKind
+from parley.terminal.plan import Progress, compare, is_over, label, plan_rows, step_row
+from parley.terminal.texts import Texts
+
+__all__ = ["LOST_AFTER_S", "OperatorView", "Question", "RobotView"]
+
+_KINDS: dict[str, LineKind] = {"response": "said", "info": "said", "request": "asked", "error": "problem"}
+
+LOST_AFTER_S = 5.0
+"""Wall time without a heartbeat after which a robot counts as out of contact."""
+
+
+@dataclass(frozen=True, slots=True)
+class Question:
+    """What a robot asked and nobody has answered yet."""
+
+    id: str
+    """May be empty: other programs' questions have none."""
+    text: str = ""
+    choices: tuple[str, ...] = ()
+
+
+@dataclass(slots=True)
+class RobotView:
+    """One robot as the operator sees it."""
+
+    name: str
+    state: str = "idle"
+    """`ActorStatus.state` of the last heartbeat."""
+    seen_s: float = 0.0
+    """Wall time of the last heartbeat."""
+    is_here: bool = False
+    """Whether it ever sent a heartbeat; others may speak of robots that do not exist."""
+    is_lost: bool = False
+    plan: PlanUpdate | None = None
+    progress: Progress | None = None
+    pending: list[Question | PlanProposal] = field(default_factory=list)
+    """Questions and proposals that await the operator, oldest first."""
+    offered: tuple[str, ...] = ()
+    """Choices of the robot's last word, where it was no question."""
+
+    @property
+    def question(self) -> Question | None:
+        """The open question that was asked last, if there is one."""
+        return next((item for item in reversed(self.pending) if isinstance(item, Question)), None)
+
+    @property
+    def mood(self) -> str:
+        """What it is doing, as the key of a text ``state_<mood>``."""
+        if self.is_lost:
+            return "lost"
+        if self.state == "stopped":
+            return "stopped"
+        if self.question is not None:
+            return "question"
+        if self.plan is not None and self.plan.state != "idle":
+            return self.plan.state
+        return "running" if self.state == "running" else "idle"
+
+    @property
+    def is_busy(self) -> bool:
+        """Whether it does something that needs nothing from the operator."""
+        return self.mood == "running"
+
+    @property
+    def may_move(self) -> bool:
+        """Whether an emergency stop could still make a difference."""
+        return not self.is_lost and (self.state in ("running", "paused") or self.mood == "running")
+
+
+class OperatorView:
+    """Everything an operator is shown of all robots."""
+
+    def __init__(self, texts: Texts) -> None:
+        self.texts = texts
+        self.robots: dict[str, RobotView] = {}
+        self.selected = ""
+        """Name of the robot that is spoken to; empty as long as none is known."""
+        self.replies = 0
+        """Counts what robots said, so that a reader of prepared lines can wait for an answer."""
+        self._own_stops: set[str] = set()
+
+    @property
+    def here(self) -> list[RobotView]:
+        """The robots that have said that they are there."""
+        return [robot for robot in self.robots.values() if robot.is_here]
+
+    @property
+    def current(self) -> RobotView | None:
+        """The robot that is spoken to."""
+        return self.robots.get(self.selected)
+
+    def select(self, name: str) -> RobotView | None:
+        """Speak to the robot of that name, upper or lower case; None if there is none."""
+        found = next((robot for robot in self.here if robot.name.lower() == name.lower()), None)
+        if found is not None:
+            self.selected = found.name
+        return found
+
+    def note_own_stop(self, stop_id: str) -> None:
+        """Remember a stop command of this operator, who was told about it already."""
+        self._own_stops.add(stop_id)
+
+    def on_feedback(self, feedback: ChatFeedback) -> list[Line]:
+        """A robot speaks."""
+        self.replies += 1
+        for name in feedback.targets:
+            _hear(self._robot(name), feedback)
+        footnote = self.texts("sources", names=", ".join(feedback.sources)) if feedback.sources else ""
+        return [
+            Line(
+                "asked" if feedback.choices else _KINDS[feedback.type],
+                feedback.message,
+                speaker=", ".join(feedback.targets) or self.texts("system"),
+                choices=feedback.choices,
+                footnote=footnote,
+            )
+        ]
+
+    def on_plan(self, message: PlanUpdate | PlanProposal) -> list[Line]:
+        """A plan is proposed or has changed."""
+        robot = self._robot(message.target)
+        if isinstance(message, PlanProposal):
+            return self._propose(robot, message)
+        before, robot.plan = robot.plan, message
+        was = before.state if before is not None else "idle"
+        if was == "awaiting_approval" != message.state:
+            robot.pending = [item for item in robot.pending if not isinstance(item, PlanProposal)]
+        if was != "idle" and message.state == "idle":
+            robot.pending.clear()
+        is_new, ended = compare(before, message)
+        lines = [Line("step", step_row(step, self.texts)) for step in ended]
+        to_come = [step for step in message.steps if not is_over(step)]
+        if is_new and to_come and message.state != "awaiting_approval":
+            lines += self._plan(robot, to_come)
+        is_done = all(step.state in ("finished", "skipped") for step in message.steps)
+        if ended and message.state == "idle" and is_done:
+            lines.append(Line("note", self.texts("all_done", robot=robot.name)))
+        return lines
+
+    def on_event(self, event: GraphEvent) -> list[Line]:
+        """A step gets on or ends; only the live view changes."""
+        robot = self._robot(event.actor)
+        if event.kind == "progress":
+            robot.progress = Progress(event.node, event.progress, event.progress_text)
+        elif robot.progress is not None and event.node in ("", robot.progress.node):
+            robot.progress = None
+        return []
+
+    def on_status(self, status: ActorStatus, now_s: float) -> list[Line]:
+        """A heartbeat: robots come, go and change their state. `now_s` is wall time."""
+        if status.state == "leaving":
+            return self._leave(status.actor)
+        robot = self._robot(status.actor)
+        is_new, was_lost = not robot.is_here, robot.is_lost
+        robot.is_here, robot.is_lost = True, False
+        robot.state, robot.seen_s = status.state, now_s
+        self.selected = self.selected or robot.name
+        if is_new:
+            return [Line("note", self.texts("joined", robot=robot.name))]
+        return [Line("note", self.texts("found", robot=robot.name))] if was_lost else []
+
+    def tick(self, now_s: float) -> list[Line]:
+        """Time passes: notice who has fallen silent. `now_s` is wall time."""
+        lines: list[Line] = []
+        for robot in self.here:
+            if not robot.is_lost and now_s - robot.seen_s > LOST_AFTER_S:
+                robot.is_lost = True
+                lines.append(Line("problem", self.texts("lost", robot=robot.name)))
+        return lines
+
+    def on_stop_report(self, report: StopReport) -> list[Line]:
+        """A robot says what became of an emergency stop."""
+        robot = self._robot(report.actor)
+        if report.state != "reset":
+            robot.state = "stopped"
+        elif robot.state == "stopped":
+            robot.state = "paused"
+        if report.state == "received" and report.id in self._own_stops:
+            return []
+        return [Line("note", self.texts(f"stop_{report.state}", robot=robot.name))]
+
+    def on_rejection(self, rejection: Rejection) -> list[Line]:
+        """Something was refused; the operator hears it without the vocabulary of engineers."""
+        if self._is_told_otherwise(rejection):
+            return []
+        self.replies += 1
+        robot = rejection.target or self.texts("system")
+        if any(problem.code == "stop_latched" for problem in rejection.problems):
+            return [Line("problem", self.texts("refused_latched", robot=robot))]
+        if rejection.what == "chat_interface_input" and rejection.problems:
+            return [Line("problem", self.texts("refused_message", problem=rejection.problems[0].message))]
+        return [Line("problem", self.texts("refused", robot=robot))]
+
+    def plan_lines(self, robot: RobotView) -> list[Line]:
+        """The whole plan of a robot for the conversation."""
+        steps = robot.plan.steps if robot.plan is not None else ()
+        if not steps:
+            return [Line("note", self.texts("no_plan", robot=robot.name))]
+        return self._plan(robot, steps)
+
+    def toolbar(self) -> list[Fragments]:
+        """The live rows below the prompt: who does what, and the plan of the robot that is spoken to."""
+        rows: list[Fragments] = []
+        for robot in self.here:
+            style = "class:robot" if robot.name == self.selected else "class:dim"
+            rows.append([(style, f" {robot.name}: {self.texts(f'state_{robot.mood}')}")])
+        current = self.current
+        if current is not None and current.plan is not None and current.plan.state != "idle":
+            rows += plan_rows(current.plan.steps, self.texts, current.progress)
+        return rows
+
+    def _robot(self, name: str) -> RobotView:
+        return self.robots.setdefault(name, RobotView(name))
+
+    def _is_told_otherwise(self, rejection: Rejection) -> bool:
+        """Whether a node speaks of it in the conversation: those do, except of what they cannot read."""
+        if any(problem.code == "invalid_message" for problem in rejection.problems):
+            return False
+        robot = self.robots.get(rejection.source)
+        if robot is None:
+            return True
+        return robot.plan is not None and robot.plan.graph_name == rejection.graph_name != ""
+
+    def _propose(self, robot: RobotView, proposal: PlanProposal) -> list[Line]:
+        self.replies += 1
+        robot.pending = [item for item in robot.pending if not isinstance(item, PlanProposal)]
+        robot.pending.append(proposal)
+        said = [Line("said", proposal.message, speaker=robot.name)] if proposal.message else []
+        heading = Line("heading", self.texts("proposal_of", robot=robot.name))
+        rows = [Line("step", f"{number}. {label(call)}") for number, call in enumerate(proposal.steps, 1)]
+        return [*said, heading, *rows, Line("asked", self.texts("shall_i"), speaker=robot.name)]
+
+    def _plan(self, robot: RobotView, steps: Sequence[PlanStep]) -> list[Line]:
+        """A heading and the steps; those to come are numbered as operators call them ("the second")."""
+        lines = [Line("heading", self.texts("plan_of", robot=robot.name))]
+        number = 0
+        for step in steps:
+            number += 0 if is_over(step) else 1
+            progress = robot.progress if robot.progress and robot.progress.node == step.node else None
+            lines.append(Line("step", step_row(step, self.texts, number=number, progress=progress)))
+        return lines
+
+    def _leave(self, name: str) -> list[Line]:
+        if name not in self.robots:
+            return []
+        del self.robots[name]
+        lines = [Line("note", self.texts("left", robot=name))]
+        if self.selected == name:
+            self.selected = next((robot.name for robot in self.here), "")
+            lines += [Line("note", self.texts("selected", robot=self.selected))] if self.selected else []
+        return lines
+
+
+def _hear(robot: RobotView, feedback: ChatFeedback) -> None:
+    """Keep what a robot's words ask for; a question without an id lasts until the robot's next words."""
+    settled = {feedback.closes} if feedback.closes else set()
+    if feedback.type in ("request", "response"):
+        settled.add("")
+    robot.pending = [
+        item for item in robot.pending if isinstance(item, PlanProposal) or item.id not in settled
+    ]
+    if feedback.type == "request":
+        robot.pending.append(Question(feedback.id, feedback.message, feedback.choices))
+    if feedback.type in ("request", "response"):
+        robot.offered = feedback.choices if feedback.type == "response" else ()

@@ -1,0 +1,245 @@
+"""The one checker: can this actor carry out this graph, and if not, why (all reasons at once).
+
+Used before a start and before a modify, by the command line and by whoever writes graphs. A graph that passes
+runs without waiting for something that nobody will give.
+"""
+
+from __future__ import annotations
+
+from collections import Counter
+from collections.abc import Collection, Iterator, Sequence
+
+from parley.errors import Problem
+from parley.messages.pvf import SEPARATOR, Parameter, Parameters
+from parley.umrf.action import ActionSpec
+from parley.umrf.catalogue import Catalogue
+from parley.umrf.model import ENTRY, EXIT, ChildRelation, Graph, Node, NodeRef, ParentRelation
+
+__all__ = ["check"]
+
+
+def check(
+    graph: Graph, catalogue: Catalogue, *, actor: str = "", known_actors: Collection[str] = ()
+) -> list[Problem]:
+    """Every reason why `actor` cannot run `graph`; empty if it can.
+
+    Args:
+        graph: As read.
+        catalogue: The actions of `actor`.
+        actor: Name of the engine that is to run it; empty for "whichever".
+        known_actors: Others that take part in graphs; a node for anybody else is a mistake.
+    """
+    return list(_Checker(graph, catalogue, actor, known_actors).problems())
+
+
+class _Checker:
+    def __init__(self, graph: Graph, catalogue: Catalogue, actor: str, known_actors: Collection[str]) -> None:
+        self.graph, self.catalogue, self.actor, self.known_actors = graph, catalogue, actor, known_actors
+        self.nodes: dict[NodeRef, Node] = {}
+        for node in graph.nodes:
+            self.nodes.setdefault(node.ref, node)
+
+    def problems(self) -> Iterator[Problem]:
+        yield from self._names()
+        for index, node in enumerate(self.graph.nodes):
+            path = f"actions[{index}]"
+            yield from self._relations(node, path)
+            yield from self._action(node, path)
+        for key, relations in (("graph_entry", self.graph.entry), ("graph_exit", self.graph.exit)):
+            yield from self._known(relations, key)
+        yield from self._unreachable()
+
+    def _names(self) -> Iterator[Problem]:
+        reserved = {ENTRY.name, EXIT.name}
+        count = Counter(node.full_name for node in self.graph.nodes)
+        seen: set[str] = set()
+        for index, node in enumerate(self.graph.nodes):
+            path = f"actions[{index}]"
+            if node.name in reserved:
+                yield Problem(
+                    f"{path}.name", f"{node.name!r} is reserved", "choose another name", "reserved_name"
+                )
+            if count[node.full_name] > 1 and node.full_name in seen:
+                yield Problem(
+                    f"{path}.instance_id",
+                    f"there are {count[node.full_name]} actions {node.full_name}",
+                    "give each its own instance_id",
+                    "duplicate_node",
+                )
+            seen.add(node.full_name)
+
+    def _relations(self, node: Node, path: str) -> Iterator[Problem]:
+        yield from self._known(node.children, f"{path}.children")
+        yield from self._known(node.parents, f"{path}.parents")
+        for index, child in enumerate(node.children):
+            other = self.nodes.get(child.node)
+            if other is None:
+                continue
+            where = f"{path}.children[{index}]"
+            if all(parent.node != node.ref for parent in other.parents):
+                yield _one_sided(where, node, other, "child", "parent")
+            yield from _remap(node, other, child, where)
+        for index, parent in enumerate(node.parents):
+            other = self.nodes.get(parent.node)
+            if other is not None and all(child.node != node.ref for child in other.children):
+                yield _one_sided(f"{path}.parents[{index}]", node, other, "parent", "child")
+
+    def _known(self, relations: Sequence[ChildRelation | ParentRelation], path: str) -> Iterator[Problem]:
+        """Relations must name nodes that exist, each once."""
+        seen: set[NodeRef] = set()
+        for index, relation in enumerate(relations):
+            name, where = relation.node.full_name, f"{path}[{index}]"
+            if relation.node not in self.nodes:
+                yield Problem(
+                    where, f"{name} is not among the actions", "add it or drop the relation", "missing_node"
+                )
+            if relation.node in seen:
+                yield Problem(where, f"{name} is named twice", "name it once", "duplicate_relation")
+            seen.add(relation.node)
+
+    def _unreachable(self) -> Iterator[Problem]:
+        if not self.graph.entry:  # accepted: such a graph halts at once, and a modify may continue it
+            return
+        reached: set[NodeRef] = set()
+        waiting = [relation.node for relation in self.graph.entry]
+        while waiting:
+            ref = waiting.pop()
+            if ref not in reached and ref in self.nodes:
+                reached.add(ref)
+                waiting.extend(child.node for child in self.nodes[ref].children)
+        for index, node in enumerate(self.graph.nodes):
+            if node.ref not in reached:
+                yield Problem(
+                    f"actions[{index}]",
+                    f"no way leads from graph_entry to {node.full_name}",
+                    "make it a child of another action or an entry",
+                    "unreachable_node",
+                )
+
+    def _action(self, node: Node, path: str) -> Iterator[Problem]:
+        if node.type == "spontaneous":
+            yield Problem(
+                f"{path}.type", "spontaneous actions are not supported yet", "use sync", "not_supported_yet"
+            )
+        if node.actor and node.actor != self.actor:
+            yield self._other_actor(node, path)
+            return
+        spec = self.catalogue.get(node.name)
+        if spec is None:
+            yield self._unknown(node, path)
+            return
+        yield from _parameters(node.input_parameters, spec.inputs, f"{path}.input_parameters", spec)
+        yield from _parameters(node.output_parameters, spec.outputs, f"{path}.output_parameters", spec)
+        yield from self._missing_inputs(node, spec, path)
+
+    def _other_actor(self, node: Node, path: str) -> Problem:
+        if node.actor in self.known_actors or not self.actor:
+            return Problem(
+                f"{path}.actor",
+                f"actions of another actor ({node.actor}) in one graph are not supported yet",
+                "send each actor a graph of its own",
+                "not_supported_yet",
+            )
+        known = ", ".join([self.actor, *self.known_actors])
+        return Problem(
+            f"{path}.actor", f"there is no actor {node.actor!r}", f"known are {known}", "unknown_actor"
+        )
+
+    def _unknown(self, node: Node, path: str) -> Problem:
+        similar = self.catalogue.suggestions(node.name)
+        if similar:
+            remedy = f"did you mean {' or '.join(similar)}?"
+        else:
+            remedy = f"known are {', '.join(spec.name for spec in self.catalogue) or 'none'}"
+        owner = f"{self.actor} has" if self.actor else "there is"
+        return Problem(f"{path}.name", f"{owner} no action {node.name!r}", remedy, "unknown_action")
+
+    def _missing_inputs(self, node: Node, spec: ActionSpec, path: str) -> Iterator[Problem]:
+        for name, known in spec.inputs.items():
+            given = node.input_parameters.get(name)
+            if given is None or not known.required or given.has_data or known.has_data:
+                continue
+            if not any(self._gives(parent.node, node, name, known) for parent in node.parents):
+                yield Problem(
+                    f"{path}.input_parameters.{_tree(name)}",
+                    f"{node.full_name} needs {name}, and nobody gives it",
+                    "give it a pvf_value, or let a parent output it",
+                    "missing_input",
+                )
+
+    def _gives(self, parent: NodeRef, node: Node, name: str, wanted: Parameter) -> bool:
+        """Whether the edge from `parent` to `node` carries a value for the input `name`."""
+        giver = self.nodes.get(parent)
+        if giver is None or not wanted.updatable:
+            return False
+        for relation in giver.children:
+            if relation.node == node.ref:
+                renamed = dict(relation.remap)
+                return any(
+                    renamed.get(output, output) == name and parameter.type == wanted.type
+                    for output, parameter in giver.output_parameters.items()
+                )
+        return False
+
+
+def _one_sided(path: str, node: Node, other: Node, side: str, opposite: str) -> Problem:
+    return Problem(
+        path,
+        f"{node.full_name} names {other.full_name} as {side}, "
+        f"but {other.full_name} does not name {node.full_name} as {opposite}",
+        "state the relation on both sides",
+        "one_sided_relation",
+    )
+
+
+def _remap(node: Node, child: Node, relation: ChildRelation, path: str) -> Iterator[Problem]:
+    for index, (source, target) in enumerate(relation.remap):
+        where = f"{path}.remap[{index}]"
+        if source not in node.output_parameters:
+            outputs = ", ".join(node.output_parameters) or "none"
+            yield Problem(
+                f"{where}.from",
+                f"{node.full_name} has no output {source!r}",
+                f"its outputs are: {outputs}",
+                "unknown_output",
+            )
+        if target not in child.input_parameters:
+            inputs = ", ".join(child.input_parameters) or "none"
+            yield Problem(
+                f"{where}.to",
+                f"{child.full_name} has no input {target!r}",
+                f"its inputs are: {inputs}",
+                "unknown_input",
+            )
+
+
+def _parameters(given: Parameters, known: Parameters, path: str, spec: ActionSpec) -> Iterator[Problem]:
+    """The flat names must be those of the descriptor, no more and no less (7.2), and the types too."""
+    wanted = ", ".join(known) or "none"
+    for name in [name for name in known if name not in given]:
+        yield Problem(
+            f"{path}.{_tree(name)}",
+            f"{spec.name} has a parameter {name!r}, which is missing",
+            f"give at least its pvf_type: {known[name].type}",
+            "missing_parameter",
+        )
+    for name in [name for name in given if name not in known]:
+        yield Problem(
+            f"{path}.{_tree(name)}",
+            f"{spec.name} has no parameter {name!r}",
+            f"it has: {wanted}",
+            "surplus_parameter",
+        )
+    for name in [name for name in given if name in known]:
+        if given[name].type != known[name].type:
+            yield Problem(
+                f"{path}.{_tree(name)}.pvf_type",
+                f"{name} is of type {known[name].type}, not {given[name].type}",
+                f"use {known[name].type}",
+                "wrong_type",
+            )
+
+
+def _tree(name: str) -> str:
+    """The flat name as it is nested in JSON."""
+    return name.replace(SEPARATOR, ".")

@@ -1,0 +1,330 @@
+"""What follows when a node has ended: the propagation of `spec/umrf.md` 10.4 and the transfer of 10.6.
+
+A plain object without a loop: `Flow` holds the topology, which edges were seen and which data is where;
+`propagate` moves results and data on and returns what is to be done. Who does it is `executor`.
+"""
+
+from __future__ import annotations
+
+from collections import deque
+from collections.abc import Callable, Mapping
+from dataclasses import dataclass, field, replace
+from typing import Any, Literal
+
+from parley.errors import ActionFailure, FailureCode
+from parley.messages.pvf import Parameter
+from parley.umrf.action import ActionSpec
+from parley.umrf.model import (
+    ENTRY,
+    EXIT,
+    ChildRelation,
+    Graph,
+    LogMessage,
+    Node,
+    NodeState,
+    ParentRelation,
+    Response,
+    Result,
+)
+
+__all__ = ["Effect", "Flow", "FlowNode", "Runner"]
+
+MAX_LOG_MESSAGES = 10
+_COMPARABLE = ("string", "number", "bool")
+"""Types whose allowed values are compared; any list blocks the others (4.4)."""
+
+
+@dataclass(frozen=True, slots=True)
+class Effect:
+    """Something to be done, in the order in which propagation gave it."""
+
+    kind: Literal["run", "stop", "pause", "restart", "bypassed", "fail", "finish"]
+    node: str = ""
+    """Full name; empty for `finish`, which ends the graph."""
+    result: Result = Result.ON_TRUE
+    """For `finish` the graph's result, for `bypassed` what is passed on."""
+    message: str = ""
+    """For `fail`: why the node cannot run."""
+
+
+class Runner:
+    """What runs one node: made before its first run and kept, so that class actions remember."""
+
+    def __init__(self, spec: ActionSpec) -> None:
+        self._spec = spec
+        self._made: Callable[..., Any] | None = None
+
+    def get(self) -> Callable[..., Any]:
+        """The function or bound method.
+
+        Raises:
+            ActionFailure: `not_capable`: the action is only described, by a descriptor file.
+        """
+        if self._made is None:
+            self._made = self._spec.runner()
+        if self._made is None:
+            raise ActionFailure(
+                FailureCode.NOT_CAPABLE, f"{self._spec.name} is only described here; nothing carries it out."
+            )
+        return self._made
+
+
+@dataclass(slots=True, eq=False)
+class FlowNode:
+    """One node of a running graph: its description, matched, and everything that changes."""
+
+    node: Node
+    spec: ActionSpec
+    parents: dict[str, ParentRelation] = field(default_factory=dict)
+    """By full name, the hidden entry included."""
+    children: tuple[ChildRelation, ...] = ()
+    """The hidden exit included, as the last."""
+    state: NodeState = NodeState.UNINITIALIZED
+    values: dict[str, Any] = field(default_factory=dict)
+    """Inputs that have data now."""
+    transferred: set[str] = field(default_factory=set)
+    """Those of `values` that came along an edge; they are dropped after the run (4.3)."""
+    last_values: dict[str, Any] = field(default_factory=dict)
+    """The inputs of the last run, for a run that repeats it."""
+    outputs: dict[str, Any] = field(default_factory=dict)
+    """Of the last run."""
+    received: set[str] = field(default_factory=set)
+    """Parents whose edge was seen at least once."""
+    log: deque[LogMessage] = field(default_factory=lambda: deque(maxlen=MAX_LOG_MESSAGES))
+    runner: Runner = field(kw_only=True)
+    """What runs it, the same object for all runs."""
+
+    @property
+    def name(self) -> str:
+        """The full name."""
+        return self.node.full_name
+
+    @property
+    def active(self) -> bool:
+        """Whether a run of it is going on, standing still included."""
+        return self.state in _ACTIVE
+
+    def missing_inputs(self) -> list[str]:
+        """Required inputs without data."""
+        inputs = self.node.input_parameters.items()
+        return [name for name, known in inputs if known.required and name not in self.values]
+
+    def missing_edges(self) -> list[str]:
+        """Required parents whose edge was not seen yet."""
+        return [name for name, edge in self.parents.items() if edge.required and name not in self.received]
+
+    def drop_transferred(self) -> None:
+        """Forget what came along edges, after a run."""
+        for name in self.transferred:
+            self.values.pop(name, None)
+        self.transferred.clear()
+
+
+_ACTIVE = frozenset({NodeState.RUNNING, NodeState.PAUSE_REQUESTED, NodeState.PAUSED, NodeState.STOPPING})
+
+
+class Flow:
+    """The moving part of one graph.
+
+    Args:
+        graph: A checked graph whose inputs are merged with the descriptors.
+        specs: What runs each node, by full name.
+    """
+
+    def __init__(self, graph: Graph, specs: Mapping[str, ActionSpec], previous: Flow | None = None) -> None:
+        self.entry = graph.entry
+        self.exit = {relation.node.full_name: relation for relation in graph.exit}
+        self.started: bool = previous is not None and previous.started
+        old = previous.nodes if previous is not None else {}
+        self.nodes: dict[str, FlowNode] = {}
+        for node in graph.nodes:
+            kept = old.get(node.full_name)
+            self.nodes[node.full_name] = (
+                _new(node, specs[node.full_name]) if kept is None else _carry(kept, node)
+            )
+        for relation in self.entry:
+            item = self.nodes[relation.node.full_name]
+            item.parents[ENTRY.full_name] = ParentRelation(ENTRY)
+            if self.started:
+                item.received.add(ENTRY.full_name)
+        for name in self.exit:
+            self.nodes[name].children += (ChildRelation(EXIT),)
+        self._exit_received: set[str] = set()
+        self._exit_given: set[str] = set()
+        if previous is not None:
+            self._exit_received |= previous._exit_received & self.exit.keys()
+            self._exit_given |= previous._exit_given
+        outputs = [self.nodes[name].node.output_parameters for name in self.exit]
+        self._exit_needs: set[str] = next((set(item) for item in reversed(outputs) if item), set())
+
+    def replaced(self, graph: Graph, specs: Mapping[str, ActionSpec]) -> Flow:
+        """Another form of this graph (11.5) in which nodes that stay keep state, data and seen edges."""
+        return Flow(graph, specs, previous=self)
+
+    def start(self) -> list[Effect]:
+        """The entry has ended `on_true`: what follows."""
+        self.started = True
+        effects: list[Effect] = []
+        for relation in self.entry:
+            item = self.nodes[relation.node.full_name]
+            item.received.add(ENTRY.full_name)
+            effects += self._respond(item, Response.RUN, "")
+        return effects
+
+    def propagate(self, name: str, result: Result) -> list[Effect]:
+        """Node `name` has ended with `result`: mark edges, move data, and say what follows.
+
+        Bypassed nodes pass the result on at once. An edge is followed once per call, so that a cycle of
+        bypasses ends.
+        """
+        effects: list[Effect] = []
+        followed: set[tuple[str, str]] = set()
+        waiting: deque[str] = deque([name])
+        while waiting:
+            parent = self.nodes[waiting.popleft()]
+            for relation in parent.children:
+                edge = (parent.name, relation.node.full_name)
+                if edge in followed:
+                    continue
+                followed.add(edge)
+                if relation.node == EXIT:
+                    if self._reaches_exit(parent, result):
+                        return [*effects, Effect("finish", result=result)]
+                    continue
+                child = self.nodes[edge[1]]
+                child.received.add(parent.name)
+                response = child.parents[parent.name].response(result)
+                if response is Response.BYPASS:
+                    effects.append(Effect("bypassed", child.name, result))
+                    waiting.append(child.name)
+                elif response is not Response.IGNORE:
+                    outputs = parent.outputs if parent.name == name else {}  # a bypassed node gave none
+                    given, refused = _carried(parent, outputs, child, relation)
+                    child.values |= given
+                    child.transferred |= given.keys()
+                    effects += self._respond(child, response, refused)
+        return effects
+
+    def waiting_for(self) -> str:
+        """Why nodes that were reached do not run, in words; empty if there are none."""
+        reasons: list[str] = []
+        for item in self.nodes.values():
+            if (
+                item.active
+                or not item.received - {ENTRY.full_name}
+                or item.state is not NodeState.UNINITIALIZED
+            ):
+                continue
+            if missing := item.missing_inputs():
+                reasons.append(f"{item.name} has no data for {', '.join(missing)}")
+            if missing := item.missing_edges():
+                reasons.append(f"{item.name} still waits for {', '.join(missing)}")
+        return "; ".join(reasons)
+
+    def past_values(self, item: FlowNode) -> dict[str, Any]:
+        """For a node that is run out of turn (11.4): what it lacks, as its parents or it had it last."""
+        lacking = item.missing_inputs()
+        found = {name: item.last_values[name] for name in lacking if name in item.last_values}
+        for name in item.parents:
+            parent = self.nodes.get(name)
+            for relation in parent.children if parent is not None else ():
+                if parent is not None and relation.node == item.node.ref:
+                    given, _ = _carried(parent, parent.outputs, item, relation)
+                    found |= {name: value for name, value in given.items() if name in lacking}
+        return found
+
+    def _respond(self, child: FlowNode, response: Response, refused: str) -> list[Effect]:
+        """Do what the edge says once the child is ready; a value that is not allowed is the child's error."""
+        if child.missing_edges():
+            return []
+        if child.missing_inputs():
+            return (
+                [Effect("fail", child.name, message=refused)] if refused and response is Response.RUN else []
+            )
+        match response:
+            case Response.RUN:
+                return [Effect("run", child.name)]
+            case Response.STOP:
+                return [Effect("stop", child.name)]
+            case Response.PAUSE:
+                return [Effect("pause", child.name)]
+            case Response.RESTART:
+                return [Effect("restart", child.name)]
+        return []
+
+    def _reaches_exit(self, parent: FlowNode, result: Result) -> bool:
+        """Whether this end of an exit action ends the graph (5.3, 6)."""
+        relation = self.exit[parent.name]
+        self._exit_received.add(parent.name)
+        response = relation.response(result)
+        if response is Response.BYPASS:
+            return True
+        if response is Response.IGNORE:
+            return False
+        # The reference reads outputs that were not given as zero values: they are no reason to wait for ever.
+        self._exit_given |= parent.node.output_parameters.keys()
+        if not self._exit_needs <= self._exit_given:
+            return False
+        return all(name in self._exit_received for name, edge in self.exit.items() if edge.required)
+
+
+def _new(node: Node, spec: ActionSpec) -> FlowNode:
+    values = {name: item.value for name, item in node.input_parameters.items() if item.has_data}
+    return FlowNode(
+        node=node,
+        spec=spec,
+        parents=_parents(node),
+        children=node.children,
+        values=values,
+        runner=Runner(spec),
+    )
+
+
+def _parents(node: Node) -> dict[str, ParentRelation]:
+    return {relation.node.full_name: relation for relation in node.parents}
+
+
+def _carry(kept: FlowNode, node: Node) -> FlowNode:
+    """Step 4 of 11.5: relations are replaced, values that are given overwrite; nothing else changes."""
+    parents, entered = _parents(node), {ENTRY.full_name} & kept.received
+    carried = replace(
+        kept,
+        node=replace(kept.node, parents=node.parents, children=node.children),
+        parents=parents,
+        children=node.children,
+        values=dict(kept.values),
+        transferred=set(kept.transferred),
+        received=kept.received & parents.keys() | entered,
+    )
+    for name, given in node.input_parameters.items():
+        own = kept.node.input_parameters.get(name)
+        if own is not None and given.has_data and _accepts(own, given.type, given.value):
+            carried.values[name] = given.value
+            carried.transferred.discard(name)
+    return carried
+
+
+def _carried(
+    parent: FlowNode, outputs: Mapping[str, Any], child: FlowNode, relation: ChildRelation
+) -> tuple[dict[str, Any], str]:
+    """What an edge brings to the inputs of the same (renamed) name, and why not, if a value is refused."""
+    renamed = dict(relation.remap)
+    given: dict[str, Any] = {}
+    refused = ""
+    for source, value in outputs.items():
+        name = renamed.get(source, source)
+        own, declared = child.node.input_parameters.get(name), parent.node.output_parameters.get(source)
+        if own is None or declared is None:
+            continue
+        if _accepts(own, declared.type, value):
+            given[name] = value
+        elif own.updatable and own.type == declared.type:
+            refused = f"{name} must be one of {', '.join(map(str, own.allowed))}, not {value}."
+    return given, refused
+
+
+def _accepts(own: Parameter, pvf_type: str, value: Any) -> bool:
+    """Whether incoming data may be taken over (4.4, 10.6)."""
+    if not own.updatable or own.type != pvf_type:
+        return False
+    return not own.allowed or (own.type in _COMPARABLE and value in own.allowed)

@@ -1,0 +1,155 @@
+"""One run of one node: what the action is given, and how it is paused and stopped."""
+
+from __future__ import annotations
+
+import asyncio
+import inspect
+import threading
+from collections.abc import Callable
+from typing import Any, Final
+
+from parley.clock import Clock
+from parley.umrf.action import Outcome, RunHandle, bind_inputs, outcome_of
+from parley.umrf.flow import FlowNode
+from parley.umrf.model import LogMessage
+from parley.umrf.text import clean_text
+from parley.umrf.threads import in_thread
+
+__all__ = ["NodeRun"]
+
+PROGRESS_INTERVAL_S: Final = 0.1
+ABANDON_S: Final = 0.1
+
+
+class NodeRun:
+    """A run that goes on; what the action sees of it is `parley.umrf.action.RunHandle`.
+
+    Args:
+        item: The node; its inputs are read when the run begins.
+        actor: The robot.
+        graph_name: The graph it is part of.
+        clock: Robot time for the action; progress is spaced by wall time.
+        on_progress: Gets fraction and text, on the loop, at most every 100 ms.
+    """
+
+    def __init__(
+        self,
+        item: FlowNode,
+        *,
+        actor: str,
+        graph_name: str,
+        clock: Clock,
+        on_progress: Callable[[float | None, str], None],
+    ) -> None:
+        self.actor, self.graph_name, self.node, self.clock = actor, graph_name, item.name, clock
+        self.restart_wanted = False
+        self.last_log = ""
+        self._item, self._on_progress = item, on_progress
+        self._values = dict(item.values)
+        self._loop = asyncio.get_running_loop()
+        self._thread = threading.get_ident()
+        self._going = asyncio.Event()
+        self._going.set()
+        self._paused = self._stopping = self._threaded = self._over = False
+        self._progress: tuple[float | None, str] | None = None
+        self._progress_timer: asyncio.TimerHandle | None = None
+        self._stop_timer: asyncio.TimerHandle | None = None
+        self._task: asyncio.Task[Outcome] | None = None
+
+    def begin(self, make_context: Callable[[RunHandle], Any], ended: Callable[[NodeRun], None]) -> None:
+        """Start; `ended` is called on the loop once it is over, however it ends."""
+        self._task = asyncio.create_task(self._call(make_context), name=f"{self.graph_name}/{self.node}")
+        self._task.add_done_callback(lambda _: self._end(ended))
+
+    async def _call(self, make_context: Callable[[RunHandle], Any]) -> Outcome:
+        item = self._item
+        run = item.runner.get()
+        arguments = bind_inputs(item.spec, self._values)
+        context = make_context(self)
+        if inspect.iscoroutinefunction(run):
+            returned = await run(context, **arguments)
+        else:
+            self._threaded = True
+            returned = await in_thread(f"action {self.node}", run, context, **arguments)
+        return outcome_of(item.spec, returned)
+
+    def _end(self, ended: Callable[[NodeRun], None]) -> None:
+        self._over = True
+        for timer in (self._progress_timer, self._stop_timer):
+            if timer is not None:
+                timer.cancel()
+        ended(self)
+
+    def ending(self) -> Outcome | BaseException:
+        """What the action returned or raised, once it is over."""
+        if self.task.cancelled():
+            return asyncio.CancelledError()
+        return self.task.exception() or self.task.result()
+
+    def pause(self) -> None:
+        """Ask the action to stand still."""
+        self._paused = True
+        self._going.clear()
+
+    def resume(self) -> None:
+        """Let the action go on."""
+        self._paused = False
+        self._going.set()
+
+    def stop(self, timeout_s: float, timed_out: Callable[[], None]) -> None:
+        """Ask the action to end; `timed_out` is called if it has not after `timeout_s` of wall time."""
+        self._stopping = True
+        self.resume()
+        if self._task is not None and not self._threaded:
+            self._task.cancel()
+        self._stop_timer = self._loop.call_later(timeout_s, timed_out)
+
+    @property
+    def task(self) -> asyncio.Task[Outcome]:
+        """What runs it, once begun."""
+        assert self._task is not None
+        return self._task
+
+    async def abandon(self) -> bool:
+        """Cancel whatever still waits, also for a thread; False if the action does not let that happen."""
+        self.task.cancel()
+        await asyncio.wait([self.task], timeout=ABANDON_S)
+        return self.task.done()
+
+    def log(self, text: str) -> None:
+        """See `RunHandle.log`."""
+        self.last_log = clean_text(text)
+        self._item.log.append(LogMessage(self.clock.unix_ms(), self.last_log))
+
+    def progress(self, fraction: float | None, text: str = "") -> None:
+        """See `RunHandle.progress`; what comes too soon waits, and the newest of it is sent."""
+        if threading.get_ident() != self._thread:
+            self._loop.call_soon_threadsafe(self.progress, fraction, text)
+            return
+        if self._over:
+            return
+        self._progress = (fraction, text)
+        if self._progress_timer is None:
+            self._send_progress()
+
+    def _send_progress(self) -> None:
+        self._progress_timer = None
+        if self._progress is None:
+            return
+        (fraction, text), self._progress = self._progress, None
+        self._progress_timer = self._loop.call_later(PROGRESS_INTERVAL_S, self._send_progress)
+        self._on_progress(fraction, text)
+
+    @property
+    def paused(self) -> bool:
+        """See `RunHandle.paused`."""
+        return self._paused
+
+    async def wait_while_paused(self) -> None:
+        """See `RunHandle.wait_while_paused`."""
+        await self._going.wait()
+
+    @property
+    def stop_requested(self) -> bool:
+        """See `RunHandle.stop_requested`."""
+        return self._stopping

@@ -1,0 +1,314 @@
+"""Parsing UMRF JSON: goes on after a problem, so that whoever wrote the graph hears of all at once."""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Callable, Mapping
+from typing import Any, Final, TypeVar
+
+from parley.errors import GraphRefusedError, InvalidMessageError, Problem
+from parley.messages.pvf import SEPARATOR, Parameter, read_parameters
+from parley.messages.wire import load_json
+from parley.umrf.model import (
+    DEFAULT_CONDITIONS,
+    ChildRelation,
+    Graph,
+    GraphState,
+    LogMessage,
+    Node,
+    NodeRef,
+    NodeState,
+    ParentRelation,
+    Response,
+    Result,
+)
+
+__all__ = ["MAX_INSTANCE_ID", "Reader", "load_object"]
+
+MAX_INSTANCE_ID: Final = 65535
+MAX_MESSAGES: Final = 10
+_MAX_DEPTH: Final = 64
+"""Deeper nesting than any graph needs would exhaust the stack of whoever writes it back."""
+
+T = TypeVar("T")
+
+
+def load_object(source: str | Mapping[str, Any], what: str) -> Mapping[str, Any]:
+    """The JSON object in `source`.
+
+    Raises:
+        GraphRefusedError: It is not JSON, no object, nested too deeply, or holds text that is no Unicode.
+    """
+    try:
+        value = load_json(what, source) if isinstance(source, str) else source
+    except InvalidMessageError as error:
+        raise _refused(error.problem, "send the JSON of section 2 of the UMRF contract") from error
+    if not isinstance(value, Mapping):
+        raise _refused(f"expected a JSON object, got {_kind(value)}", f"put the {what} into {{...}}")
+    _check_content(value)
+    return value
+
+
+def _refused(message: str, remedy: str = "") -> GraphRefusedError:
+    return GraphRefusedError("", [Problem("", message, remedy, "malformed")])
+
+
+def _check_content(value: Any) -> None:
+    """Refuse what could be read but not written back."""
+    level = [value]
+    for _ in range(_MAX_DEPTH):
+        following: list[Any] = []
+        for item in level:
+            if isinstance(item, Mapping):
+                following.extend(item)
+                following.extend(item.values())
+            elif isinstance(item, list | tuple):
+                following.extend(item)
+            elif isinstance(item, str) and not item.isascii():
+                _check_text(item)
+            elif isinstance(item, float) and not math.isfinite(item):
+                raise _refused(f"{item} is not a number that JSON can hold")
+        level = following
+        if not level:
+            return
+    raise _refused(f"nested deeper than {_MAX_DEPTH} levels")
+
+
+def _check_text(text: str) -> None:
+    try:
+        text.encode("utf-8")
+    except UnicodeEncodeError as error:
+        raise _refused(f"the text {text[:40]!r} is not valid Unicode: {error.reason}") from error
+
+
+class Reader:
+    """Collects `problems` while it reads; whatever a problem hides is read as its default."""
+
+    def __init__(self) -> None:
+        self.problems: list[Problem] = []
+
+    def graph(self, raw: Mapping[str, Any]) -> Graph | None:
+        """A graph (2), short form included; None or wrong in parts if there are problems."""
+        name = self._text(raw, "graph_name", "", needed=True)
+        actions = self._list(raw, "actions", "", needed=True)
+        nodes = [self.node(item, f"actions[{index}]") for index, item in enumerate(actions)]
+        complete = tuple(node for node in nodes if node is not None)
+        if len(actions) == 1 and complete and "graph_entry" not in raw and "graph_exit" not in raw:
+            entry: tuple[ChildRelation, ...] = (ChildRelation(complete[0].ref),)
+            exits: tuple[ParentRelation, ...] = (ParentRelation(complete[0].ref),)
+        else:
+            entry = self._each(raw, "graph_entry", "", self._child, needed=True)
+            exits = self._each(raw, "graph_exit", "", self._parent, needed=True)
+        known = {node.ref for node in complete}
+        if len(complete) == len(actions):  # otherwise the culprit is named already
+            self._check_known(known, [relation.node for relation in entry], "graph_entry")
+            self._check_known(known, [relation.node for relation in exits], "graph_exit")
+        state = self._word(raw, "graph_state", "", GraphState, GraphState.UNINITIALIZED)
+        description = self._text(raw, "graph_description", "")
+        return Graph(name, complete, entry, exits, description, state) if name else None
+
+    def node(self, raw: Any, path: str) -> Node | None:
+        """An action node or descriptor (3)."""
+        if not isinstance(raw, Mapping):
+            self._problem(path, f"expected an action object, got {_kind(raw)}")
+            return None
+        name = self._text(raw, "name", path, needed=True)
+        kind = self._text(raw, "type", path, needed=True)
+        node = Node(
+            name=name,
+            instance_id=self._instance_id(raw, path),
+            type=kind,
+            actor=self._text(raw, "actor", path),
+            description=self._text(raw, "description", path),
+            state=self._word(raw, "state", path, NodeState, NodeState.UNINITIALIZED),
+            input_parameters=self._parameters(raw, "input_parameters", path),
+            output_parameters=self._parameters(raw, "output_parameters", path),
+            parents=self._each(raw, "parents", path, self._parent),
+            children=self._each(raw, "children", path, self._child),
+            gui_attributes=raw.get("gui_attributes"),
+            messages=self._messages(raw, path),
+        )
+        return node if name and kind else None
+
+    def _child(self, raw: Any, path: str) -> ChildRelation | None:
+        ref = self._ref(raw, path)
+        if ref is None:
+            return None
+        remap: dict[str, str] = {}
+        for index, item in enumerate(self._list(raw, "remap", path)):
+            where = f"{path}.remap[{index}]"
+            if not isinstance(item, Mapping):
+                self._problem(where, f'expected {{"from": .., "to": ..}}, got {_kind(item)}')
+                continue
+            source, target = (
+                self._text(item, "from", where, needed=True),
+                self._text(item, "to", where, needed=True),
+            )
+            if source in remap:
+                self._problem(f"{where}.from", f"{source!r} is renamed twice", "keep one of the two")
+            remap[source] = target
+        return ChildRelation(ref, tuple(remap.items()))
+
+    def _parent(self, raw: Any, path: str) -> ParentRelation | None:
+        ref = self._ref(raw, path)
+        if ref is None:
+            return None
+        required = raw.get("required", True)
+        if not isinstance(required, bool):
+            self._problem(_join(path, "required"), f"expected true or false, got {_kind(required)}")
+            required = True
+        conditions: dict[Result, Response] = {}
+        for index, item in enumerate(self._list(raw, "conditions", path)):
+            conditions |= self._condition(item, f"{path}.conditions[{index}]")
+        return ParentRelation(ref, required, conditions)
+
+    def _condition(self, raw: Any, path: str) -> dict[Result, Response]:
+        if not isinstance(raw, str):
+            self._problem(path, f'expected a text like "on_true -> run", got {_kind(raw)}')
+            return {}
+        words = "".join(raw.split()).split("->")
+        if len(words) != 2:
+            self._problem(path, f"cannot read {raw!r}", 'write it like "on_true -> run"')
+            return {}
+        results = {result.value: result for result in DEFAULT_CONDITIONS}
+        responses = {response.value: response for response in Response}
+        if words[0] not in results:
+            self._problem(path, f"unknown precondition {words[0]!r}", _one_of(results), "unknown_word")
+        if words[1] not in responses:
+            self._problem(path, f"unknown response {words[1]!r}", _one_of(responses), "unknown_word")
+        if words[0] in results and words[1] in responses:
+            return {results[words[0]]: responses[words[1]]}
+        return {}
+
+    def _ref(self, raw: Any, path: str) -> NodeRef | None:
+        if not isinstance(raw, Mapping):
+            self._problem(path, f"expected an object with name and instance_id, got {_kind(raw)}")
+            return None
+        name = self._text(raw, "name", path, needed=True)
+        return NodeRef(name, self._instance_id(raw, path)) if name else None
+
+    def _instance_id(self, raw: Mapping[str, Any], path: str) -> int:
+        value = raw.get("instance_id", 0)
+        whole = type(value) is int or (type(value) is float and value.is_integer())
+        if not whole or not 0 <= value <= MAX_INSTANCE_ID:
+            self._problem(
+                _join(path, "instance_id"),
+                f"expected a whole number from 0 to {MAX_INSTANCE_ID}, got {value!r}",
+            )
+            return 0
+        return int(value)
+
+    def _parameters(self, raw: Mapping[str, Any], key: str, path: str) -> dict[str, Parameter]:
+        flat: dict[str, Parameter] = {}
+        if key in raw:
+            self._level(raw[key], "", _join(path, key), flat)
+        for name in flat:
+            level, _, _ = name.rpartition(SEPARATOR)
+            if level in flat:
+                self._problem(_join(path, key), f"{level!r} is both a parameter and a name level")
+        return flat
+
+    def _level(self, raw: Any, name: str, path: str, flat: dict[str, Parameter]) -> None:
+        """One level of a parameter tree; leaves are read one by one, so that each can have its problem."""
+        if not isinstance(raw, Mapping):
+            self._problem(path, f"expected an object with pvf_type or a name level, got {_kind(raw)}")
+            return
+        for key, child in raw.items():
+            inner, where = f"{name}{SEPARATOR}{key}" if name else str(key), f"{path}.{key}"
+            if isinstance(child, Mapping) and "pvf_type" not in child:
+                self._level(child, inner, where, flat)
+                continue
+            try:
+                parameter = read_parameters({key: child}, path)[str(key)]
+            except InvalidMessageError as error:
+                self._problem(error.path, error.problem, "leave the key out if there is no value yet")
+                continue
+            if inner in flat:
+                self._problem(where, f"the parameter {inner!r} is given twice", "keep one of the two")
+            flat[inner] = parameter
+
+    def _messages(self, raw: Mapping[str, Any], path: str) -> tuple[LogMessage, ...]:
+        if "runtime" not in raw:
+            return ()
+        where = _join(path, "runtime")
+        if not isinstance(raw["runtime"], Mapping):
+            self._problem(where, f"expected an object, got {_kind(raw['runtime'])}")
+            return ()
+        found: list[LogMessage] = []
+        for index, item in enumerate(self._list(raw["runtime"], "messages", where, needed=True)):
+            if (
+                isinstance(item, Mapping)
+                and isinstance(item.get("timestamp"), int)
+                and isinstance(item.get("message"), str)
+            ):
+                found.append(LogMessage(item["timestamp"], item["message"]))
+            else:
+                self._problem(
+                    f"{where}.messages[{index}]", 'expected {"timestamp": <integer>, "message": <string>}'
+                )
+        return tuple(sorted(found, key=lambda message: message.timestamp)[-MAX_MESSAGES:])
+
+    def _check_known(self, known: set[NodeRef], refs: list[NodeRef], key: str) -> None:
+        for index, ref in enumerate(refs):
+            if ref not in known:
+                self._problem(
+                    f"{key}[{index}]", f"{ref.full_name} is not among the actions", "", "missing_node"
+                )
+
+    def _text(self, raw: Mapping[str, Any], key: str, path: str, *, needed: bool = False) -> str:
+        value: Any = raw.get(key, "")
+        if not isinstance(value, str):
+            self._problem(_join(path, key), f"expected a string, got {_kind(value)}")
+            return ""
+        if needed and not value:
+            self._problem(_join(path, key), "is missing or empty", f"give {key} a text", "missing")
+        return str(value)
+
+    def _list(self, raw: Mapping[str, Any], key: str, path: str, *, needed: bool = False) -> list[Any]:
+        if key not in raw:
+            if needed:
+                self._problem(_join(path, key), "is missing", "give an array; it may be empty", "missing")
+            return []
+        value = raw[key]
+        if not isinstance(value, list):
+            self._problem(_join(path, key), f"expected an array, got {_kind(value)}")
+            return []
+        return value
+
+    def _each(
+        self,
+        raw: Mapping[str, Any],
+        key: str,
+        path: str,
+        read: Callable[[Any, str], T | None],
+        *,
+        needed: bool = False,
+    ) -> tuple[T, ...]:
+        items = self._list(raw, key, path, needed=needed)
+        parsed = (read(item, f"{_join(path, key)}[{index}]") for index, item in enumerate(items))
+        return tuple(item for item in parsed if item is not None)
+
+    def _word(self, raw: Mapping[str, Any], key: str, path: str, words: type[T], default: T) -> T:
+        value = raw.get(key, default)
+        try:
+            return words(value)  # type: ignore[call-arg]
+        except ValueError:
+            known = {str(word) for word in words}  # type: ignore[attr-defined]
+            self._problem(_join(path, key), f"unknown state {value!r}", _one_of(known), "unknown_word")
+            return default
+
+    def _problem(self, path: str, message: str, remedy: str = "", code: str = "malformed") -> None:
+        self.problems.append(Problem(path, message, remedy, code))
+
+
+def _join(path: str, key: str) -> str:
+    return f"{path}.{key}" if path else key
+
+
+def _one_of(words: Any) -> str:
+    return f"use one of {', '.join(sorted(words))}"
+
+
+def _kind(value: Any) -> str:
+    names = {bool: "a boolean", int: "a number", float: "a number", str: "a string", list: "an array"}
+    return "null" if value is None else names.get(type(value), "an object")

@@ -1,0 +1,111 @@
+"""What a running graph tells its observers: every change once, numbered without gaps."""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Mapping
+from dataclasses import dataclass, field
+from typing import Any, Literal
+
+import structlog
+
+from parley.clock import Clock
+from parley.messages.pvf import Parameter
+from parley.umrf.model import GraphState, Node, NodeState, Result
+from parley.umrf.text import clean_text
+
+__all__ = ["Announcer", "Observer", "Transition"]
+
+log = structlog.get_logger(__name__)
+
+
+@dataclass(frozen=True, slots=True)
+class Transition:
+    """One change of a graph or of one of its nodes, or a sign of progress."""
+
+    sequence: int
+    """From 0, per run of a graph."""
+    kind: Literal["graph", "node", "progress"]
+    state: str = ""
+    """Node or graph state afterwards; empty for progress."""
+    node: str = ""
+    """Full name; empty for the graph itself."""
+    instance_id: int = -1
+    cause: str = ""
+    """`start`, `edge`, `bypass`, `run` (the action itself), `dry`, `exit`, `stop`, `pause`, `resume`,
+    `modify`, `continue`, `restart`."""
+    result: Result | None = None
+    """How a node or the graph ended."""
+    outputs: Mapping[str, Parameter] = field(default_factory=dict)
+    """Of a node that ended, by flat name, with values."""
+    message: str = ""
+    """Newest log line of a node that failed; why a graph halted."""
+    progress: float | None = None
+    """0 to 1, None if not known."""
+    progress_text: str = ""
+    robot_time_s: float = 0.0
+    unix_ms: int = 0
+
+
+Observer = Callable[[Transition], None]
+"""Only looks; called on the loop, at once, in order."""
+
+
+class Announcer:
+    """Numbers and stamps the transitions of one graph and hands them to its observer."""
+
+    def __init__(self, graph_name: str, clock: Clock, observer: Observer | None) -> None:
+        self._graph_name, self._clock, self._observer = graph_name, clock, observer
+        self._sequence = 0
+
+    def graph(self, state: GraphState, cause: str, result: Result | None, message: str = "") -> None:
+        """The graph is now in `state`."""
+        self._tell("graph", state=state.value, cause=cause, result=result, message=message)
+
+    def node(
+        self,
+        node: Node,
+        state: NodeState,
+        cause: str,
+        *,
+        result: Result | None = None,
+        outputs: Mapping[str, Parameter] | None = None,
+        message: str = "",
+    ) -> None:
+        """A node is now in `state`."""
+        self._tell(
+            "node",
+            state=state.value,
+            node=node.full_name,
+            instance_id=node.instance_id,
+            cause=cause,
+            result=result,
+            outputs=outputs or {},
+            message=message,
+        )
+
+    def progress(self, node: Node, fraction: float | None, text: str) -> None:
+        """A node got on."""
+        self._tell(
+            "progress",
+            node=node.full_name,
+            instance_id=node.instance_id,
+            progress=fraction,
+            progress_text=clean_text(text),
+        )
+
+    def _tell(self, kind: Literal["graph", "node", "progress"], **what: Any) -> None:
+        transition = Transition(
+            sequence=self._sequence,
+            kind=kind,
+            robot_time_s=self._clock.now_s(),
+            unix_ms=self._clock.unix_ms(),
+            **what,
+        )
+        self._sequence += 1
+        if self._observer is None:
+            return
+        try:
+            self._observer(transition)
+        except Exception:
+            # An observer only looks: its defect must not derail the robot, but it must be seen.
+            log.exception("observer failed", graph=self._graph_name, sequence=transition.sequence)

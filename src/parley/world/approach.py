@@ -1,0 +1,122 @@
+"""Where to stand in front of something: free, reachable, near, with it in view."""
+
+from __future__ import annotations
+
+import math
+from dataclasses import dataclass
+
+import numpy as np
+from numpy.typing import NDArray
+from skimage.graph import MCP_Geometric
+
+from parley.world.geometry import Pose2D
+from parley.world.object_map import MapObject
+from parley.world.occupancy import OccupancyMap
+from parley.world.planning import clearance_m, passable, travel_costs
+
+__all__ = ["approach_pose"]
+
+Floats = NDArray[np.float64]
+
+_FARTHER_M = 0.7
+"""How much further away than wished is still near."""
+_MARGIN_M = 0.05
+_FRONT_HALF_ANGLE_RAD = math.radians(50)
+# What one metre off the wished standoff, one metre off the middle of the front, and one metre of way weigh
+# against each other: the right spot matters, a shorter way decides between equally good ones.
+_STANDOFF_WEIGHT, _ASIDE_WEIGHT, _WAY_WEIGHT = 6.0, 4.0, 0.5
+
+
+@dataclass(frozen=True, slots=True)
+class _Candidates:
+    cells: NDArray[np.intp]
+    """Shape (n, 2): rows and columns."""
+    x_m: Floats
+    y_m: Floats
+    gap_m: Floats
+    """Distance to the object's bounding box."""
+
+
+def approach_pose(
+    occupancy: OccupancyMap,
+    target: MapObject,
+    start: Pose2D,
+    *,
+    radius_m: float,
+    standoff_m: float = 0.45,
+) -> Pose2D | None:
+    """A pose near an object, facing it, that the robot can drive to.
+
+    Args:
+        occupancy: The map.
+        target: The object; with `front_rad`, only spots on that side count.
+        start: Where the robot is; of equally good spots it gets the one with the shorter way.
+        radius_m: Of the robot.
+        standoff_m: Wished distance between the robot's edge and the object's bounding box.
+
+    Returns:
+        The pose, always the same for the same arguments; None if no such spot can be reached.
+    """
+    wished_m = radius_m + standoff_m
+    radius_m += _MARGIN_M
+    clearance = clearance_m(occupancy)
+    allowed = passable(occupancy, clearance, start, radius_m)
+    row, column = occupancy.cell_of(start.x_m, start.y_m)
+    if not occupancy.contains(row, column):
+        return None
+    allowed[row, column] = True
+    near = _near(occupancy, target, allowed, wished_m + _FARTHER_M)
+    if len(near.cells) == 0:
+        return None
+    way, _ = MCP_Geometric(travel_costs(allowed, clearance, radius_m)).find_costs([(row, column)])
+    score = (
+        _STANDOFF_WEIGHT * np.abs(near.gap_m - wished_m)
+        + _WAY_WEIGHT * way[tuple(near.cells.T)] * occupancy.resolution_m
+        + _front_score(target, near)
+    )
+    for choice in np.argsort(score, kind="stable"):
+        if not np.isfinite(score[choice]):
+            return None
+        spot = Pose2D(float(near.x_m[choice]), float(near.y_m[choice]))
+        if _in_view(occupancy, spot, target):
+            return Pose2D(spot.x_m, spot.y_m, spot.bearing_to(target.x_m, target.y_m))
+    return None
+
+
+def _near(
+    occupancy: OccupancyMap, target: MapObject, allowed: NDArray[np.bool_], within_m: float
+) -> _Candidates:
+    cells = np.argwhere(allowed)
+    x = np.round(occupancy.origin_x_m + (cells[:, 1] + 0.5) * occupancy.resolution_m, 4)
+    y = np.round(occupancy.origin_y_m + (cells[:, 0] + 0.5) * occupancy.resolution_m, 4)
+    gap = np.hypot(
+        np.maximum(np.abs(x - target.x_m) - target.width_m / 2, 0.0),
+        np.maximum(np.abs(y - target.y_m) - target.height_m / 2, 0.0),
+    )
+    close = gap <= within_m
+    return _Candidates(cells[close], x[close], y[close], gap[close])
+
+
+def _front_score(target: MapObject, near: _Candidates) -> Floats:
+    """Infinite where the object's front cannot be seen from, more the further off its middle line."""
+    if target.front_rad is None:
+        return np.zeros(len(near.gap_m))
+    cos, sin = math.cos(target.front_rad), math.sin(target.front_rad)
+    ahead = cos * (near.x_m - target.x_m) + sin * (near.y_m - target.y_m)
+    aside = np.abs(cos * (near.y_m - target.y_m) - sin * (near.x_m - target.x_m))
+    face = (abs(cos) * target.width_m + abs(sin) * target.height_m) / 2
+    in_front = (ahead > face) & (np.arctan2(aside, ahead) <= _FRONT_HALF_ANGLE_RAD)
+    return np.where(in_front, _ASIDE_WEIGHT * aside, np.inf)
+
+
+def _in_view(occupancy: OccupancyMap, spot: Pose2D, target: MapObject) -> bool:
+    """Whether only free floor lies between a spot and the nearest point of the object's bounding box."""
+    x = float(np.clip(spot.x_m, target.x_m - target.width_m / 2, target.x_m + target.width_m / 2))
+    y = float(np.clip(spot.y_m, target.y_m - target.height_m / 2, target.y_m + target.height_m / 2))
+    # The map draws the object itself up to a cell beyond its box.
+    length = max(0.0, math.hypot(x - spot.x_m, y - spot.y_m) - 1.5 * occupancy.resolution_m)
+    bearing = spot.bearing_to(x, y)
+    return all(
+        occupancy.is_free(spot.x_m + math.cos(bearing) * step, spot.y_m + math.sin(bearing) * step)
+        for step in np.arange(0.0, length, occupancy.resolution_m / 2)
+    )

@@ -1,0 +1,253 @@
+"""The engine on its topics: commands in, feedback, events and refusals out."""
+
+from __future__ import annotations
+
+import asyncio
+import json
+
+import pytest
+
+from parley.messages import ros, topics
+from parley.messages.failure import FailureReport
+from tests.umrf.spec_actions import chain, node, planner_chain
+
+from .rig import DummyRobot, rigged
+
+
+async def test_a_graph_runs_and_its_events_come_once_each_in_order() -> None:
+    async with rigged() as rig:
+        rig.start(chain("g", [node("JoinText", 0, left="a", right="b"), node("NoOp", 1)]))
+        await rig.until_graph("g", "FINISHED")
+        assert [item.sequence for item in rig.events] == list(range(len(rig.events)))
+        told = [(item.node or "graph", item.state, item.result) for item in rig.events]
+        assert told == [
+            ("graph", "RUNNING", ""),
+            ("JoinText_0", "RUNNING", ""),
+            ("JoinText_0", "FINISHED", "on_true"),
+            ("NoOp_1", "RUNNING", ""),
+            ("NoOp_1", "FINISHED", "on_true"),
+            ("graph", "FINISHED", "on_true"),
+        ]
+        assert rig.events[2].outputs["text"].value == "a-b"
+
+
+async def test_feedback_ends_with_the_last_state_of_each_graph() -> None:
+    async with rigged() as rig:
+        rig.start(chain("g", [node("NoOp", index) for index in range(30)]))
+        await rig.until_graph("g", "FINISHED")
+        await rig.until(lambda: rig.feedback and rig.last_feedback("g")["graph_state"] == "FINISHED")
+        assert len(rig.feedback) < 30, "changes in quick succession are coalesced"
+        assert {message.actor for message in rig.feedback} == {"A"}
+        assert {item["state"] for item in rig.last_feedback("g")["actions"]} == {"FINISHED"}
+
+
+async def test_messages_for_others_are_ignored_and_wake_words_are_heard() -> None:
+    async with rigged(wake_words=("everybody",)) as rig:
+        rig.start(chain("not_ours", [node("NoOp")]), targets=("B",))
+        rig.start(chain("no_targets", [node("NoOp")]), targets=())
+        rig.start(chain("ours", [node("NoOp")]), targets=("B", "everybody"))
+        await rig.until_graph("ours", "FINISHED")
+        assert {item.graph_name for item in rig.events} == {"ours"}
+        assert not rig.rejections
+
+
+async def test_pause_and_resume_are_told_and_a_paused_graph_stands_still() -> None:
+    async with rigged() as rig:
+        rig.start(chain("g", [node("WaitFor", 0, seconds=0.01), node("NoOp", 1)]))
+        await rig.until_graph("g", "RUNNING")
+        rig.pause("g")
+        await rig.until_graph("g", "PAUSED")
+        await rig.until(lambda: rig.last_feedback("g")["graph_state"] == "PAUSED")
+        rig.resume("g")
+        await rig.until_graph("g", "FINISHED")
+        assert rig.graph_states("g") == ["RUNNING", "PAUSED", "RUNNING", "FINISHED"]
+
+
+async def test_the_misspelt_pause_topic_of_the_reference_is_heard() -> None:
+    async with rigged() as rig:
+        rig.start(chain("g", [node("WaitFor", 0, seconds=60)]))
+        await rig.until_graph("g", "RUNNING")
+        rig.transport.publisher(topics.GRAPH_PAUSE_TEMOTO).publish(ros.UmrfGraphPause("g", ("A",)))
+        await rig.until_graph("g", "PAUSED")
+
+
+async def test_stop_ends_stopped() -> None:
+    async with rigged() as rig:
+        rig.start(chain("g", [node("WaitFor", 0, seconds=60), node("NoOp", 1)]))
+        await rig.until(lambda: rig.node_states("g", "WaitFor_0"))
+        rig.stop("g")
+        await rig.until_graph("g", "STOPPED")
+        assert rig.node_states("g", "WaitFor_0") == ["RUNNING", "STOPPING", "FINISHED"]
+        assert not rig.node_states("g", "NoOp_1")
+
+
+async def test_a_failure_reaches_clients_as_the_newest_log_line_of_its_node() -> None:
+    async with rigged() as rig:
+        rig.start(planner_chain("g", [node("Fail", 0, reason="A box is in the way."), node("NoOp", 1)]))
+        await rig.until_graph("g", "HALTED")
+        [failed] = [item for item in rig.events if item.state == "ERROR"]
+        report = FailureReport.parse(failed.message)
+        assert (report.message, report.code, report.details) == (
+            "A box is in the way.",
+            "blocked",
+            {"by": "a box"},
+        )
+        await rig.until(lambda: rig.last_feedback("g")["graph_state"] == "HALTED")
+        [shown] = [item for item in rig.last_feedback("g")["actions"] if item["state"] == "ERROR"]
+        assert shown["runtime"]["messages"][-1]["message"] == failed.message
+
+
+async def test_starting_a_running_graph_again_is_refused_and_the_run_goes_on() -> None:
+    async with rigged() as rig:
+        graph = chain("g", [node("WaitFor", 0, seconds=60)])
+        rig.start(graph)
+        rig.start(graph)
+        await rig.until(lambda: rig.rejections)
+        assert rig.rejections[0].problems[0].code == "already_running"
+        assert (rig.rejections[0].what, rig.rejections[0].target) == ("umrf_graph_start", "A")
+        assert rig.graph_states("g") == ["RUNNING"]
+
+
+async def test_an_ended_graph_may_be_started_again_and_is_matched_again() -> None:
+    async with rigged() as rig:
+        rig.start(chain("g", [node("NoOp", 0)]))
+        await rig.until_graph("g", "FINISHED")
+        rig.start({"graph_name": "g", "actions": [{"name": "Unknown", "type": "sync"}]})
+        await rig.until(lambda: rig.rejections)
+        assert rig.rejections[0].problems[0].code == "unknown_action"
+        rig.start(chain("g", [node("NoOp", 0)]))
+        await rig.until(lambda: rig.graph_states("g").count("FINISHED") == 2)
+
+
+@pytest.mark.parametrize(
+    ("text", "code"),
+    [
+        ("{", "malformed"),
+        ("[]", "malformed"),
+        ("x" * 100_000, "malformed"),
+        ('{"graph_name": "g"}', "missing"),
+        ('{"graph_name": "g", "graph_entry": 3, "graph_exit": [], "actions": []}', "malformed"),
+    ],
+)
+async def test_malformed_graphs_are_refused_with_a_reason(text: str, code: str) -> None:
+    async with rigged() as rig:
+        rig.start(text)
+        await rig.until(lambda: rig.rejections)
+        assert rig.rejections[0].problems[0].code == code
+        assert not rig.events
+
+
+async def test_an_empty_start_names_no_graph_and_is_refused() -> None:
+    async with rigged() as rig:
+        rig.start("")
+        await rig.until(lambda: rig.rejections)
+        assert rig.rejections[0].problems[0].code == "unknown_graph"
+
+
+@pytest.mark.parametrize("command", ["pause", "resume", "stop"])
+async def test_commands_to_unknown_graphs_are_refused(command: str) -> None:
+    async with rigged() as rig:
+        getattr(rig, command)("nowhere")
+        await rig.until(lambda: rig.rejections)
+        assert rig.rejections[0].problems[0].code == "unknown_graph"
+        assert rig.rejections[0].graph_name == "nowhere"
+
+
+async def test_a_refused_modify_leaves_the_graph_as_it_was() -> None:
+    async with rigged() as rig:
+        rig.start(planner_chain("g", [node("WaitFor", 0, seconds=60), node("NoOp", 1)]))
+        await rig.until_graph("g", "RUNNING")
+        rig.modify(planner_chain("g", [node("NoOp", 1)]))
+        await rig.until(lambda: rig.rejections)
+        assert rig.rejections[0].problems[0].code == "node_active"
+        assert rig.graph_states("g") == ["RUNNING"]
+        found = await rig.transport.call(topics.actor_graph_get("A"), ros.UmrfGraphGetRequest(), timeout_s=5)
+        assert len(json.loads(found.graph_jsons_running[0])["actions"]) == 2
+
+
+async def test_a_modify_appends_to_a_running_graph_without_disturbing_it() -> None:
+    async with rigged() as rig:
+        first = [node("WaitFor", 0, seconds=0.05)]
+        rig.start(planner_chain("g", first))
+        await rig.until_graph("g", "RUNNING")
+        rig.modify(planner_chain("g", [*first, node("NoOp", 1)]), continue_from="WaitFor_0")
+        await rig.until_graph("g", "HALTED")
+        assert rig.node_states("g", "WaitFor_0") == ["RUNNING", "FINISHED"]
+        assert rig.node_states("g", "NoOp_1") == ["RUNNING", "FINISHED"]
+
+
+async def test_the_query_service_lists_descriptors_and_graphs_under_both_names() -> None:
+    async with rigged() as rig:
+        rig.start(chain("g", [node("NoOp", 0)]))
+        await rig.until_graph("g", "FINISHED")
+        for service in (topics.actor_graph_get("A"), topics.GRAPH_GET):
+            found = await rig.transport.call(service, ros.UmrfGraphGetRequest(), timeout_s=5)
+            assert "WaitFor" in {json.loads(text)["name"] for text in found.umrf_jsons}
+            assert [json.loads(text)["graph_name"] for text in found.graph_jsons_running] == ["g"]
+
+
+async def test_old_graphs_are_forgotten() -> None:
+    async with rigged() as rig:
+        for index in range(30):
+            rig.start(chain(f"g{index}", [node("NoOp", 0)]))
+            await rig.until_graph(f"g{index}", "FINISHED")
+        found = await rig.transport.call(topics.GRAPH_GET, ros.UmrfGraphGetRequest(), timeout_s=5)
+        names = [json.loads(text)["graph_name"] for text in found.graph_jsons_running]
+        assert len(names) <= 21
+        assert names[-1] == "g29"
+
+
+async def test_status_tells_catalogue_pose_and_state_and_says_goodbye() -> None:
+    async with rigged(DummyRobot()) as rig:
+        await rig.until(lambda: rig.statuses)
+        first = rig.statuses[0]
+        assert (first.actor, first.state, first.sequence, first.at_rest) == ("A", "idle", 0, True)
+        assert first.pose is not None and first.pose.yaw == 0.5
+        assert "WaitFor" in {item.name for item in first.catalogue}
+        rig.start(chain("g", [node("WaitFor", 0, seconds=60)]))
+        await rig.until(lambda: rig.statuses[-1].state == "running")
+        rig.pause("g")
+        await rig.until(lambda: rig.statuses[-1].state == "paused")
+        assert rig.statuses[-1].graphs == {"g": "PAUSED"}
+    assert rig.statuses[-1].state == "leaving"
+    assert [item.sequence for item in rig.statuses] == list(range(len(rig.statuses)))
+
+
+async def test_the_heart_beats_without_any_change() -> None:
+    async with rigged(heartbeat_s=0.005) as rig:
+        await rig.until(lambda: len(rig.statuses) >= 4)
+
+
+async def test_progress_is_an_event_but_no_feedback() -> None:
+    async with rigged() as rig:
+        rig.start(chain("g", [node("InThread", 0, text="hi")]))
+        await rig.until_graph("g", "FINISHED")
+        [progress] = [item for item in rig.events if item.kind == "progress"]
+        assert (progress.progress, progress.progress_text, progress.node) == (0.5, "half", "InThread_0")
+
+
+async def test_closing_stops_what_runs_and_publishes_its_last_state() -> None:
+    async with rigged() as rig:
+        rig.start(chain("g", [node("WaitFor", 0, seconds=60)]))
+        await rig.until_graph("g", "RUNNING")
+    assert rig.graph_states("g") == ["RUNNING", "STOPPING", "STOPPED"]
+    assert rig.last_feedback("g")["graph_state"] == "STOPPED"
+
+
+async def test_two_engines_share_a_transport() -> None:
+    async with rigged() as rig:
+        from parley.clock import WallClock
+        from parley.engine.engine import ActionEngine
+        from tests.umrf.spec_actions import CATALOGUE
+
+        async with ActionEngine(
+            "B",
+            transport=rig.transport,
+            catalogue=CATALOGUE,
+            clock=WallClock(),
+            make_context=lambda handle: handle,
+        ):
+            rig.start(chain("g", [node("NoOp", 0)]), targets=("A", "B"))
+            await rig.until(lambda: rig.graph_states("g").count("FINISHED") == 2)
+            await asyncio.sleep(0)
+            assert {item.actor for item in rig.events} == {"A", "B"}

@@ -1,0 +1,112 @@
+"""The emergency stop: at once, latched, reported; nothing moves until a person resets it."""
+
+from __future__ import annotations
+
+from parley.clock import WallClock
+from parley.engine.runs import GraphRuns
+from parley.engine.stop import EmergencyStop
+from parley.errors import Problem
+from parley.messages import ros, topics
+from parley.messages.status import StopReport
+from tests.umrf.spec_actions import CATALOGUE, chain, node, planner_chain
+
+from .rig import DummyRobot, rigged
+
+
+async def test_stop_halts_the_drive_pauses_graphs_and_latches_until_reset() -> None:
+    robot = DummyRobot()
+    async with rigged(robot) as rig:
+        rig.start(planner_chain("g", [node("WaitFor", 0, seconds=60), node("NoOp", 1)]))
+        await rig.until_graph("g", "RUNNING")
+        robot.moving = True
+        rig.emergency("stop")
+        await rig.until(lambda: len(rig.reports) == 2)
+        assert [item.state for item in rig.reports] == ["received", "at_rest"]
+        assert robot.told == ["stop"]
+        assert rig.graph_states("g") == ["RUNNING", "PAUSED"]
+        await rig.until(lambda: rig.statuses[-1].state == "stopped")
+
+        rig.start(chain("h", [node("NoOp", 0)]))
+        rig.resume("g")
+        rig.modify(
+            planner_chain("g", [node("WaitFor", 0, seconds=60), node("NoOp", 1)]), continue_from="NoOp_1"
+        )
+        await rig.until(lambda: len(rig.rejections) == 3)
+        assert {item.problems[0].code for item in rig.rejections} == {"stop_latched"}
+        assert all(item.problems[0].remedy for item in rig.rejections)
+
+        rig.emergency("reset")
+        await rig.until(lambda: rig.reports[-1].state == "reset")
+        assert robot.told == ["stop", "release"]
+        assert rig.graph_states("g") == ["RUNNING", "PAUSED"], "a reset alone moves nothing"
+        rig.resume("g")
+        await rig.until_graph("g", "RUNNING")
+
+
+async def test_stop_for_another_robot_is_not_ours() -> None:
+    robot = DummyRobot()
+    async with rigged(robot) as rig:
+        rig.emergency("stop", targets=("B",))
+        rig.emergency("stop", targets=("A",), id="2")
+        await rig.until(lambda: rig.reports)
+        assert rig.reports[0].id == "2"
+        assert robot.told == ["stop"]
+
+
+async def test_a_drive_that_hangs_does_not_keep_graphs_from_pausing() -> None:
+    robot = DummyRobot()
+    robot.hangs = True
+    async with rigged(robot) as rig:
+        rig.start(chain("g", [node("WaitFor", 0, seconds=60)]))
+        await rig.until_graph("g", "RUNNING")
+        rig.emergency("stop")
+        await rig.until_graph("g", "PAUSED")
+
+
+async def test_a_stop_that_fails_is_complained_about() -> None:
+    robot = DummyRobot()
+    robot.broken = True
+    async with rigged(robot) as rig:
+        rig.emergency("stop")
+        await rig.until(lambda: rig.rejections)
+        assert rig.rejections[0].problems[0].code == "stop_failed"
+
+
+async def test_a_robot_that_goes_on_moving_is_complained_about() -> None:
+    robot = DummyRobot()
+    robot.hangs = robot.moving = True
+    problems: list[Problem] = []
+    reports: list[StopReport] = []
+    runs = GraphRuns(
+        "A", CATALOGUE, clock=WallClock(), make_context=lambda handle: handle, observer=lambda *_: None
+    )
+    stop = EmergencyStop(
+        "A", robot, runs, report=reports.append, complain=problems.append, rest_timeout_s=0.01
+    )
+    await stop.stop("7")
+    while not problems:
+        await WallClock().sleep(0.005)
+    assert problems[0].code == "still_moving"
+    assert [item.state for item in reports] == ["received"]
+    await stop.close()
+
+
+async def test_a_stop_during_a_reset_wins() -> None:
+    robot = DummyRobot()
+    async with rigged(robot) as rig:
+        rig.emergency("stop", id="1")
+        rig.emergency("reset", id="2")
+        rig.emergency("stop", id="3")
+        await rig.until(lambda: rig.reports and rig.reports[-1].state == "at_rest")
+        rig.start(chain("g", [node("NoOp", 0)]))
+        await rig.until(lambda: rig.rejections)
+        assert rig.rejections[0].problems[0].code == "stop_latched"
+
+
+async def test_unreadable_stop_commands_are_refused() -> None:
+    async with rigged() as rig:
+        publisher = rig.transport.publisher(topics.STOP)
+        publisher.publish(ros.String("{"))
+        publisher.publish(ros.String('{"command": "halt"}'))
+        await rig.until(lambda: len(rig.rejections) == 2)
+        assert [item.problems[0].path for item in rig.rejections] == ["", "command"]

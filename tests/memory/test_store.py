@@ -1,0 +1,392 @@
+"""The memory store: what is remembered, replaced, forgotten, found, and kept through every mishap."""
+
+from __future__ import annotations
+
+import asyncio
+import os
+import re
+import signal
+import sqlite3
+import subprocess
+import sys
+from collections.abc import AsyncIterator
+from pathlib import Path
+
+import pytest
+from hypothesis import HealthCheck, given, settings
+from hypothesis import strategies as st
+
+from parley.clock import SimClock
+from parley.errors import StoreError
+from parley.memory.store import MemoryStore
+from parley.messages.memory import MemoryEntry
+
+
+class SteppingClock(SimClock):
+    """A clock that a test sets."""
+
+    unix = 1_000
+
+    def unix_ms(self) -> int:
+        return self.unix
+
+
+@pytest.fixture
+async def store() -> AsyncIterator[MemoryStore]:
+    async with await MemoryStore.open(":memory:") as opened:
+        yield opened
+
+
+async def fill(store: MemoryStore, **texts: str) -> None:
+    for name, data in texts.items():
+        await store.add(MemoryEntry(name=name, data=data))
+
+
+def names(entries: list[MemoryEntry]) -> list[str]:
+    return [entry.name for entry in entries]
+
+
+# Adding, replacing, forgetting
+
+
+async def test_a_memory_comes_back_whole_with_its_times() -> None:
+    clock = SteppingClock()
+    async with await MemoryStore.open(":memory:", clock) as store:
+        entry = MemoryEntry(
+            name="box", type="image", data="aGk=", info="the box", scope="A", source="operator"
+        )
+        stored = await store.add(entry)
+        assert stored == entry.model_copy(update={"created_unix_ms": 1_000, "updated_unix_ms": 1_000})
+        assert await store.get("box", scope="A") == stored
+        assert await store.get("box") is None
+        assert await store.all() == [stored]
+
+
+async def test_a_memory_of_the_same_name_is_replaced_and_the_older_one_kept_as_history() -> None:
+    clock = SteppingClock()
+    async with await MemoryStore.open(":memory:", clock) as store:
+        old = await store.add(MemoryEntry(name="box", data="by the door"))
+        clock.unix = 2_000
+        new = await store.add(MemoryEntry(name="box", data="on the chair"))
+        assert (new.created_unix_ms, new.updated_unix_ms) == (1_000, 2_000)
+        assert await store.all() == [new]
+        assert await store.history("box") == [old]
+        assert names(await store.search("door")) == []
+        assert names(await store.search("chair")) == ["box"]
+
+
+async def test_memories_of_one_name_in_different_scopes_stand_side_by_side(store: MemoryStore) -> None:
+    for scope in ("", "A", "B"):
+        await store.add(MemoryEntry(name="dock", data=f"dock of {scope}", scope=scope))
+    assert [entry.scope for entry in await store.all()] == ["", "A", "B"]
+    assert [entry.scope for entry in await store.all(scope="A")] == ["", "A"]
+    assert [entry.scope for entry in await store.all(scope="")] == [""]
+    assert {entry.scope for entry in await store.search("dock", scope="B")} == {"", "B"}
+
+
+async def test_forgetting_takes_a_memory_out_of_everything_but_the_history(store: MemoryStore) -> None:
+    await fill(store, box="by the door")
+    assert await store.remove("box") is True
+    assert await store.remove("box") is False
+    assert await store.get("box") is None
+    assert await store.all() == []
+    assert await store.search("box door") == []
+    assert [entry.data for entry in await store.history("box")] == ["by the door"]
+
+
+async def test_forgetting_concerns_one_scope_unless_all_are_meant(store: MemoryStore) -> None:
+    for scope in ("", "A", "B"):
+        await store.add(MemoryEntry(name="dock", data="x", scope=scope))
+    assert await store.remove("dock", scope="A")
+    assert [entry.scope for entry in await store.all()] == ["", "B"]
+    assert await store.remove("dock", scope=None)
+    assert await store.all() == []
+
+
+async def test_what_is_said_again_after_it_was_forgotten_is_new() -> None:
+    clock = SteppingClock()
+    async with await MemoryStore.open(":memory:", clock) as store:
+        await fill(store, box="here")
+        await store.remove("box")
+        clock.unix = 5_000
+        assert (await store.add(MemoryEntry(name="box", data="there"))).created_unix_ms == 5_000
+
+
+async def test_memories_come_oldest_first_and_a_changed_one_counts_as_new(store: MemoryStore) -> None:
+    await fill(store, a="1", b="2", c="3")
+    await fill(store, a="4")
+    assert names(await store.all()) == ["b", "c", "a"]
+    assert names(await store.newest(2)) == ["a", "c"]
+
+
+async def test_time_stamps_keep_their_order_when_the_clock_goes_back() -> None:
+    clock = SteppingClock()
+    async with await MemoryStore.open(":memory:", clock) as store:
+        stamps = []
+        for unix in (5_000, 5_000, 0, 9_000):
+            clock.unix = unix
+            stamps.append((await store.add(MemoryEntry(name=f"at {unix}", data="x"))).updated_unix_ms)
+    assert stamps == [5_000, 5_001, 5_002, 9_000]
+
+
+async def test_the_history_of_something_that_changes_all_the_time_is_bounded(store: MemoryStore) -> None:
+    await fill(store, other="1")
+    await fill(store, other="2")
+    for number in range(80):
+        await fill(store, position=str(number))
+    assert [entry.data for entry in await store.history("position")] == [str(n) for n in range(29, 79)]
+    assert [entry.data for entry in await store.history("other")] == ["1"]
+
+
+async def test_changes_made_at_the_same_time_are_all_there(store: MemoryStore) -> None:
+    await asyncio.gather(*(store.add(MemoryEntry(name=f"m{n % 25}", data=str(n))) for n in range(100)))
+    assert len(await store.all()) == 25
+    assert sum([len(await store.history(f"m{n}")) for n in range(25)]) == 75
+
+
+async def test_a_cancelled_change_leaves_the_store_usable(store: MemoryStore) -> None:
+    task = asyncio.create_task(fill(store, box="x"))
+    await asyncio.sleep(0)
+    task.cancel()
+    with pytest.raises(asyncio.CancelledError):
+        await task
+    await fill(store, chair="y")
+    assert "chair" in names(await store.all())
+
+
+# Searching
+
+
+async def test_a_memory_called_what_is_asked_for_comes_first(store: MemoryStore) -> None:
+    await fill(store, chair_place="The chair is red.", notes="chair place, chair place", x="chair")
+    assert names(await store.search("Chair place"))[0] == "chair_place"
+    assert names(await store.search("chairPlace"))[0] == "chair_place"
+
+
+async def test_a_name_of_words_that_tell_nothing_is_found_by_that_name(store: MemoryStore) -> None:
+    await fill(store, where_it_is="somewhere", other="box")
+    assert names(await store.search("where it is")) == ["where_it_is"]
+
+
+@pytest.mark.parametrize(
+    "query", ["Where are the boxes?", "is there a BOX", "Böx", "boxe", "the box’s colour", "go & fetch: box!"]
+)
+async def test_words_are_found_whatever_their_case_ending_and_surroundings(
+    store: MemoryStore, query: str
+) -> None:
+    await fill(store, a="The box stands by the door.", b="The chair stands by the wall.")
+    assert names(await store.search(query)) == ["a"]
+
+
+async def test_memories_that_share_rarer_words_come_first(store: MemoryStore) -> None:
+    for number in range(30):
+        await fill(store, **{f"chair{number}": f"chair number {number} stands in the hall"})
+    await fill(store, lamp="the lamp stands in the hall")
+    await fill(store, **{"last chair": "a chair stands in the hall"})
+    assert names(await store.search("the lamp in the hall"))[0] == "lamp"
+
+
+async def test_letters_and_numbers_tell_things_of_a_kind_apart(store: MemoryStore) -> None:
+    for letter in "ABCDEF":
+        await store.add(MemoryEntry(name=f"area_{letter}", data=f"Area {letter} has a pallet."))
+    await fill(
+        store, gate3="Gate 3 is shut.", gate4="Gate 4 is open.", note="a letter in an area: be careful"
+    )
+    assert names(await store.search("is something in area D?"))[0] == "area_D"
+    assert names(await store.search("go to area a"))[0] == "area_A"
+    assert names(await store.search("what about gate 3"))[0] == "gate3"
+
+
+async def test_the_beginning_of_a_word_finds_it_where_nobody_used_it_whole(store: MemoryStore) -> None:
+    await fill(store, a="The workbench is full.", b="Work begins at eight.")
+    assert names(await store.search("workben")) == ["a"]
+    assert names(await store.search("work")) == ["b"]
+
+
+async def test_pictures_are_found_by_name_and_info_and_never_by_their_bytes(store: MemoryStore) -> None:
+    await store.add(MemoryEntry(name="photo", type="image", data="box", info="the door from outside"))
+    assert names(await store.search("door")) == ["photo"]
+    assert await store.search("box") == []
+    await store.remove("photo")
+    assert await store.search("door") == []
+
+
+@pytest.mark.parametrize(
+    "query",
+    [
+        "",
+        "   ",
+        "?",
+        "where is it",
+        '"',
+        '" OR "',
+        "box OR",
+        "NEAR(",
+        "name:",
+        "*",
+        "(",
+        "-box",
+        "a'b",
+        "\x00",
+        "🤖",
+    ],
+)
+async def test_no_query_is_too_strange(store: MemoryStore, query: str) -> None:
+    await fill(store, a="The chair stands by the door.")
+    assert await store.search(query) == []
+
+
+@settings(suppress_health_check=[HealthCheck.function_scoped_fixture], max_examples=60, deadline=None)
+@given(query=st.text())
+async def test_any_query_gets_an_answer(store: MemoryStore, query: str) -> None:
+    await store.search(query)
+
+
+async def test_not_more_are_returned_than_asked_for(store: MemoryStore) -> None:
+    for number in range(30):
+        await fill(store, **{f"box{number}": "a box"})
+    assert len(await store.search("box")) == 20
+    assert len(await store.search("box", limit=3)) == 3
+
+
+async def test_an_old_memory_with_two_common_words_is_found_among_many_with_one(store: MemoryStore) -> None:
+    await fill(store, wanted="The red box is in the attic.")
+    for number in range(400):
+        await fill(store, **{f"n{number}": ["a red chair", "a blue box", "a red lamp", "a box"][number % 4]})
+    assert names(await store.search("the red box"))[0] == "wanted"
+
+
+async def test_an_old_memory_with_a_rare_and_a_common_word_beats_those_with_one(store: MemoryStore) -> None:
+    await fill(store, wanted="The red teapot.", other="The green teapot.")
+    for number in range(400):
+        await fill(store, **{f"n{number}": "a red chair"})
+    assert names(await store.search("red teapot"))[0] == "wanted"
+
+
+# The file
+
+
+async def test_what_was_remembered_is_there_after_a_restart(tmp_path: Path) -> None:
+    path = tmp_path / "deep" / "down" / "memory.db"
+    async with await MemoryStore.open(path) as store:
+        await fill(store, box="by the door")
+        await fill(store, box="on the chair")
+    async with await MemoryStore.open(str(path)) as store:
+        assert [entry.data for entry in await store.all()] == ["on the chair"]
+        assert [entry.data for entry in await store.history("box")] == ["by the door"]
+        assert names(await store.search("chair")) == ["box"]
+        assert store.notice == ""
+
+
+async def test_two_processes_may_use_one_file(tmp_path: Path) -> None:
+    path = tmp_path / "memory.db"
+    async with await MemoryStore.open(path) as one, await MemoryStore.open(path) as other:
+        await asyncio.gather(*(fill(store, **{f"m{n}": "x"}) for n in range(20) for store in (one, other)))
+        assert len(await one.all()) == len(await other.all()) == 20
+
+
+def test_what_was_acknowledged_survives_kill_9(tmp_path: Path) -> None:
+    path = tmp_path / "memory.db"
+    program = """
+import asyncio, sys
+from parley.memory.store import MemoryStore
+from parley.messages.memory import MemoryEntry
+
+async def main():
+    store = await MemoryStore.open(sys.argv[1])
+    for number in range(100_000):
+        await store.add(MemoryEntry(name=f"m{number}", data="x"))
+        sys.stdout.write(f"remembered m{number}\\n")
+        sys.stdout.flush()
+
+asyncio.run(main())
+"""
+    child = subprocess.Popen(
+        [sys.executable, "-c", program, str(path)],
+        stdout=subprocess.PIPE,
+        stderr=subprocess.DEVNULL,
+        text=True,
+    )
+    assert child.stdout is not None
+    lines = [line for line, _ in zip(child.stdout, range(50), strict=False)]
+    os.kill(child.pid, signal.SIGKILL)
+    lines += child.stdout
+    child.stdout.close()
+    child.wait()
+
+    async def remembered() -> set[str]:
+        async with await MemoryStore.open(path) as store:
+            assert store.notice == ""
+            return {entry.name for entry in await store.all()}
+
+    acknowledged = set(re.findall(r"^remembered (m\d+)\n", "".join(lines), re.MULTILINE))
+    assert len(acknowledged) >= 40
+    assert acknowledged <= asyncio.run(remembered())
+
+
+@pytest.mark.parametrize("damage", ["nonsense", "middle"])
+async def test_a_damaged_file_is_put_aside_and_people_are_told(tmp_path: Path, damage: str) -> None:
+    path = tmp_path / "memory.db"
+    async with await MemoryStore.open(path) as store:
+        for number in range(200):
+            await fill(store, **{f"m{number}": "word " * 50})
+    content = path.read_bytes()
+    broken = b"this is no database\n" * 500 if damage == "nonsense" else _overwrite_pages(content)
+    path.write_bytes(broken)
+
+    clock = SteppingClock()
+    clock.unix = 123
+    async with await MemoryStore.open(path, clock) as store:
+        assert await store.all() == []
+        assert "memory.db.corrupt-123" in store.notice
+        await fill(store, box="remembered again")
+    assert (tmp_path / "memory.db.corrupt-123").read_bytes() == broken
+    async with await MemoryStore.open(path) as store:
+        assert names(await store.all()) == ["box"]
+        assert store.notice == ""
+
+
+def _overwrite_pages(content: bytes) -> bytes:
+    """Spoil the pages behind the schema, leaving a file that opens."""
+    return content[: 4096 * 12] + b"\x05" * (len(content) - 4096 * 12)
+
+
+@pytest.mark.parametrize("kind", ["folder", "under a file"])
+async def test_a_file_that_cannot_be_used_is_refused_in_plain_words(tmp_path: Path, kind: str) -> None:
+    (tmp_path / "file").write_text("x")
+    path = tmp_path if kind == "folder" else tmp_path / "file" / "memory.db"
+    with pytest.raises(StoreError, match=str(path)):
+        await MemoryStore.open(path)
+    assert (tmp_path / "file").read_text() == "x"
+
+
+async def test_a_file_of_a_newer_parley_is_left_alone(tmp_path: Path) -> None:
+    path = tmp_path / "memory.db"
+    async with await MemoryStore.open(path) as store:
+        await fill(store, box="x")
+    with sqlite3.connect(path) as db:
+        db.execute("INSERT INTO migration VALUES ('add_feelings', 0)")
+    db.close()
+    with pytest.raises(StoreError, match=r"newer version of Parley \(add_feelings\)"):
+        await MemoryStore.open(path)
+    assert path.exists(), "it was not put aside"
+
+
+async def test_a_full_disk_is_told_and_what_was_there_stays(tmp_path: Path) -> None:
+    async with await MemoryStore.open(tmp_path / "memory.db") as store:
+        await fill(store, box="x")
+        await store._database.run(lambda db: db.execute("PRAGMA max_page_count = 1"))
+        with pytest.raises(StoreError, match="full"):
+            for number in range(100):
+                await fill(store, **{f"big{number}": "word " * 10_000})
+        await store._database.run(lambda db: db.execute("PRAGMA max_page_count = 1000000"))
+        await fill(store, chair="y")
+        assert {"box", "chair"} <= set(names(await store.all()))
+
+
+async def test_a_closed_store_says_so() -> None:
+    async with await MemoryStore.open(":memory:") as store:
+        pass
+    await store.close()
+    with pytest.raises(StoreError, match="closed"):
+        await store.all()

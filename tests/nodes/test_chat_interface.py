@@ -1,0 +1,243 @@
+"""The chat interface over a real local transport; the test plays the operator, the robots and the memory."""
+
+from __future__ import annotations
+
+import asyncio
+from collections.abc import AsyncIterator
+from dataclasses import dataclass
+
+import pytest
+
+from parley.clock import WallClock
+from parley.demos.observer import Observer
+from parley.errors import LanguageError
+from parley.language.scripted import ScriptedLanguage
+from parley.messages import topics
+from parley.messages.chat import ActionCall, ChatAction, ChatInput, SystemCommand
+from parley.messages.memory import MemoryEvent
+from parley.messages.pvf import Parameter
+from parley.messages.status import ActionInfo, ActorStatus, StopCommand
+from parley.nodes.base import Node
+from parley.nodes.chat_interface import MAX_CHARS, ChatInterface
+from parley.transport.local import LocalTransport
+
+LOOK = ActionInfo(name="Look", inputs={"what": "string"}, description="Look at something.")
+
+
+class Listener(Node):
+    """Collects what the chat interface sends to the planner and to the engines."""
+
+    name = "listener"
+
+    def __init__(self, transport: LocalTransport) -> None:
+        super().__init__(transport)
+        self.orders: list[ChatAction] = []
+        self.stops: list[StopCommand] = []
+        self.arrived = asyncio.Event()
+
+    async def open(self) -> None:
+        await self.subscribe(topics.CHAT_ACTION, ChatAction, self._on_order)
+        await self.subscribe(topics.STOP, StopCommand, self._on_stop)
+
+    def _on_order(self, order: ChatAction) -> None:
+        self.orders.append(order)
+        self.arrived.set()
+
+    def _on_stop(self, stop: StopCommand) -> None:
+        self.stops.append(stop)
+        self.arrived.set()
+
+
+@dataclass
+class Room:
+    """Everything a test needs."""
+
+    language: ScriptedLanguage
+    observer: Observer
+    planner: Listener
+    transport: LocalTransport
+
+    def robot(self, name: str) -> None:
+        self.observer.publish(topics.ACTOR_STATUS, ActorStatus(actor=name, catalogue=(LOOK,)))
+
+    async def reply(self, count: int = 1) -> str:
+        await self.observer.until(lambda: len(self.observer.said) >= count, timeout_s=5)
+        return self.observer.said[count - 1].message
+
+    async def orders(self) -> list[ChatAction]:
+        async with asyncio.timeout(5):
+            await self.planner.arrived.wait()
+        return self.planner.orders
+
+
+@pytest.fixture
+async def room() -> AsyncIterator[Room]:
+    language = ScriptedLanguage()
+    async with LocalTransport() as transport, Observer(transport, WallClock()) as observer:
+        async with ChatInterface(transport, language, WallClock()), Listener(transport) as planner:
+            room = Room(language, observer, planner, transport)
+            room.robot("A")
+            room.robot("B")
+            await observer.until(lambda: {"A", "B"} <= observer.robots, timeout_s=5)
+            yield room
+        assert transport.handler_failures == 0
+
+
+def look(what: str = "box") -> ActionCall:
+    return ActionCall(name="Look", input_parameters={"what": Parameter("string", what)})
+
+
+async def test_order_is_answered_and_handed_to_the_planner(room: Room) -> None:
+    room.language.will("interpret", ChatAction(message_response="I will look.", queue=(look(),)))
+    room.observer.say("look at the box", "A")
+    assert await room.reply() == "I will look."
+    (order,) = await room.orders()
+    assert (order.targets, [call.name for call in order.queue]) == (("A",), ["Look"])
+
+
+async def test_history_reaches_the_next_question(room: Room) -> None:
+    room.language.will(
+        "interpret", ChatAction(message_response="Which?"), ChatAction(message_response="Fine.")
+    )
+    room.observer.say("look at the box", "A")
+    await room.reply()
+    room.observer.say("the red one", "A")
+    await room.reply(2)
+    situation = room.language.asked[-1][1]
+    assert [turn.content for turn in situation.history] == ["look at the box", "Which?"]
+
+
+@pytest.mark.parametrize("text", ["", "   ", "\n"])
+async def test_empty_message_is_answered_without_asking_anybody(room: Room, text: str) -> None:
+    room.observer.say(text, "A")
+    assert "words" in await room.reply()
+    assert room.language.asked == []
+
+
+async def test_overlong_message_is_answered_without_asking_anybody(room: Room) -> None:
+    room.observer.say("word " * (MAX_CHARS // 4), "A")
+    assert "too long" in await room.reply()
+    assert room.language.asked == []
+
+
+async def test_hundred_kilobytes_are_refused_in_one_short_sentence(room: Room) -> None:
+    room.observer.say("x" * 100_000, "A")
+    assert len(await room.reply()) < 200
+
+
+async def test_unknown_robot_is_named_with_those_that_exist(room: Room) -> None:
+    room.observer.say("look", "Z")
+    reply = await room.reply()
+    assert "Z" in reply
+    assert "A, B" in reply
+    assert room.planner.orders == []
+
+
+async def test_message_without_an_addressee_moves_nobody(room: Room) -> None:
+    room.observer.publish(topics.CHAT_INPUT, ChatInput(message="look"))
+    assert "Which robot" in await room.reply()
+    assert room.planner.orders == []
+
+
+async def test_stop_goes_ahead_of_a_language_call_that_hangs(room: Room) -> None:
+    room.language.will("interpret", asyncio.Event())
+    room.observer.say("look at the box", "A")
+    await room.observer.until(lambda: True)
+    room.observer.say("stop", "A")
+    (order,) = await room.orders()
+    assert [command.command for command in order.system_cmd] == ["stop"]
+
+
+async def test_one_robots_hanging_language_call_does_not_delay_another(room: Room) -> None:
+    hanging = asyncio.Event()
+    room.language.will("interpret", hanging, ChatAction(message_response="late"))
+    room.language.will("interpret", ChatAction(message_response="I will look.", queue=(look(),)))
+    room.observer.say("look at the box", "A")
+    room.observer.say("look at the door", "B")
+    await room.reply()
+    assert [said.targets for said in room.observer.said] == [("B",)]
+    hanging.set()
+    await room.reply(2)
+    assert [said.targets for said in room.observer.said] == [("B",), ("A",)]
+
+
+async def test_robot_named_in_a_stop_wins_over_the_selected_one(room: Room) -> None:
+    room.observer.say("B, stop!", "A")
+    (order,) = await room.orders()
+    assert order.targets == ("B",)
+
+
+async def test_emergency_stop_goes_straight_to_the_engines(room: Room) -> None:
+    room.observer.say("emergency stop", "A")
+    await room.orders()
+    assert room.planner.stops[0].targets == ("A",)
+
+
+async def test_language_that_fails_ends_in_a_plain_sentence(room: Room) -> None:
+    room.language.will("interpret", LanguageError("the model is gone"))
+    room.observer.say("look at the box", "A")
+    assert "try again" in await room.reply()
+    assert room.planner.orders == []
+
+
+async def test_defect_of_the_language_engine_ends_in_a_plain_sentence(room: Room) -> None:
+    room.language.will("interpret", ZeroDivisionError())
+    room.observer.say("look at the box", "A")
+    assert "went wrong" in await room.reply()
+    assert room.planner.orders == []
+
+
+@pytest.mark.parametrize(
+    "call",
+    [
+        ActionCall(name="Fly"),
+        ActionCall(name="Look", input_parameters={"where": Parameter("string", "here")}),
+        ActionCall(name="Look", input_parameters={"what": Parameter("number", 3.0)}),
+        ActionCall(name="Look"),
+    ],
+    ids=["unknown action", "unknown parameter", "wrong type", "missing value"],
+)
+async def test_plan_that_the_robot_cannot_carry_out_never_leaves(room: Room, call: ActionCall) -> None:
+    room.language.will("interpret", ChatAction(message_response="Sure.", queue=(call,)))
+    room.observer.say("do something", "A")
+    assert "cannot carry out" in await room.reply()
+    assert room.planner.orders == []
+
+
+async def test_memory_is_acknowledged_only_after_it_is_stored(room: Room) -> None:
+    command = SystemCommand(command="add_memory", arguments={"data": "the key is red", "info": "key"})
+    room.language.will("interpret", ChatAction(message_response="Noted.", system_cmd=(command,)))
+    room.observer.say("the key is red", "A")
+    (order,) = await room.orders()
+    await asyncio.sleep(0.05)
+    assert room.observer.said == []
+    name = order.system_cmd[0].arguments["name"]
+    room.observer.publish(topics.MEMORY_EVENT, MemoryEvent(kind="added", name=name))
+    assert await room.reply() == "Noted."
+
+
+async def test_memory_that_could_not_be_stored_is_not_acknowledged(room: Room) -> None:
+    command = SystemCommand(command="add_memory", arguments={"data": "the key is red", "name": "key"})
+    room.language.will("interpret", ChatAction(message_response="Noted.", system_cmd=(command,)))
+    room.observer.say("the key is red", "A")
+    await room.orders()
+    room.observer.publish(
+        topics.MEMORY_EVENT, MemoryEvent(kind="failed", name="key", message="The disk is full.")
+    )
+    assert "could not store" in await room.reply()
+
+
+async def test_message_sent_twice_is_handled_once(room: Room) -> None:
+    room.language.will("interpret", ChatAction(message_response="1"), ChatAction(message_response="2"))
+    said = ChatInput(message="look", targets=("A",), id="same")
+    room.observer.publish(topics.CHAT_INPUT, said)
+    room.observer.publish(topics.CHAT_INPUT, said)
+    await room.reply()
+    await asyncio.sleep(0.05)
+    assert len(room.observer.said) == 1
+
+
+async def test_answer_that_nobody_waits_for_is_taken_as_an_order(room: Room) -> None:
+    room.language.will("interpret", ChatAction(message_response="I will look."))
+    room.observer.publish(topics.CHAT_INPUT, ChatInput(message="look", targets=("A",), type="response"))
+    assert await room.reply() == "I will look."

@@ -1,0 +1,98 @@
+"""How a plan looks."""
+
+from __future__ import annotations
+
+import pytest
+from hypothesis import given
+from hypothesis import strategies as st
+
+from parley.messages.chat import ActionCall
+from parley.messages.status import PlanUpdate
+from parley.terminal.plan import Progress, bar, compare, label, plan_rows, step_row
+from parley.terminal.texts import Texts
+from tests.terminal.robots import call, plan, step
+
+TEXTS = Texts("en")
+
+
+def flat(rows: list[list[tuple[str, str]]]) -> list[str]:
+    return ["".join(text for _, text in row) for row in rows]
+
+
+@pytest.mark.parametrize(
+    ("action", "words"),
+    [
+        (call("NavigateTo", "drive to the box"), "drive to the box"),
+        (call("GetCoordinates", target="box"), "get coordinates: box"),
+        (call("pick_up"), "pick up"),
+        (call("Inspect", inspect="door"), "inspect: door"),
+    ],
+)
+def test_a_step_reads_as_its_reason_or_else_as_the_words_of_its_action(
+    action: ActionCall, words: str
+) -> None:
+    assert label(action) == words
+
+
+def test_a_step_shows_its_number_icon_and_state_in_words() -> None:
+    assert step_row(step("ask", "waiting"), TEXTS, number=1) == "? 1. ask (waiting for you)"
+    assert step_row(step("open the box", "finished"), TEXTS, number=2) == "✓ open the box (done)"
+
+
+def test_a_running_step_shows_how_far_it_is() -> None:
+    running = step("drive", "running", node="n_0")
+    shown = flat(plan_rows([running], TEXTS, Progress("n_0", 0.5, "1.2 m")))
+    assert shown == [" ▶ drive  ████████░░░░░░░░ 50 %  1.2 m"]
+
+
+def test_progress_of_another_step_is_not_shown() -> None:
+    running = step("drive", "running", node="n_0")
+    assert flat(plan_rows([running], TEXTS, Progress("n_1", 0.5, "1.2 m"))) == [" ▶ drive  now"]
+
+
+@given(st.floats(-1, 2), st.integers(1, 40))
+def test_a_bar_always_has_its_width(fraction: float, width: int) -> None:
+    drawn, _, percent = bar(fraction, width).partition(" ")
+    assert len(drawn) == width
+    assert 0 <= int(percent.split()[0]) <= 100
+
+
+@given(st.integers(0, 30), st.integers(0, 30))
+def test_the_step_that_runs_is_always_among_the_shown_rows(total: int, over: int) -> None:
+    over = min(over, total)
+    steps = [step(f"s{i}", "finished" if i < over else "queued") for i in range(total)]
+    rows = flat(plan_rows(steps, TEXTS, max_rows=6))
+    assert len(rows) <= 7
+    if over < total:
+        assert any(f" s{over} " in row for row in rows)
+
+
+def test_rows_that_do_not_fit_are_counted() -> None:
+    rows = flat(plan_rows([step(f"s{i}") for i in range(9)], TEXTS, max_rows=6))
+    assert rows[-1].strip() == "and 3 more"
+
+
+def test_a_plan_that_only_became_shorter_is_not_new() -> None:
+    before = plan(step("a", "finished"), step("b"), step("c"))
+    assert compare(before, plan(step("b"), step("c"))) == (False, [])
+
+
+@pytest.mark.parametrize(
+    "after", [plan(step("a"), step("x")), plan(step("a"), step("b"), step("c")), plan(step("a"), graph="g2")]
+)
+def test_other_steps_or_another_run_are_a_new_plan(after: PlanUpdate) -> None:
+    is_new, _ = compare(plan(step("a"), step("b")), after)
+    assert is_new
+
+
+def test_steps_that_ended_meanwhile_are_reported_once() -> None:
+    first = plan(step("a", "running", "a_0"), step("b", "queued", "b_0"))
+    second = plan(step("a", "finished", "a_0"), step("b", "running", "b_0"))
+    _, ended = compare(first, second)
+    assert [step.action.reason for step in ended] == ["a"]
+    assert compare(second, second) == (False, [])
+
+
+def test_a_step_that_was_known_before_its_node_existed_is_recognised() -> None:
+    _, ended = compare(plan(step("a", "running")), plan(step("a", "finished", "a_0")))
+    assert [step.node for step in ended] == ["a_0"]

@@ -1,0 +1,205 @@
+"""The command line as people and programs use it: real processes, exit codes, clear errors."""
+
+from __future__ import annotations
+
+import json
+import os
+import signal
+import subprocess
+import sys
+import time
+from pathlib import Path
+
+import pytest
+
+DEMO = Path(__file__).parents[1] / "src" / "parley" / "demos" / "nursing_home"
+
+
+def parley(
+    *arguments: str, text: str = "", env: dict[str, str] | None = None
+) -> subprocess.CompletedProcess[str]:
+    """Run a command to its end."""
+    return subprocess.run(
+        [sys.executable, "-m", "parley", *arguments],
+        input=text,
+        capture_output=True,
+        text=True,
+        timeout=100,
+        env={**os.environ, **(env or {})},
+        check=False,
+    )
+
+
+def test_script_exits_0_and_every_line_is_json() -> None:
+    done = parley("demo", "nursing-home", "--script", "--json")
+    assert done.returncode == 0, done.stderr
+    events = [json.loads(line) for line in done.stdout.splitlines()]
+    assert events[-1]["event"] == "story"
+    assert events[-1]["held"] is True
+
+
+def test_script_that_breaks_exits_1_and_says_why() -> None:
+    done = parley("demo", "nursing-home", "--script", "--variant", "dead_camera")
+    assert done.returncode == 1
+    assert "hardware" in done.stderr
+
+
+def test_unknown_variant_is_named_with_those_that_exist() -> None:
+    done = parley("demo", "nursing-home", "--script", "--variant", "flood")
+    assert done.returncode == 2
+    assert "no_bottle" in done.stderr
+
+
+def test_unknown_demo_is_named_with_those_that_exist() -> None:
+    done = parley("demo", "moon")
+    assert done.returncode == 2
+    assert "nursing-home" in done.stderr
+
+
+def test_chat_over_a_pipe_answers_and_leaves_at_the_end_of_input(tmp_path: Path) -> None:
+    done = parley(
+        "demo", "--terminal", "--data", str(tmp_path), text="John is on the sofa.\nwhere is John?\n"
+    )
+    assert done.returncode == 0, done.stderr
+    assert "sofa" in done.stdout.lower()
+
+
+def test_memories_of_a_chat_are_listed_afterwards(tmp_path: Path) -> None:
+    parley("demo", "--data", str(tmp_path), text="John is on the sofa.\n")
+    listed = parley("memory", "list", "--data", str(tmp_path), "--json")
+    assert "John is on the sofa" in json.loads(listed.stdout.splitlines()[0])["data"]
+
+
+def test_actions_are_listed_with_the_names_of_the_thesis() -> None:
+    listed = parley("actions", "list", "--json")
+    actions = {item["name"]: item for item in map(json.loads, listed.stdout.splitlines())}
+    assert set(actions) == {"GetCoordinates", "NavigateTo", "Inspect", "AskOperator"}
+    pose = {
+        f"pose::{part}::{axis}"
+        for part, axes in (("position", "xyz"), ("orientation", "rpy"))
+        for axis in axes
+    }
+    assert set(actions["GetCoordinates"]["inputs"]) == {"target"}
+    assert set(actions["GetCoordinates"]["outputs"]) == pose
+    assert set(actions["NavigateTo"]["inputs"]) == pose
+    assert actions["NavigateTo"]["outputs"] == {}
+    assert (set(actions["Inspect"]["inputs"]), set(actions["Inspect"]["outputs"])) == (
+        {"inspect"}, {"inspection_result"},
+    )  # fmt: skip
+    assert (set(actions["AskOperator"]["inputs"]), set(actions["AskOperator"]["outputs"])) == (
+        {"question"},
+        {"answer"},
+    )
+
+
+def test_show_prints_a_descriptor_and_names_near_misses() -> None:
+    shown = json.loads(parley("actions", "show", "Inspect").stdout)
+    assert shown["input_parameters"]["inspect"]["pvf_type"] == "string"
+    missed = parley("actions", "show", "Inspekt")
+    assert missed.returncode == 2
+    assert "Inspect" in missed.stderr
+
+
+def graph(tmp_path: Path, target: str = "bookshelf") -> Path:
+    """A graph file that goes somewhere."""
+    pose = {
+        "pose": {
+            "position": {axis: {"pvf_type": "number"} for axis in "xyz"},
+            "orientation": {axis: {"pvf_type": "number"} for axis in "rpy"},
+        }
+    }
+    content = {
+        "graph_name": "errand",
+        "graph_entry": [{"name": "GetCoordinates"}],
+        "graph_exit": [{"name": "NavigateTo", "instance_id": 1}],
+        "actions": [
+            {
+                "name": "GetCoordinates", "type": "sync",
+                "input_parameters": {"target": {"pvf_type": "string", "pvf_value": target}},
+                "output_parameters": pose,
+                "children": [{"name": "NavigateTo", "instance_id": 1}],
+            },
+            {
+                "name": "NavigateTo", "instance_id": 1, "type": "sync", "input_parameters": pose,
+                "parents": [{"name": "GetCoordinates"}],
+            },
+        ],
+    }  # fmt: skip
+    file = tmp_path / "errand.umrf.graph.json"
+    file.write_text(json.dumps(content), encoding="utf-8")
+    return file
+
+
+def test_graph_is_checked_and_run(tmp_path: Path) -> None:
+    file = graph(tmp_path)
+    assert parley("graph", "check", str(file)).returncode == 0
+    ran = parley("graph", "run", str(file))
+    assert ran.returncode == 0, ran.stderr
+    assert "NavigateTo_1: FINISHED" in ran.stdout
+
+
+def test_graph_that_fails_exits_1(tmp_path: Path) -> None:
+    assert parley("graph", "run", str(graph(tmp_path, "swimming pool"))).returncode == 1
+
+
+def test_wrong_graph_gets_every_problem_with_its_path(tmp_path: Path) -> None:
+    file = graph(tmp_path)
+    file.write_text(
+        file.read_text().replace('"GetCoordinates", "type"', '"GetCoordinate", "type"'), encoding="utf-8"
+    )
+    done = parley("graph", "check", str(file), "--json")
+    assert done.returncode == 1
+    problems = [json.loads(line) for line in done.stdout.splitlines()]
+    assert any("GetCoordinates" in problem["message"] + problem["remedy"] for problem in problems)
+
+
+def test_interpret_answers_every_line_and_survives_bad_ones(tmp_path: Path) -> None:
+    good = {
+        "id": "1",
+        "message": "go to the box",
+        "objects": [{"id": "b", "description": "box", "x": 1, "y": 2}],
+    }
+    source, out = tmp_path / "in.jsonl", tmp_path / "out.jsonl"
+    source.write_text(f"{json.dumps(good)}\n{{bad\n{json.dumps(good | {'id': '3'})}\n", encoding="utf-8")
+    done = parley("interpret", "--situations", str(source), "--out", str(out), "--language", "offline")
+    assert done.returncode == 0, done.stderr
+    lines = [json.loads(line) for line in out.read_text().splitlines()]
+    assert [line.get("id") for line in lines] == ["1", None, "3"]
+    assert [next(iter(item)) for item in lines[0]["output"]["queue"]] == ["GetCoordinates", "NavigateTo"]
+    assert "error" in lines[1]
+
+
+def test_world_is_checked_and_wrong_fields_are_named(tmp_path: Path) -> None:
+    assert parley("world", "check", str(DEMO / "world.yaml")).returncode == 0
+    broken = tmp_path / "world.yaml"
+    broken.write_text((DEMO / "world.yaml").read_text().replace("pose: [1.2, 6.58", "poze: [1.2, 6.58"))
+    done = parley("world", "check", str(broken))
+    assert done.returncode == 2
+    assert "world.yaml" in done.stderr
+    assert "things[0]" in done.stderr
+
+
+@pytest.mark.parametrize("delay_s", [0.3, 1.5, 3.0])
+def test_ctrl_c_anywhere_ends_quietly(tmp_path: Path, delay_s: float) -> None:
+    process = subprocess.Popen(
+        [
+            sys.executable,
+            "-m",
+            "parley",
+            "demo",
+            "nursing-home",
+            "--script",
+            "--speed",
+            "1",
+            "--data",
+            str(tmp_path),
+        ],
+        stdout=subprocess.PIPE,
+        stderr=subprocess.PIPE,
+        text=True,
+    )
+    time.sleep(delay_s)
+    process.send_signal(signal.SIGINT)
+    _, errors = process.communicate(timeout=20)
+    assert process.returncode == 130
+    assert "Traceback" not in errors

@@ -1,0 +1,207 @@
+"""Rules of this house that no other tool holds."""
+
+from __future__ import annotations
+
+import ast
+import json
+import re
+import subprocess
+from functools import cache
+from pathlib import Path
+
+import pytest
+
+import parley
+
+SOURCE = Path(parley.__file__).parent
+ROOT = Path(__file__).parent.parent
+DEMOS = SOURCE / "demos"
+MAX_MODULE_LINES = 500
+
+STORY_WORDS = {
+    "john", "david", "refrigerator", "fridge", "bottle", "sofa", "couch", "plant", "tv", "television",
+    "bookshelf", "nurse", "dining",
+}  # fmt: skip
+"""What the thesis's demonstrations are about, whether or not the data say so."""
+
+EVERYDAY_WORDS = {
+    "table", "chair", "door", "room", "wall", "box",
+    "a", "an", "and", "at", "by", "in", "near", "next", "of", "on", "the", "to", "with",
+    "small", "large", "little", "tall", "big", "long", "low", "round", "left", "right", "middle", "front",
+    "back", "first", "corner", "end", "side", "head", "foot", "counter", "desk", "window", "stand", "screen",
+    "set", "tree", "top", "shelf", "books", "north", "east", "south", "west",
+}  # fmt: skip
+"""Words of the demonstrations' data that programs and neutral examples need as well."""
+
+FOREIGN = re.compile(
+    "|".join(
+        [
+            r"(?<![\w.~-])/(?:work|root|mnt|Users)/\w",
+            r"(?<![\w.~-])/home/(?!<)\w",
+            r"(?<![\w.~-])/tmp/\w",
+            "pypi" + r"\.org/(?:simple|packages)",
+            "files" + r"\.pythonhosted\.org",
+            "registry" + r"\.(?:npmjs\.org|yarnpkg\.com)",
+            "(?:--extra-)?index" + "-url",
+        ]
+    )
+)
+"""Paths of one machine and addresses of package registries."""
+
+
+def python_files(folder: Path) -> list[Path]:
+    return [path for path in sorted(folder.rglob("*.py")) if "__pycache__" not in path.parts]
+
+
+def shown(path: Path) -> str:
+    return path.relative_to(ROOT).as_posix()
+
+
+@cache
+def tracked_files() -> tuple[Path, ...]:
+    """What belongs to the repository: tracked, or new and not ignored; all files where there is no git."""
+    listed = subprocess.run(
+        ["git", "ls-files", "--cached", "--others", "--exclude-standard"],
+        cwd=ROOT, capture_output=True, text=True, check=False,
+    )  # fmt: skip
+    if listed.returncode == 0:
+        return tuple(path for name in listed.stdout.splitlines() if (path := ROOT / name).is_file())
+    return tuple(
+        path for folder in ("src", "tests", "docs") for path in (ROOT / folder).rglob("*.*") if path.is_file()
+    )
+
+
+@cache
+def story_words() -> frozenset[str]:
+    """The nouns of the demonstrations: the fixed ones, and every word their object maps name things with."""
+    words = set(STORY_WORDS)
+    for file in DEMOS.rglob("object_map.json"):
+        for class_name, items in json.loads(file.read_text(encoding="utf-8"))["items"].items():
+            for item in items:
+                names = [class_name, item["description"], *item.get("aliases", [])]
+                words.update(re.findall(r"[a-z]+", " ".join(names).lower()))
+    return frozenset(words - EVERYDAY_WORDS)
+
+
+def words_of(text: str) -> set[str]:
+    """The words of a program's text, also those inside names like `red_box`, `RedBox` or `boxes`."""
+    parts = {part.lower() for part in re.findall(r"[A-Z]?[a-z]+|[A-Z]+(?![a-z])", text)}
+    return parts | {part.removesuffix("s") for part in parts} | {part.removesuffix("es") for part in parts}
+
+
+def test_the_product_does_not_know_the_demonstrations() -> None:
+    found = {
+        shown(path): sorted(known)
+        for path in python_files(SOURCE)
+        if DEMOS not in path.parents and (known := words_of(path.read_text(encoding="utf-8")) & story_words())
+    }
+    assert found == {}
+
+
+def test_a_word_of_the_demonstrations_would_be_found() -> None:
+    assert {"fridge", "sofa"} <= words_of("def open_fridge(): return LargeSofas()") & story_words()
+
+
+def test_no_file_names_a_machine_or_a_package_registry() -> None:
+    found = []
+    for path in tracked_files():
+        if path == Path(__file__):
+            continue
+        try:
+            lines = path.read_text(encoding="utf-8").splitlines()
+        except UnicodeDecodeError:
+            continue
+        found += [
+            f"{shown(path)}:{n}: {line.strip()}" for n, line in enumerate(lines, 1) if FOREIGN.search(line)
+        ]
+    assert found == []
+
+
+@pytest.mark.parametrize(
+    "text", ["see /work/main", "cd /home/ann", "'/tmp/x'", "https://pypi" + ".org/simple"]
+)
+def test_a_machines_path_would_be_found(text: str) -> None:
+    assert FOREIGN.search(text)
+
+
+def test_no_module_is_too_long_to_be_read_in_one_sitting() -> None:
+    lengths = {
+        shown(path): length
+        for path in python_files(SOURCE)
+        if (length := len(path.read_text(encoding="utf-8").splitlines())) > MAX_MODULE_LINES
+    }
+    assert lengths == {}
+
+
+def test_every_module_says_what_it_is_for() -> None:
+    silent = [
+        shown(path)
+        for path in python_files(SOURCE)
+        if not ast.get_docstring(ast.parse(path.read_text(encoding="utf-8")))
+    ]
+    assert silent == []
+
+
+def test_no_exception_is_swallowed_in_silence() -> None:
+    swallowed = [
+        f"{shown(path)}:{node.lineno}"
+        for path in python_files(SOURCE)
+        for node in ast.walk(ast.parse(path.read_text(encoding="utf-8")))
+        if isinstance(node, ast.ExceptHandler) and is_blind(node) and is_idle(node)
+    ]
+    assert swallowed == []
+
+
+def is_blind(handler: ast.ExceptHandler) -> bool:
+    caught = handler.type
+    return caught is None or (isinstance(caught, ast.Name) and caught.id in ("Exception", "BaseException"))
+
+
+def is_idle(handler: ast.ExceptHandler) -> bool:
+    """Whether nothing comes of it: no call (to a log, to a person), no raise, and it is not handed on."""
+    nodes = [node for line in handler.body for node in ast.walk(line)]
+    is_handed_on = any(isinstance(node, ast.Name) and node.id == handler.name for node in nodes)
+    return not is_handed_on and not any(isinstance(node, ast.Call | ast.Raise) for node in nodes)
+
+
+def test_nothing_is_left_for_later_in_comments() -> None:
+    marks = re.compile(r"\b(?:TO" + r"DO|FIX" + r"ME|XX" + r"X)\b")
+    found = [
+        f"{shown(path)}:{number}"
+        for path in tracked_files()
+        if path.suffix in (".py", ".md", ".toml", ".yaml", ".yml", "") and path.name != "LICENSE"
+        for number, line in enumerate(path.read_text(encoding="utf-8").splitlines(), 1)
+        if marks.search(line)
+    ]
+    assert found == []
+
+
+def test_the_readme_begins_with_two_commands_that_exist() -> None:
+    readme = (ROOT / "README.md").read_text(encoding="utf-8")
+    makefile = (ROOT / "Makefile").read_text(encoding="utf-8")
+    for target in ("demo", "test"):
+        assert f"make {target}" in readme
+        assert re.search(rf"^{target}:", makefile, re.MULTILINE)
+
+
+def test_every_make_target_that_the_documents_name_exists() -> None:
+    makefile = (ROOT / "Makefile").read_text(encoding="utf-8")
+    targets = set(re.findall(r"^([a-z]+):", makefile, re.MULTILINE))
+    documents = [ROOT / "README.md", ROOT / "CONTRIBUTING.md", *(ROOT / "docs").glob("*.md")]
+    named = {
+        target
+        for path in documents
+        for target in re.findall(r"(?:`|^|  )make ([a-z]+)", path.read_text(encoding="utf-8"), re.MULTILINE)
+    }
+    assert named <= targets
+
+
+def test_every_link_inside_the_documents_leads_somewhere() -> None:
+    documents = [*ROOT.glob("*.md"), *(ROOT / "docs").glob("*.md")]
+    dead = [
+        f"{shown(path)}: {target}"
+        for path in documents
+        for target in re.findall(r"\]\(([^)#:]+)(?:#[^)]*)?\)", path.read_text(encoding="utf-8"))
+        if not (path.parent / target).exists()
+    ]
+    assert dead == []

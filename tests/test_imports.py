@@ -1,0 +1,126 @@
+"""Imports point one way (design section 1): whoever stands lower knows nothing of whoever stands higher."""
+
+from __future__ import annotations
+
+import ast
+from collections.abc import Iterator
+from pathlib import Path
+from typing import NamedTuple
+
+import pytest
+
+import parley
+
+SOURCE = Path(parley.__file__).parent
+
+LAYERS: tuple[frozenset[str], ...] = (
+    frozenset({"errors", "clock", "messages", "config"}),
+    frozenset({"transport", "umrf", "memory", "world"}),
+    frozenset({"sim"}),
+    frozenset({"language", "robots", "engine", "actions"}),
+    frozenset({"nodes", "web"}),
+    frozenset({"terminal", "system", "demos", "bench", "cli"}),
+)
+"""Rooms by height, lowest first; rooms of one height may know each other."""
+
+NEVER = {
+    "umrf": {"transport"},
+    "language": {"nodes"},
+    "actions": {"transport", "engine", "nodes", "sim"},
+    "sim": {"robots"},
+    "terminal": {"nodes", "engine", "robots", "sim", "system", "demos", "bench", "cli"},
+}
+"""What a room must not know although its height would allow it, or so that it never will."""
+
+ONLY_IN = {
+    "rclpy": {"transport/ros2.py"},
+    "mujoco": {"sim/"},
+    "aiosqlite": {"memory/"},
+    "prompt_toolkit": {"terminal/"},
+    "typer": {"cli.py", "cli/"},
+}
+"""Third parties that one place hides from the rest."""
+
+
+class Import(NamedTuple):
+    """One import: where it stands, who imports, and what."""
+
+    where: str
+    line: int
+    module: str
+
+    @property
+    def room(self) -> str:
+        return self.where.split("/")[0].removesuffix(".py")
+
+    @property
+    def imported_room(self) -> str:
+        parts = self.module.split(".")
+        return parts[1] if parts[0] == "parley" and len(parts) > 1 else ""
+
+
+def imports_of(path: Path) -> Iterator[Import]:
+    where = path.relative_to(SOURCE).as_posix()
+    for node in ast.walk(ast.parse(path.read_text(encoding="utf-8"))):
+        if isinstance(node, ast.Import):
+            yield from (Import(where, node.lineno, alias.name) for alias in node.names)
+        elif isinstance(node, ast.ImportFrom):
+            module = full_name(path, node)
+            if module == "parley":
+                yield from (Import(where, node.lineno, f"parley.{alias.name}") for alias in node.names)
+            else:
+                yield Import(where, node.lineno, module)
+
+
+def full_name(path: Path, node: ast.ImportFrom) -> str:
+    """The imported module, also where it was named relative to the importing one."""
+    if node.level == 0:
+        return node.module or ""
+    package = ["parley", *path.relative_to(SOURCE).parts[: -node.level]]
+    return ".".join([*package, node.module] if node.module else package)
+
+
+IMPORTS = [found for path in sorted(SOURCE.rglob("*.py")) for found in imports_of(path)]
+HEIGHT = {room: height for height, rooms in enumerate(LAYERS) for room in rooms}
+
+
+def told(imports: list[Import]) -> list[str]:
+    return [f"src/parley/{found.where}:{found.line} imports {found.module}" for found in imports]
+
+
+def test_every_room_has_its_height() -> None:
+    rooms = {path.parent.name for path in SOURCE.glob("*/__init__.py")} | {
+        p.stem for p in SOURCE.glob("*.py")
+    }
+    assert rooms - HEIGHT.keys() - {"__init__", "__main__"} == set()
+
+
+def test_no_room_imports_a_higher_one() -> None:
+    upwards = [
+        found
+        for found in IMPORTS
+        if found.imported_room in HEIGHT and HEIGHT[found.imported_room] > HEIGHT.get(found.room, len(LAYERS))
+    ]
+    assert told(upwards) == []
+
+
+@pytest.mark.parametrize("room", NEVER)
+def test_a_room_does_not_know_what_it_must_not_know(room: str) -> None:
+    known = [found for found in IMPORTS if found.room == room and found.imported_room in NEVER[room]]
+    assert told(known) == []
+
+
+@pytest.mark.parametrize("package", ONLY_IN)
+def test_a_third_party_stays_in_its_place(package: str) -> None:
+    places = tuple(ONLY_IN[package])
+    elsewhere = [
+        found
+        for found in IMPORTS
+        if found.module.split(".")[0] == package and not found.where.startswith(places)
+    ]
+    assert told(elsewhere) == []
+
+
+def test_an_upward_import_would_be_found() -> None:
+    found = Import("messages/chat.py", 1, "parley.nodes.base")
+    assert HEIGHT[found.imported_room] > HEIGHT[found.room]

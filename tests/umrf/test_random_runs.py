@@ -1,0 +1,130 @@
+"""Whatever is commanded, a run never hangs, tells each change once and leaves nothing behind."""
+
+from __future__ import annotations
+
+import asyncio
+from typing import Any
+
+from hypothesis import given, settings
+from hypothesis import strategies as st
+
+from parley.errors import GraphRefusedError
+from parley.umrf.io import read_graph
+from parley.umrf.model import GraphState
+
+from .spec_actions import chain, node
+from .watched import Watched
+
+RESULTS = ("on_true", "on_false", "on_stopped", "on_error")
+RESPONSES = ("run", "stop", "pause", "bypass", "ignore", "restart")
+AT_REST = {GraphState.FINISHED, GraphState.HALTED, GraphState.STOPPED, GraphState.PAUSED}
+
+conditions = st.lists(
+    st.builds("{} -> {}".format, st.sampled_from(RESULTS), st.sampled_from(RESPONSES)), max_size=4
+)
+
+
+def steps(index: int) -> st.SearchStrategy[dict[str, Any]]:
+    return st.sampled_from(
+        [
+            node("NoOp", index),
+            node("WaitFor", index, seconds=0.0),
+            node("WaitFor", index, seconds=0.001),
+            node("Insist", index, seconds=0.0),
+            node("InThread", index, text="a"),
+            node("SameText", index, text="a", expected="b"),
+            node("Crash", index),
+            node("Fail", index, reason="on purpose"),
+        ]
+    )
+
+
+@st.composite
+def graphs(draw: st.DrawFn) -> dict[str, Any]:
+    """Linear graphs with any conditions, and sometimes a way back from the last node to an earlier one."""
+    nodes = [draw(steps(index)) for index in range(draw(st.integers(1, 5)))]
+    raw = chain("g", nodes, conditions=draw(conditions), exit_conditions=draw(conditions))
+    last, target = raw["actions"][-1], raw["actions"][draw(st.integers(0, len(nodes) - 1))]
+    known = [item["name"] for item in last.get("children", [])]
+    if draw(st.booleans()) and target is not last and target["name"] not in known:
+        # Never `run` or `restart`: such a loop goes on until it is stopped, which is right but no end.
+        mild = st.sampled_from(["stop", "pause", "bypass", "ignore"])
+        back = {"name": last["name"], "instance_id": last["instance_id"], "required": False}
+        back["conditions"] = [f"{result} -> {draw(mild)}" for result in RESULTS]
+        if all(item["name"] != back["name"] for item in target.get("parents", [])):
+            target["parents"] = [*target.get("parents", []), back]
+            last["children"] = [
+                *last.get("children", []),
+                {"name": target["name"], "instance_id": target["instance_id"]},
+            ]
+    return raw
+
+
+commands = st.lists(
+    st.one_of(
+        st.sampled_from(["pause", "resume", "stop", "yield", "wait"]),
+        st.tuples(st.sampled_from(["continue", "end"]), st.integers(0, 5)),
+        st.tuples(st.just("modify"), graphs(), st.integers(-1, 5)),
+    ),
+    max_size=8,
+)
+
+
+async def obey(watched: Watched, command: Any) -> None:
+    names = [item.full_name for item in watched.run.snapshot().nodes]
+    match command:
+        case "pause":
+            watched.run.pause()
+        case "resume":
+            watched.run.resume()
+        case "stop":
+            watched.run.stop()
+        case "yield":
+            await asyncio.sleep(0)
+        case "wait":
+            await asyncio.sleep(0.002)
+        case ("continue", index):
+            watched.run.resume(names[index % len(names)])
+        case ("end", index):
+            watched.run.end_node(names[index % len(names)])
+        case ("modify", raw, index):
+            graph = read_graph(raw)
+            watched.run.modify(graph, graph.nodes[index % len(graph.nodes)].full_name if index >= 0 else "")
+
+
+async def play(raw: dict[str, Any], orders: list[Any]) -> None:
+    tasks = asyncio.all_tasks()
+    watched = Watched(raw, stop_timeout_s=2.0)
+    watched.run.start()
+    for command in orders:
+        before = (watched.run.snapshot(), len(watched.told))
+        try:
+            await obey(watched, command)
+        except GraphRefusedError as error:
+            assert error.problems
+            assert (watched.run.snapshot(), len(watched.told)) == before, "a refusal changes nothing"
+    async with asyncio.timeout(5):
+        while watched.run.state not in AT_REST:
+            if watched.run.holding or any(item.state == "PAUSED" for item in watched.run.snapshot().nodes):
+                watched.run.resume()  # a node paused by an edge waits for a resume, and rightly so
+            await asyncio.sleep(0.001)
+        await watched.run.close()
+    assert watched.run.idle
+    assert [item.sequence for item in watched.told] == list(range(len(watched.told)))
+    assert asyncio.all_tasks() == tasks
+    changes: dict[str, str] = {}
+    for item in watched.told:
+        if item.kind == "node" and item.cause != "bypass":
+            assert changes.get(item.node) != item.state or item.state == "ERROR", "a change is told once"
+            changes[item.node] = item.state
+    for node_now in watched.run.snapshot().nodes:
+        told = changes.get(node_now.full_name, "UNINITIALIZED")
+        assert node_now.state.value in (told, "UNINITIALIZED"), "observers know the true state"
+
+
+@given(raw=graphs(), orders=commands)
+@settings(max_examples=150, deadline=None)
+def test_runs_end_tell_each_change_once_and_leave_nothing_behind(
+    raw: dict[str, Any], orders: list[Any]
+) -> None:
+    asyncio.run(play(raw, orders))
