@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import ast
 from collections.abc import Iterator
+from graphlib import TopologicalSorter
 from pathlib import Path
 from typing import NamedTuple
 
@@ -119,6 +120,31 @@ def test_a_third_party_stays_in_its_place(package: str) -> None:
         if found.module.split(".")[0] == package and not found.where.startswith(places)
     ]
     assert told(elsewhere) == []
+
+
+def module_name(path: Path) -> str:
+    parts = ["parley", *path.relative_to(SOURCE).with_suffix("").parts]
+    return ".".join(parts[:-1] if parts[-1] == "__init__" else parts)
+
+
+def loaded_by(path: Path, modules: set[str]) -> set[str]:
+    """The modules that importing this one loads first: those it names at its top, and their packages."""
+    found: set[str] = set()
+    for node in ast.parse(path.read_text(encoding="utf-8")).body:
+        if isinstance(node, ast.Import):
+            found |= {alias.name for alias in node.names}
+        elif isinstance(node, ast.ImportFrom):
+            source = full_name(path, node)
+            found |= {source} | {f"{source}.{alias.name}" for alias in node.names}
+    name = module_name(path)
+    packages = {".".join(m.split(".")[:n]) for m in found & modules for n in range(1, m.count(".") + 2)}
+    return {m for m in packages & modules if m != name and not name.startswith(f"{m}.")}
+
+
+def test_modules_do_not_import_each_other_in_a_circle() -> None:
+    paths = sorted(SOURCE.rglob("*.py"))
+    modules = {module_name(path) for path in paths}
+    TopologicalSorter({module_name(path): loaded_by(path, modules) for path in paths}).prepare()
 
 
 def test_an_upward_import_would_be_found() -> None:

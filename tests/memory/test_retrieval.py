@@ -10,13 +10,14 @@ from parley.memory.retrieval import (
     MAX_COMMON_TERMS,
     MAX_TERMS,
     Hits,
+    common_terms,
     final_order,
     fts_phrase,
     name_key,
     query_terms,
     scores,
+    telling,
     words,
-    worth_completing,
 )
 from parley.messages.memory import MemoryEntry
 
@@ -89,14 +90,18 @@ def test_how_common_a_word_is_shows_in_how_densely_its_newest_memories_stand() -
     assert dense.weight(100_000) == pytest.approx(0.0, abs=0.01)
 
 
-def test_only_few_common_words_that_tell_something_are_followed_further() -> None:
+def test_only_few_common_words_are_followed_further_the_most_telling_first() -> None:
     hits: dict[tuple[str, ...], Hits] = {(f"w{number}",): Hits((1,), complete=False) for number in range(10)}
     hits[("rare",)] = Hits((1,), complete=True)
     weights = {term: 1.0 + number / 10 for number, term in enumerate(hits)}
-    weights[("w9",)] = 0.01
-    chosen = worth_completing(hits, weights)
-    assert chosen == [("w8",), ("w7",), ("w6",), ("w5",)]
+    chosen = common_terms(hits, weights)
+    assert chosen == [("w9",), ("w8",), ("w7",), ("w6",)]
     assert len(chosen) == MAX_COMMON_TERMS
+
+
+def test_words_that_nearly_every_memory_holds_tell_nothing() -> None:
+    assert telling([("a",), ("b",)], {("a",): 3.0, ("b",): 0.5, ("c",): 1.0}) == [("a",)]
+    assert telling([], {}) == []
 
 
 def test_scores_add_up_what_a_memory_shares_with_the_request() -> None:

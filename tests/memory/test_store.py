@@ -10,6 +10,7 @@ import sqlite3
 import subprocess
 import sys
 from collections.abc import AsyncIterator
+from contextlib import closing
 from pathlib import Path
 
 import pytest
@@ -161,6 +162,8 @@ async def test_a_memory_called_what_is_asked_for_comes_first(store: MemoryStore)
     await fill(store, chair_place="The chair is red.", notes="chair place, chair place", x="chair")
     assert names(await store.search("Chair place"))[0] == "chair_place"
     assert names(await store.search("chairPlace"))[0] == "chair_place"
+    await fill(store, spare_chair_place="short")
+    assert names(await store.search("chair place"))[0] == "chair_place"
 
 
 async def test_a_name_of_words_that_tell_nothing_is_found_by_that_name(store: MemoryStore) -> None:
@@ -257,10 +260,59 @@ async def test_an_old_memory_with_two_common_words_is_found_among_many_with_one(
 
 
 async def test_an_old_memory_with_a_rare_and_a_common_word_beats_those_with_one(store: MemoryStore) -> None:
-    await fill(store, wanted="The red teapot.", other="The green teapot.")
-    for number in range(400):
-        await fill(store, **{f"n{number}": "a red chair"})
-    assert names(await store.search("red teapot"))[0] == "wanted"
+    await fill(store, wanted="The red teapot.", other="The tin teapot.")
+    for number in range(900):
+        await fill(store, **{f"n{number}": ["a red chair", "a lamp", "a shelf"][number % 3]})
+    await fill(store, **{"one more": "a red chair"})
+    assert names(await store.search("red teapot"))[:2] == ["wanted", "other"]
+
+
+async def test_an_old_memory_with_three_common_words_is_found_among_many_with_two(store: MemoryStore) -> None:
+    await fill(store, wanted="A red box, open.")
+    texts = ["a red box", "a box, open", "something red, open", "a lamp", "a shelf", "a cart"]
+    await asyncio.gather(
+        *(store.add(MemoryEntry(name=f"n{n}", data=texts[n % 6])) for n in range(310 * len(texts)))
+    )
+    assert names(await store.search("the red open box"))[0] == "wanted"
+
+
+# All of it together
+
+some_names = st.sampled_from(["box", "chair", "chairPlace", "chair_place"])
+some_scopes = st.sampled_from(["", "A", "B"])
+changes = st.lists(st.tuples(st.booleans(), some_names, some_scopes | st.none()), max_size=25)
+
+
+@settings(max_examples=40, deadline=None)
+@given(changes)
+def test_after_any_changes_the_store_says_and_finds_what_a_plain_list_would(
+    steps: list[tuple[bool, str, str | None]],
+) -> None:
+    async def run() -> None:
+        expected: dict[tuple[str, str], str] = {}
+        ended = 0
+        async with await MemoryStore.open(":memory:") as store:
+            for number, (is_addition, name, scope) in enumerate(steps):
+                concerned = [key for key in expected if key[0] == name and scope in (None, key[1])]
+                if is_addition:
+                    concerned = [(name, scope or "")]
+                    ended += concerned[0] in expected
+                    await store.add(MemoryEntry(name=name, scope=scope or "", data=f"word{number}x"))
+                else:
+                    ended += len(concerned)
+                    assert await store.remove(name, scope) == bool(concerned)
+                for key in concerned:
+                    expected.pop(key, None)
+                if is_addition:
+                    expected[concerned[0]] = f"word{number}x"
+            everything = await store.all()
+            assert [((entry.name, entry.scope), entry.data) for entry in everything] == list(expected.items())
+            for number in range(len(steps)):
+                found = [entry.data for entry in await store.search(f"word{number}x")]
+                assert found == [data for data in expected.values() if data == f"word{number}x"]
+            assert sum([len(await store.history(name)) for name in {name for _, name, _ in steps}]) == ended
+
+    asyncio.run(run())
 
 
 # The file
@@ -344,6 +396,25 @@ async def test_a_damaged_file_is_put_aside_and_people_are_told(tmp_path: Path, d
     async with await MemoryStore.open(path) as store:
         assert names(await store.all()) == ["box"]
         assert store.notice == ""
+
+
+async def test_what_stands_beside_a_damaged_file_goes_aside_with_it(tmp_path: Path) -> None:
+    path = tmp_path / "memory.db"
+    async with await MemoryStore.open(path) as store:
+        await fill(store, box="x")
+    with closing(sqlite3.connect(path)) as another_process:
+        another_process.execute("SELECT count(*) FROM memory").fetchall()
+        path.write_bytes(b"this is no database\n" * 500)
+        async with await MemoryStore.open(path, SteppingClock()) as store:
+            await fill(store, chair="y")
+    aside = {"memory.db.corrupt-1000", "memory.db.corrupt-1000-wal", "memory.db.corrupt-1000-shm"}
+    assert aside <= {file.name for file in _files(tmp_path)}
+    async with await MemoryStore.open(path) as store:
+        assert names(await store.all()) == ["chair"]
+
+
+def _files(folder: Path) -> list[Path]:
+    return list(folder.iterdir())
 
 
 def _overwrite_pages(content: bytes) -> bytes:

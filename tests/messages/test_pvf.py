@@ -112,4 +112,5 @@ def test_values_of_other_types_do_not_fit(kind: str) -> None:
 
 
 def test_an_opaque_type_fits_no_json_value() -> None:
-    assert not any(fits_type("Pose", value) for value in (None, 1, "x", [], {}))
+    values: list[Any] = [None, 1, "x", [], {}]
+    assert not any(fits_type("Pose", value) for value in values)

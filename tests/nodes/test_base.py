@@ -95,6 +95,25 @@ async def test_closing_takes_away_everything_a_node_opened() -> None:
         assert asyncio.all_tasks() == before
 
 
+async def test_what_is_sent_after_closing_opens_nothing_anew() -> None:
+    async with LocalTransport() as transport:
+        async with Echo(transport) as node:
+            pass
+        node.publish(topics.CHAT_FEEDBACK, ChatFeedback(message="x"))
+        assert transport.endpoints() == ()
+
+
+async def test_a_closed_node_can_be_opened_again() -> None:
+    async with LocalTransport() as transport:
+        node = Echo(transport)
+        heard = await listen(transport, topics.CHAT_FEEDBACK)
+        for _ in range(2):
+            async with node:
+                transport.publisher(topics.CHAT_INPUT).publish(to_string(ChatInput(message="x")))
+                await settle()
+    assert len(heard) == 2
+
+
 async def test_a_node_that_fails_to_open_leaves_nothing_behind() -> None:
     class Broken(Node):
         async def open(self) -> None:
@@ -204,6 +223,20 @@ async def test_closing_cancels_what_runs_and_forgets_what_waits() -> None:
     await settle()
     assert seen == ["cancelled"]
     assert asyncio.all_tasks() == before
+
+
+async def test_closed_mailboxes_can_be_opened_again() -> None:
+    done: list[str] = []
+
+    async def work() -> None:
+        done.append("worked")
+
+    mailboxes = Mailboxes[str]()
+    for _ in range(2):
+        async with mailboxes:
+            mailboxes.post("A", work)
+            await settle()
+    assert done == ["worked", "worked"]
 
 
 async def test_an_item_may_close_its_own_mailboxes() -> None:

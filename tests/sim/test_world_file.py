@@ -9,8 +9,9 @@ from typing import Any
 import pytest
 
 from parley.errors import FileFormatError
+from parley.sim.entries import Doorway, Thing, Wall
 from parley.sim.robot_model import PRESETS
-from parley.sim.world_file import Doorway, Thing, Wall, WorldChanges, WorldFile
+from parley.sim.world_file import WorldChanges, WorldFile
 from tests.sim.worlds import TWO_ROOMS, box, two_rooms
 
 
@@ -47,6 +48,8 @@ def test_a_robot_may_be_described_instead_of_named() -> None:
         ("model: turtlebot3_waffle", "model: unicorn", "robots[0].model"),
         ("name: A", "name: crate_1", "robots[0].name"),
         ("name: A", "name: ''", "robots[0].name"),
+        ("pose: [1.0, 1.0, 0.0]", "pose: [2.8, 2.0, 0.0]", "robots[0].pose"),
+        ("pose: [1.0, 1.0, 0.0]", "pose: [5.2, 2.4, 0.0]", "robots[0].pose"),
         ("things:", "things: [", ""),
     ],
 )

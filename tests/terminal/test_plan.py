@@ -96,3 +96,9 @@ def test_steps_that_ended_meanwhile_are_reported_once() -> None:
 def test_a_step_that_was_known_before_its_node_existed_is_recognised() -> None:
     _, ended = compare(plan(step("a", "running")), plan(step("a", "finished", "a_0")))
     assert [step.node for step in ended] == ["a_0"]
+
+
+def test_of_what_is_cancelled_only_the_step_that_had_begun_is_reported() -> None:
+    before = plan(step("a", "running", "a_0"), step("b", "queued", "b_0"))
+    _, ended = compare(before, plan(step("a", "stopped", "a_0"), step("b", "stopped", "b_0"), state="idle"))
+    assert [step.action.reason for step in ended] == ["a"]

@@ -4,14 +4,17 @@ from __future__ import annotations
 
 import asyncio
 import codecs
+import contextlib
 import fcntl
 import os
 import pty
+import signal
 import struct
 import termios
 from collections.abc import AsyncIterator
 from contextlib import asynccontextmanager
 from dataclasses import dataclass, field
+from typing import TextIO
 
 import pytest
 from prompt_toolkit.input.vt100 import Vt100Input
@@ -41,6 +44,11 @@ class Terminal:
     def __post_init__(self) -> None:
         self._decoder = codecs.getincrementaldecoder("utf-8")()
 
+    def hang_up(self) -> None:
+        asyncio.get_running_loop().remove_reader(self.fd)
+        os.close(self.fd)
+        self.fd = -1
+
     def press(self, keys: str) -> None:
         os.write(self.fd, keys.encode())
 
@@ -64,7 +72,9 @@ async def opened() -> AsyncIterator[Terminal]:
     loop = asyncio.get_running_loop()
     far, near = pty.openpty()
     fcntl.ioctl(near, termios.TIOCSWINSZ, struct.pack("HHHH", ROWS, COLUMNS, 0, 0))
-    with os.fdopen(near, "r", closefd=False) as source, os.fdopen(near, "w") as sink:
+    sink = os.fdopen(near, "w")
+    with os.fdopen(near, "r", closefd=False) as source, contextlib.ExitStack() as stack:
+        stack.callback(close, sink)
         keyboard, screen = Vt100Input(source), Vt100_Output.from_pty(sink, term="xterm-256color")
         async with LocalTransport() as transport:
             robots = PlayedRobots(transport)
@@ -85,9 +95,14 @@ async def opened() -> AsyncIterator[Terminal]:
             finally:
                 terminal.task.cancel()
                 await asyncio.gather(terminal.task, return_exceptions=True)
-                loop.remove_reader(far)
-                os.close(far)
+                if terminal.fd >= 0:
+                    terminal.hang_up()
             assert transport.handler_failures == 0
+
+
+def close(sink: TextIO) -> None:
+    with contextlib.suppress(OSError):  # what was not written when the terminal went away
+        sink.close()
 
 
 async def test_words_are_sent_and_answers_appear_above_the_prompt() -> None:
@@ -136,6 +151,22 @@ async def test_ctrl_c_is_an_emergency_stop_while_the_robot_works() -> None:
         await terminal.shows("Goodbye.")
 
 
+async def test_an_interrupt_from_outside_is_the_same_as_ctrl_c() -> None:
+    async with opened() as terminal:
+        terminal.robots.tell(topics.PLAN, plan(step("go to the box", "running", "b_0")))
+        await terminal.shows("Ada: working")
+        os.kill(os.getpid(), signal.SIGINT)
+        await until(lambda: terminal.robots.stops)
+        os.kill(os.getpid(), signal.SIGINT)
+        await terminal.ends()
+
+
+async def test_a_terminal_that_goes_away_ends_the_conversation() -> None:
+    async with opened() as terminal:
+        terminal.hang_up()
+        await terminal.ends()
+
+
 async def test_ctrl_c_at_an_empty_prompt_leaves_while_nothing_moves() -> None:
     async with opened() as terminal:
         terminal.press(CTRL_C)
@@ -180,7 +211,7 @@ async def test_what_robots_say_stands_above_the_prompt_and_the_live_plan_below()
             "    2. blue",
             "Ada's plan:",
             "  ? 1. ask (waiting for you)",
-            "  ○ 2. go there (to do)",
+            "  ○ 2. go there",
             "You → Ada: go to",
             " Ada: waiting for your answer",
             " Bo: ready",
@@ -188,3 +219,13 @@ async def test_what_robots_say_stands_above_the_prompt_and_the_live_plan_below()
             " ○ go there  to do",
         ]
         terminal.press(CTRL_C + CTRL_C)
+
+
+async def test_long_words_of_a_robot_are_wrapped_between_words() -> None:
+    async with opened() as terminal:
+        terminal.robots.say("box " * 40)
+        await terminal.shows("Ada: box")
+        said = [row for row in terminal.screen.text.splitlines() if "box" in row]
+        assert len(said) == 2
+        assert all(row.endswith("box") for row in said)
+        terminal.press(CTRL_D)

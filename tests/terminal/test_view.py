@@ -36,7 +36,8 @@ def test_the_first_robot_that_appears_is_the_one_spoken_to() -> None:
     assert [line.text for line in lines] == ["Ada is here."]
     view.on_status(ActorStatus(actor="Bo"), 0.0)
     assert view.selected == "Ada"
-    assert toolbar(view) == [" Ada: ready", " Bo: ready"]
+    view.on_status(ActorStatus(actor="Cy", state="running"), 0.0)
+    assert toolbar(view) == [" Ada: ready", " Bo: ready · Cy: working"]
 
 
 def test_a_heartbeat_of_a_known_robot_says_nothing(view: OperatorView) -> None:
@@ -78,7 +79,7 @@ def test_words_of_a_robot_keep_choices_and_name_what_was_remembered(view: Operat
         targets=("Ada",),
         type="request",
         choices=("red", "blue"),
-        sources=("box place",),
+        sources=("box_place",),
     )
     (line,) = view.on_feedback(feedback)
     assert (line.kind, line.speaker, line.choices) == ("asked", "Ada", ("red", "blue"))
@@ -163,7 +164,7 @@ def test_a_new_plan_is_shown_whole_and_then_only_what_is_done(view: OperatorView
     assert [line.text for line in lines] == [
         "Ada's plan:",
         "▶ 1. find the box (now)",
-        "○ 2. go there (to do)",
+        "○ 2. go there",
     ]
     lines = view.on_plan(plan(step("find the box", "finished", "a_0"), step("go there", "running", "b_0")))
     assert [line.text for line in lines] == ["✓ find the box (done)"]
@@ -213,7 +214,9 @@ def test_a_proposed_plan_asks_for_a_yes_and_goes_with_the_decision(view: Operato
 
 def test_an_emergency_stop_of_somebody_else_is_told_and_shown(view: OperatorView) -> None:
     lines = view.on_stop_report(StopReport(actor="Ada", state="received"))
-    assert [line.text for line in lines] == ["Ada is stopping."]
+    assert [line.text for line in lines] == [
+        'Ada is stopping. To let it move again: /reset, then "carry on".'
+    ]
     assert toolbar(view) == [" Ada: stopped, /reset lets it move again"]
     assert [line.text for line in view.on_stop_report(StopReport(actor="Ada", state="at_rest"))] == [
         "Ada stands still."

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import asyncio
 import itertools
+import sys
 import threading
 import time
 from collections.abc import Mapping
@@ -84,6 +85,18 @@ async def crash(ctx: RunHandle) -> None:
 
 
 @action
+async def leave(ctx: RunHandle) -> None:
+    """Try to end the program."""
+    sys.exit(3)
+
+
+@action
+async def fail_badly(ctx: RunHandle) -> None:
+    """Fail with facts that JSON cannot hold."""
+    raise ActionFailure(FailureCode.BLOCKED, "half \ud800", {"thing": object()})
+
+
+@action
 async def no_op(ctx: RunHandle) -> None:
     """Do nothing."""
 
@@ -124,7 +137,7 @@ SPECS = [
     item.spec
     for item in (
         join_text, same_text, find_nothing, wait_for, count_to, raise_error, fail, crash, no_op, insist,
-        stubborn, in_thread, thread_loop,
+        leave, fail_badly, stubborn, in_thread, thread_loop,
     )
 ]  # fmt: skip
 CATALOGUE = Catalogue(SPECS)

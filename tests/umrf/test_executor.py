@@ -114,6 +114,21 @@ async def test_a_defect_of_an_action_is_an_internal_failure_that_names_it() -> N
     assert report.message == "Crash failed: KeyError: 'shelf'"
 
 
+async def test_facts_that_cannot_be_written_are_left_out_of_the_report() -> None:
+    watched = Watched(chain("g", [node("FailBadly", 0)]))
+    watched.run.start()
+    assert await watched.run.wait() is Result.ON_ERROR
+    report = FailureReport.parse(watched.log("FailBadly_0")[-1])
+    assert (report.message, report.code, report.details) == ("half ?", FailureCode.BLOCKED, {})
+
+
+async def test_an_action_cannot_end_the_program() -> None:
+    watched = Watched(chain("g", [node("Leave", 0)]))
+    watched.run.start()
+    assert await watched.run.wait() is Result.ON_ERROR
+    assert "exit(3)" in watched.log("Leave_0")[-1]
+
+
 async def test_a_plain_log_line_does_not_hide_the_reason_of_a_defect() -> None:
     watched = Watched(chain("g", [node("RaiseError", 0, text="getting on")]))
     watched.run.start()

@@ -50,6 +50,13 @@ def test_a_cells_centre_lies_in_that_cell(
     assert ground.cell_of(*ground.center_of(row, column)) == (row, column)
 
 
+def test_points_beside_the_grid_have_no_cell() -> None:
+    ground = OccupancyMap(np.zeros((2, 3), np.int8), 0.5, 1.0, 2.0)
+    cells = ground.cells_of(np.array([[1.1, 2.6], [0.9, 2.1], [2.4, 2.1], [2.6, 2.1], [1.1, 3.1]]))
+    assert cells.tolist() == [[1, 0], [0, 2]]
+    assert ground.centers_of(cells).tolist() == [[1.25, 2.75], [2.25, 2.25]]
+
+
 def test_the_first_row_of_the_picture_is_the_highest_y(tmp_path: Path) -> None:
     ground = OccupancyMap.load(write_map(tmp_path, HEADER, [[0, 254], [254, 254], [254, 254]]))
     assert not ground.is_free(0.05, 0.25)

@@ -4,13 +4,13 @@ from __future__ import annotations
 
 import asyncio
 from collections.abc import Callable
-from dataclasses import dataclass
+from dataclasses import dataclass, field
 from typing import Final
 
 from parley.clock import Clock
 from parley.messages.ros import UmrfGraphFeedback
 from parley.umrf.executor import GraphRun
-from parley.umrf.io import write_graph
+from parley.umrf.io import GraphWriter
 
 __all__ = ["Feedback"]
 
@@ -26,6 +26,7 @@ _REMEMBERED: Final = 100
 @dataclass(slots=True, eq=False)
 class _Due:
     run: GraphRun
+    writer: GraphWriter = field(default_factory=GraphWriter)
     timer: asyncio.Handle | None = None
     not_before_s: float = 0.0
     """Wall time from which the next message may be sent."""
@@ -67,7 +68,7 @@ class Feedback:
     def _send(self, due: _Due) -> None:
         due.timer = None
         began_s = self._clock.wall_s()
-        text = write_graph(due.run.snapshot())
+        text = due.writer.write(due.run.snapshot())
         now_s = self._clock.wall_s()
         due.not_before_s = now_s + max(INTERVAL_S, _COST_FACTOR * (now_s - began_s))
         self._publish(UmrfGraphFeedback(actor=self._actor, history=(text,)))

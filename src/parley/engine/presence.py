@@ -6,6 +6,8 @@ import asyncio
 from collections.abc import Callable, Sequence
 from typing import Final, Literal
 
+import structlog
+
 from parley.errors import ActionFailure
 from parley.messages.status import ActionInfo, ActorStatus, PoseInfo
 from parley.robots.base import Robot
@@ -14,6 +16,8 @@ from parley.umrf.model import GraphState
 from .runs import GraphRuns
 
 __all__ = ["Presence", "is_at_rest"]
+
+log = structlog.get_logger(__name__)
 
 REST_LINEAR_MPS: Final = 0.01
 REST_ANGULAR_RADPS: Final = 0.02
@@ -76,7 +80,11 @@ class Presence:
     async def _beat(self) -> None:
         while True:
             self._changed.clear()
-            self._send(self._state())
+            try:
+                self._send(self._state())
+            except Exception:
+                # A robot whose driver has a defect must not look as if it had left.
+                log.exception("status failed", actor=self._actor)
             try:
                 async with asyncio.timeout(self._heartbeat_s):
                     await self._changed.wait()

@@ -22,10 +22,6 @@ Control = Literal["stop", "start", "skip", "clear", "emergency_stop"]
 
 _CONTROLS: tuple[Control, ...] = ("emergency_stop", "stop", "start", "skip", "clear")
 _LONGEST_CHARS = 120
-_POLITE = frozenset(
-    "please kindly now robot ok okay hey oh no thanks right just immediately quickly sorry well so and then "
-    "alright bitte por favor s'il vous te plait plaît palun per favore пожалуйста 请 お願い".split()
-)
 _NOT_ALONE = frozenset({"no", "and", "so", "right", "ok", "okay", "now", "well", "just", "then"})
 
 
@@ -63,7 +59,7 @@ def _look_up(words: tuple[str, ...]) -> Control | None:
 
 def _strip(words: tuple[str, ...], called: set[str]) -> tuple[str, ...]:
     """Without politeness and robots' names at either end."""
-    dropped = _POLITE | called
+    dropped = _polite() | called
     start, end = 0, len(words)
     while start < end and words[start] in dropped:
         start += 1
@@ -74,7 +70,7 @@ def _strip(words: tuple[str, ...], called: set[str]) -> tuple[str, ...]:
 
 
 def _repeated(words: tuple[str, ...]) -> Control | None:
-    """ "Stop stop stop": the same order several times, or several orders of which stopping is one."""
+    """The same order several times ("stop stop stop"), or several orders of which stopping is one."""
     if not 1 < len(words) <= 8:
         return None
     found: set[Control] = set()
@@ -87,12 +83,19 @@ def _repeated(words: tuple[str, ...]) -> Control | None:
                 rest = rest[length:]
                 break
         else:
-            if rest[0] not in _POLITE:
+            if rest[0] not in _polite():
                 return None
             rest = rest[1:]
-    for strongest in ("emergency_stop", "clear", "stop"):
+    strengths: tuple[Control, ...] = ("emergency_stop", "clear", "stop")
+    for strongest in strengths:
         if strongest in found and found <= {"stop", strongest}:
-            return "emergency_stop" if strongest == "emergency_stop" else "clear" if strongest == "clear" else "stop"
+            return (
+                "emergency_stop"
+                if strongest == "emergency_stop"
+                else "clear"
+                if strongest == "clear"
+                else "stop"
+            )
     return found.pop() if len(found) == 1 else None
 
 
@@ -110,6 +113,11 @@ _SLIPS: dict[str, Control] = {
     "stop": "stop", "wait": "stop", "halt": "stop", "pause": "stop", "freeze": "stop", "continue": "start",
     "resume": "start", "cancel": "clear", "abort": "clear",
 }  # fmt: skip
+
+
+@cache
+def _polite() -> frozenset[str]:
+    return frozenset(load_data("control")["polite"])
 
 
 @cache

@@ -77,7 +77,9 @@ class _ErrorSituation(_Common):
     reply: str | None = None
 
 
-def read_situation(value: Any, default_catalogue: Sequence[ActionInfo] = (), line: int = 0) -> Situation | ErrorSituation:
+def read_situation(
+    value: Any, default_catalogue: Sequence[ActionInfo] = (), line: int = 0
+) -> Situation | ErrorSituation:
     """Read one situation.
 
     Args:
@@ -134,12 +136,15 @@ def _error_situation(read: _ErrorSituation, default: Sequence[ActionInfo]) -> Er
 
 
 def _turns(turns: Iterable[_Turn]) -> tuple[Turn, ...]:
-    return tuple(Turn("operator" if turn.role in {"operator", "user"} else "assistant", turn.content) for turn in turns)
+    return tuple(
+        Turn("operator" if turn.role in {"operator", "user"} else "assistant", turn.content) for turn in turns
+    )
 
 
 def _objects(objects: Iterable[_Object]) -> tuple[MapObject, ...]:
     return tuple(
-        MapObject(o.id, o.description or o.id, o.x, o.y, o.class_, o.width, o.height, tuple(o.aliases)) for o in objects
+        MapObject(o.id, o.description or o.id, o.x, o.y, o.class_, o.width, o.height, tuple(o.aliases))
+        for o in objects
     )
 
 

@@ -19,13 +19,14 @@ __all__ = [
     "MAX_COMMON_TERMS",
     "MAX_TERMS",
     "Hits",
+    "common_terms",
     "final_order",
     "fts_phrase",
     "name_key",
     "query_terms",
     "scores",
+    "telling",
     "words",
-    "worth_completing",
 ]
 
 MAX_TERMS = 24
@@ -122,16 +123,23 @@ def scores(
     return total
 
 
-def worth_completing(
+def common_terms(
     hits: Mapping[tuple[str, ...], Hits], weights: Mapping[tuple[str, ...], float]
 ) -> list[tuple[str, ...]]:
-    """The common terms whose older memories can still change the order, the most telling first.
+    """The terms whose older memories are not known yet, the most telling first; only so many as matter."""
+    common = [term for term, hit in hits.items() if not hit.complete]
+    return sorted(common, key=weights.__getitem__, reverse=True)[:MAX_COMMON_TERMS]
+
+
+def telling(
+    terms: Iterable[tuple[str, ...]], weights: Mapping[tuple[str, ...], float]
+) -> list[tuple[str, ...]]:
+    """Those terms that weigh something beside the others.
 
     A word that nearly every memory holds changes nothing, and looking for it would take longest.
     """
     least = 0.2 * max(weights.values(), default=0.0)
-    common = [term for term, hit in hits.items() if not hit.complete and weights[term] > least]
-    return sorted(common, key=weights.__getitem__, reverse=True)[:MAX_COMMON_TERMS]
+    return [term for term in terms if weights[term] > least]
 
 
 def final_order(

@@ -2,7 +2,7 @@
 
 A plain "any of these words, best first" visits every memory that holds any of them. Here each word is asked
 for its newest memories only, and the older ones with common words are looked up just where they can still
-matter (`_complete`).
+matter: beside a rare word, and together.
 """
 
 from __future__ import annotations
@@ -10,7 +10,7 @@ from __future__ import annotations
 import sqlite3
 from collections.abc import Sequence
 
-from parley.memory.retrieval import Hits, final_order, fts_phrase, query_terms, scores, worth_completing
+from parley.memory.retrieval import Hits, common_terms, final_order, fts_phrase, query_terms, scores, telling
 from parley.memory.rows import COLUMNS, read_entry
 from parley.messages.memory import MemoryEntry
 
@@ -32,8 +32,9 @@ def search_words(
     newest_id = max(hit.ids[0] for hit in hits.values())
     weights = {term: hit.weight(newest_id) for term, hit in hits.items()}
     found = {term: set(hit.ids) for term, hit in hits.items()}
-    rare = [term for term, hit in hits.items() if hit.complete]
-    _complete(db, found, rare, worth_completing(hits, weights), scope)
+    common = common_terms(hits, weights)
+    _find_beside_rare(db, found, [term for term, hit in hits.items() if hit.complete], common, scope)
+    _find_together(db, found, telling(common, weights), scope)
     score = scores(found, weights)
     ranked = sorted(score, key=lambda identity: (score[identity], identity), reverse=True)
     entries = _by_id(db, ranked[: limit * 4])
@@ -48,27 +49,30 @@ def _hits(db: sqlite3.Connection, term: Term, scope: str | None) -> Hits:
     return Hits(tuple(ids), complete=len(ids) < _PER_TERM)
 
 
-def _complete(
+def _find_beside_rare(
     db: sqlite3.Connection,
     found: dict[Term, set[int]],
     rare: Sequence[Term],
     common: Sequence[Term],
     scope: str | None,
 ) -> None:
-    """Add the older memories with common words that can still matter.
+    """Add the older memories in which a common word stands beside a rare one."""
+    if rare:
+        any_rare = " OR ".join(fts_phrase(term) for term in rare)
+        for term in common:
+            found[term].update(_match(db, f"({any_rare}) AND {fts_phrase(term)}", scope))
 
-    That is where a common word stands beside a rare one, or common words stand together.
-    """
-    beside_rare = " OR ".join(fts_phrase(term) for term in rare)
-    together: list[Term] = []
-    for term in common:
-        if rare:
-            found[term].update(_match(db, f"({beside_rare}) AND {fts_phrase(term)}", scope))
+
+def _find_together(
+    db: sqlite3.Connection, found: dict[Term, set[int]], common: Sequence[Term], scope: str | None
+) -> None:
+    """Add the older memories in which common words stand together, as many of them as do."""
+    together = list(common[:1])
+    for term in common[1:]:
         joined = [*together, term]
-        ids = _match(db, " AND ".join(fts_phrase(part) for part in joined), scope) if together else []
-        for part in joined if ids else ():
-            found[part].update(ids)
-        if ids or not together:
+        if ids := _match(db, " AND ".join(fts_phrase(part) for part in joined), scope):
+            for part in joined:
+                found[part].update(ids)
             together = joined
 
 

@@ -61,8 +61,10 @@ class Node:
         """Closed with the node; enter here whatever the node needs while it is open."""
         self._publishers: dict[str, Publisher[Any]] = {}
         self._tasks: set[asyncio.Task[Any]] = set()
+        self._closed = False
 
     async def __aenter__(self) -> Self:
+        self._closed = False
         self.opened.push_async_callback(self._close_ends)
         try:
             await self.open()
@@ -113,7 +115,13 @@ class Node:
         self.send(topic, to_string(payload))
 
     def send(self, topic: Topic[M], message: M) -> None:
-        """Publish a message as it is. The sending end is opened at its first use."""
+        """Publish a message as it is. The sending end is opened at its first use.
+
+        After the node is closed nothing is sent: work that comes to its end then has nobody to tell.
+        """
+        if self._closed:
+            self.log.debug("not sent: the node is closed", topic=topic.name)
+            return
         publisher = self._publishers.get(topic.name)
         if publisher is None:
             publisher = self._publishers[topic.name] = self.transport.publisher(topic)
@@ -147,6 +155,7 @@ class Node:
 
     async def _close_ends(self) -> None:
         await _cancel(self._tasks)
+        self._closed = True
         for publisher in self._publishers.values():
             publisher.close()
         self._publishers.clear()
@@ -168,6 +177,7 @@ class Mailboxes(Generic[K]):
         self._closed = False
 
     async def __aenter__(self) -> Self:
+        self._closed = False
         return self
 
     async def __aexit__(

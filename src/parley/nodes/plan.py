@@ -140,15 +140,16 @@ class TargetPlan:
         """Go on after a pause, or try a failed step again."""
         if self.held and self.failed is not None:
             return self._replace_failed([self.failed.call])
-        if self._pause_wanted or self.run == "paused":
-            self._pause_wanted = False
-            changes = self._modify() if self._dirty else []
-            return [*changes, ResumeGraph(self.graph_name)]
-        if self.run == "none" and self.pending:
+        if not self.pending:
+            return [Say("There is nothing left to go on with.")]
+        if self.run == "none":
             return self._push()
-        if self.pending:
+        if self.run not in ("running", "paused"):
             return []
-        return [Say("There is nothing left to go on with.")]
+        # A pause that somebody else caused may not have been reported yet; resuming what runs does nothing.
+        self._pause_wanted = False
+        changes = self._modify() if self._dirty else []
+        return [*changes, ResumeGraph(self.graph_name)]
 
     def clear(self) -> list[Effect]:
         """Drop everything and stop the robot's graph."""
@@ -376,8 +377,11 @@ class TargetPlan:
                 step.call = with_values(step.call, values)
 
     def _known_outputs(self, index: int) -> dict[str, Any]:
+        """What the steps before `index` gave: of each name what its nearest giver did, if that is known."""
         known: dict[str, Any] = {}
         for step in self.steps[:index]:
+            for name in step.call.output_parameters:
+                known.pop(name, None)
             known.update(step.outputs)
         return known
 

@@ -19,7 +19,7 @@ from parley.robots.dynamic_window import DriveLimits, choose_velocity
 from parley.robots.obstacles import ObservedObstacles, scan_points
 from parley.world.geometry import Pose2D, wrap_angle
 from parley.world.occupancy import OccupancyMap
-from parley.world.planning import NO_OBSTACLES, NoPathError, Path, plan_path
+from parley.world.planning import NoPathError, Path, plan_path
 
 __all__ = ["Navigator", "Vehicle"]
 
@@ -35,7 +35,10 @@ _PROGRESS_S = 0.3
 _LOOKAHEAD_M = 0.4
 _LOOK_AGAIN_S = 4.0
 """For so long the robot waits and looks before it believes that there is no way."""
-_STUCK_S = 12.0
+_STUCK_M, _STUCK_S = 0.1, 12.0
+_CAREFUL_WITHIN_M = 0.8
+"""What lies further away cannot be hit before the next few decisions."""
+_STRAYED_M = 0.3
 _HELD_POLL_S = 0.02
 _PLAN_MARGIN_M = 0.04
 _KEEP_OUT_MARGIN_M = 0.02
@@ -81,36 +84,38 @@ class Navigator:
         occupancy: OccupancyMap,
         clock: Clock,
         control: NavigationControl,
+        timeout_s: float,
     ) -> None:
-        """Nothing moves until `drive_to`."""
+        """Nothing moves until `drive_to`; the time in which the robot is held does not count as time-out."""
         self._vehicle, self._map, self._clock, self._control = vehicle, occupancy, clock, control
-        self._limits = limits
+        self._limits, self._timeout_s = limits, timeout_s
         self._seen = ObservedObstacles(occupancy)
         self._driven_s = 0.0
+        self._was_at, self._was_there_s = vehicle.pose(), 0.0
 
     @staticmethod
     def keep_out_m(radius_m: float) -> float:
         """What a robot of that radius keeps between its centre and what its lidar sees."""
         return radius_m + _KEEP_OUT_MARGIN_M
 
-    async def drive_to(self, goal: Pose2D, timeout_s: float) -> Pose2D:
-        """Drive there and return where it ended; time while it is held does not count.
+    async def drive_to(self, goal: Pose2D) -> Pose2D:
+        """Drive there and return where it ended.
 
         Raises:
             ActionFailure: See `Robot.navigate`.
         """
         try:
             while True:
-                path = await self._find_way(goal, timeout_s)
-                if await self._follow(path, timeout_s):
+                path = await self._find_way(goal)
+                if await self._follow(path):
                     break
-            await self._turn_to(goal.yaw_rad, timeout_s)
+            await self._turn_to(goal.yaw_rad)
         finally:
             self._vehicle.drive(Velocity())
         self._control.on_progress(0.0)
         return self._vehicle.pose()
 
-    async def _find_way(self, goal: Pose2D, timeout_s: float) -> Path:
+    async def _find_way(self, goal: Pose2D) -> Path:
         """Plan around what was seen; without a way, stand and look again for a while before giving up."""
         waited_s = 0.0
         while True:
@@ -126,7 +131,7 @@ class Navigator:
                 if waited_s >= _LOOK_AGAIN_S:
                     raise self._blocked(*error.at) from error
             self._vehicle.drive(Velocity())
-            await self._pass_time(timeout_s)
+            await self._pass_time()
             waited_s += CYCLE_S
             self._seen.update(self._vehicle.scan(), self._vehicle.pose())
 
@@ -135,20 +140,14 @@ class Navigator:
         start, seen = self._vehicle.pose(), self._seen.points_m
         with self._clock.hold():
             return await asyncio.to_thread(
-                plan_path,
-                self._map,
-                start,
-                goal,
-                radius_m=radius_m,
-                obstacles=seen if len(seen) else NO_OBSTACLES,
+                plan_path, self._map, start, goal, radius_m=radius_m, obstacles=seen
             )
 
-    async def _follow(self, path: Path, timeout_s: float) -> bool:
+    async def _follow(self, path: Path) -> bool:
         """Follow a path to its end; False as soon as a new path should be made."""
         index = 0
-        began_s = told_s = moved_s = self._driven_s
-        seen_before = len(self._seen.points_m)
-        best_m = math.inf
+        began_s = told_s = self._driven_s
+        seen_before = len(self._seen)
         end_x, end_y = (float(value) for value in path.points_m[-1])
         while True:
             pose, scan = self._vehicle.pose(), self._vehicle.scan()
@@ -156,17 +155,14 @@ class Navigator:
                 return True
             self._seen.update(scan, pose)
             index = path.nearest(pose.x_m, pose.y_m, index)
-            remaining_m = path.remaining_m(index)
-            if remaining_m < best_m - 0.02:
-                best_m, moved_s = remaining_m, self._driven_s
-            if self._driven_s - moved_s > _STUCK_S:
+            if self._stuck(pose):
                 raise self._blocked(*path.ahead(index, _LOOKAHEAD_M))
             if self._driven_s - told_s >= _PROGRESS_S:
                 told_s = self._driven_s
-                self._control.on_progress(remaining_m)
+                self._control.on_progress(path.remaining_m(index))
             self._vehicle.drive(self._steer(path, index, pose, scan))
-            held = await self._pass_time(timeout_s)
-            news = len(self._seen.points_m) != seen_before
+            held = await self._pass_time()
+            news = len(self._seen) != seen_before
             if held or (self._driven_s - began_s >= _REPLAN_S and (news or self._strayed(path, index))):
                 return False
 
@@ -176,21 +172,27 @@ class Navigator:
         east, north = x - pose.x_m, y - pose.y_m
         target = cos * east + sin * north, cos * north - sin * east
         return choose_velocity(
-            self._vehicle.velocity(), target, scan_points(scan, 1.0), self._limits, CYCLE_S
+            self._vehicle.velocity(), target, scan_points(scan, _CAREFUL_WITHIN_M), self._limits, CYCLE_S
         )
+
+    def _stuck(self, pose: Pose2D) -> bool:
+        """Whether it has hardly moved for long, over any number of new plans."""
+        if pose.distance_to(self._was_at) > _STUCK_M:
+            self._was_at, self._was_there_s = pose, self._driven_s
+        return self._driven_s - self._was_there_s > _STUCK_S
 
     def _strayed(self, path: Path, index: int) -> bool:
         pose = self._vehicle.pose()
         x, y = path.points_m[index]
-        return math.hypot(x - pose.x_m, y - pose.y_m) > 0.3
+        return math.hypot(x - pose.x_m, y - pose.y_m) > _STRAYED_M
 
-    async def _turn_to(self, yaw_rad: float, timeout_s: float) -> None:
+    async def _turn_to(self, yaw_rad: float) -> None:
         while abs(error := wrap_angle(yaw_rad - self._vehicle.pose().yaw_rad)) > ARRIVED_RAD:
             limit = self._limits.max_turn_radps
             self._vehicle.drive(Velocity(0.0, float(np.clip(2.0 * error, -limit, limit))))
-            await self._pass_time(timeout_s)
+            await self._pass_time()
 
-    async def _pass_time(self, timeout_s: float) -> bool:
+    async def _pass_time(self) -> bool:
         """Let one cycle pass; True if the robot was held meanwhile.
 
         Raises:
@@ -208,11 +210,11 @@ class Navigator:
             began_s = self._clock.now_s()
             await self._clock.sleep(CYCLE_S)
             self._driven_s += self._clock.now_s() - began_s
-        if self._driven_s > timeout_s:
+        if self._driven_s > self._timeout_s:
             raise ActionFailure(
                 FailureCode.TIMED_OUT,
-                f"I did not get there within {timeout_s:.0f} seconds.",
-                {"timeout_s": timeout_s},
+                f"I did not get there within {self._timeout_s:.0f} seconds.",
+                {"timeout_s": self._timeout_s},
             )
         return held
 

@@ -27,7 +27,7 @@ def scan_points(scan: LaserScan, within_m: float) -> Floats:
 
 
 class ObservedObstacles:
-    """Cells of a map in which something stands that the map does not know."""
+    """Cells of a map in which something stands that the map does not know; its length is their number."""
 
     def __init__(self, occupancy: OccupancyMap, *, within_m: float = 3.0) -> None:
         """Start with nothing seen.
@@ -39,27 +39,31 @@ class ObservedObstacles:
         self._map, self._within_m = occupancy, within_m
         reach = round(_KNOWN_WITHIN_M / occupancy.resolution_m)
         self._known = binary_dilation(occupancy.cells != FREE, iterations=max(1, reach))
-        self._cells: dict[tuple[int, int], tuple[float, float]] = {}
+        self._seen = np.zeros(occupancy.cells.shape, dtype=np.bool_)
+
+    def __len__(self) -> int:
+        return int(np.count_nonzero(self._seen))
 
     @property
     def points_m(self) -> Floats:
         """Shape (n, 2): middles of the cells, in the map frame."""
-        return np.array(list(self._cells.values())).reshape(-1, 2)
+        return self._map.centers_of(np.argwhere(self._seen))
 
     def update(self, scan: LaserScan, pose: Pose2D) -> None:
         """Take in a sweep made at `pose`."""
         self._forget_what_is_gone(scan, pose)
         cos, sin = np.cos(pose.yaw_rad), np.sin(pose.yaw_rad)
-        for x, y in scan_points(scan, self._within_m) @ np.array([[cos, sin], [-sin, cos]]):
-            cell = self._map.cell_of(pose.x_m + x, pose.y_m + y)
-            if self._map.contains(*cell) and not self._known[cell]:
-                self._cells[cell] = self._map.center_of(*cell)
+        turned = scan_points(scan, self._within_m) @ np.array([[cos, sin], [-sin, cos]])
+        points = turned + np.array([pose.x_m, pose.y_m])
+        self._seen[tuple(self._map.cells_of(points).T)] = True
+        self._seen &= ~self._known
 
     def _forget_what_is_gone(self, scan: LaserScan, pose: Pose2D) -> None:
         """Forget every cell through which a beam passed and hit something well behind it."""
-        if not self._cells:
+        if len(self) == 0:
             return
-        offsets = self.points_m - (pose.x_m, pose.y_m)
+        cells = np.argwhere(self._seen)
+        offsets = self._map.centers_of(cells) - (pose.x_m, pose.y_m)
         bearings = np.arctan2(offsets[:, 1], offsets[:, 0]) - pose.yaw_rad - scan.angle_min_rad
         beams = np.round(bearings / scan.angle_increment_rad).astype(int)
         distances = np.hypot(offsets[:, 0], offsets[:, 1])
@@ -70,6 +74,4 @@ class ObservedObstacles:
             & (aside <= self._map.resolution_m)
             & (ranges > distances + _GONE_BEHIND_M)
         )
-        self._cells = {
-            cell: point for (cell, point), passed in zip(self._cells.items(), gone, strict=True) if not passed
-        }
+        self._seen[tuple(cells[gone].T)] = False

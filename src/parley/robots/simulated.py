@@ -91,10 +91,10 @@ class SimulatedRobot:
             model.max_turn_acceleration_radps2,
             Navigator.keep_out_m(model.radius_m),
         )
-        navigator = Navigator(self, limits, self._map, self._simulator.clock, control)
+        navigator = Navigator(self, limits, self._map, self._simulator.clock, control, timeout_s)
         self._driving = True
         try:
-            return await navigator.drive_to(goal, timeout_s)
+            return await navigator.drive_to(goal)
         finally:
             self._driving = False
 

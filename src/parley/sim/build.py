@@ -14,9 +14,10 @@ from dataclasses import dataclass
 import mujoco
 from PIL import ImageColor
 
+from parley.sim.entries import RobotEntry, Thing
 from parley.sim.robot_model import RobotModel
 from parley.sim.solids import Solid
-from parley.sim.world_file import RobotEntry, Thing, WorldFile
+from parley.sim.world_file import WorldFile
 
 __all__ = ["STEP_S", "BodyKind", "build_spec", "robot_body", "thing_body"]
 

@@ -13,7 +13,7 @@ from parley.sim.solids import Solid
 from parley.sim.world_file import WorldFile
 from parley.world.occupancy import FREE, OCCUPIED, UNKNOWN, OccupancyMap
 
-__all__ = ["survey"]
+__all__ = ["bounds_m", "survey"]
 
 _MARGIN_M = 0.25
 
@@ -24,17 +24,25 @@ def survey(world: WorldFile, height_m: float, resolution_m: float = 0.05) -> Occ
     A cell is occupied if any part of a solid touches it, so thin legs are never missed. Robots and things
     that are not `mapped` are left out. Floor connected to the map's border but to no robot is unknown.
     """
-    solids = [solid for solid in _mapped(world) if solid.z_m < height_m]
-    points = [(robot.pose[0], robot.pose[1]) for robot in world.robots]
-    extents = [(x, y, x, y) for x, y in points] + [solid.extent_m() for solid in solids]
-    x_min, y_min = (_snapped(min(e[i] for e in extents) - _MARGIN_M, resolution_m) for i in (0, 1))
-    columns = math.ceil((max(e[2] for e in extents) + _MARGIN_M - x_min) / resolution_m)
-    rows = math.ceil((max(e[3] for e in extents) + _MARGIN_M - y_min) / resolution_m)
+    x_min, y_min, x_max, y_max = bounds_m(world)
+    x_min, y_min = _snapped(x_min, resolution_m), _snapped(y_min, resolution_m)
+    columns, rows = (math.ceil(size / resolution_m) for size in (x_max - x_min, y_max - y_min))
     empty = OccupancyMap(np.zeros((rows, columns), np.int8), resolution_m, x_min, y_min, world.name)
     cells = np.full((rows, columns), FREE, dtype=np.int8)
-    cells[_touched(empty, solids)] = OCCUPIED
-    cells[_outside(cells == FREE, [empty.cell_of(x, y) for x, y in points])] = UNKNOWN
+    cells[_touched(empty, (solid for solid in _mapped(world) if solid.z_m < height_m))] = OCCUPIED
+    robots = [empty.cell_of(robot.pose[0], robot.pose[1]) for robot in world.robots]
+    cells[_outside(cells == FREE, robots)] = UNKNOWN
     return OccupancyMap(cells, resolution_m, x_min, y_min, world.name)
+
+
+def bounds_m(world: WorldFile) -> tuple[float, float, float, float]:
+    """x_min, y_min, x_max, y_max of everything mapped and all robots' starts, with a margin around."""
+    extents = [solid.extent_m() for solid in _mapped(world)]
+    extents += [(*robot.pose[:2], *robot.pose[:2]) for robot in world.robots]
+    x_min, y_min, x_max, y_max = zip(*extents, strict=True)
+    return (
+        min(x_min) - _MARGIN_M, min(y_min) - _MARGIN_M, max(x_max) + _MARGIN_M, max(y_max) + _MARGIN_M,
+    )  # fmt: skip
 
 
 def _mapped(world: WorldFile) -> Iterator[Solid]:

@@ -21,10 +21,11 @@ from numpy.typing import NDArray
 from parley.clock import SimClock
 from parley.sim.build import STEP_S, build_spec, robot_body, thing_body
 from parley.sim.camera import Frame, RayCaster, Sighting, sightings
-from parley.sim.floor_plan import survey
+from parley.sim.entries import RobotEntry
+from parley.sim.floor_plan import bounds_m, survey
 from parley.sim.lidar import Sweep, sweep
 from parley.sim.robot_model import RobotModel
-from parley.sim.world_file import RobotEntry, WorldChanges, WorldFile
+from parley.sim.world_file import WorldChanges, WorldFile
 from parley.world.geometry import Pose2D, wrap_angle
 from parley.world.occupancy import OccupancyMap
 
@@ -202,9 +203,10 @@ class Simulator:
         camera = base.entry.model.camera
         if camera is None or not self.camera_works(robot):
             raise RuntimeError(f"{robot} has no working camera")
-        stamp_s, names = self._clock.now_s(), self._names
+        # Taken now, with the model: the world may change before the picture is drawn.
+        stamp_s, names, body_id = self._clock.now_s(), self._names, base.body_id
         frame = await self._draw(
-            lambda artist, qpos: artist.photograph(qpos, base.body_id, _pose(qpos[base.slots]), camera)
+            lambda artist, qpos: artist.photograph(qpos, body_id, _pose(qpos[base.slots]), camera)
         )
         return Photograph(frame, sightings(frame, names), stamp_s)
 
@@ -240,8 +242,8 @@ class Simulator:
         Raises:
             RuntimeError: The simulator is not open.
         """
-        bounds_m = survey(self._world, 10.0, 0.25).bounds_m
-        return (await self._draw(lambda artist, qpos: artist.map_view(qpos, bounds_m, width_px))).rgb
+        bounds = bounds_m(self._world)
+        return (await self._draw(lambda artist, qpos: artist.map_view(qpos, bounds, width_px))).rgb
 
     # -- inside ---------------------------------------------------------------------------------------
 

@@ -35,3 +35,13 @@ class Solid:
             half_x = math.hypot(length * math.cos(self.yaw_rad), width * math.sin(self.yaw_rad)) / 2
             half_y = math.hypot(length * math.sin(self.yaw_rad), width * math.cos(self.yaw_rad)) / 2
         return self.x_m - half_x, self.y_m - half_y, self.x_m + half_x, self.y_m + half_y
+
+    def distance_m(self, x_m: float, y_m: float) -> float:
+        """How far a point on the floor is from its shadow; 0 inside, for flat ellipses a little too near."""
+        east, north = x_m - self.x_m, y_m - self.y_m
+        cos, sin = math.cos(self.yaw_rad), math.sin(self.yaw_rad)
+        own_x, own_y = abs(cos * east + sin * north), abs(cos * north - sin * east)
+        half_x, half_y = self.size_m[0] / 2, self.size_m[1] / 2
+        if self.shape == "box":
+            return math.hypot(max(own_x - half_x, 0.0), max(own_y - half_y, 0.0))
+        return max(math.hypot(own_x / half_x, own_y / half_y) - 1.0, 0.0) * min(half_x, half_y)

@@ -17,7 +17,7 @@ from rich.text import Text
 
 from parley.terminal.lines import Fragments, Line
 
-__all__ = ["Console", "ConsoleEvents", "PlainConsole", "coloured", "rendered", "show_lines"]
+__all__ = ["Console", "ConsoleEvents", "PlainConsole", "coloured", "rendered"]
 
 _STYLES = {"problem": "red", "note": "dim", "heading": "bold"}
 
@@ -95,16 +95,12 @@ def _printable(text: str) -> str:
     return "".join(char if char == "\n" or unicodedata.category(char) != "Cc" else " " for char in text)
 
 
-def show_lines(console: RichConsole, lines: Sequence[Line]) -> None:
-    """Print lines; long ones are left to the terminal to wrap."""
-    for line in lines:
-        console.print(coloured(line), soft_wrap=True)
-
-
-def rendered(lines: Sequence[Line]) -> str:
-    """Lines as text with the escape sequences of their colours, for a terminal."""
+def rendered(lines: Sequence[Line], columns: int) -> str:
+    """Lines as text with the escape sequences of their colours, wrapped between words for a terminal."""
     sheet = io.StringIO()
-    show_lines(RichConsole(file=sheet, force_terminal=True, highlight=False), lines)
+    console = RichConsole(file=sheet, force_terminal=True, highlight=False, width=columns)
+    for line in lines:
+        console.print(coloured(line))
     return sheet.getvalue()
 
 
@@ -116,7 +112,7 @@ class PlainConsole:
     ) -> None:
         self._events = events
         self._source = source if source is not None else _standard_input()
-        self._out = out if out is not None else RichConsole(highlight=False)
+        self._out = out if out is not None else RichConsole(file=_standard_output(), highlight=False)
         self._lines: asyncio.Queue[str | None] = asyncio.Queue()
         self._stack = contextlib.ExitStack()
 
@@ -146,7 +142,8 @@ class PlainConsole:
 
     def show(self, lines: Sequence[Line]) -> None:
         """See `Console.show`."""
-        show_lines(self._out, lines)
+        for line in lines:
+            self._out.print(coloured(line), soft_wrap=True)  # who reads from a pipe wants lines whole
 
     def refresh(self) -> None:
         """See `Console.refresh`; there is no live view here."""
@@ -169,6 +166,13 @@ def _standard_input() -> TextIO:
     if isinstance(sys.stdin, io.TextIOWrapper):
         sys.stdin.reconfigure(errors="replace")
     return sys.stdin
+
+
+def _standard_output() -> TextIO:
+    """Standard output; characters that its encoding lacks are replaced, not fatal."""
+    if isinstance(sys.stdout, io.TextIOWrapper):
+        sys.stdout.reconfigure(errors="replace")
+    return sys.stdout
 
 
 @contextlib.contextmanager

@@ -60,7 +60,8 @@ def step_row(step: PlanStep, texts: Texts, *, number: int = 0, progress: Progres
     """One step as a row of plain text; what is over has no number any more."""
     state = _progress_text(progress) or texts(f"step_{step.state}")
     numbered = f"{number}. " if number and not is_over(step) else ""
-    return f"{ICONS[step.state]} {numbered}{label(step.action)} ({state})"
+    described = f" ({state})" if step.state != "queued" else ""
+    return f"{ICONS[step.state]} {numbered}{label(step.action)}{described}"
 
 
 def is_over(step: PlanStep) -> bool:
@@ -84,18 +85,21 @@ def plan_rows(
 
 
 def compare(before: PlanUpdate | None, after: PlanUpdate) -> tuple[bool, list[PlanStep]]:
-    """Whether `after` plans something that `before` did not, and which steps ended in between."""
+    """Whether `after` plans something that `before` did not, and which steps ended in between.
+
+    Steps that were never begun and will not be are no news: whoever cancelled them knows.
+    """
     old = list(before.steps) if before is not None else []
     old_keys = [_key(step) for step in old]
     new_keys = [_key(step) for step in after.steps]
     same_graph = before is not None and before.graph_name == after.graph_name
     is_new = bool(new_keys) and not (same_graph and _contains(old_keys, new_keys))
-    were_open = {(_key(step), step.node) for step in old if not is_over(step)}
-    ended = [
-        step
-        for step in after.steps
-        if is_over(step) and ((_key(step), step.node) in were_open or (_key(step), "") in were_open)
-    ]
+    were_open = {(*_key(step), step.node): step.state for step in old if not is_over(step)}
+    ended: list[PlanStep] = []
+    for step in filter(is_over, after.steps):
+        was = were_open.get((*_key(step), step.node)) or were_open.get((*_key(step), ""))
+        if was is not None and (was, step.state) != ("queued", "stopped"):
+            ended.append(step)
     return is_new, ended
 
 

@@ -84,8 +84,7 @@ class PromptConsole:
 
     def show(self, lines: Sequence[Line]) -> None:
         """See `parley.terminal.console.Console.show`."""
-        text = rendered(lines)
-        future = self._context.run(lambda: asyncio.ensure_future(run_in_terminal(lambda: self._write(text))))
+        future = self._context.run(lambda: asyncio.ensure_future(run_in_terminal(lambda: self._write(lines))))
         self._writing.add(future)
         future.add_done_callback(self._writing.discard)
 
@@ -94,10 +93,12 @@ class PromptConsole:
         if self._session is not None:
             self._session.app.invalidate()
 
-    def _write(self, text: str) -> None:
+    def _write(self, lines: Sequence[Line]) -> None:
         assert self._session is not None
-        self._session.output.write_raw(text)
-        self._session.output.flush()
+        screen = self._session.output
+        with contextlib.suppress(OSError):  # the terminal is gone, and nobody is there to be told
+            screen.write_raw(rendered(lines, screen.get_size().columns))
+            screen.flush()
 
     def _toolbar(self) -> StyleAndTextTuples:
         fragments: StyleAndTextTuples = []

@@ -126,7 +126,8 @@ class OperatorView:
         self.replies += 1
         for name in feedback.targets:
             _hear(self._robot(name), feedback)
-        footnote = self.texts("sources", names=", ".join(feedback.sources)) if feedback.sources else ""
+        sources = ", ".join(name.replace("_", " ") for name in feedback.sources)
+        footnote = self.texts("sources", names=sources) if sources else ""
         return [
             Line(
                 "asked" if feedback.choices else _KINDS[feedback.type],
@@ -221,17 +222,22 @@ class OperatorView:
 
     def toolbar(self) -> list[Fragments]:
         """The live rows below the prompt: who does what, and the plan of the robot that is spoken to."""
-        rows: list[Fragments] = []
-        for robot in self.here:
-            style = "class:robot" if robot.name == self.selected else "class:dim"
-            rows.append([(style, f" {robot.name}: {self.texts(f'state_{robot.mood}')}")])
         current = self.current
+        others = [robot for robot in self.here if robot is not current]
+        rows: list[Fragments] = []
+        if current is not None:
+            rows.append([("class:robot", f" {self._mood(current)}")])
+        if others:
+            rows.append([("class:dim", f" {' · '.join(self._mood(robot) for robot in others)}")])
         if current is not None and current.plan is not None and current.plan.state != "idle":
             rows += plan_rows(current.plan.steps, self.texts, current.progress)
         return rows
 
     def _robot(self, name: str) -> RobotView:
         return self.robots.setdefault(name, RobotView(name))
+
+    def _mood(self, robot: RobotView) -> str:
+        return f"{robot.name}: {self.texts(f'state_{robot.mood}')}"
 
     def _is_told_otherwise(self, rejection: Rejection) -> bool:
         """Whether a node speaks of it in the conversation: those do, except of what they cannot read."""

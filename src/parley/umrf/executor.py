@@ -23,8 +23,8 @@ from parley.umrf.catalogue import Catalogue
 from parley.umrf.flow import Effect, Flow, FlowNode
 from parley.umrf.model import Graph, GraphState, LogMessage, Node, NodeState, Result
 from parley.umrf.node_run import NodeRun
+from parley.umrf.reports import failure_text, is_report
 from parley.umrf.resolve import resolve
-from parley.umrf.text import clean_text
 from parley.umrf.transition import Announcer, Observer
 
 __all__ = ["STOP_TIMEOUT_S", "GraphRun"]
@@ -115,7 +115,8 @@ class GraphRun:
         Raises:
             GraphRefusedError: The graph has ended, or `continue_from` is unknown or lacks inputs.
         """
-        if self.state in _ENDED and not self._active():
+        over = self.state in _ENDED and (continue_from or not self._active())
+        if over or self.state is GraphState.STOPPING:
             raise self._refusal("graph_ended", f"{self.name} is {self.state}", "start it anew")
         past = self._check_continue(self._flow, continue_from)
         self._go_on(continue_from, past, "resume")
@@ -126,7 +127,7 @@ class GraphRun:
         A node that takes longer than the time-out ends in ERROR, and so does the graph.
         """
         if self.state in (GraphState.RUNNING, GraphState.PAUSED, GraphState.HALTED, GraphState.INITIALIZED):
-            self._holding = False
+            self._holding = self._stop_failed = False
             self._held.clear()
             self._set_graph(GraphState.STOPPING, "stop")
         for item in self._active():
@@ -224,6 +225,10 @@ class GraphRun:
         found = (self._flow.nodes.get(name) for name in self._runs)
         return [item for item in found if item is not None and item.active]
 
+    def _any_active(self) -> bool:
+        found = (self._flow.nodes.get(name) for name in self._runs)
+        return any(item is not None and item.active for item in found)
+
     def _run_node(self, item: FlowNode, cause: str) -> None:
         """Start a run, unless one is going on: then the trigger is ignored (10.4)."""
         if item.name in self._runs:
@@ -269,17 +274,11 @@ class GraphRun:
 
         An action in the reference's style logs its report itself and raises anything; then that one counts.
         """
-        if isinstance(error, ActionFailure):
-            report = FailureReport.of(error)
-        elif isinstance(error, asyncio.CancelledError):
-            report = FailureReport(message=f"{item.node.name} was cancelled from inside.")
-        else:
+        if not isinstance(error, ActionFailure | asyncio.CancelledError):
             log.error("action raised", graph=self.name, node=item.name, exc_info=error)
-            if _is_report(last_log):
+            if is_report(last_log):
                 return
-            text = f"{item.node.name} failed: {type(error).__name__}: {error}".rstrip(": ")
-            report = FailureReport(message=clean_text(text), code=FailureCode.INTERNAL)
-        self._log_line(item, report.to_text())
+        self._log_line(item, failure_text(item.node.name, error))
 
     def _log_line(self, item: FlowNode, text: str) -> None:
         item.log.append(LogMessage(self._clock.unix_ms(), text))
@@ -407,16 +406,17 @@ class GraphRun:
 
     def _settle(self) -> None:
         """Notice that the graph has come to rest: paused, halted or stopped."""
-        active = self._active()
-        if self.state is GraphState.STOPPING and not active:
+        if self.state is GraphState.RUNNING and self._holding:
+            if not any(item.state in _MOVING for item in self._active()):
+                self._set_graph(GraphState.PAUSED, "pause")
+        elif self.state not in (GraphState.RUNNING, GraphState.STOPPING) or self._any_active():
+            return
+        elif self.state is GraphState.STOPPING:
             if self._stop_failed:
                 self._set_graph(GraphState.ERROR, "stop", Result.ON_ERROR)
             else:
                 self._set_graph(GraphState.STOPPED, "stop", Result.ON_STOPPED)
-        elif self.state is GraphState.RUNNING and self._holding:
-            if not any(item.state in _MOVING for item in active):
-                self._set_graph(GraphState.PAUSED, "pause")
-        elif self.state is GraphState.RUNNING and not active:
+        else:
             reason = self._flow.waiting_for()
             if reason:
                 log.warning("graph halted", graph=self.name, reason=reason)
@@ -442,11 +442,6 @@ class GraphRun:
 
     def _refusal(self, code: str, message: str, remedy: str = "", path: str = "") -> GraphRefusedError:
         return GraphRefusedError(self.name, [Problem(path, message, remedy, code)])
-
-
-def _is_report(text: str) -> bool:
-    """Whether a log line is a failure report in the thesis's form (12.6)."""
-    return text.lstrip().startswith("{") and FailureReport.parse(text).message != text
 
 
 def _snapshot(item: FlowNode) -> Node:

@@ -8,7 +8,9 @@ use the `faithful` one, which reads back to the same graph.
 from __future__ import annotations
 
 import json
+import textwrap
 from collections.abc import Mapping
+from dataclasses import replace
 from typing import Any
 
 from parley.errors import GraphRefusedError
@@ -27,6 +29,7 @@ from parley.umrf.model import (
 from parley.umrf.reading import Reader, load_object
 
 __all__ = [
+    "GraphWriter",
     "dump",
     "graph_to_json",
     "node_to_json",
@@ -94,6 +97,32 @@ def graph_to_json(graph: Graph, *, faithful: bool = False) -> dict[str, Any]:
         "graph_exit": [_parent(relation, _exit_conditions(relation, faithful)) for relation in graph.exit],
         "actions": [node_to_json(node, faithful=faithful) for node in nodes],
     }
+
+
+class GraphWriter:
+    """Writes one graph again and again as `write_graph` does, but only what has changed is written anew.
+
+    Feedback needs the whole graph after each change of one node, so its cost would grow with the graph.
+    """
+
+    def __init__(self) -> None:
+        self._texts: dict[str, tuple[Node, str]] = {}
+
+    def write(self, graph: Graph) -> str:
+        """The published text of the graph as it is now."""
+        frame = dump(graph_to_json(replace(graph, nodes=())))
+        if not graph.nodes:
+            return frame
+        texts = {node.full_name: (node, self._text(node)) for node in graph.nodes}
+        self._texts = texts
+        actions = ",\n".join(texts[name][1] for name in sorted(texts))
+        return frame.replace('"actions": []', f'"actions": [\n{actions}\n    ]', 1)
+
+    def _text(self, node: Node) -> str:
+        known = self._texts.get(node.full_name)
+        if known is not None and known[0] == node:
+            return known[1]
+        return textwrap.indent(dump(node_to_json(node)), "        ")
 
 
 def node_to_json(node: Node, *, faithful: bool = False) -> dict[str, Any]:

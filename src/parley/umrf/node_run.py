@@ -66,11 +66,14 @@ class NodeRun:
         run = item.runner.get()
         arguments = bind_inputs(item.spec, self._values)
         context = make_context(self)
-        if inspect.iscoroutinefunction(run):
-            returned = await run(context, **arguments)
-        else:
-            self._threaded = True
-            returned = await in_thread(f"action {self.node}", run, context, **arguments)
+        try:
+            if inspect.iscoroutinefunction(run):
+                returned = await run(context, **arguments)
+            else:
+                self._threaded = True
+                returned = await in_thread(f"action {self.node}", run, context, **arguments)
+        except SystemExit as error:  # would end the loop, and with it every robot of this process
+            raise RuntimeError(f"it called exit({error.code})") from error
         return outcome_of(item.spec, returned)
 
     def _end(self, ended: Callable[[NodeRun], None]) -> None:

@@ -87,8 +87,7 @@ def _near(
     occupancy: OccupancyMap, target: MapObject, allowed: NDArray[np.bool_], within_m: float
 ) -> _Candidates:
     cells = np.argwhere(allowed)
-    x = np.round(occupancy.origin_x_m + (cells[:, 1] + 0.5) * occupancy.resolution_m, 4)
-    y = np.round(occupancy.origin_y_m + (cells[:, 0] + 0.5) * occupancy.resolution_m, 4)
+    x, y = np.round(occupancy.centers_of(cells), 4).T
     gap = np.hypot(
         np.maximum(np.abs(x - target.x_m) - target.width_m / 2, 0.0),
         np.maximum(np.abs(y - target.y_m) - target.height_m / 2, 0.0),

@@ -85,6 +85,17 @@ class OccupancyMap:
             self.origin_y_m + (row + 0.5) * self.resolution_m,
         )
 
+    def cells_of(self, points_m: NDArray[np.float64]) -> NDArray[np.intp]:
+        """Rows and columns, shape (k, 2), of those of the map-frame points (n, 2) that lie on the grid."""
+        origin = np.array([self.origin_x_m, self.origin_y_m])
+        cells = np.floor((points_m - origin) / self.resolution_m).astype(np.intp)[:, ::-1]
+        return np.asarray(cells[((cells >= 0) & (cells < self.cells.shape)).all(axis=1)])
+
+    def centers_of(self, cells: NDArray[np.intp]) -> NDArray[np.float64]:
+        """Map-frame x and y, shape (n, 2), of the centres of cells given as rows and columns (n, 2)."""
+        origin = np.array([self.origin_x_m, self.origin_y_m])
+        return np.asarray(origin + (cells[:, ::-1] + 0.5) * self.resolution_m)
+
     def contains(self, row: int, column: int) -> bool:
         """Whether the cell lies on the grid."""
         rows, columns = self.cells.shape

@@ -81,10 +81,8 @@ def clearance_m(
         Shape of `occupancy.cells`, in metres.
     """
     free = np.pad(occupancy.free, 1)
-    for x, y in obstacles:
-        row, column = occupancy.cell_of(x, y)
-        if occupancy.contains(row, column):
-            free[row + 1, column + 1] = False
+    rows, columns = occupancy.cells_of(obstacles).T
+    free[rows + 1, columns + 1] = False
     cells = np.asarray(distance_transform_edt(free))[1:-1, 1:-1]
     # Measured from centre to centre; the obstacle begins half a cell earlier.
     return np.asarray(np.maximum(cells - 0.5, 0.0) * occupancy.resolution_m)
@@ -169,7 +167,7 @@ def _search(
         )
     except ValueError:  # how route_through_array says that no path exists
         return None
-    points = np.array([grid.center_of(row, column) for row, column in cells])
+    points = grid.centers_of(np.array(cells))
     points[-1] = goal.x_m, goal.y_m
     return points
 

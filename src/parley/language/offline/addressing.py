@@ -7,7 +7,9 @@ from parley.language.offline.text import Phrase, closest, keys, tokens
 
 __all__ = ["addressed"]
 
-_CALLS = frozenset({"hey", "hi", "hello", "ok", "okay", "dear", "tell", "have", "let", "ask", "make", "and", "please", "get"})
+_CALLS = frozenset(
+    {"hey", "hi", "hello", "ok", "okay", "dear", "tell", "have", "let", "ask", "make", "and", "please", "get"}
+)
 _EVERYBODY = (("all", "robots"), ("both", "robots"), ("all", "of", "you"), ("both", "of", "you"), ("every", "robot"), ("each", "robot"), ("everyone",), ("everybody",), ("you", "all"), ("all", "the", "robots"), ("you", "both"), ("robots",))  # fmt: skip
 
 
@@ -39,7 +41,14 @@ def _called_first(words: Phrase, robots: tuple[str, ...]) -> tuple[Phrase, str]:
         called = keys(tokens(name))
         if flat[start : start + len(called)] == called:
             after = start + len(called)
-            verb_of_statement = after < len(flat) and flat[after] in {"is", "was", "has", "needs", "wants", "feels"}
+            verb_of_statement = after < len(flat) and flat[after] in {
+                "is",
+                "was",
+                "has",
+                "needs",
+                "wants",
+                "feels",
+            }
             if after >= len(flat) or not verb_of_statement:
                 return _without_lead(words[after:]), name
     if len(flat) > start + 1 and flat[start + 1] == "," and words[start].is_capital:

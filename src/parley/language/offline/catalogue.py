@@ -20,10 +20,10 @@ from parley.messages.status import ActionInfo
 __all__ = ["Catalogue", "call", "parameter_role", "roles_of", "text_inputs"]
 
 _PARAMETER_ROLES = {
-    "place": "target location place destination goal position where room area waypoint spot point loc dest".split(),
-    "person": "person who name recipient human people user patient to receiver whom".split(),
-    "text": "text message utterance sentence speech question answer words content say what query prompt topic".split(),
-    "object": "object obj item thing things theme target inspect product entity".split(),
+    "place": ["target", "location", "place", "destination", "goal", "position", "where", "room", "area", "waypoint", "spot", "point", "loc", "dest"],
+    "person": ["person", "who", "name", "recipient", "human", "people", "user", "patient", "to", "receiver", "whom"],
+    "text": ["text", "message", "utterance", "sentence", "speech", "question", "answer", "words", "content", "say", "what", "query", "prompt", "topic"],
+    "object": ["object", "obj", "item", "thing", "things", "theme", "target", "inspect", "product", "entity"],
 }  # fmt: skip
 
 
@@ -53,7 +53,7 @@ def roles_of(info: ActionInfo) -> frozenset[str]:
     numeric = [kind for kind in info.outputs.values() if kind in {"number", "numbers"}]
     if text_inputs(info) and len(numeric) >= 2:
         return frozenset({"locate"})
-    if words[0] == "ask" or text_inputs(info) == ["question"] and words[0] != "answer":
+    if words[0] == "ask" or (text_inputs(info) == ["question"] and words[0] != "answer"):
         return frozenset({"ask_operator"})
     roles = _by_words(words)
     if roles:
@@ -73,7 +73,7 @@ def _by_words(words: tuple[str, ...]) -> frozenset[str]:
         return frozenset()
     base = (lemma(words[0]), *words[1:])
     found = lex.verbs.match(base)
-    if found is not None and found[0] > 1:
+    if found is not None and found[0] > 1 and not found[1].startswith("other:"):
         return frozenset({found[1].partition(":")[0]})
     if base[0] in lex.action_words:
         return frozenset({lex.action_words[base[0]]})
@@ -98,7 +98,8 @@ class Catalogue:
     def __init__(self, infos: Sequence[ActionInfo]) -> None:
         self.infos = tuple(infos)
         self._roles = {info.name: roles_of(info) for info in infos}
-        self.verbs = tuple(sorted(self._verb_table(), key=len, reverse=True))
+        self._table = self._verb_table()
+        self.verbs = tuple(sorted(self._table, key=len, reverse=True))
         """First words by which actions of no common role can be asked for."""
 
     def roles(self, info: ActionInfo) -> frozenset[str]:
@@ -123,8 +124,7 @@ class Catalogue:
 
     def for_verb(self, verb: str) -> ActionInfo | None:
         """The action whose name or phrase begins with a verb."""
-        words = tuple(verb.split())
-        return self._verb_table().get(words)
+        return self._table.get(tuple(verb.split()))
 
     @property
     def mover(self) -> ActionInfo | None:
@@ -134,7 +134,9 @@ class Catalogue:
                 return info
         return None
 
-    def chain(self, info: ActionInfo, values: Mapping[str, Any], words: str, reason: str = "") -> list[ActionCall] | None:
+    def chain(
+        self, info: ActionInfo, values: Mapping[str, Any], words: str, reason: str = ""
+    ) -> list[ActionCall] | None:
         """The step with everything before it that provides what no words give; None if nothing does.
 
         Args:
@@ -164,7 +166,11 @@ class Catalogue:
             before += steps
             missing = {n: k for n, k in missing.items() if provider.outputs.get(n) != k}
         texts = [name for name, kind in missing.items() if kind == "string"]
-        if texts and words and not any(kind == "string" for name, kind in info.inputs.items() if name in known):
+        if (
+            texts
+            and words
+            and not any(kind == "string" for name, kind in info.inputs.items() if name in known)
+        ):
             known[texts[0]] = words
             missing.pop(texts[0])
         if any(kind != "string" for kind in missing.values()):
@@ -177,20 +183,48 @@ class Catalogue:
         def provided(info: ActionInfo) -> int:
             return sum(info.outputs.get(name) == kind for name, kind in missing.items())
 
-        usable = [info for info in self.infos if info.name not in seen and provided(info) and text_inputs(info)]
+        usable = [
+            info for info in self.infos if info.name not in seen and provided(info) and text_inputs(info)
+        ]
         return max(usable, key=provided, default=None)
 
     def _verb_table(self) -> dict[tuple[str, ...], ActionInfo]:
+        """Verbs of actions that the general kinds of tasks do not cover anyway."""
         table: dict[tuple[str, ...], ActionInfo] = {}
         for info in self.infos:
-            words = split_name(info.name)
-            if words:
-                base = (lemma(words[0]), *words[1:])
-                for end in range(len(base), 0, -1):
-                    if end == len(base) or end == 1 or base[end - 1] in {"for", "to", "at", "up"}:
-                        table.setdefault(base[:end], info)
-            for phrase in info.phrases:
-                start = tuple(re.findall(r"[a-z']+", phrase.lower().partition("{")[0]))
-                if start and not (len(start) == 1 and start[0] in {"go", "get", "the", "a"}):
-                    table.setdefault((lemma(start[0]), *start[1:]), info)
+            roles = self._roles[info.name]
+            if roles & _HELPERS:
+                continue
+            for verb in _verbs_of(info):
+                found = lexicon().verbs.match(verb)
+                kind = found[1].partition(":")[0] if found is not None else ""
+                if not roles & _COVERED.get(kind, frozenset({kind})):
+                    table.setdefault(verb, info)
         return table
+
+
+_HELPERS = frozenset({"locate", "ask_operator"})
+"""What only serves other steps is not asked for by verb."""
+_COVERED = {
+    "transfer": frozenset({"handover", "fetch", "grasp", "transfer"}), "look": frozenset({"look", "search"}),
+    "whether": frozenset({"look"}), "search": frozenset({"look", "search"}), "back": frozenset({"motion"}),
+    "place": frozenset({"place"}), "motion": frozenset({"motion"}),
+}  # fmt: skip
+
+
+def _verbs_of(info: ActionInfo) -> list[tuple[str, ...]]:
+    """The words with which an order for an action may begin."""
+    verbs: list[tuple[str, ...]] = []
+    words = split_name(info.name)
+    if words:
+        base = (lemma(words[0]), *words[1:])
+        verbs += [
+            base[:end]
+            for end in range(len(base), 0, -1)
+            if end in {1, len(base)} or base[end - 1] in {"for", "to", "at", "up"}
+        ]
+    for phrase in info.phrases:
+        start = tuple(re.findall(r"[a-z']+", phrase.lower().partition("{")[0]))
+        if start and start[0] not in lexicon().determiners:
+            verbs.append((lemma(start[0]), *start[1:]))
+    return verbs

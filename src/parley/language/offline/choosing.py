@@ -3,9 +3,10 @@
 from __future__ import annotations
 
 from collections.abc import Sequence
+from functools import cache
 
 from parley.language.offline.grounding import ground_phrase
-from parley.language.offline.lexicon import lexicon
+from parley.language.offline.lexicon import lexicon, load_data
 from parley.language.offline.nouns import bare
 from parley.language.offline.spatial import nearest_to
 from parley.language.offline.text import Phrase, keys, lemma, tokens
@@ -14,19 +15,16 @@ from parley.world.object_map import MapObject
 
 __all__ = ["choose", "choose_object"]
 
-_LEAD_INS = (
-    "i mean", "i meant", "it is", "that is", "he is", "she is", "they are", "he is on", "she is on", "i think", "i would say", "the answer is", "take", "choose", "pick", "use", "go to",
-    "go for", "go with", "try", "i want", "i would like", "i choose", "i pick", "let us take", "let us go with", "select", "please", "well", "oh", "um", "sorry", "yes", "no", "maybe", "option", "number", "of course",
-    "on", "in", "at", "near", "by", "to", "drive to", "head to", "move to", "definitely", "probably", "obviously", "he sits on", "she sits on", "he is at", "she is at", "he is in", "it is on", "it is in", "it is at", "i was thinking of", "i am talking about",
-)  # fmt: skip
-_LEAD_TABLE = tuple(sorted((tuple(text.split()) for text in _LEAD_INS), key=len, reverse=True))
-_ANY = frozenset("any either whichever whatever anyone".split())
+_ANY = frozenset(["any", "either", "whichever", "whatever", "anyone"])
 _ANY_PHRASES = (("does", "not", "matter"), ("do", "not", "care"), ("you", "choose"), ("you", "decide"), ("up", "to", "you"), ("do", "not", "mind"))  # fmt: skip
 
 
 def choose(texts: Sequence[str], reply: str) -> int | None:
     """Index of the offered text that `reply` means, or None if it means none or several."""
-    items = [MapObject(id="?" * (index + 1), description=text, x_m=0.0, y_m=0.0) for index, text in enumerate(texts)]
+    items = [
+        MapObject(id="?" * (index + 1), description=text, x_m=0.0, y_m=0.0)
+        for index, text in enumerate(texts)
+    ]
     found = choose_object(items, reply)
     return None if found is None else items.index(found)
 
@@ -78,11 +76,18 @@ def _excluded(
     return next((item for item in candidates if refused is not None and item != refused), None)
 
 
+@cache
+def _lead_ins() -> tuple[tuple[str, ...], ...]:
+    return tuple(
+        sorted((tuple(text.split()) for text in load_data("replies")["lead_ins"]), key=len, reverse=True)
+    )
+
+
 def _strip(words: Phrase) -> Phrase:
     stripped = True
     while stripped and words:
         stripped = False
-        for lead in _LEAD_TABLE:
+        for lead in _lead_ins():
             flat = keys(words)
             head = tuple(lemma(word) if index == 0 else word for index, word in enumerate(flat[: len(lead)]))
             if (flat[: len(lead)] == lead or head == lead) and len(words) > len(lead):
@@ -99,10 +104,9 @@ def _by_words(
     found = ground_phrase(words, candidates, pose)
     if found.outcome == "match":
         return found.candidates[0]
-    among_all = ground_phrase(words, _with_all(candidates, objects), pose)
-    fitting = [item for item in among_all.candidates if item in candidates]
-    if among_all.outcome != "none" and len(fitting) == 1:
-        return fitting[0]
+    among_all = ground_phrase(words, _with_all(candidates, objects), pose, among=candidates)
+    if among_all.outcome == "match":
+        return among_all.candidates[0]
     nouns = [word for word in words if word.key not in lexicon().vocabulary or word.key in lexicon().synonyms]
     if found.outcome == "none" and len(nouns) != len(words) and nouns:
         looser = ground_phrase(tuple(nouns), candidates, pose)
@@ -117,7 +121,11 @@ def _with_all(candidates: Sequence[MapObject], objects: Sequence[MapObject]) -> 
 
 def _by_position(flat: tuple[str, ...], candidates: Sequence[MapObject]) -> MapObject | None:
     lex = lexicon()
-    words = tuple(word for word in flat if word not in {"one", "option", "number", "choice", "the", "of", "them", "two"} or len(flat) == 1)
+    words = tuple(
+        word
+        for word in flat
+        if word not in {"one", "option", "number", "choice", "the", "of", "them", "two"} or len(flat) == 1
+    )
     if len(words) != 1:
         return None
     word = words[0]

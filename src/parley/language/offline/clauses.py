@@ -7,7 +7,7 @@ from dataclasses import dataclass, replace
 
 from parley.language.offline.facts import read_statement, strip_openers
 from parley.language.offline.lexicon import lexicon
-from parley.language.offline.text import Phrase, keys, lemma
+from parley.language.offline.text import Phrase, Word, keys, lemma
 
 __all__ = ["Clause", "clauses", "opens_command"]
 
@@ -39,7 +39,9 @@ def clauses(message: Phrase, opens: Opens) -> list[Clause]:
     """
     result: list[Clause] = []
     for number, (sentence, asked) in enumerate(_sentences(message)):
-        result.extend(replace(clause, is_question=asked, sentence=number) for clause in _conditional(sentence, opens))
+        result.extend(
+            replace(clause, is_question=asked, sentence=number) for clause in _conditional(sentence, opens)
+        )
     ordered: list[Clause] = []
     for clause in result:
         if clause.first and ordered:
@@ -89,13 +91,26 @@ def _conditional(sentence: Phrase, opens: Opens) -> list[Clause]:
     words = strip_openers(sentence)
     if flat[:1] == ("if",) or flat[:2] == ("in", "case"):
         start = 1 if flat[0] == "if" else 2
-        cut = next((i for i in range(start + 2, len(flat)) if flat[i] in {",", "then"} or opens(words[i:]) and not _bare_verb_noun(flat, i)), 0)
+        cut = next(
+            (
+                i
+                for i in range(start + 2, len(flat))
+                if flat[i] in {",", "then"} or (opens(words[i:]) and not _bare_verb_noun(flat, i))
+            ),
+            0,
+        )
         if cut:
             condition = _trim(words[start:cut])
             return _with_otherwise(words[cut:], condition, opens)
     for index in range(2, len(flat) - 2):
         before = keys(words[:index])
-        if flat[index] == "if" and lexicon().verbs.match_end((lemma(before[-1]), "if")) == 0 and flat[index + 1] not in {"you", "possible"} and flat[index - 1] not in {"as", "check", "see", "out", "know", "me", "look", "and", "inspect", "tell", "verify"}:
+        if (
+            flat[index] == "if"
+            and lexicon().verbs.match_end((lemma(before[-1]), "if")) == 0
+            and flat[index + 1] not in {"you", "possible"}
+            and flat[index - 1]
+            not in {"as", "check", "see", "out", "know", "me", "look", "and", "inspect", "tell", "verify"}
+        ):
             condition = _trim(words[index + 1 :])
             return _with_otherwise(words[:index], condition, opens)
     return _before_after(sentence, opens)
@@ -107,31 +122,49 @@ def _bare_verb_noun(flat: tuple[str, ...], index: int) -> bool:
 
 def _with_otherwise(words: Phrase, condition: Phrase, opens: Opens) -> list[Clause]:
     flat = keys(words)
-    cut = next((i for i in range(len(flat)) if flat[i] in {"otherwise", "else"} or flat[i : i + 2] == ("if", "not")), len(flat))
+    cut = next(
+        (i for i in range(len(flat)) if flat[i] in {"otherwise", "else"} or flat[i : i + 2] == ("if", "not")),
+        len(flat),
+    )
     then = [replace(c, condition=condition) for c in _before_after(_trim(words[:cut]), opens)]
     rest = words[cut + (2 if flat[cut : cut + 2] == ("if", "not") else 1) :]
-    return then + [replace(c, condition=condition, otherwise=True) for c in (_before_after(_trim(rest), opens) if rest else [])]
+    return then + [
+        replace(c, condition=condition, otherwise=True)
+        for c in (_before_after(_trim(rest), opens) if rest else [])
+    ]
 
 
 def _before_after(sentence: Phrase, opens: Opens) -> list[Clause]:
     flat = keys(sentence)
     lead = strip_openers(sentence)
     lead_flat = keys(lead)
-    if lead_flat[:1] in {("before",), ("after",), ("once",)} and lead_flat[1:2] != ("that",) or lead_flat[:2] == ("as", "soon"):
+    if (lead_flat[:1] in {("before",), ("after",), ("once",)} and lead_flat[1:2] != ("that",)) or lead_flat[
+        :2
+    ] == ("as", "soon"):
         cut = next((i for i in range(2, len(lead)) if lead_flat[i] == ","), 0) or next(
             (i for i in range(3, len(lead)) if opens(lead[i:]) and not _bare_verb_noun(lead_flat, i)), 0
         )
         if cut:
             head = _trim(_without_you(lead[3 if lead_flat[0] == "as" else 1 : cut]))
             main = _cut(_trim(lead[cut:]), opens)
-            first = _cut(head, opens)
+            first = _cut(_with_verb(head, opens), opens)
             return [*main, *first] if lead_flat[0] == "before" else [*first, *main]
     for marker in ("before", "after"):
         for index in range(2, len(flat) - 1):
             if flat[index] == marker and flat[index + 1] not in {"that", "this", "all", ","}:
-                main, other = _cut(_trim(sentence[:index]), opens), _cut(_trim(_without_you(sentence[index + 1 :])), opens)
+                main, other = (
+                    _cut(_trim(sentence[:index]), opens),
+                    _cut(_with_verb(_trim(_without_you(sentence[index + 1 :])), opens), opens),
+                )
                 return [*main, *other] if marker == "before" else [*other, *main]
     return _cut(sentence, opens)
+
+
+def _with_verb(words: Phrase, opens: Opens) -> Phrase:
+    """ "After the desk, ...": a place without verb is one to visit."""
+    if opens(words) or not words or words[0].key in lexicon().question_starts or read_statement(words) is not None:
+        return words
+    return (Word("visit", "visit"), *words)
 
 
 def _without_you(words: Phrase) -> Phrase:
@@ -157,10 +190,15 @@ def _cut(sentence: Phrase, opens: Opens) -> list[Clause]:
             start, first = index + found[0], before_that
             index = start
             continue
-        if index > start and flat[index] in {",", "and", "but", "&", ":"} and _new_clause(sentence, start, index, opens):
+        if (
+            index > start
+            and flat[index] in {",", "and", "but", "&", ":"}
+            and _new_clause(sentence, start, index, opens)
+        ):
             pieces.append((start, index, first))
             start = index + 1
-            first = flat[index + 1 : index + 2] == ("first",) and flat[index] == "but"
+            following = flat[index : index + 3] if flat[index] == "but" else flat[index + 1 : index + 3]
+            first = following[:2] == ("but", "first")
         index += 1
     if len(flat) > start:
         pieces.append((start, len(flat), first))
@@ -173,18 +211,31 @@ def _new_clause(sentence: Phrase, start: int, index: int, opens: Opens) -> bool:
     if not rest:
         return False
     before = sentence[start:index]
+    found = lexicon().polite.match(keys(before))
+    if found is not None and found[0] == len(before):
+        return False
+    if keys(strip_openers(before)) in _SERIAL_VERBS:
+        return False
     if opens(rest) and any(word.is_word for word in before):
-        return not (keys(rest[:1])[0] in lexicon().person_words)
+        return keys(rest[:1])[0] not in lexicon().person_words
     rest_flat = keys(strip_openers(rest))
     if rest_flat[:1] == ("not",) or rest_flat[:2] == ("do", "not"):
-        return True
-    if rest_flat and rest_flat[0] in lexicon().question_starts and rest_flat[1:2] and rest_flat[1] in lexicon().be:
+        return not set(keys(before)) & lexicon().quantifiers
+    if (
+        rest_flat
+        and rest_flat[0] in lexicon().question_starts
+        and rest_flat[1:2]
+        and rest_flat[1] in lexicon().be
+    ):
         return True
     if sentence[index].key in {",", "and", "but"} and read_statement(before) is not None:
         return read_statement(rest) is not None
     if sentence[index].key == "," and len(before) <= 3 and read_statement(rest) is not None:
         return True
     return False
+
+
+_SERIAL_VERBS = frozenset((verb,) for verb in ("go", "come", "run", "hurry", "drive", "head", "try"))
 
 
 def _trim(words: Phrase) -> Phrase:

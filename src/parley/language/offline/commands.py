@@ -8,7 +8,7 @@ from dataclasses import dataclass, replace
 from parley.language.offline.facts import strip_openers
 from parley.language.offline.lexicon import lexicon
 from parley.language.offline.nouns import bare, noun_phrase
-from parley.language.offline.text import Phrase, keys, lemma
+from parley.language.offline.text import Phrase, Word, keys, lemma
 
 __all__ = ["Command", "read_command"]
 
@@ -40,11 +40,15 @@ class Command:
 IsPerson = Callable[[Phrase], bool]
 
 _NEGATIONS = (("do", "not"), ("never",), ("you", "should", "not"), ("you", "must", "not"), ("you", "do", "not", "have", "to"), ("you", "need", "not"), ("there", "is", "no", "need", "to"), ("no", "need", "to"), ("not",), ("avoid",), ("please", "do", "not"), ("you", "do", "not", "need", "to"), ("i", "do", "not", "want", "you", "to"), ("you", "can", "not"), ("refrain", "from"), ("you", "shall", "not"), ("i", "would", "rather", "you", "did", "not"))  # fmt: skip
-_SERIAL = frozenset({"go", "come", "run", "head", "drive", "move", "walk", "hurry", "proceed", "return", "travel", "roll"})
+_SERIAL = frozenset(
+    {"go", "come", "run", "head", "drive", "move", "walk", "hurry", "proceed", "return", "travel", "roll"}
+)
 _HERE = frozenset({"here", "around", "there", "everything", "surroundings"})
 
 
-def read_command(clause: Phrase, is_person: IsPerson, extra_verbs: Sequence[tuple[str, ...]] = ()) -> Command | None:
+def read_command(
+    clause: Phrase, is_person: IsPerson, extra_verbs: Sequence[tuple[str, ...]] = ()
+) -> Command | None:
     """Read a clause as a command; None if it does not begin with a verb."""
     lex = lexicon()
     words = strip_openers(clause)
@@ -56,16 +60,28 @@ def read_command(clause: Phrase, is_person: IsPerson, extra_verbs: Sequence[tupl
     if not words:
         return None
     words = strip_openers(words, requests=True)
-    while words and words[0].key in {"you"} | (lex.auxiliaries & {"can", "could"}) and len(words) > 1 and negated:
+    while (
+        words
+        and words[0].key in {"you"} | (lex.auxiliaries & {"can", "could"})
+        and len(words) > 1
+        and negated
+    ):
         words = words[1:]
     flat = _base(words)
     extra = max((verb for verb in extra_verbs if flat[: len(verb)] == verb), key=len, default=())
     found = lex.verbs.match(flat)
     if extra and (found is None or len(extra) >= found[0]):
         rest = words[len(extra) :]
-        kind = found[1].partition(":")[0] if found and found[1].partition(":")[2] == " ".join(extra) else "catalogue"
+        kind = (
+            found[1].partition(":")[0]
+            if found and found[1].partition(":")[2] == " ".join(extra)
+            else "catalogue"
+        )
         kind = "catalogue" if kind == "other" else kind
-        return _fill(Command(kind, " ".join(extra), negated, words=rest, clause=words, asked_politely=requested), is_person)
+        return _fill(
+            Command(kind, " ".join(extra), negated, words=rest, clause=words, asked_politely=requested),
+            is_person,
+        )
     if found is None:
         return None
     kind, _, verb = found[1].partition(":")
@@ -100,7 +116,11 @@ def _serial(verb: str, rest: Phrase, kind: str) -> Phrase | None:
             return None
         rest = rest[1:]
     found = lexicon().verbs.match(_base(rest)) if rest else None
-    if found is None or found[1].partition(":")[0] in {"motion", "other", "wait", "back"} or rest[0].is_capital:
+    if (
+        found is None
+        or found[1].partition(":")[0] in {"motion", "other", "wait", "back"}
+        or rest[0].is_capital
+    ):
         return None
     return rest if len(rest) > found[0] else None
 
@@ -129,6 +149,8 @@ def _motion(command: Command) -> Command:
         if skip and skip[0] < len(words) and not (lex.places.match(flat) or (0, ""))[0] > skip[0]:
             words = words[skip[0] :]
             continue
+        if flat[0] in lex.place_pronouns:
+            break
         adverb = lex.adverbs.match(flat)
         if adverb and adverb[0] < len(words) and not lex.places.match(flat):
             words = words[adverb[0] :]
@@ -139,8 +161,14 @@ def _motion(command: Command) -> Command:
         break
     flat = keys(words)
     if flat[:1] == ("from",) and "to" in flat:
-        return replace(command, source=bare(words[1 : flat.index("to")]), place=bare(words[flat.index("to") + 1 :]))
-    if flat[:1] in {("in",), ("on",), ("at",), ("inside",)} and len(words) > 1 and not lex.places.match(flat, 0) == (3, "in front of"):
+        return replace(
+            command, source=bare(words[1 : flat.index("to")]), place=bare(words[flat.index("to") + 1 :])
+        )
+    if (
+        flat[:1] in {("in",), ("on",), ("at",), ("inside",)}
+        and len(words) > 1
+        and not lex.places.match(flat, 0) == (3, "in front of")
+    ):
         single = lex.places.match(flat)
         if single and single[0] == 1:
             words = words[1:]
@@ -153,7 +181,11 @@ def _trim_article(words: Phrase) -> Phrase:
 
 def _look(command: Command) -> Command:
     words = command.words
-    while len(words) > 1 and words[0].key in {"at", "on", "into", "in", "inside", "over", "around", "the"} and not words[0].key == "the":
+    while (
+        len(words) > 1
+        and words[0].key in {"at", "on", "into", "in", "inside", "over", "around", "the"}
+        and not words[0].key == "the"
+    ):
         words = words[1:]
     flat = keys(words)
     if flat and (flat[0] in _HERE or words == ()):
@@ -163,10 +195,21 @@ def _look(command: Command) -> Command:
     for index in range(1, len(flat) - 1):
         if flat[index] == "for" and flat[index + 1] not in {"me", "us", "a"} | lexicon().operator_pronouns:
             return replace(command, place=bare(words[:index]), theme=bare(words[index + 1 :]))
-        if flat[index : index + 2] == ("to", "see") and flat[index + 2 : index + 3] in {("if",), ("whether",)}:
-            return replace(_whether(replace(command, words=words[index + 3 :])), kind="whether", place=bare(words[:index]))
+        if flat[index : index + 2] == ("to", "see") and flat[index + 2 : index + 3] in {
+            ("if",),
+            ("whether",),
+        }:
+            return replace(
+                _whether(replace(command, words=words[index + 3 :])),
+                kind="whether",
+                place=bare(words[:index]),
+            )
         if flat[index] in {"whether", "if"}:
-            return replace(_whether(replace(command, words=words[index + 1 :])), kind="whether", place=bare(words[:index]))
+            return replace(
+                _whether(replace(command, words=words[index + 1 :])),
+                kind="whether",
+                place=bare(words[:index]),
+            )
     return replace(command, theme=bare(words))
 
 
@@ -177,7 +220,33 @@ def _whether(command: Command) -> Command:
     flat = keys(words)
     if flat[:1] == ("there",) and len(flat) > 2 and flat[1] in lex.be:
         return replace(_search(replace(command, words=words[2:])), kind="whether", words=words)
-    link = next((i for i in range(1, len(flat)) if flat[i] in lex.be | {"has", "have", "looks", "needs", "works", "look", "need", "does", "can", "seems", "still", "stands", "sits", "lies", "hangs", "feels"}), len(flat))
+    link = next(
+        (
+            i
+            for i in range(1, len(flat))
+            if flat[i]
+            in lex.be
+            | {
+                "has",
+                "have",
+                "looks",
+                "needs",
+                "works",
+                "look",
+                "need",
+                "does",
+                "can",
+                "seems",
+                "still",
+                "stands",
+                "sits",
+                "lies",
+                "hangs",
+                "feels",
+            }
+        ),
+        len(flat),
+    )
     subject = bare(words[:link])
     at = link + 1
     while at < len(flat) and flat[at] in {"still", "not", "there", "now", "really", "also"}:
@@ -210,6 +279,7 @@ def _transfer(command: Command, is_person: IsPerson) -> Command:
     words = _trim_end(command.words)
     if words and words[0].key in {"up", "over", "back", "along"}:
         words = words[1:]
+    words = _as_kinds(words)
     parts = _cut_at(words, frozenset({"from", "to", "for", "into", "onto", "towards"}))
     theme = parts.pop("", ())
     recipient, theme = _double_object(theme, is_person)
@@ -227,15 +297,30 @@ def _transfer(command: Command, is_person: IsPerson) -> Command:
             result = replace(result, place=goal)
     noun = noun_phrase(theme)
     if command.kind == "place" and noun.relation and noun.anchors and not result.place:
-        return replace(result, theme=bare(theme[: _at(keys(theme), tuple(noun.relation.split()))]), place=noun.anchors[0])
+        return replace(
+            result, theme=bare(theme[: _at(keys(theme), tuple(noun.relation.split()))]), place=noun.anchors[0]
+        )
     return replace(result, theme=bare(theme))
+
+
+def _as_kinds(words: Phrase) -> Phrase:
+    """ "Something to drink" is one thing, whatever its words."""
+    flat = keys(words)
+    for said, kind in lexicon().need_phrases.items():
+        wanted = tuple(said.split())
+        for index in range(len(flat) - len(wanted) + 1):
+            if len(wanted) > 1 and flat[index : index + len(wanted)] == wanted:
+                return (*words[:index], Word(kind, kind), *words[index + len(wanted) :])
+    return words
 
 
 def _cut_at(words: Phrase, markers: frozenset[str]) -> dict[str, Phrase]:
     parts: dict[str, Phrase] = {}
     current, start = "", 0
     for index, word in enumerate(words):
-        if word.key in markers and not (word.key == "to" and index and words[index - 1].key in {"next", "close", "nearest"}):
+        if word.key in markers and not (
+            word.key == "to" and index and words[index - 1].key in {"next", "close", "nearest"}
+        ):
             if words[index + 1 : index + 2] and current in parts and word.key == current:
                 continue
             parts.setdefault(current, words[start:index])
@@ -250,10 +335,15 @@ def _double_object(words: Phrase, is_person: IsPerson) -> tuple[Phrase, Phrase]:
     words = tuple(word for word in words if word.is_word)
     if len(words) < 2:
         return (), words
-    if words[0].key in (lex.person_pronouns | lex.operator_pronouns) and not (words[0].key == "her" and False):
+    if words[0].key in (lex.person_pronouns | lex.operator_pronouns) and not (
+        words[0].key == "her" and False
+    ):
         return words[:1], words[1:]
     for index in range(1, len(words)):
-        starts_theme = words[index].key in lex.determiners | {"something"} and words[index - 1].key not in {"of", "with"}
+        starts_theme = words[index].key in lex.determiners | {"something"} and words[index - 1].key not in {
+            "of",
+            "with",
+        }
         if starts_theme and is_person(bare(words[:index])) and noun_phrase(words[:index]).relation == "":
             return bare(words[:index]), words[index:]
     for index in range(1, min(3, len(words))):

@@ -16,9 +16,20 @@ from parley.messages.chat import ActionCall, SystemCommand
 
 __all__ = ["Edit", "read_edit", "steps_of"]
 
-_STEP_WORDS = frozenset({"step", "action", "task", "item", "stop", "one", "order", "command", "part", "thing", "waypoint"})
-_FORGET_STARTS = (("forget",), ("do", "not", "remember"), ("delete",), ("remove",), ("erase",), ("unlearn",), ("clear",), ("wipe",))
-_ALL = frozenset({"everything", "all", "anything"})
+_STEP_WORDS = frozenset(
+    {"step", "action", "task", "item", "stop", "one", "order", "command", "part", "thing", "waypoint"}
+)
+_FORGET_STARTS = (
+    ("forget",),
+    ("do", "not", "remember"),
+    ("delete",),
+    ("remove",),
+    ("erase",),
+    ("unlearn",),
+    ("clear",),
+    ("wipe",),
+)
+_TOLD = frozenset("everything all that what i we you have ever told said know remember remembered about of the facts memories memory from now please just so far your".split())
 
 
 @dataclass(frozen=True, slots=True)
@@ -46,7 +57,13 @@ def _drop(words: Phrase, scene: Scene) -> Edit | None:
     if not size or size >= len(flat):
         return None
     rest = keys(bare(words[size:]))
-    while rest[-3:] == ("of", "the", "plan") or rest[-3:] == ("from", "the", "plan") or rest[-3:] == ("in", "the", "plan") or rest[-3:] == ("from", "the", "queue") or rest[-3:] == ("in", "the", "queue"):
+    while (
+        rest[-3:] == ("of", "the", "plan")
+        or rest[-3:] == ("from", "the", "plan")
+        or rest[-3:] == ("in", "the", "plan")
+        or rest[-3:] == ("from", "the", "queue")
+        or rest[-3:] == ("in", "the", "queue")
+    ):
         rest = rest[:-3]
     index = _step_index(rest, len(scene.situation.queue))
     if index is None:
@@ -54,17 +71,28 @@ def _drop(words: Phrase, scene: Scene) -> Edit | None:
     if index is None:
         return None
     if scene.situation.queue and index >= len(scene.situation.queue):
-        return Edit((), f"There are only {len(scene.situation.queue)} steps left, so there is no step {index + 1}.")
+        return Edit(
+            (), f"There are only {len(scene.situation.queue)} steps left, so there is no step {index + 1}."
+        )
     if not scene.situation.queue:
         return Edit((), "There is nothing planned that I could leave out.")
     dropped = _said(scene.situation.queue[index])
-    return Edit((SystemCommand(command="pop", arguments={"parameters": index}),), f"I leave out step {index + 1}: {dropped}.")
+    return Edit(
+        (SystemCommand(command="pop", arguments={"parameters": index}),),
+        f"I leave out step {index + 1}: {dropped}.",
+    )
 
 
 def _step_index(rest: tuple[str, ...], count: int) -> int | None:
     """The 0-based place of "the second step", "step 3", "number two", "the last one", "the next step"."""
     lex = lexicon()
-    if not rest or not (set(rest) & _STEP_WORDS or (len(rest) <= 2 and (rest[0] in {"number"} or rest[-1] in lex.ordinals or rest[-1] in {"last", "next"}))):
+    if not rest or not (
+        set(rest) & _STEP_WORDS
+        or (
+            len(rest) <= 2
+            and (rest[0] in {"number"} or rest[-1] in lex.ordinals or rest[-1] in {"last", "next"})
+        )
+    ):
         return None
     if len(rest) > 4:
         return None
@@ -86,7 +114,11 @@ def _named_step(rest: tuple[str, ...], queue: Sequence[ActionCall], verb: str) -
     """ "Drop the inspection", "cancel going to the door": the one step whose name or words say so."""
     if verb == "forget" or not rest:
         return None
-    wanted = {singular(lemma(word)) for word in rest} - lexicon().determiners - {"part", "step", "to", "go", "at", "of", "trip", "visit"}
+    wanted = (
+        {singular(lemma(word)) for word in rest}
+        - lexicon().determiners
+        - {"part", "step", "to", "go", "at", "of", "trip", "visit"}
+    )
     hits = []
     for index, step in enumerate(queue):
         words = {singular(lemma(word)) for word in (*split_name(step.name), *step.reason.lower().split())}
@@ -113,7 +145,13 @@ def steps_of(command: Command, scene: Scene) -> list[int]:
         said = [p.value.lower() for p in step.input_parameters.values() if isinstance(p.value, str)]
         wanted = any(target in text or text in target for text in said if text)
         roles = [scene.catalogue.roles(info) for info in scene.catalogue.infos if info.name == step.name]
-        carries_on = bool(hits) and hits[-1] == index - 1 and not said and command.kind == "motion" and any("motion" in r for r in roles)
+        carries_on = (
+            bool(hits)
+            and hits[-1] == index - 1
+            and not said
+            and command.kind == "motion"
+            and any("motion" in r for r in roles)
+        )
         looks = any(r & {"look", "search"} for r in roles)
         if index and (carries_on or (wanted and looks == (command.kind != "motion"))):
             hits.append(index)
@@ -125,19 +163,57 @@ def _forget(words: Phrase, scene: Scene) -> Edit | None:
     start = next((s for s in _FORGET_STARTS if flat[: len(s)] == s), None)
     if start is None or len(flat) == len(start):
         return None
-    strong = start in {("forget",), ("do", "not", "remember"), ("unlearn",)} or {"memory", "memories", "remember", "told"} & set(flat)
+    strong = start in {("forget",), ("do", "not", "remember"), ("unlearn",)} or {
+        "memory",
+        "memories",
+        "remember",
+        "told",
+    } & set(flat)
     if not strong:
         return None
     rest = words[len(start) :]
-    while rest and rest[0].key in {"about", "what", "i", "told", "you", "said", "where", "that", "everything", "all", "the", "fact", "memory", "of", "just", "who", "when", "how", "memories", "my", "is", "are"} and len(rest) > 1:
+    while (
+        rest
+        and rest[0].key
+        in {
+            "about",
+            "what",
+            "i",
+            "told",
+            "you",
+            "said",
+            "where",
+            "that",
+            "everything",
+            "all",
+            "the",
+            "fact",
+            "memory",
+            "of",
+            "just",
+            "who",
+            "when",
+            "how",
+            "memories",
+            "my",
+            "is",
+            "are",
+        }
+        and len(rest) > 1
+    ):
         rest = rest[1:]
     about = bare(rest)
     drop_tail = {"is", "are", "was", "anymore", "memory", "please", "said"}
     while about and about[-1].key in drop_tail and len(about) > 1:
         about = about[:-1]
-    if keys(about)[-1:] in {("everything",), ("all",), ("memories",), ("know",), ("remember",)}:
+    everything = {"everything", "all"} & set(keys(words[len(start) : len(start) + 2]))
+    said_only = set(keys(words[len(start) :])) <= _TOLD
+    if (everything and said_only) or keys(about)[-1:] == ("memories",):
         names = [entry.name for entry in scene.situation.memory]
-        return Edit(tuple(_remove(name) for name in names), "I have forgotten everything you told me." if names else "There is nothing to forget.")
+        return Edit(
+            tuple(_remove(name) for name in names),
+            "I have forgotten everything you told me." if names else "There is nothing to forget.",
+        )
     if not about or keys(about)[0] in {"that", "it", "this", "said", "told"}:
         return _forget_last(scene)
     return _forget_about(about, scene)
@@ -164,12 +240,21 @@ def _forget_about(about: Phrase, scene: Scene) -> Edit:
     if len({item.entry.name for item in hits}) > 1:
         same = {keys(item.fact.subject) for item in hits}
         if len(same) > 1:
-            raise UnclearError(f"Which should I forget: {' or '.join(whole_sentence(h.fact.sentence)[:-1] for h in hits)}?", [h.fact.sentence for h in hits])
+            raise UnclearError(
+                f"Which should I forget: {' or '.join(whole_sentence(h.fact.sentence)[:-1] for h in hits)}?",
+                [h.fact.sentence for h in hits],
+            )
     if not hits:
         by_name = [e for e in scene.situation.memory if set(keys(about)) <= set(split_name(e.name))]
         if not by_name:
             return Edit((), f"I do not remember anything about {the(plain(about))}.")
-        return Edit(tuple(_remove(e.name) for e in by_name), f"I have forgotten what you told me about {the(plain(about))}.")
+        return Edit(
+            tuple(_remove(e.name) for e in by_name),
+            f"I have forgotten what you told me about {the(plain(about))}.",
+        )
     subject = keys(hits[0].fact.subject)
     names = dict.fromkeys(item.entry.name for item in scene.facts if keys(item.fact.subject) == subject)
-    return Edit(tuple(_remove(name) for name in names), f"I have forgotten what you told me about {the(plain(about[:cut]))}.")
+    return Edit(
+        tuple(_remove(name) for name in names),
+        f"I have forgotten what you told me about {the(plain(about[:cut]))}.",
+    )

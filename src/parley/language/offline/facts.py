@@ -48,10 +48,33 @@ class Remembered:
     entry: MemoryEntry
 
 
-_NOT_SUBJECTS = frozenset("what where who when why how which it that this there you let if whether please can could would will do does did".split())
-_STATE_VERBS = frozenset("has needs likes wants prefers hates loves means takes weighs costs belongs opens closes works lives feels looks".split())
+_NOT_SUBJECTS = frozenset(
+    ["what", "where", "who", "when", "why", "how", "which", "there", "you", "let", "if", "whether", "please", "can", "could", "would", "will", "do", "does", "did"]
+)
+_STATE_VERBS = frozenset(
+    [
+        "has",
+        "needs",
+        "likes",
+        "wants",
+        "prefers",
+        "hates",
+        "loves",
+        "means",
+        "takes",
+        "weighs",
+        "costs",
+        "belongs",
+        "opens",
+        "closes",
+        "works",
+        "lives",
+        "feels",
+        "looks",
+    ]
+)
 _NOT_WHERE = frozenset({"of", "from", "with", "against"})
-_NOT_PLACES = frozenset("time order charge trouble fire danger love pain use".split())
+_NOT_PLACES = frozenset(["time", "order", "charge", "trouble", "fire", "danger", "love", "pain", "use"])
 
 
 def strip_openers(phrase: Phrase, *, requests: bool = False, reporting: bool = False) -> Phrase:
@@ -88,7 +111,9 @@ def _without_end(phrase: Phrase) -> Phrase:
 
 def _there_is(phrase: Phrase) -> Fact | None:
     flat = keys(phrase)
-    if flat[0] != "there" or not ({flat[1]} <= lexicon().be or flat[1] in {"stands", "lies", "should", "used"}):
+    if flat[0] != "there" or not (
+        {flat[1]} <= lexicon().be or flat[1] in {"stands", "lies", "should", "used"}
+    ):
         return None
     start = 2
     while start < len(flat) and flat[start] in {"be", "also", "now", "still", "not", "to"}:
@@ -120,15 +145,22 @@ def _placed(phrase: Phrase) -> Fact | None:
     if flat[0] not in {"i", "we", "somebody", "someone", "they", "he", "she"}:
         return None
     verb = next((i for i in range(1, min(4, len(flat))) if flat[i] in lex.placing_verbs), 0)
-    if not verb or any(word not in lex.auxiliaries | {"just", "always", "usually", "also", "already", "now"} for word in flat[1:verb]):
+    if not verb or any(
+        word not in lex.auxiliaries | {"just", "always", "usually", "also", "already", "now"}
+        for word in flat[1:verb]
+    ):
         return None
     rest = phrase[verb + 1 :]
     noun = noun_phrase(rest)
     if noun.core and noun.relation and noun.anchors and noun.anchors[0]:
-        return Fact(bare(rest[: _core_length(rest, noun.relation)]), _place(rest, noun.relation), noun.relation)
+        return Fact(
+            bare(rest[: _core_length(rest, noun.relation)]), _place(rest, noun.relation), noun.relation
+        )
     for index, word in enumerate(rest):
         if word.key in {"to", "into", "onto"} and 0 < index < len(rest) - 1:
-            return Fact(bare(rest[:index]), bare(rest[index + 1 :]), "at" if word.key == "to" else word.key[:2])
+            return Fact(
+                bare(rest[:index]), bare(rest[index + 1 :]), "at" if word.key == "to" else word.key[:2]
+            )
     return None
 
 
@@ -139,7 +171,11 @@ def _place_first(phrase: Phrase) -> Fact | None:
     if found is None:
         return None
     for index in range(found[0] + 1, len(flat) - 1):
-        if flat[index : index + 2] in {("there", "is"), ("there", "are")} or flat[index] in {"is", "are", "you"}:
+        if flat[index : index + 2] in {("there", "is"), ("there", "are")} or flat[index] in {
+            "is",
+            "are",
+            "you",
+        }:
             subject_at = index + 1
             while subject_at < len(flat) and flat[subject_at] in {"is", "are", "can", "will", "find", "see"}:
                 subject_at += 1
@@ -172,10 +208,21 @@ def _said_of(phrase: Phrase) -> Fact | None:
             i
             for i in range(1, len(flat))
             if flat[i] in lex.be
-            or (flat[i] in {"has", "have", "can", "will", "should"} and set(flat[i + 1 : i + 3]) & (lex.be | lex.transition_verbs | lex.location_verbs))
-            or (flat[i] in lex.location_verbs | lex.transition_verbs and lex.goals.match(flat, i + 1) is None and lex.places.match(flat, i + 1) is not None)
+            or (
+                flat[i] in {"has", "have", "can", "will", "should"}
+                and set(flat[i + 1 : i + 3]) & (lex.be | lex.transition_verbs | lex.location_verbs)
+            )
+            or (
+                flat[i] in lex.location_verbs | lex.transition_verbs
+                and lex.goals.match(flat, i + 1) is None
+                and lex.places.match(flat, i + 1) is not None
+            )
             or (flat[i] in lex.transition_verbs and flat[i + 1 : i + 2] in {("to",), ("into",), ("onto",)})
-            or flat[i] in lex.location_verbs and lex.places.match(flat, i + 1) is not None and i + 2 < len(flat)
+            or (
+                flat[i] in lex.location_verbs
+                and lex.places.match(flat, i + 1) is not None
+                and i + 2 < len(flat)
+            )
             or flat[i] in _STATE_VERBS
         ),
         0,
@@ -189,10 +236,18 @@ def _said_of(phrase: Phrase) -> Fact | None:
     moved = bool(set(flat[link:at]) & lex.transition_verbs) or flat[at - 1] in lex.transition_verbs
     if found is None and moved and flat[at : at + 1] in {("to",), ("into",), ("onto",)}:
         found = 1, {"to": "at", "into": "in", "onto": "on"}[flat[at]]
-    if found is not None and at + found[0] < len(flat) and flat[at + found[0]] not in _NOT_PLACES and found[1] not in _NOT_WHERE:
+    if (
+        found is not None
+        and at + found[0] < len(flat)
+        and flat[at + found[0]] not in _NOT_PLACES
+        and found[1] not in _NOT_WHERE
+    ):
         return Fact(subject, bare(phrase[at + found[0] :]), found[1], negated=negated)
     if subject[-1].key in {"location", "place", "position"} and len(subject) > 1 and at < len(flat):
         return Fact(_possessor(subject[:-1]), bare(phrase[at:]), "at", negated=negated)
+    if keys(subject) in {("it",), ("that",), ("this",), ("these",), ("those",)}:
+        # "That is good" says nothing worth keeping.
+        return None
     state = phrase[at:]
     return Fact(subject, relation=flat[link], state=state, negated=negated) if state else None
 
@@ -202,11 +257,28 @@ def _possessor(phrase: Phrase) -> Phrase:
     return (*phrase[:-1], Word(last.key.removesuffix("'s"), last.raw.removesuffix("'s")))
 
 
-def _after_link(flat: Sequence[str], link: int) -> tuple[int, bool]:
+def _after_link(flat: tuple[str, ...], link: int) -> tuple[int, bool]:
     """Where what is said begins, and whether it is denied."""
     lex = lexicon()
     at, negated = link, False
-    fillers = {"now", "currently", "still", "always", "usually", "already", "just", "right", "again", "actually", "also", "there", "over", "recently", "always", "all", "both"}
+    fillers = {
+        "now",
+        "currently",
+        "still",
+        "always",
+        "usually",
+        "already",
+        "just",
+        "right",
+        "again",
+        "actually",
+        "also",
+        "there",
+        "over",
+        "recently",
+        "all",
+        "both",
+    }
     while at < len(flat):
         if flat[at] in {"not", "never"} or flat[at : at + 2] == ("no", "longer"):
             negated = True
@@ -214,8 +286,17 @@ def _after_link(flat: Sequence[str], link: int) -> tuple[int, bool]:
         elif (
             flat[at] in lex.be | fillers
             or (flat[at] in lex.auxiliaries and at == link and flat[at] not in {"has", "have"})
-            or (flat[at] in {"has", "have"} and set(flat[at + 1 : at + 3]) & (lex.be | lex.transition_verbs | lex.location_verbs | {"not"}))
-            or (flat[at] in lex.location_verbs | lex.transition_verbs and (lex.places.match(flat, at + 1) or flat[at + 1 : at + 2] in {("to",), ("into",), ("onto",)}))
+            or (
+                flat[at] in {"has", "have"}
+                and set(flat[at + 1 : at + 3])
+                & (lex.be | lex.transition_verbs | lex.location_verbs | {"not"})
+            )
+            or (
+                flat[at] in lex.location_verbs | lex.transition_verbs
+                and (
+                    lex.places.match(flat, at + 1) or flat[at + 1 : at + 2] in {("to",), ("into",), ("onto",)}
+                )
+            )
         ):
             at += 1
         else:
@@ -279,7 +360,9 @@ def find_fact(
         locations: Only where things are.
     """
     usable = [f for f in facts if f.fact.is_location and not f.fact.negated] if locations else list(facts)
-    denied = {keys(f.fact.subject) + keys(f.fact.place) for f in facts if f.fact.is_location and f.fact.negated}
+    denied = {
+        keys(f.fact.subject) + keys(f.fact.place) for f in facts if f.fact.is_location and f.fact.negated
+    }
     newest: dict[tuple[str, ...], Remembered] = {}
     for item in usable:
         if keys(item.fact.subject) + keys(item.fact.place) in denied:
@@ -287,7 +370,10 @@ def find_fact(
         name = item.entry.name if item.fact.another else ""
         newest.setdefault((*keys(item.fact.subject), name), item)
     listed = list(newest.values())
-    stand_ins = [MapObject(id=f"fact-{'i' * (i + 1)}", description=plain(f.fact.subject), x_m=0.0, y_m=0.0) for i, f in enumerate(listed)]
+    stand_ins = [
+        MapObject(id=f"fact-{'i' * (i + 1)}", description=plain(f.fact.subject), x_m=0.0, y_m=0.0)
+        for i, f in enumerate(listed)
+    ]
     found = ground_phrase(about, stand_ins)
     if found.outcome == "none":
         return None, []
@@ -299,7 +385,9 @@ def memory_name(fact: Fact, facts: Sequence[Remembered]) -> str:
     """A stable name for a fact: the one of the older fact it replaces, or made from subject and relation."""
     if not fact.another:
         for item in facts:
-            same_kind = item.fact.is_location == fact.is_location and (fact.is_location or item.fact.relation == fact.relation)
+            same_kind = item.fact.is_location == fact.is_location and (
+                fact.is_location or item.fact.relation == fact.relation
+            )
             if same_kind and keys(item.fact.subject) == keys(fact.subject):
                 return item.entry.name
     subject = _slug(keys(fact.subject))

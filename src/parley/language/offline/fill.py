@@ -19,7 +19,9 @@ __all__ = ["arguments"]
 def arguments(info: ActionInfo, command: Command, scene: Scene) -> dict[str, Any]:
     """What the command says for the inputs of `info`; inputs that nothing is said for are left out."""
     values: dict[str, Any] = {
-        name: _named(words, scene) for name, words in _by_phrase(info, command).items() if name in text_inputs(info)
+        name: _named(words, scene)
+        for name, words in _by_phrase(info, command).items()
+        if name in text_inputs(info)
     }
     by_role: dict[str, Phrase] = {
         "place": command.place,
@@ -37,7 +39,9 @@ def arguments(info: ActionInfo, command: Command, scene: Scene) -> dict[str, Any
             used.append(words)
         else:
             left.append(name)
-    spare = [w for w in (command.theme, command.place, command.recipient, command.words) if w and w not in used]
+    spare = [
+        w for w in (command.theme, command.place, command.recipient, command.words) if w and w not in used
+    ]
     if not values and left and spare:
         values[left[0]] = _named(spare[0], scene)
     numbers = [float(text) for text in re.findall(r"-?\d+(?:\.\d+)?", plain(command.words))]

@@ -14,7 +14,20 @@ from parley.language.offline.text import Phrase, keys, plain, tokens
 
 __all__ = ["Request", "pending_request"]
 
-_ASKING_BACK = ("which one do you mean", "where is", "where are you", "do you mean", "what should i", "where should i", "shall i", "tell me where", "who do you mean", "what do you mean", "please name", "which")
+_ASKING_BACK = (
+    "which one do you mean",
+    "where is",
+    "where are you",
+    "do you mean",
+    "what should i",
+    "where should i",
+    "shall i",
+    "tell me where",
+    "who do you mean",
+    "what do you mean",
+    "please name",
+    "which",
+)
 _LONGEST_ANSWER = 14
 
 
@@ -56,7 +69,11 @@ def _unchained(hints: Sequence[str]) -> tuple[str, ...]:
 
 def _asks(turn: Turn) -> bool:
     text = turn.content.lower()
-    return turn.role == "assistant" and ("?" in text[-140:] or "tell me where" in text) and any(q in text for q in _ASKING_BACK)
+    return (
+        turn.role == "assistant"
+        and ("?" in text[-140:] or "tell me where" in text)
+        and any(q in text for q in _ASKING_BACK)
+    )
 
 
 def _is_answer(words: Phrase, question: Turn) -> bool:
@@ -69,7 +86,10 @@ def _is_answer(words: Phrase, question: Turn) -> bool:
         return True
     if flat[0] in lexicon().question_starts:
         return False
-    asked_where = any(text in question.content.lower() for text in ("where is", "where are", "where should", "tell me where"))
+    asked_where = any(
+        text in question.content.lower()
+        for text in ("where is", "where are", "where should", "tell me where")
+    )
     if asked_where and read_statement(words) is not None:
         return True
     if opens_command(words):

@@ -18,7 +18,7 @@ from parley.language.base import Grounding
 from parley.language.offline import spatial
 from parley.language.offline.lexicon import lexicon
 from parley.language.offline.nouns import NounPhrase, bare, noun_phrase, number_of
-from parley.language.offline.text import Phrase, closest, keys, plain, singular, split_name, tokens
+from parley.language.offline.text import Phrase, closest, plain, singular, split_name, tokens
 from parley.world.geometry import Pose2D
 from parley.world.object_map import MapObject
 
@@ -32,25 +32,31 @@ def ground(description: str, objects: Sequence[MapObject], pose: Pose2D | None =
     return ground_phrase(tokens(description), objects, pose)
 
 
-def ground_phrase(phrase: Phrase, objects: Sequence[MapObject], pose: Pose2D | None = None) -> Grounding:
-    """As `ground`, for words already cut."""
-    by_id = [item for item in objects if item.id.lower() == plain(phrase).lower()]
+def ground_phrase(
+    phrase: Phrase,
+    objects: Sequence[MapObject],
+    pose: Pose2D | None = None,
+    among: Sequence[MapObject] = (),
+) -> Grounding:
+    """As `ground`, for words already cut; `among` are the only objects that may be meant, if given."""
+    eligible = among or objects
+    by_id = [item for item in eligible if item.id.lower() == plain(phrase).lower()]
     if by_id:
         return Grounding("match", (by_id[0],))
     whole = bare(phrase)
     if not whole or not objects:
         return Grounding("none")
-    profiles = [_profile(item) for item in objects]
+    profiles = [_profile(item) for item in eligible]
     exact = _exact(whole, profiles)
     if exact:
         return _grounding(exact)
     noun = noun_phrase(phrase)
     if not noun.core and noun.anchors:
         # "in front of the door", "next to the box": the object named is what is meant (thesis 5.1.1).
-        return ground_phrase(noun.anchors[0], objects, pose)
+        return ground_phrase(noun.anchors[0], eligible, pose)
     found, leftover = _candidates(noun, profiles)
     if not found:
-        return Grounding("none", tuple(_near_misses(noun, objects)))
+        return Grounding("none", tuple(_near_misses(noun, eligible)))
     return _grounding(_narrow(noun, leftover, found, objects, pose))
 
 
@@ -113,7 +119,9 @@ def _profile(item: MapObject) -> _Profile:
     for text in (item.description, *item.aliases):
         noun = noun_phrase(tokens(text))
         names.add(_comparable(bare(tokens(text))))
-        heads.update({head_of(noun.core), head_of(noun.core[noun.core.index("of") + 1 :]) if "of" in noun.core else ""})
+        heads.update(
+            {head_of(noun.core), head_of(noun.core[noun.core.index("of") + 1 :]) if "of" in noun.core else ""}
+        )
         words.update(_comparable(noun.phrase))
     class_words = tuple(singular(word) for word in split_name(item.class_name))
     if class_words:
@@ -161,7 +169,17 @@ def _candidates(noun: NounPhrase, profiles: Sequence[_Profile]) -> tuple[list[_P
 
 _SIZES = {"large": 1.0, "big": 1.0, "huge": 1.0, "largest": 1.0, "biggest": 1.0, "larger": 1.0, "bigger": 1.0, "small": -1.0,
           "little": -1.0, "tiny": -1.0, "smallest": -1.0, "smaller": -1.0}  # fmt: skip
-_SETTLED_LATER = frozenset(_SIZES) | {"nearest", "closest", "nearby", "farthest", "furthest", "left", "right", "leftmost", "rightmost"}
+_SETTLED_LATER = frozenset(_SIZES) | {
+    "nearest",
+    "closest",
+    "nearby",
+    "farthest",
+    "furthest",
+    "left",
+    "right",
+    "leftmost",
+    "rightmost",
+}
 
 
 def _without_generic(core: tuple[str, ...], profiles: Sequence[_Profile]) -> tuple[str, ...]:
@@ -197,7 +215,8 @@ def _by_typo(words: tuple[str, ...], profiles: Sequence[_Profile]) -> list[_Prof
     known = {word for profile in profiles for word in profile.words | profile.heads}
     common = lexicon().synonyms
     mended = tuple(
-        word if word in known or word in common or _is_label(word) else closest(word, known) or word for word in words
+        word if word in known or word in common or _is_label(word) else closest(word, known) or word
+        for word in words
     )
     if mended == words:
         joined = "".join(words)
@@ -243,7 +262,9 @@ def _by_relation(
     noun: NounPhrase, found: list[_Profile], objects: Sequence[MapObject], pose: Pose2D | None
 ) -> list[MapObject]:
     anchor_words = {word for anchor in noun.anchors for word in _comparable(anchor)}
-    told = [p.item for p in found if any(set(other) <= p.words for other in variants(tuple(sorted(anchor_words))))]
+    told = [
+        p.item for p in found if any(set(other) <= p.words for other in variants(tuple(sorted(anchor_words))))
+    ]
     if told:
         return told
     items = [profile.item for profile in found]
@@ -253,7 +274,7 @@ def _by_relation(
         if where.outcome != "match":
             return items
         anchors.append(where.candidates[0])
-    return spatial.by_anchor(items, noun.relation, anchors, pose)
+    return spatial.by_anchor([i for i in items if i not in anchors] or items, noun.relation, anchors, pose)
 
 
 def _near_misses(noun: NounPhrase, objects: Sequence[MapObject]) -> list[MapObject]:
@@ -261,7 +282,9 @@ def _near_misses(noun: NounPhrase, objects: Sequence[MapObject]) -> list[MapObje
     words = set(noun.core)
     text = " ".join(noun.core)
     scored = sorted(
-        ((_likeness(words, text, item), -index, item) for index, item in enumerate(objects)), key=lambda s: s[:2], reverse=True
+        ((_likeness(words, text, item), -index, item) for index, item in enumerate(objects)),
+        key=lambda s: s[:2],
+        reverse=True,
     )
     return [item for score, _, item in scored[:3] if score > 0.62]
 

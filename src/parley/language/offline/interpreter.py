@@ -4,6 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Sequence
 from dataclasses import dataclass, field, replace
+from functools import cache
 
 from parley.language.base import Situation
 from parley.language.control import control_of
@@ -75,26 +76,55 @@ def _mended(words: Phrase, situation: Situation) -> Phrase:
     """Typing errors in small words and verbs put right; nouns are compared loosely later."""
     known = set(lexicon().vocabulary) | set(_COMMON)
     for item in situation.objects:
-        known.update(word.key for text in (item.description, *item.aliases, item.class_name, item.id) for word in tokens(text))
+        known.update(
+            word.key
+            for text in (item.description, *item.aliases, item.class_name, item.id)
+            for word in tokens(text)
+        )
     for entry in situation.memory:
         known.update(word.key for word in tokens(entry.data[:400]))
     for info in situation.catalogue:
         known.update(split_name(info.name))
     known.update(name.lower() for name in situation.robots)
-    return mend(words, frozenset(known), _mendable())
+    return mend(words, frozenset(known), _SMALL, _verbs())
 
 
-_COMMON = frozenset("whose name your my lot of many much more most than other another back bottom top side middle end thirsty hungry".split())
-_MENDABLE: list[frozenset[str]] = []
+_COMMON = frozenset(
+    [
+        "whose",
+        "name",
+        "your",
+        "my",
+        "lot",
+        "of",
+        "many",
+        "much",
+        "more",
+        "most",
+        "than",
+        "other",
+        "another",
+        "back",
+        "bottom",
+        "top",
+        "side",
+        "middle",
+        "end",
+        "thirsty",
+        "hungry",
+    ]
+)
+_SMALL = frozenset(
+    "please could would where what then there before after first finally remember cancel everything second step the "
+    "and thirsty hungry whether with from near between front next".split()
+)
 
 
-def _mendable() -> frozenset[str]:
-    if not _MENDABLE:
-        lex = lexicon()
-        verbs = {verb.split()[0] for name, verbs in lex.verb_classes.items() if name != "other" for verb in verbs}
-        small = {"please", "could", "would", "where", "what", "then", "there", "before", "after", "first", "finally", "remember", "cancel", "everything", "second", "step", "the", "and", "thirsty", "hungry", "whether"}
-        _MENDABLE.append(frozenset(verbs | small))
-    return _MENDABLE[0]
+@cache
+def _verbs() -> frozenset[str]:
+    """First words of the verbs that typing errors are mended to."""
+    classes = lexicon().verb_classes
+    return frozenset(verb.split()[0] for name, verbs in classes.items() if name != "other" for verb in verbs)
 
 
 @dataclass
@@ -147,7 +177,10 @@ class _Reader:
             if control == "start" and not alone and index:
                 return True
             if control == "stop" and not alone:
-                # "Stop and go to the desk": the new order takes the place of the old ones.
+                # "Stop and go to the desk": the new order takes the place of the old ones. Elsewhere ("go to the
+                # desk and wait there") standing still is what the robot does anyway.
+                if index or keys(words)[0] not in {"stop", "halt"}:
+                    return True
                 control = "clear"
             command, reply = _CONTROL_REPLIES[control]
             self._command_once(SystemCommand(command=command), reply)
@@ -178,7 +211,9 @@ class _Reader:
     def _look_for_answer(self, answer: questions.Answer) -> None:
         if self.scene.hints and questions.is_yes(self.scene.hints[0]):
             self.scene.hints.pop(0)
-            command = read_command((Word("check", "check"), Word("whether", "whether"), *answer.look), self.scene.is_person)
+            command = read_command(
+                (Word("check", "check"), Word("whether", "whether"), *answer.look), self.scene.is_person
+            )
             if command is not None:
                 self.tasks.do(command)
             return
@@ -187,9 +222,16 @@ class _Reader:
     def _command(self, clause: Clause) -> Command | None:
         command = read_command(clause.words, self.scene.is_person, self.scene.catalogue.verbs)
         words = strip_openers(clause.words)
+        if keys(words)[:1] == ("you",) and keys(words)[2:3] == ("find",) and read_statement(words) is not None:
+            return None
         if command is None:
             command = self._wish(words) or self._need(words) or self._elliptical(words)
-        if command is not None and command.kind == "other" and read_statement(clause.words) is not None and not opens_command(clause.words):
+        if (
+            command is not None
+            and command.kind == "other"
+            and read_statement(clause.words) is not None
+            and not opens_command(clause.words)
+        ):
             return None
         return command
 
@@ -198,43 +240,66 @@ class _Reader:
         found = lexicon().wants.match(keys(words))
         if found is not None and found[0] < len(words):
             theme = words[found[0] :]
+            if keys(theme)[0] == "you" and lexicon().places.match(keys(theme), 1):
+                return read_command((Word("go", "go"), Word("to", "to"), *theme[1:]), self.scene.is_person)
             if keys(theme)[0] in {"to", "you"}:
                 return None
             return read_command((Word("bring", "bring"), Word("me", "me"), *theme), self.scene.is_person)
         flat = keys(words)
         for index in range(1, min(4, len(flat) - 1)):
-            if flat[index] in {"needs", "wants", "need", "want"} or flat[index : index + 2] == ("would", "like"):
+            if flat[index] in {"needs", "wants", "need", "want"} or flat[index : index + 2] == (
+                "would",
+                "like",
+            ):
                 who = words[:index]
                 theme = words[index + (2 if flat[index] == "would" else 1) :]
                 if self.scene.is_person(who) and theme and theme[0].key not in {"to", "you"}:
                     self.scene.mention(bare(who))
-                    return read_command((Word("bring", "bring"), *theme, Word("to", "to"), *who), self.scene.is_person)
+                    return read_command(
+                        (Word("bring", "bring"), *theme, Word("to", "to"), *who), self.scene.is_person
+                    )
         return None
 
     def _need(self, words: Phrase) -> Command | None:
         """ "X is thirsty": something to drink is to be brought to X, unless the message says what."""
         flat = keys(words)
         state = next((w for w in flat[2:] if w in lexicon().needs), None)
-        link = next((i for i in range(1, len(flat)) if flat[i] in lexicon().be | {"feels", "looks", "feel", "seems", "gets"}), 0)
+        link = next(
+            (
+                i
+                for i in range(1, len(flat))
+                if flat[i] in lexicon().be | {"feels", "looks", "feel", "seems", "gets"}
+            ),
+            0,
+        )
         if state is None or not link or "not" in flat:
             return None
         who = bare(words[:link])
         if not self.scene.is_person(who):
             return None
         self.scene.mention(who)
-        return Command("need", state, theme=tokens(lexicon().needs[state]), recipient=who, words=words, clause=words)
+        return Command(
+            "need", state, theme=tokens(lexicon().needs[state]), recipient=who, words=words, clause=words
+        )
 
     def _elliptical(self, words: Phrase) -> Command | None:
         """ "Go to A, then B": a bare noun phrase does again what the clause before did."""
-        if self.last is None or self.last.kind not in {"motion", "look", "search"} or not words or len(words) > 9:
+        if (
+            self.last is None
+            or self.last.kind not in {"motion", "look", "search"}
+            or not words
+            or len(words) > 9
+        ):
             return None
+        negated = words[0].key == "not" and len(words) > 1
+        words = words[1:] if negated else words
         found = lexicon().goals.match(keys(words))
         words = bare(words[found[0] :] if found and found[0] < len(words) else words)
         if not words or any(w.key in lexicon().be for w in words):
             return None
         if self.last.kind == "motion":
-            return replace(self.last, place=words, clause=words, negated=False)
-        return replace(self.last, theme=words, place=(), clause=words, negated=False)
+            return replace(self.last, place=words, clause=(Word("go", "go"), Word("to", "to"), *words), negated=negated)
+        return replace(self.last, theme=words, place=(), clause=words, negated=negated)
 
     def _do(self, command: Command) -> None:
         if command.negated:
@@ -250,7 +315,9 @@ class _Reader:
     def _do_not(self, command: Command) -> None:
         words = plain(command.clause)
         dropped = edits.steps_of(command, self.scene)
-        self.commands.extend(SystemCommand(command="pop", arguments={"parameters": i}) for i in reversed(dropped))
+        self.commands.extend(
+            SystemCommand(command="pop", arguments={"parameters": i}) for i in reversed(dropped)
+        )
         self.replies.append(whole_sentence(f"All right, I will not {words}"))
 
     def _statement(self, clause: Clause) -> bool:
@@ -268,11 +335,18 @@ class _Reader:
         """ "Remember that <anything>": kept as it was said."""
         words = strip_openers(clause.words)
         found = lexicon().reporting.match(keys(words))
-        if found is None or found[0] >= len(words) - 1 or lemma(words[0].key) not in lexicon().verb_classes["remember"] | {"keep", "do", "be", "bear", "know", "please"}:
+        if (
+            found is None
+            or found[0] >= len(words) - 1
+            or lemma(words[0].key)
+            not in lexicon().verb_classes["remember"] | {"keep", "do", "be", "bear", "know", "please"}
+        ):
             return False
         rest = strip_openers(words[found[0] :])
         sentence = plain(rest)
-        self._remember(Fact(rest[:4], relation="note", state=rest, sentence=sentence[:1].upper() + sentence[1:]))
+        self._remember(
+            Fact(rest[:4], relation="note", state=rest, sentence=sentence[:1].upper() + sentence[1:])
+        )
         return True
 
     def _about(self, fact: Fact) -> Fact:
@@ -281,13 +355,21 @@ class _Reader:
         if len(flat) == 1 and flat[0] in lexicon().person_pronouns | lexicon().thing_pronouns:
             subject = bare(self.scene.referent(fact.subject))
             old = plain(fact.subject)
-            rest = fact.sentence[len(old) :] if fact.sentence.lower().startswith(old.lower()) else f" is {fact.relation} {plain(fact.place)}"
+            rest = (
+                fact.sentence[len(old) :]
+                if fact.sentence.lower().startswith(old.lower())
+                else f" is {fact.relation} {plain(fact.place)}"
+            )
             return replace(fact, subject=subject, sentence=whole_sentence(the(plain(subject)) + rest)[:-1])
         return fact
 
     def _remember(self, fact: Fact) -> None:
         name = memory_name(fact, self.scene.facts)
-        where = f"where {the(plain(fact.subject))} is" if fact.is_location else f"about {the(plain(fact.subject))}"
+        where = (
+            f"where {the(plain(fact.subject))} is"
+            if fact.is_location
+            else f"about {the(plain(fact.subject))}"
+        )
         arguments = {"data": fact.sentence, "info": where[0].upper() + where[1:], "name": name}
         self.commands.append(SystemCommand(command="add_memory", arguments=arguments))
         self.scene.add_fact(fact, name)
@@ -296,7 +378,11 @@ class _Reader:
             self.scene.places.append(fact.place)
         said = fact.sentence
         first = said.split()[0] if said else ""
-        keep = self.scene.is_person(tokens(first)) or first.isupper() or (fact.subject and plain(fact.subject).startswith(first) and fact.subject[0].is_capital)
+        keep = (
+            self.scene.is_person(tokens(first))
+            or first.isupper()
+            or (fact.subject and plain(fact.subject).startswith(first) and fact.subject[0].is_capital)
+        )
         said = said if keep else said[:1].lower() + said[1:]
         said = said.replace("the operator", "you", 1).replace("you is", "you are", 1)
         self.replies.append(f"I will remember that {said}.")
@@ -309,12 +395,25 @@ class _Reader:
     def _condition(self, clause: Clause) -> None:
         """Look first, then act or not."""
         if not self._same_condition(clause):
-            protocol = keys(clause.condition)[:1] in {("you",), ("i",), ("we",), ("anyone",), ("somebody",), ("someone",), ("anything",), ("something",)}
+            protocol = keys(clause.condition)[:1] in {
+                ("you",),
+                ("i",),
+                ("we",),
+                ("anyone",),
+                ("somebody",),
+                ("someone",),
+                ("anything",),
+                ("something",),
+            }
             if protocol:
                 said = f"If {plain(clause.condition)}, {plain(clause.words)}"
-                self._remember(Fact(clause.condition[-2:], relation="protocol", state=clause.words, sentence=said))
+                self._remember(
+                    Fact(clause.condition[-2:], relation="protocol", state=clause.words, sentence=said)
+                )
                 return
-            look = read_command((Word("check", "check"), Word("whether", "whether"), *clause.condition), self.scene.is_person)
+            look = read_command(
+                (Word("check", "check"), Word("whether", "whether"), *clause.condition), self.scene.is_person
+            )
             if look is None:
                 raise UnclearError(f"How can I tell whether {plain(clause.condition)}?")
             self.tasks.do(look)
@@ -322,7 +421,9 @@ class _Reader:
         start = len(self.tasks.steps)
         self._clause(replace(clause, condition=()), alone=False, index=1)
         flow = Flow(if_=FlowIf(step=self._checked[1], result=not clause.otherwise))
-        self.tasks.steps[start:] = [step.model_copy(update={"flow": flow}) for step in self.tasks.steps[start:]]
+        self.tasks.steps[start:] = [
+            step.model_copy(update={"flow": flow}) for step in self.tasks.steps[start:]
+        ]
         word = "if not" if clause.otherwise else "if so"
         if self.tasks.will:
             self.tasks.will[-1] = f"{word}, {self.tasks.will[-1]}"
@@ -384,7 +485,11 @@ class _Reader:
             self._serve_need(self.last)
             self._learned()
         parts = [*self.replies, *self.tasks.notes]
-        known = [whole_sentence(f.fact.sentence) for f in self.scene.facts if f.entry.name in self.scene.sources and f.fact.sentence and f not in self._new()]
+        known = [
+            whole_sentence(f.fact.sentence)
+            for f in self.scene.facts
+            if f.entry.name in self.scene.sources and f.fact.sentence and f not in self._new()
+        ]
         if self.tasks.steps and known:
             parts.append("I remember: " + " ".join(dict.fromkeys(known)))
         if self.tasks.will:

@@ -95,6 +95,14 @@ class Lexicon:
     """Verb (base form, several words possible) -> ``class:verb``."""
     verb_classes: Mapping[str, frozenset[str]]
     irregular: Mapping[str, str]
+    plurals: Mapping[str, str]
+    contractions: Mapping[str, str]
+    is_subjects: frozenset[str]
+    """Words whose ``'s`` is always "is"."""
+    after_is: frozenset[str]
+    """Words before which ``'s`` is "is" and no possessive."""
+    foreign: frozenset[str]
+    """Small words of other languages."""
     effects: Mapping[str, str]
     action_words: Mapping[str, str]
     synonyms: Mapping[str, frozenset[str]]
@@ -120,6 +128,7 @@ def lexicon() -> Lexicon:
             for verb in listed:
                 table.setdefault(verb, f"{name}:{verb}")
     openers = words["openers"]
+    foreign = frozenset(words.pop("foreign"))
     sets = {
         name: frozenset(words[name])
         for name in (
@@ -147,6 +156,11 @@ def lexicon() -> Lexicon:
         verbs=PhraseTable(table),
         verb_classes=classes,
         irregular=verbs["irregular"],
+        plurals=words["plurals"],
+        contractions=words["contractions"]["words"],
+        is_subjects=frozenset(words["contractions"]["subjects"]),
+        after_is=frozenset(words["contractions"]["before"]),
+        foreign=foreign,
         effects=verbs["effects"],
         action_words=verbs["action_words"],
         synonyms=_synonyms(thesaurus["same"]),

@@ -32,7 +32,17 @@ class NounPhrase:
         return plain(self.phrase)
 
 
-_EXCEPT = ("except for", "except", "but not", "apart from", "other than", "besides", "excluding", "aside from", "but")
+_EXCEPT = (
+    "except for",
+    "except",
+    "but not",
+    "apart from",
+    "other than",
+    "besides",
+    "excluding",
+    "aside from",
+    "but",
+)
 _SUPERLATIVES = frozenset({"nearest", "closest", "farthest", "furthest"})
 _RELATIVE = frozenset({"that", "which", "who", "where"})
 

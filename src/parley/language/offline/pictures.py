@@ -19,8 +19,47 @@ __all__ = ["MIN_PIXELS", "inspect"]
 MIN_PIXELS = 40
 """Smaller finds are not trusted."""
 
-_GENERAL = frozenset("what everything around surroundings area situation anything picture view scene overview room place here".split())
-_LEADS = frozenset("is are there any if whether for of the at see look find check that does do you can".split())
+_GENERAL = frozenset(
+    [
+        "what",
+        "everything",
+        "around",
+        "surroundings",
+        "area",
+        "situation",
+        "anything",
+        "picture",
+        "view",
+        "scene",
+        "overview",
+        "room",
+        "place",
+        "here",
+    ]
+)
+_LEADS = frozenset(
+    [
+        "is",
+        "are",
+        "there",
+        "any",
+        "if",
+        "whether",
+        "for",
+        "of",
+        "the",
+        "at",
+        "see",
+        "look",
+        "find",
+        "check",
+        "that",
+        "does",
+        "do",
+        "you",
+        "can",
+    ]
+)
 
 
 def inspect(image: CameraImage, request: str) -> InspectionReport:
@@ -30,7 +69,9 @@ def inspect(image: CameraImage, request: str) -> InspectionReport:
         LanguageError: The robot has no detector; pictures cannot be judged without a model then.
     """
     if image.detections is None:
-        raise LanguageError("this robot has no detector, and without a language model I cannot judge pictures")
+        raise LanguageError(
+            "this robot has no detector, and without a language model I cannot judge pictures"
+        )
     seen = _distinct([d for d in image.detections if d.pixels >= MIN_PIXELS])
     subject, condition = _subject(tokens(request))
     if not subject or keys(subject)[0] in _GENERAL:
@@ -39,12 +80,20 @@ def inspect(image: CameraImage, request: str) -> InspectionReport:
     found = [d for part in coordinated(subject) for d in _fitting(part, seen)]
     missing = [plain(part) for part in coordinated(subject) if not _fitting(part, seen)]
     if missing:
-        others = f" I can see {listing([a(d.label) for d in seen])}." if seen else " I can see nothing that I know."
-        return InspectionReport(f"I cannot see {a(listing(missing, 'or'))}.{others}", found=False, wanted=name)
+        others = (
+            f" I can see {listing([a(d.label) for d in seen])}."
+            if seen
+            else " I can see nothing that I know."
+        )
+        return InspectionReport(
+            f"I cannot see {a(listing(missing, 'or'))}.{others}", found=False, wanted=name
+        )
     places = listing([f"{a(d.label)}, {_where(d, image)}" for d in found])
     text = f"I can see {places}."
     if condition:
-        text += f" Whether {the(name)} {condition}, I cannot judge by myself: please have a look at the picture."
+        text += (
+            f" Whether {the(name)} {condition}, I cannot judge by myself: please have a look at the picture."
+        )
     return InspectionReport(text, found=True, wanted=name)
 
 
@@ -61,13 +110,25 @@ def _distinct(detections: Sequence[Detection]) -> list[Detection]:
 def _subject(words: Phrase) -> tuple[Phrase, str]:
     """What is looked for, and what is asked about it besides that it is there."""
     words = tuple(word for word in words if word.is_word or word.key == ",")
-    while words and (words[0].key in _LEADS or lemma(words[0].key) in {"inspect", "look", "search", "verify"}):
+    while words and (
+        words[0].key in _LEADS or lemma(words[0].key) in {"inspect", "look", "search", "verify"}
+    ):
         words = words[1:]
     flat = keys(words)
-    link = next((i for i in range(1, len(flat)) if flat[i] in lexicon().be | {"has", "have", "looks", "needs", "does", "seems", "stands"}), len(flat))
+    link = next(
+        (
+            i
+            for i in range(1, len(flat))
+            if flat[i] in lexicon().be | {"has", "have", "looks", "needs", "does", "seems", "stands"}
+        ),
+        len(flat),
+    )
     rest = words[link:]
     condition = plain(rest)
-    if rest and (lexicon().places.match(keys(rest), 1) or keys(rest)[1:2] in {("there",), ("here",), ("present",), ("visible",)}):
+    if rest and (
+        lexicon().places.match(keys(rest), 1)
+        or keys(rest)[1:2] in {("there",), ("here",), ("present",), ("visible",)}
+    ):
         # "The box is on the desk": being there is all that is asked.
         condition = ""
     noun = noun_phrase(words[:link])

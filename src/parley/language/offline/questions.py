@@ -4,12 +4,13 @@ from __future__ import annotations
 
 from collections.abc import Callable
 from dataclasses import dataclass
+from functools import cache
 
 from parley.language.offline.abilities import abilities
 from parley.language.offline.clauses import Clause
 from parley.language.offline.facts import Remembered, find_fact, strip_openers
 from parley.language.offline.grounding import describe, ground_phrase
-from parley.language.offline.lexicon import lexicon
+from parley.language.offline.lexicon import lexicon, load_data
 from parley.language.offline.nouns import bare, noun_phrase
 from parley.language.offline.replies import agrees
 from parley.language.offline.saying import a, listing, the, whole_sentence
@@ -28,19 +29,16 @@ class Answer:
     look: Phrase = ()
 
 
-_WRAPPERS = (
-    "do you know", "can you tell me", "could you tell me", "please tell me", "tell me", "would you tell me", "will you tell me", "i want to know", "i would like to know", "let me know",
-    "do you remember", "do you have any idea", "any idea", "i wonder", "i was wondering", "please explain", "explain", "remind me", "can you say", "say", "what about", "may i ask", "can i ask", "do you happen to know", "can you remember", "can you remind me", "i ask", "show me", "give me", "list", "can you list", "can you show me", "could you give me", "i need to know", "report", "tell us",
-)  # fmt: skip
-_WRAPPED = tuple(sorted((tuple(text.split()) for text in _WRAPPERS), key=len, reverse=True))
-_ABILITY = ("what can you do", "what are you able to do", "what do you do", "what you can do", "what are your abilities", "what are your skills", "what are your capabilities", "your abilities", "your capabilities", "your skills", "how can you help", "what can you help", "which actions", "what actions", "what functionalities", "what functions", "what tasks can you", "which tasks", "what are you capable of", "what are you good at", "what can i ask you", "what can i tell you", "what else can you do", "what you are able to do", "what commands", "which commands", "what are you for", "how do you work", "what can the robot do", "what kind of things can you", "which things can you", "what things can you", "your functions", "what are my options", "what can i do with you", "what could you do", "what are your functions", "what you are capable of", "what are you useful for", "what is your purpose", "what sort of things can you", "what kinds of things can you")  # fmt: skip
-_STATUS = ("what are you doing", "what are you up to", "what is going on", "what is happening", "are you busy", "what is your status", "your status", "status report", "what is the status", "what are you working on", "what is your current task", "what is the current task", "where are you going", "where are you heading", "where are you off to", "what is your task", "are you moving", "are you driving", "what are you currently doing", "what you are doing", "why are you", "how far are you", "are you still", "are you idle", "are you free", "are you available", "current status", "state report", "what is your job right now", "which step are you", "what step are you", "are you waiting", "are you paused", "are you running", "where you are going", "what is the robot doing", "are you working", "are you stuck")  # fmt: skip
-_LEFT = ("what is left", "what remains", "what is next", "what comes next", "what else do you have", "how many steps", "are you done", "are you finished", "have you finished", "what do you have left", "what is the plan", "what is your plan", "your plan", "the plan", "what will you do", "what are you going to do", "what do you plan", "what is planned", "what is in the queue", "what is on the queue", "what steps", "which steps", "what still needs", "what is still", "how much is left", "how long", "what are the next steps", "next steps", "remaining steps", "what is pending", "what do you still have", "what is to be done", "what happens next", "what do you do next", "your next step", "the next step", "what is the next", "what remains to be done", "what have you planned", "pending actions", "your queue", "what is coming up", "is there anything left", "are there any steps left", "is anything left", "what should you do next", "what are the remaining")  # fmt: skip
-_SELF = ("where are you", "your position", "your location", "where you are", "where is the robot", "which room are you", "what room are you", "where are we", "where do you stand", "where exactly are you")  # fmt: skip
-_NAME = ("who are you", "what is your name", "what are you called", "your name", "what are you", "how are you called", "are you a robot", "are you human", "introduce yourself")  # fmt: skip
-_OBJECTS = ("what objects do you know", "what things do you know", "which objects", "what places do you know", "which places", "what places", "what objects are", "what is on the map", "where can you go", "where can i send you", "what locations", "which locations", "what rooms", "which rooms", "which things do you know", "what is around", "where can you drive", "what do you know on the map", "list all objects", "all objects", "all places", "what is there", "what things are", "what can you find")  # fmt: skip
-_MEMORY = ("what do you remember", "what do you know", "what did i tell you", "what have i told you", "what have you been told", "what is in your memory", "your memory", "your memories", "what do you have in memory", "everything you know", "everything you remember", "what you know", "what you remember", "what did i say", "what have you learned", "what do you recall", "what facts", "which facts", "all memories", "what i told you", "what have you remembered", "what did you remember", "what else do you know", "do you remember anything", "do you know anything", "do you remember what i")  # fmt: skip
-_ROBOTS = ("which robots", "what robots", "how many robots", "who else is there", "other robots", "are there other robots", "names of the robots")  # fmt: skip
+@cache
+def _starts(kind: str) -> tuple[tuple[str, ...], ...]:
+    """The word sequences with which questions of a kind begin, longest first."""
+    return tuple(
+        sorted((tuple(text.split()) for text in load_data("questions")[kind]), key=len, reverse=True)
+    )
+
+
+_ALSO_WRAPPED = ("left", "memory", "status", "objects")
+"""Kinds of questions that need no question word behind "tell me" and the like."""
 
 
 def is_yes(text: str) -> bool:
@@ -63,13 +61,19 @@ def answer(clause: Clause, scene: Scene) -> Answer | None:
     text = " ".join(flat)
     if text in {"help", "help me", "i need help", "can you help me", "could you help me", "i need your help"}:
         return Answer(abilities(scene))
-    question = clause.is_question or flat[0] in lexicon().question_starts or flat[0] in lexicon().be or flat[0] in {"do", "did", "have", "has", "does"} or wrapped
+    question = (
+        clause.is_question
+        or flat[0] in lexicon().question_starts
+        or flat[0] in lexicon().be
+        or flat[0] in {"do", "did", "have", "has", "does"}
+        or wrapped
+    )
     if not question:
         return None
-    for starts, reply in _FIXED:
-        for start in starts:
-            if _begins(flat, tuple(start.split())):
-                return Answer(reply(scene, words[len(start.split()) :]))
+    for kind, reply in _FIXED.items():
+        for start in _starts(kind):
+            if _begins(flat, start):
+                return Answer(reply(scene, words[len(start) :]))
     for reader in (_where, _what_in, _who, _whether):
         found = reader(words, flat, scene, clause.is_question or wrapped)
         if found is not None:
@@ -79,18 +83,31 @@ def answer(clause: Clause, scene: Scene) -> Answer | None:
 
 def _unwrapped(words: Phrase) -> tuple[Phrase, bool]:
     flat = keys(words)
-    for wrapper in _WRAPPED:
+    for wrapper in _starts("wrappers"):
         rest = words[len(wrapper) :]
         if flat[: len(wrapper)] == wrapper and rest:
             lead = keys(rest)[0]
-            asked = lead in lexicon().question_starts or lead in {"about", "your", "everything", "all", "if", "whether"} or any(_begins(keys(rest), tuple(text.split())) for text in (*_LEFT, *_MEMORY, *_STATUS, *_OBJECTS))
-            if asked and not (lead in {"if", "whether"} or (lead in {"all", "everything"} and wrapper[0] == "show")):
+            asked = (
+                lead in lexicon().question_starts
+                or lead in {"about", "your", "everything", "all", "if", "whether"}
+                or any(_begins(keys(rest), start) for kind in _ALSO_WRAPPED for start in _starts(kind))
+            )
+            if asked and not (
+                lead in {"if", "whether"} or (lead in {"all", "everything"} and wrapper[0] == "show")
+            ):
                 return rest, True
     return words, False
 
 
 def _begins(flat: tuple[str, ...], start: tuple[str, ...]) -> bool:
-    if len(start) == 2 and start[0] in {"the", "your"} or start[0] in {"all", "next", "remaining", "pending", "current", "everything"}:
+    if (len(start) == 2 and start[0] in {"the", "your"}) or start[0] in {
+        "all",
+        "next",
+        "remaining",
+        "pending",
+        "current",
+        "everything",
+    }:
         return flat[: len(start)] == start and len(flat) <= len(start) + 3
     return flat[: len(start)] == start
 
@@ -113,7 +130,11 @@ def _say_abilities(scene: Scene, _: Phrase) -> str:
 def _say_status(scene: Scene, _: Phrase) -> str:
     situation = scene.situation
     if not situation.queue:
-        return "I am waiting for your instructions." if situation.status != "paused" else "I am standing still; say “carry on” when I may go on."
+        return (
+            "I am waiting for your instructions."
+            if situation.status != "paused"
+            else "I am standing still; say “carry on” when I may go on."
+        )
     now = step_words(situation.queue[0])
     if situation.status == "paused":
         return f"I am paused. Next I would {now}."
@@ -140,7 +161,11 @@ def _say_where(scene: Scene, _: Phrase) -> str:
 
 def _say_name(scene: Scene, _: Phrase) -> str:
     name = scene.situation.robot
-    return f"I am {name}, a robot that you can talk to. {abilities(scene)}" if name else f"I am a robot that you can talk to. {abilities(scene)}"
+    return (
+        f"I am {name}, a robot that you can talk to. {abilities(scene)}"
+        if name
+        else f"I am a robot that you can talk to. {abilities(scene)}"
+    )
 
 
 def _say_objects(scene: Scene, _: Phrase) -> str:
@@ -154,12 +179,30 @@ def _say_objects(scene: Scene, _: Phrase) -> str:
 
 def _say_memory(scene: Scene, rest: Phrase) -> str:
     about = bare(rest)
-    while about and about[0].key in {"about", "of", "regarding", "on", "now", "so", "far", "i", "told", "you", "concerning"} and len(about) > 1:
+    while (
+        about
+        and about[0].key
+        in {"about", "of", "regarding", "on", "now", "so", "far", "i", "told", "you", "concerning"}
+        and len(about) > 1
+    ):
         about = bare(about[1:])
-    if not about or keys(about)[0] in {"about", "of", "everything", "anything", "so", "now", "far", "i", "all"}:
+    if not about or keys(about)[0] in {
+        "about",
+        "of",
+        "everything",
+        "anything",
+        "so",
+        "now",
+        "far",
+        "i",
+        "all",
+    }:
         if not scene.situation.memory:
             return "You have not told me anything to remember yet."
-        return "I remember: " + " ".join(whole_sentence(entry.data[:200] if entry.type == "text" else entry.info) for entry in scene.situation.memory[-20:])
+        return "I remember: " + " ".join(
+            whole_sentence(entry.data[:200] if entry.type == "text" else entry.info)
+            for entry in scene.situation.memory[-20:]
+        )
     about = scene.referent(about)
     found = _about(about, scene)
     for item in found:
@@ -177,7 +220,11 @@ def _about(about: Phrase, scene: Scene) -> list[Remembered]:
     direct = [fact] if fact is not None else several
     names = {item.entry.name for item in direct}
     wanted = set(noun_phrase(about).core)
-    related = [i for i in scene.facts if i.entry.name not in names and wanted and wanted <= set(noun_phrase(i.fact.place).core)]
+    related = [
+        i
+        for i in scene.facts
+        if i.entry.name not in names and wanted and wanted <= set(noun_phrase(i.fact.place).core)
+    ]
     return [*direct, *related]
 
 
@@ -186,10 +233,16 @@ def _say_robots(scene: Scene, _: Phrase) -> str:
     return f"The robots here are {listing(list(robots))}." if robots else "I do not know of any other robots."
 
 
-_FIXED: tuple[tuple[tuple[str, ...], Callable[[Scene, Phrase], str]], ...] = (
-    (_ABILITY, _say_abilities), (_STATUS, _say_status), (_LEFT, _say_left), (_OBJECTS, _say_objects), (_MEMORY, _say_memory),
-    (_SELF, _say_where), (_NAME, _say_name), (_ROBOTS, _say_robots),
-)  # fmt: skip
+_FIXED: dict[str, Callable[[Scene, Phrase], str]] = {
+    "ability": _say_abilities,
+    "status": _say_status,
+    "left": _say_left,
+    "objects": _say_objects,
+    "memory": _say_memory,
+    "self": _say_where,
+    "name": _say_name,
+    "robots": _say_robots,
+}
 
 
 def step_words(step: ActionCall) -> str:
@@ -207,7 +260,18 @@ def _where(words: Phrase, flat: tuple[str, ...], scene: Scene, _: bool) -> Answe
     """ "Where is X?", "where can I find X?", "have you seen X?"."""
     if flat[0] == "where":
         rest = words[1:]
-        while len(rest) > 1 and rest[0].key in lexicon().be | lexicon().auxiliaries | {"i", "find", "you", "we", "see", "to", "exactly", "put", "get", "keep"}:
+        while len(rest) > 1 and rest[0].key in lexicon().be | lexicon().auxiliaries | {
+            "i",
+            "find",
+            "you",
+            "we",
+            "see",
+            "to",
+            "exactly",
+            "put",
+            "get",
+            "keep",
+        }:
             rest = rest[1:]
     elif flat[:3] in {("have", "you", "seen"), ("did", "you", "see"), ("what", "room", "is")}:
         rest = words[3:]
@@ -228,9 +292,13 @@ def _where(words: Phrase, flat: tuple[str, ...], scene: Scene, _: bool) -> Answe
     found = ground_phrase(about, scene.objects, scene.situation.robot_pose)
     if found.outcome == "match":
         item = found.candidates[0]
-        return Answer(f"{whole_sentence(the(describe(item, scene.objects)))[:-1]} is on my map at x {item.x_m:.1f} m, y {item.y_m:.1f} m.")
+        return Answer(
+            f"{whole_sentence(the(describe(item, scene.objects)))[:-1]} is on my map at x {item.x_m:.1f} m, y {item.y_m:.1f} m."
+        )
     if found.outcome == "ambiguous":
-        return Answer(f"I know several on my map: {listing([the(describe(i, scene.objects)) for i in found.candidates])}.")
+        return Answer(
+            f"I know several on my map: {listing([the(describe(i, scene.objects)) for i in found.candidates])}."
+        )
     return Answer(f"I do not know where {the(plain(about))} is. Tell me and I will remember it.")
 
 
@@ -243,13 +311,22 @@ def _what_in(words: Phrase, flat: tuple[str, ...], scene: Scene, _: bool) -> Ans
         return None
     place = bare(words[2 + found[0] :])
     wanted = set(noun_phrase(place).core)
-    hits = [f for f in scene.facts if f.fact.is_location and not f.fact.negated and wanted and wanted <= set(noun_phrase(f.fact.place).core)]
+    hits = [
+        f
+        for f in scene.facts
+        if f.fact.is_location
+        and not f.fact.negated
+        and wanted
+        and wanted <= set(noun_phrase(f.fact.place).core)
+    ]
     for item in hits:
         scene.use(item)
     if hits:
         return Answer(" ".join(whole_sentence(item.fact.sentence) for item in hits))
     if ground_phrase(place, scene.objects).outcome != "none":
-        return Answer(f"I do not know what is {found[1]} {the(plain(place))}. I can go there and have a look.")
+        return Answer(
+            f"I do not know what is {found[1]} {the(plain(place))}. I can go there and have a look."
+        )
     return Answer(f"I do not know what is {found[1]} {the(plain(place))}. Tell me and I will remember it.")
 
 
@@ -267,7 +344,7 @@ def _who(words: Phrase, flat: tuple[str, ...], scene: Scene, _: bool) -> Answer 
 
 def _whether(words: Phrase, flat: tuple[str, ...], scene: Scene, asked: bool) -> Answer | None:
     """ "Is there an X in the Y?", "is the X open?": from memory, else looking is offered."""
-    if flat[0] not in lexicon().be or len(flat) < 3 or flat[1] == "you" or not asked and flat[1] != "there":
+    if flat[0] not in lexicon().be or len(flat) < 3 or flat[1] == "you" or (not asked and flat[1] != "there"):
         return None
     there = flat[1] == "there"
     rest = words[2:] if there else words[1:]
@@ -275,32 +352,50 @@ def _whether(words: Phrase, flat: tuple[str, ...], scene: Scene, asked: bool) ->
     cut = _cut(rest, noun.relation)
     subject = bare(rest[:cut])
     place = noun.anchors[0] if noun.anchors else ()
+    if not there:
+        about = _grounded_prefix(rest, scene)
+        if about and about < len(rest) and lexicon().places.match(keys(rest), about) is None:
+            return _state(rest, scene, words)
     fact, _ = find_fact(subject, scene.facts) if subject else (None, [])
     if fact is not None and (there or place):
         scene.use(fact)
         same = not place or set(noun_phrase(place).core) <= set(noun_phrase(fact.fact.place).core)
         return Answer(("Yes: " if same else "As far as I know, no: ") + whole_sentence(fact.fact.sentence))
     if place and ground_phrase(place, scene.objects).outcome != "none":
-        return Answer(f"I do not know. Shall I go to {the(plain(place))} and have a look?", _statement(there, words))
+        return Answer(
+            f"I do not know. Shall I go to {the(plain(place))} and have a look?", _statement(there, words)
+        )
     known = ground_phrase(subject, scene.objects) if subject else None
     if there and known is not None and known.outcome != "none" and not place:
         return Answer(f"Yes, I know {listing([a(describe(i, scene.objects)) for i in known.candidates])}.")
     if not there:
         return _state(rest, scene, words)
-    return Answer(f"I do not know of {a(plain(subject))}{' there' if place else ''}. Tell me if there is one, and where.")
+    return Answer(
+        f"I do not know of {a(plain(subject))}{' there' if place else ''}. Tell me if there is one, and where."
+    )
 
 
 def _state(rest: Phrase, scene: Scene, words: Phrase) -> Answer:
     """ "Is the X open?"."""
-    for size in range(len(rest) - 1, 0, -1):
-        if ground_phrase(rest[:size], scene.objects).outcome == "match":
-            turned = (*rest[:size], words[0], *rest[size:])
-            return Answer(f"I do not know. Shall I go to {the(plain(bare(rest[:size])))} and have a look?", turned)
+    size = _grounded_prefix(rest, scene)
+    if size:
+        turned = (*rest[:size], words[0], *rest[size:])
+        return Answer(
+            f"I do not know. Shall I go to {the(plain(bare(rest[:size])))} and have a look?", turned
+        )
     fact, _ = find_fact(bare(rest[:-1]) or rest, scene.facts, locations=False)
     if fact is not None:
         scene.use(fact)
         return Answer("I remember: " + whole_sentence(fact.fact.sentence))
     return Answer("I do not know that. Tell me, and I will remember it.")
+
+
+def _grounded_prefix(rest: Phrase, scene: Scene) -> int:
+    """How many of the first words name one object of the map; 0 if none do."""
+    for size in range(len(rest) - 1, 0, -1):
+        if ground_phrase(rest[:size], scene.objects).outcome == "match":
+            return size
+    return 0
 
 
 def _statement(there: bool, words: Phrase) -> Phrase:

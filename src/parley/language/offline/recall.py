@@ -15,7 +15,10 @@ __all__ = ["select_memories"]
 def select_memories(query: str, index: Sequence[MemoryEntry]) -> list[str]:
     """Names of the memories that matter for `query`, in the order of `index`."""
     wanted = _meant(query)
-    about: dict[str, set[str]] = {entry.name: _content(f"{' '.join(split_name(entry.name))} {entry.info} {entry.data[:500]}") for entry in index}
+    about: dict[str, set[str]] = {
+        entry.name: _content(f"{' '.join(split_name(entry.name))} {entry.info} {entry.data[:500]}")
+        for entry in index
+    }
     chosen = {name for name, words in about.items() if words & wanted}
     # A place that a chosen fact leads to may have a fact of its own ("area A is closed").
     places: set[str] = set()
@@ -37,7 +40,9 @@ def _meant(query: str) -> set[str]:
     for word in words:
         for same in lex.synonyms.get(word, ()):
             wider.update(singular(part) for part in same.split())
-        wider |= {singular(part) for kind in lex.kinds.get(lex.needs.get(word, word), ()) for part in kind.split()}
+        wider |= {
+            singular(part) for kind in lex.kinds.get(lex.needs.get(word, word), ()) for part in kind.split()
+        }
     return wider
 
 
@@ -54,4 +59,6 @@ def _content(text: str) -> set[str]:
     return result - {"location", "place", "info", "memory", "fact", "state"}
 
 
-_NOUNS = frozenset({"water", "light", "plant", "book", "phone", "person", "operator", "patient", "guest", "visitor", "robot"})
+_NOUNS = frozenset(
+    {"water", "light", "plant", "book", "phone", "person", "operator", "patient", "guest", "visitor", "robot"}
+)

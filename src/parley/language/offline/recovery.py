@@ -9,6 +9,7 @@ from __future__ import annotations
 
 from collections.abc import Sequence
 from dataclasses import replace
+from functools import cache
 
 from parley.errors import FailureCode
 from parley.language.base import ErrorSituation, Situation
@@ -16,14 +17,16 @@ from parley.language.control import control_of
 from parley.language.offline.catalogue import Catalogue, roles_of, text_inputs
 from parley.language.offline.choosing import choose, choose_object
 from parley.language.offline.clauses import opens_command
+from parley.language.offline.commands import read_command
 from parley.language.offline.facts import memory_name, read_statement, remembered
 from parley.language.offline.grounding import describe, ground_phrase
 from parley.language.offline.interpreter import interpret
+from parley.language.offline.lexicon import load_data
 from parley.language.offline.nouns import noun_phrase
 from parley.language.offline.replies import agrees
 from parley.language.offline.saying import capital, listing, the, whole_sentence
 from parley.language.offline.scene import place_said
-from parley.language.offline.text import keys, plain, tokens
+from parley.language.offline.text import keys, tokens
 from parley.messages.chat import ActionCall, ChatAction, SystemCommand
 from parley.messages.status import ActionInfo
 from parley.world.object_map import MapObject
@@ -31,9 +34,6 @@ from parley.world.object_map import MapObject
 __all__ = ["resolve"]
 
 AGAIN, WITHOUT, STOP = "try again", "go on without it", "stop"
-_RETRY = ("again", "retry", "once more", "one more time", "free now", "is free", "moved it", "moved away", "removed it", "cleared", "out of the way", "i moved", "i removed", "i opened", "is open now", "opened it", "fixed", "works now", "repaired", "it is there now", "is gone", "has gone", "turned it on", "switched it on", "restarted", "the way is clear", "is clear now", "another try", "look again", "go around", "gone away", "unblocked", "have another look", "should work now", "keep trying")  # fmt: skip
-_WITHOUT = ("skip", "without", "never mind", "nevermind", "forget it", "leave it", "i did it", "i have done it", "it is done", "is done", "already done", "i will do it", "i do it", "i took care", "taken care", "does not matter", "not important", "ignore", "do not bother", "go on", "carry on", "continue", "move on", "next step", "handed it over", "i have it", "i got it", "you have it", "have completed", "has completed", "did it myself", "no need", "proceed", "go ahead", "keep going", "drop it", "all good", "it is fine", "that is fine")  # fmt: skip
-_CANCEL = ("stop", "cancel", "abort", "give up", "quit", "halt", "end it", "forget everything", "drop everything", "call it off")
 
 _ASKING: dict[FailureCode, tuple[str, str]] = {
     FailureCode.UNREACHABLE: ("I cannot find a way to get there.", "Is there a door to open, or should I go on without it?"),
@@ -63,7 +63,9 @@ def resolve(situation: ErrorSituation) -> ChatAction:
         chosen = choose_object(candidates, reply, situation.objects, situation.robot_pose)
         if chosen is not None:
             words = describe(chosen, candidates)
-            return _solved(situation, f"Thank you. I take {the(words)}.", [_with_words(situation.failed_action, words)])
+            return _solved(
+                situation, f"Thank you. I take {the(words)}.", [_with_words(situation.failed_action, words)]
+            )
     return _answered(situation, reply) or _ask_again(situation, candidates)
 
 
@@ -84,7 +86,9 @@ def _candidates(situation: ErrorSituation) -> list[MapObject]:
 
 def _ask_which(situation: ErrorSituation, candidates: Sequence[MapObject]) -> ChatAction:
     if not candidates:
-        return _question(f"Several things fit “{_words(situation.failed_action)}”. Which one do you mean?", ())
+        return _question(
+            f"Several things fit “{_words(situation.failed_action)}”. Which one do you mean?", ()
+        )
     names = [describe(item, candidates) for item in candidates]
     shown = listing([the(name) for name in names])
     wanted = _words(situation.failed_action)
@@ -97,10 +101,18 @@ def _ask_what(situation: ErrorSituation) -> ChatAction:
     wanted = _words(situation.failed_action)
     if situation.code is FailureCode.NO_MATCH:
         looking = _looks(situation)
-        said = f"I looked, but I cannot see {the(wanted)}." if looking else f"I do not know where {the(wanted)} is."
+        said = (
+            f"I looked, but I cannot see {the(wanted)}."
+            if looking
+            else f"I do not know where {the(wanted)} is."
+        )
         if wanted.startswith(("whether", "what")):
             said = "I looked, but I could not see what you asked about."
-        question = "Should I try again, go on without it, or stop?" if looking else "Where is it? Or should I go on without it, or stop?"
+        question = (
+            "Should I try again, go on without it, or stop?"
+            if looking
+            else "Where is it? Or should I go on without it, or stop?"
+        )
     elif _is_plain(situation.error_message):
         said = whole_sentence(situation.error_message)
     return _question(f"{said} {question}", (AGAIN, WITHOUT, STOP))
@@ -108,7 +120,10 @@ def _ask_what(situation: ErrorSituation) -> ChatAction:
 
 def _is_plain(message: str) -> bool:
     """Whether a failure's own sentence can be shown to people."""
-    technical = any(mark in message for mark in ("/", "_", "::", "{", "}", "Error", "Exception", "Traceback", "<", "0x", "()", "="))
+    technical = any(
+        mark in message
+        for mark in ("/", "_", "::", "{", "}", "Error", "Exception", "Traceback", "<", "0x", "()", "=")
+    )
     return bool(message.strip()) and len(message) < 200 and "\n" not in message and not technical
 
 
@@ -117,10 +132,16 @@ def _ask_again(situation: ErrorSituation, candidates: Sequence[MapObject]) -> Ch
     if situation.code is FailureCode.AMBIGUOUS and candidates:
         names = [describe(item, candidates) for item in candidates]
         numbered = listing([f"{index}, {the(name)}" for index, name in enumerate(names, 1)], "or")
-        start = "I am sorry, I still do not see which one you mean." if asked > 1 else "I did not understand which one you mean."
+        start = (
+            "I am sorry, I still do not see which one you mean."
+            if asked > 1
+            else "I did not understand which one you mean."
+        )
         return _question(f"{start} Please say one of these or its number: {numbered}?", names)
     start = "I am sorry, I still do not understand." if asked > 1 else "I did not understand that."
-    return _question(f"{start} You can say “{AGAIN}”, “{WITHOUT}” or “{STOP}”. What should I do?", (AGAIN, WITHOUT, STOP))
+    return _question(
+        f"{start} You can say “{AGAIN}”, “{WITHOUT}” or “{STOP}”. What should I do?", (AGAIN, WITHOUT, STOP)
+    )
 
 
 def _question(text: str, choices: Sequence[str]) -> ChatAction:
@@ -140,18 +161,24 @@ def _answered(situation: ErrorSituation, reply: str) -> ChatAction | None:
     if order == "skip":
         return _without(situation)
     if order == "start":
-        return _again(situation) if _mentions(text, _RETRY) else _without(situation)
+        return _again(situation) if _mentions(text, _said("retry")) else _without(situation)
     for reader in (_new_words, _new_place):
         found = reader(situation, reply)
         if found is not None:
             return found
     if not _denied(text):
-        for said, action in ((_RETRY, _again), (_WITHOUT, _without), (_CANCEL, _cancelled)):
-            if _mentions(text, said):
+        for kind, action in (("retry", _again), ("without", _without), ("cancel", _cancelled)):
+            if _mentions(text, _said(kind)):
                 return action(situation)
     if index is not None:
         return (_again, _without)[index](situation)
     return _yes_or_no(situation, reply) or _other_order(situation, reply)
+
+
+@cache
+def _said(kind: str) -> tuple[str, ...]:
+    """What people say when they mean to retry, go on without, or cancel."""
+    return tuple(load_data("replies")["recovery"][kind])
 
 
 def _mentions(text: str, phrases: Sequence[str]) -> bool:
@@ -159,19 +186,36 @@ def _mentions(text: str, phrases: Sequence[str]) -> bool:
 
 
 def _denied(text: str) -> bool:
-    return any(f" {word} " in text for word in ("not", "no")) and not _mentions(text, ("never mind", "does not matter", "not important", "do not bother", "no need"))
+    return any(f" {word} " in text for word in ("not", "no")) and not _mentions(
+        text, ("never mind", "does not matter", "not important", "do not bother", "no need")
+    )
 
 
 def _yes_or_no(situation: ErrorSituation, reply: str) -> ChatAction | None:
     agreed = agrees(reply)
     if agreed is None:
         return None
-    helping = {FailureCode.NOT_CAPABLE, FailureCode.DECLINED, FailureCode.NOT_UNDERSTOOD, FailureCode.ATTENTION}
+    helping = {
+        FailureCode.NOT_CAPABLE,
+        FailureCode.DECLINED,
+        FailureCode.NOT_UNDERSTOOD,
+        FailureCode.ATTENTION,
+    }
     if agreed:
         # "Done", said where the robot could not do it itself, ends the step; elsewhere it clears the way.
-        finished = situation.code in helping or (situation.code is FailureCode.NO_MATCH and len(tokens(reply)) > 0 and not reply.lower().startswith("yes"))
+        finished = situation.code in helping or (
+            situation.code is FailureCode.NO_MATCH
+            and len(tokens(reply)) > 0
+            and not reply.lower().startswith("yes")
+        )
         return _without(situation) if finished else _again(situation)
-    return None if situation.code is FailureCode.AMBIGUOUS else _cancelled(situation) if situation.code in helping else None
+    return (
+        None
+        if situation.code is FailureCode.AMBIGUOUS
+        else _cancelled(situation)
+        if situation.code in helping
+        else None
+    )
 
 
 def _again(situation: ErrorSituation) -> ChatAction:
@@ -187,7 +231,9 @@ def _cancelled(situation: ErrorSituation) -> ChatAction:
     return _solved(situation, text, [], [SystemCommand(command="clear")])
 
 
-def _solved(situation: ErrorSituation, text: str, steps: Sequence[ActionCall], commands: Sequence[SystemCommand] = ()) -> ChatAction:
+def _solved(
+    situation: ErrorSituation, text: str, steps: Sequence[ActionCall], commands: Sequence[SystemCommand] = ()
+) -> ChatAction:
     return ChatAction(
         message_response=text,
         queue=tuple(steps),
@@ -199,15 +245,18 @@ def _solved(situation: ErrorSituation, text: str, steps: Sequence[ActionCall], c
 
 def _new_words(situation: ErrorSituation, reply: str) -> ChatAction | None:
     """For a step that turns words into a place: other words that the map knows."""
-    if situation.code is not FailureCode.NO_MATCH or _looks(situation):
+    if situation.code not in {FailureCode.NO_MATCH, FailureCode.AMBIGUOUS} or _looks(situation):
         return None
-    where = place_said(tokens(reply))
+    ordered = read_command(tokens(reply), lambda _: False)
+    where = ("at", ordered.place) if ordered is not None and ordered.place else place_said(tokens(reply))
     found = ground_phrase(where[1], situation.objects, situation.robot_pose) if where else None
     if found is None or found.outcome != "match" or where is None:
         return None
     words = describe(found.candidates[0], situation.objects)
     commands = _told(situation, where[0], words)
-    return _solved(situation, f"Thank you. I take {the(words)}.", [_with_words(situation.failed_action, words)], commands)
+    return _solved(
+        situation, f"Thank you. I take {the(words)}.", [_with_words(situation.failed_action, words)], commands
+    )
 
 
 def _new_place(situation: ErrorSituation, reply: str) -> ChatAction | None:
@@ -221,7 +270,9 @@ def _new_place(situation: ErrorSituation, reply: str) -> ChatAction | None:
     where = (fact.relation, fact.place) if fact is not None else place_said(phrase)
     if where is None or ground_phrase(where[1], situation.objects, situation.robot_pose).outcome != "match":
         return None
-    place = describe(ground_phrase(where[1], situation.objects, situation.robot_pose).candidates[0], situation.objects)
+    place = describe(
+        ground_phrase(where[1], situation.objects, situation.robot_pose).candidates[0], situation.objects
+    )
     catalogue = Catalogue(situation.catalogue)
     mover = catalogue.mover
     steps = catalogue.chain(mover, {}, place, f"go to {the(place)}") if mover is not None else None
@@ -241,7 +292,12 @@ def _told(situation: ErrorSituation, relation: str, place: str) -> list[SystemCo
     if fact is None or keys(tokens(wanted)) == keys(tokens(place)):
         return []
     name = memory_name(fact, remembered(situation.memory))
-    return [SystemCommand(command="add_memory", arguments={"data": sentence, "info": f"Where {the(wanted)} is", "name": name})]
+    return [
+        SystemCommand(
+            command="add_memory",
+            arguments={"data": sentence, "info": f"Where {the(wanted)} is", "name": name},
+        )
+    ]
 
 
 def _other_order(situation: ErrorSituation, reply: str) -> ChatAction | None:
@@ -273,7 +329,11 @@ def _from_memory(situation: ErrorSituation, candidates: Sequence[MapObject]) -> 
         found = ground_phrase(fact.place, candidates)
         if found.outcome == "match" and len(candidates) > 1:
             words = describe(found.candidates[0], candidates)
-            solved = _solved(situation, f"I remember: {whole_sentence(fact.sentence)} So I take {the(words)}.", [_with_words(situation.failed_action, words)])
+            solved = _solved(
+                situation,
+                f"I remember: {whole_sentence(fact.sentence)} So I take {the(words)}.",
+                [_with_words(situation.failed_action, words)],
+            )
             return solved.model_copy(update={"sources": (item.entry.name,)})
     return None
 
@@ -289,7 +349,11 @@ def _corrected_by_memory(situation: ErrorSituation) -> ChatAction | None:
         found = ground_phrase(item.fact.place, situation.objects)
         if found.outcome == "match":
             words = describe(found.candidates[0], situation.objects)
-            solved = _solved(situation, f"I remember: {whole_sentence(item.fact.sentence)}", [_with_words(situation.failed_action, words)])
+            solved = _solved(
+                situation,
+                f"I remember: {whole_sentence(item.fact.sentence)}",
+                [_with_words(situation.failed_action, words)],
+            )
             return solved.model_copy(update={"sources": (item.entry.name,)})
     return None
 
@@ -323,4 +387,3 @@ def _looks(situation: ErrorSituation) -> bool:
             outputs={name: p.type for name, p in step.output_parameters.items()},
         )
     return bool(roles_of(info) & {"look", "search", "count"}) and bool(text_inputs(info))
-

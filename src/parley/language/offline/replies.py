@@ -26,8 +26,38 @@ def _done_verbs() -> frozenset[str]:
 
 
 _DENIALS = frozenset({"not", "no", "never", "nothing", "unable", "refuse", "cannot", "nobody"})
-_LEADS = {"yes": "yes", "yeah": "yes", "yep": "yes", "yup": "yes", "sure": "yes", "done": "yes", "ok": "yes", "okay": "yes", "no": "no", "nope": "no", "nah": "no"}
-_FILLERS = frozenset("please now thanks thank you robot just and the oh well so then already all".split())
+_LEADS = {
+    "yes": "yes",
+    "yeah": "yes",
+    "yep": "yes",
+    "yup": "yes",
+    "sure": "yes",
+    "done": "yes",
+    "ok": "yes",
+    "okay": "yes",
+    "no": "no",
+    "nope": "no",
+    "nah": "no",
+}
+_FILLERS = frozenset(
+    [
+        "please",
+        "now",
+        "thanks",
+        "thank",
+        "you",
+        "robot",
+        "just",
+        "and",
+        "the",
+        "oh",
+        "well",
+        "so",
+        "then",
+        "already",
+        "all",
+    ]
+)
 
 
 def read_reply(reply: str, choices: Sequence[str] = ()) -> ReplyReading:
@@ -64,7 +94,11 @@ def agrees(reply: str) -> bool | None:
         return _LEADS[words[0]] == "yes"
     if set(words) & _DENIALS:
         return False
-    if set(words) & _done_verbs() and len(words) <= 20 and words[0] not in {"go", "get", "stop", "put", "set"}:
+    if (
+        set(words) & _done_verbs()
+        and len(words) <= 20
+        and words[0] not in {"go", "get", "stop", "put", "set"}
+    ):
         return True
     if words[:3] in {("here", "you", "go"), ("there", "you", "go"), ("here", "it", "is")}:
         return True

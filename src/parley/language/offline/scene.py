@@ -92,7 +92,9 @@ class Scene:
         flat = keys(phrase)
         if not flat or len(flat) > 3:
             return False
-        if flat in {("operator",)} or (len(flat) == 1 and flat[0] in lex.person_pronouns | lex.operator_pronouns):
+        if flat in {("operator",)} or (
+            len(flat) == 1 and flat[0] in lex.person_pronouns | lex.operator_pronouns
+        ):
             return True
         if singular(flat[-1]) in lex.person_words:
             return True
@@ -100,7 +102,9 @@ class Scene:
             return False
         if any(keys(person) == flat for person in self.persons):
             return True
-        if any(keys(f.fact.subject) == flat and f.fact.sentence.lower().startswith(flat[0]) for f in self.facts):
+        if any(
+            keys(f.fact.subject) == flat and f.fact.sentence.lower().startswith(flat[0]) for f in self.facts
+        ):
             return True
         return all(word.is_capital for word in phrase) and len(flat) <= 2 and flat[0] not in lex.vocabulary
 
@@ -149,7 +153,7 @@ class Scene:
         Raises:
             UnclearError: Several things are meant, or nothing is known.
         """
-        phrase = self.referent(phrase)
+        phrase = self.referent(self._other(phrase))
         remembered_words = via is not None
         found = ground_phrase(phrase, self.objects, self.situation.robot_pose)
         if found.outcome == "match":
@@ -185,7 +189,9 @@ class Scene:
                 continue
             del self.hints[index]
             relation, words = where
-            fact = Fact(phrase, words, relation, sentence=f"{the(plain(phrase))} is {relation} {the(plain(words))}")
+            fact = Fact(
+                phrase, words, relation, sentence=f"{the(plain(phrase))} is {relation} {the(plain(words))}"
+            )
             fact = replace(fact, sentence=fact.sentence[0].upper() + fact.sentence[1:])
             self.learned.append(fact)
             known = Remembered(fact, MemoryEntry(name=memory_name(fact, self.facts), data=fact.sentence))
@@ -201,8 +207,13 @@ class Scene:
         """
         fact, several = find_fact(phrase, self.facts)
         if several:
-            labels = [f"{the(plain(f.fact.subject))} {f.fact.relation} {the(plain(f.fact.place))}" for f in several]
-            stand_ins = [MapObject(id="?" * (i + 1), description=label, x_m=0.0, y_m=0.0) for i, label in enumerate(labels)]
+            labels = [
+                f"{the(plain(f.fact.subject))} {f.fact.relation} {the(plain(f.fact.place))}" for f in several
+            ]
+            stand_ins = [
+                MapObject(id="?" * (i + 1), description=label, x_m=0.0, y_m=0.0)
+                for i, label in enumerate(labels)
+            ]
             chosen = self._hinted(stand_ins)
             if chosen is None:
                 raise UnclearError(f"Do you mean {listing(labels, 'or')}?", labels)
@@ -210,7 +221,23 @@ class Scene:
         if fact is None:
             return None
         self.use(fact)
-        return self.place(fact.fact.place, hops=hops + 1, via=fact)
+        return replace(self.place(fact.fact.place, hops=hops + 1, via=fact), via=fact)
+
+    def _other(self, phrase: Phrase) -> Phrase:
+        """The one of two like things that was not mentioned last, for "the other (one)"."""
+        words = tuple(w for w in bare(phrase) if w.key not in {"one", "ones"})
+        if not words or words[0].key != "other":
+            return phrase
+        for thing in reversed(self.things):
+            last = ground_phrase(thing, self.objects, self.situation.robot_pose)
+            if last.outcome != "match":
+                continue
+            head = words[1:] or tokens(last.candidates[0].class_name) or thing[-1:]
+            rest = [i for i in ground_phrase(head, self.objects).candidates if i not in last.candidates]
+            if len(rest) == 1:
+                return tokens(describe(rest[0], self.objects))
+            return head
+        return words[1:] or phrase
 
     def pick(self, phrase: Phrase, candidates: Sequence[MapObject]) -> MapObject:
         """One of several equals: by quantifier or an earlier answer; otherwise it is asked.
@@ -224,15 +251,15 @@ class Scene:
             return hinted
         if noun.quantifier in lexicon().free_choice:
             pose = self.situation.robot_pose
-            return min(candidates, key=lambda i: (i.x_m - pose.x_m) ** 2 + (i.y_m - pose.y_m) ** 2) if pose else candidates[0]
-        if "other" in keys(phrase) and self.things:
-            last = ground_phrase(self.things[-1], self.objects, self.situation.robot_pose)
-            rest = [item for item in candidates if item not in last.candidates]
-            if last.outcome == "match" and len(rest) == 1:
-                return rest[0]
+            return (
+                min(candidates, key=lambda i: (i.x_m - pose.x_m) ** 2 + (i.y_m - pose.y_m) ** 2)
+                if pose
+                else candidates[0]
+            )
         choices = [describe(item, self.objects) for item in candidates]
         raise UnclearError(
-            f"I know {len(choices)} of those: {listing([the(c) for c in choices])}. Which one do you mean?", choices
+            f"I know {len(choices)} of those: {listing([the(c) for c in choices])}. Which one do you mean?",
+            choices,
         )
 
     def _hinted(self, candidates: Sequence[MapObject]) -> MapObject | None:
@@ -248,7 +275,10 @@ class Scene:
         name = the(plain(bare(phrase)))
         if near:
             known = listing([the(describe(item, self.objects)) for item in near], "or")
-            return UnclearError(f"I do not know where {name} is. Do you mean {known}?", [describe(i, self.objects) for i in near])
+            return UnclearError(
+                f"I do not know where {name} is. Do you mean {known}?",
+                [describe(i, self.objects) for i in near],
+            )
         return UnclearError(f"I do not know where {name} is. Tell me where it is, and I will remember it.")
 
     def several(self, phrase: Phrase) -> list[Phrase]:
@@ -279,7 +309,11 @@ class Scene:
         left_out = ground_phrase(noun.excluded, self.objects).candidates if noun.excluded else ()
         if noun.excluded and not left_out:
             raise self.unknown(noun.excluded)
-        return [tokens(item.id) if describe(item, self.objects) == item.id else tokens(item.description) for item in found.candidates if item not in left_out]
+        return [
+            tokens(item.id) if describe(item, self.objects) == item.id else tokens(item.description)
+            for item in found.candidates
+            if item not in left_out
+        ]
 
     def _is_plural(self, noun: NounPhrase) -> bool:
         if not noun.phrase:
@@ -297,7 +331,24 @@ def place_said(answer: Phrase) -> tuple[str, Phrase] | None:
     found = lexicon().places.match(keys(words))
     if found is not None and found[0] < len(words):
         return found[1], bare(words[found[0] :])
-    return ("at", words) if 0 < len(words) <= 5 and not keys(words)[0] in _NO_PLACES else None
+    return ("at", words) if 0 < len(words) <= 5 and keys(words)[0] not in _NO_PLACES else None
 
 
-_NO_PLACES = frozenset({"yes", "no", "i", "ok", "okay", "maybe", "you", "what", "where", "why", "never", "forget", "nothing", "nowhere"})
+_NO_PLACES = frozenset(
+    {
+        "yes",
+        "no",
+        "i",
+        "ok",
+        "okay",
+        "maybe",
+        "you",
+        "what",
+        "where",
+        "why",
+        "never",
+        "forget",
+        "nothing",
+        "nowhere",
+    }
+)

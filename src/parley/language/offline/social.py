@@ -5,16 +5,13 @@ from __future__ import annotations
 import unicodedata
 
 from parley.language.offline.lexicon import lexicon
-from parley.language.offline.text import Phrase, keys, plain
+from parley.language.offline.text import Phrase, plain
 
 __all__ = ["not_understood", "reply"]
 
-_FOREIGN = frozenset(
-    "ich du sie wir bitte nach und der die das zum zur geh gehe fahr fahre bring mir ist nicht wo le la les un une des va vers je tu nous est "
-    "et dans où el los las ve por favor hacia y en es dónde está il lo gli vai verso sono dove para você onde é mine palun too "
-    "kus on köögi juurde diivani ja mulle mene ga naar het een is waar jest gdzie idź do proszę".split()
+_ALSO_ENGLISH = frozenset(
+    {"is", "on", "do", "die", "un", "in", "la", "de", "es", "les", "en", "mine", "too", "we", "y"}
 )
-_ALSO_ENGLISH = frozenset({"is", "on", "do", "die", "un", "in", "la", "de", "es", "les", "en", "mine", "too", "we", "y"})
 
 
 def reply(words: Phrase, *, alone: bool = True) -> str | None:
@@ -23,11 +20,15 @@ def reply(words: Phrase, *, alone: bool = True) -> str | None:
     flat = tuple(word.key for word in words if word.is_word)
     if not flat:
         return None
-    while len(flat) > 1 and flat[-1] in {"robot", "there", "please", "again", "everyone", "friend", "much"} and flat not in lex.thanks:
+    while (
+        len(flat) > 1
+        and flat[-1] in {"robot", "there", "please", "again", "everyone", "friend", "much"}
+        and flat not in lex.thanks
+    ):
         flat = flat[:-1]
     if flat in lex.greetings:
         return "Hello! What can I do for you?" if alone else ""
-    if flat in lex.thanks or flat[:2] == ("thank", "you") or flat[:1] == ("thanks",) and len(flat) < 5:
+    if flat in lex.thanks or flat[:2] == ("thank", "you") or (flat[:1] == ("thanks",) and len(flat) < 5):
         return "You are welcome." if alone else ""
     if flat in lex.farewells:
         return "Goodbye! I am here when you need me."
@@ -35,9 +36,17 @@ def reply(words: Phrase, *, alone: bool = True) -> str | None:
         return None
     if set(flat) & lex.insults and (len(flat) <= 3 or flat[0] in {"you", "i", "what", "this", "that"}):
         return "I am sorry if I did something wrong. Tell me what I should do."
-    if flat[:2] == ("i", "am") and "not" not in flat and set(flat[2:]) & {"bored", "sad", "happy", "tired", "lonely", "angry"}:
+    if (
+        flat[:2] == ("i", "am")
+        and "not" not in flat
+        and set(flat[2:]) & {"bored", "sad", "happy", "tired", "lonely", "angry"}
+    ):
         return "I am sorry, I cannot help with feelings. Is there somewhere I should go, or something to look at?"
-    if set(flat) & lex.jokes and flat[0] in {"do", "what", "how", "tell", "who", "is", "are", "sing", "can", "which", "should"} and len(flat) <= 10:
+    if (
+        set(flat) & lex.jokes
+        and flat[0] in {"do", "what", "how", "tell", "who", "is", "are", "sing", "can", "which", "should"}
+        and len(flat) <= 10
+    ):
         return "I am no good at small talk: I drive, look and help. What can I do for you?"
     if _is_foreign(words):
         return "I understand only English, except for stop words. Please say it in English."
@@ -49,9 +58,9 @@ def _is_foreign(words: Phrase) -> bool:
     if letters and sum("LATIN" not in unicodedata.name(char, "") for char in letters) > len(letters) / 2:
         return True
     flat = [word.key for word in words if word.is_word]
-    foreign = sum(word in _FOREIGN for word in flat)
-    strictly = sum(word in _FOREIGN - _ALSO_ENGLISH for word in flat)
-    english = sum(word in lexicon().vocabulary - (_FOREIGN - {"is", "do"}) for word in flat)
+    foreign = sum(word in lexicon().foreign for word in flat)
+    strictly = sum(word in lexicon().foreign - _ALSO_ENGLISH for word in flat)
+    english = sum(word in lexicon().vocabulary - (lexicon().foreign - {"is", "do"}) for word in flat)
     return strictly >= 1 and foreign >= 2 and foreign > english
 
 

@@ -56,7 +56,14 @@ def by_anchor(
             items,
             lambda item: _gap(item, first.x_m, first.y_m) + _gap(item, second.x_m, second.y_m),
         )
-    if first.width_m * first.height_m >= _ROOM_M2 and relation in {"in", "inside", "at", "within", "inside of", "on"}:
+    if first.width_m * first.height_m >= _ROOM_M2 and relation in {
+        "in",
+        "inside",
+        "at",
+        "within",
+        "inside of",
+        "on",
+    }:
         inside = [item for item in items if _inside(item, first)]
         if inside:
             return inside

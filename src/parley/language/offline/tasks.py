@@ -25,7 +25,7 @@ from parley.world.geometry import Pose2D
 __all__ = ["Tasks", "UnableError", "pose_values"]
 
 _ASKING = frozenset({"it", "that", "this", "them", "there", "here", "those", "these"})
-_FORWARD = frozenset("forward forwards backward backwards ahead left right around".split())
+_FORWARD = frozenset(["forward", "forwards", "backward", "backwards", "ahead", "left", "right", "around"])
 
 
 class UnableError(Exception):
@@ -94,7 +94,12 @@ class Tasks:
             raise UnclearError("Where should I go?")
         if keys(command.place)[0] in _FORWARD and len(command.place) < 5 and not self._grounds(command.place):
             raise UnableError("be steered by directions or distances")
-        if keys(command.place) in {("where", "you", "were"), ("where", "you", "started"), ("start",), ("where", "you", "came", "from")}:
+        if keys(command.place) in {
+            ("where", "you", "were"),
+            ("where", "you", "started"),
+            ("start",),
+            ("where", "you", "came", "from"),
+        }:
             self._back(command)
             return
         for member in self.scene.several(command.place):
@@ -109,14 +114,16 @@ class Tasks:
         mover = self.catalogue.mover
         if mover is None:
             raise UnableError("drive")
-        texts = [name for name in text_inputs(mover) if parameter_role(name) in {"place", "object"}] or text_inputs(mover)
+        texts = [
+            name for name in text_inputs(mover) if parameter_role(name) in {"place", "object"}
+        ] or text_inputs(mover)
         if texts:
             steps: list[ActionCall] | None = [call(mover, {texts[0]: place.value}, why)]
         else:
             steps = self.catalogue.chain(mover, {}, place.value, why)
         if steps is None:
             raise UnableError("drive there")
-        self.steps += [s if s.reason else replace_reason(s, f"find out where {place.label} is, to {why}") for s in steps]
+        self.steps += [s if s.reason else replace_reason(s, _reason(place, why)) for s in steps]
         self.will.append(f"go to {place.label}")
         if place.via is not None:
             self.scene.use(place.via)
@@ -125,7 +132,11 @@ class Tasks:
         self.scene.mention(tokens(place.value))
 
     def _back(self, command: Command) -> None:
-        if command.kind == "back" and command.place and keys(command.place)[0] not in {"where", "home", "here", "me"}:
+        if (
+            command.kind == "back"
+            and command.place
+            and keys(command.place)[0] not in {"where", "home", "here", "me"}
+        ):
             self._go(replace(command, kind="motion"))
             return
         home, _ = find_fact(tokens("home"), self.scene.facts)
@@ -233,7 +244,9 @@ class Tasks:
             if known is not None:
                 self._stand_at(known)
                 if known.via is not None:
-                    words = plain(known.via.fact.subject) if len(known.via.fact.subject) > len(theme) else words
+                    words = (
+                        plain(known.via.fact.subject) if len(known.via.fact.subject) > len(theme) else words
+                    )
             elif not (own or self.here):
                 raise UnclearError(f"Where should I look for {the(words)}?")
         self.scene.mention(theme)
@@ -300,7 +313,9 @@ class Tasks:
         place = place or self.scene.told_place(theme)
         if place is None:
             if need:
-                raise UnclearError(f"I do not know of {lexicon().need_words[need]}. What should I bring, and where is it?")
+                raise UnclearError(
+                    f"I do not know of {lexicon().need_words[need]}. What should I bring, and where is it?"
+                )
             raise UnclearError(f"Where is {the(plain(theme))}?")
         return (place.via.fact.subject if place.via is not None and place.via.fact.subject else theme), place
 
@@ -361,7 +376,12 @@ class Tasks:
         if self.catalogue.with_role("grasp", "ask_operator") is None:
             raise UnableError(f"pick up {the(plain(theme))}")
         place = self.scene.place(command.source) if command.source else self._known_place(theme)
-        if place is None and command.theme[0].key not in _ASKING and not self.here and self.catalogue.with_role("grasp") is None:
+        if (
+            place is None
+            and command.theme[0].key not in _ASKING
+            and not self.here
+            and self.catalogue.with_role("grasp") is None
+        ):
             raise UnclearError(f"Where is {the(plain(theme))}?")
         self._stand_at(place)
         self._take(theme)
@@ -399,6 +419,10 @@ class Tasks:
         if info is None and command.kind == "count":
             self._look(replace(command, kind="look"))
             return
+        if info is None and command.kind == "wait" and self.steps:
+            if any(word.key.isdigit() or word.key in {"until", "minute", "minutes", "seconds"} for word in command.words):
+                self.notes.append("I cannot wait for a set time, so I go on at once.")
+            return
         if info is None:
             raise UnableError(plain(command.clause))
         self._invoke(info, command)
@@ -424,8 +448,16 @@ def saying_of(info: ActionInfo, command: Command) -> str:
     if command.kind in {"transfer", "place"} and command.theme:
         whom = f" to {the(plain(command.recipient))}" if command.recipient else ""
         verb = "hand over" if command.recipient else "put down"
-        return f"{verb} {the(plain(command.theme))}{whom}".replace("the operator", "you").replace("to operator", "to you")
+        return f"{verb} {the(plain(command.theme))}{whom}".replace("the operator", "you").replace(
+            "to operator", "to you"
+        )
     return plain(command.clause).lower() if command.clause[0].is_capital else plain(command.clause)
+
+
+def _reason(place: Place, why: str) -> str:
+    """Why coordinates are needed: what for matters to people when there is more to it than going there."""
+    going = why.startswith(("go to", "come", "go home"))
+    return f"find out where {place.label} is" + ("" if going else f", to {why}")
 
 
 def replace_reason(step: ActionCall, reason: str) -> ActionCall:
@@ -436,7 +468,15 @@ def replace_reason(step: ActionCall, reason: str) -> ActionCall:
 def pose_values(mover: ActionInfo, pose: Pose2D) -> dict[str, float] | None:
     """A pose as values of an action's numeric inputs; None if it has others."""
     position = {"x": pose.x_m, "y": pose.y_m, "z": 0.0}
-    heading = {"r": 0.0, "p": 0.0, "y": pose.yaw_rad, "roll": 0.0, "pitch": 0.0, "yaw": pose.yaw_rad, "theta": pose.yaw_rad}
+    heading = {
+        "r": 0.0,
+        "p": 0.0,
+        "y": pose.yaw_rad,
+        "roll": 0.0,
+        "pitch": 0.0,
+        "yaw": pose.yaw_rad,
+        "theta": pose.yaw_rad,
+    }
     values: dict[str, float] = {}
     for name, kind in mover.inputs.items():
         leaf = name.split("::")[-1].lower()
@@ -445,4 +485,3 @@ def pose_values(mover: ActionInfo, pose: Pose2D) -> dict[str, float] | None:
             return None
         values[name] = round(table[leaf], 4)
     return values or None
-

@@ -37,19 +37,7 @@ class Word:
 Phrase = tuple[Word, ...]
 
 _TOKEN = re.compile(r"\d+(?:[.,]\d+)+|[^\W_]+(?:['-][^\W_]+)*'?|\.{2,}|[.,!?;:()\"]|\n", re.UNICODE)
-_FIXED = {
-    "can't": "can not", "cannot": "can not", "won't": "will not", "shan't": "shall not", "ain't": "is not",
-    "let's": "let us", "gonna": "going to", "wanna": "want to", "gotta": "have to", "lemme": "let me",
-    "gimme": "give me", "dont": "do not", "doesnt": "does not", "isnt": "is not", "whats": "what is",
-    "wheres": "where is", "cant": "can not", "im": "i am", "pls": "please", "plz": "please", "u": "you",
-    "thx": "thanks", "dunno": "do not know", "y'all": "you", "'em": "them", "ya": "you", "didnt": "did not",
-    "theres": "there is", "youre": "you are", "thats": "that is", "ive": "i have", "wont": "will not",
-    "favour": "favor", "everything's": "everything is", "kinda": "kind of", "tv's": "tv is",
-}  # fmt: skip
 _SUFFIX = {"n't": "not", "'re": "are", "'m": "am", "'ve": "have", "'ll": "will", "'d": "would"}
-_SUBJECTS = frozenset("what where who when how why that there here it he she this everything which".split())
-_AFTER_IS = frozenset("not in on at by near next under behind beside inside thirsty hungry cold a the still now being going gone "
-                      "above between close there here sitting lying standing very also always usually".split())  # fmt: skip
 
 
 def tokens(text: str) -> Phrase:
@@ -68,8 +56,8 @@ def tokens(text: str) -> Phrase:
 
 def _expand(piece: str, following: str) -> list[Word]:
     low = piece.lower()
-    if low in _FIXED:
-        parts = _FIXED[low].split()
+    if low in lexicon().contractions:
+        parts = lexicon().contractions[low].split()
         return [Word(part, piece if len(parts) == 1 else part) for part in parts]
     for suffix, meaning in _SUFFIX.items():
         if low.endswith(suffix) and len(low) > len(suffix):
@@ -77,7 +65,7 @@ def _expand(piece: str, following: str) -> list[Word]:
             return [Word(stem.lower(), stem), Word(meaning, meaning)]
     if low.endswith("'s") and len(low) > 2:
         stem = piece[:-2]
-        if stem.lower() in _SUBJECTS or following in _AFTER_IS:
+        if stem.lower() in lexicon().is_subjects or following in lexicon().after_is:
             return [Word(stem.lower(), stem), Word("is", "is")]
     return [Word(low.rstrip("'"), piece.rstrip("'"))]
 
@@ -103,7 +91,14 @@ def lemma(word: str, verbs: frozenset[str] | None = None) -> str:
         return irregular[word]
     if word in known:
         return word
-    for suffix, endings in (("ing", ("", "e")), ("ied", ("y",)), ("ed", ("", "e")), ("ies", ("y",)), ("es", ("", "e")), ("s", ("",))):
+    for suffix, endings in (
+        ("ing", ("", "e")),
+        ("ied", ("y",)),
+        ("ed", ("", "e")),
+        ("ies", ("y",)),
+        ("es", ("", "e")),
+        ("s", ("",)),
+    ):
         if word.endswith(suffix) and len(word) > len(suffix) + 1:
             stem = word[: -len(suffix)]
             for ending in endings:
@@ -124,14 +119,10 @@ def _verb_words() -> frozenset[str]:
     return _KNOWN_VERBS[0]
 
 
-_PLURALS = {"people": "person", "men": "man", "women": "woman", "children": "child", "shelves": "shelf", "knives": "knife",
-            "feet": "foot", "mice": "mouse", "leaves": "leaf", "bookshelves": "bookshelf", "loaves": "loaf", "boxes": "box"}  # fmt: skip
-
-
 def singular(noun: str) -> str:
     """The singular of a regular English noun (words that are no plural come back unchanged)."""
-    if noun in _PLURALS:
-        return _PLURALS[noun]
+    if noun in lexicon().plurals:
+        return lexicon().plurals[noun]
     if len(noun) > 4 and noun.endswith("ies"):
         return noun[:-3] + "y"
     if len(noun) > 4 and noun.endswith(("ches", "shes", "sses", "xes", "zes")):
@@ -174,15 +165,26 @@ def closest(word: str, vocabulary: Iterable[str]) -> str | None:
     return nearest.pop() if len(nearest) == 1 else None
 
 
-def mend(phrase: Phrase, known: frozenset[str], targets: frozenset[str]) -> Phrase:
-    """Replace typing errors of `targets` among words that nobody knows; names keep their spelling."""
+_BEFORE_VERBS = frozenset("and then please you to first not , . ! ? ; but now just finally kindly let us".split())
+
+
+def mend(phrase: Phrase, known: frozenset[str], small: frozenset[str], verbs: frozenset[str]) -> Phrase:
+    """Replace typing errors among words that nobody knows; names keep their spelling.
+
+    Args:
+        phrase: The words.
+        known: What is no error.
+        small: Words that may be meant anywhere.
+        verbs: Words that may be meant where a clause begins.
+    """
     result: list[Word] = []
     for index, word in enumerate(phrase):
         name = word.is_capital and index > 0 and not word.raw.isupper()
         if not word.is_word or word.key in known or name or _inflected(word.key, known):
             result.append(word)
             continue
-        better = closest(word.key, targets)
+        opens = not result or result[-1].key in _BEFORE_VERBS
+        better = closest(word.key, small | verbs if opens else small)
         result.append(replace(word, key=better, raw=better) if better else word)
     return tuple(result)
 
