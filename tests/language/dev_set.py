@@ -18,7 +18,9 @@ from parley.world.object_map import MapObject
 DATA = Path(__file__).parent / "data"
 
 POSE = {
-    f"pose::{part}::{axis}": "number" for part, axes in (("position", "xyz"), ("orientation", "rpy")) for axis in axes
+    f"pose::{part}::{axis}": "number"
+    for part, axes in (("position", "xyz"), ("orientation", "rpy"))
+    for axis in axes
 }
 INSPECT = ActionInfo(
     name="Inspect",
@@ -28,7 +30,10 @@ INSPECT = ActionInfo(
     phrases=("inspect {inspect}", "look at {inspect}", "check {inspect}"),
 )
 ASK = ActionInfo(
-    name="AskOperator", inputs={"question": "string"}, outputs={"answer": "string"}, effects=("asks_operator",)
+    name="AskOperator",
+    inputs={"question": "string"},
+    outputs={"answer": "string"},
+    effects=("asks_operator",),
 )
 NAVIGATE = ActionInfo(
     name="NavigateTo", inputs=POSE, effects=("moves",), phrases=("go to {place}", "drive to {place}")
@@ -60,7 +65,9 @@ CATALOGUES: dict[str, tuple[ActionInfo, ...]] = {
     "bare": (
         ActionInfo(name="MoveRobot", inputs={"goal": "string"}, description="Drive somewhere."),
         ActionInfo(name="VacuumFloor", inputs={"area": "string"}, description="Clean the floor of an area."),
-        ActionInfo(name="switch_on", inputs={"device": "string"}, phrases=("turn on {device}", "switch on {device}")),
+        ActionInfo(
+            name="switch_on", inputs={"device": "string"}, phrases=("turn on {device}", "switch on {device}")
+        ),
         ActionInfo(name="WaveAt", inputs={"person": "string"}),
     ),
 }
@@ -82,7 +89,11 @@ class Case:
 def cases() -> list[Case]:
     """All sentences."""
     read = yaml.safe_load((DATA / "development.yaml").read_text(encoding="utf-8"))
-    return [Case(phenomenon, number, body) for phenomenon, listed in read.items() for number, body in enumerate(listed, 1)]
+    return [
+        Case(phenomenon, number, body)
+        for phenomenon, listed in read.items()
+        for number, body in enumerate(listed, 1)
+    ]
 
 
 def world(name: str) -> dict[str, Any]:
@@ -145,7 +156,9 @@ def commands(action: ChatAction) -> list[str]:
     """The system commands in short."""
     short = {"add_memory": "add", "remove_memory": "remove"}
     return [
-        " ".join([short.get(c.command, c.command), str(c.arguments.get("name", c.arguments.get("parameters", "")))]).strip()
+        " ".join(
+            [short.get(c.command, c.command), str(c.arguments.get("name", c.arguments.get("parameters", "")))]
+        ).strip()
         for c in action.system_cmd
     ]
 
@@ -163,7 +176,9 @@ def wrong(case: Case, action: ChatAction) -> list[str]:
             problems.append(f"{name}: expected {body[name]}, got {list(getattr(action, name))}")
     if not set(body.get("uses", [])) <= set(action.sources):
         problems.append(f"uses: expected {body['uses']}, got {list(action.sources)}")
-    problems += [f"says: {part!r} missing" for part in body.get("says", []) if part not in action.message_response]
+    problems += [
+        f"says: {part!r} missing" for part in body.get("says", []) if part not in action.message_response
+    ]
     if body.get("asks") and not any(mark in action.message_response for mark in ("?", "Tell me")):
         problems.append("asks: no question")
     if not action.message_response.strip():

@@ -1,4 +1,4 @@
-"""Every sentence of the development set is understood; run this file as a program for figures per phenomenon."""
+"""Every sentence of the development set is understood; run as a program it prints figures."""
 
 from __future__ import annotations
 

@@ -148,6 +148,24 @@ async def test_stop_goes_ahead_of_a_language_call_that_hangs(room: Room) -> None
     assert [command.command for command in order.system_cmd] == ["stop"]
 
 
+async def test_order_that_is_still_being_understood_when_stop_comes_moves_nobody(room: Room) -> None:
+    hanging = asyncio.Event()
+    room.language.will("interpret", hanging, ChatAction(message_response="I will look.", queue=(look(),)))
+    room.observer.say("look at the box", "A")
+    room.observer.say("stop", "A")
+    await room.reply()
+    hanging.set()
+    assert "told me to stop" in await room.reply(2)
+    assert [order.queue for order in room.planner.orders] == [()]
+
+
+async def test_carry_on_after_an_emergency_stop_says_what_to_do_first(room: Room) -> None:
+    room.observer.publish(topics.ACTOR_STATUS, ActorStatus(actor="A", state="stopped", catalogue=(LOOK,)))
+    room.observer.say("carry on", "A")
+    assert "Release the stop first" in await room.reply()
+    assert room.planner.orders == []
+
+
 async def test_one_robots_hanging_language_call_does_not_delay_another(room: Room) -> None:
     hanging = asyncio.Event()
     room.language.will("interpret", hanging, ChatAction(message_response="late"))

@@ -38,6 +38,7 @@ def test_a_robot_may_be_described_instead_of_named() -> None:
         ("to: [6, 0]", "to: [6]", "walls[0].to[1]"),
         ("to: [6, 0]", "to: [0, 0]", "walls[0].to"),
         ("{at_m: 1.0}", "{at_m: -1.0}", "walls[4].doorways[0].at_m"),
+        ("{at_m: 3.0}", "{at_m: 3.9}", "walls[4].doorways[1].at_m"),
         ("colour: green", "colour: greenish", "things[0].parts[0].colour"),
         ("size_m: [0.5, 0.5, 0.5]", "size_m: [0.5, 0.5, 0]", "things[0].parts[0].size_m[2]"),
         ("size_m: [0.5, 0.5, 0.5]", "size_m: [0.5, .inf, 0.5]", "things[0].parts[0].size_m[1]"),

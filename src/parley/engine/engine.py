@@ -11,6 +11,10 @@ import structlog
 from pydantic import BaseModel
 
 from parley.clock import Clock
+from parley.engine.feedback import Feedback
+from parley.engine.presence import Presence
+from parley.engine.runs import GraphRuns
+from parley.engine.stop import EmergencyStop
 from parley.errors import GraphRefusedError, InvalidMessageError, Problem, UnavailableError
 from parley.messages import ros, topics
 from parley.messages.status import GraphEvent, Rejection, RejectionProblem, StepCommand, StopCommand
@@ -23,11 +27,6 @@ from parley.umrf.catalogue import Catalogue
 from parley.umrf.executor import STOP_TIMEOUT_S, GraphRun
 from parley.umrf.io import read_graph, write_descriptor, write_graph
 from parley.umrf.transition import Transition
-
-from .feedback import Feedback
-from .presence import Presence
-from .runs import GraphRuns
-from .stop import EmergencyStop
 
 __all__ = ["ActionEngine"]
 

@@ -8,12 +8,11 @@ from typing import Final, Literal
 
 import structlog
 
+from parley.engine.runs import GraphRuns
 from parley.errors import ActionFailure
 from parley.messages.status import ActionInfo, ActorStatus, PoseInfo
 from parley.robots.base import Robot
 from parley.umrf.model import GraphState
-
-from .runs import GraphRuns
 
 __all__ = ["Presence", "is_at_rest"]
 

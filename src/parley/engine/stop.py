@@ -8,12 +8,11 @@ from typing import Any, Final, Literal
 
 import structlog
 
+from parley.engine.presence import is_at_rest
+from parley.engine.runs import GraphRuns
 from parley.errors import ActionFailure, Problem
 from parley.messages.status import StopReport
 from parley.robots.base import Robot
-
-from .presence import is_at_rest
-from .runs import GraphRuns
 
 __all__ = ["EmergencyStop"]
 

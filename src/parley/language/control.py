@@ -13,7 +13,7 @@ from typing import Literal
 
 from rapidfuzz.distance import OSA
 
-from parley.language.offline.lexicon import load_data
+from parley.language.word_lists import load_data
 
 __all__ = ["Control", "control_of"]
 

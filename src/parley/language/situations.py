@@ -1,7 +1,7 @@
 """Situations as JSON lines, for `parley interpret` (design section 5).
 
-A line is one situation; a line with ``"kind": "error"`` is an error situation. What comes back is one line each,
-in the same order: ``{"id" if given, "output": Chat Action, "latency_s"}``, or ``{"id", "error"}``.
+A line is one situation; a line with ``"kind": "error"`` is an error situation. What comes back is one line
+each, in the same order: ``{"id" if given, "output": Chat Action, "latency_s"}``, or ``{"id", "error"}``.
 """
 
 from __future__ import annotations

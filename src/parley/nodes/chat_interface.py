@@ -8,7 +8,7 @@ from __future__ import annotations
 import asyncio
 import uuid
 from collections import deque
-from collections.abc import Callable, Sequence
+from collections.abc import Awaitable, Callable, Sequence
 from typing import ClassVar, Final
 
 from parley.clock import Clock
@@ -44,6 +44,15 @@ _CONTROL_REPLIES: Final[dict[Control, str]] = {
     "clear": "I have dropped everything.",
     "emergency_stop": "Emergency stop! I will not move until the stop is released.",
 }
+_NOTHING_TO_DO: Final[dict[Control, str]] = {
+    "stop": "I am standing still.",
+    "start": "There is nothing left to go on with.",
+    "skip": "There is no step to skip.",
+    "clear": "There was nothing to drop.",
+}
+_LATCHED: Final = "I was stopped for safety. Release the stop first, then say “carry on”."
+_HALTING: Final = ("stop", "clear", "emergency_stop")
+"""Controls after which nothing that was said before may still set a robot in motion."""
 
 
 class ChatInterface(Node):
@@ -82,6 +91,8 @@ class ChatInterface(Node):
         self._plans: dict[str, PlanUpdate] = {}
         self._seen_ids: deque[str] = deque(maxlen=1000)
         self._memory_waits: dict[str, asyncio.Future[MemoryEvent]] = {}
+        self._halts: dict[str, int] = {}
+        """How often each robot was told to stop: what was asked for before that is dropped."""
 
     async def open(self) -> None:
         """See `Node.open`."""
@@ -111,8 +122,12 @@ class ChatInterface(Node):
             if control is not None and not (question and control == "start"):
                 self._control(target, control, said.message)
             elif question is None:
-                self._mailboxes.post(target, lambda target=target: self._answer(target, said.message))  # type: ignore[misc]
+                self._mailboxes.post(target, self._work(target, said.message))
         self._questions.on_input(said)
+
+    def _work(self, target: str, message: str) -> Callable[[], Awaitable[None]]:
+        halts = self._halts.get(target, 0)
+        return lambda: self._answer(target, message, halts)
 
     def _addressed(self, said: ChatInput) -> list[str]:
         """The robots a message is for; without an addressee nothing may move."""
@@ -159,19 +174,28 @@ class ChatInterface(Node):
 
     def _control(self, target: str, control: Control, message: str) -> None:
         """Act at once, ahead of anything that is still being understood."""
+        if control in _HALTING:
+            self._halts[target] = self._halts.get(target, 0) + 1
+        plan, status = self._plans.get(target), self._presence.get(target)
+        reply = _CONTROL_REPLIES[control]
         if control == "emergency_stop":
             self.publish(topics.STOP, StopCommand(targets=(target,), id=uuid.uuid4().hex))
+        elif control == "start" and status is not None and status.state == "stopped":
+            reply = _LATCHED
         else:
-            command = SystemCommand(command=control)
-            self.publish(topics.CHAT_ACTION, ChatAction(system_cmd=(command,), targets=(target,)))
-        reply = _CONTROL_REPLIES[control]
+            if plan is None or plan.state == "idle":
+                reply = _NOTHING_TO_DO[control]
+            # Sent even so, where it is not answered twice: the plan may be newer than what is known here.
+            if reply == _CONTROL_REPLIES[control] or control in _HALTING:
+                command = SystemCommand(command=control)
+                self.publish(topics.CHAT_ACTION, ChatAction(system_cmd=(command,), targets=(target,)))
         self._conversation(target).operator(message)
         self._conversation(target).assistant(reply)
         self._say((target,), reply, "response")
 
     # -- understanding ---------------------------------------------------------------------------------
 
-    async def _answer(self, target: str, message: str) -> None:
+    async def _answer(self, target: str, message: str, halts: int) -> None:
         situation = await self._situation(target, message)
         try:
             async with asyncio.timeout(self._language_timeout_s):
@@ -183,6 +207,9 @@ class ChatInterface(Node):
                 "I could not work that out just now. Nothing was started; please try again.",
                 "error",
             )
+            return
+        if halts != self._halts.get(target, 0) and (understood.queue or understood.system_cmd):
+            self._say((target,), f"You told me to stop, so I leave this: “{message}”", "response")
             return
         order = self._trusted(target, understood)
         if order is None:

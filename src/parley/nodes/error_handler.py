@@ -96,16 +96,19 @@ class ErrorHandler(Node):
         self._mailboxes.post(failure.target, lambda: self._attempt(repair, None))
 
     def _on_input(self, said: ChatInput) -> None:
-        if said.type != "response":
-            return
+        control = control_of(said.message, self._presence.names())
         for target in said.targets:
             repair = self._repairs.get(target)
-            if repair is None or not repair.question_id or said.reply_to not in ("", repair.question_id):
+            if repair is None:
                 continue
-            if control_of(said.message, self._presence.names()) not in (None, "start"):
-                continue  # acted upon by the chat interface; the plan's next state settles this repair
-            repair.question_id = ""
-            self._mailboxes.post(target, lambda r=repair: self._attempt(r, said.message))  # type: ignore[misc]
+            if control in ("stop", "clear", "emergency_stop"):
+                # Acted upon by the chat interface; nothing that is still being worked out may move the robot.
+                self._close(repair, "I leave it at that.")
+            elif control == "skip" or said.type != "response" or not repair.question_id:
+                continue  # the plan's next state settles this repair
+            elif said.reply_to in ("", repair.question_id):
+                repair.question_id = ""
+                self._mailboxes.post(target, lambda r=repair: self._attempt(r, said.message))  # type: ignore[misc]
 
     def _on_plan(self, message: String) -> None:
         """A repair ends when the robot is no longer held, whoever brought that about."""
@@ -126,6 +129,8 @@ class ErrorHandler(Node):
         if self._repairs.get(repair.failure.target) is not repair:
             return  # settled otherwise in the meantime
         resolution = await self._resolve(repair, reply)
+        if self._repairs.get(repair.failure.target) is not repair:
+            return
         if reply is not None:
             repair.dialogue.append(Turn("operator", reply))
         if resolution.success:

@@ -198,9 +198,9 @@ class TargetPlan:
     def correct(self, calls: Sequence[ActionCall]) -> list[Effect]:
         """Put `calls` in the place of the failed step (none: leave it out) and go on.
 
-        A correction for which nothing failed is late and changes nothing.
+        A correction for which nothing failed, or that comes after the repair was ended, is late and dropped.
         """
-        return self._replace_failed(calls) if self.failed is not None else []
+        return self._replace_failed(calls) if self.failed is not None and not self.given_up else []
 
     def give_up(self) -> list[Effect]:
         """Repair ended without success: stay held, keep the plan, take the next order."""

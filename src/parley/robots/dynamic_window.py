@@ -48,10 +48,10 @@ def choose_velocity(
         A velocity within the limits; turning on the spot if nothing else is safe (a round robot always may).
     """
     bearing = math.atan2(target_m[1], target_m[0])
-    slowest = max(0.0, now.linear_mps - limits.max_acceleration_mps2 * cycle_s)
+    on_the_spot = Velocity(0.0, float(np.clip(2.0 * bearing, -limits.max_turn_radps, limits.max_turn_radps)))
     if abs(bearing) > _TURN_FIRST_RAD:
-        turn = float(np.clip(2.0 * bearing, -limits.max_turn_radps, limits.max_turn_radps))
-        return Velocity(0.0, turn)
+        return on_the_spot
+    slowest = max(0.0, now.linear_mps - limits.max_acceleration_mps2 * cycle_s)
     # Never faster than what still stops at the target.
     distance = math.hypot(*target_m)
     fastest = min(
@@ -73,7 +73,7 @@ def choose_velocity(
     # Standing too close already, it may move on as long as it comes no closer.
     safe = (gaps >= min(limits.keep_out_m, already - 0.005)) | (speed < 1e-3)
     if not safe.any():
-        return Velocity(0.0, float(np.clip(2.0 * bearing, -limits.max_turn_radps, limits.max_turn_radps)))
+        return on_the_spot
     miss = np.hypot(*(paths - np.asarray(target_m)[:, None, None])).min(axis=1)
     narrow = np.maximum(0.0, limits.keep_out_m + _COMFORT_M - gaps)
     cost = np.where(safe, miss + 0.5 * narrow + 0.01 * np.abs(turn_rate), np.inf)

@@ -85,14 +85,18 @@ class Wall(Entry):
     colour: Colour = "#d9d2c5"
     doorways: tuple[Doorway, ...] = ()
 
+    @property
+    def length_m(self) -> float:
+        """From start to end."""
+        return math.dist(self.start, self.end)
+
     def solids(self) -> Iterator[Solid]:
         """The pieces that its doorways leave standing."""
-        length = math.dist(self.start, self.end)
         yaw = math.atan2(self.end[1] - self.start[1], self.end[0] - self.start[0])
         # Both ends reach half a thickness further, so that walls meeting at a corner leave no notch.
         begin = -self.thickness_m / 2
         gaps = sorted((door.at_m - door.width_m / 2, door.at_m + door.width_m / 2) for door in self.doorways)
-        for low, high in [*gaps, (length + self.thickness_m / 2, math.inf)]:
+        for low, high in [*gaps, (self.length_m + self.thickness_m / 2, math.inf)]:
             if low - begin > 1e-6:
                 middle = (begin + low) / 2
                 yield Solid(

@@ -191,18 +191,30 @@ class WorldFile(Entry):
 
     def _consistent(self, file: str) -> Self:
         """Check what one entry alone cannot know."""
+        self._check_unique(file)
+        self._check_walls(file)
+        self._check_holders(file)
+        return self
+
+    def _check_unique(self, file: str) -> None:
         seen: set[str] = set()
-        for kind, names in (
-            ("things", [t.name for t in self.things]),
-            ("robots", [r.name for r in self.robots]),
-        ):
+        things, robots = [thing.name for thing in self.things], [robot.name for robot in self.robots]
+        for kind, names in (("things", things), ("robots", robots)):
             for index, name in enumerate(names):
                 if name in seen:
                     raise FileFormatError(file, f"{kind}[{index}].name", f"{name!r} is used twice")
                 seen.add(name)
+
+    def _check_walls(self, file: str) -> None:
         for index, wall in enumerate(self.walls):
-            if wall.start == wall.end:
+            if wall.length_m == 0.0:
                 raise FileFormatError(file, f"walls[{index}].to", "the wall has no length")
+            for number, door in enumerate(wall.doorways):
+                if not door.width_m / 2 <= door.at_m <= wall.length_m - door.width_m / 2:
+                    problem = f"the doorway does not fit into a wall of {wall.length_m:.2f} m"
+                    raise FileFormatError(file, f"walls[{index}].doorways[{number}].at_m", problem)
+
+    def _check_holders(self, file: str) -> None:
         holders = {thing.name: thing.inside for thing in self.things}
         for index, thing in enumerate(self.things):
             chain = [thing.name]
@@ -211,4 +223,3 @@ class WorldFile(Entry):
                     problem = "contains itself" if holder in chain else "is not a thing of this world"
                     raise FileFormatError(file, f"things[{index}].inside", f"{holder!r} {problem}")
                 chain.append(holder)
-        return self

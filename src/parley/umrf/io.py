@@ -8,7 +8,6 @@ use the `faithful` one, which reads back to the same graph.
 from __future__ import annotations
 
 import json
-import textwrap
 from collections.abc import Mapping
 from dataclasses import replace
 from typing import Any
@@ -122,7 +121,8 @@ class GraphWriter:
         known = self._texts.get(node.full_name)
         if known is not None and known[0] == node:
             return known[1]
-        return textwrap.indent(dump(node_to_json(node)), "        ")
+        # In JSON text a line break is always layout: those inside of strings are escaped.
+        return "        " + dump(node_to_json(node)).replace("\n", "\n        ")
 
 
 def node_to_json(node: Node, *, faithful: bool = False) -> dict[str, Any]:

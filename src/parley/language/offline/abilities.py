@@ -11,11 +11,23 @@ from parley.messages.status import ActionInfo
 __all__ = ["abilities", "can_list", "cannot"]
 
 _BY_ROLE = {
-    "motion": "go to places and things I know", "look": "look at things and tell you what I see", "search": "look for things and people",
-    "grasp": "pick things up", "handover": "hand things over", "fetch": "bring things", "place": "put things down",
-    "speak": "say something", "answer": "answer questions", "follow": "follow people", "guide": "lead people", "meet": "meet people",
-    "count": "count things", "ask_operator": "ask you when I need help", "wait": "wait", "dock": "go to my charger",
-}  # fmt: skip
+    "motion": "go to places and things I know",
+    "look": "look at things and tell you what I see",
+    "search": "look for things and people",
+    "grasp": "pick things up",
+    "handover": "hand things over",
+    "fetch": "bring things",
+    "place": "put things down",
+    "speak": "say something",
+    "answer": "answer questions",
+    "follow": "follow people",
+    "guide": "lead people",
+    "meet": "meet people",
+    "count": "count things",
+    "ask_operator": "ask you when I need help",
+    "wait": "wait",
+    "dock": "go to my charger",
+}
 
 
 def can_list(scene: Scene) -> list[str]:

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from parley.language.base import Situation
+from parley.language.offline.lexicon import lexicon
 from parley.language.offline.text import Phrase, closest, keys, tokens
 
 __all__ = ["addressed"]
@@ -10,14 +11,13 @@ __all__ = ["addressed"]
 _CALLS = frozenset(
     {"hey", "hi", "hello", "ok", "okay", "dear", "tell", "have", "let", "ask", "make", "and", "please", "get"}
 )
-_EVERYBODY = (("all", "robots"), ("both", "robots"), ("all", "of", "you"), ("both", "of", "you"), ("every", "robot"), ("each", "robot"), ("everyone",), ("everybody",), ("you", "all"), ("all", "the", "robots"), ("you", "both"), ("robots",))  # fmt: skip
 
 
 def addressed(words: Phrase, situation: Situation) -> tuple[Phrase, tuple[str, ...]]:
     """The message without the names it calls, and the robots it is for (empty: nobody was named)."""
-    for group in _EVERYBODY:
-        if keys(words[: len(group)]) == group and len(words) > len(group) and situation.robots:
-            return _without_lead(words[len(group) :]), situation.robots
+    group = lexicon().everybody.match(keys(words))
+    if group is not None and group[0] < len(words) and situation.robots:
+        return _without_lead(words[group[0] :]), situation.robots
     named: list[str] = []
     rest = words
     while True:

@@ -1,8 +1,8 @@
 """What a robot can do, read from its own catalogue: roles of actions, values for their parameters, chains.
 
-Nothing here knows an action by name. What an action is good for follows from its declared effects, else from the
-words of its name, phrases and description; an input that nobody says in words is fetched from the action whose
-outputs carry exactly that name and type.
+Nothing here knows an action by name. What an action is good for follows from its declared effects, else from
+the words of its name, phrases and description; an input that nobody says in words is fetched from the action
+whose outputs carry exactly that name and type.
 """
 
 from __future__ import annotations
@@ -20,11 +20,53 @@ from parley.messages.status import ActionInfo
 __all__ = ["Catalogue", "call", "parameter_role", "roles_of", "text_inputs"]
 
 _PARAMETER_ROLES = {
-    "place": ["target", "location", "place", "destination", "goal", "position", "where", "room", "area", "waypoint", "spot", "point", "loc", "dest"],
-    "person": ["person", "who", "name", "recipient", "human", "people", "user", "patient", "to", "receiver", "whom"],
-    "text": ["text", "message", "utterance", "sentence", "speech", "question", "answer", "words", "content", "say", "what", "query", "prompt", "topic"],
+    "place": [
+        "target",
+        "location",
+        "place",
+        "destination",
+        "goal",
+        "position",
+        "where",
+        "room",
+        "area",
+        "waypoint",
+        "spot",
+        "point",
+        "loc",
+        "dest",
+    ],
+    "person": [
+        "person",
+        "who",
+        "name",
+        "recipient",
+        "human",
+        "people",
+        "user",
+        "patient",
+        "to",
+        "receiver",
+        "whom",
+    ],
+    "text": [
+        "text",
+        "message",
+        "utterance",
+        "sentence",
+        "speech",
+        "question",
+        "answer",
+        "words",
+        "content",
+        "say",
+        "what",
+        "query",
+        "prompt",
+        "topic",
+    ],
     "object": ["object", "obj", "item", "thing", "things", "theme", "target", "inspect", "product", "entity"],
-}  # fmt: skip
+}
 
 
 def parameter_role(name: str) -> str:
@@ -206,10 +248,14 @@ class Catalogue:
 _HELPERS = frozenset({"locate", "ask_operator"})
 """What only serves other steps is not asked for by verb."""
 _COVERED = {
-    "transfer": frozenset({"handover", "fetch", "grasp", "transfer"}), "look": frozenset({"look", "search"}),
-    "whether": frozenset({"look"}), "search": frozenset({"look", "search"}), "back": frozenset({"motion"}),
-    "place": frozenset({"place"}), "motion": frozenset({"motion"}),
-}  # fmt: skip
+    "transfer": frozenset({"handover", "fetch", "grasp", "transfer"}),
+    "look": frozenset({"look", "search"}),
+    "whether": frozenset({"look"}),
+    "search": frozenset({"look", "search"}),
+    "back": frozenset({"motion"}),
+    "place": frozenset({"place"}),
+    "motion": frozenset({"motion"}),
+}
 
 
 def _verbs_of(info: ActionInfo) -> list[tuple[str, ...]]:

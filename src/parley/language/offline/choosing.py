@@ -6,17 +6,17 @@ from collections.abc import Sequence
 from functools import cache
 
 from parley.language.offline.grounding import ground_phrase
-from parley.language.offline.lexicon import lexicon, load_data
+from parley.language.offline.lexicon import lexicon
 from parley.language.offline.nouns import bare
 from parley.language.offline.spatial import nearest_to
 from parley.language.offline.text import Phrase, keys, lemma, tokens
+from parley.language.word_lists import load_data
 from parley.world.geometry import Pose2D
 from parley.world.object_map import MapObject
 
 __all__ = ["choose", "choose_object"]
 
 _ANY = frozenset(["any", "either", "whichever", "whatever", "anyone"])
-_ANY_PHRASES = (("does", "not", "matter"), ("do", "not", "care"), ("you", "choose"), ("you", "decide"), ("up", "to", "you"), ("do", "not", "mind"))  # fmt: skip
 
 
 def choose(texts: Sequence[str], reply: str) -> int | None:
@@ -59,7 +59,7 @@ def choose_object(
 
 
 def _is_any(flat: tuple[str, ...]) -> bool:
-    if any(flat[i : i + len(p)] == p for p in _ANY_PHRASES for i in range(len(flat))):
+    if any(lexicon().your_choice.match(flat, index) for index in range(len(flat))):
         return True
     return bool(set(flat[:2]) & _ANY) and len(flat) <= 5
 
@@ -67,7 +67,7 @@ def _is_any(flat: tuple[str, ...]) -> bool:
 def _excluded(
     words: Phrase, candidates: Sequence[MapObject], objects: Sequence[MapObject], pose: Pose2D | None
 ) -> MapObject | None:
-    """ "Not the large one" leaves the other of two."""
+    """For "Not the large one" leaves the other of two."""
     flat = keys(words)
     if "not" not in flat or len(candidates) != 2:
         return None

@@ -86,7 +86,7 @@ def _sentences(message: Phrase) -> list[tuple[Phrase, bool]]:
 
 
 def _conditional(sentence: Phrase, opens: Opens) -> list[Clause]:
-    """ "If S, V, otherwise W" and "V if S"; everything else goes on to be cut."""
+    """For "If S, V, otherwise W" and "V if S"; everything else goes on to be cut."""
     flat = keys(strip_openers(sentence))
     words = strip_openers(sentence)
     if flat[:1] == ("if",) or flat[:2] == ("in", "case"):
@@ -161,8 +161,13 @@ def _before_after(sentence: Phrase, opens: Opens) -> list[Clause]:
 
 
 def _with_verb(words: Phrase, opens: Opens) -> Phrase:
-    """ "After the desk, ...": a place without verb is one to visit."""
-    if opens(words) or not words or words[0].key in lexicon().question_starts or read_statement(words) is not None:
+    """For "After the desk, ...": a place without verb is one to visit."""
+    if (
+        opens(words)
+        or not words
+        or words[0].key in lexicon().question_starts
+        or read_statement(words) is not None
+    ):
         return words
     return (Word("visit", "visit"), *words)
 
@@ -230,9 +235,7 @@ def _new_clause(sentence: Phrase, start: int, index: int, opens: Opens) -> bool:
         return True
     if sentence[index].key in {",", "and", "but"} and read_statement(before) is not None:
         return read_statement(rest) is not None
-    if sentence[index].key == "," and len(before) <= 3 and read_statement(rest) is not None:
-        return True
-    return False
+    return bool(sentence[index].key == "," and len(before) <= 3 and read_statement(rest) is not None)
 
 
 _SERIAL_VERBS = frozenset((verb,) for verb in ("go", "come", "run", "hurry", "drive", "head", "try"))

@@ -39,7 +39,6 @@ class Command:
 
 IsPerson = Callable[[Phrase], bool]
 
-_NEGATIONS = (("do", "not"), ("never",), ("you", "should", "not"), ("you", "must", "not"), ("you", "do", "not", "have", "to"), ("you", "need", "not"), ("there", "is", "no", "need", "to"), ("no", "need", "to"), ("not",), ("avoid",), ("please", "do", "not"), ("you", "do", "not", "need", "to"), ("i", "do", "not", "want", "you", "to"), ("you", "can", "not"), ("refrain", "from"), ("you", "shall", "not"), ("i", "would", "rather", "you", "did", "not"))  # fmt: skip
 _SERIAL = frozenset(
     {"go", "come", "run", "head", "drive", "move", "walk", "hurry", "proceed", "return", "travel", "roll"}
 )
@@ -101,14 +100,14 @@ def _base(words: Phrase) -> tuple[str, ...]:
 
 def _negation(words: Phrase) -> tuple[Phrase, bool]:
     flat = keys(words)
-    for negation in sorted(_NEGATIONS, key=len, reverse=True):
-        if flat[: len(negation)] == negation and len(words) > len(negation):
-            return words[len(negation) :], True
+    found = lexicon().prohibitions.match(flat)
+    if found is not None and found[0] < len(words):
+        return words[found[0] :], True
     return words, False
 
 
 def _serial(verb: str, rest: Phrase, kind: str) -> Phrase | None:
-    """ "Go (and) inspect X", "go to check X": the second verb is the one that counts."""
+    """For "Go (and) inspect X", "go to check X": the second verb is the one that counts."""
     if kind not in {"motion", "back"} or verb not in _SERIAL:
         return None
     while rest and rest[0].key in {"and", "to", "over", "back", "ahead", "out", "there"} and len(rest) > 1:
@@ -167,7 +166,7 @@ def _motion(command: Command) -> Command:
     if (
         flat[:1] in {("in",), ("on",), ("at",), ("inside",)}
         and len(words) > 1
-        and not lex.places.match(flat, 0) == (3, "in front of")
+        and lex.places.match(flat, 0) != (3, "in front of")
     ):
         single = lex.places.match(flat)
         if single and single[0] == 1:
@@ -184,7 +183,7 @@ def _look(command: Command) -> Command:
     while (
         len(words) > 1
         and words[0].key in {"at", "on", "into", "in", "inside", "over", "around", "the"}
-        and not words[0].key == "the"
+        and words[0].key != "the"
     ):
         words = words[1:]
     flat = keys(words)
@@ -214,7 +213,7 @@ def _look(command: Command) -> Command:
 
 
 def _whether(command: Command) -> Command:
-    """ "Whether S": the subject of S is what to look at."""
+    """For "Whether S": the subject of S is what to look at."""
     lex = lexicon()
     words = _trim_end(command.words)
     flat = keys(words)
@@ -304,7 +303,7 @@ def _transfer(command: Command, is_person: IsPerson) -> Command:
 
 
 def _as_kinds(words: Phrase) -> Phrase:
-    """ "Something to drink" is one thing, whatever its words."""
+    """For "Something to drink" is one thing, whatever its words."""
     flat = keys(words)
     for said, kind in lexicon().need_phrases.items():
         wanted = tuple(said.split())
@@ -330,7 +329,7 @@ def _cut_at(words: Phrase, markers: frozenset[str]) -> dict[str, Phrase]:
 
 
 def _double_object(words: Phrase, is_person: IsPerson) -> tuple[Phrase, Phrase]:
-    """ "him water", "the man the cup": who gets it stands first."""
+    """For "him water", "the man the cup": who gets it stands first."""
     lex = lexicon()
     words = tuple(word for word in words if word.is_word)
     if len(words) < 2:

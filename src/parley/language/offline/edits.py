@@ -29,7 +29,6 @@ _FORGET_STARTS = (
     ("clear",),
     ("wipe",),
 )
-_TOLD = frozenset("everything all that what i we you have ever told said know remember remembered about of the facts memories memory from now please just so far your".split())
 
 
 @dataclass(frozen=True, slots=True)
@@ -111,7 +110,7 @@ def _step_index(rest: tuple[str, ...], count: int) -> int | None:
 
 
 def _named_step(rest: tuple[str, ...], queue: Sequence[ActionCall], verb: str) -> int | None:
-    """ "Drop the inspection", "cancel going to the door": the one step whose name or words say so."""
+    """For "Drop the inspection", "cancel going to the door": the one step whose name or words say so."""
     if verb == "forget" or not rest:
         return None
     wanted = (
@@ -136,7 +135,7 @@ def _said(step: ActionCall) -> str:
 
 
 def steps_of(command: Command, scene: Scene) -> list[int]:
-    """Pending steps that do what a negated command forbids, ascending; the one being executed is left alone."""
+    """Pending steps that do what is forbidden, ascending; the one being executed is left alone."""
     target = plain(bare(command.place or command.theme)).lower()
     if not target:
         return []
@@ -207,7 +206,7 @@ def _forget(words: Phrase, scene: Scene) -> Edit | None:
     while about and about[-1].key in drop_tail and len(about) > 1:
         about = about[:-1]
     everything = {"everything", "all"} & set(keys(words[len(start) : len(start) + 2]))
-    said_only = set(keys(words[len(start) :])) <= _TOLD
+    said_only = set(keys(words[len(start) :])) <= lexicon().told
     if (everything and said_only) or keys(about)[-1:] == ("memories",):
         names = [entry.name for entry in scene.situation.memory]
         return Edit(

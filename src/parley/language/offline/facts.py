@@ -49,7 +49,28 @@ class Remembered:
 
 
 _NOT_SUBJECTS = frozenset(
-    ["what", "where", "who", "when", "why", "how", "which", "there", "you", "let", "if", "whether", "please", "can", "could", "would", "will", "do", "does", "did"]
+    [
+        "what",
+        "where",
+        "who",
+        "when",
+        "why",
+        "how",
+        "which",
+        "there",
+        "you",
+        "let",
+        "if",
+        "whether",
+        "please",
+        "can",
+        "could",
+        "would",
+        "will",
+        "do",
+        "does",
+        "did",
+    ]
 )
 _STATE_VERBS = frozenset(
     [
@@ -139,7 +160,7 @@ def _place(phrase: Phrase, relation: str) -> Phrase:
 
 
 def _placed(phrase: Phrase) -> Fact | None:
-    """ "I put the box on the shelf", "we keep the keys in the drawer"."""
+    """For "I put the box on the shelf", "we keep the keys in the drawer"."""
     flat = keys(phrase)
     lex = lexicon()
     if flat[0] not in {"i", "we", "somebody", "someone", "they", "he", "she"}:
@@ -165,7 +186,7 @@ def _placed(phrase: Phrase) -> Fact | None:
 
 
 def _place_first(phrase: Phrase) -> Fact | None:
-    """ "In the drawer there is a key", "on the desk you will find the box"."""
+    """For "In the drawer there is a key", "on the desk you will find the box"."""
     flat = keys(phrase)
     found = lexicon().places.match(flat)
     if found is None:
@@ -186,7 +207,7 @@ def _place_first(phrase: Phrase) -> Fact | None:
 
 
 def _found(phrase: Phrase) -> Fact | None:
-    """ "You can find the keys in the drawer"."""
+    """For "You can find the keys in the drawer"."""
     flat = keys(phrase)
     if flat[0] not in {"you", "one", "we"} or "find" not in flat[1:5]:
         return None
@@ -198,7 +219,7 @@ def _found(phrase: Phrase) -> Fact | None:
 
 
 def _said_of(phrase: Phrase) -> Fact | None:
-    """ "X is on the Y", "X has moved to the Y", "X stands by the Y", "X is locked"."""
+    """For "X is on the Y", "X has moved to the Y", "X stands by the Y", "X is locked"."""
     lex = lexicon()
     flat = keys(phrase)
     if flat[0] in _NOT_SUBJECTS:

@@ -2,8 +2,8 @@
 
 Words are compared in steps, each looser than the one before: the same words, the same head noun with all
 modifiers, words of the same meaning, a general word for that kind of thing, any words of the description, and
-last typing errors. The first step that finds anything decides. Letters and numbers are compared exactly in every
-step. Then what is said about the place, the size and the distance chooses among the finds.
+last typing errors. The first step that finds anything decides. Letters and numbers are compared exactly in
+every step. Then what is said about the place, the size and the distance chooses among the finds.
 """
 
 from __future__ import annotations
@@ -167,8 +167,20 @@ def _candidates(noun: NounPhrase, profiles: Sequence[_Profile]) -> tuple[list[_P
     return [], ()
 
 
-_SIZES = {"large": 1.0, "big": 1.0, "huge": 1.0, "largest": 1.0, "biggest": 1.0, "larger": 1.0, "bigger": 1.0, "small": -1.0,
-          "little": -1.0, "tiny": -1.0, "smallest": -1.0, "smaller": -1.0}  # fmt: skip
+_SIZES = {
+    "large": 1.0,
+    "big": 1.0,
+    "huge": 1.0,
+    "largest": 1.0,
+    "biggest": 1.0,
+    "larger": 1.0,
+    "bigger": 1.0,
+    "small": -1.0,
+    "little": -1.0,
+    "tiny": -1.0,
+    "smallest": -1.0,
+    "smaller": -1.0,
+}
 _SETTLED_LATER = frozenset(_SIZES) | {
     "nearest",
     "closest",

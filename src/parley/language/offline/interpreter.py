@@ -58,8 +58,7 @@ def interpret(situation: Situation) -> ChatAction:
     if request is not None:
         words, targets = addressing.addressed(_mended(tokens(request.message), situation), situation)
         situation = replace(situation, history=request.history)
-    result = _Reader(Scene.of(situation, request.hints if request else ()), targets).read(words)
-    return result
+    return _Reader(Scene.of(situation, request.hints if request else ()), targets).read(words)
 
 
 def _say(
@@ -74,7 +73,7 @@ def _say(
 
 def _mended(words: Phrase, situation: Situation) -> Phrase:
     """Typing errors in small words and verbs put right; nouns are compared loosely later."""
-    known = set(lexicon().vocabulary) | set(_COMMON)
+    known = set(lexicon().vocabulary)
     for item in situation.objects:
         known.update(
             word.key
@@ -86,38 +85,7 @@ def _mended(words: Phrase, situation: Situation) -> Phrase:
     for info in situation.catalogue:
         known.update(split_name(info.name))
     known.update(name.lower() for name in situation.robots)
-    return mend(words, frozenset(known), _SMALL, _verbs())
-
-
-_COMMON = frozenset(
-    [
-        "whose",
-        "name",
-        "your",
-        "my",
-        "lot",
-        "of",
-        "many",
-        "much",
-        "more",
-        "most",
-        "than",
-        "other",
-        "another",
-        "back",
-        "bottom",
-        "top",
-        "side",
-        "middle",
-        "end",
-        "thirsty",
-        "hungry",
-    ]
-)
-_SMALL = frozenset(
-    "please could would where what then there before after first finally remember cancel everything second step the "
-    "and thirsty hungry whether with from near between front next".split()
-)
+    return mend(words, frozenset(known), lexicon().often_mistyped, _verbs())
 
 
 @cache
@@ -154,7 +122,7 @@ class _Reader:
         self._learned()
         return self._result(self._reply(), self.tasks.steps)
 
-    # -- clauses -------------------------------------------------------------------------------------------
+    # -- clauses --
 
     def _clause(self, clause: Clause, *, alone: bool, index: int) -> None:
         start = len(self.tasks.steps)
@@ -177,8 +145,8 @@ class _Reader:
             if control == "start" and not alone and index:
                 return True
             if control == "stop" and not alone:
-                # "Stop and go to the desk": the new order takes the place of the old ones. Elsewhere ("go to the
-                # desk and wait there") standing still is what the robot does anyway.
+                # "Stop and go to the desk": the new order takes the place of the old ones. Elsewhere ("go to
+                # the desk and wait there") standing still is what the robot does anyway.
                 if index or keys(words)[0] not in {"stop", "halt"}:
                     return True
                 control = "clear"
@@ -222,7 +190,11 @@ class _Reader:
     def _command(self, clause: Clause) -> Command | None:
         command = read_command(clause.words, self.scene.is_person, self.scene.catalogue.verbs)
         words = strip_openers(clause.words)
-        if keys(words)[:1] == ("you",) and keys(words)[2:3] == ("find",) and read_statement(words) is not None:
+        if (
+            keys(words)[:1] == ("you",)
+            and keys(words)[2:3] == ("find",)
+            and read_statement(words) is not None
+        ):
             return None
         if command is None:
             command = self._wish(words) or self._need(words) or self._elliptical(words)
@@ -236,7 +208,7 @@ class _Reader:
         return command
 
     def _wish(self, words: Phrase) -> Command | None:
-        """ "I would like some tea", "he needs the cup": something is to be brought."""
+        """For "I would like some tea", "he needs the cup": something is to be brought."""
         found = lexicon().wants.match(keys(words))
         if found is not None and found[0] < len(words):
             theme = words[found[0] :]
@@ -261,7 +233,7 @@ class _Reader:
         return None
 
     def _need(self, words: Phrase) -> Command | None:
-        """ "X is thirsty": something to drink is to be brought to X, unless the message says what."""
+        """For "X is thirsty": something to drink is to be brought to X, unless the message says what."""
         flat = keys(words)
         state = next((w for w in flat[2:] if w in lexicon().needs), None)
         link = next(
@@ -283,7 +255,7 @@ class _Reader:
         )
 
     def _elliptical(self, words: Phrase) -> Command | None:
-        """ "Go to A, then B": a bare noun phrase does again what the clause before did."""
+        """For "Go to A, then B": a bare noun phrase does again what the clause before did."""
         if (
             self.last is None
             or self.last.kind not in {"motion", "look", "search"}
@@ -298,7 +270,9 @@ class _Reader:
         if not words or any(w.key in lexicon().be for w in words):
             return None
         if self.last.kind == "motion":
-            return replace(self.last, place=words, clause=(Word("go", "go"), Word("to", "to"), *words), negated=negated)
+            return replace(
+                self.last, place=words, clause=(Word("go", "go"), Word("to", "to"), *words), negated=negated
+            )
         return replace(self.last, theme=words, place=(), clause=words, negated=negated)
 
     def _do(self, command: Command) -> None:
@@ -332,7 +306,7 @@ class _Reader:
         return True
 
     def _note(self, clause: Clause) -> bool:
-        """ "Remember that <anything>": kept as it was said."""
+        """For "Remember that <anything>": kept as it was said."""
         words = strip_openers(clause.words)
         found = lexicon().reporting.match(keys(words))
         if (
@@ -455,7 +429,7 @@ class _Reader:
         found = ground_phrase(phrase, self.scene.objects)
         return plain(phrase) if found.outcome != "none" else ""
 
-    # -- the result ----------------------------------------------------------------------------------------
+    # -- the result --
 
     def _command_once(self, command: SystemCommand, reply: str) -> None:
         if command not in self.commands:

@@ -1,26 +1,15 @@
-"""The word lists of the offline engine, read once from `data/` (general English, nothing about any world).
-
-Files are read as plain text values: in them ``no`` and ``on`` are words, not truth values.
-"""
+"""The word lists of the offline engine, read once from `data/` (general English, nothing about any world)."""
 
 from __future__ import annotations
 
 from collections.abc import Iterable, Mapping
 from dataclasses import dataclass
 from functools import cache
-from importlib import resources
 from typing import Any
 
-import yaml
+from parley.language.word_lists import load_data
 
-__all__ = ["Lexicon", "PhraseTable", "lexicon", "load_data"]
-
-
-def load_data(name: str) -> Any:
-    """The content of one data file, every scalar as text."""
-    path = resources.files("parley.language.offline") / "data" / f"{name}.yaml"
-    # The base loader builds nothing but text, lists and mappings.
-    return yaml.load(path.read_text(encoding="utf-8"), Loader=yaml.BaseLoader)
+__all__ = ["Lexicon", "PhraseTable", "lexicon"]
 
 
 class PhraseTable:
@@ -103,6 +92,13 @@ class Lexicon:
     """Words before which ``'s`` is "is" and no possessive."""
     foreign: frozenset[str]
     """Small words of other languages."""
+    prohibitions: PhraseTable
+    everybody: PhraseTable
+    your_choice: PhraseTable
+    told: frozenset[str]
+    often_mistyped: frozenset[str]
+    meaningful: frozenset[str]
+    """Words of these lists that carry meaning of their own."""
     effects: Mapping[str, str]
     action_words: Mapping[str, str]
     synonyms: Mapping[str, frozenset[str]]
@@ -121,7 +117,7 @@ def lexicon() -> Lexicon:
     words, verbs, thesaurus = load_data("words"), load_data("verbs"), load_data("thesaurus")
     special = {"irregular", "effects", "action_words"}
     classes = {name: frozenset(listed) for name, listed in verbs.items() if name not in special}
-    # Earlier classes win where a verb is listed twice, except that a class list is never overwritten by "other".
+    # Earlier classes win where a verb is listed twice.
     table: dict[str, str] = {}
     for name, listed in verbs.items():
         if name not in special | {"drop_step", "forget", "remember"}:
@@ -132,11 +128,28 @@ def lexicon() -> Lexicon:
     sets = {
         name: frozenset(words[name])
         for name in (
-            "determiners", "quantifiers", "free_choice", "person_pronouns", "operator_pronouns", "thing_pronouns",
-            "place_pronouns", "be", "auxiliaries", "location_verbs", "transition_verbs", "placing_verbs",
-            "person_words", "generic_things", "question_starts", "insults", "jokes",
+            "determiners",
+            "quantifiers",
+            "free_choice",
+            "person_pronouns",
+            "operator_pronouns",
+            "thing_pronouns",
+            "place_pronouns",
+            "be",
+            "auxiliaries",
+            "location_verbs",
+            "transition_verbs",
+            "placing_verbs",
+            "person_words",
+            "generic_things",
+            "question_starts",
+            "insults",
+            "jokes",
+            "told",
+            "often_mistyped",
+            "meaningful",
         )
-    }  # fmt: skip
+    }
     return Lexicon(
         **sets,
         ordinals={word: int(number) for word, number in words["ordinals"].items()},
@@ -161,6 +174,9 @@ def lexicon() -> Lexicon:
         is_subjects=frozenset(words["contractions"]["subjects"]),
         after_is=frozenset(words["contractions"]["before"]),
         foreign=foreign,
+        prohibitions=PhraseTable.of(words["prohibitions"]),
+        everybody=PhraseTable.of(words["everybody"]),
+        your_choice=PhraseTable.of(words["your_choice"]),
         effects=verbs["effects"],
         action_words=verbs["action_words"],
         synonyms=_synonyms(thesaurus["same"]),

@@ -93,7 +93,7 @@ def noun_phrase(phrase: Phrase) -> NounPhrase:
 
 
 def number_of(word: str) -> str:
-    """Numerals as digits ("two", "second" -> "2"), other words unchanged; "one" stays, it also means a thing."""
+    """Numerals as digits ("two", "second" -> "2"); "one" stays, it also means a thing."""
     lex = lexicon()
     if word in lex.ordinals:
         return str(lex.ordinals[word])

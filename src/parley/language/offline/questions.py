@@ -10,12 +10,13 @@ from parley.language.offline.abilities import abilities
 from parley.language.offline.clauses import Clause
 from parley.language.offline.facts import Remembered, find_fact, strip_openers
 from parley.language.offline.grounding import describe, ground_phrase
-from parley.language.offline.lexicon import lexicon, load_data
+from parley.language.offline.lexicon import lexicon
 from parley.language.offline.nouns import bare, noun_phrase
 from parley.language.offline.replies import agrees
-from parley.language.offline.saying import a, listing, the, whole_sentence
+from parley.language.offline.saying import a, capital, listing, the, whole_sentence
 from parley.language.offline.scene import Scene
 from parley.language.offline.text import Phrase, keys, plain, split_name
+from parley.language.word_lists import load_data
 from parley.messages.chat import ActionCall
 
 __all__ = ["Answer", "answer", "is_yes"]
@@ -120,7 +121,7 @@ def _open_question(flat: tuple[str, ...], marked: bool) -> Answer | None:
     return None
 
 
-# -- fixed kinds -----------------------------------------------------------------------------------------------
+# -- fixed kinds --
 
 
 def _say_abilities(scene: Scene, _: Phrase) -> str:
@@ -211,7 +212,8 @@ def _say_memory(scene: Scene, rest: Phrase) -> str:
         return " ".join(whole_sentence(item.fact.sentence) for item in found)
     on_map = ground_phrase(about, scene.objects)
     if on_map.outcome != "none":
-        return f"I know {listing([the(describe(item, scene.objects)) for item in on_map.candidates])} on the map, and nothing else about it."
+        names = listing([the(describe(item, scene.objects)) for item in on_map.candidates])
+        return f"I know {names} on the map, and nothing else about it."
     return f"I do not know anything about {the(plain(about))}. Tell me, and I will remember it."
 
 
@@ -253,11 +255,11 @@ def step_words(step: ActionCall) -> str:
     return " ".join([*split_name(step.name), *values])
 
 
-# -- questions about the world ---------------------------------------------------------------------------------
+# -- questions about the world --
 
 
 def _where(words: Phrase, flat: tuple[str, ...], scene: Scene, _: bool) -> Answer | None:
-    """ "Where is X?", "where can I find X?", "have you seen X?"."""
+    """For "Where is X?", "where can I find X?", "have you seen X?"."""
     if flat[0] == "where":
         rest = words[1:]
         while len(rest) > 1 and rest[0].key in lexicon().be | lexicon().auxiliaries | {
@@ -291,19 +293,17 @@ def _where(words: Phrase, flat: tuple[str, ...], scene: Scene, _: bool) -> Answe
         return Answer(" ".join(whole_sentence(item.fact.sentence) for item in hits))
     found = ground_phrase(about, scene.objects, scene.situation.robot_pose)
     if found.outcome == "match":
-        item = found.candidates[0]
-        return Answer(
-            f"{whole_sentence(the(describe(item, scene.objects)))[:-1]} is on my map at x {item.x_m:.1f} m, y {item.y_m:.1f} m."
-        )
+        thing = found.candidates[0]
+        name = capital(the(describe(thing, scene.objects)))
+        return Answer(f"{name} is on my map at x {thing.x_m:.1f} m, y {thing.y_m:.1f} m.")
     if found.outcome == "ambiguous":
-        return Answer(
-            f"I know several on my map: {listing([the(describe(i, scene.objects)) for i in found.candidates])}."
-        )
+        names = listing([the(describe(i, scene.objects)) for i in found.candidates])
+        return Answer(f"I know several on my map: {names}.")
     return Answer(f"I do not know where {the(plain(about))} is. Tell me and I will remember it.")
 
 
 def _what_in(words: Phrase, flat: tuple[str, ...], scene: Scene, _: bool) -> Answer | None:
-    """ "What is in X?", "who is on X?": the remembered facts about that place."""
+    """For "What is in X?", "who is on X?": the remembered facts about that place."""
     if flat[0] not in {"what", "who"} or len(flat) < 4 or flat[1] not in lexicon().be:
         return None
     found = lexicon().places.match(flat, 2)
@@ -343,7 +343,7 @@ def _who(words: Phrase, flat: tuple[str, ...], scene: Scene, _: bool) -> Answer 
 
 
 def _whether(words: Phrase, flat: tuple[str, ...], scene: Scene, asked: bool) -> Answer | None:
-    """ "Is there an X in the Y?", "is the X open?": from memory, else looking is offered."""
+    """For "Is there an X in the Y?", "is the X open?": from memory, else looking is offered."""
     if flat[0] not in lexicon().be or len(flat) < 3 or flat[1] == "you" or (not asked and flat[1] != "there"):
         return None
     there = flat[1] == "there"
@@ -371,12 +371,12 @@ def _whether(words: Phrase, flat: tuple[str, ...], scene: Scene, asked: bool) ->
     if not there:
         return _state(rest, scene, words)
     return Answer(
-        f"I do not know of {a(plain(subject))}{' there' if place else ''}. Tell me if there is one, and where."
+        f"I do not know of {a(plain(subject))}{' there' if place else ''}. Tell me if there is one."
     )
 
 
 def _state(rest: Phrase, scene: Scene, words: Phrase) -> Answer:
-    """ "Is the X open?"."""
+    """For "Is the X open?"."""
     size = _grounded_prefix(rest, scene)
     if size:
         turned = (*rest[:size], words[0], *rest[size:])

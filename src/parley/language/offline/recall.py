@@ -1,4 +1,4 @@
-"""Which remembered facts matter for a message: shared words, words of the same meaning, and one hop further."""
+"""Which remembered facts matter for a message: shared words, like words, and one hop further."""
 
 from __future__ import annotations
 
@@ -52,13 +52,10 @@ def _content(text: str) -> set[str]:
     result: set[str] = set()
     for word in tokens(text):
         key = word.key.removesuffix("'s")
-        content = key in lex.synonyms or key in lex.needs or key not in lex.vocabulary or key in _NOUNS
+        content = (
+            key in lex.synonyms or key in lex.needs or key not in lex.vocabulary or key in lex.meaningful
+        )
         if word.is_word and content and len(key) > 1:
             result.add(singular(key))
             result.add(lemma(key))
     return result - {"location", "place", "info", "memory", "fact", "state"}
-
-
-_NOUNS = frozenset(
-    {"water", "light", "plant", "book", "phone", "person", "operator", "patient", "guest", "visitor", "robot"}
-)

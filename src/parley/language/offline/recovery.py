@@ -1,8 +1,8 @@
 """What to do when a step failed: decided by the failure's code and facts, never by its prose.
 
 Without an answer of the operator only memory may decide; else a question is asked. With an answer the failed
-step is repaired, tried again or left out, or the plan is cancelled; an answer that says nothing is asked again in
-other words.
+step is repaired, tried again or left out, or the plan is cancelled; an answer that says nothing is asked
+again in other words.
 """
 
 from __future__ import annotations
@@ -21,12 +21,12 @@ from parley.language.offline.commands import read_command
 from parley.language.offline.facts import memory_name, read_statement, remembered
 from parley.language.offline.grounding import describe, ground_phrase
 from parley.language.offline.interpreter import interpret
-from parley.language.offline.lexicon import load_data
 from parley.language.offline.nouns import noun_phrase
 from parley.language.offline.replies import agrees
 from parley.language.offline.saying import capital, listing, the, whole_sentence
 from parley.language.offline.scene import place_said
 from parley.language.offline.text import keys, tokens
+from parley.language.word_lists import load_data
 from parley.messages.chat import ActionCall, ChatAction, SystemCommand
 from parley.messages.status import ActionInfo
 from parley.world.object_map import MapObject
@@ -36,19 +36,31 @@ __all__ = ["resolve"]
 AGAIN, WITHOUT, STOP = "try again", "go on without it", "stop"
 
 _ASKING: dict[FailureCode, tuple[str, str]] = {
-    FailureCode.UNREACHABLE: ("I cannot find a way to get there.", "Is there a door to open, or should I go on without it?"),
-    FailureCode.BLOCKED: ("Something is in my way.", "Can you move it, so that I can try again, or should I go on without it?"),
+    FailureCode.UNREACHABLE: (
+        "I cannot find a way to get there.",
+        "Is there a door to open, or should I go on without it?",
+    ),
+    FailureCode.BLOCKED: (
+        "Something is in my way.",
+        "Can you move it, so that I can try again, or should I go on without it?",
+    ),
     FailureCode.TIMED_OUT: ("It took too long, so I gave up for now.", "Should I try again?"),
     FailureCode.UNAVAILABLE: ("Something I need does not answer.", "Should I try again?"),
-    FailureCode.NOT_CAPABLE: ("I am not able to do this.", "Can you do it for me and tell me when it is done?"),
+    FailureCode.NOT_CAPABLE: (
+        "I am not able to do this.",
+        "Can you do it for me and tell me when it is done?",
+    ),
     FailureCode.DECLINED: ("You said no to this step.", "Should I go on without it?"),
-    FailureCode.NOT_UNDERSTOOD: ("I could not understand the answer.", "Is it done, or should I go on without it?"),
+    FailureCode.NOT_UNDERSTOOD: (
+        "I could not understand the answer.",
+        "Is it done, or should I go on without it?",
+    ),
     FailureCode.HARDWARE: ("A part of me does not work.", "Please have a look at me. Should I try again?"),
     FailureCode.INTERNAL: ("Something went wrong inside me.", "Should I try again?"),
     FailureCode.ATTENTION: ("I found something that you should decide about.", "Should I go on?"),
     FailureCode.NO_MATCH: ("I cannot find it.", "What should I do?"),
     FailureCode.AMBIGUOUS: ("Several things fit.", "Which one do you mean?"),
-}  # fmt: skip
+}
 
 
 def resolve(situation: ErrorSituation) -> ChatAction:
@@ -69,7 +81,7 @@ def resolve(situation: ErrorSituation) -> ChatAction:
     return _answered(situation, reply) or _ask_again(situation, candidates)
 
 
-# -- asking ----------------------------------------------------------------------------------------------------
+# -- asking --
 
 
 def _candidates(situation: ErrorSituation) -> list[MapObject]:
@@ -148,7 +160,7 @@ def _question(text: str, choices: Sequence[str]) -> ChatAction:
     return ChatAction(message_response=text, success=False, choices=tuple(choices))
 
 
-# -- answers ---------------------------------------------------------------------------------------------------
+# -- answers --
 
 
 def _answered(situation: ErrorSituation, reply: str) -> ChatAction | None:
@@ -306,16 +318,21 @@ def _other_order(situation: ErrorSituation, reply: str) -> ChatAction | None:
         return None
     understood = interpret(
         Situation(
-            reply, memory=situation.memory, queue=(situation.failed_action, *situation.pending), objects=situation.objects,
-            robot_pose=situation.robot_pose, robot=situation.robot, catalogue=situation.catalogue,
+            reply,
+            memory=situation.memory,
+            queue=(situation.failed_action, *situation.pending),
+            objects=situation.objects,
+            robot_pose=situation.robot_pose,
+            robot=situation.robot,
+            catalogue=situation.catalogue,
         )
-    )  # fmt: skip
+    )
     if not understood.queue:
         return None
     return understood.model_copy(update={"success": True})
 
 
-# -- memory ----------------------------------------------------------------------------------------------------
+# -- memory --
 
 
 def _from_memory(situation: ErrorSituation, candidates: Sequence[MapObject]) -> ChatAction | None:
@@ -358,7 +375,7 @@ def _corrected_by_memory(situation: ErrorSituation) -> ChatAction | None:
     return None
 
 
-# -- the failed step -------------------------------------------------------------------------------------------
+# -- the failed step --
 
 
 def _words(step: ActionCall) -> str:

@@ -35,7 +35,7 @@ def capital(text: str) -> str:
 
 
 def listing(parts: Sequence[str], last: str = "and") -> str:
-    """ "A, B and C"."""
+    """For "A, B and C"."""
     if len(parts) < 2:
         return "".join(parts)
     return f"{', '.join(parts[:-1])} {last} {parts[-1]}"

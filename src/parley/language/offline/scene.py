@@ -160,7 +160,7 @@ class Scene:
             item = found.candidates[0]
             return Place(describe(item, self.objects), item, via)
         if found.outcome == "ambiguous":
-            # What a memory leaves open is found out on the way; only the operator's own words are asked about.
+            # What a memory leaves open is found out on the way; only the operator's own words are asked.
             if remembered_words:
                 return Place(plain(bare(phrase)), None, via)
             item = self.pick(phrase, found.candidates)
@@ -178,7 +178,7 @@ class Scene:
         raise self.unknown(phrase, found.candidates)
 
     def told_place(self, phrase: Phrase, near: Sequence[MapObject] = ()) -> Place | None:
-        """Where the operator's answer to an earlier question says that something is; it is remembered then."""
+        """Where the operator's answer to an earlier question puts something; it is remembered."""
         for index, hint in enumerate(self.hints):
             meant = choose_object(near, hint, self.objects, self.situation.robot_pose) if near else None
             if meant is not None:
@@ -195,8 +195,7 @@ class Scene:
             fact = replace(fact, sentence=fact.sentence[0].upper() + fact.sentence[1:])
             self.learned.append(fact)
             known = Remembered(fact, MemoryEntry(name=memory_name(fact, self.facts), data=fact.sentence))
-            place = self.place(words, hops=1, via=known)
-            return place
+            return self.place(words, hops=1, via=known)
         return None
 
     def remembered_place(self, phrase: Phrase, hops: int = 0) -> Place | None:

@@ -41,7 +41,7 @@ def reply(words: Phrase, *, alone: bool = True) -> str | None:
         and "not" not in flat
         and set(flat[2:]) & {"bored", "sad", "happy", "tired", "lonely", "angry"}
     ):
-        return "I am sorry, I cannot help with feelings. Is there somewhere I should go, or something to look at?"
+        return "I am sorry, I cannot help with feelings. Is there something to look at for you?"
     if (
         set(flat) & lex.jokes
         and flat[0] in {"do", "what", "how", "tell", "who", "is", "are", "sing", "can", "which", "should"}

@@ -77,7 +77,7 @@ def by_anchor(
 
 
 def _on_side(item: MapObject, anchor: MapObject, left: bool, pose: Pose2D | None) -> bool:
-    """Whether the item is left (or right) of the anchor, seen by the robot, or on the map with x to the right."""
+    """Whether the item is left (or right) of the anchor, seen by the robot or on the map (x right)."""
     view = pose.bearing_to(anchor.x_m, anchor.y_m) if pose is not None else math.pi / 2
     dx, dy = item.x_m - anchor.x_m, item.y_m - anchor.y_m
     lateral = math.cos(view) * dy - math.sin(view) * dx

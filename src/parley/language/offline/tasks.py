@@ -1,7 +1,7 @@
 """From commands to steps: what the robot's own catalogue offers to do what was asked for.
 
-The general kinds of tasks (going, looking, fetching) are put together from roles of actions; everything else is
-matched against names, phrases and parameters of the catalogue. What cannot be done is said so.
+The general kinds of tasks (going, looking, fetching) are put together from roles of actions; everything else
+is matched against names, phrases and parameters of the catalogue. What cannot be done is said so.
 """
 
 from __future__ import annotations
@@ -85,7 +85,7 @@ class Tasks:
             case _:
                 self._other(command)
 
-    # -- going ---------------------------------------------------------------------------------------------
+    # -- going --
 
     def _go(self, command: Command) -> None:
         if not command.place:
@@ -156,7 +156,7 @@ class Tasks:
         self.will.append("come back here")
         self.here = ""
 
-    # -- looking -------------------------------------------------------------------------------------------
+    # -- looking --
 
     def _look(self, command: Command) -> None:
         looker = self.catalogue.with_role("look", "search")
@@ -254,7 +254,7 @@ class Tasks:
 
     def _searcher(self, theme: Phrase) -> ActionInfo | None:
         wanted = "person" if self.scene.is_person(theme) else "object"
-        for info in self.catalogue.all_with_role("search"):
+        for info in (*self.catalogue.all_with_role("search"), *self.catalogue.all_with_role("meet")):
             roles = {parameter_role(name) for name in text_inputs(info)}
             if wanted in roles or not roles & {"person", "object"}:
                 return info
@@ -271,7 +271,7 @@ class Tasks:
         place = self.scene.remembered_place(theme)
         return place if place is not None else self.scene.told_place(theme)
 
-    # -- carrying ------------------------------------------------------------------------------------------
+    # -- carrying --
 
     def _fetch(self, command: Command) -> None:
         if not command.theme:
@@ -411,7 +411,7 @@ class Tasks:
             raise UnableError("take people along")
         self._invoke(guide, replace(command, theme=theme, recipient=theme))
 
-    # -- everything else -----------------------------------------------------------------------------------
+    # -- everything else --
 
     def _other(self, command: Command) -> None:
         info = self.catalogue.for_verb(command.verb) or self.catalogue.for_verb(command.verb.split()[0])
@@ -420,7 +420,10 @@ class Tasks:
             self._look(replace(command, kind="look"))
             return
         if info is None and command.kind == "wait" and self.steps:
-            if any(word.key.isdigit() or word.key in {"until", "minute", "minutes", "seconds"} for word in command.words):
+            if any(
+                word.key.isdigit() or word.key in {"until", "minute", "minutes", "seconds"}
+                for word in command.words
+            ):
                 self.notes.append("I cannot wait for a set time, so I go on at once.")
             return
         if info is None:

@@ -165,7 +165,29 @@ def closest(word: str, vocabulary: Iterable[str]) -> str | None:
     return nearest.pop() if len(nearest) == 1 else None
 
 
-_BEFORE_VERBS = frozenset("and then please you to first not , . ! ? ; but now just finally kindly let us".split())
+_BEFORE_VERBS = frozenset(
+    [
+        ",",
+        ".",
+        "!",
+        "?",
+        ";",
+        "and",
+        "then",
+        "please",
+        "you",
+        "to",
+        "first",
+        "not",
+        "but",
+        "now",
+        "just",
+        "finally",
+        "kindly",
+        "let",
+        "us",
+    ]
+)
 
 
 def mend(phrase: Phrase, known: frozenset[str], small: frozenset[str], verbs: frozenset[str]) -> Phrase:

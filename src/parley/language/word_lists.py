@@ -1,0 +1,20 @@
+"""Reads the word lists: YAML files of general English (and of stop words in many languages).
+
+Files are read as plain text values: in them ``no`` and ``on`` are words, not truth values.
+"""
+
+from __future__ import annotations
+
+from importlib import resources
+from typing import Any
+
+import yaml
+
+__all__ = ["load_data"]
+
+
+def load_data(name: str) -> Any:
+    """The content of one data file, every scalar as text."""
+    path = resources.files("parley.language") / "offline" / "data" / f"{name}.yaml"
+    # The base loader builds nothing but text, lists and mappings.
+    return yaml.load(path.read_text(encoding="utf-8"), Loader=yaml.BaseLoader)
