@@ -7,9 +7,13 @@ import json
 
 import pytest
 
+from parley.clock import WallClock
+from parley.engine.engine import ActionEngine
 from parley.messages import ros, topics
 from parley.messages.failure import FailureReport
-from tests.umrf.spec_actions import chain, node, planner_chain
+from parley.messages.status import StepCommand
+from parley.messages.wire import to_string
+from tests.umrf.spec_actions import CATALOGUE, chain, node, planner_chain
 
 from .rig import DummyRobot, rigged
 
@@ -176,6 +180,31 @@ async def test_a_modify_appends_to_a_running_graph_without_disturbing_it() -> No
         assert rig.node_states("g", "NoOp_1") == ["RUNNING", "FINISHED"]
 
 
+async def test_one_step_can_be_ended_and_the_plan_goes_on_elsewhere() -> None:
+    async with rigged() as rig:
+        publisher = rig.transport.publisher(topics.STEP)
+        rig.start(planner_chain("g", [node("WaitFor", 0, seconds=60), node("NoOp", 1)]))
+        await rig.until_graph("g", "RUNNING")
+        publisher.publish(to_string(StepCommand(target="B", graph_name="g", node="WaitFor_0")))
+        publisher.publish(to_string(StepCommand(target="A", graph_name="g", node="WaitFor_0")))
+        await rig.until_graph("g", "HALTED")
+        assert rig.node_states("g", "WaitFor_0") == ["RUNNING", "STOPPING", "FINISHED"]
+        assert not rig.node_states("g", "NoOp_1")
+
+
+async def test_unusable_step_commands_are_refused() -> None:
+    async with rigged() as rig:
+        publisher = rig.transport.publisher(topics.STEP)
+        rig.start(planner_chain("g", [node("WaitFor", 0, seconds=60)]))
+        await rig.until_graph("g", "RUNNING")
+        publisher.publish(ros.String("{"))
+        publisher.publish(to_string(StepCommand(target="A", graph_name="h", node="WaitFor_0")))
+        publisher.publish(to_string(StepCommand(target="A", graph_name="g", node="WaitFor_7")))
+        await rig.until(lambda: len(rig.rejections) == 3)
+        codes = [item.problems[0].code for item in rig.rejections]
+        assert codes == ["malformed", "unknown_graph", "unknown_node"]
+
+
 async def test_the_query_service_lists_descriptors_and_graphs_under_both_names() -> None:
     async with rigged() as rig:
         rig.start(chain("g", [node("NoOp", 0)]))
@@ -235,19 +264,17 @@ async def test_closing_stops_what_runs_and_publishes_its_last_state() -> None:
 
 
 async def test_two_engines_share_a_transport() -> None:
-    async with rigged() as rig:
-        from parley.clock import WallClock
-        from parley.engine.engine import ActionEngine
-        from tests.umrf.spec_actions import CATALOGUE
-
-        async with ActionEngine(
+    async with (
+        rigged() as rig,
+        ActionEngine(
             "B",
             transport=rig.transport,
             catalogue=CATALOGUE,
             clock=WallClock(),
             make_context=lambda handle: handle,
-        ):
-            rig.start(chain("g", [node("NoOp", 0)]), targets=("A", "B"))
-            await rig.until(lambda: rig.graph_states("g").count("FINISHED") == 2)
-            await asyncio.sleep(0)
-            assert {item.actor for item in rig.events} == {"A", "B"}
+        ),
+    ):
+        rig.start(chain("g", [node("NoOp", 0)]), targets=("A", "B"))
+        await rig.until(lambda: rig.graph_states("g").count("FINISHED") == 2)
+        await asyncio.sleep(0)
+        assert {item.actor for item in rig.events} == {"A", "B"}

@@ -199,10 +199,9 @@ def test_a_proposed_plan_asks_for_a_yes_and_goes_with_the_decision(view: Operato
     proposal = PlanProposal(id="p", target="Ada", message="I would go.", steps=(call("Go", "go to the box"),))
     lines = view.on_plan(proposal)
     assert [line.text for line in lines] == [
-        "I would go.",
         "Ada would do this:",
         "1. go to the box",
-        "Shall it? Answer yes or no.",
+        "Shall I do that? Answer yes or no.",
     ]
     assert lines[-1].kind == "asked"
     assert view.on_plan(plan(step("go to the box"), state="awaiting_approval")) == []

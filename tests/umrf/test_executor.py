@@ -462,6 +462,19 @@ async def test_a_node_that_ended_during_the_pause_goes_on_along_the_new_edges() 
     assert watched.runs() == ["WaitFor_0", "NoOp_2"]
 
 
+async def test_a_node_that_ended_during_the_pause_may_be_removed() -> None:
+    watched = Watched(planner_chain("g", [node("WaitFor", 0, seconds=0.001), node("Crash", 1)]))
+    watched.run.start()
+    watched.run.pause()
+    await asyncio.sleep(0.02)
+    watched.run.modify(read_graph(planner_chain("g", [node("NoOp", 2)])))
+    watched.run.resume()
+    assert await watched.run.wait() is Result.ON_HALTED
+    watched.run.resume("NoOp_2")
+    await watched.run.wait()
+    assert watched.runs() == ["WaitFor_0", "NoOp_2"]
+
+
 async def test_the_last_child_of_a_running_node_can_be_removed() -> None:
     nodes = [node("WaitFor", 0, seconds=0.01), node("Crash", 1)]
     watched = Watched(planner_chain("g", nodes))

@@ -2,10 +2,12 @@
 
 from __future__ import annotations
 
+from dataclasses import replace
 from typing import Any
 
 import pytest
 
+from parley.messages.pvf import Parameter
 from parley.umrf.flow import Flow
 from parley.umrf.io import read_graph
 from parley.umrf.model import Result
@@ -132,6 +134,32 @@ def test_all_required_exits_must_be_reached() -> None:
     assert effects(flow, "NoOp_1", "on_true") == [("finish", "")]
     raw["graph_exit"] = [item | {"required": False} for item in raw["graph_exit"]]  # type: ignore[operator]
     assert effects(flow_of(raw), "NoOp_0", "on_true") == [("finish", "")]
+
+
+def test_an_optional_exit_without_the_outputs_of_the_graph_does_not_end_it() -> None:
+    ends = [node("NoOp", 0), node("JoinText", 1, left="a", right="b")]
+    refs = [{"name": item["name"], "instance_id": item["instance_id"]} for item in ends]
+    raw = {
+        "graph_name": "g",
+        "graph_entry": refs,
+        "graph_exit": [ref | {"required": False} for ref in refs],
+        "actions": ends,
+    }
+    assert effects(flow_of(raw), "NoOp_0", "on_true") == []
+    assert effects(flow_of(raw), "JoinText_1", "on_true") == [("finish", "")]
+
+
+def test_values_of_another_type_are_not_handed_over() -> None:
+    raw = read_graph(chain("g", [node("NoOp", 0), node("NoOp", 1)]))
+    giver = replace(raw.nodes[0], output_parameters={"size": Parameter("string")})
+    taker = replace(raw.nodes[1], input_parameters={"size": Parameter("number", 1.0)})
+    spec = CATALOGUE.get("NoOp")
+    assert spec is not None
+    flow = Flow(replace(raw, nodes=(giver, taker)), {"NoOp_0": spec, "NoOp_1": spec})
+    flow.start()
+    flow.nodes["NoOp_0"].outputs = {"size": "big"}
+    assert effects(flow, "NoOp_0", "on_true") == [("run", "NoOp_1")]
+    assert flow.nodes["NoOp_1"].values == {"size": 1.0}
 
 
 def handing(remap: list[dict[str, str]], **parameter: Any) -> Flow:

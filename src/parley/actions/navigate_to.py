@@ -2,13 +2,15 @@
 
 from __future__ import annotations
 
+import math
 from typing import Final
 
 from parley.actions.context import ActionContext
 from parley.actions.pose import Pose
+from parley.errors import ActionFailure, FailureCode
 from parley.robots.base import NavigationControl
-from parley.umrf.action import action
-from parley.world.geometry import Pose2D
+from parley.umrf.action import Outcome, action
+from parley.world.object_map import ObjectMap
 
 __all__ = ["TIMEOUT_S", "navigate_to"]
 
@@ -21,7 +23,7 @@ TIMEOUT_S: Final = 600.0
     effects=("moves",),
     capabilities=("drive",),
 )
-async def navigate_to(ctx: ActionContext, pose: Pose) -> None:
+async def navigate_to(ctx: ActionContext, pose: Pose) -> Outcome:
     """Drive to a place and face the given way.
 
     Args:
@@ -36,9 +38,18 @@ async def navigate_to(ctx: ActionContext, pose: Pose) -> None:
         ctx.run.progress(1.0 - remaining_m / total_m, f"{remaining_m:.1f} m")
 
     control = NavigationControl(on_progress=on_progress, paused=lambda: ctx.run.paused)
-    arrived = await ctx.robot.navigate(pose.planar(), control, timeout_s=TIMEOUT_S)
-    ctx.run.progress(1.0, _where(arrived))
+    try:
+        arrived = await ctx.robot.navigate(pose.planar(), control, timeout_s=TIMEOUT_S)
+    except ActionFailure as failure:
+        raise _in_words(failure, ctx.world.objects) from failure
+    return Outcome(facts={"pose": Pose.of(arrived)})
 
 
-def _where(pose: Pose2D) -> str:
-    return f"x {pose.x_m:.2f} m, y {pose.y_m:.2f} m"
+def _in_words(failure: ActionFailure, known: ObjectMap) -> ActionFailure:
+    """The same failure with the place where the way is blocked named by what people know there."""
+    at = failure.details.get("at")
+    if failure.code is not FailureCode.BLOCKED or not isinstance(at, dict) or not known.objects:
+        return failure
+    nearest = min(known.objects, key=lambda item: math.hypot(item.x_m - at["x"], item.y_m - at["y"]))
+    text = f"Something is in the way near the {nearest.description}, and I found no way around it."
+    return ActionFailure(failure.code, text, {**failure.details, "near": nearest.id})

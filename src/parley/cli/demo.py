@@ -111,6 +111,8 @@ def _data_folder(name: str) -> Path:
 
 async def _chat(demo: Demo, config: SystemConfig, lang: str) -> None:
     async with demo.system(config) as system:
+        if system.store is not None and system.store.notice:
+            typer.echo(system.store.notice)
         client = TerminalClient(system.transport, lang=lang or _language())
         await client.run(greeting=list(demo.story.examples))
 

@@ -11,6 +11,7 @@ from PIL import Image
 
 from parley.clock import SimClock
 from parley.errors import ConfigError
+from parley.sim.export import export_maps
 from parley.sim.simulator import Simulator
 from parley.sim.world_file import WorldFile
 
@@ -33,13 +34,10 @@ def check(file: WorldArgument) -> None:
 @app.command("map")
 def make_map(
     file: WorldArgument,
-    out: Annotated[Path, typer.Argument(help="Folder for map.yaml and map.pgm.")],
-    robot: RobotOption = "",
+    out: Annotated[Path, typer.Argument(help="Folder for object_map.json, map.yaml and map.pgm.")],
 ) -> None:
-    """Survey the world as a robot's lidar would and save a ROS map."""
-    world = WorldFile.load(file)
-    simulator = Simulator(world, clock=SimClock())
-    simulator.occupancy(_robot(world, robot)).save(out, "map")
+    """Survey the world: a ROS map for its first robot, and the object map."""
+    export_maps(WorldFile.load(file), out)
 
 
 @app.command("picture")

@@ -13,7 +13,15 @@ from typing import Any, Final
 
 from parley.errors import InvalidMessageError
 
-__all__ = ["NATIVE_TYPES", "Parameter", "Parameters", "fits_type", "read_parameters", "write_parameters"]
+__all__ = [
+    "NATIVE_TYPES",
+    "Parameter",
+    "Parameters",
+    "fits_type",
+    "native_type",
+    "read_parameters",
+    "write_parameters",
+]
 
 Parameters = Mapping[str, "Parameter"]
 """Flat parameter name -> parameter."""
@@ -65,6 +73,13 @@ def fits_type(pvf_type: str, value: Any) -> bool:
         case "bools":
             return isinstance(value, list) and all(isinstance(item, bool) for item in value)
     return False
+
+
+def native_type(value: Any) -> str:
+    """The native type that `value` fits, or `object` for what is never written in JSON."""
+    return next(
+        (kind for kind in ("bool", "number", "string", "numbers") if fits_type(kind, value)), "object"
+    )
 
 
 def _is_number(value: Any) -> bool:

@@ -31,7 +31,10 @@ from parley.nodes.plan_steps import (
     StopGraph,
     build_graph,
     handed_over,
+    known_outputs,
+    with_givers,
     with_values,
+    without_orphans,
 )
 from parley.umrf.model import Graph, GraphState, Node, NodeState
 
@@ -176,7 +179,7 @@ class TargetPlan:
         if index == 0:
             return self.skip()
         self.steps.remove(pending[index])
-        self._drop_orphans()
+        self.steps = without_orphans(self.steps)
         return self._push()
 
     def skip(self) -> list[Effect]:
@@ -189,11 +192,18 @@ class TargetPlan:
             return self._replace_failed([])
         if current.state == "queued" and self.run not in ("starting", "running"):
             current.state = "skipped"
-            self._drop_orphans()
+            self.steps = without_orphans(self.steps)
             return self._push()
         current.ending = True
         self._pause_wanted = False
         return self._end(current) if current.state != "queued" else []
+
+    def correction(self, calls: Sequence[ActionCall]) -> list[ActionCall]:
+        """What will really be put in the failed step's place: `calls` with the values they can be given."""
+        failed = self.failed
+        if failed is None or not calls:
+            return list(calls)
+        return with_givers(calls, self.steps[: self.steps.index(failed)])
 
     def correct(self, calls: Sequence[ActionCall]) -> list[Effect]:
         """Put `calls` in the place of the failed step (none: leave it out) and go on.
@@ -284,26 +294,14 @@ class TargetPlan:
             self.held = self.given_up = False
             self._add(calls)
             return self._push()
-        index = self.steps.index(failed)
+        calls, index = self.correction(calls), self.steps.index(failed)
         del self.steps[index]
-        self._add([*self._givers(calls, index), *calls], index)
-        self._drop_orphans()
+        self._add(calls, index)
+        self.steps = without_orphans(self.steps)
         self.held = self.given_up = False
         self._add(self._hold_queue)
         self._hold_queue = []
         return self._push()
-
-    def _givers(self, calls: Sequence[ActionCall], index: int) -> list[ActionCall]:
-        """The step to repeat first, where `calls` need handed-over values that are not known here."""
-        if not calls:
-            return []
-        blank = {name for name, value in calls[0].input_parameters.items() if not value.has_data}
-        if blank <= set(self._known_outputs(index)):
-            return []
-        for step in reversed(self.steps[:index]):
-            if step.state == "finished" and blank & set(step.call.output_parameters):
-                return [step.call]
-        return []
 
     def _push(self) -> list[Effect]:
         """Make the engine's graph what the plan says, now or as soon as that is possible."""
@@ -371,41 +369,19 @@ class TargetPlan:
             before = self.steps[index - 1] if index else None
             if before is not None and before.state in OPEN_STATES:
                 continue
-            known = self._known_outputs(index)
+            known = known_outputs(self.steps[:index])
             values = {name: known[name] for name in step.fed if name in known}
             if values:
                 step.call = with_values(step.call, values)
-
-    def _known_outputs(self, index: int) -> dict[str, Any]:
-        """What the steps before `index` gave: of each name what its nearest giver did, if that is known."""
-        known: dict[str, Any] = {}
-        for step in self.steps[:index]:
-            for name in step.call.output_parameters:
-                known.pop(name, None)
-            known.update(step.outputs)
-        return known
 
     def _end(self, step: Step) -> list[Effect]:
         """Make the engine end a step that runs (one that is about to run is ended when it does)."""
         if self._can_end_step():
             return [EndStep(self.graph_name, step.node)]
         step.state = "skipped"
-        self._drop_orphans()
+        self.steps = without_orphans(self.steps)
         self._stopping, self.graph_name, self.run = self.graph_name, "", "stopping"
         return [StopGraph(self._stopping)]
-
-    def _drop_orphans(self) -> None:
-        """Remove waiting steps that lost the step which gave them their inputs."""
-        kept: list[Step] = []
-        for step in self.steps:
-            if step.state == "queued" and step.fed:
-                before = next((s for s in reversed(kept) if s.state not in ("skipped", "stopped")), None)
-                offered = set(before.call.output_parameters) if before else set()
-                known: set[str] = set().union(*(s.outputs for s in kept))
-                if not step.fed <= (offered | known):
-                    continue
-            kept.append(step)
-        self.steps = kept
 
     def _on_node(self, step: Step, node: Node) -> list[Effect]:
         if step.state not in OPEN_STATES:
@@ -480,7 +456,7 @@ class TargetPlan:
     def _go_on_after_skip(self) -> list[Effect]:
         for step in self.steps:
             step.ending = False
-        self._drop_orphans()
+        self.steps = without_orphans(self.steps)
         return self._continue()
 
     def _on_ended_by_others(self, state: GraphState) -> list[Effect]:

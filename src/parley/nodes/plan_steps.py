@@ -13,7 +13,7 @@ from parley.umrf.model import ChildRelation, Graph, Node, NodeRef, ParentRelatio
 __all__ = [
     "OPEN_STATES", "Effect", "EndStep", "ModifyGraph", "PauseGraph", "ReportFailure", "ResumeGraph",
     "RunState", "Say", "StartGraph", "Step", "StepState", "StopGraph", "build_graph", "handed_over",
-    "with_values",
+    "known_outputs", "with_givers", "with_values", "without_orphans",
 ]  # fmt: skip
 
 StepState = Literal["queued", "running", "finished", "failed", "stopped", "skipped", "paused", "waiting"]
@@ -158,3 +158,40 @@ def with_values(call: ActionCall, values: dict[str, Any]) -> ActionCall:
         for name, parameter in call.input_parameters.items()
     }
     return call.model_copy(update={"input_parameters": inputs})
+
+
+def known_outputs(steps: Sequence[Step]) -> dict[str, Any]:
+    """What `steps` gave: of each name what its last giver did, if that is known."""
+    known: dict[str, Any] = {}
+    for step in steps:
+        for name in step.call.output_parameters:
+            known.pop(name, None)
+        known.update(step.outputs)
+    return known
+
+
+def with_givers(calls: Sequence[ActionCall], before: Sequence[Step]) -> list[ActionCall]:
+    """`calls` with the values that `before` gave, or behind a repetition of the step that has to give them."""
+    if not calls:
+        return []
+    known = known_outputs(before)
+    blank = {name for name, value in calls[0].input_parameters.items() if not value.has_data}
+    if blank <= set(known):
+        return [with_values(calls[0], known), *calls[1:]]
+    for step in reversed(before):
+        if step.state == "finished" and blank & set(step.call.output_parameters):
+            return [step.call, *calls]
+    return list(calls)
+
+
+def without_orphans(steps: Sequence[Step]) -> list[Step]:
+    """`steps` less those waiting ones that lost the step which was to give them their inputs."""
+    kept: list[Step] = []
+    for step in steps:
+        if step.state == "queued" and step.fed:
+            before = next((s for s in reversed(kept) if s.state not in ("skipped", "stopped")), None)
+            offered = set(before.call.output_parameters) if before else set()
+            if not step.fed <= (offered | set(known_outputs(kept))):
+                continue
+        kept.append(step)
+    return kept

@@ -118,7 +118,7 @@ class UmrfPlanner(Node):
             if order.success is False:
                 self._send(plan, plan.give_up())
                 continue
-            calls = self._accept(plan, order.queue)
+            calls = self._accept(plan, order.queue, correcting=True)
             if calls is None:
                 self._send(plan, plan.give_up())
                 continue
@@ -183,13 +183,15 @@ class UmrfPlanner(Node):
                 problem = Problem("system_cmd.add_memory.data", "expected a text to remember")
                 self._refuse("chat_action", ",".join(targets), [problem])
 
-    def _accept(self, plan: TargetPlan, queue: Sequence[ActionCall]) -> list[ActionCall] | None:
+    def _accept(
+        self, plan: TargetPlan, queue: Sequence[ActionCall], *, correcting: bool = False
+    ) -> list[ActionCall] | None:
         """The completed actions, or None (and everybody told) if the robot cannot carry them out."""
         status = self._presence.get(plan.target)
         if status is None or not status.catalogue or not queue:
             return list(queue)
         calls = complete_calls(queue, status.catalogue)
-        problems = check_calls(calls, status.catalogue)
+        problems = check_calls(plan.correction(calls) if correcting else calls, status.catalogue)
         if not problems:
             return calls
         self._refuse("chat_action", plan.target, problems)

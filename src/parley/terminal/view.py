@@ -249,13 +249,13 @@ class OperatorView:
         return robot.plan is not None and robot.plan.graph_name == rejection.graph_name != ""
 
     def _propose(self, robot: RobotView, proposal: PlanProposal) -> list[Line]:
+        """Show the steps that wait for a yes; the robot says the words that go with them itself."""
         self.replies += 1
         robot.pending = [item for item in robot.pending if not isinstance(item, PlanProposal)]
         robot.pending.append(proposal)
-        said = [Line("said", proposal.message, speaker=robot.name)] if proposal.message else []
         heading = Line("heading", self.texts("proposal_of", robot=robot.name))
         rows = [Line("step", f"{number}. {label(call)}") for number, call in enumerate(proposal.steps, 1)]
-        return [*said, heading, *rows, Line("asked", self.texts("shall_i"), speaker=robot.name)]
+        return [heading, *rows, Line("asked", self.texts("shall_i"), speaker=robot.name)]
 
     def _plan(self, robot: RobotView, steps: Sequence[PlanStep]) -> list[Line]:
         """A heading and the steps; those to come are numbered as operators call them ("the second")."""

@@ -90,6 +90,8 @@ class Outcome:
 
     result: bool = True
     outputs: Mapping[str, Any] = field(default_factory=dict)
+    facts: Mapping[str, Any] = field(default_factory=dict)
+    """Told in the event of the node's end and nowhere else: not declared, not handed on."""
 
 
 @dataclass(frozen=True, slots=True)
@@ -244,12 +246,10 @@ def outcome_of(spec: ActionSpec, returned: Any) -> Outcome:
     if returned is None or isinstance(returned, bool):
         return Outcome(result=returned is not False)
     if isinstance(returned, Outcome):
-        result = returned.result
-        flat: dict[str, Any] = {}
-        for name, value in returned.outputs.items():
-            flat |= flatten_value(value, name)
+        result, facts = returned.result, _flat(returned.facts)
+        flat = _flat(returned.outputs)
     else:
-        result, flat = True, flatten_value(returned)
+        result, facts, flat = True, {}, flatten_value(returned)
     for name, value in flat.items():
         parameter = spec.outputs.get(name)
         if parameter is None:
@@ -261,4 +261,11 @@ def outcome_of(spec: ActionSpec, returned: Any) -> Outcome:
                 FailureCode.INTERNAL,
                 f"{spec.name} returned {value!r} as {name}, which is no {parameter.type}.",
             )
-    return Outcome(result, flat)
+    return Outcome(result, flat, facts)
+
+
+def _flat(values: Mapping[str, Any]) -> dict[str, Any]:
+    flat: dict[str, Any] = {}
+    for name, value in values.items():
+        flat |= flatten_value(value, name)
+    return flat

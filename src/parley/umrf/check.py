@@ -38,6 +38,8 @@ class _Checker:
         self.nodes: dict[NodeRef, Node] = {}
         for node in graph.nodes:
             self.nodes.setdefault(node.ref, node)
+        self.children = {ref: {c.node: c for c in node.children} for ref, node in self.nodes.items()}
+        self.parents = {ref: {p.node for p in node.parents} for ref, node in self.nodes.items()}
 
     def problems(self) -> Iterator[Problem]:
         yield from self._names()
@@ -76,12 +78,12 @@ class _Checker:
             if other is None:
                 continue
             where = f"{path}.children[{index}]"
-            if all(parent.node != node.ref for parent in other.parents):
+            if node.ref not in self.parents[other.ref]:
                 yield _one_sided(where, node, other, "child", "parent")
             yield from _remap(node, other, child, where)
         for index, parent in enumerate(node.parents):
             other = self.nodes.get(parent.node)
-            if other is not None and all(child.node != node.ref for child in other.children):
+            if other is not None and node.ref not in self.children[other.ref]:
                 yield _one_sided(f"{path}.parents[{index}]", node, other, "parent", "child")
 
     def _known(self, relations: Sequence[ChildRelation | ParentRelation], path: str) -> Iterator[Problem]:
@@ -172,14 +174,14 @@ class _Checker:
         giver = self.nodes.get(parent)
         if giver is None or not wanted.updatable:
             return False
-        for relation in giver.children:
-            if relation.node == node.ref:
-                renamed = dict(relation.remap)
-                return any(
-                    renamed.get(output, output) == name and parameter.type == wanted.type
-                    for output, parameter in giver.output_parameters.items()
-                )
-        return False
+        relation = self.children[parent].get(node.ref)
+        if relation is None:
+            return False
+        renamed = dict(relation.remap)
+        return any(
+            renamed.get(output, output) == name and parameter.type == wanted.type
+            for output, parameter in giver.output_parameters.items()
+        )
 
 
 def _one_sided(path: str, node: Node, other: Node, side: str, opposite: str) -> Problem:

@@ -10,6 +10,7 @@ import asyncio
 from collections import deque
 from collections.abc import Callable, Iterable, Mapping
 from dataclasses import replace
+from types import MappingProxyType
 from typing import Any, Final
 
 import structlog
@@ -17,7 +18,7 @@ import structlog
 from parley.clock import Clock
 from parley.errors import ActionFailure, FailureCode, GraphRefusedError, Problem
 from parley.messages.failure import FailureReport
-from parley.messages.pvf import Parameter
+from parley.messages.pvf import Parameter, native_type
 from parley.umrf.action import Outcome, RunHandle
 from parley.umrf.catalogue import Catalogue
 from parley.umrf.flow import Effect, Flow, FlowNode
@@ -40,6 +41,8 @@ _MARGIN_S: Final = 0.1
 _ENDED: Final = frozenset({GraphState.FINISHED, GraphState.STOPPED, GraphState.ERROR})
 _RESTING: Final = _ENDED | {GraphState.HALTED}
 _MOVING: Final = (NodeState.RUNNING, NodeState.PAUSE_REQUESTED)
+
+NO_FACTS: Final[Mapping[str, Any]] = MappingProxyType({})
 
 
 class GraphRun:
@@ -265,7 +268,8 @@ class GraphRun:
         if stopped:
             self._node_over(item, Result.ON_STOPPED, {}, "stop")
         elif isinstance(ending, Outcome):
-            self._node_over(item, Result.ON_TRUE if ending.result else Result.ON_FALSE, ending.outputs, "run")
+            result = Result.ON_TRUE if ending.result else Result.ON_FALSE
+            self._node_over(item, result, ending.outputs, "run", ending.facts)
         else:
             self._node_over(item, Result.ON_ERROR, {}, "run")
 
@@ -283,10 +287,17 @@ class GraphRun:
     def _log_line(self, item: FlowNode, text: str) -> None:
         item.log.append(LogMessage(self._clock.unix_ms(), text))
 
-    def _node_over(self, item: FlowNode, result: Result, outputs: Mapping[str, Any], cause: str) -> None:
+    def _node_over(
+        self,
+        item: FlowNode,
+        result: Result,
+        outputs: Mapping[str, Any],
+        cause: str,
+        facts: Mapping[str, Any] = NO_FACTS,
+    ) -> None:
         item.outputs = dict(outputs)
         state = NodeState.ERROR if result is Result.ON_ERROR else NodeState.FINISHED
-        self._set_node(item, state, cause, result)
+        self._set_node(item, state, cause, result, facts)
         self._follow(item.name, result)
         self._settle()
 
@@ -424,9 +435,17 @@ class GraphRun:
 
     # -- telling --------------------------------------------------------------------------------------------
 
-    def _set_node(self, item: FlowNode, state: NodeState, cause: str, result: Result | None = None) -> None:
+    def _set_node(
+        self,
+        item: FlowNode,
+        state: NodeState,
+        cause: str,
+        result: Result | None = None,
+        facts: Mapping[str, Any] = NO_FACTS,
+    ) -> None:
         item.state = state
         outputs = _valued(item.node.output_parameters, item.outputs) if cause == "run" else {}
+        outputs |= {name: Parameter(native_type(value), value) for name, value in facts.items()}
         message = item.log[-1].message if state is NodeState.ERROR and item.log else ""
         self._announce.node(item.node, state, cause, result=result, outputs=outputs, message=message)
 

@@ -59,13 +59,14 @@ def _check_content(value: Any) -> None:
     for _ in range(_MAX_DEPTH):
         following: list[Any] = []
         for item in level:
-            if isinstance(item, Mapping):
+            if isinstance(item, str):
+                if not item.isascii():
+                    _check_text(item)
+            elif isinstance(item, dict):
                 following.extend(item)
                 following.extend(item.values())
-            elif isinstance(item, list | tuple):
+            elif isinstance(item, list):
                 following.extend(item)
-            elif isinstance(item, str) and not item.isascii():
-                _check_text(item)
             elif isinstance(item, float) and not math.isfinite(item):
                 raise _refused(f"{item} is not a number that JSON can hold")
         level = following

@@ -59,7 +59,11 @@ def abilities(scene: Scene) -> str:
     return whole_sentence(f"I can {listing([*can, 'remember what you tell me'])}")
 
 
+_TURNED = {"me": "you", "my": "your", "i": "you", "us": "you", "yourself": "myself"}
+
+
 def cannot(what: str, scene: Scene) -> str:
     """That something is not possible, and what is."""
-    shown = what if len(what) <= 80 else what[:77] + "..."
+    turned = " ".join(_TURNED.get(word.lower(), word) for word in what.split())
+    shown = turned if len(turned) <= 80 else turned[:77] + "..."
     return f"I cannot {shown}. {abilities(scene)}"

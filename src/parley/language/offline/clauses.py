@@ -103,6 +103,8 @@ def _conditional(sentence: Phrase, opens: Opens) -> list[Clause]:
             condition = _trim(words[start:cut])
             return _with_otherwise(words[cut:], condition, opens)
     for index in range(2, len(flat) - 2):
+        if lemma(flat[0]) in {"ask", "tell", "remind"}:
+            break
         before = keys(words[:index])
         if (
             flat[index] == "if"
@@ -122,6 +124,9 @@ def _bare_verb_noun(flat: tuple[str, ...], index: int) -> bool:
 
 def _with_otherwise(words: Phrase, condition: Phrase, opens: Opens) -> list[Clause]:
     flat = keys(words)
+    if keys(condition)[:1] and keys(condition)[0] in _WHOEVER:
+        # A rule for later ("if you see smoke, stop and tell me") is kept whole.
+        return [Clause(_trim(words), condition=condition)]
     cut = next(
         (i for i in range(len(flat)) if flat[i] in {"otherwise", "else"} or flat[i : i + 2] == ("if", "not")),
         len(flat),
@@ -134,13 +139,14 @@ def _with_otherwise(words: Phrase, condition: Phrase, opens: Opens) -> list[Clau
     ]
 
 
+_WHOEVER = frozenset("you i we anyone anybody somebody someone anything something nobody".split())
+
+
 def _before_after(sentence: Phrase, opens: Opens) -> list[Clause]:
     flat = keys(sentence)
     lead = strip_openers(sentence)
     lead_flat = keys(lead)
-    if (lead_flat[:1] in {("before",), ("after",), ("once",)} and lead_flat[1:2] != ("that",)) or lead_flat[
-        :2
-    ] == ("as", "soon"):
+    if _sets_order(lead_flat):
         cut = next((i for i in range(2, len(lead)) if lead_flat[i] == ","), 0) or next(
             (i for i in range(3, len(lead)) if opens(lead[i:]) and not _bare_verb_noun(lead_flat, i)), 0
         )
@@ -158,6 +164,13 @@ def _before_after(sentence: Phrase, opens: Opens) -> list[Clause]:
                 )
                 return [*main, *other] if marker == "before" else [*other, *main]
     return _cut(sentence, opens)
+
+
+def _sets_order(flat: tuple[str, ...]) -> bool:
+    """Whether a sentence begins with what comes before or after something else."""
+    if flat[:1] in {("before",), ("after",), ("once",)}:
+        return flat[1:2] != ("that",)
+    return flat[:2] in {("as", "soon"), ("when", "you")}
 
 
 def _with_verb(words: Phrase, opens: Opens) -> Phrase:
@@ -195,6 +208,9 @@ def _cut(sentence: Phrase, opens: Opens) -> list[Clause]:
             start, first = index + found[0], before_that
             index = start
             continue
+        if index > start and flat[index] == "without" and opens(sentence[index + 1 :]):
+            pieces.append((start, index, first))
+            start, first = index, False
         if (
             index > start
             and flat[index] in {",", "and", "but", "&", ":"}
@@ -217,12 +233,15 @@ def _new_clause(sentence: Phrase, start: int, index: int, opens: Opens) -> bool:
         return False
     before = sentence[start:index]
     found = lexicon().polite.match(keys(before))
-    if found is not None and found[0] == len(before):
+    mistaken = lexicon().corrections.match(keys(before))
+    if len(before) in {found[0] if found else 0, mistaken[0] if mistaken else 0}:
         return False
     if keys(strip_openers(before)) in _SERIAL_VERBS:
         return False
     if opens(rest) and any(word.is_word for word in before):
         return keys(rest[:1])[0] not in lexicon().person_words
+    if lexicon().corrections.match(keys(rest)) and keys(rest)[0] in {"i", "or", "no", "wait", "rather"}:
+        return True
     rest_flat = keys(strip_openers(rest))
     if rest_flat[:1] == ("not",) or rest_flat[:2] == ("do", "not"):
         return not set(keys(before)) & lexicon().quantifiers

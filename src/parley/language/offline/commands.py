@@ -42,6 +42,7 @@ IsPerson = Callable[[Phrase], bool]
 _SERIAL = frozenset(
     {"go", "come", "run", "head", "drive", "move", "walk", "hurry", "proceed", "return", "travel", "roll"}
 )
+_DIRECTIONS = frozenset("left right up down forward back to the your".split())
 _HERE = frozenset({"here", "around", "there", "everything", "surroundings"})
 
 
@@ -82,7 +83,10 @@ def read_command(
             is_person,
         )
     if found is None:
-        return None
+        avoided = negated and clause[0].key in {"avoid", "without"} and len(words) < 6
+        return (
+            Command("motion", "go", True, place=bare(words), words=words, clause=words) if avoided else None
+        )
     kind, _, verb = found[1].partition(":")
     rest = words[found[0] :]
     serial = _serial(flat[0], rest, kind)
@@ -180,11 +184,9 @@ def _trim_article(words: Phrase) -> Phrase:
 
 def _look(command: Command) -> Command:
     words = command.words
-    while (
-        len(words) > 1
-        and words[0].key in {"at", "on", "into", "in", "inside", "over", "around", "the"}
-        and words[0].key != "the"
-    ):
+    if words and set(keys(words)) <= _DIRECTIONS:
+        return replace(command, theme=words)
+    while len(words) > 1 and words[0].key in {"at", "on", "into", "in", "inside", "over", "around"}:
         words = words[1:]
     flat = keys(words)
     if flat and (flat[0] in _HERE or words == ()):
@@ -192,7 +194,7 @@ def _look(command: Command) -> Command:
     if flat[:1] and flat[0] in {"for"} and command.kind == "look":
         return _search(replace(command, kind="search", words=words[1:]))
     for index in range(1, len(flat) - 1):
-        if flat[index] == "for" and flat[index + 1] not in {"me", "us", "a"} | lexicon().operator_pronouns:
+        if flat[index] == "for" and not lexicon().adverbs.match(flat, index):
             return replace(command, place=bare(words[:index]), theme=bare(words[index + 1 :]))
         if flat[index : index + 2] == ("to", "see") and flat[index + 2 : index + 3] in {
             ("if",),
@@ -295,6 +297,8 @@ def _transfer(command: Command, is_person: IsPerson) -> Command:
         elif marker != "for":
             result = replace(result, place=goal)
     noun = noun_phrase(theme)
+    if command.kind in {"grasp", "place"} and len(theme) > 1 and theme[-1].key in {"up", "down"}:
+        theme = theme[:-1]
     if command.kind == "place" and noun.relation and noun.anchors and not result.place:
         return replace(
             result, theme=bare(theme[: _at(keys(theme), tuple(noun.relation.split()))]), place=noun.anchors[0]

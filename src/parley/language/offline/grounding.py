@@ -273,19 +273,21 @@ def _narrow(
 def _by_relation(
     noun: NounPhrase, found: list[_Profile], objects: Sequence[MapObject], pose: Pose2D | None
 ) -> list[MapObject]:
-    anchor_words = {word for anchor in noun.anchors for word in _comparable(anchor)}
-    told = [
-        p.item for p in found if any(set(other) <= p.words for other in variants(tuple(sorted(anchor_words))))
-    ]
-    if told:
-        return told
     items = [profile.item for profile in found]
     anchors: list[MapObject] = []
     for anchor in noun.anchors:
         where = ground_phrase(anchor, [o for o in objects if o not in items] or objects, pose)
         if where.outcome != "match":
-            return items
-        anchors.append(where.candidates[0])
+            where = ground_phrase(anchor, objects, pose)
+        anchors += where.candidates if where.outcome == "match" else ()
+    wanted = tuple(sorted({word for anchor in noun.anchors for word in _comparable(anchor)}))
+    told = [
+        p.item
+        for p in found
+        if any(set(other) <= p.words for other in variants(wanted)) and p.item not in anchors
+    ]
+    if told or len(anchors) < len(noun.anchors):
+        return told or items
     return spatial.by_anchor([i for i in items if i not in anchors] or items, noun.relation, anchors, pose)
 
 

@@ -4,7 +4,6 @@ from __future__ import annotations
 
 from collections.abc import Sequence
 from dataclasses import dataclass, field, replace
-from functools import cache
 
 from parley.language.base import Situation
 from parley.language.control import control_of
@@ -15,11 +14,13 @@ from parley.language.offline.commands import Command, read_command
 from parley.language.offline.facts import Fact, memory_name, read_statement, strip_openers
 from parley.language.offline.followup import pending_request
 from parley.language.offline.lexicon import lexicon
+from parley.language.offline.mending import mended
 from parley.language.offline.nouns import bare, noun_phrase
 from parley.language.offline.saying import listing, the, whole_sentence
 from parley.language.offline.scene import Scene, UnclearError
 from parley.language.offline.tasks import Tasks, UnableError
 from parley.language.offline.text import Phrase, Word, keys, lemma, mend, plain, split_name, tokens
+from parley.language.offline.wishes import need, wish
 from parley.messages.chat import ActionCall, ChatAction, CommandName, Flow, FlowIf, SystemCommand
 
 __all__ = ["interpret"]
@@ -45,7 +46,7 @@ def interpret(situation: Situation) -> ChatAction:
     if control is not None:
         command, reply = _CONTROL_REPLIES[control]
         return _say(situation, reply, commands=(SystemCommand(command=command),))
-    words, targets = addressing.addressed(_mended(tokens(message), situation), situation)
+    words, targets = addressing.addressed(mended(tokens(message), situation), situation)
     situation = replace(situation, robot=targets[0] if targets else situation.robot)
     if not any(word.is_word for word in words):
         return _say(situation, "Yes? What can I do for you?", targets=targets)
@@ -56,7 +57,7 @@ def interpret(situation: Situation) -> ChatAction:
     if request is not None and request.declined:
         return _say(situation, "All right, I leave it.", targets=targets)
     if request is not None:
-        words, targets = addressing.addressed(_mended(tokens(request.message), situation), situation)
+        words, targets = addressing.addressed(mended(tokens(request.message), situation), situation)
         situation = replace(situation, history=request.history)
     return _Reader(Scene.of(situation, request.hints if request else ()), targets).read(words)
 
@@ -71,30 +72,6 @@ def _say(
     )
 
 
-def _mended(words: Phrase, situation: Situation) -> Phrase:
-    """Typing errors in small words and verbs put right; nouns are compared loosely later."""
-    known = set(lexicon().vocabulary)
-    for item in situation.objects:
-        known.update(
-            word.key
-            for text in (item.description, *item.aliases, item.class_name, item.id)
-            for word in tokens(text)
-        )
-    for entry in situation.memory:
-        known.update(word.key for word in tokens(entry.data[:400]))
-    for info in situation.catalogue:
-        known.update(split_name(info.name))
-    known.update(name.lower() for name in situation.robots)
-    return mend(words, frozenset(known), lexicon().often_mistyped, _verbs())
-
-
-@cache
-def _verbs() -> frozenset[str]:
-    """First words of the verbs that typing errors are mended to."""
-    classes = lexicon().verb_classes
-    return frozenset(verb.split()[0] for name, verbs in classes.items() if name != "other" for verb in verbs)
-
-
 @dataclass
 class _Reader:
     """Reads the clauses of one message in order."""
@@ -105,6 +82,9 @@ class _Reader:
     commands: list[SystemCommand] = field(default_factory=list)
     replies: list[str] = field(default_factory=list)
     last: Command | None = None
+    _parts: Sequence[Clause] = ()
+    _at: int = 0
+    _before_last: tuple[int, int] = (0, 0)
 
     def __post_init__(self) -> None:
         self.tasks = Tasks(self.scene)
@@ -113,7 +93,9 @@ class _Reader:
         self._mention_history()
         parts = clauses(words, lambda phrase: opens_command(phrase, self.scene.catalogue.verbs))
         try:
+            self._parts = parts
             for index, clause in enumerate(parts):
+                self._at = index
                 self._clause(clause, alone=len(parts) == 1, index=index)
         except UnclearError as unclear:
             return self._result(unclear.question, (), choices=unclear.choices)
@@ -129,6 +111,12 @@ class _Reader:
         if clause.condition:
             self._condition(clause)
             return
+        clause = self._corrected(self._instead(clause))
+        if not clause.words or lexicon().adverbs.match(keys(clause.words)) == (
+            len(clause.words),
+            plain(clause.words).lower(),
+        ):
+            return
         if self._order(clause, alone, index) or self._spoken(clause):
             return
         command = self._command(clause)
@@ -136,6 +124,43 @@ class _Reader:
             self._do(command)
         elif len(self.tasks.steps) == start and not self._statement(clause):
             self._fallback(clause, alone=alone)
+
+    def _corrected(self, clause: Clause) -> Clause:
+        """For "... I mean the desk": what the clause before it asked for is taken back."""
+        found = lexicon().corrections.match(keys(clause.words))
+        if (
+            found is None
+            or self.last is None
+            or found[0] >= len(clause.words)
+            or found[1] in {"no longer", "not any more"}
+        ):
+            return clause
+        if read_statement(clause.words[found[0] :]) is not None:
+            return clause
+        steps, will = self._before_last
+        del self.tasks.steps[steps:]
+        del self.tasks.will[will:]
+        self.tasks.here = ""
+        return replace(clause, words=clause.words[found[0] :])
+
+    def _instead(self, clause: Clause) -> Clause:
+        """For "Instead of the desk go to the box": pending steps about the desk are dropped."""
+        flat = keys(clause.words)
+        at = next((i for i in range(len(flat) - 2) if flat[i : i + 2] == ("instead", "of")), -1)
+        if at < 0:
+            return clause
+        rest = clause.words[at + 2 :]
+        end = (
+            len(rest)
+            if at
+            else next(
+                (i for i in range(1, len(rest)) if opens_command(rest[i:]) or rest[i].key == ","), len(rest)
+            )
+        )
+        refused = Command("motion", "go", True, place=bare(rest[:end]), clause=rest[:end])
+        for index in reversed(edits.steps_of(refused, self.scene)):
+            self.commands.append(SystemCommand(command="pop", arguments={"parameters": index}))
+        return replace(clause, words=clause.words[:at] if at else rest[end:])
 
     def _order(self, clause: Clause, alone: bool, index: int) -> bool:
         """Stop words among other clauses, and changes of the plan."""
@@ -197,7 +222,7 @@ class _Reader:
         ):
             return None
         if command is None:
-            command = self._wish(words) or self._need(words) or self._elliptical(words)
+            command = wish(words, self.scene) or need(words, self.scene) or self._elliptical(words)
         if (
             command is not None
             and command.kind == "other"
@@ -206,53 +231,6 @@ class _Reader:
         ):
             return None
         return command
-
-    def _wish(self, words: Phrase) -> Command | None:
-        """For "I would like some tea", "he needs the cup": something is to be brought."""
-        found = lexicon().wants.match(keys(words))
-        if found is not None and found[0] < len(words):
-            theme = words[found[0] :]
-            if keys(theme)[0] == "you" and lexicon().places.match(keys(theme), 1):
-                return read_command((Word("go", "go"), Word("to", "to"), *theme[1:]), self.scene.is_person)
-            if keys(theme)[0] in {"to", "you"}:
-                return None
-            return read_command((Word("bring", "bring"), Word("me", "me"), *theme), self.scene.is_person)
-        flat = keys(words)
-        for index in range(1, min(4, len(flat) - 1)):
-            if flat[index] in {"needs", "wants", "need", "want"} or flat[index : index + 2] == (
-                "would",
-                "like",
-            ):
-                who = words[:index]
-                theme = words[index + (2 if flat[index] == "would" else 1) :]
-                if self.scene.is_person(who) and theme and theme[0].key not in {"to", "you"}:
-                    self.scene.mention(bare(who))
-                    return read_command(
-                        (Word("bring", "bring"), *theme, Word("to", "to"), *who), self.scene.is_person
-                    )
-        return None
-
-    def _need(self, words: Phrase) -> Command | None:
-        """For "X is thirsty": something to drink is to be brought to X, unless the message says what."""
-        flat = keys(words)
-        state = next((w for w in flat[2:] if w in lexicon().needs), None)
-        link = next(
-            (
-                i
-                for i in range(1, len(flat))
-                if flat[i] in lexicon().be | {"feels", "looks", "feel", "seems", "gets"}
-            ),
-            0,
-        )
-        if state is None or not link or "not" in flat:
-            return None
-        who = bare(words[:link])
-        if not self.scene.is_person(who):
-            return None
-        self.scene.mention(who)
-        return Command(
-            "need", state, theme=tokens(lexicon().needs[state]), recipient=who, words=words, clause=words
-        )
 
     def _elliptical(self, words: Phrase) -> Command | None:
         """For "Go to A, then B": a bare noun phrase does again what the clause before did."""
@@ -284,10 +262,38 @@ class _Reader:
             self.last = command
             return
         self.last = command
-        self.tasks.do(command)
+        self._before_last = len(self.tasks.steps), len(self.tasks.will)
+        if (
+            command.kind == "transfer"
+            and not command.recipient
+            and not command.place
+            and self._carried_on(command)
+        ):
+            self.tasks.collect(command)
+            return
+        for _ in range(self._times(command)):
+            self.tasks.do(_without_times(command))
+
+    def _carried_on(self, command: Command) -> bool:
+        """Whether a later clause says where what is fetched goes ("get the box and bring it to A")."""
+        later = (read_command(c.words, self.scene.is_person) for c in self._parts[self._at + 1 :])
+        return any(c is not None and c.kind in {"transfer", "place", "guide"} for c in later)
+
+    def _times(self, command: Command) -> int:
+        flat = keys(command.clause)
+        if flat[-1:] == ("twice",):
+            return 2
+        if flat[-1:] == ("times",) and len(flat) > 1:
+            word = flat[-2]
+            return min(lexicon().numbers.get(word, int(word) if word.isdigit() else 1), 10)
+        return 1
 
     def _do_not(self, command: Command) -> None:
-        words = plain(command.clause)
+        for phrase in (command.place, command.theme):
+            self.scene.mention(bare(phrase))
+            if phrase:
+                self.scene.places.append(bare(phrase))
+        words = " ".join([lemma(command.clause[0].key), plain(command.clause[1:])]).strip()
         dropped = edits.steps_of(command, self.scene)
         self.commands.extend(
             SystemCommand(command="pop", arguments={"parameters": i}) for i in reversed(dropped)
@@ -382,7 +388,7 @@ class _Reader:
             if protocol:
                 said = f"If {plain(clause.condition)}, {plain(clause.words)}"
                 self._remember(
-                    Fact(clause.condition[-2:], relation="protocol", state=clause.words, sentence=said)
+                    Fact(bare(clause.condition[-2:]), relation="protocol", state=clause.words, sentence=said)
                 )
                 return
             look = read_command(
@@ -496,3 +502,15 @@ class _Reader:
             choices=tuple(choices),
             sources=tuple(self.scene.sources),
         )
+
+
+def _without_times(command: Command) -> Command:
+    """Without "twice" and "three times" at the end of its parts."""
+
+    def cut(phrase: Phrase) -> Phrase:
+        flat = keys(phrase)
+        if flat[-1:] == ("twice",):
+            return phrase[:-1]
+        return phrase[:-2] if flat[-1:] == ("times",) and len(flat) > 2 else phrase
+
+    return replace(command, place=cut(command.place), theme=cut(command.theme))

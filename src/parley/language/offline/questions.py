@@ -15,7 +15,7 @@ from parley.language.offline.nouns import bare, noun_phrase
 from parley.language.offline.replies import agrees
 from parley.language.offline.saying import a, capital, listing, the, whole_sentence
 from parley.language.offline.scene import Scene
-from parley.language.offline.text import Phrase, keys, plain, split_name
+from parley.language.offline.text import Phrase, keys, plain, split_name, tokens
 from parley.language.word_lists import load_data
 from parley.messages.chat import ActionCall
 
@@ -42,6 +42,9 @@ _ALSO_WRAPPED = ("left", "memory", "status", "objects")
 """Kinds of questions that need no question word behind "tell me" and the like."""
 
 
+_ASKED_ABOUT = frozenset({"you", "i", "we", "they", "he", "she", "it"})
+
+
 def is_yes(text: str) -> bool:
     """Whether an answer agrees."""
     return agrees(text) is True
@@ -62,6 +65,10 @@ def answer(clause: Clause, scene: Scene) -> Answer | None:
     text = " ".join(flat)
     if text in {"help", "help me", "i need help", "can you help me", "could you help me", "i need your help"}:
         return Answer(abilities(scene))
+    if " ".join(flat[:4]).startswith(
+        ("what do you see", "what can you see", "what you see", "what you find")
+    ):
+        return None
     question = (
         clause.is_question
         or flat[0] in lexicon().question_starts
@@ -75,7 +82,7 @@ def answer(clause: Clause, scene: Scene) -> Answer | None:
         for start in _starts(kind):
             if _begins(flat, start):
                 return Answer(reply(scene, words[len(start) :]))
-    for reader in (_where, _what_in, _who, _whether):
+    for reader in (_where, _what_in, _how_many, _who, _whether):
         found = reader(words, flat, scene, clause.is_question or wrapped)
         if found is not None:
             return found
@@ -114,6 +121,13 @@ def _begins(flat: tuple[str, ...], start: tuple[str, ...]) -> bool:
 
 
 def _open_question(flat: tuple[str, ...], marked: bool) -> Answer | None:
+    if (
+        flat[0] in {"do", "does", "did", "have", "has", "are"}
+        and flat[1:2]
+        and flat[1] in _ASKED_ABOUT
+        and flat[1:3] != ("you", "mind")
+    ):
+        return Answer("I do not know that. Tell me, and I will remember it.")
     if flat[0] in lexicon().question_starts and not (flat[0] == "when" and not marked):
         if flat[0] == "how" and flat[1:2] == ("about",):
             return None
@@ -284,7 +298,8 @@ def _where(words: Phrase, flat: tuple[str, ...], scene: Scene, _: bool) -> Answe
     about = bare(rest)
     while len(about) > 1 and about[-1].key in lexicon().be | lexicon().location_verbs | {"now", "in", "at"}:
         about = bare(about[:-1])
-    about = scene.referent(about)
+    need = lexicon().need_phrases.get(" ".join(keys(about)))
+    about = tokens(need) if need else scene.referent(about)
     fact, several = find_fact(about, scene.facts)
     hits = [fact] if fact is not None else several
     for item in hits:
@@ -328,6 +343,18 @@ def _what_in(words: Phrase, flat: tuple[str, ...], scene: Scene, _: bool) -> Ans
             f"I do not know what is {found[1]} {the(plain(place))}. I can go there and have a look."
         )
     return Answer(f"I do not know what is {found[1]} {the(plain(place))}. Tell me and I will remember it.")
+
+
+def _how_many(words: Phrase, flat: tuple[str, ...], scene: Scene, _: bool) -> Answer | None:
+    if flat[:2] != ("how", "many") or len(flat) < 3:
+        return None
+    end = next((i for i in range(2, len(flat)) if flat[i] in lexicon().be | {"do", "can"}), len(flat))
+    about = bare(words[2:end])
+    found = ground_phrase(about, scene.objects) if about else None
+    if found is None or found.outcome == "none":
+        return Answer(f"I do not know of any {plain(about)}.")
+    names = listing([the(describe(item, scene.objects)) for item in found.candidates])
+    return Answer(f"I know {len(found.candidates)} on my map: {names}.")
 
 
 def _who(words: Phrase, flat: tuple[str, ...], scene: Scene, _: bool) -> Answer | None:

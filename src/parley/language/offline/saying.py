@@ -14,7 +14,10 @@ def the(text: str) -> str:
     words = text.split()
     if not words:
         return text
-    if words[0].lower() in lexicon().determiners | lexicon().quantifiers | lexicon().operator_pronouns:
+    if (
+        text.lower() in {"home", "everything"}
+        or words[0].lower() in lexicon().determiners | lexicon().quantifiers | lexicon().operator_pronouns
+    ):
         return text
     label = len(words) > 1 and (words[-1].isdigit() or len(words[-1]) == 1)
     name = words[0][:1].isupper() and words[0][1:].islower()

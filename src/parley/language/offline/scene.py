@@ -286,6 +286,8 @@ class Scene:
         whole = ground_phrase(phrase, self.objects, self.situation.robot_pose)
         if whole.outcome == "match" and not noun_phrase(phrase).quantifier:
             return [phrase]
+        if "or" in keys(phrase):
+            return [self._either(phrase)]
         parts = [phrase] if "between" in keys(phrase) else coordinated(phrase)
         quantified = next((word for word in phrase[:1] if word.key in lexicon().quantifiers), None)
         for index, part in enumerate(parts or [phrase]):
@@ -293,6 +295,23 @@ class Scene:
                 part = (quantified, *part)
             members.extend(self._expanded(part))
         return members
+
+    def _either(self, phrase: Phrase) -> Phrase:
+        """One of "A or B", as an earlier answer says.
+
+        Raises:
+            UnclearError: Nobody said which.
+        """
+        options: list[Phrase] = []
+        for part in coordinated(tuple(word for word in phrase if word.key != "either")):
+            found = lexicon().goals.match(keys(part))
+            options.append(bare(part[found[0] :]) if found and found[0] < len(part) else part)
+        names = [plain(option) for option in options]
+        stand_ins = [MapObject("?" * (i + 1), name, 0.0, 0.0) for i, name in enumerate(names)]
+        chosen = self._hinted(stand_ins)
+        if chosen is not None:
+            return options[stand_ins.index(chosen)]
+        raise UnclearError(f"Which one do you mean: {listing([the(name) for name in names], 'or')}?", names)
 
     def _expanded(self, phrase: Phrase) -> list[Phrase]:
         noun = noun_phrase(phrase)

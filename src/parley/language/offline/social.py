@@ -9,6 +9,34 @@ from parley.language.offline.text import Phrase, plain
 
 __all__ = ["not_understood", "reply"]
 
+_SHORT = {
+    **dict.fromkeys(
+        ("yes", "ok", "okay", "yeah", "sure", "fine", "all right", "alright", "right", "i see"), "All right."
+    ),
+    **dict.fromkeys(
+        ("no", "nope", "never mind", "nothing", "forget it", "no thanks"), "All right, then nothing."
+    ),
+    **dict.fromkeys(("sorry", "i am sorry", "oops", "my mistake"), "No problem."),
+    **dict.fromkeys(
+        (
+            "are you ok",
+            "are you okay",
+            "are you fine",
+            "are you ready",
+            "are you there",
+            "are you all right",
+            "can you hear me",
+            "do you hear me",
+            "do you understand me",
+        ),
+        "I am here and ready.",
+    ),
+    **dict.fromkeys(
+        ("that is wrong", "you are wrong", "wrong", "that is not right"),
+        "I am sorry. Please tell me what is right.",
+    ),
+    "shut up": "All right, I say no more.",
+}
 _ALSO_ENGLISH = frozenset(
     {"is", "on", "do", "die", "un", "in", "la", "de", "es", "les", "en", "mine", "too", "we", "y"}
 )
@@ -34,6 +62,9 @@ def reply(words: Phrase, *, alone: bool = True) -> str | None:
         return "Goodbye! I am here when you need me."
     if not alone:
         return None
+    text = " ".join(flat)
+    if text in _SHORT:
+        return _SHORT[text]
     if set(flat) & lex.insults and (len(flat) <= 3 or flat[0] in {"you", "i", "what", "this", "that"}):
         return "I am sorry if I did something wrong. Tell me what I should do."
     if (

@@ -6,6 +6,7 @@ is matched against names, phrases and parameters of the catalogue. What cannot b
 
 from __future__ import annotations
 
+import re
 from dataclasses import dataclass, field, replace
 
 from parley.language.offline.catalogue import Catalogue, call, parameter_role, text_inputs
@@ -25,6 +26,7 @@ from parley.world.geometry import Pose2D
 __all__ = ["Tasks", "UnableError", "pose_values"]
 
 _ASKING = frozenset({"it", "that", "this", "them", "there", "here", "those", "these"})
+_ANYTHING = frozenset((word,) for word in ("things", "objects", "something", "stuff", "people", "anything"))
 _FORWARD = frozenset(["forward", "forwards", "backward", "backwards", "ahead", "left", "right", "around"])
 
 
@@ -92,6 +94,13 @@ class Tasks:
             if self.catalogue.mover is None:
                 raise UnableError("drive")
             raise UnclearError("Where should I go?")
+        numbers = coordinates(command.place)
+        if numbers is not None:
+            self._go_to_numbers(numbers)
+            return
+        if keys(command.place) in {("here",), ("me",), ("us",), ("operator",)}:
+            self.travel(self._recipient_place(OPERATOR), "come to you")
+            return
         if keys(command.place)[0] in _FORWARD and len(command.place) < 5 and not self._grounds(command.place):
             raise UnableError("be steered by directions or distances")
         if keys(command.place) in {
@@ -105,6 +114,15 @@ class Tasks:
         for member in self.scene.several(command.place):
             place = self.scene.place(member)
             self.travel(place, f"go to {place.label}")
+
+    def _go_to_numbers(self, numbers: tuple[float, float]) -> None:
+        mover = self.catalogue.mover
+        values = None if mover is None else pose_values(mover, Pose2D(*numbers))
+        if mover is None or values is None:
+            raise UnableError("drive to coordinates")
+        where = f"x {numbers[0]:g} m, y {numbers[1]:g} m"
+        self.steps.append(call(mover, values, f"go to {where}"))
+        self.will.append(f"go to {where}")
 
     def _grounds(self, phrase: Phrase) -> bool:
         return ground_phrase(phrase, self.scene.objects).outcome != "none"
@@ -140,9 +158,11 @@ class Tasks:
             self._go(replace(command, kind="motion"))
             return
         home, _ = find_fact(tokens("home"), self.scene.facts)
-        if keys(command.place)[:1] == ("home",) and (home is not None or self._grounds(command.place)):
-            self.travel(self.scene.place(command.place), "go home")
-            return
+        if keys(command.place)[:1] == ("home",) or "home" in command.verb:
+            known = home is not None or self._grounds(tokens("home"))
+            if known or "back" not in command.verb and command.verb != "return":
+                self.travel(self.scene.place(tokens("home")), "go home")
+                return
         if keys(command.place)[:1] == ("me",):
             self.travel(self._recipient_place(OPERATOR), "come back to you")
             return
@@ -165,6 +185,13 @@ class Tasks:
         if command.place:
             self._look_there(command, looker)
             return
+        if (
+            command.theme
+            and set(keys(command.theme)) & _FORWARD
+            and not self._grounds(command.theme[:1])
+            and len(command.theme) < 3
+        ):
+            raise UnableError("turn my camera")
         if not command.theme:
             request = "whether " + plain(command.words) if command.kind == "whether" else "what can be seen"
             self._add_look(looker, request, "look around")
@@ -199,12 +226,12 @@ class Tasks:
         self._add_look(looker, request, f"look at {the(request)}")
 
     def _whether(self, command: Command) -> str:
-        words = command.words
+        words, asking = command.words, "how" if command.verb.endswith("how") else "whether"
         if command.theme and keys(bare(command.theme))[0] in _ASKING:
             subject = the(plain(self.scene.referent(command.theme)))
             rest = words[len(command.theme) :]
-            return f"whether {subject} {plain(rest)}".strip()
-        return "whether " + plain(words)
+            return f"{asking} {subject} {plain(rest)}".strip()
+        return f"{asking} {plain(words)}"
 
     def _place_or_here(self, phrase: Phrase) -> Place | None:
         """Where something is; None if it is said to be where the robot will be."""
@@ -337,7 +364,7 @@ class Tasks:
         if place is not None:
             return place
         if keys(recipient) == ("operator",):
-            raise UnclearError("Where are you? Tell me where to bring it.")
+            raise UnclearError("Where are you? Tell me, and I will remember it.")
         raise UnclearError(f"Where is {the(plain(recipient))}?")
 
     def _person(self, recipient: Phrase) -> str:
@@ -369,10 +396,25 @@ class Tasks:
             return
         self._invoke(giver, replace(command, theme=theme, recipient=recipient or command.recipient))
 
+    def collect(self, command: Command) -> None:
+        """Get something on board that the next clause says more about."""
+        theme, source = self._theme(command)
+        if self.catalogue.with_role("grasp", "ask_operator") is None:
+            self.notes.append(f"I cannot pick things up, so somebody has to put {the(plain(theme))} on me.")
+        if source is not None:
+            self._stand_at(source)
+        self._look_for(theme)
+        if self.catalogue.with_role("grasp", "ask_operator") is not None:
+            self._take(theme)
+        self.carried = theme
+        self.scene.mention(theme)
+
     def _grasp(self, command: Command) -> None:
         theme = bare(self.scene.referent(command.theme)) if command.theme else ()
         if not theme:
             raise UnclearError("What should I pick up?")
+        if keys(theme) in _ANYTHING and self.catalogue.with_role("grasp") is None:
+            raise UnableError(f"{command.verb} {plain(theme)}")
         if self.catalogue.with_role("grasp", "ask_operator") is None:
             raise UnableError(f"pick up {the(plain(theme))}")
         place = self.scene.place(command.source) if command.source else self._known_place(theme)
@@ -466,6 +508,31 @@ def _reason(place: Place, why: str) -> str:
 def replace_reason(step: ActionCall, reason: str) -> ActionCall:
     """The same step with a reason."""
     return step.model_copy(update={"reason": reason})
+
+
+def coordinates(phrase: Phrase) -> tuple[float, float] | None:
+    """Two numbers, if the phrase says nothing but where on the map they are."""
+    numbers = [
+        float(word.key.replace(",", ".")) for word in phrase if re.fullmatch(r"\d+(?:[.,]\d+)?", word.key)
+    ]
+    others = {word.key for word in phrase if word.is_word and not word.key[0].isdigit()}
+    known = {
+        "x",
+        "y",
+        "and",
+        "coordinates",
+        "coordinate",
+        "position",
+        "point",
+        "pose",
+        "at",
+        "map",
+        "m",
+        "meters",
+        "the",
+        "is",
+    }
+    return (numbers[0], numbers[1]) if len(numbers) == 2 and others <= known else None
 
 
 def pose_values(mover: ActionInfo, pose: Pose2D) -> dict[str, float] | None:

@@ -1,0 +1,58 @@
+"""Indirect requests: what somebody wants or needs ("I would like some tea", "he is cold")."""
+
+from __future__ import annotations
+
+from parley.language.offline.commands import Command, read_command
+from parley.language.offline.lexicon import lexicon
+from parley.language.offline.nouns import bare
+from parley.language.offline.scene import Scene
+from parley.language.offline.text import Phrase, Word, keys, tokens
+
+__all__ = ["need", "wish"]
+
+
+def wish(words: Phrase, scene: Scene) -> Command | None:
+    """For "I would like some tea", "he needs the cup": something is to be brought."""
+    found = lexicon().wants.match(keys(words))
+    if found is not None and found[0] < len(words):
+        theme = words[found[0] :]
+        if keys(theme)[0] == "you" and lexicon().places.match(keys(theme), 1):
+            return read_command((Word("go", "go"), Word("to", "to"), *theme[1:]), scene.is_person)
+        if keys(theme)[0] in {"to", "you"}:
+            return None
+        return read_command((Word("bring", "bring"), Word("me", "me"), *theme), scene.is_person)
+    flat = keys(words)
+    for index in range(1, min(4, len(flat) - 1)):
+        if flat[index] in {"needs", "wants", "need", "want"} or flat[index : index + 2] == (
+            "would",
+            "like",
+        ):
+            who = words[:index]
+            theme = words[index + (2 if flat[index] == "would" else 1) :]
+            if scene.is_person(who) and theme and theme[0].key not in {"to", "you"}:
+                scene.mention(bare(who))
+                return read_command((Word("bring", "bring"), *theme, Word("to", "to"), *who), scene.is_person)
+    return None
+
+
+def need(words: Phrase, scene: Scene) -> Command | None:
+    """For "X is thirsty": something to drink is to be brought to X, unless the message says what."""
+    flat = keys(words)
+    state = next((w for w in flat[2:] if w in lexicon().needs), None)
+    link = next(
+        (
+            i
+            for i in range(1, len(flat))
+            if flat[i] in lexicon().be | {"feels", "looks", "feel", "seems", "gets"}
+        ),
+        0,
+    )
+    if state is None or not link or "not" in flat:
+        return None
+    who = bare(words[:link])
+    if not scene.is_person(who):
+        return None
+    scene.mention(who)
+    return Command(
+        "need", state, theme=tokens(lexicon().needs[state]), recipient=who, words=words, clause=words
+    )
