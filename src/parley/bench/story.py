@@ -5,13 +5,16 @@ from __future__ import annotations
 import asyncio
 import resource
 import statistics
+import tempfile
 import time
 from dataclasses import dataclass
+from pathlib import Path
 
 from parley.config import SystemConfig
 from parley.demos.catalogue import Demo, load_demo
 from parley.demos.observer import Observer
 from parley.demos.runner import play
+from parley.errors import ParleyError
 
 __all__ = ["DemoFigures", "measure_demo"]
 
@@ -40,12 +43,19 @@ class DemoFigures:
 
 
 async def measure_demo(name: str) -> DemoFigures:
-    """Start a demonstration, then play its story at full speed."""
+    """Start a demonstration, then play its story at full speed.
+
+    Raises:
+        ParleyError: The story did not hold.
+    """
     began_s = time.perf_counter()
     demo = await asyncio.to_thread(load_demo, name)
-    config = SystemConfig(speed=None)
-    ready_s = await _until_ready(demo, config, began_s)
-    result = await play(demo.story, lambda variant: demo.system(config, variant))
+    ready_s = await _until_ready(demo, SystemConfig(speed=None), began_s)
+    with tempfile.TemporaryDirectory(prefix="parley-") as folder:
+        config = SystemConfig(speed=None, data_dir=Path(folder))
+        result = await play(demo.story, lambda variant: demo.system(config, variant))
+    if not result.held:
+        raise ParleyError(f"the story did not hold, so nothing was measured: {result.text}")
     return DemoFigures(
         ready_s=ready_s,
         reply_ms=tuple(1000 * latency for latency in result.latencies_s),
