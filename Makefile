@@ -31,6 +31,7 @@ format: $(VENV)/.dev ## Bring the code into the agreed form
 
 bench: $(VENV)/.runtime ## Measure
 	@$(BIN)/parley bench engine
+	@$(BIN)/parley bench demo
 
 # pytest ends with 5 when it finds nothing to run.
 soak: $(VENV)/.dev ## The long tests

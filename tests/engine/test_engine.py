@@ -123,6 +123,28 @@ async def test_an_ended_graph_may_be_started_again_and_is_matched_again() -> Non
         await rig.until(lambda: rig.graph_states("g").count("FINISHED") == 2)
 
 
+async def test_a_graph_that_was_started_anew_is_silent_about_its_old_run() -> None:
+    async with rigged() as rig:
+        left_over = {
+            "graph_name": "g",
+            "graph_entry": [{"name": "NoOp"}, {"name": "WaitFor"}],
+            "graph_exit": [{"name": "NoOp"}],
+            "actions": [node("NoOp"), node("WaitFor", 0, seconds=60)],
+        }
+        rig.start(left_over)
+        await rig.until_graph("g", "FINISHED")
+        seen = len(rig.events)
+        rig.start(chain("g", [node("WaitFor", 1, seconds=0.01)]))
+        await rig.until(lambda: rig.graph_states("g").count("FINISHED") == 2)
+        told = [(item.sequence, item.node, item.state) for item in rig.events[seen:]]
+        assert told == [
+            (0, "", "RUNNING"),
+            (1, "WaitFor_1", "RUNNING"),
+            (2, "WaitFor_1", "FINISHED"),
+            (3, "", "FINISHED"),
+        ]
+
+
 @pytest.mark.parametrize(
     ("text", "code"),
     [

@@ -146,6 +146,15 @@ SAMPLES: dict[type[BaseModel], dict[str, Any]] = {
     status.StepCommand: {"target": "A", "graph_name": "g", "node": "Move_0", "command": "end"},
     status.StopCommand: {"command": "reset", "targets": ["A"], "id": "1"},
     status.StopReport: {"actor": "A", "id": "1", "state": "at_rest"},
+    status.SyncNotice: {
+        "kind": "ended",
+        "actor": "A",
+        "graph_name": "g",
+        "id": "1",
+        "node": "Move_0",
+        "result": "on_true",
+        "outputs": {"x": {"pvf_type": "number", "pvf_value": 1.0}},
+    },
     status.RejectionProblem: {"path": "x", "message": "wrong", "remedy": "right it", "code": "bad"},
     status.Rejection: {
         "source": "A",

@@ -12,7 +12,7 @@ from dataclasses import dataclass
 from typing import Any
 
 from parley.errors import ActionFailure, FailureCode
-from parley.umrf.action import RunHandle, action
+from parley.umrf.action import Outcome, RunHandle, action
 from parley.umrf.catalogue import Catalogue
 
 
@@ -85,6 +85,20 @@ async def crash(ctx: RunHandle) -> None:
 
 
 @action
+async def measure(ctx: RunHandle) -> Outcome:
+    """Tell more than was declared."""
+    return Outcome(facts={"text": "beside", "seen": Text("a box"), "thing": object()})
+
+
+@action
+async def chatter(ctx: RunHandle) -> None:
+    """Tell of every little progress."""
+    for index in range(50):
+        ctx.progress(index / 50, str(index))
+    await asyncio.sleep(0.15)
+
+
+@action
 async def leave(ctx: RunHandle) -> None:
     """Try to end the program."""
     sys.exit(3)
@@ -137,7 +151,7 @@ SPECS = [
     item.spec
     for item in (
         join_text, same_text, find_nothing, wait_for, count_to, raise_error, fail, crash, no_op, insist,
-        leave, fail_badly, stubborn, in_thread, thread_loop,
+        measure, chatter, leave, fail_badly, stubborn, in_thread, thread_loop,
     )
 ]  # fmt: skip
 CATALOGUE = Catalogue(SPECS)

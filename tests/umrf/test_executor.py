@@ -140,19 +140,23 @@ async def test_a_plain_log_line_does_not_hide_the_reason_of_a_defect() -> None:
 
 async def test_only_the_ten_newest_log_lines_are_kept() -> None:
     handles: list[Any] = []
+    told: list[Transition] = []
     run = GraphRun(
         read_graph(chain("g", [node("NoOp")])),
         CATALOGUE,
         actor="A",
         clock=WallClock(),
-        make_context=lambda handle: handles.append(handle),
+        make_context=handles.append,
+        observer=told.append,
     )
     run.start()
     await run.wait()
+    handles[0].progress(1.0, "too late to be told")
     for index in range(15):
         handles[0].log(f"{index} \ud800")
     found = run.snapshot().nodes[0].messages
     assert [item.message for item in found] == [f"{index} ?" for index in range(5, 15)]
+    assert not [item for item in told if item.kind == "progress"]
 
 
 async def test_a_context_that_cannot_be_made_is_the_failure_of_the_node() -> None:
@@ -185,6 +189,27 @@ async def test_a_defect_of_an_observer_does_not_stop_the_run() -> None:
     )
     run.start()
     assert await run.wait() is Result.ON_TRUE
+
+
+async def test_facts_are_told_with_the_end_of_the_node_and_not_handed_on() -> None:
+    watched = Watched(chain("g", [node("Measure", 0), node("SameText", 1, text="own", expected="own")]))
+    watched.run.start()
+    await watched.run.wait()
+    [ended] = [item for item in watched.told if item.node == "Measure_0" and item.result]
+    assert {name: item.value for name, item in ended.outputs.items() if item.type == "string"} == {
+        "text": "beside",
+        "seen::text": "a box",
+    }
+    assert watched.run.outputs("Measure_0") == {}
+    assert [item.result for item in watched.told if item.node == "SameText_1"][-1] is Result.ON_TRUE
+
+
+async def test_progress_that_comes_too_fast_is_thinned_and_the_newest_is_told() -> None:
+    watched = Watched(chain("g", [node("Chatter", 0)]))
+    watched.run.start()
+    await watched.run.wait()
+    told = [item.progress_text for item in watched.told if item.kind == "progress"]
+    assert told == ["0", "49"]
 
 
 # -- threads ------------------------------------------------------------------------------------------------
@@ -244,6 +269,7 @@ async def test_a_pause_can_be_taken_back_before_it_took_hold() -> None:
     watched.run.start()
     watched.run.pause()
     watched.run.resume()
+    assert watched.state("Insist_0") is NodeState.RUNNING
     assert await watched.run.wait() is Result.ON_TRUE
     assert "PAUSED" not in watched.states()
 
@@ -329,22 +355,57 @@ async def test_nodes_that_outlive_their_graph_can_be_stopped() -> None:
     assert watched.run.state is GraphState.FINISHED
 
 
-async def test_restart_stops_a_running_child_and_runs_it_again() -> None:
-    raw = {
+def triggering(response: str, watched_node: dict[str, Any]) -> dict[str, Any]:
+    """NoOp_0 ends at once and answers its edge to the other entry with `response`."""
+    ref = {"name": watched_node["name"], "instance_id": watched_node["instance_id"]}
+    back = {"name": "NoOp", "required": False, "conditions": [f"on_true -> {response}"]}
+    return {
         "graph_name": "g",
-        "graph_entry": [{"name": "WaitFor"}, {"name": "NoOp"}],
+        "graph_entry": [ref, {"name": "NoOp"}],
         "graph_exit": [],
-        "actions": [
-            node("WaitFor", 0, seconds=LONG)
-            | {"parents": [{"name": "NoOp", "required": False, "conditions": ["on_true -> restart"]}]},
-            node("NoOp") | {"children": [{"name": "WaitFor"}]},
-        ],
+        "actions": [watched_node | {"parents": [back]}, node("NoOp") | {"children": [ref]}],
     }
-    watched = Watched(raw)
+
+
+async def test_restart_stops_a_running_child_and_runs_it_again() -> None:
+    watched = Watched(triggering("restart", node("WaitFor", 0, seconds=LONG)))
     watched.run.start()
     await settle()
     assert watched.states("WaitFor_0") == ["RUNNING", "STOPPING", "FINISHED", "RUNNING"]
     assert watched.run.state is GraphState.RUNNING
+    await watched.run.close()
+
+
+async def test_a_restart_does_not_outlive_a_stop() -> None:
+    watched = Watched(triggering("restart", node("ThreadLoop", 0)))
+    watched.run.start()
+    await settle()
+    assert watched.state("ThreadLoop_0") is NodeState.STOPPING
+    watched.run.stop()
+    assert await watched.run.wait() is Result.ON_STOPPED
+    assert watched.states("ThreadLoop_0") == ["RUNNING", "STOPPING", "FINISHED"]
+
+
+async def test_a_node_that_did_not_stop_earlier_is_no_reason_for_a_stop_to_fail() -> None:
+    watched = Watched(triggering("stop", node("Stubborn", 0, seconds=0.1)), stop_timeout_s=0.01)
+    watched.run.start()
+    await watched.run.wait()
+    assert (watched.run.state, watched.state("Stubborn_0")) == (GraphState.HALTED, NodeState.ERROR)
+    with pytest.raises(GraphRefusedError) as error:
+        watched.run.resume("Stubborn_0")
+    assert refusal(error) == "still_stopping"
+    watched.run.stop()
+    assert await watched.run.wait() is Result.ON_STOPPED
+    await watched.run.close()
+
+
+async def test_a_node_paused_by_an_edge_goes_on_with_a_resume() -> None:
+    watched = Watched(triggering("pause", node("WaitFor", 0, seconds=LONG)))
+    watched.run.start()
+    await settle()
+    assert (watched.run.state, watched.state("WaitFor_0")) == (GraphState.RUNNING, NodeState.PAUSED)
+    watched.run.resume()
+    assert watched.state("WaitFor_0") is NodeState.RUNNING
     await watched.run.close()
 
 

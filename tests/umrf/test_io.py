@@ -184,6 +184,12 @@ def test_a_wrong_graph_is_refused_with_the_path_of_what_is_wrong(raw: Any, path:
     assert path in refused(raw)
 
 
+@pytest.mark.parametrize("value", [{1, 2}, float("nan"), "\ud800", object()])
+def test_an_object_that_is_no_json_is_refused_like_its_text(value: object) -> None:
+    with pytest.raises(GraphRefusedError):
+        read_graph(graph(x=value))
+
+
 def test_every_problem_is_named_at_once() -> None:
     actions = [
         {"name": "A"},

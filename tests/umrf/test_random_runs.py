@@ -47,8 +47,8 @@ def graphs(draw: st.DrawFn) -> dict[str, Any]:
     last, target = raw["actions"][-1], raw["actions"][draw(st.integers(0, len(nodes) - 1))]
     known = [item["name"] for item in last.get("children", [])]
     if draw(st.booleans()) and target is not last and target["name"] not in known:
-        # Never `run` or `restart`: such a loop goes on until it is stopped, which is right but no end.
-        mild = st.sampled_from(["stop", "pause", "bypass", "ignore"])
+        # Never `run`, `restart` or `bypass`: such a loop goes on until it is stopped, as it should.
+        mild = st.sampled_from(["stop", "pause", "ignore"])
         back = {"name": last["name"], "instance_id": last["instance_id"], "required": False}
         back["conditions"] = [f"{result} -> {draw(mild)}" for result in RESULTS]
         if all(item["name"] != back["name"] for item in target.get("parents", [])):

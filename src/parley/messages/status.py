@@ -23,6 +23,7 @@ __all__ = [
     "StepCommand",
     "StopCommand",
     "StopReport",
+    "SyncNotice",
 ]
 
 
@@ -192,3 +193,23 @@ class Rejection(Payload):
     graph_name: str = ""
     problems: tuple[RejectionProblem, ...] = ()
     detail: dict[str, Any] = Field(default_factory=dict)
+
+
+class SyncNotice(Payload):
+    """`/parley/sync`: what the engines of one multi-actor graph tell each other (`spec/umrf.md` 13).
+
+    TeMoto's own format is not public, so these are ours alone.
+    """
+
+    kind: Literal["hello", "ready", "ended", "received"]
+    """`hello` and `ready` are the start handshake; `ended` hands a result over, `received` confirms it."""
+    actor: str
+    """Who speaks."""
+    graph_name: str
+    id: str = ""
+    """Of an `ended` notice, so that it can be confirmed and is taken once."""
+    node: str = ""
+    """Full name of the node that ended."""
+    result: str = ""
+    """`on_true`, `on_false`, `on_error`, `on_stopped`."""
+    outputs: ParameterTree = Field(default_factory=dict)

@@ -6,7 +6,7 @@ from parley.language.base import Situation
 from parley.language.offline.lexicon import lexicon
 from parley.language.offline.text import Phrase, closest, keys, tokens
 
-__all__ = ["addressed"]
+__all__ = ["addressed", "calls_several"]
 
 _CALLS = frozenset(
     {"hey", "hi", "hello", "ok", "okay", "dear", "tell", "have", "let", "ask", "make", "and", "please", "get"}
@@ -30,6 +30,18 @@ def addressed(words: Phrase, situation: Situation) -> tuple[Phrase, tuple[str, .
     if last:
         named.append(last)
     return rest, tuple(dict.fromkeys(named))
+
+
+def calls_several(words: Phrase, robots: tuple[str, ...]) -> bool:
+    """Whether different robots are given different orders ("A go to x and B go to y")."""
+    flat = keys(words)
+    called = {
+        name
+        for name in robots
+        for index in range(len(flat) - 2)
+        if flat[index] == name.lower() and (index == 0 or flat[index - 1] in {"and", ",", ".", "while", ";"})
+    }
+    return len(called) > 1 and " and ".join(sorted(n.lower() for n in called)) not in " ".join(flat)
 
 
 def _called_first(words: Phrase, robots: tuple[str, ...]) -> tuple[Phrase, str]:
@@ -71,6 +83,9 @@ def _called_last(words: Phrase, robots: tuple[str, ...]) -> tuple[Phrase, str]:
     for name in robots:
         called = keys(tokens(name))
         start = end - len(called)
-        if start > 0 and keys(words[start:end]) == called and words[start - 1].key == ",":
-            return (*words[: start - 1], *words[end:]), name
+        if start > 0 and keys(words[start:end]) == called:
+            if words[start - 1].key == ",":
+                return (*words[: start - 1], *words[end:]), name
+            if keys(words[:start]) in lexicon().thanks or keys(words[:start]) in lexicon().greetings:
+                return words[:start], name
     return words, ""

@@ -14,7 +14,7 @@ from parley.language.word_lists import load_data
 from parley.world.geometry import Pose2D
 from parley.world.object_map import MapObject
 
-__all__ = ["choose", "choose_object"]
+__all__ = ["choose", "choose_object", "strip_lead_ins"]
 
 _ANY = frozenset(["any", "either", "whichever", "whatever", "anyone"])
 
@@ -54,7 +54,7 @@ def choose_object(
     excluded = _excluded(words, candidates, objects, pose)
     if excluded is not None:
         return excluded
-    meant = _strip(words)
+    meant = strip_lead_ins(words)
     return _by_words(meant, candidates, objects, pose) or _by_position(keys(bare(meant)), candidates)
 
 
@@ -72,7 +72,7 @@ def _excluded(
     if "not" not in flat or len(candidates) != 2:
         return None
     at = flat.index("not")
-    refused = _by_words(_strip(words[at + 1 :]), candidates, objects, pose)
+    refused = _by_words(strip_lead_ins(words[at + 1 :]), candidates, objects, pose)
     return next((item for item in candidates if refused is not None and item != refused), None)
 
 
@@ -83,7 +83,8 @@ def _lead_ins() -> tuple[tuple[str, ...], ...]:
     )
 
 
-def _strip(words: Phrase) -> Phrase:
+def strip_lead_ins(words: Phrase) -> Phrase:
+    """Without "I mean", "it is" and the like at the start of an answer."""
     stripped = True
     while stripped and words:
         stripped = False

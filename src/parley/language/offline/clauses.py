@@ -91,19 +91,14 @@ def _conditional(sentence: Phrase, opens: Opens) -> list[Clause]:
     words = strip_openers(sentence)
     if flat[:1] == ("if",) or flat[:2] == ("in", "case"):
         start = 1 if flat[0] == "if" else 2
-        cut = next(
-            (
-                i
-                for i in range(start + 2, len(flat))
-                if flat[i] in {",", "then"} or (opens(words[i:]) and not _bare_verb_noun(flat, i))
-            ),
-            0,
+        cut = next((i for i in range(start + 2, len(flat)) if flat[i] in {",", "then"}), 0) or next(
+            (i for i in range(start + 3, len(flat)) if opens(words[i:]) and not _bare_verb_noun(flat, i)), 0
         )
         if cut:
             condition = _trim(words[start:cut])
             return _with_otherwise(words[cut:], condition, opens)
     for index in range(2, len(flat) - 2):
-        if lemma(flat[0]) in {"ask", "tell", "remind"}:
+        if {"ask", "remind"} & set(flat[:index]) or flat[0] == "tell":
             break
         before = keys(words[:index])
         if (
@@ -139,7 +134,9 @@ def _with_otherwise(words: Phrase, condition: Phrase, opens: Opens) -> list[Clau
     ]
 
 
-_WHOEVER = frozenset("you i we anyone anybody somebody someone anything something nobody".split())
+_WHOEVER = frozenset(
+    {"you", "i", "we", "anyone", "anybody", "somebody", "someone", "anything", "something", "nobody"}
+)
 
 
 def _before_after(sentence: Phrase, opens: Opens) -> list[Clause]:
@@ -201,6 +198,8 @@ def _cut(sentence: Phrase, opens: Opens) -> list[Clause]:
     start, index, first = 0, 0, False
     while index < len(flat):
         found = lex.sequence.match(flat, index)
+        if found is None and flat[index] == "next" and index and flat[index - 1] in {",", "and"}:
+            found = 1, "next"
         if found and not (flat[index] == "next" and flat[index + 1 : index + 2] == ("to",)):
             if index > start:
                 pieces.append((start, index, first))
@@ -236,7 +235,7 @@ def _new_clause(sentence: Phrase, start: int, index: int, opens: Opens) -> bool:
     mistaken = lexicon().corrections.match(keys(before))
     if len(before) in {found[0] if found else 0, mistaken[0] if mistaken else 0}:
         return False
-    if keys(strip_openers(before)) in _SERIAL_VERBS:
+    if keys(strip_openers(before, requests=True)) in _SERIAL_VERBS:
         return False
     if opens(rest) and any(word.is_word for word in before):
         return keys(rest[:1])[0] not in lexicon().person_words

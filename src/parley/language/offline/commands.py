@@ -42,7 +42,7 @@ IsPerson = Callable[[Phrase], bool]
 _SERIAL = frozenset(
     {"go", "come", "run", "head", "drive", "move", "walk", "hurry", "proceed", "return", "travel", "roll"}
 )
-_DIRECTIONS = frozenset("left right up down forward back to the your".split())
+_DIRECTIONS = frozenset(["left", "right", "up", "down", "forward", "back", "to", "the", "your"])
 _HERE = frozenset({"here", "around", "there", "everything", "surroundings"})
 
 
@@ -89,12 +89,22 @@ def read_command(
         )
     kind, _, verb = found[1].partition(":")
     rest = words[found[0] :]
+    if verb == "move" and _moves_something(keys(rest)):
+        kind = "transfer"
     serial = _serial(flat[0], rest, kind)
     if serial is not None:
         inner = read_command(serial, is_person, extra_verbs)
         if inner is not None and inner.kind != "other":
             return replace(inner, negated=negated or inner.negated, asked_politely=requested)
     return _fill(Command(kind, verb, negated, words=rest, clause=words, asked_politely=requested), is_person)
+
+
+def _moves_something(flat: tuple[str, ...]) -> bool:
+    """For "Move the box to the door", as against "move to the door"."""
+    lex = lexicon()
+    return "to" in flat[1:] and not (
+        lex.goals.match(flat) or lex.places.match(flat) or lex.adverbs.match(flat)
+    )
 
 
 def _base(words: Phrase) -> tuple[str, ...]:

@@ -5,6 +5,7 @@ from __future__ import annotations
 import re
 from collections.abc import Iterable, Sequence
 from dataclasses import dataclass, replace
+from functools import lru_cache
 
 from parley.language.offline.grounding import ground_phrase
 from parley.language.offline.lexicon import lexicon
@@ -350,23 +351,24 @@ def remembered(memory: Iterable[MemoryEntry]) -> list[Remembered]:
     for entry in memory:
         if entry.type != "text":
             continue
-        fact = _entry_fact(entry)
+        fact = _entry_fact(entry.name, entry.data)
         if fact is not None:
             result.append(Remembered(fact, entry))
     return result[::-1]
 
 
-def _entry_fact(entry: MemoryEntry) -> Fact | None:
-    first = re.split(r"(?<=[.!;])\s", entry.data.strip(), maxsplit=1)[0][:400]
+@lru_cache(maxsize=4096)
+def _entry_fact(name: str, data: str) -> Fact | None:
+    first = re.split(r"(?<=[.!;])\s", data.strip(), maxsplit=1)[0][:400]
     words = tokens(first)
     fact = read_statement(words)
     if fact is not None:
         return fact
-    about, _, kind = entry.name.rpartition("_")
+    about, _, kind = name.rpartition("_")
     if about and kind in {"location", "place", "position"} and words and len(words) < 12:
         noun = noun_phrase(words)
         place = noun.anchors[0] if not noun.core and noun.anchors else noun.phrase
-        return Fact(tokens(about.replace("_", " ")), place, noun.relation or "at", sentence=entry.data)
+        return Fact(tokens(about.replace("_", " ")), place, noun.relation or "at", sentence=data)
     return None
 
 

@@ -6,6 +6,7 @@ from collections.abc import Sequence
 from dataclasses import dataclass
 
 from parley.language.base import Situation, Turn
+from parley.language.offline import social
 from parley.language.offline.clauses import opens_command
 from parley.language.offline.facts import read_statement, strip_openers
 from parley.language.offline.lexicon import lexicon
@@ -84,7 +85,7 @@ def _is_answer(words: Phrase, question: Turn) -> bool:
     flat = keys(strip_openers(words))
     if agrees(plain(words)) is not None and len(words) <= 5:
         return True
-    if flat[0] in lexicon().question_starts:
+    if flat[0] in lexicon().question_starts or social.reply(words) is not None:
         return False
     asked_where = any(
         text in question.content.lower()

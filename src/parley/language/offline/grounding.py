@@ -37,8 +37,18 @@ def ground_phrase(
     objects: Sequence[MapObject],
     pose: Pose2D | None = None,
     among: Sequence[MapObject] = (),
+    *,
+    strict: bool = False,
 ) -> Grounding:
-    """As `ground`, for words already cut; `among` are the only objects that may be meant, if given."""
+    """As `ground`, for words already cut.
+
+    Args:
+        phrase: The description.
+        objects: The map.
+        pose: The robot's.
+        among: The only objects that may be meant, if given; the others may still be referred to.
+        strict: Whether typing errors are ruled out.
+    """
     eligible = among or objects
     by_id = [item for item in eligible if item.id.lower() == plain(phrase).lower()]
     if by_id:
@@ -53,8 +63,8 @@ def ground_phrase(
     noun = noun_phrase(phrase)
     if not noun.core and noun.anchors:
         # "in front of the door", "next to the box": the object named is what is meant (thesis 5.1.1).
-        return ground_phrase(noun.anchors[0], eligible, pose)
-    found, leftover = _candidates(noun, profiles)
+        return ground_phrase(noun.anchors[0], eligible, pose, strict=strict)
+    found, leftover = _candidates(noun, profiles, strict=strict)
     if not found:
         return Grounding("none", tuple(_near_misses(noun, eligible)))
     return _grounding(_narrow(noun, leftover, found, objects, pose))
@@ -150,7 +160,9 @@ def _exact(phrase: Phrase, profiles: Sequence[_Profile]) -> list[MapObject]:
     return [profile.item for profile in profiles if others & profile.names and _labels_fit(wanted, profile)]
 
 
-def _candidates(noun: NounPhrase, profiles: Sequence[_Profile]) -> tuple[list[_Profile], tuple[str, ...]]:
+def _candidates(
+    noun: NounPhrase, profiles: Sequence[_Profile], *, strict: bool
+) -> tuple[list[_Profile], tuple[str, ...]]:
     """Profiles that fit the core of the phrase, and the modifiers that no description settles."""
     core = noun.core
     generic = _without_generic(core, profiles)
@@ -159,7 +171,8 @@ def _candidates(noun: NounPhrase, profiles: Sequence[_Profile]) -> tuple[list[_P
         told = [p for p in _by_any_word(generic, profiles) if _labels_fit(generic, p)] if generic else []
         return (told, ()) if told else (list(profiles), generic)
     later = tuple(word for word in generic if word in _SETTLED_LATER)
-    for step in (_by_head, _by_synonym, _by_kind, _by_any_word, _by_typo):
+    steps = (_by_head, _by_synonym, _by_kind, _by_any_word, _by_typo)
+    for step in steps[:-1] if strict else steps:
         for words, rest in ((generic, ()), (settled, later)):
             found = [profile for profile in step(words, profiles) if _labels_fit(words, profile)]
             if found:
@@ -197,7 +210,8 @@ _SETTLED_LATER = frozenset(_SIZES) | {
 def _without_generic(core: tuple[str, ...], profiles: Sequence[_Profile]) -> tuple[str, ...]:
     """Drop "one", "thing" and the like where no object is called so ("area one" is "area 1")."""
     known = {word for profile in profiles for word in profile.words}
-    if len(core) > 1 and core[-1] == "one" and "1" in known and core[-2] in known:
+    heads = {head for profile in profiles for head in profile.heads}
+    if len(core) > 1 and core[-1] == "one" and "1" in known and core[-2] in heads | {"number"}:
         return (*core[:-1], "1")
     dropped = lexicon().generic_things | {"number", "kind"}
     return tuple(word for word in core if word not in dropped or word in known)
@@ -279,7 +293,8 @@ def _by_relation(
         where = ground_phrase(anchor, [o for o in objects if o not in items] or objects, pose)
         if where.outcome != "match":
             where = ground_phrase(anchor, objects, pose)
-        anchors += where.candidates if where.outcome == "match" else ()
+        if where.outcome == "match" and _is_called(where.candidates[0], anchor):
+            anchors.append(where.candidates[0])
     wanted = tuple(sorted({word for anchor in noun.anchors for word in _comparable(anchor)}))
     told = [
         p.item
@@ -289,6 +304,15 @@ def _by_relation(
     if told or len(anchors) < len(noun.anchors):
         return told or items
     return spatial.by_anchor([i for i in items if i not in anchors] or items, noun.relation, anchors, pose)
+
+
+def _is_called(item: MapObject, phrase: Phrase) -> bool:
+    """Whether the phrase names the object itself and not only something its description mentions."""
+    profile = _profile(item)
+    core = noun_phrase(phrase).core
+    return _comparable(bare(phrase)) in profile.names or any(
+        head_of(o) in profile.heads for o in variants(core)
+    )
 
 
 def _near_misses(noun: NounPhrase, objects: Sequence[MapObject]) -> list[MapObject]:

@@ -11,16 +11,17 @@ from parley.language.offline import addressing, edits, questions, social
 from parley.language.offline.abilities import abilities, cannot
 from parley.language.offline.clauses import Clause, clauses, opens_command
 from parley.language.offline.commands import Command, read_command
-from parley.language.offline.facts import Fact, memory_name, read_statement, strip_openers
+from parley.language.offline.facts import Fact, read_statement, strip_openers
 from parley.language.offline.followup import pending_request
 from parley.language.offline.lexicon import lexicon
 from parley.language.offline.mending import mended
+from parley.language.offline.noting import Noting
 from parley.language.offline.nouns import bare, noun_phrase
 from parley.language.offline.saying import listing, the, whole_sentence
 from parley.language.offline.scene import Scene, UnclearError
 from parley.language.offline.tasks import Tasks, UnableError
-from parley.language.offline.text import Phrase, Word, keys, lemma, mend, plain, split_name, tokens
-from parley.language.offline.wishes import need, wish
+from parley.language.offline.text import Phrase, Word, keys, lemma, plain, tokens
+from parley.language.offline.wishes import missing, need, wish
 from parley.messages.chat import ActionCall, ChatAction, CommandName, Flow, FlowIf, SystemCommand
 
 __all__ = ["interpret"]
@@ -46,20 +47,22 @@ def interpret(situation: Situation) -> ChatAction:
     if control is not None:
         command, reply = _CONTROL_REPLIES[control]
         return _say(situation, reply, commands=(SystemCommand(command=command),))
+    if addressing.calls_several(tokens(message), situation.robots):
+        return _say(situation, "Please give each robot its own message. What should I do myself?")
     words, targets = addressing.addressed(mended(tokens(message), situation), situation)
     situation = replace(situation, robot=targets[0] if targets else situation.robot)
     if not any(word.is_word for word in words):
         return _say(situation, "Yes? What can I do for you?", targets=targets)
-    answer = social.reply(words)
+    request = pending_request(words, situation)
+    answer = social.reply(words) if request is None else None
     if answer is not None:
         return _say(situation, answer, targets=targets)
-    request = pending_request(words, situation)
     if request is not None and request.declined:
         return _say(situation, "All right, I leave it.", targets=targets)
     if request is not None:
         words, targets = addressing.addressed(mended(tokens(request.message), situation), situation)
         situation = replace(situation, history=request.history)
-    return _Reader(Scene.of(situation, request.hints if request else ()), targets).read(words)
+    return _Reader(Scene.of(situation, request.hints if request else ()), targets=targets).read(words)
 
 
 def _say(
@@ -72,16 +75,34 @@ def _say(
     )
 
 
+_REPORTS = frozenset(
+    tuple(text.split())
+    for text in (
+        "tell me",
+        "let me know",
+        "report back",
+        "report to me",
+        "report",
+        "inform me",
+        "tell us",
+        "tell me about it",
+    )
+)
+"""What every look does anyway."""
+_FOLLOW_ON = (("what", "about"), ("how", "about"), ("the", "same", "for"), ("same", "for"), ("same", "with"))
+
+
 @dataclass
-class _Reader:
+class _Reader(Noting):
     """Reads the clauses of one message in order."""
 
-    scene: Scene
-    targets: tuple[str, ...]
+    targets: tuple[str, ...] = ()
     tasks: Tasks = field(init=False)
-    commands: list[SystemCommand] = field(default_factory=list)
-    replies: list[str] = field(default_factory=list)
     last: Command | None = None
+    _previous: Command | None = None
+    """What the message before asked for."""
+    _leads_on: bool = False
+    """Whether this message begins like a continuation."""
     _parts: Sequence[Clause] = ()
     _at: int = 0
     _before_last: tuple[int, int] = (0, 0)
@@ -94,6 +115,7 @@ class _Reader:
         parts = clauses(words, lambda phrase: opens_command(phrase, self.scene.catalogue.verbs))
         try:
             self._parts = parts
+            self._leads_on = bool(words) and words[0].key in {"and", "now", "then", "next", "also"}
             for index, clause in enumerate(parts):
                 self._at = index
                 self._clause(clause, alone=len(parts) == 1, index=index)
@@ -101,7 +123,7 @@ class _Reader:
             return self._result(unclear.question, (), choices=unclear.choices)
         except UnableError as unable:
             return self._result(cannot(unable.what, self.scene), ())
-        self._learned()
+        self.learn()
         return self._result(self._reply(), self.tasks.steps)
 
     # -- clauses --
@@ -122,7 +144,7 @@ class _Reader:
         command = self._command(clause)
         if command is not None:
             self._do(command)
-        elif len(self.tasks.steps) == start and not self._statement(clause):
+        elif len(self.tasks.steps) == start and not self.state(clause):
             self._fallback(clause, alone=alone)
 
     def _corrected(self, clause: Clause) -> Clause:
@@ -204,9 +226,8 @@ class _Reader:
     def _look_for_answer(self, answer: questions.Answer) -> None:
         if self.scene.hints and questions.is_yes(self.scene.hints[0]):
             self.scene.hints.pop(0)
-            command = read_command(
-                (Word("check", "check"), Word("whether", "whether"), *answer.look), self.scene.is_person
-            )
+            verb = ("look",) if answer.look[0].key == "at" else ("check", "whether")
+            command = read_command((*(Word(v, v) for v in verb), *answer.look), self.scene.is_person)
             if command is not None:
                 self.tasks.do(command)
             return
@@ -222,7 +243,13 @@ class _Reader:
         ):
             return None
         if command is None:
-            command = wish(words, self.scene) or need(words, self.scene) or self._elliptical(words)
+            command = (
+                wish(words, self.scene)
+                or need(words, self.scene)
+                or missing(words, self.scene)
+                or self._going(words)
+                or self._elliptical(words)
+            )
         if (
             command is not None
             and command.kind == "other"
@@ -232,8 +259,15 @@ class _Reader:
             return None
         return command
 
+    def _going(self, words: Phrase) -> Command | None:
+        """For "to the desk": going needs no verb."""
+        if keys(words)[:1] not in {("to",), ("over",), ("towards",), ("back",)} or len(words) < 2:
+            return None
+        return read_command((Word("go", "go"), *words), self.scene.is_person)
+
     def _elliptical(self, words: Phrase) -> Command | None:
         """For "Go to A, then B": a bare noun phrase does again what the clause before did."""
+        words = self._follow_on(words)
         if (
             self.last is None
             or self.last.kind not in {"motion", "look", "search"}
@@ -252,6 +286,14 @@ class _Reader:
                 self.last, place=words, clause=(Word("go", "go"), Word("to", "to"), *words), negated=negated
             )
         return replace(self.last, theme=words, place=(), clause=words, negated=negated)
+
+    def _follow_on(self, words: Phrase) -> Phrase:
+        """Also for "what about the desk?" and "and now the desk": as in the message before."""
+        flat = keys(words)
+        lead = next((lead for lead in _FOLLOW_ON if flat[: len(lead)] == lead), ())
+        if self.last is None and (lead or self._leads_on):
+            self.last = self._previous
+        return words[len(lead) :]
 
     def _do(self, command: Command) -> None:
         if command.negated:
@@ -273,6 +315,8 @@ class _Reader:
             return
         for _ in range(self._times(command)):
             self.tasks.do(_without_times(command))
+            if self._times(command) > 1:
+                self.tasks.here = ""
 
     def _carried_on(self, command: Command) -> bool:
         """Whether a later clause says where what is fetched goes ("get the box and bring it to A")."""
@@ -300,78 +344,6 @@ class _Reader:
         )
         self.replies.append(whole_sentence(f"All right, I will not {words}"))
 
-    def _statement(self, clause: Clause) -> bool:
-        fact = None if clause.is_question else read_statement(clause.words)
-        if fact is None:
-            return self._note(clause)
-        fact = self._about(fact)
-        if fact.negated and fact.is_location:
-            self._remember(replace(fact, sentence=fact.sentence))
-        else:
-            self._remember(fact)
-        return True
-
-    def _note(self, clause: Clause) -> bool:
-        """For "Remember that <anything>": kept as it was said."""
-        words = strip_openers(clause.words)
-        found = lexicon().reporting.match(keys(words))
-        if (
-            found is None
-            or found[0] >= len(words) - 1
-            or lemma(words[0].key)
-            not in lexicon().verb_classes["remember"] | {"keep", "do", "be", "bear", "know", "please"}
-        ):
-            return False
-        rest = strip_openers(words[found[0] :])
-        sentence = plain(rest)
-        self._remember(
-            Fact(rest[:4], relation="note", state=rest, sentence=sentence[:1].upper() + sentence[1:])
-        )
-        return True
-
-    def _about(self, fact: Fact) -> Fact:
-        """Pronouns of a statement replaced by what they stand for."""
-        flat = keys(fact.subject)
-        if len(flat) == 1 and flat[0] in lexicon().person_pronouns | lexicon().thing_pronouns:
-            subject = bare(self.scene.referent(fact.subject))
-            old = plain(fact.subject)
-            rest = (
-                fact.sentence[len(old) :]
-                if fact.sentence.lower().startswith(old.lower())
-                else f" is {fact.relation} {plain(fact.place)}"
-            )
-            return replace(fact, subject=subject, sentence=whole_sentence(the(plain(subject)) + rest)[:-1])
-        return fact
-
-    def _remember(self, fact: Fact) -> None:
-        name = memory_name(fact, self.scene.facts)
-        where = (
-            f"where {the(plain(fact.subject))} is"
-            if fact.is_location
-            else f"about {the(plain(fact.subject))}"
-        )
-        arguments = {"data": fact.sentence, "info": where[0].upper() + where[1:], "name": name}
-        self.commands.append(SystemCommand(command="add_memory", arguments=arguments))
-        self.scene.add_fact(fact, name)
-        self.scene.mention(fact.subject)
-        if fact.place:
-            self.scene.places.append(fact.place)
-        said = fact.sentence
-        first = said.split()[0] if said else ""
-        keep = (
-            self.scene.is_person(tokens(first))
-            or first.isupper()
-            or (fact.subject and plain(fact.subject).startswith(first) and fact.subject[0].is_capital)
-        )
-        said = said if keep else said[:1].lower() + said[1:]
-        said = said.replace("the operator", "you", 1).replace("you is", "you are", 1)
-        self.replies.append(f"I will remember that {said}.")
-
-    def _learned(self) -> None:
-        for fact in self.scene.learned:
-            self._remember(fact)
-        self.scene.learned.clear()
-
     def _condition(self, clause: Clause) -> None:
         """Look first, then act or not."""
         if not self._same_condition(clause):
@@ -387,7 +359,7 @@ class _Reader:
             }
             if protocol:
                 said = f"If {plain(clause.condition)}, {plain(clause.words)}"
-                self._remember(
+                self.remember(
                     Fact(bare(clause.condition[-2:]), relation="protocol", state=clause.words, sentence=said)
                 )
                 return
@@ -415,7 +387,13 @@ class _Reader:
 
     def _fallback(self, clause: Clause, *, alone: bool) -> None:
         words = strip_openers(clause.words)
-        if not words:
+        if (
+            not words
+            or (keys(words) in _REPORTS
+            and self.tasks.steps)
+            or (words[0].key == "not"
+            and self.replies)
+        ):
             return
         if lexicon().insults & set(keys(words)):
             self.replies.append("I am sorry if I did something wrong. Tell me what I should do.")
@@ -451,6 +429,7 @@ class _Reader:
                 fact = read_statement(part.words)
                 command = read_command(part.words, self.scene.is_person)
                 if command is not None:
+                    self._previous = None if command.negated else command
                     for phrase in (command.source, command.place, command.theme, command.recipient):
                         self.scene.mention(bare(phrase))
                     if command.place:
@@ -463,7 +442,7 @@ class _Reader:
     def _reply(self) -> str:
         if self.last is not None and self.last.kind == "need" and not self.tasks.steps:
             self._serve_need(self.last)
-            self._learned()
+            self.learn()
         parts = [*self.replies, *self.tasks.notes]
         known = [
             whole_sentence(f.fact.sentence)

@@ -15,7 +15,7 @@ from parley.language.offline.nouns import bare, noun_phrase
 from parley.language.offline.replies import agrees
 from parley.language.offline.saying import a, capital, listing, the, whole_sentence
 from parley.language.offline.scene import Scene
-from parley.language.offline.text import Phrase, keys, plain, split_name, tokens
+from parley.language.offline.text import Phrase, Word, keys, plain, split_name, tokens
 from parley.language.word_lists import load_data
 from parley.messages.chat import ActionCall
 
@@ -321,10 +321,11 @@ def _what_in(words: Phrase, flat: tuple[str, ...], scene: Scene, _: bool) -> Ans
     """For "What is in X?", "who is on X?": the remembered facts about that place."""
     if flat[0] not in {"what", "who"} or len(flat) < 4 or flat[1] not in lexicon().be:
         return None
-    found = lexicon().places.match(flat, 2)
+    at = 3 if flat[2] in lexicon().location_verbs | {"there"} else 2
+    found = lexicon().places.match(flat, at)
     if found is None:
         return None
-    place = bare(words[2 + found[0] :])
+    place = bare(words[at + found[0] :])
     wanted = set(noun_phrase(place).core)
     hits = [
         f
@@ -339,20 +340,22 @@ def _what_in(words: Phrase, flat: tuple[str, ...], scene: Scene, _: bool) -> Ans
     if hits:
         return Answer(" ".join(whole_sentence(item.fact.sentence) for item in hits))
     if ground_phrase(place, scene.objects).outcome != "none":
-        return Answer(
-            f"I do not know what is {found[1]} {the(plain(place))}. I can go there and have a look."
-        )
+        ask = f"I do not know what is {found[1]} {the(plain(place))}. Shall I go there and have a look?"
+        return Answer(ask, (Word("at", "at"), *place))
     return Answer(f"I do not know what is {found[1]} {the(plain(place))}. Tell me and I will remember it.")
 
 
 def _how_many(words: Phrase, flat: tuple[str, ...], scene: Scene, _: bool) -> Answer | None:
-    if flat[:2] != ("how", "many") or len(flat) < 3:
+    start = 2 if flat[:2] == ("how", "many") else 1
+    if len(flat) < 3 or (
+        start == 1 and (flat[0] not in {"which", "what"} or flat[1] in lexicon().be | lexicon().auxiliaries)
+    ):
         return None
-    end = next((i for i in range(2, len(flat)) if flat[i] in lexicon().be | {"do", "can"}), len(flat))
-    about = bare(words[2:end])
+    end = next((i for i in range(start + 1, len(flat)) if flat[i] in lexicon().be | {"do", "can"}), len(flat))
+    about = bare(words[start:end])
     found = ground_phrase(about, scene.objects) if about else None
     if found is None or found.outcome == "none":
-        return Answer(f"I do not know of any {plain(about)}.")
+        return Answer(f"I do not know of any {plain(about)}.") if start == 2 else None
     names = listing([the(describe(item, scene.objects)) for item in found.candidates])
     return Answer(f"I know {len(found.candidates)} on my map: {names}.")
 

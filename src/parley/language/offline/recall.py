@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterable, Sequence
+from collections.abc import Sequence
 
 from parley.language.offline.facts import remembered
 from parley.language.offline.lexicon import lexicon
@@ -21,16 +21,16 @@ def select_memories(query: str, index: Sequence[MemoryEntry]) -> list[str]:
     }
     chosen = {name for name, words in about.items() if words & wanted}
     # A place that a chosen fact leads to may have a fact of its own ("area A is closed").
-    places: set[str] = set()
-    for item in remembered([entry for entry in index if entry.name in chosen]):
-        if item.fact.is_location:
-            places |= _labelled(word.key for word in item.fact.place)
-    chosen |= {name for name, words in about.items() if places and places <= words | _labelled(words)}
+    leads_to = [
+        {singular(word.key) for word in item.fact.place if word.is_word}
+        for item in remembered([entry for entry in index if entry.name in chosen])
+        if item.fact.is_location
+    ]
+    for entry in index:
+        said = {singular(word.key) for word in tokens(entry.data[:500])}
+        if any(place and place <= said for place in leads_to):
+            chosen.add(entry.name)
     return [entry.name for entry in index if entry.name in chosen]
-
-
-def _labelled(words: Iterable[str]) -> set[str]:
-    return {singular(word) for word in words if word not in lexicon().determiners or len(word) == 1}
 
 
 def _meant(query: str) -> set[str]:

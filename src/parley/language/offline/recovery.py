@@ -15,7 +15,7 @@ from parley.errors import FailureCode
 from parley.language.base import ErrorSituation, Situation
 from parley.language.control import control_of
 from parley.language.offline.catalogue import Catalogue, roles_of, text_inputs
-from parley.language.offline.choosing import choose, choose_object
+from parley.language.offline.choosing import choose, choose_object, strip_lead_ins
 from parley.language.offline.clauses import opens_command
 from parley.language.offline.commands import read_command
 from parley.language.offline.facts import memory_name, read_statement, remembered
@@ -260,7 +260,11 @@ def _new_words(situation: ErrorSituation, reply: str) -> ChatAction | None:
     if situation.code not in {FailureCode.NO_MATCH, FailureCode.AMBIGUOUS} or _looks(situation):
         return None
     ordered = read_command(tokens(reply), lambda _: False)
-    where = ("at", ordered.place) if ordered is not None and ordered.place else place_said(tokens(reply))
+    where = (
+        ("at", ordered.place)
+        if ordered is not None and ordered.place
+        else place_said(strip_lead_ins(tokens(reply)))
+    )
     found = ground_phrase(where[1], situation.objects, situation.robot_pose) if where else None
     if found is None or found.outcome != "match" or where is None:
         return None

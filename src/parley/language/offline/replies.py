@@ -8,7 +8,6 @@ from functools import cache
 from parley.language.base import ReplyReading
 from parley.language.control import control_of
 from parley.language.offline.choosing import choose
-from parley.language.word_lists import load_data
 from parley.language.offline.text import closest, keys, tokens
 from parley.language.word_lists import load_data
 

@@ -5,7 +5,7 @@ from __future__ import annotations
 from collections.abc import Sequence
 from dataclasses import dataclass, field, replace
 
-from parley.language.base import Situation
+from parley.language.base import Grounding, Situation
 from parley.language.offline.catalogue import Catalogue
 from parley.language.offline.choosing import choose_object
 from parley.language.offline.facts import Fact, Remembered, find_fact, memory_name, read_statement, remembered
@@ -85,6 +85,12 @@ class Scene:
         if item.entry.name not in self.sources:
             self.sources.append(item.entry.name)
 
+    def ground(self, phrase: Phrase) -> Grounding:
+        """What the phrase means on the map; what is remembered by that very name is no misspelt object."""
+        flat = keys(bare(phrase))
+        remembered_so = any(keys(item.fact.subject) == flat for item in self.facts)
+        return ground_phrase(phrase, self.objects, self.situation.robot_pose, strict=remembered_so)
+
     def is_person(self, phrase: Phrase) -> bool:
         """Whether words name somebody rather than something."""
         lex = lexicon()
@@ -98,7 +104,7 @@ class Scene:
             return True
         if singular(flat[-1]) in lex.person_words:
             return True
-        if ground_phrase(phrase, self.objects).outcome != "none":
+        if self.ground(phrase).outcome != "none":
             return False
         if any(keys(person) == flat for person in self.persons):
             return True
@@ -155,7 +161,7 @@ class Scene:
         """
         phrase = self.referent(self._other(phrase))
         remembered_words = via is not None
-        found = ground_phrase(phrase, self.objects, self.situation.robot_pose)
+        found = self.ground(phrase)
         if found.outcome == "match":
             item = found.candidates[0]
             return Place(describe(item, self.objects), item, via)
@@ -318,6 +324,10 @@ class Scene:
         plural = self._is_plural(noun)
         if not plural and noun.quantifier not in lexicon().quantifiers | {"rest"}:
             return [phrase]
+        if noun.quantifier == "rest" and not noun.core:
+            like = {item.class_name for item in self._mentioned()}
+            others = [i for i in self.objects if i.class_name in like and i not in self._mentioned()]
+            return [tokens(describe(item, self.objects)) for item in others]
         if not noun.core and self.things:
             phrase = self.things[-1]
             noun = noun_phrase(phrase)
@@ -325,6 +335,8 @@ class Scene:
         if found.outcome == "none":
             return [phrase]
         left_out = ground_phrase(noun.excluded, self.objects).candidates if noun.excluded else ()
+        if noun.quantifier == "rest":
+            left_out = self._mentioned()
         if noun.excluded and not left_out:
             raise self.unknown(noun.excluded)
         return [
@@ -332,6 +344,22 @@ class Scene:
             for item in found.candidates
             if item not in left_out
         ]
+
+    def _mentioned(self) -> tuple[MapObject, ...]:
+        """The objects spoken of so far, for "the rest".
+
+        Raises:
+            UnclearError: None were.
+        """
+        spoken = [
+            ground_phrase(t, self.objects, self.situation.robot_pose) for t in (*self.things, *self.places)
+        ]
+        found = tuple(
+            item for grounding in spoken for item in grounding.candidates if grounding.outcome == "match"
+        )
+        if not found:
+            raise UnclearError("The rest of what? Please name it.")
+        return found
 
     def _is_plural(self, noun: NounPhrase) -> bool:
         if not noun.phrase:

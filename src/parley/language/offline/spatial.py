@@ -73,7 +73,9 @@ def by_anchor(
     elif relation == "behind" and pose is not None:
         beyond = pose.distance_to(Pose2D(first.x_m, first.y_m))
         items = [i for i in items if pose.distance_to(Pose2D(i.x_m, i.y_m)) > beyond] or list(items)
-    return nearest_to(items, first.x_m, first.y_m)
+    near = nearest_to(items, first.x_m, first.y_m)
+    # "The closest to" is a comparison: the nearest is meant even if others are not much farther.
+    return near[:1] if "closest" in relation or "nearest" in relation else near
 
 
 def _on_side(item: MapObject, anchor: MapObject, left: bool, pose: Pose2D | None) -> bool:

@@ -6,6 +6,7 @@ import re
 import unicodedata
 from collections.abc import Iterable, Sequence
 from dataclasses import dataclass, replace
+from functools import lru_cache
 
 from rapidfuzz.distance import OSA
 
@@ -40,6 +41,7 @@ _TOKEN = re.compile(r"\d+(?:[.,]\d+)+|[^\W_]+(?:['-][^\W_]+)*'?|\.{2,}|[.,!?;:()
 _SUFFIX = {"n't": "not", "'re": "are", "'m": "am", "'ve": "have", "'ll": "will", "'d": "would"}
 
 
+@lru_cache(maxsize=8192)
 def tokens(text: str) -> Phrase:
     """Cut text into words and punctuation, contractions expanded.
 

@@ -8,7 +8,7 @@ from parley.language.offline.nouns import bare
 from parley.language.offline.scene import Scene
 from parley.language.offline.text import Phrase, Word, keys, tokens
 
-__all__ = ["need", "wish"]
+__all__ = ["missing", "need", "wish"]
 
 
 def wish(words: Phrase, scene: Scene) -> Command | None:
@@ -18,6 +18,8 @@ def wish(words: Phrase, scene: Scene) -> Command | None:
         theme = words[found[0] :]
         if keys(theme)[0] == "you" and lexicon().places.match(keys(theme), 1):
             return read_command((Word("go", "go"), Word("to", "to"), *theme[1:]), scene.is_person)
+        if keys(theme)[:2] in {("to", "see"), ("to", "know"), ("to", "look"), ("to", "check")}:
+            return read_command(theme[1:], scene.is_person)
         if keys(theme)[0] in {"to", "you"}:
             return None
         return read_command((Word("bring", "bring"), Word("me", "me"), *theme), scene.is_person)
@@ -33,6 +35,23 @@ def wish(words: Phrase, scene: Scene) -> Command | None:
                 scene.mention(bare(who))
                 return read_command((Word("bring", "bring"), *theme, Word("to", "to"), *who), scene.is_person)
     return None
+
+
+def missing(words: Phrase, scene: Scene) -> Command | None:
+    """For "the X is missing (from the Y)": somebody should go there and look for it."""
+    flat = keys(words)
+    link = next((i for i in range(1, len(flat)) if flat[i] in lexicon().be), 0)
+    state = flat[link + 1 : link + 2]
+    if (
+        not link
+        or state not in {("missing",), ("lost",), ("gone",), ("nowhere",)}
+        or scene.catalogue.with_role("look", "search") is None
+    ):
+        return None
+    place = (
+        bare(words[link + 3 :]) if flat[link + 2 : link + 3] in {("from",), ("in",), ("at",), ("on",)} else ()
+    )
+    return Command("search", "look for", theme=bare(words[:link]), place=place, words=words, clause=words)
 
 
 def need(words: Phrase, scene: Scene) -> Command | None:

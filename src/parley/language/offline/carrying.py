@@ -1,0 +1,167 @@
+"""Steps that bring something from one place to another, by actions or with the operator's help."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass, replace
+
+from parley.language.offline.commands import Command
+from parley.language.offline.going import UnableError
+from parley.language.offline.lexicon import lexicon
+from parley.language.offline.looking import ASKING, Looking
+from parley.language.offline.nouns import bare
+from parley.language.offline.saying import the
+from parley.language.offline.scene import OPERATOR, Place, UnclearError
+from parley.language.offline.text import Phrase, keys, plain, tokens
+
+__all__ = ["Carrying"]
+
+_ANYTHING = frozenset((word,) for word in ("things", "objects", "something", "stuff", "people", "anything"))
+
+
+@dataclass
+class Carrying(Looking):
+    """How to bring things."""
+
+    def _fetch(self, command: Command) -> None:
+        if not command.theme:
+            raise UnclearError(f"What should I {command.verb}?")
+        theme, source = self._theme(command)
+        if self.scene.is_person(theme):
+            self._guide(command, theme)
+            return
+        recipient, goal = self._destination(command)
+        fetcher = self.catalogue.with_role("fetch")
+        if fetcher is not None and self.catalogue.with_role("grasp") is None:
+            self._invoke(fetcher, replace(command, theme=theme, recipient=recipient))
+            return
+        name = plain(theme)
+        if keys(theme) != keys(self.carried):
+            if keys(theme) != keys(self.seen):
+                if source is not None:
+                    self._stand_at(source)
+                self._look_for(theme)
+            self._take(theme)
+        self.travel(goal, f"bring {the(name)} to {self._person(recipient) if recipient else goal.label}")
+        self._hand_over(theme, recipient, command)
+        self.carried = ()
+        self.scene.mention(recipient)
+        self.scene.mention(theme)
+
+    def _theme(self, command: Command) -> tuple[Phrase, Place | None]:
+        """What is to be brought, in the words it is remembered by, and where it is."""
+        need = lexicon().need_phrases.get(" ".join(keys(bare(command.theme))))
+        theme = bare(self.scene.referent(tokens(need) if need else command.theme))
+        if keys(theme) == keys(self.carried):
+            return theme, None
+        if command.source:
+            return theme, self.scene.place(command.source)
+        if self._grounds(theme):
+            return theme, self.scene.place(theme)
+        place = self.scene.remembered_place(theme)
+        if place is None and not need and self.here:
+            return theme, None
+        place = place or self.scene.told_place(theme)
+        if place is None:
+            if need:
+                raise UnclearError(
+                    f"I do not know of {lexicon().need_words[need]}. What should I bring, and where is it?"
+                )
+            raise UnclearError(f"Where is {the(plain(theme))}?")
+        return (place.via.fact.subject if place.via is not None and place.via.fact.subject else theme), place
+
+    def _destination(self, command: Command) -> tuple[Phrase, Place]:
+        recipient = command.recipient
+        if not recipient and not command.place and command.verb in {"take", "carry", "deliver", "transport"}:
+            raise UnclearError("Where should I bring it?")
+        if not recipient and not command.place:
+            recipient = self.scene.persons[-1] if self.scene.persons else OPERATOR
+        recipient = self.scene.referent(recipient) if recipient else ()
+        if command.place:
+            return recipient, self.scene.place(command.place)
+        return recipient, self._recipient_place(recipient)
+
+    def _person(self, recipient: Phrase) -> str:
+        return "you" if keys(recipient) == ("operator",) else the(plain(recipient))
+
+    def _look_for(self, theme: Phrase) -> None:
+        looker = self._searcher(theme)
+        if looker is not None:
+            self._add_look(looker, plain(theme), f"look for {the(plain(theme))}")
+
+    def _take(self, theme: Phrase) -> None:
+        """Get something on board: by an action, else with the operator's help."""
+        name = plain(theme)
+        grasper, asker = self.catalogue.with_role("grasp"), self.catalogue.with_role("ask_operator")
+        if grasper is not None:
+            self.steps += self._said(grasper, name, f"take {the(name)}")
+            self.will.append(f"take {the(name)}")
+        elif asker is not None:
+            question = f"I cannot pick things up. Please put {the(name)} on me and tell me when it is done."
+            self.steps += self._said(asker, question, f"I cannot pick up {the(name)} myself")
+            self.will.append(f"ask you to put {the(name)} on me, because I cannot pick things up")
+        else:
+            self.notes.append(f"I cannot pick things up, so somebody has to put {the(name)} on me.")
+        self.carried = theme
+
+    def _hand_over(self, theme: Phrase, recipient: Phrase, command: Command) -> None:
+        giver = self.catalogue.with_role("handover") if recipient else self.catalogue.with_role("place")
+        if giver is None:
+            return
+        self._invoke(giver, replace(command, theme=theme, recipient=recipient or command.recipient))
+
+    def collect(self, command: Command) -> None:
+        """Get something on board that the next clause says more about."""
+        theme, source = self._theme(command)
+        if self.catalogue.with_role("grasp", "ask_operator") is None:
+            self.notes.append(f"I cannot pick things up, so somebody has to put {the(plain(theme))} on me.")
+        if source is not None:
+            self._stand_at(source)
+        self._look_for(theme)
+        if self.catalogue.with_role("grasp", "ask_operator") is not None:
+            self._take(theme)
+        self.carried = theme
+        self.scene.mention(theme)
+
+    def _grasp(self, command: Command) -> None:
+        theme = bare(self.scene.referent(command.theme)) if command.theme else ()
+        if not theme:
+            raise UnclearError("What should I pick up?")
+        if keys(theme) in _ANYTHING and self.catalogue.with_role("grasp") is None:
+            raise UnableError(f"{command.verb} {plain(theme)}")
+        if self.catalogue.with_role("grasp", "ask_operator") is None:
+            raise UnableError(f"pick up {the(plain(theme))}")
+        place = self.scene.place(command.source) if command.source else self._known_place(theme)
+        if (
+            place is None
+            and command.theme[0].key not in ASKING
+            and not self.here
+            and self.catalogue.with_role("grasp") is None
+        ):
+            raise UnclearError(f"Where is {the(plain(theme))}?")
+        self._stand_at(place)
+        self._take(theme)
+        self.scene.mention(theme)
+
+    def _place(self, command: Command) -> None:
+        theme = bare(self.scene.referent(command.theme)) if command.theme else self.carried
+        placer, asker = self.catalogue.with_role("place"), self.catalogue.with_role("ask_operator")
+        if keys(theme) != keys(self.carried):
+            if command.place and theme:
+                self._fetch(replace(command, kind="transfer", theme=theme))
+                return
+            raise UnableError(f"{command.verb} {the(plain(theme)) if theme else 'things'}")
+        if command.place:
+            self._stand_at(self._place_or_here(command.place))
+        if placer is not None:
+            self._invoke(placer, replace(command, theme=theme))
+        elif asker is not None:
+            question = f"Please take {the(plain(theme))} off me and tell me when it is done."
+            self.steps += self._said(asker, question, f"I cannot put down {the(plain(theme))} myself")
+            self.will.append(f"ask you to take {the(plain(theme))} off me")
+        self.carried = ()
+
+    def _guide(self, command: Command, theme: Phrase) -> None:
+        guide = self.catalogue.with_role("guide")
+        if guide is None:
+            raise UnableError("take people along")
+        self._invoke(guide, replace(command, theme=theme, recipient=theme))

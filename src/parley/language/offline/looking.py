@@ -1,0 +1,125 @@
+"""Steps that look at something or for something."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+
+from parley.language.offline.catalogue import parameter_role, text_inputs
+from parley.language.offline.commands import Command
+from parley.language.offline.going import FORWARD, Going, UnableError
+from parley.language.offline.nouns import bare
+from parley.language.offline.saying import the
+from parley.language.offline.scene import Place, UnclearError
+from parley.language.offline.text import Phrase, keys, plain
+from parley.messages.status import ActionInfo
+
+__all__ = ["ASKING", "Looking"]
+
+ASKING = frozenset({"it", "that", "this", "them", "there", "here", "those", "these"})
+"""Words that point at something said before."""
+
+
+@dataclass
+class Looking(Going):
+    """How to look at things and for things."""
+
+    def _look(self, command: Command) -> None:
+        looker = self.catalogue.with_role("look", "search")
+        if looker is None:
+            raise UnableError(f"{command.verb} things")
+        if command.place:
+            self._look_there(command, looker)
+            return
+        if (
+            command.theme
+            and set(keys(command.theme)) & FORWARD
+            and not self._grounds(command.theme[:1])
+            and len(command.theme) < 3
+        ):
+            raise UnableError("turn my camera")
+        if not command.theme:
+            request = "whether " + plain(command.words) if command.kind == "whether" else "what can be seen"
+            self._add_look(looker, request, "look around")
+            return
+        for member in self.scene.several(command.theme):
+            self._look_at(member, command, looker)
+
+    def _look_there(self, command: Command, looker: ActionInfo) -> None:
+        """Something in or at a place: "the shelf for leaks", "whether the cup is on the table"."""
+        whole = command.kind == "whether" and self._grounds(command.theme)
+        stand = self._place_or_here(command.theme if whole else command.place)
+        theme = plain(self.scene.referent(command.theme)) if command.theme else ""
+        request = self._whether(command) if command.kind == "whether" else theme
+        self._stand_at(stand)
+        self.scene.mention(bare(command.theme))
+        if command.kind == "whether":
+            self._add_look(looker, request, f"check {request}")
+        else:
+            self._add_look(looker, request or command.verb, f"look for {theme}")
+
+    def _look_at(self, member: Phrase, command: Command, looker: ActionInfo) -> None:
+        if command.kind == "whether":
+            request = self._whether(command)
+            self._stand_at(self._place_or_here(member))
+            self.scene.mention(bare(self.scene.referent(member)))
+            self._add_look(looker, request, f"check {request}")
+            return
+        place = self._place_or_here(member)
+        name = plain(bare(self.scene.referent(member)))
+        request = place.value if place is not None and place.item is not None and place.via is None else name
+        self._stand_at(place)
+        self._add_look(looker, request, f"look at {the(request)}")
+
+    def _whether(self, command: Command) -> str:
+        words, asking = command.words, "how" if command.verb.endswith("how") else "whether"
+        if command.theme and keys(bare(command.theme))[0] in ASKING:
+            subject = the(plain(self.scene.referent(command.theme)))
+            rest = words[len(command.theme) :]
+            return f"{asking} {subject} {plain(rest)}".strip()
+        return f"{asking} {plain(words)}"
+
+    def _add_look(self, looker: ActionInfo, request: str, saying: str) -> None:
+        self.steps += self._said(looker, request, saying)
+        self.will.append(saying)
+
+    def _search(self, command: Command) -> None:
+        theme = self._wanted(command.theme)
+        searcher = self._searcher(theme)
+        if searcher is None:
+            raise UnableError("look for things")
+        words = plain(theme)
+        if command.place:
+            self._stand_at(self._place_or_here(command.place))
+        else:
+            own = "search" in self.catalogue.roles(searcher)
+            known = self._known_place(theme)
+            if known is not None:
+                self._stand_at(known)
+                if known.via is not None:
+                    words = (
+                        plain(known.via.fact.subject) if len(known.via.fact.subject) > len(theme) else words
+                    )
+            elif not (own or self.here):
+                raise UnclearError(f"Where should I look for {the(words)}?")
+        self.scene.mention(theme)
+        self.seen = theme
+        self._add_look(searcher, words, f"look for {the(words)}")
+
+    def _searcher(self, theme: Phrase) -> ActionInfo | None:
+        wanted = "person" if self.scene.is_person(theme) else "object"
+        for info in (*self.catalogue.all_with_role("search"), *self.catalogue.all_with_role("meet")):
+            roles = {parameter_role(name) for name in text_inputs(info)}
+            if wanted in roles or not roles & {"person", "object"}:
+                return info
+        return self.catalogue.with_role("look") or self.catalogue.with_role("search")
+
+    def _wanted(self, theme: Phrase) -> Phrase:
+        if not theme:
+            raise UnclearError("What should I look for?")
+        return bare(self.scene.referent(theme))
+
+    def _known_place(self, theme: Phrase) -> Place | None:
+        if self._grounds(theme):
+            return self.scene.place(theme)
+        place = self.scene.remembered_place(theme)
+        return place if place is not None else self.scene.told_place(theme)

@@ -1,0 +1,50 @@
+"""The feedback topic: at once after a quiet time, then coalesced, the last state always."""
+
+from __future__ import annotations
+
+import asyncio
+import json
+
+from parley.clock import WallClock
+from parley.engine.feedback import Feedback
+from parley.messages.ros import UmrfGraphFeedback
+from tests.umrf.spec_actions import chain, node
+from tests.umrf.watched import Watched
+
+
+class StandingClock(WallClock):
+    """Wall time does not pass."""
+
+    def wall_s(self) -> float:
+        return 0.0
+
+
+async def test_changes_within_the_interval_are_sent_as_one_and_the_last_at_the_close() -> None:
+    sent: list[UmrfGraphFeedback] = []
+    feedback = Feedback("A", StandingClock(), sent.append)
+    watched = Watched(chain("g", [node("WaitFor", 0, seconds=60)]))
+    feedback.changed(watched.run)
+    feedback.changed(watched.run)
+    await asyncio.sleep(0)
+    assert [json.loads(item.history[0])["graph_state"] for item in sent] == ["INITIALIZED"]
+    watched.run.start()
+    feedback.changed(watched.run)
+    watched.run.pause()
+    feedback.changed(watched.run)
+    await asyncio.sleep(0)
+    assert len(sent) == 1, "the interval is not over"
+    feedback.close()
+    assert [json.loads(item.history[0])["graph_state"] for item in sent] == ["INITIALIZED", "PAUSED"]
+    feedback.close()
+    assert len(sent) == 2
+    await watched.run.close()
+
+
+async def test_graphs_do_not_wait_for_each_other() -> None:
+    sent: list[UmrfGraphFeedback] = []
+    feedback = Feedback("A", StandingClock(), sent.append)
+    for name in ("g", "h"):
+        feedback.changed(Watched(chain(name, [node("NoOp")])).run)
+    await asyncio.sleep(0)
+    assert [json.loads(item.history[0])["graph_name"] for item in sent] == ["g", "h"]
+    feedback.close()

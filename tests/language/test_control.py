@@ -1,0 +1,103 @@
+"""Stop and its kin: whole utterances, many languages, never part of something else."""
+
+from __future__ import annotations
+
+import pytest
+from hypothesis import given
+from hypothesis import strategies as st
+
+from parley.language.control import Control, control_of
+
+
+@pytest.mark.parametrize(
+    ("text", "control"),
+    [
+        ("stop", "stop"),
+        ("STOP!!!", "stop"),
+        ("please stop", "stop"),
+        ("Stop, Rob!", "stop"),
+        ("wait", "stop"),
+        ("hold on a second", "stop"),
+        ("pause", "stop"),
+        ("don't move", "stop"),
+        ("stop stop stop", "stop"),
+        ("stpo", "stop"),
+        ("stooop", "stop"),
+        ("okay, stop now", "stop"),
+        ("Rob, wait!", "stop"),
+        ("seis", "stop"),
+        ("peatu", "stop"),
+        ("oota", "stop"),
+        ("alto", "stop"),
+        ("arrête", "stop"),
+        ("halt an", "stop"),
+        ("стоп", "stop"),
+        ("停止", "stop"),
+        ("रुको", "stop"),
+        ("توقف", "stop"),
+        ("থামো", "stop"),
+        ("espere", "stop"),
+        ("carry on", "start"),
+        ("continue please", "start"),
+        ("go on", "start"),
+        ("try again", "start"),
+        ("jätka", "start"),
+        ("weiter", "start"),
+        ("continúa", "start"),
+        ("skip it", "skip"),
+        ("skip this step", "skip"),
+        ("next step", "skip"),
+        ("cancel everything", "clear"),
+        ("abort the mission", "clear"),
+        ("stop and cancel everything", "clear"),
+        ("tühista kõik", "clear"),
+        ("emergency stop", "emergency_stop"),
+        ("hädaseiskamine", "emergency_stop"),
+    ],
+)
+def test_a_whole_utterance_is_an_order(text: str, control: Control) -> None:
+    assert control_of(text, ("Rob",)) == control
+
+
+@pytest.mark.parametrize(
+    "text",
+    [
+        "don't stop",
+        "stop at the chair",
+        "is there a bus stop?",
+        "stop?",
+        "",
+        "   ",
+        "!!!",
+        "go to the bus stop",
+        "wait at the door",
+        "when should I stop",
+        "the last stop",
+        "now",
+        "okay",
+        "no",
+        "strop",
+        "shop",
+        "go",
+        "continue to the door",
+        "skip the second step",
+        "cancel the meeting with Anna",
+        "forget that",
+        "stop " * 60,
+        "cancel my subscription to the paper",
+        "hold the door",
+        "pause the music in the hall",
+    ],
+)
+def test_a_word_inside_a_sentence_is_no_order(text: str) -> None:
+    assert control_of(text) is None
+
+
+@given(st.sampled_from(["stop", "wait", "cancel"]), st.sampled_from(["chair", "door", "wug", "blicket"]))
+def test_an_order_with_an_object_is_never_taken_for_the_order_alone(order: str, noun: str) -> None:
+    assert control_of(f"{order} at the {noun}") is None
+
+
+@given(st.text(max_size=300))
+def test_any_text_can_be_asked_about(text: str) -> None:
+    assert control_of(text) in {None, "stop", "start", "skip", "clear", "emergency_stop"}

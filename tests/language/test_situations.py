@@ -1,0 +1,104 @@
+"""Situations as JSON lines."""
+
+from __future__ import annotations
+
+import json
+from typing import Any
+
+import pytest
+
+from parley.errors import FailureCode, InvalidMessageError
+from parley.language.base import ErrorSituation, Situation
+from parley.language.offline import OfflineLanguage
+from parley.language.situations import interpret_lines, read_situation
+from tests.language.dev_set import CATALOGUES
+
+OBJECTS = [
+    {"id": "box_1", "description": "red box", "x": 1, "y": 2},
+    {"id": "door_1", "description": "door", "x": 3, "y": 2},
+]
+FAILED = {"GetCoordinates": {"input_parameters": {"target": {"pvf_type": "string", "pvf_value": "box"}}}}
+
+
+async def answers(*lines: Any) -> list[dict[str, Any]]:
+    texts = [line if isinstance(line, str) else json.dumps(line) for line in lines]
+    return [
+        json.loads(line) async for line in interpret_lines(texts, OfflineLanguage(), CATALOGUES["thesis"])
+    ]
+
+
+async def test_a_situation_gives_a_chat_action_with_its_id() -> None:
+    (answer,) = await answers({"id": 7, "message": "go to the red box", "objects": OBJECTS, "robot": "A"})
+    assert answer["id"] == 7 and answer["latency_s"] >= 0
+    names = [next(iter(step)) for step in answer["output"]["queue"]]
+    assert names == ["GetCoordinates", "NavigateTo"]
+    target = answer["output"]["queue"][0]["GetCoordinates"]["input_parameters"]["target"]
+    assert target == {"pvf_type": "string", "pvf_value": "red box"}
+
+
+async def test_a_catalogue_of_its_own_is_used() -> None:
+    catalogue = [{"name": "move_to", "inputs": {"place": "string"}}]
+    (answer,) = await answers({"message": "go to the door", "objects": OBJECTS, "catalogue": catalogue})
+    assert [next(iter(step)) for step in answer["output"]["queue"]] == ["move_to"]
+
+
+async def test_an_error_situation_is_resolved() -> None:
+    (answer,) = await answers(
+        {
+            "kind": "error",
+            "error_message": "two boxes",
+            "failed_action": FAILED,
+            "code": "ambiguous",
+            "reply": "the red one",
+            "details": {
+                "candidates": [{"id": "a", "description": "red box"}, {"id": "b", "description": "blue box"}]
+            },
+        }
+    )
+    assert answer["output"]["success"] is True
+    assert "id" not in answer
+
+
+async def test_bad_lines_are_reported_and_stop_nothing() -> None:
+    good = {"id": "ok", "message": "hello"}
+    first, second, third, fourth = await answers("{", {"id": "x", "message": 5}, "[]", good)
+    assert first["error"].startswith("line 1: not valid JSON")
+    assert second == {"id": "x", "error": "line 2.message: Input should be a valid string"}
+    assert third["error"] == "line 3: expected a JSON object"
+    assert fourth["output"]["message_response"]
+
+
+async def test_empty_lines_are_passed_over() -> None:
+    assert await answers("", "  \n") == []
+
+
+@pytest.mark.parametrize(
+    ("change", "path"),
+    [
+        ({"status": "sleeping"}, "status"),
+        ({"memory": [{"data": "x"}]}, "memory.0.name"),
+        ({"objects": [{"description": "x"}]}, "objects.0.id"),
+        ({"robot_pose": {"x": 1}}, "robot_pose.y"),
+        ({"queue": [{"A": {}, "B": {}}]}, "queue.0"),
+        ({"history": [{"role": "nobody", "content": ""}]}, "history.0.role"),
+    ],
+)
+def test_the_wrong_field_is_named(change: dict[str, Any], path: str) -> None:
+    with pytest.raises(InvalidMessageError) as caught:
+        read_situation({"message": "hello", **change}, line=3)
+    assert (caught.value.what, caught.value.path) == ("line 3", path)
+
+
+def test_both_kinds_are_read_whole() -> None:
+    situation = read_situation(
+        {"message": "hi", "history": [{"role": "user", "content": "a"}], "robots": ["A", "B"]}
+    )
+    assert isinstance(situation, Situation)
+    assert situation.history[0].role == "operator" and situation.robots == ("A", "B")
+    error = read_situation({"kind": "error", "error_message": "x", "failed_action": FAILED})
+    assert isinstance(error, ErrorSituation)
+    assert (error.code, error.reply, error.failed_action.name) == (
+        FailureCode.INTERNAL,
+        None,
+        "GetCoordinates",
+    )
