@@ -12,26 +12,24 @@ from tests.umrf.spec_actions import chain, node
 from tests.umrf.watched import Watched
 
 
-class StandingClock(WallClock):
-    """Wall time does not pass."""
-
-    def wall_s(self) -> float:
-        return 0.0
+async def settle() -> None:
+    for _ in range(5):
+        await asyncio.sleep(0)
 
 
 async def test_changes_within_the_interval_are_sent_as_one_and_the_last_at_the_close() -> None:
     sent: list[UmrfGraphFeedback] = []
-    feedback = Feedback("A", StandingClock(), sent.append)
+    feedback = Feedback("A", WallClock(), sent.append, interval_s=3600)
     watched = Watched(chain("g", [node("WaitFor", 0, seconds=60)]))
     feedback.changed(watched.run)
     feedback.changed(watched.run)
-    await asyncio.sleep(0)
+    await settle()
     assert [json.loads(item.history[0])["graph_state"] for item in sent] == ["INITIALIZED"]
     watched.run.start()
     feedback.changed(watched.run)
     watched.run.pause()
     feedback.changed(watched.run)
-    await asyncio.sleep(0)
+    await settle()
     assert len(sent) == 1, "the interval is not over"
     feedback.close()
     assert [json.loads(item.history[0])["graph_state"] for item in sent] == ["INITIALIZED", "PAUSED"]
@@ -42,9 +40,9 @@ async def test_changes_within_the_interval_are_sent_as_one_and_the_last_at_the_c
 
 async def test_graphs_do_not_wait_for_each_other() -> None:
     sent: list[UmrfGraphFeedback] = []
-    feedback = Feedback("A", StandingClock(), sent.append)
+    feedback = Feedback("A", WallClock(), sent.append, interval_s=3600)
     for name in ("g", "h"):
         feedback.changed(Watched(chain(name, [node("NoOp")])).run)
-    await asyncio.sleep(0)
+    await settle()
     assert [json.loads(item.history[0])["graph_name"] for item in sent] == ["g", "h"]
     feedback.close()

@@ -15,7 +15,6 @@ from parley.umrf.io import GraphWriter
 __all__ = ["Feedback"]
 
 INTERVAL_S: Final = 0.02
-"""At most one message per graph in this wall time."""
 _COST_FACTOR: Final = 10
 """Writing a graph of thousands of nodes takes a while; it may take a tenth of the time at most."""
 
@@ -39,10 +38,18 @@ class Feedback:
         actor: Goes into each message.
         clock: For the wall time.
         publish: Where the messages go.
+        interval_s: At most one message per graph in this wall time.
     """
 
-    def __init__(self, actor: str, clock: Clock, publish: Callable[[UmrfGraphFeedback], None]) -> None:
-        self._actor, self._clock, self._publish = actor, clock, publish
+    def __init__(
+        self,
+        actor: str,
+        clock: Clock,
+        publish: Callable[[UmrfGraphFeedback], None],
+        *,
+        interval_s: float = INTERVAL_S,
+    ) -> None:
+        self._actor, self._clock, self._publish, self._interval_s = actor, clock, publish, interval_s
         self._due: dict[str, _Due] = {}
 
     def changed(self, run: GraphRun) -> None:
@@ -70,7 +77,7 @@ class Feedback:
         began_s = self._clock.wall_s()
         text = due.writer.write(due.run.snapshot())
         now_s = self._clock.wall_s()
-        due.not_before_s = now_s + max(INTERVAL_S, _COST_FACTOR * (now_s - began_s))
+        due.not_before_s = now_s + max(self._interval_s, _COST_FACTOR * (now_s - began_s))
         self._publish(UmrfGraphFeedback(actor=self._actor, history=(text,)))
         if len(self._due) > _REMEMBERED:
             self._due = {name: item for name, item in self._due.items() if item.timer is not None}

@@ -9,12 +9,12 @@ plan order. A repeated or moved step gets a new one: late reports about an old o
 
 from __future__ import annotations
 
-from collections.abc import Callable, Iterable, Sequence
+from collections.abc import Callable, Collection, Iterable, Sequence
 from typing import Any, Final, Literal
 
 from parley.errors import FailureCode
 from parley.messages.chat import ActionCall
-from parley.messages.failure import ErrorHandlingMessage, FailureReport
+from parley.messages.failure import FailureReport
 from parley.messages.status import PlanStep, PlanUpdate
 from parley.nodes.plan_steps import (
     OPEN_STATES,
@@ -30,18 +30,25 @@ from parley.nodes.plan_steps import (
     Step,
     StopGraph,
     build_graph,
+    failure_message,
+    fill_inputs,
     handed_over,
-    known_outputs,
     with_givers,
-    with_values,
     without_orphans,
 )
 from parley.umrf.model import Graph, GraphState, Node, NodeState
 
-__all__ = ["KEEP_DONE", "TargetPlan"]
+__all__ = ["KEEP_DONE", "LATCHED", "TargetPlan"]
 
 KEEP_DONE: Final = 20
 """Finished steps that stay in the graph; older ones are dropped so that graphs do not grow for ever (P11)."""
+
+LATCHED: Final = "I was stopped for safety. Release the stop first, then say “carry on”."
+
+_GONE: Final = frozenset({"unknown_graph", "graph_ended"})
+"""Codes by which an engine says that it has no such graph to command any more."""
+
+_ACTIVE: Final = frozenset({NodeState.RUNNING, NodeState.PAUSED, NodeState.PAUSE_REQUESTED})
 
 
 class TargetPlan:
@@ -80,6 +87,8 @@ class TargetPlan:
         """The engine does not yet know the plan as it stands."""
         self._stopping = ""
         """A graph whose end is awaited before anything new starts."""
+        self._abandoned = ""
+        """A graph whose start nobody answered; should it come to life after all, it is stopped."""
         self._next_id = 0
         self._nudged = ""
         """The step that was last asked to continue a dry graph."""
@@ -101,10 +110,9 @@ class TargetPlan:
         state: Literal["idle", "running", "paused", "held"] = "idle"
         if self.held:
             state = "held"
-        elif self._pause_wanted or self.run == "paused":
-            state = "paused"
         elif any(step.state in OPEN_STATES for step in self.steps):
-            state = "running"
+            still = self._pause_wanted or self.run in ("paused", "none")
+            state = "paused" if still else "running"
         return PlanUpdate(
             target=self.target,
             graph_name=self.graph_name,
@@ -134,6 +142,8 @@ class TargetPlan:
         if self.held:
             self.given_up = True
             return []
+        if self.run == "stopping":
+            self._pause_wanted = bool(self.pending)  # what waits for the end of the old graph waits longer
         if self.run not in ("starting", "running"):
             return []
         self._pause_wanted = True
@@ -145,12 +155,12 @@ class TargetPlan:
             return self._replace_failed([self.failed.call])
         if not self.pending:
             return [Say("There is nothing left to go on with.")]
-        if self.run == "none":
+        self._pause_wanted = False
+        if self.run in ("none", "halted"):
             return self._push()
         if self.run not in ("running", "paused"):
             return []
         # A pause that somebody else caused may not have been reported yet; resuming what runs does nothing.
-        self._pause_wanted = False
         changes = self._modify() if self._dirty else []
         return [*changes, ResumeGraph(self.graph_name)]
 
@@ -223,6 +233,8 @@ class TargetPlan:
         """Take over what the engine reports; reports about any other graph are late and dropped (P4)."""
         if graph.name == self._stopping:
             return self._on_stopping(graph)
+        if graph.name == self._abandoned and graph.state in (GraphState.RUNNING, GraphState.PAUSED):
+            return [StopGraph(graph.name)]
         if not self.graph_name or graph.name != self.graph_name:
             return []
         effects: list[Effect] = []
@@ -231,7 +243,7 @@ class TargetPlan:
             node = by_name.get(step.node)
             if node is not None:
                 effects += self._on_node(step, node)
-        return effects + self._on_graph_state(graph.state)
+        return effects + self._end_strays(graph) + self._on_graph_state(graph.state)
 
     def on_outputs(self, graph_name: str, node: str, outputs: dict[str, Any]) -> None:
         """Remember what a step gave, for steps that have to be run again apart from it."""
@@ -240,29 +252,53 @@ class TargetPlan:
                 if step.node == node:
                     step.outputs.update(outputs)
 
-    def on_refused(self, graph_name: str, what: str) -> list[Effect]:
-        """The engine refused a command about the live graph; a refused start means that nothing runs (P2)."""
+    def on_refused(self, graph_name: str, what: str, codes: Collection[str] = ()) -> list[Effect]:
+        """The engine refused a command about the live graph.
+
+        A refused start means that nothing runs (P2). After an emergency stop, and when the engine has lost
+        the graph, the plan is kept until the operator says to go on.
+
+        Args:
+            graph_name: The graph.
+            what: The topic of the command.
+            codes: Why.
+        """
         if graph_name != self.graph_name or not graph_name:
             return []
-        if what == "umrf_graph_start" and self.run == "starting":
+        command, latched = what.removeprefix("umrf_graph_"), "stop_latched" in codes
+        if command == "pause" and self.run == "starting":
+            return []  # the pause overtook the start; it is sent again
+        if command != "start" and not _GONE.isdisjoint(codes):
+            return self._on_gone(go_on=command == "resume")
+        if command == "start" and self.run == "starting":
             self._abandon_start()
             for step in self.steps:
-                if step.state == "queued":
+                if step.state == "queued" and not latched:
                     step.state = "stopped"
-        elif what == "umrf_graph_modify":
+        elif command == "modify":
             self._dirty = True
-        elif what == "umrf_graph_pause" and self.run != "starting":
+            if self._nudged:
+                self.run, self._nudged = "halted", ""
+            if "node_active" in codes:
+                return []  # a step began just before it was dropped; it is ended
+        elif command == "pause":
             self._pause_wanted = False
-        return []
+        return [Say(LATCHED if latched else "I could not do that, so I changed nothing.", "error")]
+
+    def on_return(self, graphs: Collection[str]) -> list[Effect]:
+        """The robot is back after its contact was lost, with these graphs."""
+        if not self.graph_name or self.graph_name in graphs or self.run == "starting":
+            return []
+        return self._on_gone(go_on=False)
 
     def on_no_answer(self, graph_name: str) -> list[Effect]:
         """Nothing was heard since the start of `graph_name`: the robot may be away."""
         if graph_name != self.graph_name or self.run != "starting":
             return []
         self._abandon_start()
-        return [
-            Say(f"{self.target} does not answer. The plan is kept; say “carry on” to try again.", "error")
-        ]
+        self._abandoned = graph_name
+        text = f"{self.target} does not answer. The plan is kept; say “carry on” to try again."
+        return [Say(text, "error")]
 
     def on_no_progress(self, graph_name: str, node: str) -> list[Effect]:
         """A dry graph was told to go on with `node` some time ago; if it did not, that step failed."""
@@ -308,7 +344,7 @@ class TargetPlan:
         if self.run == "stopping" or self.held:
             return []
         if not self.graph_name:
-            return self._start()
+            return [] if self._pause_wanted else self._start()
         if self.run in ("starting", "paused") or self._pause_wanted:
             self._dirty = True
             return []
@@ -316,13 +352,14 @@ class TargetPlan:
 
     def _start(self) -> list[Effect]:
         """Begin a new graph with what is still to be done."""
-        self._fill_inputs()
-        self.steps = [step for step in self.steps if step.state in OPEN_STATES]
+        for step in self.steps:
+            if step.state in OPEN_STATES:
+                step.instance_id, step.state = -1, "queued"
+        fill_inputs(self.steps)
+        self.steps = [step for step in self.steps if step.state == "queued"]
         if not self.steps:
             return []
         self._next_id = 0
-        for step in self.steps:
-            step.instance_id, step.state = -1, "queued"
         self._number(self.steps)
         self.graph_name, self.run = self._new_graph_name(), "starting"
         self._dirty, self._nudged, self._pause_wanted = False, "", False
@@ -332,8 +369,8 @@ class TargetPlan:
         """Tell a dry graph where to go on."""
         following = next((step for step in self.steps if step.state in OPEN_STATES), None)
         if following is None:
-            return []
-        self._fill_inputs()
+            return [Say("Nothing else is left to do.")]
+        fill_inputs(self.steps)
         blank = {n for n in following.fed if not following.call.input_parameters[n].has_data}
         if blank and self._can_end_step():
             # Our engines report outputs, so what is not known was not given (P10).
@@ -344,7 +381,7 @@ class TargetPlan:
         return effects
 
     def _modify(self, continue_from: Step | None = None) -> list[Effect]:
-        self._fill_inputs()
+        fill_inputs(self.steps)
         done = [step for step in self.steps if step.state == "finished"]
         keep = done[-KEEP_DONE:] + [step for step in self.steps if step.state in OPEN_STATES]
         self._number(keep)
@@ -360,19 +397,6 @@ class TargetPlan:
                 step.instance_id = self._next_id
                 self._next_id += 1
             last = max(last, step.instance_id)
-
-    def _fill_inputs(self) -> None:
-        """Write into a step what it can no longer get from the step right before it."""
-        for index, step in enumerate(self.steps):
-            if step.state != "queued" or not step.fed:
-                continue
-            before = self.steps[index - 1] if index else None
-            if before is not None and before.state in OPEN_STATES:
-                continue
-            known = known_outputs(self.steps[:index])
-            values = {name: known[name] for name in step.fed if name in known}
-            if values:
-                step.call = with_values(step.call, values)
 
     def _end(self, step: Step) -> list[Effect]:
         """Make the engine end a step that runs (one that is about to run is ended when it does)."""
@@ -406,29 +430,19 @@ class TargetPlan:
     def _fail(self, step: Step, report: FailureReport) -> list[Effect]:
         step.state = "failed"
         self.held = True
-        following = [s.call for s in self.steps[self.steps.index(step) + 1 :] if s.state in OPEN_STATES]
-        message = ErrorHandlingMessage(
-            error_message=report.message,
-            action_called=step.call,
-            umrf_queue=tuple(following),
-            target=self.target,
-            process_instructions=report.process_instructions,
-            process_data_text=report.process_data_text,
-            process_data_images=report.process_data_images,
-            code=report.code,
-            details=report.details,
-            completed=tuple(s.call for s in self.steps if s.state == "finished"),
-            failure_id=f"{self.graph_name}/{step.node}",
-        )
+        message = failure_message(self.target, self.graph_name, step, self.steps, report)
         return [ReportFailure(message)]
 
     def _on_graph_state(self, state: GraphState) -> list[Effect]:
         match state:
             case GraphState.RUNNING | GraphState.INITIALIZED | GraphState.UNINITIALIZED:
                 just_started, self.run = self.run == "starting", "running"
+                if self.held:  # the reference's last word after an error is that the graph still runs (D17)
+                    self.run = "halted"
+                    return []
                 if self._pause_wanted:  # the pause may have overtaken the start
                     return [PauseGraph(self.graph_name)] if just_started else []
-                return self._modify() if self._dirty and not self.held else []
+                return self._modify() if self._dirty else []
             case GraphState.PAUSED:
                 self.run = "paused"
                 current = next((s for s in self.steps if s.state in OPEN_STATES), None)
@@ -458,6 +472,21 @@ class TargetPlan:
             step.ending = False
         self.steps = without_orphans(self.steps)
         return self._continue()
+
+    def _end_strays(self, graph: Graph) -> list[Effect]:
+        """A step that began just before it was dropped is ended."""
+        known = {step.node for step in self.steps}
+        strays = [n.full_name for n in graph.nodes if n.state in _ACTIVE and n.full_name not in known]
+        return [EndStep(graph.name, node) for node in strays if self._can_end_step()]
+
+    def _on_gone(self, *, go_on: bool) -> list[Effect]:
+        """The engine has no such graph, e.g. because it was started anew; the plan is kept."""
+        self._abandon_start()
+        self._pause_wanted = False
+        if go_on:
+            return self._push()
+        text = "My plan was interrupted. It is kept; say “carry on” when I should go on with it."
+        return [Say(text, "error")] if self.pending and not self.held else []
 
     def _on_ended_by_others(self, state: GraphState) -> list[Effect]:
         """The graph ended although nobody asked here: what is left will not run."""

@@ -7,13 +7,13 @@ from dataclasses import dataclass, field
 from typing import Any, Final, Literal
 
 from parley.messages.chat import ActionCall
-from parley.messages.failure import ErrorHandlingMessage
+from parley.messages.failure import ErrorHandlingMessage, FailureReport
 from parley.umrf.model import ChildRelation, Graph, Node, NodeRef, ParentRelation, Response, Result
 
 __all__ = [
     "OPEN_STATES", "Effect", "EndStep", "ModifyGraph", "PauseGraph", "ReportFailure", "ResumeGraph",
-    "RunState", "Say", "StartGraph", "Step", "StepState", "StopGraph", "build_graph", "handed_over",
-    "known_outputs", "with_givers", "with_values", "without_orphans",
+    "RunState", "Say", "StartGraph", "Step", "StepState", "StopGraph", "build_graph", "failure_message",
+    "fill_inputs", "handed_over", "known_outputs", "with_givers", "with_values", "without_orphans",
 ]  # fmt: skip
 
 StepState = Literal["queued", "running", "finished", "failed", "stopped", "skipped", "paused", "waiting"]
@@ -143,6 +143,26 @@ def _ref(step: Step) -> NodeRef:
     return NodeRef(step.call.name, step.instance_id)
 
 
+def failure_message(
+    target: str, graph_name: str, failed: Step, steps: Sequence[Step], report: FailureReport
+) -> ErrorHandlingMessage:
+    """What the error handler is told about a step that failed."""
+    behind = steps[steps.index(failed) + 1 :]
+    return ErrorHandlingMessage(
+        error_message=report.message,
+        action_called=failed.call,
+        umrf_queue=tuple(step.call for step in behind if step.state in OPEN_STATES),
+        target=target,
+        process_instructions=report.process_instructions,
+        process_data_text=report.process_data_text,
+        process_data_images=report.process_data_images,
+        code=report.code,
+        details=report.details,
+        completed=tuple(step.call for step in steps if step.state == "finished"),
+        failure_id=f"{graph_name}/{failed.node}",
+    )
+
+
 def handed_over(call: ActionCall, before: Step | None) -> frozenset[str]:
     """The inputs without a value of their own that the step before gives."""
     if before is None:
@@ -170,8 +190,22 @@ def known_outputs(steps: Sequence[Step]) -> dict[str, Any]:
     return known
 
 
+def fill_inputs(steps: Sequence[Step]) -> None:
+    """Write into waiting steps what they can no longer get from the step right before them."""
+    for index, step in enumerate(steps):
+        if step.state != "queued" or not step.fed:
+            continue
+        before = steps[index - 1] if index else None
+        if before is not None and before.state in OPEN_STATES:
+            continue
+        known = known_outputs(steps[:index])
+        values = {name: known[name] for name in step.fed if name in known}
+        if values:
+            step.call = with_values(step.call, values)
+
+
 def with_givers(calls: Sequence[ActionCall], before: Sequence[Step]) -> list[ActionCall]:
-    """`calls` with the values that `before` gave, or behind a repetition of the step that has to give them."""
+    """`calls` with the values that `before` gave, or behind a repetition of the step that gives them."""
     if not calls:
         return []
     known = known_outputs(before)

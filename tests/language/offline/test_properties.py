@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import asyncio
+from dataclasses import replace
 
 from hypothesis import given, settings
 from hypothesis import strategies as st
@@ -11,6 +12,8 @@ from parley.errors import FailureCode
 from parley.language.base import ErrorSituation
 from parley.language.offline import OfflineLanguage
 from parley.messages.chat import ActionCall, ChatAction
+from parley.messages.memory import MemoryEntry
+from parley.world.object_map import MapObject
 from tests.language.dev_set import CATALOGUES, cases, commands, plan, situation
 
 ENGINE = OfflineLanguage()
@@ -52,18 +55,12 @@ def test_the_story_holds_with_words_nobody_has_seen(names: list[str]) -> None:
     """A fact about a person, a fact about a thing, a request that needs both."""
     person, thing, store, seat = names[0].capitalize(), *names[1:]
     world = situation("fresh", "", objects=())
-    from parley.world.object_map import MapObject
-
     objects = (
         MapObject("s-one", store, 1, 1, store),
         MapObject("t-one", f"small {seat}", 4, 1, seat),
         MapObject("t-two", f"large {seat}", 8, 1, seat),
     )
     said: list[ChatAction] = []
-    from dataclasses import replace
-
-    from parley.messages.memory import MemoryEntry
-
     memory: tuple[MemoryEntry, ...] = ()
     for message in (
         f"{person} is on the {seat}",

@@ -134,6 +134,8 @@ class _Reader(Noting):
             self._condition(clause)
             return
         clause = self._corrected(self._instead(clause))
+        if self.tasks.steps and keys(strip_openers(clause.words)) in _REPORTS:
+            return
         if not clause.words or lexicon().adverbs.match(keys(clause.words)) == (
             len(clause.words),
             plain(clause.words).lower(),
@@ -300,7 +302,7 @@ class _Reader(Noting):
             self._do_not(command)
             return
         if command.kind == "need":
-            # Said before what is wanted ("X is thirsty, get him Z"), the need only explains; alone it asks.
+            # Said before what is wanted ("X is cold, get him Z"), the need only explains; alone it asks.
             self.last = command
             return
         self.last = command
@@ -387,13 +389,7 @@ class _Reader(Noting):
 
     def _fallback(self, clause: Clause, *, alone: bool) -> None:
         words = strip_openers(clause.words)
-        if (
-            not words
-            or (keys(words) in _REPORTS
-            and self.tasks.steps)
-            or (words[0].key == "not"
-            and self.replies)
-        ):
+        if not words or (words[0].key == "not" and self.replies):
             return
         if lexicon().insults & set(keys(words)):
             self.replies.append("I am sorry if I did something wrong. Tell me what I should do.")

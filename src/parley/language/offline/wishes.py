@@ -55,7 +55,7 @@ def missing(words: Phrase, scene: Scene) -> Command | None:
 
 
 def need(words: Phrase, scene: Scene) -> Command | None:
-    """For "X is thirsty": something to drink is to be brought to X, unless the message says what."""
+    """For "X is cold" and the like: what helps is to be brought to X, unless the message says what."""
     flat = keys(words)
     state = next((w for w in flat[2:] if w in lexicon().needs), None)
     link = next(
