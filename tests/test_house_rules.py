@@ -118,7 +118,7 @@ def test_no_file_names_a_machine_or_a_package_registry() -> None:
 
 
 @pytest.mark.parametrize(
-    "text", ["see /work/main", "cd /home/ann", "'/tmp/x'", "https://pypi" + ".org/simple"]
+    "text", ["see /" + "work/main", "cd /home/ann", "'/tmp/x'", "https://pypi" + ".org/simple"]
 )
 def test_a_machines_path_would_be_found(text: str) -> None:
     assert FOREIGN.search(text)

@@ -15,7 +15,7 @@ import parley
 SOURCE = Path(parley.__file__).parent
 
 LAYERS: tuple[frozenset[str], ...] = (
-    frozenset({"errors", "clock", "messages", "config"}),
+    frozenset({"errors", "clock", "messages", "config", "files"}),
     frozenset({"transport", "umrf", "memory", "world"}),
     frozenset({"sim"}),
     frozenset({"language", "robots", "engine", "actions"}),
@@ -36,7 +36,6 @@ NEVER = {
 ONLY_IN = {
     "rclpy": {"transport/ros2.py"},
     "mujoco": {"sim/"},
-    "aiosqlite": {"memory/"},
     "prompt_toolkit": {"terminal/"},
     "typer": {"cli.py", "cli/"},
 }

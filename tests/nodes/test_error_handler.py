@@ -148,7 +148,7 @@ async def test_stop_ends_the_repair_and_a_late_answer_of_the_language_engine_mov
     await room.said()
     room.observer.say("the red one", "A", answer=True)
     room.observer.say("stop", "A")
-    await room.said(2)
+    await asyncio.sleep(0.05)
     hanging.set()
     await asyncio.sleep(0.05)
     assert room.corrections.seen == []

@@ -19,12 +19,12 @@ A variant changes the world (or the operator) of one run and says how the story 
 from __future__ import annotations
 
 from pathlib import Path
-from typing import Annotated, Any, Self
+from typing import Annotated, Self
 
-import yaml
-from pydantic import BaseModel, ConfigDict, Field, ValidationError, model_validator
+from pydantic import BaseModel, ConfigDict, Field, model_validator
 
 from parley.errors import FileFormatError
+from parley.files import parse_yaml, read_text, validated
 from parley.sim.world_file import WorldChanges
 
 __all__ = ["Finished", "Story", "StoryStep", "Variant"]
@@ -104,12 +104,7 @@ class Story(_Entry):
         Raises:
             FileFormatError: Names the file and the field.
         """
-        try:
-            return cls.parse(path.read_text(encoding="utf-8"), file=path.name)
-        except OSError as error:
-            raise FileFormatError(path.name, "", f"cannot be read: {error.strerror}") from error
-        except UnicodeDecodeError as error:
-            raise FileFormatError(path.name, "", f"is not UTF-8 text: {error.reason}") from error
+        return cls.parse(read_text(path), file=path.name)
 
     @classmethod
     def parse(cls, text: str, file: str = "story") -> Self:
@@ -118,16 +113,7 @@ class Story(_Entry):
         Raises:
             FileFormatError: Names the file and the field.
         """
-        try:
-            raw: Any = yaml.safe_load(text)
-        except yaml.YAMLError as error:
-            raise FileFormatError(file, "", f"not valid YAML: {error}") from error
-        try:
-            return cls.model_validate(raw)
-        except ValidationError as error:
-            first = error.errors(include_url=False, include_input=False)[0]
-            where = "".join(f"[{p}]" if isinstance(p, int) else f".{p}" for p in first["loc"]).lstrip(".")
-            raise FileFormatError(file, where, first["msg"]) from error
+        return validated(cls, parse_yaml(text, file), file)
 
     def variant(self, name: str) -> Variant:
         """The variant of that name; an empty name is the story as written.

@@ -7,7 +7,8 @@ from pathlib import Path
 from typing import Any
 
 from parley.clock import Clock
-from parley.errors import FileFormatError, GraphRefusedError, Problem
+from parley.errors import GraphRefusedError, Problem
+from parley.files import read_text
 from parley.umrf.action import RunHandle
 from parley.umrf.catalogue import Catalogue
 from parley.umrf.check import check
@@ -26,12 +27,7 @@ def read_graph_file(path: Path) -> Graph:
         FileFormatError: It cannot be read as a file.
         GraphRefusedError: It is no graph; with every reason.
     """
-    try:
-        return read_graph(path.read_text(encoding="utf-8"))
-    except OSError as error:
-        raise FileFormatError(path.name, "", f"cannot be read: {error.strerror}") from error
-    except UnicodeDecodeError as error:
-        raise FileFormatError(path.name, "", f"is not UTF-8 text: {error.reason}") from error
+    return read_graph(read_text(path))
 
 
 def check_file(path: Path, catalogue: Catalogue, actor: str = "") -> list[Problem]:

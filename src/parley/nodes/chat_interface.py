@@ -24,6 +24,7 @@ from parley.messages.status import ActorStatus, PlanUpdate, Rejection, Rejection
 from parley.nodes.base import Mailboxes, Node
 from parley.nodes.conversation import Conversation
 from parley.nodes.plan_check import check_calls, complete_calls
+from parley.nodes.plan_steps import LATCHED
 from parley.nodes.presence import Presence
 from parley.nodes.questions import OpenQuestions
 from parley.transport.base import Transport
@@ -50,7 +51,6 @@ _NOTHING_TO_DO: Final[dict[Control, str]] = {
     "skip": "There is no step to skip.",
     "clear": "There was nothing to drop.",
 }
-_LATCHED: Final = "I was stopped for safety. Release the stop first, then say “carry on”."
 _HALTING: Final = ("stop", "clear", "emergency_stop")
 """Controls after which nothing that was said before may still set a robot in motion."""
 
@@ -100,6 +100,7 @@ class ChatInterface(Node):
         await self.subscribe(topics.ACTOR_STATUS, ActorStatus, self._presence.on_status)
         await self.subscribe(topics.CHAT_FEEDBACK, ChatFeedback, self._questions.on_feedback)
         await self.subscribe(topics.MEMORY_EVENT, MemoryEvent, self._on_memory_event)
+        await self.subscribe(topics.STOP, StopCommand, self._on_emergency)
         await self.subscribe_raw(topics.PLAN, self._on_plan)
         await self.subscribe(topics.CHAT_INPUT, ChatInput, self._on_input)
 
@@ -116,11 +117,13 @@ class ChatInterface(Node):
         targets = self._addressed(said)
         control = control_of(said.message, self._presence.names())
         if control is not None:
-            targets = self._named(said.message) or targets
+            targets = self._presence.named_in(said.message) or targets
         for target in targets:
             question = self._questions.first(target) if said.type == "response" else None
             if control is not None and not (question and control == "start"):
                 self._control(target, control, said.message)
+            elif not self._presence.is_there(target):
+                self._say((target,), f"{target} is not there at the moment, so I cannot ask it.", "error")
             elif question is None:
                 self._mailboxes.post(target, self._work(target, said.message))
         self._questions.on_input(said)
@@ -136,12 +139,12 @@ class ChatInterface(Node):
         if not said.targets and len(names) == 1:
             return [names[0]]
         if not said.targets:
-            self._say((), f"Which robot do you mean? {self._known()}", "error")
+            self._say((), f"Which robot do you mean? {self._presence.known_text()}", "error")
         found: list[str] = []
         for name in said.targets:
             known = self._presence.resolve(name)
             if known is None:
-                self._say((name,), f"There is no robot called {name}. {self._known()}", "error")
+                self._say((name,), f"There is no robot called {name}. {self._presence.known_text()}", "error")
                 problem = RejectionProblem(
                     path="targets", message=f"unknown robot {name!r}", code="unknown_robot"
                 )
@@ -155,11 +158,6 @@ class ChatInterface(Node):
                 found.append(known)
         return found
 
-    def _named(self, message: str) -> list[str]:
-        """Robots called by name in a message; they win over the selected ones."""
-        words = {word.strip(".,:;!?").casefold() for word in message.split()}
-        return [name for name in self._presence.names() if name.casefold() in words]
-
     def _on_plan(self, message: String) -> None:
         if '"kind":"update"' in message.data.replace(" ", ""):
             update = PlanUpdate.model_validate_json(message.data)
@@ -170,6 +168,12 @@ class ChatInterface(Node):
         if wait is not None and not wait.done():
             wait.set_result(event)
 
+    def _on_emergency(self, command: StopCommand) -> None:
+        """The stop button: what was asked for before it is dropped, as if it had been said."""
+        if command.command == "stop":
+            for target in command.targets or self._presence.names():
+                self._halts[target] = self._halts.get(target, 0) + 1
+
     # -- control ---------------------------------------------------------------------------------------
 
     def _control(self, target: str, control: Control, message: str) -> None:
@@ -177,21 +181,27 @@ class ChatInterface(Node):
         if control in _HALTING:
             self._halts[target] = self._halts.get(target, 0) + 1
         plan, status = self._plans.get(target), self._presence.get(target)
-        reply = _CONTROL_REPLIES[control]
-        if control == "emergency_stop":
+        state = plan.state if plan is not None else "idle"
+        # A plan that waits for approval has no step yet: only approving or dropping it does anything.
+        nothing = state == "idle" or (state == "awaiting_approval" and control in ("stop", "skip"))
+        reply = _NOTHING_TO_DO.get(control, "") if nothing else ""
+        if control == "start" and status is not None and status.state == "stopped":
+            reply = LATCHED
+        elif control == "emergency_stop":
             self.publish(topics.STOP, StopCommand(targets=(target,), id=uuid.uuid4().hex))
-        elif control == "start" and status is not None and status.state == "stopped":
-            reply = _LATCHED
-        else:
-            if plan is None or plan.state == "idle":
-                reply = _NOTHING_TO_DO[control]
-            # Sent even so, where it is not answered twice: the plan may be newer than what is known here.
-            if reply == _CONTROL_REPLIES[control] or control in _HALTING:
-                command = SystemCommand(command=control)
-                self.publish(topics.CHAT_ACTION, ChatAction(system_cmd=(command,), targets=(target,)))
+        elif (
+            not reply or control in _HALTING
+        ):  # stopping is sent in any case: the plan may be newer than known
+            command = SystemCommand(command=control)
+            self.publish(topics.CHAT_ACTION, ChatAction(system_cmd=(command,), targets=(target,)))
+        reply = reply or _CONTROL_REPLIES[control]
         self._conversation(target).operator(message)
         self._conversation(target).assistant(reply)
-        self._say((target,), reply, "response")
+        asked = self._questions.first(target) if state == "held" else None
+        self.publish(
+            topics.CHAT_FEEDBACK,
+            ChatFeedback(message=reply, targets=(target,), closes=asked.id if asked else ""),
+        )
 
     # -- understanding ---------------------------------------------------------------------------------
 
@@ -313,10 +323,6 @@ class ChatInterface(Node):
 
     def _conversation(self, target: str) -> Conversation:
         return self._conversations.setdefault(target, Conversation(self._history_exchanges))
-
-    def _known(self) -> str:
-        names = self._presence.names()
-        return f"I know {', '.join(names)}." if names else "No robot is there at the moment."
 
     def _say(self, targets: Sequence[str], text: str, kind: str) -> None:
         feedback = ChatFeedback.model_validate({"message": text, "targets": tuple(targets), "type": kind})

@@ -97,16 +97,16 @@ class ErrorHandler(Node):
 
     def _on_input(self, said: ChatInput) -> None:
         control = control_of(said.message, self._presence.names())
-        for target in said.targets:
+        named = self._presence.named_in(said.message) if control is not None else []
+        for target in named or said.targets:
             repair = self._repairs.get(target)
             if repair is None:
                 continue
-            if control in ("stop", "clear", "emergency_stop"):
-                # Acted upon by the chat interface; nothing that is still being worked out may move the robot.
-                self._close(repair, "I leave it at that.")
-            elif control == "skip" or said.type != "response" or not repair.question_id:
-                continue  # the plan's next state settles this repair
-            elif said.reply_to in ("", repair.question_id):
+            if control is not None and not (control == "start" and said.type == "response"):
+                # Acted upon by the chat interface, whose reply closes the question too; nothing that is still
+                # being worked out may move the robot.
+                del self._repairs[target]
+            elif said.type == "response" and repair.question_id and said.reply_to in ("", repair.question_id):
                 repair.question_id = ""
                 self._mailboxes.post(target, lambda r=repair: self._attempt(r, said.message))  # type: ignore[misc]
 
@@ -121,7 +121,9 @@ class ErrorHandler(Node):
         if update.state == "held":
             repair.seen_held = True
         elif repair.seen_held and repair.question_id:
-            self._close(repair, "That is settled.")
+            del self._repairs[update.target]
+            text = "You need not answer my question any more."
+            self._say(update.target, text, "info", closes=repair.question_id)
 
     # -- repairing -------------------------------------------------------------------------------------
 
@@ -205,10 +207,6 @@ class ErrorHandler(Node):
             f"{left} Say “try again”, “skip it” or “cancel everything”, or give me another order."
         )
         self._say(target, text, "info")
-
-    def _close(self, repair: _Repair, text: str) -> None:
-        del self._repairs[repair.failure.target]
-        self._say(repair.failure.target, text, "info", closes=repair.question_id)
 
     # -- helpers ---------------------------------------------------------------------------------------
 

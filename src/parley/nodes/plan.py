@@ -17,6 +17,9 @@ from parley.messages.chat import ActionCall
 from parley.messages.failure import FailureReport
 from parley.messages.status import PlanStep, PlanUpdate
 from parley.nodes.plan_steps import (
+    ACTIVE_STATES,
+    GONE_CODES,
+    LATCHED,
     OPEN_STATES,
     Effect,
     EndStep,
@@ -38,17 +41,10 @@ from parley.nodes.plan_steps import (
 )
 from parley.umrf.model import Graph, GraphState, Node, NodeState
 
-__all__ = ["KEEP_DONE", "LATCHED", "TargetPlan"]
+__all__ = ["KEEP_DONE", "TargetPlan"]
 
 KEEP_DONE: Final = 20
 """Finished steps that stay in the graph; older ones are dropped so that graphs do not grow for ever (P11)."""
-
-LATCHED: Final = "I was stopped for safety. Release the stop first, then say “carry on”."
-
-_GONE: Final = frozenset({"unknown_graph", "graph_ended"})
-"""Codes by which an engine says that it has no such graph to command any more."""
-
-_ACTIVE: Final = frozenset({NodeState.RUNNING, NodeState.PAUSED, NodeState.PAUSE_REQUESTED})
 
 
 class TargetPlan:
@@ -253,22 +249,17 @@ class TargetPlan:
                     step.outputs.update(outputs)
 
     def on_refused(self, graph_name: str, what: str, codes: Collection[str] = ()) -> list[Effect]:
-        """The engine refused a command about the live graph.
+        """The engine refused the command `what`, for the reasons `codes`.
 
         A refused start means that nothing runs (P2). After an emergency stop, and when the engine has lost
         the graph, the plan is kept until the operator says to go on.
-
-        Args:
-            graph_name: The graph.
-            what: The topic of the command.
-            codes: Why.
         """
         if graph_name != self.graph_name or not graph_name:
             return []
         command, latched = what.removeprefix("umrf_graph_"), "stop_latched" in codes
         if command == "pause" and self.run == "starting":
             return []  # the pause overtook the start; it is sent again
-        if command != "start" and not _GONE.isdisjoint(codes):
+        if command != "start" and not GONE_CODES.isdisjoint(codes):
             return self._on_gone(go_on=command == "resume")
         if command == "start" and self.run == "starting":
             self._abandon_start()
@@ -476,7 +467,7 @@ class TargetPlan:
     def _end_strays(self, graph: Graph) -> list[Effect]:
         """A step that began just before it was dropped is ended."""
         known = {step.node for step in self.steps}
-        strays = [n.full_name for n in graph.nodes if n.state in _ACTIVE and n.full_name not in known]
+        strays = [n.full_name for n in graph.nodes if n.state in ACTIVE_STATES and n.full_name not in known]
         return [EndStep(graph.name, node) for node in strays if self._can_end_step()]
 
     def _on_gone(self, *, go_on: bool) -> list[Effect]:

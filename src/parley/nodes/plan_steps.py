@@ -8,12 +8,13 @@ from typing import Any, Final, Literal
 
 from parley.messages.chat import ActionCall
 from parley.messages.failure import ErrorHandlingMessage, FailureReport
-from parley.umrf.model import ChildRelation, Graph, Node, NodeRef, ParentRelation, Response, Result
+from parley.umrf.model import ChildRelation, Graph, Node, NodeRef, NodeState, ParentRelation, Response, Result
 
 __all__ = [
-    "OPEN_STATES", "Effect", "EndStep", "ModifyGraph", "PauseGraph", "ReportFailure", "ResumeGraph",
-    "RunState", "Say", "StartGraph", "Step", "StepState", "StopGraph", "build_graph", "failure_message",
-    "fill_inputs", "handed_over", "known_outputs", "with_givers", "with_values", "without_orphans",
+    "ACTIVE_STATES", "GONE_CODES", "LATCHED", "OPEN_STATES", "Effect", "EndStep", "ModifyGraph", "PauseGraph",
+    "ReportFailure", "ResumeGraph", "RunState", "Say", "StartGraph", "Step", "StepState", "StopGraph",
+    "build_graph", "failure_message", "fill_inputs", "handed_over", "known_outputs", "with_givers",
+    "with_values", "without_orphans",
 ]  # fmt: skip
 
 StepState = Literal["queued", "running", "finished", "failed", "stopped", "skipped", "paused", "waiting"]
@@ -21,6 +22,15 @@ RunState = Literal["none", "starting", "running", "paused", "halted", "stopping"
 
 OPEN_STATES: Final = frozenset({"queued", "running", "paused", "waiting"})
 """States of steps that are still to be done."""
+
+ACTIVE_STATES: Final = frozenset({NodeState.RUNNING, NodeState.PAUSED, NodeState.PAUSE_REQUESTED})
+"""States of nodes that are being carried out."""
+
+GONE_CODES: Final = frozenset({"unknown_graph", "graph_ended"})
+"""Codes by which an engine says that it has no such graph to command any more."""
+
+LATCHED: Final = "I was stopped for safety. Release the stop first, then say “carry on”."
+"""What the operator is told when an emergency stop is in force."""
 
 _EDGE = {
     Result.ON_TRUE: Response.RUN,

@@ -38,6 +38,7 @@ class Presence:
     ) -> None:
         self._clock, self._known, self._on_change = clock, known, on_change
         self._seen: dict[str, _Seen] = {}
+        self._left: set[str] = set()
 
     def on_status(self, status: ActorStatus) -> None:
         """Take over a heartbeat."""
@@ -46,6 +47,7 @@ class Presence:
             self._leave(status.actor)
             return
         self._seen[status.actor] = _Seen(status, self._clock.wall_s())
+        self._left.discard(status.actor)
         if joined and self._on_change is not None:
             self._on_change(status.actor, True)
 
@@ -65,9 +67,32 @@ class Presence:
         return tuple(sorted({*self._seen, *self._known}))
 
     def resolve(self, name: str) -> str | None:
-        """The robot that `name` means, whatever its capitals; None if there is none."""
-        return next((known for known in self.names() if known.casefold() == name.strip().casefold()), None)
+        """The robot that `name` means, whatever its capitals; None if there never was one.
+
+        One that left is meant as well: it may only be out of hearing, and a stop must be tried even so.
+        """
+        wanted = name.strip().casefold()
+        return next(
+            (known for known in (*self.names(), *sorted(self._left)) if known.casefold() == wanted), None
+        )
+
+    def is_there(self, name: str) -> bool:
+        """Whether the robot `name` is there or configured."""
+        return name in self._seen or name in self._known
+
+    def named_in(self, message: str) -> list[str]:
+        """The robots that a message calls by name."""
+        words = {word.strip(".,:;!?").casefold() for word in message.split()}
+        return [name for name in (*self.names(), *sorted(self._left)) if name.casefold() in words]
+
+    def known_text(self) -> str:
+        """Who is there, as a sentence for the operator."""
+        names = self.names()
+        return f"I know {', '.join(names)}." if names else "No robot is there at the moment."
 
     def _leave(self, name: str) -> None:
-        if self._seen.pop(name, None) is not None and self._on_change is not None:
+        if self._seen.pop(name, None) is None:
+            return
+        self._left.add(name)
+        if self._on_change is not None:
             self._on_change(name, False)

@@ -8,7 +8,8 @@ from __future__ import annotations
 import asyncio
 import uuid
 from collections.abc import Callable, Sequence
-from typing import Any, ClassVar, Final
+from dataclasses import dataclass
+from typing import ClassVar, Literal
 
 from parley.clock import Clock
 from parley.errors import GraphRefusedError, Problem
@@ -44,14 +45,19 @@ from parley.nodes.presence import LOST_AFTER_S, Presence
 from parley.transport.base import Transport
 from parley.umrf.io import read_graph, write_graph
 
-__all__ = ["UmrfPlanner"]
+__all__ = ["Patience", "UmrfPlanner"]
 
-ANSWER_WITHIN_S: Final = 5.0
-"""Wall time in which an engine must have reported something about a graph that was started."""
-PROGRESS_WITHIN_S: Final = 3.0
-"""Wall time in which a dry graph must have gone on after it was told to."""
-END_WITHIN_S: Final = 7.0
-"""Wall time in which a stopped graph must have ended: an engine gives its actions 5 s."""
+
+@dataclass(frozen=True, slots=True)
+class Patience:
+    """Wall time that an engine is given."""
+
+    answer_s: float = 5.0
+    """To report something about a graph that was started."""
+    progress_s: float = 3.0
+    """To go on with a dry graph after it was told to."""
+    end_s: float = 7.0
+    """To end a stopped graph; an engine gives its actions 5 s."""
 
 
 class UmrfPlanner(Node):
@@ -62,6 +68,7 @@ class UmrfPlanner(Node):
         clock: Its wall time limits how long answers are waited for.
         known_robots: Robots that send no heartbeat of ours (a TeMoto engine).
         ask_first: Robots whose plans wait for a person's approval from the start.
+        patience: How long an engine is waited for.
     """
 
     name: ClassVar[str] = "umrf_planner"
@@ -73,8 +80,10 @@ class UmrfPlanner(Node):
         *,
         known_robots: Sequence[str] = (),
         ask_first: Sequence[str] = (),
+        patience: Patience = Patience(),
     ) -> None:
         super().__init__(transport)
+        self._patience = patience
         self._clock = clock
         self._presence = Presence(clock, tuple(known_robots), self._on_presence)
         self._plans: dict[str, TargetPlan] = {}
@@ -101,14 +110,15 @@ class UmrfPlanner(Node):
         for target in targets:
             plan = self._plan(target)
             calls = self._accept(plan, order.queue)
-            if calls is None:
-                continue
-            for command in order.system_cmd:
+            commands = _in_order(order.system_cmd)
+            if calls is None:  # nothing of such an order is done, but stopping is never refused
+                commands = [item for item in commands if item.command in ("stop", "pause")]
+            for command in commands:
                 self._send(plan, self._command(plan, command))
             if calls and target in self._ask_first:
-                self._propose(target, order.message_response, calls)
-            else:
-                self._send(plan, plan.append(calls))
+                self._propose(plan, order.message_response, calls)
+            elif calls:
+                self._append(plan, calls)
 
     def _on_correction(self, order: ChatAction) -> None:
         targets = self._targets(order, "umrf_correction")
@@ -123,38 +133,58 @@ class UmrfPlanner(Node):
                 self._send(plan, plan.give_up())
                 continue
             control = [c for c in order.system_cmd if c.command not in ("add_memory", "remove_memory")]
-            for command in control:
+            for command in _in_order(control):
                 self._send(plan, self._command(plan, command))
             if calls or not control:
                 self._send(plan, plan.correct(calls))
 
     def _on_decision(self, decision: PlanDecision) -> None:
         if decision.decision == "policy":
-            if decision.policy == "ask_first":
-                self._ask_first.add(decision.target)
-            else:
-                self._ask_first.discard(decision.target)
+            self._set_policy(self._presence.resolve(decision.target) or decision.target, decision.policy)
             return
-        proposal = self._proposals.pop(decision.id, None)
+        proposal = self._proposals.get(decision.id)
         if proposal is None:
             self._say(decision.target, "That plan is no longer waiting for an answer.", "error")
             return
         plan = self._plan(proposal.target)
-        steps = decision.steps if decision.decision == "edit" else proposal.steps
-        calls = self._accept(plan, steps) if decision.decision != "reject" else []
-        self._send(plan, plan.append(calls or []))
+        calls: list[ActionCall] | None = []
+        if decision.decision != "reject":
+            calls = self._accept(plan, decision.steps if decision.decision == "edit" else proposal.steps)
+        if calls is None:
+            return  # it goes on waiting, for a better edit
+        del self._proposals[decision.id]
+        self._append(plan, calls)
 
-    def _propose(self, target: str, message: str, calls: list[ActionCall]) -> None:
-        proposal = PlanProposal(id=uuid.uuid4().hex, target=target, message=message, steps=tuple(calls))
+    def _set_policy(self, target: str, policy: Literal["run_at_once", "ask_first", ""]) -> None:
+        if policy == "ask_first":
+            self._ask_first.add(target)
+        elif policy == "run_at_once":
+            self._ask_first.discard(target)
+
+    def _propose(self, plan: TargetPlan, message: str, calls: list[ActionCall]) -> None:
+        proposal = PlanProposal(id=uuid.uuid4().hex, target=plan.target, message=message, steps=tuple(calls))
         self._proposals[proposal.id] = proposal
         self.publish(topics.PLAN, proposal)
+        self._send(plan, [])
+
+    def _append(self, plan: TargetPlan, calls: Sequence[ActionCall]) -> None:
+        still = plan.update().state == "paused"
+        self._send(plan, plan.append(calls))
+        if calls and still and plan.update().state == "paused":
+            self._say(plan.target, "I am still standing still. Say “carry on” when I should go on.", "info")
+
+    def _approve_all(self, plan: TargetPlan) -> list[Effect]:
+        """The operator said to go ahead, and nothing else can be meant than what waits for approval."""
+        waiting = [item for item in self._proposals.values() if item.target == plan.target]
+        self._drop_proposals(plan.target)
+        return [effect for item in waiting for effect in plan.append(item.steps)]
 
     def _command(self, plan: TargetPlan, command: SystemCommand) -> list[Effect]:
         match command.command:
             case "stop" | "pause":
                 return plan.pause()
             case "start":
-                return plan.start()
+                return (self._approve_all(plan) if not plan.pending else []) or plan.start()
             case "clear":
                 self._drop_proposals(plan.target)
                 return plan.clear()
@@ -195,7 +225,13 @@ class UmrfPlanner(Node):
         if not problems:
             return calls
         self._refuse("chat_action", plan.target, problems)
-        self._say(plan.target, "I worked out a plan that I cannot carry out, so I did nothing.", "error")
+        text = "I worked out a plan that I cannot carry out, so I did nothing."
+        if correcting:
+            text = (
+                "What I worked out would not help, so I am waiting here. Say “try again”, “skip it” or "
+                "“cancel everything”, or give me another order."
+            )
+        self._say(plan.target, text, "error")
         return None
 
     def _targets(self, order: ChatAction, what: str) -> list[str]:
@@ -205,21 +241,17 @@ class UmrfPlanner(Node):
             known = self._presence.resolve(name)
             if known is None:
                 problem = Problem(
-                    "targets", f"no robot is called {name!r}", self._known_robots(), "unknown_robot"
+                    "targets", f"no robot is called {name!r}", self._presence.known_text(), "unknown_robot"
                 )
                 self._refuse(what, name, [problem])
-                self._say(name, f"There is no robot called {name}. {self._known_robots()}", "error")
+                self._say(name, f"There is no robot called {name}. {self._presence.known_text()}", "error")
             elif known not in found:
                 found.append(known)
         if not order.targets:
             self._refuse(
-                what, "", [Problem("targets", "no robot is named", self._known_robots(), "no_robot")]
+                what, "", [Problem("targets", "no robot is named", self._presence.known_text(), "no_robot")]
             )
         return found
-
-    def _known_robots(self) -> str:
-        names = self._presence.names()
-        return f"I know {', '.join(names)}." if names else "No robot is there at the moment."
 
     # -- reports ---------------------------------------------------------------------------------------
 
@@ -247,17 +279,17 @@ class UmrfPlanner(Node):
             return
         if rejection.source == self.name or rejection.graph_name != plan.graph_name:
             return
-        self._send(plan, plan.on_refused(rejection.graph_name, rejection.what))
-        if any(problem.code == "stop_latched" for problem in rejection.problems):
-            text = "I was stopped for safety. Release the stop first, then say “carry on”."
-        else:
-            text = "I could not do that, so I changed nothing."
-        self._say(plan.target, text, "error")
+        codes = {problem.code for problem in rejection.problems}
+        self._send(plan, plan.on_refused(rejection.graph_name, rejection.what, codes))
 
     def _on_presence(self, robot: str, joined: bool) -> None:
         plan = self._plans.get(robot)
-        if not joined and plan is not None and plan.pending:
+        if plan is None or not plan.pending:
+            return
+        if not joined:
             self._say(robot, f"I have lost contact with {robot}. Its plan is kept.", "error")
+        elif (status := self._presence.get(robot)) is not None:
+            self._send(plan, plan.on_return(status.graphs))
 
     async def _watch_presence(self) -> None:
         while True:
@@ -298,14 +330,16 @@ class UmrfPlanner(Node):
             case StartGraph(graph):
                 text = write_graph(graph, faithful=True)
                 self.send(topics.GRAPH_START, ros.UmrfGraphStart(umrf_graph_json=text, targets=targets))
-                self._later(ANSWER_WITHIN_S, plan, lambda: plan.on_no_answer(graph.name))
+                self._later(self._patience.answer_s, plan, lambda: plan.on_no_answer(graph.name))
             case ModifyGraph(graph, continue_from):
                 text = write_graph(graph, faithful=True)
                 message = ros.UmrfGraphModify(graph.name, targets, text, continue_from)
                 self.send(topics.GRAPH_MODIFY, message)
                 if continue_from:
                     self._later(
-                        PROGRESS_WITHIN_S, plan, lambda: plan.on_no_progress(graph.name, continue_from)
+                        self._patience.progress_s,
+                        plan,
+                        lambda: plan.on_no_progress(graph.name, continue_from),
                     )
             case PauseGraph(name):
                 self.send(topics.GRAPH_PAUSE, ros.UmrfGraphPause(name, targets))
@@ -315,7 +349,7 @@ class UmrfPlanner(Node):
                 self.send(topics.GRAPH_RESUME, ros.UmrfGraphResume(name, targets))
             case StopGraph(name):
                 self.send(topics.GRAPH_STOP, ros.UmrfGraphStop(name, targets))
-                self._later(END_WITHIN_S, plan, lambda: plan.on_no_end(name))
+                self._later(self._patience.end_s, plan, lambda: plan.on_no_end(name))
             case EndStep(name, node):
                 self.publish(topics.STEP, StepCommand(target=plan.target, graph_name=name, node=node))
             case ReportFailure(message):
@@ -335,7 +369,7 @@ class UmrfPlanner(Node):
     def _drop_proposals(self, target: str) -> None:
         self._proposals = {key: p for key, p in self._proposals.items() if p.target != target}
 
-    def _say(self, target: str, text: str, kind: Any) -> None:
+    def _say(self, target: str, text: str, kind: Literal["info", "error"]) -> None:
         self.publish(topics.CHAT_FEEDBACK, ChatFeedback(message=text, targets=(target,), type=kind))
 
     def _refuse(self, what: str, target: str, problems: Sequence[Problem]) -> None:
@@ -345,3 +379,11 @@ class UmrfPlanner(Node):
         )
         rejection = Rejection(source=self.name, target=target, what=what, problems=listed)
         self.send(topics.REJECTION, to_string(rejection))
+
+
+def _in_order(commands: Sequence[SystemCommand]) -> list[SystemCommand]:
+    """Steps are counted before any is dropped, so the last is dropped first."""
+    last_first = iter(
+        sorted((c for c in commands if c.command == "pop"), key=lambda c: c.pop_index or 0, reverse=True)
+    )
+    return [next(last_first) if command.command == "pop" else command for command in commands]

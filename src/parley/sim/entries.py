@@ -13,12 +13,11 @@ from pydantic import (
     BeforeValidator,
     ConfigDict,
     Field,
-    ValidationError,
     ValidationInfo,
     field_validator,
 )
 
-from parley.errors import FileFormatError
+from parley.files import validated
 from parley.sim.robot_model import PRESETS, RobotModel
 from parley.sim.solids import Shape, Solid
 from parley.world.geometry import Pose2D
@@ -33,7 +32,6 @@ __all__ = [
     "Thing",
     "Wall",
     "WorldChanges",
-    "checked",
 ]
 
 M = TypeVar("M", bound=BaseModel)
@@ -196,21 +194,7 @@ class WorldChanges(Entry):
         Raises:
             FileFormatError: Names the field.
         """
-        return checked(cls, dict(raw), file)
-
-
-def checked(kind: type[M], raw: Any, file: str) -> M:
-    """Parse plain data as `kind`; `file` is only for messages.
-
-    Raises:
-        FileFormatError: Names the file and the field.
-    """
-    try:
-        return kind.model_validate(raw)
-    except ValidationError as error:
-        first = error.errors(include_url=False, include_input=False)[0]
-        where = "".join(f"[{p}]" if isinstance(p, int) else f".{p}" for p in first["loc"]).lstrip(".")
-        raise FileFormatError(file, where, first["msg"]) from error
+        return validated(cls, dict(raw), file)
 
 
 def _rgb(colour: str) -> tuple[int, int, int]:

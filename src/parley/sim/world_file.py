@@ -25,11 +25,11 @@ from collections.abc import Mapping
 from pathlib import Path
 from typing import Any, Self
 
-import yaml
 from pydantic import Field
 
 from parley.errors import FileFormatError
-from parley.sim.entries import Colour, Entry, Name, RobotEntry, Thing, Wall, WorldChanges, checked
+from parley.files import parse_yaml, read_text, validated
+from parley.sim.entries import Colour, Entry, Name, RobotEntry, Thing, Wall, WorldChanges
 from parley.world.geometry import Pose2D
 from parley.world.object_map import MapObject, ObjectMap
 
@@ -52,12 +52,7 @@ class WorldFile(Entry):
         Raises:
             FileFormatError: Names the file and the field.
         """
-        try:
-            return cls.parse(path.read_text(encoding="utf-8"), file=path.name)
-        except OSError as error:
-            raise FileFormatError(path.name, "", f"cannot be read: {error.strerror}") from error
-        except UnicodeDecodeError as error:
-            raise FileFormatError(path.name, "", f"is not UTF-8 text: {error.reason}") from error
+        return cls.parse(read_text(path), file=path.name)
 
     @classmethod
     def parse(cls, text: str, file: str = "world file") -> Self:
@@ -66,11 +61,7 @@ class WorldFile(Entry):
         Raises:
             FileFormatError: Names the file and the field.
         """
-        try:
-            raw = yaml.safe_load(text)
-        except yaml.YAMLError as error:
-            raise FileFormatError(file, "", f"not valid YAML: {error}") from error
-        world = checked(cls, raw, file)._consistent(file)
+        world = validated(cls, parse_yaml(text, file), file)._consistent(file)
         world._check_starts(file)
         return world
 

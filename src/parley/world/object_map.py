@@ -13,14 +13,14 @@ faces, radians in the map frame: stand there to use it).
 
 from __future__ import annotations
 
-import json
 from dataclasses import dataclass, field
 from pathlib import Path
 from typing import Any
 
-from pydantic import BaseModel, ConfigDict, Field, ValidationError
+from pydantic import BaseModel, ConfigDict, Field
 
 from parley.errors import FileFormatError
+from parley.files import parse_json, read_text, validated
 
 __all__ = ["MapObject", "ObjectMap"]
 
@@ -88,12 +88,7 @@ class ObjectMap:
         Raises:
             FileFormatError: Names the file and the field.
         """
-        try:
-            return cls.parse(path.read_text(encoding="utf-8"), file=path.name)
-        except OSError as error:
-            raise FileFormatError(path.name, "", f"cannot be read: {error.strerror}") from error
-        except UnicodeDecodeError as error:
-            raise FileFormatError(path.name, "", f"is not UTF-8 text: {error.reason}") from error
+        return cls.parse(read_text(path), file=path.name)
 
     @classmethod
     def parse(cls, text: str, file: str = "object map") -> ObjectMap:
@@ -102,16 +97,7 @@ class ObjectMap:
         Raises:
             FileFormatError: Names the file and the field.
         """
-        try:
-            raw = json.loads(text)
-        except ValueError as error:
-            raise FileFormatError(file, "", f"not valid JSON: {error}") from error
-        try:
-            parsed = _File.model_validate(raw)
-        except ValidationError as error:
-            first = error.errors(include_url=False, include_input=False)[0]
-            where = "".join(f"[{p}]" if isinstance(p, int) else f".{p}" for p in first["loc"]).lstrip(".")
-            raise FileFormatError(file, where, first["msg"]) from error
+        parsed = validated(_File, parse_json(text, file), file)
         return cls(tuple(_objects(parsed, file)))
 
     def to_json(self) -> dict[str, Any]:

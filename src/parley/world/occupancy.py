@@ -15,9 +15,10 @@ import numpy as np
 import yaml
 from numpy.typing import NDArray
 from PIL import Image, UnidentifiedImageError
-from pydantic import BaseModel, ConfigDict, Field, ValidationError
+from pydantic import BaseModel, ConfigDict, Field
 
 from parley.errors import FileFormatError
+from parley.files import parse_yaml, read_text, validated
 
 __all__ = ["FREE", "OCCUPIED", "UNKNOWN", "OccupancyMap"]
 
@@ -154,20 +155,7 @@ class OccupancyMap:
 
 
 def _read_header(path: Path) -> _Header:
-    try:
-        raw = yaml.safe_load(path.read_text(encoding="utf-8"))
-    except OSError as error:
-        raise FileFormatError(path.name, "", f"cannot be read: {error.strerror}") from error
-    except UnicodeDecodeError as error:
-        raise FileFormatError(path.name, "", f"is not UTF-8 text: {error.reason}") from error
-    except yaml.YAMLError as error:
-        raise FileFormatError(path.name, "", f"not valid YAML: {error}") from error
-    try:
-        return _Header.model_validate(raw)
-    except ValidationError as error:
-        first = error.errors(include_url=False, include_input=False)[0]
-        where = "".join(f"[{p}]" if isinstance(p, int) else f".{p}" for p in first["loc"]).lstrip(".")
-        raise FileFormatError(path.name, where, first["msg"]) from error
+    return validated(_Header, parse_yaml(read_text(path), path.name), path.name)
 
 
 def _read_pixels(path: Path, header: _Header) -> NDArray[np.uint8]:

@@ -396,6 +396,11 @@ class _Reader(Noting):
             return
         noun = noun_phrase(words)
         found = self._grounded(noun.phrase) if noun.core and len(words) <= 6 else ""
+        if found and self._at < len(self._parts) - 1:
+            # "The desk by the door, go there": named first, asked for after.
+            self.scene.mention(noun.phrase)
+            self.scene.places.append(noun.phrase)
+            return
         if found:
             raise UnclearError(f"What should I do with {the(found)}? I can go there or have a look at it.")
         if not alone and (self.tasks.steps or self.commands or self.replies):
