@@ -1,0 +1,322 @@
+"""From a graph to the tree that does the same, or to the reasons why there is none.
+
+Regions, at first one per action, know where they go on after success and after failure. Two that share all but
+one way become one region; a graph that has a tree shrinks to a single one.
+"""
+
+from __future__ import annotations
+
+from collections import Counter
+from dataclasses import dataclass
+from typing import Final, Literal
+
+from parley.errors import GraphRefusedError, Problem
+from parley.umrf.bt.reasons import refusal
+from parley.umrf.bt.shape import (
+    Fallback,
+    ForceSuccess,
+    Inverter,
+    Leaf,
+    Parallel,
+    Retry,
+    Sequence,
+    Shape,
+    fallback,
+    inverter,
+    sequence,
+)
+from parley.umrf.bt.ways import Cont, Edge, Way, Ways
+from parley.umrf.model import EXIT, Graph, NodeRef, Result
+
+__all__ = ["structure"]
+
+MAX_DEPTH: Final = 250
+"""BehaviorTree.CPP refuses XML nested deeper than 256; some levels go to the frame."""
+
+_START: Final = NodeRef("", 0)
+"""Stands for the graph's entry among the regions."""
+
+Side = Literal["ok", "bad"]
+
+
+def structure(graph: Graph) -> Shape:
+    """The tree of a graph.
+
+    Raises:
+        GraphRefusedError: It has none; with codes of `EXPORT_REASONS`.
+    """
+    ways = Ways(graph)
+    problems = ways.problems
+    if not problems:
+        reducer = _Reducer(ways)
+        shape = reducer.reduce() if not problems else None
+        problems = problems or reducer.problems
+        if shape is not None and not problems:
+            return shape
+    raise GraphRefusedError(graph.name, problems)
+
+
+@dataclass(slots=True)
+class _Region:
+    shape: Shape
+    ok: Way | None
+    """After success; None if it never succeeds."""
+    bad: Way | None
+    """After failure; None if it never fails."""
+
+    def ways(self) -> list[Way]:
+        return [way for way in (self.ok, self.bad) if way is not None]
+
+
+class _Reducer:
+    def __init__(self, ways: Ways) -> None:
+        self._ways = ways
+        self.problems: list[Problem] = []
+        self._resolved: set[NodeRef] = set()
+        self._regions: dict[NodeRef, _Region] = {
+            _START: _Region(Sequence(()), ways.entry(), None),
+            **{ref: self._leaf(ref) for ref in ways.nodes},
+        }
+        self._uses = Counter(
+            target for region in self._regions.values() for way in region.ways() for target in way.cont.targets
+        )
+
+    def reduce(self) -> Shape | None:
+        """The whole graph as one tree; None if that did not work, with `problems` said."""
+        if self.problems:
+            return None
+        names = [ref for ref in self._regions if ref != _START]
+        names.append(_START)
+        going_on = True
+        while going_on:
+            going_on = False
+            for ref in names:
+                while ref in self._regions and self._step(ref):
+                    going_on = True
+            names = [ref for ref in names if ref in self._regions]
+        start = self._regions[_START].ok
+        rest = [ref for ref in names if ref != _START]
+        if start is not None and not self.problems and len(rest) == 1 and start.cont.targets == {rest[0]}:
+            region = self._regions[rest[0]]
+            if all(way.cont.is_end for way in region.ways()):
+                self._check_depth(region.shape)
+                return region.shape
+        self._explain(rest)
+        return None
+
+    def _leaf(self, ref: NodeRef) -> _Region:
+        true, false, error = (
+            self._ways.follow(ref, result) for result in (Result.ON_TRUE, Result.ON_FALSE, Result.ON_ERROR)
+        )
+        if _same(true, false):
+            return _Region(Leaf(ref, false_succeeds=True), _either(true, false), error)
+        if _same(false, error):
+            return _Region(Leaf(ref), true, _either(false, error))
+        self.problems.append(refusal("three_ways", self._ways.path(ref), ref.full_name))
+        return _Region(Leaf(ref), true, error)
+
+    # -- one step of shrinking ------------------------------------------------------------------------------
+
+    def _step(self, ref: NodeRef) -> bool:
+        region = self._regions[ref]
+        if self._force(region) or self._loop(ref, region):
+            return True
+        sides: tuple[Side, ...] = ("ok", "bad")
+        return any(self._resolve(region, s) or self._follow(ref, region, s) or self._fork(region, s) for s in sides)
+
+    def _force(self, region: _Region) -> bool:
+        """Success and failure lead to one place: no need to tell them apart."""
+        if region.ok is None or region.bad is None or not _same(region.ok, region.bad):
+            return False
+        self._uses.subtract(region.bad.cont.targets)
+        region.shape, region.ok, region.bad = _forced(region.shape), _either(region.ok, region.bad), None
+        return True
+
+    def _loop(self, ref: NodeRef, region: _Region) -> bool:
+        """A way back to its own beginning is a retry."""
+        if region.bad is not None and region.bad.cont.targets == {ref}:
+            region.shape, region.bad = Retry(region.shape), None
+        elif region.ok is not None and region.ok.cont.targets == {ref}:
+            region.shape, region.ok = inverter(Retry(inverter(region.shape))), None
+        else:
+            return False
+        self._uses[ref] -= 1
+        return True
+
+    def _resolve(self, region: _Region, side: Side) -> bool:
+        """A join is an ordinary next step once all that it requires has certainly been seen."""
+        way = getattr(region, side)
+        target = _only(way)
+        if target is None or target not in self._ways.joins or target in self._resolved:
+            return False
+        if self._uses[target] != 1 or not self._arrived(target, way.seen):
+            return False
+        if target == EXIT:
+            self._uses[EXIT] = 0
+            setattr(region, side, Way(Cont(verdict=side == "ok", end="finish"), way.seen))
+            return True
+        self._resolved.add(target)
+        return True
+
+    def _follow(self, ref: NodeRef, region: _Region, side: Side) -> bool:
+        """What only this region leads to becomes part of it, if the other ways of both agree."""
+        target = _only(getattr(region, side))
+        if ref == _START or target is None or target == ref or target not in self._regions:
+            return False
+        if self._uses[target] != 1 or (target in self._ways.joins and target not in self._resolved):
+            return False
+        after = self._regions[target]
+        other = region.bad if side == "ok" else region.ok
+        same_side, cross_side = (after.bad, after.ok) if side == "ok" else (after.ok, after.bad)
+        straight = other is None or same_side is None or _same(other, same_side)
+        if not straight and (cross_side is None or not _same(other, cross_side)):
+            return False
+        first = region.shape if straight else inverter(region.shape)
+        follows_success = (side == "ok") == straight
+        region.shape = (sequence if follows_success else fallback)(first, after.shape)
+        self._join_ways(region, side, after, joins_ok=not follows_success)
+        del self._regions[target]
+        return True
+
+    def _join_ways(self, region: _Region, side: Side, after: _Region, *, joins_ok: bool) -> None:
+        through = getattr(region, side)
+        other = region.bad if side == "ok" else region.ok
+        ok = None if after.ok is None else Way(after.ok.cont, after.ok.seen | through.seen)
+        bad = None if after.bad is None else Way(after.bad.cont, after.bad.seen | through.seen)
+        self._uses.subtract(through.cont.targets)
+        if other is not None:
+            mine = ok if joins_ok else bad
+            if mine is not None:
+                self._uses.subtract(other.cont.targets)
+            joined = other if mine is None else _either(other, mine)
+            ok, bad = (joined, bad) if joins_ok else (ok, joined)
+        region.ok, region.bad = ok, bad
+
+    def _fork(self, region: _Region, side: Side) -> bool:
+        """Several next steps that only this region leads to, and that all lead to one join or to no more."""
+        way: Way | None = getattr(region, side)
+        if way is None or len(way.cont.targets) < 2:
+            return False
+        waiting = {ref for ref in way.cont.targets if ref in self._ways.joins and ref not in self._resolved}
+        heads = sorted(way.cont.targets - waiting, key=lambda ref: self._ways.index[ref])
+        branches = [self._regions[ref] for ref in heads]
+        ends = {branch.ok.cont for branch in branches if branch.ok is not None}
+        if any(self._uses[ref] != 1 for ref in heads) or not branches or len(ends) != 1:
+            return False
+        (end,) = ends
+        if end.is_end:
+            together = None if waiting or end.end != "dry" else self._apart(branches)
+        else:
+            together = self._joined(branches, way, end, waiting)
+        if together is None:
+            return False
+        for ref in heads:
+            del self._regions[ref]
+        for ways in (way, *(item for branch in branches for item in branch.ways())):
+            self._uses.subtract(ways.cont.targets)
+        self._regions[heads[0]] = together
+        setattr(region, side, Way(Cont(frozenset({heads[0]})), way.seen))
+        self._uses.update([heads[0], *(target for item in together.ways() for target in item.cont.targets)])
+        return True
+
+    def _apart(self, branches: list[_Region]) -> _Region | None:
+        """Branches that nothing follows: each runs to its own end."""
+        bad = [branch.bad for branch in branches if branch.bad is not None]
+        if not all(way.cont.end == "dry" for way in bad):
+            return None
+        shape = Parallel(tuple(branch.shape for branch in branches), all_end=True)
+        ends = Way(Cont(verdict=True, end="dry")), Way(Cont(verdict=False, end="dry")) if bad else None
+        return _Region(shape, *ends)
+
+    def _joined(
+        self, branches: list[_Region], way: Way, end: Cont, waiting: set[NodeRef]
+    ) -> _Region | None:
+        """Branches that meet at one join; a branch may be empty (the fork names the join itself)."""
+        join = next(iter(end.targets))
+        if len(end.targets) != 1 or join not in self._ways.joins or waiting - {join} or join in self._resolved:
+            return None
+        if len(branches) == 1:
+            only = branches[0]
+            bad = None if only.bad is None else Way(only.bad.cont, only.bad.seen | way.seen)
+            return _Region(only.shape, Way(end, (only.ok.seen if only.ok else frozenset()) | way.seen), bad)
+        seen = [branch.ok.seen for branch in branches if branch.ok is not None]
+        if len(seen) < len(branches) or not self._each_needed(join, [*seen, way.seen]):
+            return None
+        bad = [branch.bad for branch in branches if branch.bad is not None]
+        if not all(item.cont.end == "finish" for item in bad):
+            return None
+        shape = Parallel(tuple(branch.shape for branch in branches))
+        failed = Way(Cont(verdict=False, end="finish")) if bad else None
+        return _Region(shape, Way(end, way.seen.union(*seen)), failed)
+
+    def _arrived(self, join: NodeRef, seen: frozenset[Edge]) -> bool:
+        return all((parent, join) in seen for parent in self._ways.joins[join])
+
+    def _each_needed(self, join: NodeRef, seen: list[frozenset[Edge]]) -> bool:
+        """Whether the join waits for every branch, so that it is run once, by the last."""
+        *branches, before = seen
+        return all(
+            not self._arrived(join, before.union(*branches[:position], *branches[position + 1 :]))
+            for position in range(len(branches))
+        )
+
+    # -- why not --------------------------------------------------------------------------------------------
+
+    def _check_depth(self, shape: Shape) -> None:
+        if _depth(shape) > MAX_DEPTH:
+            self.problems.append(refusal("too_deep", "actions"))
+
+    def _explain(self, rest: list[NodeRef]) -> None:
+        reached: set[NodeRef] = set()
+        waiting = [_START]
+        while waiting:
+            region = self._regions.get(waiting.pop())
+            new = {t for way in (region.ways() if region else ()) for t in way.cont.targets} - reached
+            reached |= new
+            waiting += new
+        for ref in [ref for ref in rest if ref not in reached]:
+            self.problems.append(refusal("unreachable_node", self._ways.path(ref), ref.full_name))
+        if self.problems:
+            return
+        for join in [ref for ref in self._ways.joins if ref in reached and ref not in self._resolved]:
+            code = "join_error" if self._fails_apart(join) else "join_never"
+            self.problems.append(refusal(code, self._ways.path(join), join.full_name))
+        if not self.problems:
+            names = ", ".join(ref.full_name for ref in rest) or "no action"
+            self.problems.append(refusal("unstructured", "actions", names))
+
+    def _fails_apart(self, join: NodeRef) -> bool:
+        """Whether a branch of `join` has a failure that would not end the graph at once."""
+        into = [item for item in self._regions.values() if item.ok and join in item.ok.cont.targets]
+        return len(into) > 1 and any(item.bad and item.bad.cont.end != "finish" for item in into)
+
+
+def _same(one: Way | None, other: Way | None) -> bool:
+    return one is not None and other is not None and one.cont.same(other.cont)
+
+
+def _either(one: Way, other: Way) -> Way:
+    """What is certain if either of two ways was gone."""
+    end = one.cont if one.cont.end != "finish" else other.cont
+    return Way(end, one.seen & other.seen)
+
+
+def _only(way: Way | None) -> NodeRef | None:
+    return next(iter(way.cont.targets)) if way is not None and len(way.cont.targets) == 1 else None
+
+
+def _forced(shape: Shape) -> Shape:
+    return ForceSuccess(shape.child if isinstance(shape, Inverter) else shape)
+
+
+def _depth(shape: Shape) -> int:
+    """Levels of elements; shapes of a converted graph are as deep as they were built, so no recursion."""
+    deepest, waiting = 0, [(shape, 1)]
+    while waiting:
+        at, level = waiting.pop()
+        deepest = max(deepest, level)
+        if isinstance(at, Sequence | Fallback | Parallel):
+            waiting += [(child, level + 1) for child in at.children]
+        elif not isinstance(at, Leaf):
+            waiting.append((at.child, level + 1))
+    return deepest

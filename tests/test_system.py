@@ -1,0 +1,48 @@
+"""Opening and closing everything: nothing is left behind, whatever happens."""
+
+from __future__ import annotations
+
+import asyncio
+import threading
+from pathlib import Path
+
+import pytest
+
+from parley.config import SystemConfig
+from parley.demos.catalogue import load_demo
+from parley.errors import StoreError
+from tests.demos.house import running
+
+
+def others() -> set[asyncio.Task[object]]:
+    return {task for task in asyncio.all_tasks() if task is not asyncio.current_task()}
+
+
+async def test_closing_in_the_middle_of_a_drive_leaves_no_task_and_no_thread(tmp_path: Path) -> None:
+    before = {thread.name for thread in threading.enumerate()}
+    config = SystemConfig(speed=1.0, data_dir=tmp_path)
+    async with running(load_demo("nursing-home").system(config)) as home:
+        await home.say("go to the fridge")
+        await home.state("running")
+    assert others() == set()
+    left = {thread.name for thread in threading.enumerate() if not thread.name.startswith("asyncio_")} - before
+    assert left == set()
+
+
+async def test_closing_while_a_question_is_open_leaves_nothing(tmp_path: Path) -> None:
+    async with running(load_demo("nursing-home").system(SystemConfig(speed=None))) as home:
+        await home.say("There is a water bottle in the fridge")
+        await home.say("John is on the sofa")
+        await home.say("John is thirsty, get him water")
+        await home.question()
+    assert others() == set()
+
+
+async def test_opening_that_fails_closes_what_was_opened(tmp_path: Path) -> None:
+    blocked = tmp_path / "data"
+    blocked.write_text("a file where a folder should be", encoding="utf-8")
+    system = load_demo("nursing-home").system(SystemConfig(data_dir=blocked))
+    with pytest.raises(StoreError, match="memory"):
+        async with system:
+            pass
+    assert others() == set()
