@@ -25,7 +25,9 @@ async def test_closing_in_the_middle_of_a_drive_leaves_no_task_and_no_thread(tmp
         await home.say("go to the fridge")
         await home.state("running")
     assert others() == set()
-    left = {thread.name for thread in threading.enumerate() if not thread.name.startswith("asyncio_")} - before
+    left = {
+        thread.name for thread in threading.enumerate() if not thread.name.startswith("asyncio_")
+    } - before
     assert left == set()
 
 
