@@ -12,9 +12,11 @@ import yaml
 
 __all__ = ["load_data"]
 
+# The base loader builds nothing but text, lists and mappings; the first message waits for this, so be quick.
+_LOADER = getattr(yaml, "CBaseLoader", yaml.BaseLoader)
+
 
 def load_data(name: str) -> Any:
     """The content of one data file, every scalar as text."""
     path = resources.files("parley.language") / "offline" / "data" / f"{name}.yaml"
-    # The base loader builds nothing but text, lists and mappings.
-    return yaml.load(path.read_text(encoding="utf-8"), Loader=yaml.BaseLoader)
+    return yaml.load(path.read_text(encoding="utf-8"), Loader=_LOADER)
