@@ -103,15 +103,20 @@ class Rig:
                 self._changed.clear()
                 await self._changed.wait()
 
-    async def until_graph(self, name: str, state: str) -> None:
-        await self.until(lambda: self.graph_states(name)[-1:] == [state])
+    async def until_graph(self, name: str, state: str, actor: str = "") -> None:
+        await self.until(lambda: self.graph_states(name, actor)[-1:] == [state])
 
-    def graph_states(self, name: str) -> list[str]:
-        return [item.state for item in self.events if item.kind == "graph" and item.graph_name == name]
+    def graph_states(self, name: str, actor: str = "") -> list[str]:
+        found = self._events("graph", name, actor)
+        return [item.state for item in found]
 
-    def node_states(self, name: str, node: str) -> list[str]:
-        found = [item for item in self.events if item.kind == "node" and item.graph_name == name]
+    def node_states(self, name: str, node: str, actor: str = "") -> list[str]:
+        found = self._events("node", name, actor)
         return [item.state for item in found if item.node == node and item.cause != "bypass"]
+
+    def _events(self, kind: str, name: str, actor: str) -> list[GraphEvent]:
+        found = [item for item in self.events if item.kind == kind and item.graph_name == name]
+        return [item for item in found if actor in ("", item.actor)]
 
     def last_feedback(self, name: str) -> dict[str, Any]:
         graphs = [json.loads(text) for message in self.feedback for text in message.history]
@@ -121,6 +126,9 @@ class Rig:
     def start(self, graph: dict[str, Any] | str, targets: Sequence[str] = ("A",)) -> None:
         text = graph if isinstance(graph, str) else json.dumps(graph)
         self._start.publish(ros.UmrfGraphStart(umrf_graph_json=text, targets=tuple(targets)))
+
+    def start_indexed(self, name: str, targets: Sequence[str] = ("A",)) -> None:
+        self._start.publish(ros.UmrfGraphStart(umrf_graph_name=name, targets=tuple(targets)))
 
     def modify(self, graph: dict[str, Any], continue_from: str = "") -> None:
         self._modify.publish(
@@ -141,6 +149,23 @@ class Rig:
         self._emergency.publish(to_string(payload))
 
 
+def engine_of(actor: str, rig: Rig, **options: Any) -> ActionEngine:
+    """An engine on the rig's transport; open it with ``async with``."""
+    return ActionEngine(
+        actor,
+        **(
+            {
+                "transport": rig.transport,
+                "catalogue": CATALOGUE,
+                "clock": WallClock(),
+                "make_context": lambda handle: handle,
+                "heartbeat_s": 60.0,
+            }
+            | options
+        ),
+    )
+
+
 @asynccontextmanager
 async def rigged(robot: DummyRobot | None = None, **options: Any) -> AsyncIterator[Rig]:
     """An engine for actor A, and what is needed to talk to it; checks that nothing is left behind."""
@@ -148,15 +173,7 @@ async def rigged(robot: DummyRobot | None = None, **options: Any) -> AsyncIterat
     async with LocalTransport() as transport:
         rig = Rig(transport, robot)
         await rig.listen()
-        async with ActionEngine(
-            "A",
-            transport=transport,
-            catalogue=CATALOGUE,
-            clock=WallClock(),
-            make_context=lambda handle: handle,
-            robot=robot,
-            **({"heartbeat_s": 60.0} | options),
-        ):
+        async with engine_of("A", rig, robot=robot, **options):
             yield rig
         await rig.until(lambda: rig.statuses and rig.statuses[-1].state == "leaving")
         assert transport.handler_failures == 0

@@ -1,4 +1,4 @@
-"""A planner, real engines with small actions, and everything that crosses the wire between them, for tests."""
+"""A planner, real engines with small actions, and what crosses the wire between them, for tests."""
 
 from __future__ import annotations
 
@@ -8,7 +8,7 @@ from collections import Counter
 from collections.abc import AsyncIterator, Callable, Sequence
 from contextlib import AsyncExitStack, asynccontextmanager
 from dataclasses import dataclass, field
-from typing import Any
+from typing import Any, cast
 
 from parley.clock import WallClock
 from parley.demos.observer import Observer
@@ -20,11 +20,13 @@ from parley.messages import ros, topics
 from parley.messages.chat import ActionCall, ChatAction, SystemCommand
 from parley.messages.pvf import Parameter
 from parley.messages.ros import String
+from parley.messages.status import ActorStatus
 from parley.nodes.base import Node
 from parley.nodes.chat_interface import ChatInterface
 from parley.nodes.error_handler import ErrorHandler
 from parley.nodes.umrf_planner import Patience, UmrfPlanner
 from parley.robots.base import Robot
+from parley.transport.base import Transport
 from parley.transport.local import LocalTransport
 from parley.umrf.action import RunHandle, action
 from parley.umrf.catalogue import Catalogue
@@ -166,6 +168,28 @@ class Wire(Node):
         return modified[-1].continue_from
 
 
+class Cable:
+    """A transport that can be cut: then nothing gets through either way, and nobody is told."""
+
+    def __init__(self, transport: LocalTransport) -> None:
+        self._transport, self.cut = transport, False
+
+    def publisher(self, topic: topics.Topic[Any]) -> Any:
+        end = self._transport.publisher(topic)
+        send = end.publish
+        end.publish = lambda message: None if self.cut else send(message)  # type: ignore[method-assign]
+        return end
+
+    async def subscribe(self, topic: topics.Topic[Any], handler: Any, *, depth: int | None = None) -> Any:
+        def receive(message: Any) -> Any:
+            return None if self.cut else handler(message)
+
+        return await self._transport.subscribe(topic, receive, depth=depth)
+
+    async def serve(self, service: Any, handler: Any) -> Any:
+        return await self._transport.serve(service, handler)
+
+
 @dataclass
 class Crew:
     """Everybody, and ways to talk to them; the robots are A, B, ..."""
@@ -176,23 +200,35 @@ class Crew:
     language: ScriptedLanguage
     stack: AsyncExitStack
     bodies: dict[str, Body] = field(default_factory=dict)
+    _engines: dict[str, tuple[Cable, AsyncExitStack]] = field(default_factory=dict)
 
     @property
     def body(self) -> Body:
         return self.bodies["A"]
 
-    async def engine(self, name: str, robot: Robot | None = None) -> AsyncExitStack:
-        """Let an engine of ours come; close what is returned to let it leave."""
+    async def engine(self, name: str, robot: Robot | None = None) -> None:
+        """Let an engine of ours come."""
         body = self.bodies.setdefault(name, Body())
-        stack = await self.stack.enter_async_context(AsyncExitStack())
+        cable, stack = Cable(self.transport), await self.stack.enter_async_context(AsyncExitStack())
+        self._engines[name] = (cable, stack)
         self.observer.robots.discard(name)
         engine = ActionEngine(
-            name, transport=self.transport, catalogue=actions_of(body), clock=WallClock(),
+            name, transport=cast(Transport, cable), catalogue=actions_of(body), clock=WallClock(),
             make_context=lambda handle: handle, robot=robot,
         )  # fmt: skip
         await stack.enter_async_context(engine)
         await self.until(lambda: name in self.observer.robots)
-        return stack
+
+    async def dismiss(self, name: str) -> None:
+        """Close its engine."""
+        await self._engines[name][1].aclose()
+
+    async def lose(self, name: str) -> None:
+        """Its engine dies without a word; that its heartbeat is missed is told at once instead of in 5 s."""
+        cable, stack = self._engines[name]
+        cable.cut = True
+        await stack.aclose()
+        self.observer.publish(topics.ACTOR_STATUS, ActorStatus(actor=name, state="leaving"))
 
     def order(self, *calls: ActionCall, target: str = "A", commands: Sequence[SystemCommand] = ()) -> None:
         order = ChatAction(queue=calls, system_cmd=tuple(commands), targets=(target,), message_response="ok")
@@ -273,8 +309,8 @@ async def crew(
 class ThesisEngine(Node):
     """Stands for the reference engine: no heartbeat, no events, no refusals, feedback for nodes only.
 
-    What it leaves unsaid is what `spec/umrf.md` 12.1 and D17 list: pausing, resuming, and that an error halted
-    the graph.
+    What it leaves unsaid is what `spec/umrf.md` 12.1 and D17 list: pausing, resuming, and that an error
+    halted the graph.
     """
 
     name = "thesis_engine"
@@ -317,7 +353,7 @@ class ThesisEngine(Node):
             told = transition.state in ("RUNNING", "STOPPING", "FINISHED", "ERROR")
             told = told and transition.cause not in ("pause", "resume")
         else:
-            told = transition.state in ("STOPPED", "HALTED") and "ERROR" not in states
+            told = transition.cause in ("stop", "dry") and "ERROR" not in states
         if told:
             text = write_graph(run.snapshot())
             self.send(topics.GRAPH_FEEDBACK, ros.UmrfGraphFeedback(actor=self._actor, history=(text,)))

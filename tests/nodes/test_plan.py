@@ -452,3 +452,90 @@ def test_ids_rise_along_the_plan_and_are_never_reused(moves: list[str]) -> None:
                 assert seen.setdefault(key, step.call).name == step.call.name
         ids = [node.instance_id for node in engine.graph.nodes]
         assert ids == sorted(set(ids))
+
+
+def test_step_that_began_just_before_it_was_dropped_is_ended(plan: TargetPlan, engine: Engine) -> None:
+    engine.take(list(plan.append([look("1"), look("2"), look("3")])))
+    engine.report()
+    plan.pop(1)
+    assert plan.on_refused("graph_0", "umrf_graph_modify", {"node_active"}) == []
+    engine.states |= {"Look_0": NodeState.FINISHED, "Look_1": NodeState.RUNNING}
+    assert EndStep("graph_0", "Look_1") in engine.report()
+
+
+def test_stop_between_dropping_everything_and_the_next_start_is_kept(
+    plan: TargetPlan, engine: Engine
+) -> None:
+    engine.take(list(plan.append([look()])))
+    engine.report()
+    plan.clear()
+    plan.append([look("door")])
+    plan.pause()
+    engine.graph_state = GraphState.STOPPED
+    assert engine.report() == []
+    assert plan.update().state == "paused"
+    (start,) = plan.start()
+    assert isinstance(start, StartGraph)
+
+
+def test_change_that_a_latched_stop_refused_is_sent_again_when_going_on(
+    plan: TargetPlan, engine: Engine
+) -> None:
+    engine.take(list(plan.append([look()])))
+    engine.fail()
+    plan.correct([look("lid")])
+    (said,) = plan.on_refused("graph_0", "umrf_graph_modify", {"stop_latched"})
+    assert isinstance(said, Say)
+    (modify,) = plan.start()
+    assert isinstance(modify, ModifyGraph)
+    assert modify.continue_from == "Look_1"
+
+
+def test_leaving_out_the_last_step_says_that_nothing_is_left(plan: TargetPlan, engine: Engine) -> None:
+    engine.take(list(plan.append([look()])))
+    engine.fail()
+    assert plan.skip() == [Say("Nothing else is left to do.")]
+    assert plan.update().state == "idle"
+
+
+def test_robot_that_is_back_without_its_graph_waits_for_going_on(plan: TargetPlan, engine: Engine) -> None:
+    engine.take(list(plan.append([look()])))
+    engine.report()
+    assert plan.on_return({"graph_0"}) == []
+    (said,) = plan.on_return(set())
+    assert isinstance(said, Say)
+    assert plan.update().state == "paused"
+    (start,) = plan.start()
+    assert isinstance(start, StartGraph)
+
+
+def test_stop_while_a_skipped_step_is_ending_is_kept(plan: TargetPlan, engine: Engine) -> None:
+    engine.take(list(plan.append([look(), look("door")])))
+    engine.report()
+    plan.pause()
+    engine.graph_state = GraphState.PAUSED
+    engine.report()
+    plan.skip()
+    assert plan.pause() == [PauseGraph("graph_0")]
+    engine.states["Look_0"] = NodeState.FINISHED
+    assert engine.report() == []
+    assert plan.update().state == "paused"
+    engine.graph_state = GraphState.HALTED
+    plan.start()
+    (modify,) = engine.report()
+    assert isinstance(modify, ModifyGraph)
+    assert modify.continue_from == "Look_1"
+
+
+@pytest.mark.parametrize("stale", [False, True])
+def test_stop_that_overtook_the_continuation_is_sent_again(
+    plan: TargetPlan, engine: Engine, stale: bool
+) -> None:
+    engine.take(list(plan.append([look(), look("door")])))
+    engine.fail()
+    plan.correct([look("lid")])
+    if stale:
+        engine.report()
+    assert plan.pause() == [PauseGraph("graph_0")]
+    engine.graph_state = GraphState.RUNNING
+    assert engine.report() == [PauseGraph("graph_0")]

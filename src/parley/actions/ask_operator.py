@@ -7,6 +7,7 @@ from typing import Final
 
 from parley.actions.context import ActionContext
 from parley.errors import ActionFailure, FailureCode
+from parley.language.control import control_of
 from parley.umrf.action import action
 
 __all__ = ["ATTEMPTS", "Answer", "ask_operator"]
@@ -29,9 +30,12 @@ async def ask_operator(ctx: ActionContext, question: str) -> Answer:
     Args:
         question: The question or request, in plain words.
     """
-    asked = question
-    for _ in range(ATTEMPTS):
+    asked, unclear = question, 0
+    while unclear < ATTEMPTS:
         reply = await ctx.operator.ask(asked)
+        if ctx.run.paused and control_of(reply) == "start":
+            asked = question  # that was for the plan; the question is still open
+            continue
         reading = await ctx.language.read_reply(question, reply)
         match reading.kind:
             case "yes" | "choice":
@@ -45,7 +49,8 @@ async def ask_operator(ctx: ActionContext, question: str) -> Answer:
             case "control":
                 asked = question
             case "unclear":
-                asked = f"I did not understand that. {question}"
+                unclear += 1
+                asked = f"I did not understand that. {question} You can also say “no”, “skip it” or “stop”."
     raise ActionFailure(
         FailureCode.NOT_UNDERSTOOD,
         f"I could not understand your answers to: {question}",

@@ -2,26 +2,47 @@
 
 from __future__ import annotations
 
+from pathlib import Path
 from typing import Annotated
 
 import typer
 
 from parley.actions.builtin import BUILTIN_ACTIONS
 from parley.cli.output import emit_json, fail
+from parley.umrf.action import ActionSpec
 from parley.umrf.catalogue import Catalogue
+from parley.umrf.discovery import ActionFolder, export_descriptors, installed_actions
 from parley.umrf.io import write_descriptor
 
 __all__ = ["app"]
 
 app = typer.Typer(help="What robots can do.", no_args_is_help=True)
 
+FolderOption = Annotated[
+    Path | None, typer.Option("--actions", help="Folder with more actions: Python files and *.umrf.json.")
+]
+
+
+def _catalogue(folder: Path | None) -> tuple[Catalogue, tuple[str, ...]]:
+    """Built-in and installed actions, then those of the folder; and what was skipped."""
+    found = installed_actions()
+    specs: list[ActionSpec] = [*BUILTIN_ACTIONS, *found.specs]
+    if folder is not None:
+        index = ActionFolder(folder)
+        index.scan()
+        found += index.found
+        specs += index.found.specs
+    return Catalogue(specs, found.graphs), found.problems
+
 
 @app.command("list")
 def list_actions(
+    actions: FolderOption = None,
     json: Annotated[bool, typer.Option("--json", help="One JSON object per action.")] = False,
 ) -> None:
-    """List the built-in actions with their parameters."""
-    for info in Catalogue(BUILTIN_ACTIONS).infos():
+    """List the actions with their parameters. Exit code 1 if a file had to be skipped."""
+    catalogue, problems = _catalogue(actions)
+    for info in catalogue.infos():
         if json:
             emit_json(info.model_dump())
             continue
@@ -29,15 +50,36 @@ def list_actions(
         for title, names in (("in", info.inputs), ("out", info.outputs)):
             if names:
                 typer.echo(f"  {title}: " + ", ".join(f"{name} ({kind})" for name, kind in names.items()))
+    for problem in problems:
+        fail(problem)
+    if problems:
+        raise typer.Exit(1)
 
 
 @app.command("show")
-def show(name: Annotated[str, typer.Argument(help="The action's name.")]) -> None:
+def show(
+    name: Annotated[str, typer.Argument(help="The action's name.")], actions: FolderOption = None
+) -> None:
     """Print an action's UMRF descriptor (`*.umrf.json`)."""
-    catalogue = Catalogue(BUILTIN_ACTIONS)
+    catalogue, _ = _catalogue(actions)
     spec = catalogue.get(name)
     if spec is None:
         near = catalogue.suggestions(name)
         hint = f" Did you mean {', '.join(near)}?" if near else ""
         raise typer.Exit(fail(f"there is no action {name!r}.{hint}"))
     typer.echo(write_descriptor(spec))
+
+
+@app.command("export")
+def export(
+    folder: Annotated[Path, typer.Argument(help="Where the descriptors go; made if need be.")],
+    actions: FolderOption = None,
+) -> None:
+    """Write the descriptor (`*.umrf.json`) of every action, for other UMRF programs."""
+    catalogue, problems = _catalogue(actions)
+    for file in export_descriptors(catalogue, folder):
+        typer.echo(file.name)
+    for problem in problems:
+        fail(problem)
+    if problems:
+        raise typer.Exit(1)

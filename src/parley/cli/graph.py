@@ -1,8 +1,11 @@
-"""`parley graph`: check and run UMRF graphs."""
+"""`parley graph`: check, run, show and convert UMRF graphs."""
 
 from __future__ import annotations
 
 import asyncio
+from collections.abc import Sequence
+from dataclasses import asdict
+from enum import StrEnum
 from pathlib import Path
 from typing import Annotated, Any
 
@@ -13,17 +16,19 @@ from parley.cli.output import emit_json, fail, quiet_logs
 from parley.config import SystemConfig
 from parley.demos.catalogue import DEMOS, load_demo
 from parley.demos.observer import Observer
-from parley.engine.run_file import check_file
-from parley.errors import ConfigError
+from parley.engine.run_file import check_file, read_graph_file
+from parley.errors import ConfigError, GraphRefusedError, Problem
 from parley.messages import topics
 from parley.messages.ros import UmrfGraphStart
+from parley.umrf.bt import export_tree, import_tree
 from parley.umrf.catalogue import Catalogue
-from parley.umrf.io import read_graph
+from parley.umrf.io import read_graph, write_graph
 from parley.umrf.model import GraphState, NodeState
+from parley.umrf.show import show as show_graph
 
 __all__ = ["app"]
 
-app = typer.Typer(help="Check and run UMRF graphs.", no_args_is_help=True)
+app = typer.Typer(help="Check, run, show and convert UMRF graphs.", no_args_is_help=True)
 
 _ENDED = {GraphState.FINISHED, GraphState.HALTED, GraphState.STOPPED, GraphState.ERROR}
 START_WITHIN_S = 30.0
@@ -41,22 +46,73 @@ def check(
     """Say everything that would keep the graph from running."""
     catalogue = Catalogue.load_folder(actions) if actions is not None else Catalogue(BUILTIN_ACTIONS)
     problems = check_file(file, catalogue, actor)
-    for problem in problems:
-        if json:
-            emit_json(
-                {
-                    "path": problem.path,
-                    "message": problem.message,
-                    "remedy": problem.remedy,
-                    "code": problem.code,
-                }
-            )
-        else:
-            typer.echo(str(problem))
     if problems:
+        _tell_problems(problems, as_json=json)
         raise typer.Exit(1)
     if not json:
         typer.echo(f"{file.name}: nothing wrong with it")
+
+
+def _tell_problems(problems: Sequence[Problem], *, as_json: bool) -> None:
+    for problem in problems:
+        if as_json:
+            emit_json(asdict(problem))
+        else:
+            typer.echo(str(problem))
+
+
+class ShowFormat(StrEnum):
+    """What `parley graph show` can write."""
+
+    TEXT = "text"
+    MERMAID = "mermaid"
+    SVG = "svg"
+
+
+class ConvertTo(StrEnum):
+    """What `parley graph convert` can write."""
+
+    BTCPP = "btcpp"
+    UMRF = "umrf"
+
+
+@app.command("show")
+def show(
+    file: Annotated[Path, typer.Argument(help="A graph file (JSON), also as an engine publishes it.")],
+    format: Annotated[ShowFormat, typer.Option(help="How to show it.")] = ShowFormat.TEXT,
+    out: Annotated[Path | None, typer.Option(help="Write to this file instead.")] = None,
+) -> None:
+    """Show a graph: as text, as a Mermaid flowchart or as an SVG picture."""
+    _write(show_graph(read_graph_file(file), format.value), out)
+
+
+@app.command("convert")
+def convert(
+    file: Annotated[Path, typer.Argument(help="A UMRF graph (JSON) or a BehaviorTree.CPP 4 tree (XML).")],
+    to: Annotated[ConvertTo, typer.Option("--to", help="What to make of it.")],
+    out: Annotated[Path | None, typer.Option(help="Write to this file instead.")] = None,
+    json: Annotated[bool, typer.Option("--json", help="One JSON object per problem.")] = False,
+) -> None:
+    """Convert a graph to a BehaviorTree.CPP 4 tree, or a tree to a graph: all of it, or nothing and why."""
+    try:
+        if to is ConvertTo.BTCPP:
+            text = export_tree(read_graph(_read(file)))
+        else:
+            text = write_graph(import_tree(_read(file)), faithful=True) + "\n"
+    except GraphRefusedError as error:
+        _tell_problems(error.problems, as_json=json)
+        raise typer.Exit(1) from error
+    _write(text, out)
+
+
+def _write(text: str, out: Path | None) -> None:
+    if out is None:
+        typer.echo(text, nl=False)
+        return
+    try:
+        out.write_text(text, encoding="utf-8")
+    except OSError as error:
+        raise ConfigError(f"{out.name} cannot be written: {error.strerror}") from error
 
 
 @app.command("run")
@@ -69,11 +125,14 @@ def run(
 ) -> None:
     """Run a graph on a simulated robot, at full speed, and follow it to its end."""
     quiet_logs()
+    raise typer.Exit(asyncio.run(_run(_read(file), demo, robot, json, timeout)))
+
+
+def _read(file: Path) -> str:
     try:
-        text = file.read_text(encoding="utf-8")
+        return file.read_text(encoding="utf-8")
     except (OSError, UnicodeDecodeError) as error:
         raise ConfigError(f"{file.name} cannot be read: {error}") from error
-    raise typer.Exit(asyncio.run(_run(text, demo, robot, json, timeout)))
 
 
 async def _run(text: str, demo: str, robot: str, as_json: bool, timeout_s: float) -> int:

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable, Sequence
+from collections.abc import Callable, Mapping, Sequence
 from contextlib import AsyncExitStack
 from types import TracebackType
 from typing import Any, Self, TypeVar
@@ -12,12 +12,23 @@ from pydantic import BaseModel
 
 from parley.clock import Clock
 from parley.engine.feedback import Feedback
+from parley.engine.journal import Journal
 from parley.engine.presence import Presence
 from parley.engine.runs import GraphRuns
 from parley.engine.stop import EmergencyStop
+from parley.engine.sync import PEER_TIMEOUT_S
+from parley.engine.together import Together
 from parley.errors import GraphRefusedError, InvalidMessageError, Problem, UnavailableError
 from parley.messages import ros, topics
-from parley.messages.status import GraphEvent, Rejection, RejectionProblem, StepCommand, StopCommand
+from parley.messages.status import (
+    ActorStatus,
+    GraphEvent,
+    Rejection,
+    RejectionProblem,
+    StepCommand,
+    StopCommand,
+    SyncNotice,
+)
 from parley.messages.topics import Topic
 from parley.messages.wire import decode, to_string
 from parley.robots.base import Robot
@@ -26,7 +37,8 @@ from parley.umrf.action import RunHandle
 from parley.umrf.catalogue import Catalogue
 from parley.umrf.executor import STOP_TIMEOUT_S, GraphRun
 from parley.umrf.io import read_graph, write_descriptor, write_graph
-from parley.umrf.transition import Transition
+from parley.umrf.model import Graph, Result
+from parley.umrf.transition import NO_FACTS, Transition
 
 __all__ = ["ActionEngine"]
 
@@ -40,6 +52,8 @@ M = TypeVar(
     ros.UmrfGraphResume,
     ros.UmrfGraphStop,
 )
+
+P = TypeVar("P", bound=BaseModel)
 
 SOURCE = "action_engine"
 
@@ -55,8 +69,10 @@ class ActionEngine:
         make_context: Builds what an action gets as its first argument.
         robot: What the emergency stop stops; an actor may have none.
         wake_words: Other names it listens to.
+        journal: Where everything that runs is written down; opened and closed by its owner.
         heartbeat_s: Wall time between two status messages.
         stop_timeout_s: Wall time a node may take to stop.
+        peer_timeout_s: Wall time to wait for the engines of other actors in one graph.
     """
 
     def __init__(
@@ -69,11 +85,15 @@ class ActionEngine:
         make_context: Callable[[RunHandle], Any],
         robot: Robot | None = None,
         wake_words: Sequence[str] = (),
+        journal: Journal | None = None,
         heartbeat_s: float = 1.0,
         stop_timeout_s: float = STOP_TIMEOUT_S,
+        peer_timeout_s: float = PEER_TIMEOUT_S,
     ) -> None:
         self.actor = actor
+        catalogue = catalogue if robot is None else catalogue.for_robot(robot.capabilities)
         self._transport, self._catalogue, self._clock = transport, catalogue, clock
+        self._journal = journal
         self._robot, self._heartbeat_s = robot, heartbeat_s
         self._names = {actor, *wake_words}
         self._stack = AsyncExitStack()
@@ -88,6 +108,16 @@ class ActionEngine:
         )
         self._feedback = Feedback(actor, clock, lambda message: self._publish(topics.GRAPH_FEEDBACK, message))
         self._presence: Presence | None = None
+        self._together = Together(
+            actor,
+            self._names,
+            self.runs,
+            clock,
+            publish=lambda notice: self._publish_payload(topics.SYNC, notice),
+            refuse=self._reject,
+            watch=self._watch_others,
+            timeout_s=peer_timeout_s,
+        )
         self._emergency = EmergencyStop(
             actor,
             robot,
@@ -115,6 +145,7 @@ class ActionEngine:
             topics.REJECTION,
             topics.ACTOR_STATUS,
             topics.STOP_REPORT,
+            topics.SYNC,
         ):
             publisher: Publisher[Any] = self._transport.publisher(topic)
             self._publishers[topic.name] = publisher
@@ -122,7 +153,7 @@ class ActionEngine:
         self._presence = Presence(
             self.actor,
             self.runs,
-            self._catalogue.infos(),
+            self._catalogue.infos,
             self._robot,
             lambda status: self._publish_payload(topics.ACTOR_STATUS, status),
             heartbeat_s=self._heartbeat_s,
@@ -132,6 +163,7 @@ class ActionEngine:
         stack.callback(self._feedback.close)
         stack.push_async_callback(self.runs.close)
         stack.push_async_callback(self._emergency.close)
+        stack.push_async_callback(self._together.close)
         await self._serve(stack)
         await self._listen(stack)
 
@@ -153,14 +185,28 @@ class ActionEngine:
 
         emergency = await self._transport.subscribe(topics.STOP, self._on_emergency)
         stack.push_async_callback(emergency.close)
-        step = await self._transport.subscribe(topics.STEP, self._on_step)
+        step = await self._transport.subscribe(
+            topics.STEP, lambda message: self._payload(topics.STEP, StepCommand, message, self._on_step)
+        )
         stack.push_async_callback(step.close)
+        sync = await self._transport.subscribe(
+            topics.SYNC, lambda message: self._payload(topics.SYNC, SyncNotice, message, self._together.take)
+        )
+        stack.push_async_callback(sync.close)
         await on(topics.GRAPH_START, self._start)
         await on(topics.GRAPH_MODIFY, self._modify)
         await on(topics.GRAPH_PAUSE, self._pause)
         await on(topics.GRAPH_PAUSE_TEMOTO, self._pause)
-        await on(topics.GRAPH_RESUME, lambda message: self.runs.resume(message.umrf_graph_name))
-        await on(topics.GRAPH_STOP, lambda message: self.runs.stop(message.umrf_graph_name))
+        await on(topics.GRAPH_RESUME, self._resume)
+        await on(topics.GRAPH_STOP, self._stop)
+
+    async def _watch_others(self) -> None:
+        """Listen to heartbeats from now on: who shares a graph must know who is there."""
+        others = await self._transport.subscribe(
+            topics.ACTOR_STATUS,
+            lambda message: self._payload(topics.ACTOR_STATUS, ActorStatus, message, self._together.note),
+        )
+        self._stack.push_async_callback(others.close)
 
     # -- commands -------------------------------------------------------------------------------------------
 
@@ -173,37 +219,69 @@ class ActionEngine:
         except GraphRefusedError as error:
             self._reject(what, error.graph_name or message.umrf_graph_name, error.problems)
 
+    def start(
+        self,
+        graph: Graph | str,
+        parameters: Mapping[str, Any] = NO_FACTS,
+        result: Result = Result.ON_TRUE,
+    ) -> GraphRun:
+        """Run a graph, or the indexed one of that name, from inside this process.
+
+        Args:
+            graph: The graph or its name.
+            parameters: Inputs of its entry, by flat name.
+            result: How its entry is to have ended.
+
+        Raises:
+            GraphRefusedError: It cannot run here; with every reason.
+        """
+        return self._together.start(graph, parameters, result)
+
     def _start(self, message: ros.UmrfGraphStart) -> None:
-        if not message.umrf_graph_json:
-            name = message.umrf_graph_name
-            raise GraphRefusedError(
-                name,
-                [
-                    Problem(
-                        "umrf_graph_name",
-                        f"there is no indexed graph {name!r}",
-                        "send the graph itself as umrf_graph_json",
-                        "unknown_graph",
-                    )
-                ],
-            )
-        self.runs.start(read_graph(message.umrf_graph_json))
+        text = message.umrf_graph_json
+        self.start(read_graph(text) if text else message.umrf_graph_name)
 
     def _modify(self, message: ros.UmrfGraphModify) -> None:
-        self.runs.modify(read_graph(message.modified_graph), message.continue_from)
+        graph = read_graph(message.modified_graph)
+        if message.continue_from:
+            self._together.check(graph.name)
+        self.runs.modify(graph, message.continue_from)
+        self._together.pass_on(
+            "modify",
+            graph.name,
+            message.targets,
+            graph_json=message.modified_graph,
+            continue_from=message.continue_from,
+        )
 
     def _pause(self, message: ros.UmrfGraphPause) -> None:
         self.runs.pause(message.umrf_graph_name)
+        self._together.pass_on("pause", message.umrf_graph_name, message.targets)
 
-    def _on_step(self, message: ros.String) -> None:
+    def _resume(self, message: ros.UmrfGraphResume) -> None:
+        self._together.check(message.umrf_graph_name)
+        self.runs.resume(message.umrf_graph_name)
+        self._together.pass_on("resume", message.umrf_graph_name, message.targets)
+
+    def _stop(self, message: ros.UmrfGraphStop) -> None:
+        self.runs.stop(message.umrf_graph_name)
+        self._together.pass_on("stop", message.umrf_graph_name, message.targets)
+
+    def _payload(
+        self, topic: Topic[ros.String], kind: type[P], message: ros.String, take: Callable[[P], None]
+    ) -> None:
+        """Read what came on one of our own topics and hand it on, or say why not."""
         try:
-            command = decode(StepCommand, message.data)
-            if command.target in self._names:
-                self.runs.end_node(command.graph_name, command.node)
+            take(decode(kind, message.data))
         except InvalidMessageError as error:
-            self._reject(topics.STEP.name, "", [Problem(error.path, error.problem, code="malformed")])
+            self._reject(topic.name, "", [Problem(error.path, error.problem, code="malformed")])
         except GraphRefusedError as error:
-            self._reject(topics.STEP.name, error.graph_name, error.problems)
+            self._reject(topic.name, error.graph_name, error.problems)
+
+    def _on_step(self, command: StepCommand) -> None:
+        if command.target in self._names:
+            self.runs.end_node(command.graph_name, command.node)
+            self._together.pass_on("end", command.graph_name, (command.target,), node=command.node)
 
     async def _on_emergency(self, message: ros.String) -> None:
         try:
@@ -215,6 +293,7 @@ class ActionEngine:
             return
         if command.command == "stop":
             await self._emergency.stop(command.id)
+            self._together.hold()
         else:
             self._emergency.reset(command.id)
         self._status_changed()
@@ -222,12 +301,15 @@ class ActionEngine:
     async def _graph_get(self, request: ros.UmrfGraphGetRequest) -> ros.UmrfGraphGetResponse:
         return ros.UmrfGraphGetResponse(
             umrf_jsons=tuple(write_descriptor(spec) for spec in self._catalogue),
+            graph_jsons_indexed=tuple(write_graph(graph) for graph in self._catalogue.graphs),
             graph_jsons_running=tuple(write_graph(run.snapshot()) for run in self.runs.all),
         )
 
     # -- reports --------------------------------------------------------------------------------------------
 
     def _observed(self, run: GraphRun, transition: Transition) -> None:
+        if self._journal is not None:
+            self._journal.record(run, transition)
         event = GraphEvent(
             actor=self.actor,
             graph_name=run.name,

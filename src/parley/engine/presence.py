@@ -37,7 +37,7 @@ class Presence:
     Args:
         actor: Whose status it is.
         runs: Its graphs.
-        catalogue: Its actions.
+        catalogue: Gives its actions as they are now.
         robot: Its robot, if it has one.
         publish: Where the status goes.
         heartbeat_s: Wall time between two unchanged ones.
@@ -47,13 +47,13 @@ class Presence:
         self,
         actor: str,
         runs: GraphRuns,
-        catalogue: Sequence[ActionInfo],
+        catalogue: Callable[[], Sequence[ActionInfo]],
         robot: Robot | None,
         publish: Callable[[ActorStatus], None],
         *,
         heartbeat_s: float,
     ) -> None:
-        self._actor, self._runs, self._catalogue = actor, runs, tuple(catalogue)
+        self._actor, self._runs, self._catalogue = actor, runs, catalogue
         self._robot, self._publish, self._heartbeat_s = robot, publish, heartbeat_s
         self._sequence = 0
         self._changed = asyncio.Event()
@@ -100,7 +100,7 @@ class Presence:
                 pose=pose,
                 at_rest=at_rest,
                 graphs={run.name: run.state.value for run in self._runs.all},
-                catalogue=self._catalogue,
+                catalogue=tuple(self._catalogue()),
             )
         )
         self._sequence += 1

@@ -7,7 +7,7 @@ order in which they come and none waits for another.
 from __future__ import annotations
 
 import asyncio
-from collections.abc import Callable
+from collections.abc import Callable, Mapping
 from typing import Any, Final
 
 from parley.clock import Clock
@@ -15,15 +15,16 @@ from parley.errors import GraphRefusedError, Problem
 from parley.umrf.action import RunHandle
 from parley.umrf.catalogue import Catalogue
 from parley.umrf.executor import STOP_TIMEOUT_S, GraphRun
-from parley.umrf.model import Graph, GraphState
-from parley.umrf.transition import Transition
+from parley.umrf.model import Graph, GraphState, Result
+from parley.umrf.remote import Peers
+from parley.umrf.transition import NO_FACTS, Transition
 
 __all__ = ["GraphRuns", "RunObserver"]
 
 KEPT_ENDED: Final = 20
 """How many graphs that have ended are kept for queries."""
 
-_BUSY: Final = frozenset({GraphState.RUNNING, GraphState.PAUSED, GraphState.STOPPING})
+_BUSY: Final = frozenset({GraphState.INITIALIZED, GraphState.RUNNING, GraphState.PAUSED, GraphState.STOPPING})
 _ENDED: Final = frozenset({GraphState.FINISHED, GraphState.STOPPED, GraphState.ERROR})
 
 RunObserver = Callable[[GraphRun, Transition], None]
@@ -52,11 +53,14 @@ class GraphRuns:
         observer: RunObserver,
         stop_timeout_s: float = STOP_TIMEOUT_S,
     ) -> None:
-        self._actor, self._catalogue, self._clock = actor, catalogue, clock
+        self.catalogue = catalogue
+        """Counts for what is started or modified from now on; may be replaced."""
+        self._actor, self._clock = actor, clock
         self._make_context, self._observer = make_context, observer
         self._stop_timeout_s = stop_timeout_s
         self._runs: dict[str, GraphRun] = {}
         self._replaced: list[GraphRun] = []
+        self._inner: set[GraphRun] = set()
         self.latched = False
         """Whether an emergency stop forbids everything that would run an action."""
 
@@ -65,39 +69,96 @@ class GraphRuns:
         """Every run that is held, ended ones included, oldest first."""
         return tuple(self._runs.values())
 
-    def start(self, graph: Graph) -> GraphRun:
+    def get(self, name: str) -> GraphRun | None:
+        """The run of that graph name, or None."""
+        return self._runs.get(name)
+
+    def indexed(self, name: str) -> Graph:
+        """The indexed graph of that name.
+
+        Raises:
+            GraphRefusedError: There is none.
+        """
+        graph = self.catalogue.graph(name)
+        if graph is None:
+            known = ", ".join(item.name for item in self.catalogue.graphs) or "none"
+            raise _refused(
+                name,
+                "unknown_graph",
+                f"there is no indexed graph {name!r}",
+                f"send the graph itself as umrf_graph_json; indexed are: {known}",
+            )
+        return graph
+
+    def start(
+        self,
+        graph: Graph | str,
+        parameters: Mapping[str, Any] = NO_FACTS,
+        result: Result = Result.ON_TRUE,
+    ) -> GraphRun:
         """Run a graph.
+
+        Args:
+            graph: A graph, or the name of an indexed one.
+            parameters: Inputs of its entry, by flat name.
+            result: How its entry is to have ended.
 
         Raises:
             GraphRefusedError: It cannot run here, its name is taken by a graph that still runs (which is left
-                alone), or an emergency stop is in force.
+                alone) or by an indexed one, an input is missing, or an emergency stop is in force.
         """
-        self._refuse_if_latched(graph.name)
-        old = self._runs.get(graph.name)
-        if old is not None and old.state in _BUSY:
+        run = self.prepare(graph, parameters)
+        run.start(result)
+        return run
+
+    def prepare(
+        self, graph: Graph | str, parameters: Mapping[str, Any] = NO_FACTS, peers: Peers | None = None
+    ) -> GraphRun:
+        """Take up a graph as `start` does, without beginning it."""
+        if isinstance(graph, str):
+            graph = self.indexed(graph)
+        elif self.catalogue.graph(graph.name) is not None and graph.name not in self._runs:
             raise _refused(
                 graph.name,
+                "indexed_name",
+                f"{graph.name!r} is the name of an indexed graph",
+                "choose another name, or start the indexed graph by its name",
+            )
+        self._refuse_if_latched(graph.name)
+        self.refuse_if_busy(graph.name)
+        run = self._hold(graph, parameters, peers)
+        self._forget_ended()
+        return run
+
+    def refuse_if_busy(self, name: str) -> None:
+        """A graph that still runs is left alone.
+
+        Raises:
+            GraphRefusedError: There is one of that name.
+        """
+        old = self._runs.get(name)
+        if old is not None and old.state in _BUSY:
+            raise _refused(
+                name,
                 "already_running",
-                f"a graph {graph.name!r} is {old.state} already",
+                f"a graph {name!r} is {old.state} already",
                 "stop it first, modify it, or choose another name",
             )
-        run = GraphRun(
-            graph,
-            self._catalogue,
-            actor=self._actor,
-            clock=self._clock,
-            make_context=self._make_context,
-            observer=lambda transition: self._observed(run, transition),
-            stop_timeout_s=self._stop_timeout_s,
-        )
-        if old is not None:
-            del self._runs[graph.name]
-            old.stop()
-            self._replaced = [item for item in [*self._replaced, old] if not item.idle]
-        self._runs[graph.name] = run
-        self._forget_ended()
-        run.start()
-        return run
+
+    def begin(self, run: GraphRun, result: Result = Result.ON_TRUE) -> None:
+        """Start a prepared run, unless it was stopped meanwhile.
+
+        Raises:
+            GraphRefusedError: An emergency stop is in force.
+        """
+        if run.state is GraphState.INITIALIZED:
+            self._refuse_if_latched(run.name)
+            run.start(result)
+
+    def drop(self, run: GraphRun) -> None:
+        """Forget a prepared run that does not begin."""
+        if run.state is GraphState.INITIALIZED and self._runs.get(run.name) is run:
+            del self._runs[run.name]
 
     def modify(self, graph: Graph, continue_from: str = "") -> None:
         """See `GraphRun.modify`.
@@ -154,6 +215,37 @@ class GraphRuns:
         """Stop everything and wait for it, each run at most its time-out."""
         await asyncio.gather(*(run.close() for run in (*self._runs.values(), *self._replaced)))
 
+    def _hold(self, graph: Graph, parameters: Mapping[str, Any], peers: Peers | None) -> GraphRun:
+        """Make a run and hold it in place of an older one of its name."""
+        run = GraphRun(
+            graph,
+            self.catalogue,
+            actor=self._actor,
+            clock=self._clock,
+            make_context=self._make_context,
+            observer=lambda transition: self._observed(run, transition),
+            stop_timeout_s=self._stop_timeout_s,
+            parameters=parameters,
+            peers=peers,
+            make_inner=lambda graph, parameters: self._hold_inner(graph, parameters, peers),
+        )
+        old = self._runs.pop(graph.name, None)
+        if old is not None:
+            old.stop()
+            self._inner.discard(old)
+            self._replaced = [item for item in [*self._replaced, old] if not item.idle]
+        self._runs[graph.name] = run
+        return run
+
+    def _hold_inner(self, graph: Graph, parameters: Mapping[str, Any], peers: Peers | None) -> GraphRun:
+        """The run of a sub-graph; others see it as a graph of its own (10.8)."""
+        old = self._runs.get(graph.name)
+        if old is not None and old not in self._inner and old.state in _BUSY:
+            raise _refused(graph.name, "already_running", f"{graph.name!r} is {old.state}", "stop it first")
+        run = self._hold(graph, parameters, peers)
+        self._inner.add(run)
+        return run
+
     def _observed(self, run: GraphRun, transition: Transition) -> None:
         if self._runs.get(run.name) is run:
             self._observer(run, transition)
@@ -175,9 +267,13 @@ class GraphRuns:
             )
 
     def _forget_ended(self) -> None:
-        ended = [name for name, run in self._runs.items() if run.state in _ENDED and run.idle]
+        ended = [
+            name
+            for name, run in self._runs.items()
+            if run.idle and (run.state in _ENDED or (run in self._inner and run.state is GraphState.HALTED))
+        ]
         for name in ended[:-KEPT_ENDED]:
-            del self._runs[name]
+            self._inner.discard(self._runs.pop(name))
 
 
 def _refused(name: str, code: str, message: str, remedy: str) -> GraphRefusedError:

@@ -95,7 +95,8 @@ class ContextServices:
             said = decode(ChatInput, message.data)
         except InvalidMessageError:
             return  # the chat interface refuses it and tells the sender
-        if said.type != "response" or self._actor not in said.targets:
+        names = {name.strip().casefold() for name in said.targets}
+        if said.type != "response" or self._actor.casefold() not in names:
             return
         for question_id, answer in self._questions:
             if not answer.done() and said.reply_to in ("", question_id):

@@ -31,15 +31,22 @@ _BUSY_TIMEOUT_S = 5.0
 class Database:
     """See `open`. After `close` everything raises `StoreError`."""
 
-    def __init__(self, path: Path | str, thread: ThreadPoolExecutor, connection: sqlite3.Connection) -> None:
-        self._path, self._thread = path, thread
+    def __init__(
+        self, path: Path | str, thread: ThreadPoolExecutor, connection: sqlite3.Connection, what: str
+    ) -> None:
+        self._path, self._thread, self._what = path, thread, what
         self._connection: sqlite3.Connection | None = connection
         self.put_aside: Path | None = None
         """Where a damaged file went, if there was one."""
 
     @classmethod
     async def open(
-        cls, path: Path | str, *, prepare: Callable[[sqlite3.Connection], None], unix_ms: int
+        cls,
+        path: Path | str,
+        *,
+        prepare: Callable[[sqlite3.Connection], None],
+        unix_ms: int,
+        what: str = "memory",
     ) -> Self:
         """Open or create a file; a damaged one is put aside as ``<name>.corrupt-<unix_ms>`` first.
 
@@ -47,11 +54,12 @@ class Database:
             path: The file, or ``:memory:``. Missing folders are made.
             prepare: Brings the file to the form that is wanted.
             unix_ms: Now, for the name of a damaged file.
+            what: What is in the file, for messages.
 
         Raises:
             StoreError: The file cannot be created, read or written.
         """
-        thread = ThreadPoolExecutor(max_workers=1, thread_name_prefix="memory")
+        thread = ThreadPoolExecutor(max_workers=1, thread_name_prefix=what)
         loop = asyncio.get_running_loop()
         aside: Path | None = None
         try:
@@ -61,14 +69,14 @@ class Database:
                 if not _is_damage(error):
                     raise
                 aside = await loop.run_in_executor(thread, _put_aside, Path(path), unix_ms)
-                log.error("memory file damaged", path=str(path), aside=str(aside), problem=str(error))
+                log.error("file damaged", what=what, path=str(path), aside=str(aside), problem=str(error))
                 connection = await loop.run_in_executor(thread, _connect, path, prepare)
         except BaseException as error:
             thread.shutdown(wait=False)
             if isinstance(error, sqlite3.Error | OSError):
-                raise StoreError(f"the memory file {path} cannot be used: {error}") from error
+                raise StoreError(f"the {what} file {path} cannot be used: {error}") from error
             raise
-        database = cls(path, thread, connection)
+        database = cls(path, thread, connection, what)
         database.put_aside = aside
         return database
 
@@ -80,11 +88,11 @@ class Database:
         """
         connection = self._connection
         if connection is None:
-            raise StoreError("the memory is closed")
+            raise StoreError(f"the {self._what} is closed")
         try:
             return await asyncio.get_running_loop().run_in_executor(self._thread, work, connection)
         except (sqlite3.Error, UnicodeEncodeError) as error:
-            raise StoreError(f"the memory file {self._path} cannot be read or written: {error}") from error
+            raise StoreError(f"the {self._what} file {self._path} cannot be read or written: {error}") from error
 
     async def close(self) -> None:
         """Finish the work that waits, close the file, end the thread. Idempotent."""

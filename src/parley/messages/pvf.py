@@ -77,9 +77,8 @@ def fits_type(pvf_type: str, value: Any) -> bool:
 
 def native_type(value: Any) -> str:
     """The native type that `value` fits, or `object` for what is never written in JSON."""
-    return next(
-        (kind for kind in ("bool", "number", "string", "numbers") if fits_type(kind, value)), "object"
-    )
+    kinds = ("bool", "number", "string", "numbers", "strings", "bools")
+    return next((kind for kind in kinds if fits_type(kind, value)), "object")
 
 
 def _is_number(value: Any) -> bool:

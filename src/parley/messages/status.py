@@ -52,6 +52,12 @@ class ActionInfo(Payload):
     risk: Literal["none", "low", "high"] = "low"
     capabilities: tuple[str, ...] = ()
     """What the robot must have, e.g. `drive`, `camera`."""
+    examples: tuple[str, ...] = ()
+    """Whole sentences by which people ask for it."""
+    duration_s: float | None = None
+    """About how long it takes, in robot time; None if that is not known."""
+    timeout_s: float | None = None
+    """Robot time after which it is cancelled and fails; None: never."""
 
 
 class ActorStatus(Payload):
@@ -201,15 +207,28 @@ class SyncNotice(Payload):
     TeMoto's own format is not public, so these are ours alone.
     """
 
-    kind: Literal["hello", "ready", "ended", "received"]
-    """`hello` and `ready` are the start handshake; `ended` hands a result over, `received` confirms it."""
+    kind: Literal["hello", "ready", "ended", "received", "command"]
+    """`hello` and `ready` are the start handshake; `ended` hands a result over, `received` confirms it;
+    `command` passes on what the speaker was told to do with the graph."""
     actor: str
     """Who speaks."""
     graph_name: str
     id: str = ""
-    """Of an `ended` notice, so that it can be confirmed and is taken once."""
+    """Of `hello` and `ready`: the speaker's run of the graph. Of `ended`: that, a slash and a number, so that
+    it can be confirmed and is taken once."""
+    answers: str = ""
+    """Of `ready` and `received`: the id of what is answered."""
     node: str = ""
     """Full name of the node that ended."""
     result: str = ""
     """`on_true`, `on_false`, `on_error`, `on_stopped`."""
     outputs: ParameterTree = Field(default_factory=dict)
+    message: str = ""
+    """The failure report of a node that failed."""
+    command: Literal["stop", "pause", "resume", "modify", "end", ""] = ""
+    """Of a `command`; `end` ends the node."""
+    targets: tuple[str, ...] = ()
+    """Of a `command`: to whom it was given, so that they do not carry it out twice."""
+    graph_json: str = ""
+    """Of `modify`: the new form of the graph."""
+    continue_from: str = ""

@@ -120,13 +120,18 @@ class ChatInterface(Node):
             targets = self._presence.named_in(said.message) or targets
         for target in targets:
             question = self._questions.first(target) if said.type == "response" else None
-            if control is not None and not (question and control == "start"):
+            if control is not None and not self._answers(target, question, control):
                 self._control(target, control, said.message)
             elif not self._presence.is_there(target):
                 self._say((target,), f"{target} is not there at the moment, so I cannot ask it.", "error")
             elif question is None:
                 self._mailboxes.post(target, self._work(target, said.message))
         self._questions.on_input(said)
+
+    def _answers(self, target: str, question: ChatFeedback | None, control: Control) -> bool:
+        """Whether "go on" answers a question; while the robot is paused it means to go on."""
+        plan = self._plans.get(target)
+        return question is not None and control == "start" and not (plan and plan.state == "paused")
 
     def _work(self, target: str, message: str) -> Callable[[], Awaitable[None]]:
         halts = self._halts.get(target, 0)

@@ -98,7 +98,7 @@ class ErrorHandler(Node):
     def _on_input(self, said: ChatInput) -> None:
         control = control_of(said.message, self._presence.names())
         named = self._presence.named_in(said.message) if control is not None else []
-        for target in named or said.targets:
+        for target in named or [self._presence.resolve(name) or name for name in said.targets]:
             repair = self._repairs.get(target)
             if repair is None:
                 continue

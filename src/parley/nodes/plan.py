@@ -46,6 +46,8 @@ __all__ = ["KEEP_DONE", "TargetPlan"]
 KEEP_DONE: Final = 20
 """Finished steps that stay in the graph; older ones are dropped so that graphs do not grow for ever (P11)."""
 
+_GOING: Final = ("starting", "continuing", "running", "paused")
+
 
 class TargetPlan:
     """The plan of one robot.
@@ -138,12 +140,8 @@ class TargetPlan:
         if self.held:
             self.given_up = True
             return []
-        if self.run == "stopping":
-            self._pause_wanted = bool(self.pending)  # what waits for the end of the old graph waits longer
-        if self.run not in ("starting", "running"):
-            return []
-        self._pause_wanted = True
-        return [PauseGraph(self.graph_name)]
+        self._pause_wanted = bool(self.pending)
+        return [PauseGraph(self.graph_name)] if self._pause_wanted and self.run in _GOING else []
 
     def start(self) -> list[Effect]:
         """Go on after a pause, or try a failed step again."""
@@ -154,7 +152,7 @@ class TargetPlan:
         self._pause_wanted = False
         if self.run in ("none", "halted"):
             return self._push()
-        if self.run not in ("running", "paused"):
+        if self.run not in _GOING:
             return []
         # A pause that somebody else caused may not have been reported yet; resuming what runs does nothing.
         changes = self._modify() if self._dirty else []
@@ -196,7 +194,7 @@ class TargetPlan:
         current = pending[0]
         if current.state == "failed":
             return self._replace_failed([])
-        if current.state == "queued" and self.run not in ("starting", "running"):
+        if current.state == "queued" and self.run not in ("starting", "continuing", "running"):
             current.state = "skipped"
             self.steps = without_orphans(self.steps)
             return self._push()
@@ -257,8 +255,8 @@ class TargetPlan:
         if graph_name != self.graph_name or not graph_name:
             return []
         command, latched = what.removeprefix("umrf_graph_"), "stop_latched" in codes
-        if command == "pause" and self.run == "starting":
-            return []  # the pause overtook the start; it is sent again
+        if command in ("pause", "resume") and self.run == "starting":
+            return []  # it overtook the start; a pause is sent again
         if command != "start" and not GONE_CODES.isdisjoint(codes):
             return self._on_gone(go_on=command == "resume")
         if command == "start" and self.run == "starting":
@@ -294,7 +292,8 @@ class TargetPlan:
     def on_no_progress(self, graph_name: str, node: str) -> list[Effect]:
         """A dry graph was told to go on with `node` some time ago; if it did not, that step failed."""
         step = next((s for s in self.steps if s.node == node), None)
-        if graph_name != self.graph_name or step is None or step.state != "queued" or self.run != "halted":
+        asked = graph_name == self.graph_name and self.run == "continuing"
+        if not asked or step is None or step.state != "queued" or self._pause_wanted:
             return []
         reason = f"I could not begin with this step: {step.call.reason or step.call.name}."
         return self._fail(step, FailureReport(message=reason, code=FailureCode.INTERNAL))
@@ -336,7 +335,7 @@ class TargetPlan:
             return []
         if not self.graph_name:
             return [] if self._pause_wanted else self._start()
-        if self.run in ("starting", "paused") or self._pause_wanted:
+        if self.run in ("starting", "continuing", "paused") or self._pause_wanted:
             self._dirty = True
             return []
         return self._continue() if self.run == "halted" else self._modify()
@@ -368,7 +367,7 @@ class TargetPlan:
             reason = "The step before gave no result that I could go on with."
             return self._fail(following, FailureReport(message=reason, code=FailureCode.INTERNAL))
         effects = self._modify(following)
-        self.run, self._nudged = "running", following.node
+        self.run, self._nudged = "continuing", following.node
         return effects
 
     def _modify(self, continue_from: Step | None = None) -> list[Effect]:
@@ -427,11 +426,11 @@ class TargetPlan:
     def _on_graph_state(self, state: GraphState) -> list[Effect]:
         match state:
             case GraphState.RUNNING | GraphState.INITIALIZED | GraphState.UNINITIALIZED:
-                just_started, self.run = self.run == "starting", "running"
+                just_started, self.run = self.run in ("starting", "continuing"), "running"
                 if self.held:  # the reference's last word after an error is that the graph still runs (D17)
                     self.run = "halted"
                     return []
-                if self._pause_wanted:  # the pause may have overtaken the start
+                if self._pause_wanted:  # the pause may have overtaken what set it going
                     return [PauseGraph(self.graph_name)] if just_started else []
                 return self._modify() if self._dirty else []
             case GraphState.PAUSED:
@@ -440,29 +439,27 @@ class TargetPlan:
                 if any(s.ending for s in self.steps) and current is not None and current.state == "queued":
                     return self._go_on_after_skip()
             case GraphState.HALTED:
-                self.run = "halted"
                 return self._on_halted()
             case GraphState.STOPPED | GraphState.FINISHED | GraphState.ERROR:
                 return self._on_ended_by_others(state)
         return []
 
     def _on_halted(self) -> list[Effect]:
+        waiting = [step for step in self.steps if step.state in OPEN_STATES]
+        if self.run == "continuing" and waiting and self._nudged == waiting[0].node and not self.held:
+            return []  # asked already; this report may be older than that. `on_no_progress` watches it.
+        self.run = "halted"
         if self.held:
             return []
         if any(step.ending and step.state == "skipped" for step in self.steps):
             return self._go_on_after_skip()
-        waiting = [step for step in self.steps if step.state in OPEN_STATES]
-        if not waiting or self._pause_wanted:
-            return []
-        if self._nudged and self._nudged == waiting[0].node:
-            return []  # asked already; this report may be older than that. `on_no_progress` watches it.
-        return self._continue()
+        return self._continue() if waiting and not self._pause_wanted else []
 
     def _go_on_after_skip(self) -> list[Effect]:
         for step in self.steps:
             step.ending = False
         self.steps = without_orphans(self.steps)
-        return self._continue()
+        return [] if self._pause_wanted else self._continue()
 
     def _end_strays(self, graph: Graph) -> list[Effect]:
         """A step that began just before it was dropped is ended."""

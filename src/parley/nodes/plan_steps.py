@@ -18,7 +18,8 @@ __all__ = [
 ]  # fmt: skip
 
 StepState = Literal["queued", "running", "finished", "failed", "stopped", "skipped", "paused", "waiting"]
-RunState = Literal["none", "starting", "running", "paused", "halted", "stopping"]
+RunState = Literal["none", "starting", "continuing", "running", "paused", "halted", "stopping"]
+"""`starting` and `continuing`: told to run, but not reported as running yet."""
 
 OPEN_STATES: Final = frozenset({"queued", "running", "paused", "waiting"})
 """States of steps that are still to be done."""

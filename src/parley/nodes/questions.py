@@ -16,7 +16,7 @@ class OpenQuestions:
     def on_feedback(self, feedback: ChatFeedback) -> None:
         """Take over what robots say."""
         for target in feedback.targets:
-            waiting = self._open.setdefault(target, [])
+            waiting = self._open.setdefault(_key(target), [])
             if feedback.closes:
                 waiting[:] = [question for question in waiting if question.id != feedback.closes]
             if feedback.type == "request":
@@ -27,12 +27,17 @@ class OpenQuestions:
         if said.type != "response":
             return
         for target in said.targets:
-            waiting = self._open.get(target, [])
+            waiting = self._open.get(_key(target), [])
             settled = next((q for q in waiting if said.reply_to in ("", q.id)), None)
             if settled is not None:
                 waiting.remove(settled)
 
     def first(self, target: str) -> ChatFeedback | None:
         """The question of a robot that waits longest, or None."""
-        waiting = self._open.get(target)
+        waiting = self._open.get(_key(target))
         return waiting[0] if waiting else None
+
+
+def _key(target: str) -> str:
+    """Robots are found whatever the capitals."""
+    return target.strip().casefold()

@@ -66,7 +66,7 @@ class SimulatedRobot:
         if self._model.camera is None:
             raise ActionFailure(FailureCode.NOT_CAPABLE, f"{self.name} has no camera.")
         if not self._simulator.camera_works(self.name):
-            raise ActionFailure(FailureCode.HARDWARE, f"{self.name}'s camera gives no picture.")
+            raise ActionFailure(FailureCode.HARDWARE, "My camera gives no picture.")
         with self._simulator.clock.hold():
             photograph = await self._simulator.photograph(self.name)
         height, width, _ = photograph.frame.rgb.shape

@@ -26,6 +26,7 @@ from __future__ import annotations
 
 import functools
 import inspect
+import math
 from collections.abc import Callable, Mapping
 from dataclasses import dataclass, field
 from typing import Any, Generic, Literal, ParamSpec, Protocol, TypeVar, overload
@@ -107,6 +108,15 @@ class ActionSpec:
     effects: tuple[str, ...] = ()
     risk: Risk = "low"
     capabilities: tuple[str, ...] = ()
+    """What the robot must have; without it the action is refused before anything runs."""
+    examples: tuple[str, ...] = ()
+    """Whole sentences by which people ask for it."""
+    duration_s: float | None = None
+    """About how long it takes, in robot time; None if that cannot be said beforehand."""
+    timeout_s: float | None = None
+    """Robot time, pauses left out, after which it is cancelled and fails as `timed_out`; None: never."""
+    isolated: bool = False
+    """Whether it runs in a process of its own, see `parley.umrf.isolated`."""
     pausable: bool = True
     """Whether the action honours a pause itself; if not, it is let finish and its children are held."""
     run: Callable[..., Any] | None = None
@@ -152,6 +162,10 @@ def action(
     effects: tuple[str, ...] = (),
     risk: Risk = "low",
     capabilities: tuple[str, ...] = (),
+    examples: tuple[str, ...] = (),
+    duration_s: float | None = None,
+    timeout_s: float | None = None,
+    isolated: bool = False,
     pausable: bool = True,
     type: Literal["sync", "async", "spontaneous"] = "sync",
     inputs: Mapping[str, Parameter | str] | None = None,
@@ -166,11 +180,13 @@ def action(target: Callable[..., Any] | None = None, /, **options: Any) -> Any:
     Args:
         target: The function, when used without brackets.
         **options: `name` and `description` instead of those of the function; `phrases`, `effects`, `risk`,
-            `capabilities`, `pausable`, `type` as in `ActionSpec`; `inputs` and `outputs` (flat name ->
+            `capabilities`, `examples`, `duration_s`, `timeout_s`, `isolated`, `pausable` (never so for an
+            isolated one), `type` as in `ActionSpec`; `inputs` and `outputs` (flat name ->
             `Parameter` or PVF type) instead of what the signature says; `units` (flat name -> unit).
 
     Raises:
         TypeError: The signature cannot be described; says which argument.
+        ValueError: A duration or time-out is not a positive number.
     """
     if target is not None:
         return Action(target, _describe(target, {}))
@@ -179,6 +195,11 @@ def action(target: Callable[..., Any] | None = None, /, **options: Any) -> Any:
 
 def _describe(target: Callable[..., Any], options: Mapping[str, Any]) -> ActionSpec:
     rest = dict(options)
+    for key in ("duration_s", "timeout_s"):
+        if rest.get(key) is not None and not 0 < rest[key] < math.inf:
+            raise ValueError(f"{target.__name__}: {key} must be a positive number, not {rest[key]!r}")
+    if rest.get("isolated"):
+        rest["pausable"] = False  # its process cannot be told to stand still
     is_class = inspect.isclass(target)
     function: Callable[..., Any] = getattr(target, "run") if is_class else target  # noqa: B009 - not typed
     hints, returned = resolve_hints(function, skip=2 if is_class else 1)

@@ -2,11 +2,12 @@
 
 from __future__ import annotations
 
+import copy
 import re
 from collections.abc import Iterable, Iterator
 from dataclasses import replace
 from pathlib import Path
-from typing import Self
+from typing import Any, Self, cast
 
 import structlog
 from rapidfuzz import fuzz, process
@@ -15,10 +16,12 @@ from parley.errors import GraphRefusedError
 from parley.messages.pvf import Parameter
 from parley.messages.status import ActionInfo
 from parley.umrf.action import ActionSpec
+from parley.umrf.graph_index import GraphSpec, entry_inputs, exit_outputs, files_marked, load_graphs
 from parley.umrf.io import read_descriptor
-from parley.umrf.model import Node
+from parley.umrf.model import Graph, Node
+from parley.umrf.remote import actors_of
 
-__all__ = ["Catalogue", "descriptor_file_name", "merge"]
+__all__ = ["DESCRIPTOR_MARK", "Catalogue", "descriptor_file_name", "merge"]
 
 log = structlog.get_logger(__name__)
 
@@ -28,12 +31,41 @@ _SIMILAR = 60.0
 
 
 class Catalogue:
-    """Action descriptions by name; the first of a name wins (7.2)."""
+    """Action descriptions by name, and indexed graphs; the first of a name wins (7.2).
 
-    def __init__(self, specs: Iterable[ActionSpec] = ()) -> None:
+    Args:
+        specs: The actions.
+        graphs: Graphs that can be started by name and used as actions.
+    """
+
+    def __init__(self, specs: Iterable[ActionSpec] = (), graphs: Iterable[Graph] = ()) -> None:
+        self.capabilities: frozenset[str] | None = None
+        """What the robot has; None if that is not known, and then nothing is asked of it."""
         self._specs: dict[str, ActionSpec] = {}
-        for spec in specs:
-            self._specs.setdefault(spec.name, spec)
+        self._graphs: dict[str, Graph] = {}
+        self._told: list[tuple[ActionInfo, ...]] = []
+        """What `infos` gave last, or nothing; shared by the views of `for_robot`."""
+        self.replace(specs, graphs)
+
+    def replace(self, specs: Iterable[ActionSpec], graphs: Iterable[Graph] = ()) -> None:
+        """Hold these actions and graphs from now on; what runs already goes on with what it has."""
+        for kept, items in ((self._specs, specs), (self._graphs, graphs)):
+            found: dict[str, Any] = {}
+            for item in items:
+                found.setdefault(item.name, item)
+            cast("dict[str, Any]", kept).clear()
+            cast("dict[str, Any]", kept).update(found)
+        self._told.clear()
+
+    def for_robot(self, capabilities: Iterable[str]) -> Self:
+        """The same catalogue, changes to come included, as it is for a robot with these capabilities."""
+        view = copy.copy(self)
+        view.capabilities = frozenset(capabilities)
+        return view
+
+    def missing_capabilities(self, spec: ActionSpec) -> list[str]:
+        """What `spec` needs and the robot has not, sorted."""
+        return [] if self.capabilities is None else sorted({*spec.capabilities} - self.capabilities)
 
     def __iter__(self) -> Iterator[ActionSpec]:
         return iter(self._specs.values())
@@ -44,38 +76,81 @@ class Catalogue:
     def __contains__(self, name: str) -> bool:
         return name in self._specs
 
+    @property
+    def graphs(self) -> tuple[Graph, ...]:
+        """The indexed graphs."""
+        return tuple(self._graphs.values())
+
     def get(self, name: str) -> ActionSpec | None:
-        """The action of that name, or None."""
-        return self._specs.get(name)
+        """The action of that name, else the indexed graph as an action, or None."""
+        return self._specs.get(name) or self._graph_spec(name)
+
+    def graph(self, name: str) -> Graph | None:
+        """The indexed graph of that name, or None."""
+        return self._graphs.get(name)
 
     def match(self, node: Node) -> ActionSpec | None:
-        """The action that `node` means: same name, same flat inputs, same flat outputs (7.2); or None."""
-        spec = self._specs.get(node.name)
-        if spec is None:
-            return None
-        same = node.input_parameters.keys() == spec.inputs.keys()
-        return spec if same and node.output_parameters.keys() == spec.outputs.keys() else None
+        """What `node` means: same name, same flat inputs, same flat outputs (7.2); actions before graphs."""
+        for spec in (self._specs.get(node.name), self._graph_spec(node.name)):
+            if spec is None or node.input_parameters.keys() != spec.inputs.keys():
+                continue
+            if node.output_parameters.keys() == spec.outputs.keys():
+                return spec
+        return None
+
+    def actors(self, graph: Graph) -> set[str]:
+        """Every actor that `graph` and the graphs inside it name."""
+        found, seen, waiting = actors_of(graph), {graph.name}, [graph]
+        while waiting:
+            for node in waiting.pop().nodes:
+                inner = self._graphs.get(node.name)
+                if inner is not None and inner.name not in seen:
+                    seen.add(inner.name)
+                    found |= actors_of(inner)
+                    waiting.append(inner)
+        return found
 
     def infos(self) -> tuple[ActionInfo, ...]:
-        """What others are told about the actions, in the order they were given."""
-        return tuple(_info(spec) for spec in self)
+        """What others are told about the actions, in the order they were given, then about the graphs."""
+        if not self._told:
+            graphs = (spec for name in self._graphs if (spec := self._graph_spec(name)) is not None)
+            self._told.append(tuple(_info(spec) for spec in (*self, *graphs)))
+        return self._told[0]
 
     def suggestions(self, name: str) -> list[str]:
         """Names that look like `name`, the most similar first, at most three."""
+        names = [*self._specs, *self._graphs]
         found = process.extract(
-            name, list(self._specs), scorer=fuzz.WRatio, processor=str.lower, limit=3, score_cutoff=_SIMILAR
+            name, names, scorer=fuzz.WRatio, processor=str.lower, limit=3, score_cutoff=_SIMILAR
         )
         return [choice for choice, _, _ in found]
 
+    def _graph_spec(self, name: str) -> GraphSpec | None:
+        graph = self._graphs.get(name)
+        if graph is None:
+            return None
+        # A descriptor may know that an input is not required, or a value for it.
+        nodes = tuple(
+            merge(node, spec) if (spec := self._specs.get(node.name)) is not None else node
+            for node in graph.nodes
+        )
+        known = entry_inputs(replace(graph, nodes=nodes))
+        return GraphSpec(
+            name=name,
+            inputs={
+                name: known.get(name, replace(item, required=False))
+                for name, item in entry_inputs(graph).items()
+            },
+            outputs=exit_outputs(graph),
+            description=graph.description,
+            graph=graph,
+        )
+
     @classmethod
     def load_folder(cls, path: Path) -> Self:
-        """Read the descriptor files in `path` and two levels below it; bad files are logged and skipped."""
-        specs: list[ActionSpec] = []
-        for pattern in ("*", "*/*", "*/*/*"):
-            for file in sorted(path.glob(pattern)):
-                if DESCRIPTOR_MARK in file.name and file.is_file():
-                    specs += _read(file)
-        return cls(specs)
+        """Read the descriptors and graphs in `path` and two levels below; bad ones are logged and skipped."""
+        specs = [spec for file in files_marked(path, DESCRIPTOR_MARK) for spec in _read(file)]
+        return cls(specs, load_graphs(path))
 
 
 def _read(file: Path) -> list[ActionSpec]:
@@ -97,6 +172,9 @@ def _info(spec: ActionSpec) -> ActionInfo:
         effects=spec.effects,
         risk=spec.risk,
         capabilities=spec.capabilities,
+        examples=spec.examples,
+        duration_s=spec.duration_s,
+        timeout_s=spec.timeout_s,
     )
 
 

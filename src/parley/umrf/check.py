@@ -8,18 +8,25 @@ from __future__ import annotations
 
 from collections import Counter
 from collections.abc import Collection, Iterator, Sequence
+from dataclasses import replace
 
 from parley.errors import Problem
 from parley.messages.pvf import SEPARATOR, Parameter, Parameters
 from parley.umrf.action import ActionSpec
 from parley.umrf.catalogue import Catalogue
+from parley.umrf.graph_index import GraphSpec, given_name
 from parley.umrf.model import ENTRY, EXIT, ChildRelation, Graph, Node, NodeRef, ParentRelation
 
 __all__ = ["check"]
 
 
 def check(
-    graph: Graph, catalogue: Catalogue, *, actor: str = "", known_actors: Collection[str] = ()
+    graph: Graph,
+    catalogue: Catalogue,
+    *,
+    actor: str = "",
+    known_actors: Collection[str] = (),
+    given: Collection[str] = (),
 ) -> list[Problem]:
     """Every reason why `actor` cannot run `graph`; empty if it can.
 
@@ -27,14 +34,26 @@ def check(
         graph: As read.
         catalogue: The actions of `actor`.
         actor: Name of the engine that is to run it; empty for "whichever".
-        known_actors: Others that take part in graphs; a node for anybody else is a mistake.
+        known_actors: Others that take part in graphs; a node for anybody else is a mistake. What such nodes
+            need is known to their own engines alone.
+        given: Names of the parameters that the start brings.
     """
-    return list(_Checker(graph, catalogue, actor, known_actors).problems())
+    return list(_Checker(graph, catalogue, actor, known_actors, given).problems())
 
 
 class _Checker:
-    def __init__(self, graph: Graph, catalogue: Catalogue, actor: str, known_actors: Collection[str]) -> None:
+    def __init__(
+        self,
+        graph: Graph,
+        catalogue: Catalogue,
+        actor: str,
+        known_actors: Collection[str],
+        given: Collection[str],
+        inside: Sequence[str] = (),
+    ) -> None:
         self.graph, self.catalogue, self.actor, self.known_actors = graph, catalogue, actor, known_actors
+        self.given, self.inside = given, (*inside, graph.name)
+        self.entries = {relation.node: relation for relation in graph.entry}
         self.nodes: dict[NodeRef, Node] = {}
         for node in graph.nodes:
             self.nodes.setdefault(node.ref, node)
@@ -119,31 +138,45 @@ class _Checker:
                 )
 
     def _action(self, node: Node, path: str) -> Iterator[Problem]:
-        if node.type == "spontaneous":
-            yield Problem(
-                f"{path}.type", "spontaneous actions are not supported yet", "use sync", "not_supported_yet"
-            )
         if node.actor and node.actor != self.actor:
-            yield self._other_actor(node, path)
+            yield from self._other_actor(node, path)
             return
-        spec = self.catalogue.get(node.name)
+        spec = self.catalogue.match(node) or self.catalogue.get(node.name)
         if spec is None:
             yield self._unknown(node, path)
             return
         yield from _parameters(node.input_parameters, spec.inputs, f"{path}.input_parameters", spec)
         yield from _parameters(node.output_parameters, spec.outputs, f"{path}.output_parameters", spec)
         yield from self._missing_inputs(node, spec, path)
-
-    def _other_actor(self, node: Node, path: str) -> Problem:
-        if node.actor in self.known_actors or not self.actor:
-            return Problem(
-                f"{path}.actor",
-                f"actions of another actor ({node.actor}) in one graph are not supported yet",
-                "send each actor a graph of its own",
-                "not_supported_yet",
+        if missing := self.catalogue.missing_capabilities(spec):
+            yield Problem(
+                f"{path}.name",
+                f"{self.actor or 'the robot'} has no {' and no '.join(missing)}, which {spec.name} needs",
+                "use another robot",
+                "not_capable",
             )
+        if isinstance(spec, GraphSpec):
+            yield from self._inside(node, spec, path)
+
+    def _inside(self, node: Node, spec: GraphSpec, path: str) -> Iterator[Problem]:
+        """The graph that is used as an action must be able to run itself, without itself inside (7.2)."""
+        if node.name in self.inside:
+            way = " -> ".join([*self.inside, node.name])
+            yield Problem(
+                f"{path}.name", f"{node.name} would run inside itself: {way}", "break the circle", "recursion"
+            )
+            return
+        inner = _Checker(
+            spec.graph, self.catalogue, self.actor, self.known_actors, spec.inputs.keys(), self.inside
+        )
+        for problem in inner.problems():
+            yield replace(problem, path=f"{path}.{spec.name}.{problem.path}")
+
+    def _other_actor(self, node: Node, path: str) -> Iterator[Problem]:
+        if not self.actor or node.actor in self.known_actors:
+            return
         known = ", ".join([self.actor, *self.known_actors])
-        return Problem(
+        yield Problem(
             f"{path}.actor", f"there is no actor {node.actor!r}", f"known are {known}", "unknown_actor"
         )
 
@@ -160,6 +193,9 @@ class _Checker:
         for name, known in spec.inputs.items():
             given = node.input_parameters.get(name)
             if given is None or not known.required or given.has_data or known.has_data:
+                continue
+            entry = self.entries.get(node.ref)
+            if entry is not None and given_name(entry, name) in self.given:
                 continue
             if not any(self._gives(parent.node, node, name, known) for parent in node.parents):
                 yield Problem(

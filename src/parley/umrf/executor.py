@@ -7,26 +7,30 @@ there is nothing to lock and nothing to poll. Deciding what follows is `flow`, r
 from __future__ import annotations
 
 import asyncio
+import functools
 from collections import deque
 from collections.abc import Callable, Iterable, Mapping
 from dataclasses import replace
-from types import MappingProxyType
 from typing import Any, Final
 
 import structlog
 
 from parley.clock import Clock
-from parley.errors import ActionFailure, FailureCode, GraphRefusedError, Problem
+from parley.errors import GraphRefusedError, Problem
 from parley.messages.failure import FailureReport
-from parley.messages.pvf import Parameter, native_type
-from parley.umrf.action import Outcome, RunHandle
+from parley.umrf.action import RunHandle
+from parley.umrf.admission import check_entry, check_removed, values_to_continue
 from parley.umrf.catalogue import Catalogue
 from parley.umrf.flow import Effect, Flow, FlowNode
-from parley.umrf.model import Graph, GraphState, LogMessage, Node, NodeState, Result
-from parley.umrf.node_run import NodeRun
-from parley.umrf.reports import failure_text, is_report
-from parley.umrf.resolve import resolve
-from parley.umrf.transition import Announcer, Observer
+from parley.umrf.graph_index import GraphSpec
+from parley.umrf.model import Graph, GraphState, NodeState, Result
+from parley.umrf.node_run import Ended, NodeRun
+from parley.umrf.other_runs import InnerRuns, RemoteRun, SubgraphRun
+from parley.umrf.remote import Peers, RemoteEnd, RemoteSpec
+from parley.umrf.reports import failure_lines, stop_timed_out_text
+from parley.umrf.resolve import Resolved, resolve
+from parley.umrf.rounds import Rounds
+from parley.umrf.transition import NO_FACTS, Announcer, Observer
 
 __all__ = ["STOP_TIMEOUT_S", "GraphRun"]
 
@@ -41,8 +45,7 @@ _MARGIN_S: Final = 0.1
 _ENDED: Final = frozenset({GraphState.FINISHED, GraphState.STOPPED, GraphState.ERROR})
 _RESTING: Final = _ENDED | {GraphState.HALTED}
 _MOVING: Final = (NodeState.RUNNING, NodeState.PAUSE_REQUESTED)
-
-NO_FACTS: Final[Mapping[str, Any]] = MappingProxyType({})
+_STILL: Final = (NodeState.PAUSED, NodeState.PAUSE_REQUESTED)
 
 
 class GraphRun:
@@ -56,6 +59,10 @@ class GraphRun:
         make_context: Builds what an action gets as its first argument.
         observer: Told every transition; only looks.
         stop_timeout_s: Wall time a node may take to stop.
+        parameters: Inputs of the entry, by flat name.
+        peers: The other actors that take part; without them nodes of others are refused.
+        make_inner: Makes the run of a sub-graph from the graph and its `parameters`; by default it is like
+            this one and nobody observes it.
 
     Raises:
         GraphRefusedError: The graph cannot run here; with every reason.
@@ -71,18 +78,40 @@ class GraphRun:
         make_context: Callable[[RunHandle], Any],
         observer: Observer | None = None,
         stop_timeout_s: float = STOP_TIMEOUT_S,
+        parameters: Mapping[str, Any] = NO_FACTS,
+        peers: Peers | None = None,
+        make_inner: Callable[..., GraphRun] | None = None,
     ) -> None:
-        resolved = resolve(graph, catalogue, actor=actor)
         self.name = graph.name
         self.actor = actor
         self.state = GraphState.INITIALIZED
         self.result: Result | None = None
+        self.peers = peers
+        self.on_state: Callable[[GraphState], None] | None = None
+        """Told each change of `state`; for whoever waits for this run."""
+        self._catalogue, self._clock, self._given = catalogue, clock, parameters
+        resolved = self._resolve(graph)
         self._graph, self._flow = resolved.graph, Flow(resolved.graph, resolved.specs)
-        self._catalogue, self._clock = catalogue, clock
+        self._flow.give(parameters)
+        if parameters:
+            check_entry(self.name, self._flow)
         self._make_context = make_context
         self._announce = Announcer(graph.name, clock, observer)
         self._stop_timeout_s = stop_timeout_s
         self._runs: dict[str, NodeRun] = {}
+        self._inner = InnerRuns(
+            make_inner
+            or functools.partial(
+                GraphRun,
+                catalogue=catalogue,
+                actor=actor,
+                clock=clock,
+                make_context=make_context,
+                stop_timeout_s=stop_timeout_s,
+                peers=peers,
+            )
+        )
+        self._rounds = Rounds()
         self._held: list[tuple[str, Result]] = []
         self._holding = False
         self._stop_failed = False
@@ -90,12 +119,12 @@ class GraphRun:
 
     # -- commands -------------------------------------------------------------------------------------------
 
-    def start(self) -> None:
-        """Begin at the entry; only once."""
+    def start(self, result: Result = Result.ON_TRUE) -> None:
+        """Begin at the entry, as if it had ended with `result`; only once."""
         if self.state is not GraphState.INITIALIZED:
             raise self._refusal("already_started", f"{self.name} was started already")
         self._set_graph(GraphState.RUNNING, "start")
-        self._apply(self._flow.start(), "start")
+        self._apply(self._flow.start(result), "start")
         self._settle()
 
     def pause(self) -> None:
@@ -108,6 +137,7 @@ class GraphRun:
             self._holding = True
         for item in self._active():
             self._pause_node(item, "pause")
+        self._inner.pause()
         self._settle()
 
     def resume(self, continue_from: str = "") -> None:
@@ -121,7 +151,7 @@ class GraphRun:
         over = self.state in _ENDED and (continue_from or not self._active())
         if over or self.state is GraphState.STOPPING:
             raise self._refusal("graph_ended", f"{self.name} is {self.state}", "start it anew")
-        past = self._check_continue(self._flow, continue_from)
+        past = values_to_continue(self.name, self._flow, continue_from, self._runs)
         self._go_on(continue_from, past, "resume")
 
     def stop(self) -> None:
@@ -135,6 +165,7 @@ class GraphRun:
             self._set_graph(GraphState.STOPPING, "stop")
         for item in self._active():
             self._stop_node(item, "stop")
+        self._inner.stop()
         self._settle()
 
     def end_node(self, name: str) -> None:
@@ -161,22 +192,11 @@ class GraphRun:
             raise self._refusal(
                 "graph_ended", f"{self.name} is {self.state} and cannot be changed", "start a new graph"
             )
-        resolved = resolve(replace(graph, name=self.name), self._catalogue, actor=self.actor)
+        resolved = self._resolve(replace(graph, name=self.name))
         kept = {node.full_name for node in graph.nodes}
-        problems = [
-            Problem(
-                "actions",
-                f"{item.name} is {item.state} and cannot be removed",
-                "stop it first",
-                "node_active",
-            )
-            for item in self._active()
-            if item.name not in kept
-        ]
-        if problems:
-            raise GraphRefusedError(self.name, problems)
+        check_removed(self.name, self._active(), kept)
         flow = self._flow.replaced(resolved.graph, resolved.specs)
-        past = self._check_continue(flow, continue_from)
+        past = values_to_continue(self.name, flow, continue_from, self._runs)
         self._flow = flow
         self._graph = replace(resolved.graph, description=self._graph.description)
         self._held = [(name, result) for name, result in self._held if name in kept]
@@ -193,12 +213,12 @@ class GraphRun:
         """Stop, wait (at most the time-out) for what runs, abandon what still does not end. Idempotent."""
         if self.state is not GraphState.HALTED or self._runs:  # what has come to rest keeps saying so
             self.stop()
-        if self._runs:
-            tasks = [run.task for run in self._runs.values()]
+        if tasks := [run.task for run in self._runs.values() if not isinstance(run, RemoteRun)]:
             await asyncio.wait(tasks, timeout=self._stop_timeout_s + _MARGIN_S)
         for name, run in list(self._runs.items()):
             if not await run.abandon():
                 log.error("action cannot be ended", graph=self.name, node=name)
+        await self._inner.close()
 
     # -- what can be seen -----------------------------------------------------------------------------------
 
@@ -214,7 +234,7 @@ class GraphRun:
 
     def snapshot(self) -> Graph:
         """The graph as it is now, with states, logs and the data that is there (4.3)."""
-        nodes = tuple(_snapshot(item) for item in self._flow.nodes.values())
+        nodes = tuple(item.snapshot() for item in self._flow.nodes.values())
         return replace(self._graph, nodes=nodes, state=self.state)
 
     def outputs(self, node: str) -> Mapping[str, Any]:
@@ -222,33 +242,49 @@ class GraphRun:
         item = self._flow.nodes.get(node)
         return dict(item.outputs) if item is not None else {}
 
+    def exit_values(self) -> Mapping[str, Any]:
+        """What the graph as a whole has given, by flat name."""
+        return dict(self._flow.exit_values)
+
     # -- nodes ----------------------------------------------------------------------------------------------
 
     def _active(self) -> list[FlowNode]:
         found = (self._flow.nodes.get(name) for name in self._runs)
         return [item for item in found if item is not None and item.active]
 
-    def _any_active(self) -> bool:
-        found = (self._flow.nodes.get(name) for name in self._runs)
-        return any(item is not None and item.active for item in found)
-
     def _run_node(self, item: FlowNode, cause: str) -> None:
         """Start a run, unless one is going on: then the trigger is ignored (10.4)."""
-        if item.name in self._runs:
-            if not item.active:
+        if item.name in self._runs or item.name in self._rounds:
+            if item.name in self._runs and not item.active:
                 log.warning("node has still not stopped", graph=self.name, node=item.name)
             return
         item.last_values = dict(item.values)
         self._set_node(item, NodeState.RUNNING, cause)
-        run = NodeRun(
-            item,
-            actor=self.actor,
-            graph_name=self.name,
-            clock=self._clock,
-            on_progress=lambda fraction, text: self._announce.progress(item.node, fraction, text),
-        )
-        self._runs[item.name] = run
+        run = self._runs[item.name] = self._new_run(item)
         run.begin(self._make_context, self._run_ended)
+
+    def _new_run(self, item: FlowNode) -> NodeRun:
+        common: dict[str, Any] = {
+            "item": item,
+            "actor": self.actor,
+            "graph_name": self.name,
+            "clock": self._clock,
+            "on_progress": lambda fraction, text: self._announce.progress(item.node, fraction, text),
+        }
+        if isinstance(item.spec, GraphSpec):
+            start = functools.partial(self._inner.start, self.name, item)
+            return SubgraphRun(start=start, on_state=lambda state: self._inner_changed(item, state), **common)
+        if isinstance(item.spec, RemoteSpec) and self.peers is not None:
+            return RemoteRun(peers=self.peers, **common)
+        return NodeRun(**common)
+
+    def _inner_changed(self, item: FlowNode, state: GraphState) -> None:
+        """A sub-graph came to stand still, or goes on."""
+        if state is GraphState.PAUSED and item.state in _MOVING:
+            self._set_node(item, NodeState.PAUSED, "pause")
+            self._settle()
+        elif state is GraphState.RUNNING and item.state in _STILL:
+            self._set_node(item, NodeState.RUNNING, "resume")
 
     def _run_ended(self, run: NodeRun) -> None:
         """An action is over, however: note it, tell it, and go on with what follows."""
@@ -259,33 +295,21 @@ class GraphRun:
         ending = run.ending()
         stopped = item.state is NodeState.STOPPING
         if isinstance(ending, BaseException) and not (stopped and isinstance(ending, asyncio.CancelledError)):
-            self._log_failure(item, ending, run.last_log)
+            for text in failure_lines(self.name, item.node, ending, run.last_log):
+                item.note(text, self._clock.unix_ms())
         if run.restart_wanted and self.state is GraphState.RUNNING and not self._holding:
             self._set_node(item, NodeState.FINISHED, "restart", Result.ON_STOPPED)
+            self._hand_over(item, Result.ON_STOPPED)
             self._run_node(item, "restart")
             return
-        item.drop_transferred()
-        if stopped:
+        if stopped or not item.spontaneous or not isinstance(ending, Ended):
+            item.drop_transferred()
+        if stopped and not (isinstance(run, RemoteRun) and isinstance(ending, Ended)):
             self._node_over(item, Result.ON_STOPPED, {}, "stop")
-        elif isinstance(ending, Outcome):
-            result = Result.ON_TRUE if ending.result else Result.ON_FALSE
-            self._node_over(item, result, ending.outputs, "run", ending.facts)
+        elif isinstance(ending, Ended):
+            self._node_over(item, ending.result, ending.outputs, "run", ending.facts, failed=False)
         else:
             self._node_over(item, Result.ON_ERROR, {}, "run")
-
-    def _log_failure(self, item: FlowNode, error: BaseException, last_log: str) -> None:
-        """Leave the reason as the node's newest log line, where planners look for it (12.6).
-
-        An action in the reference's style logs its report itself and raises anything; then that one counts.
-        """
-        if not isinstance(error, ActionFailure | asyncio.CancelledError):
-            log.error("action raised", graph=self.name, node=item.name, exc_info=error)
-            if is_report(last_log):
-                return
-        self._log_line(item, failure_text(item.node.name, error))
-
-    def _log_line(self, item: FlowNode, text: str) -> None:
-        item.log.append(LogMessage(self._clock.unix_ms(), text))
 
     def _node_over(
         self,
@@ -294,19 +318,32 @@ class GraphRun:
         outputs: Mapping[str, Any],
         cause: str,
         facts: Mapping[str, Any] = NO_FACTS,
+        *,
+        failed: bool = True,
     ) -> None:
+        """A node is over; a sub-graph that failed inside leaves its node FINISHED (10.8), so not `failed`."""
         item.outputs = dict(outputs)
-        state = NodeState.ERROR if result is Result.ON_ERROR else NodeState.FINISHED
+        state = NodeState.ERROR if failed and result is Result.ON_ERROR else NodeState.FINISHED
         self._set_node(item, state, cause, result, facts)
+        self._hand_over(item, result)
+        self._rounds.over(item.name)
         self._follow(item.name, result)
         self._settle()
+
+    def _hand_over(self, item: FlowNode, result: Result) -> None:
+        """Let the other actors know that a node of this one has ended."""
+        if self.peers is not None and item.node.actor == self.actor:
+            message = item.log[-1].message if item.state is NodeState.ERROR and item.log else ""
+            self.peers.ended(self.name, item.node, RemoteEnd(result, item.given_outputs(), message))
 
     def _pause_node(self, item: FlowNode, cause: str) -> None:
         if item.state is not NodeState.RUNNING:
             return
-        self._runs[item.name].pause()
-        state = NodeState.PAUSED if item.spec.pausable else NodeState.PAUSE_REQUESTED
-        self._set_node(item, state, cause)
+        run = self._runs[item.name]
+        run.pause()
+        if item.state is NodeState.RUNNING:  # a sub-graph has said already that it stands still
+            still = NodeState.PAUSED if run.stands_still else NodeState.PAUSE_REQUESTED
+            self._set_node(item, still, cause)
 
     def _stop_node(self, item: FlowNode, cause: str) -> None:
         if not item.active or item.state is NodeState.STOPPING:
@@ -317,11 +354,7 @@ class GraphRun:
     def _stop_timed_out(self, name: str) -> None:
         item = self._flow.nodes[name]
         self._stop_failed = True
-        report = FailureReport(
-            message=f"{item.node.name} did not stop within {self._stop_timeout_s:g} s.",
-            code=FailureCode.TIMED_OUT,
-        )
-        self._log_line(item, report.to_text())
+        item.note(stop_timed_out_text(item.node.name, self._stop_timeout_s), self._clock.unix_ms())
         log.error("node did not stop", graph=self.name, node=name)
         self._node_over(item, Result.ON_ERROR, {}, "stop")
 
@@ -331,8 +364,24 @@ class GraphRun:
         """Propagate the end of a node, or hold it back while a pause is in force."""
         if self._holding or self.state is GraphState.PAUSED:
             self._held.append((name, result))
+        elif self.state is GraphState.RUNNING and self._flow.nodes[name].spontaneous:
+            # What the last round set off is stopped before this one sets off anything (10.7).
+            others = [item for item in self._flow.reachable(name) if item.active]
+            for item in others:
+                self._stop_node(item, "round")
+            names = [item.name for item in others]
+            self._rounds.wait(name, names, lambda: self._next_round(name, result))
         elif self.state is GraphState.RUNNING:
             self._apply(self._flow.propagate(name, result), "edge", source=name)
+
+    def _next_round(self, name: str, result: Result) -> None:
+        """Propagate the end of a spontaneous node and run it again, unless it was stopped or failed."""
+        if self._holding or self.state is GraphState.PAUSED:
+            self._held.append((name, result))
+        elif self.state is GraphState.RUNNING and name in self._flow.nodes:
+            self._apply(self._flow.propagate(name, result), "edge", source=name)
+            if self.state is GraphState.RUNNING and result in (Result.ON_TRUE, Result.ON_FALSE):
+                self._run_node(self._flow.nodes[name], "round")
 
     def _apply(self, effects: Iterable[Effect], cause: str, source: str = "") -> None:
         waiting = deque(effects)
@@ -340,6 +389,9 @@ class GraphRun:
             effect = waiting.popleft()
             if effect.kind == "finish":
                 self._set_graph(GraphState.FINISHED, "exit", effect.result)
+                for item in self._active():
+                    if item.spontaneous:  # nothing else would ever end it
+                        self._stop_node(item, "exit")
                 return
             item = self._flow.nodes[effect.node]
             match effect.kind:
@@ -354,9 +406,10 @@ class GraphRun:
                 case "bypassed":
                     self._set_node(item, item.state, "bypass", effect.result)
                 case "fail" if not item.active:
-                    self._log_line(item, FailureReport(message=effect.message).to_text())
+                    item.note(FailureReport(message=effect.message).to_text(), self._clock.unix_ms())
                     item.outputs = {}
                     self._set_node(item, NodeState.ERROR, cause, Result.ON_ERROR)
+                    self._hand_over(item, Result.ON_ERROR)
                     waiting.extend(self._flow.propagate(item.name, Result.ON_ERROR))
 
     def _restart_node(self, item: FlowNode, cause: str) -> None:
@@ -366,44 +419,17 @@ class GraphRun:
         self._runs[item.name].restart_wanted = True
         self._stop_node(item, cause)
 
-    def _check_continue(self, flow: Flow, name: str) -> dict[str, Any]:
-        """The inputs that a `continue_from` takes from the past; refused if it cannot run even so."""
-        if not name:
-            return {}
-        item = flow.nodes.get(name)
-        if item is None:
-            known = ", ".join(flow.nodes) or "none"
-            raise self._refusal(
-                "unknown_node",
-                f"{self.name} has no node {name!r}",
-                f"its nodes are: {known}",
-                "continue_from",
-            )
-        if item.active:
-            return {}
-        if name in self._runs:
-            raise self._refusal(
-                "still_stopping", f"{name} has still not stopped", "wait for it", "continue_from"
-            )
-        past = flow.past_values(item)
-        if missing := [need for need in item.missing_inputs() if need not in past]:
-            raise self._refusal(
-                "missing_input",
-                f"{name} cannot run without {', '.join(missing)}",
-                "give values, or continue from the action that provides them",
-                "continue_from",
-            )
-        return past
-
     def _go_on(self, continue_from: str, past: Mapping[str, Any], cause: str) -> None:
         """Lift the pause, run what was held back, then `continue_from`; checked before."""
         self._holding = False
         if self.state is GraphState.PAUSED or (self.state is GraphState.HALTED and continue_from):
             self._set_graph(GraphState.RUNNING, cause)
         for item in self._active():
-            if item.state in (NodeState.PAUSED, NodeState.PAUSE_REQUESTED):
+            if item.state in _STILL:
                 self._runs[item.name].resume()
-                self._set_node(item, NodeState.RUNNING, cause)
+                if item.state in _STILL:  # a sub-graph has said already that it goes on
+                    self._set_node(item, NodeState.RUNNING, cause)
+        self._inner.resume()
         held, self._held = self._held, []
         for name, result in held:
             self._follow(name, result)
@@ -420,7 +446,7 @@ class GraphRun:
         if self.state is GraphState.RUNNING and self._holding:
             if not any(item.state in _MOVING for item in self._active()):
                 self._set_graph(GraphState.PAUSED, "pause")
-        elif self.state not in (GraphState.RUNNING, GraphState.STOPPING) or self._any_active():
+        elif self.state not in (GraphState.RUNNING, GraphState.STOPPING) or self._active():
             return
         elif self.state is GraphState.STOPPING:
             if self._stop_failed:
@@ -444,10 +470,7 @@ class GraphRun:
         facts: Mapping[str, Any] = NO_FACTS,
     ) -> None:
         item.state = state
-        outputs = _valued(item.node.output_parameters, item.outputs) if cause == "run" else {}
-        outputs |= {name: Parameter(native_type(value), value) for name, value in facts.items()}
-        message = item.log[-1].message if state is NodeState.ERROR and item.log else ""
-        self._announce.node(item.node, state, cause, result=result, outputs=outputs, message=message)
+        self._announce.node(item, cause, result, facts)
 
     def _set_graph(
         self, state: GraphState, cause: str, result: Result | None = None, message: str = ""
@@ -458,16 +481,14 @@ class GraphRun:
         else:
             self._rested.clear()
         self._announce.graph(state, cause, result, message)
+        if self.on_state is not None:
+            self.on_state(state)
+
+    def _resolve(self, graph: Graph) -> Resolved:
+        actors = self.peers.actors if self.peers is not None else ()
+        return resolve(
+            graph, self._catalogue, actor=self.actor, known_actors=actors, given=self._given.keys()
+        )
 
     def _refusal(self, code: str, message: str, remedy: str = "", path: str = "") -> GraphRefusedError:
         return GraphRefusedError(self.name, [Problem(path, message, remedy, code)])
-
-
-def _snapshot(item: FlowNode) -> Node:
-    inputs = _valued(item.node.input_parameters, item.values)
-    return replace(item.node, state=item.state, input_parameters=inputs, messages=tuple(item.log))
-
-
-def _valued(declared: Mapping[str, Parameter], values: Mapping[str, Any]) -> dict[str, Parameter]:
-    """The declared parameters holding exactly `values`."""
-    return {name: item.with_value(values.get(name)) for name, item in declared.items()}

@@ -12,9 +12,11 @@ from dataclasses import dataclass, field, replace
 from typing import Any, Literal
 
 from parley.errors import ActionFailure, FailureCode
-from parley.messages.pvf import Parameter
+from parley.messages.pvf import NATIVE_TYPES, Parameter, fits_type
 from parley.umrf.action import ActionSpec
+from parley.umrf.isolated import isolated
 from parley.umrf.model import (
+    DEFAULT_CONDITIONS,
     ENTRY,
     EXIT,
     ChildRelation,
@@ -61,7 +63,7 @@ class Runner:
             ActionFailure: `not_capable`: the action is only described, by a descriptor file.
         """
         if self._made is None:
-            self._made = self._spec.runner()
+            self._made = isolated(self._spec) if self._spec.isolated else self._spec.runner()
         if self._made is None:
             raise ActionFailure(
                 FailureCode.NOT_CAPABLE, f"{self._spec.name} is only described here; nothing carries it out."
@@ -100,6 +102,11 @@ class FlowNode:
         return self.node.full_name
 
     @property
+    def spontaneous(self) -> bool:
+        """Whether it runs again and again until it is stopped (10.7)."""
+        return self.node.type == "spontaneous"
+
+    @property
     def active(self) -> bool:
         """Whether a run of it is going on, standing still included."""
         return self.state in _ACTIVE
@@ -113,11 +120,29 @@ class FlowNode:
         """Required parents whose edge was not seen yet."""
         return [name for name, edge in self.parents.items() if edge.required and name not in self.received]
 
+    def given_outputs(self) -> dict[str, Parameter]:
+        """The declared outputs, with what the last run gave."""
+        return _valued(self.node.output_parameters, self.outputs)
+
+    def snapshot(self) -> Node:
+        """The node as it is now, with the data that is there (4.3)."""
+        inputs = _valued(self.node.input_parameters, self.values)
+        return replace(self.node, state=self.state, input_parameters=inputs, messages=tuple(self.log))
+
+    def note(self, text: str, unix_ms: int) -> None:
+        """Add a log line."""
+        self.log.append(LogMessage(unix_ms, text))
+
     def drop_transferred(self) -> None:
         """Forget what came along edges, after a run."""
         for name in self.transferred:
             self.values.pop(name, None)
         self.transferred.clear()
+
+
+def _valued(declared: Mapping[str, Parameter], values: Mapping[str, Any]) -> dict[str, Parameter]:
+    """The declared parameters holding exactly `values`."""
+    return {name: item.with_value(values.get(name)) for name, item in declared.items()}
 
 
 _ACTIVE = frozenset({NodeState.RUNNING, NodeState.PAUSE_REQUESTED, NodeState.PAUSED, NodeState.STOPPING})
@@ -154,21 +179,41 @@ class Flow:
         if previous is not None:
             self._exit_received |= previous._exit_received & self.exit.keys()
             self._exit_given |= previous._exit_given
+        self.exit_values: dict[str, Any] = {}
+        """What the exit was given: the outputs of the graph as a whole (6)."""
+        if previous is not None:
+            self.exit_values |= previous.exit_values
         outputs = [self.nodes[name].node.output_parameters for name in self.exit]
-        self._exit_needs: set[str] = next((set(item) for item in reversed(outputs) if item), set())
+        self._exit_needs: Mapping[str, Parameter] = next((item for item in reversed(outputs) if item), {})
 
     def replaced(self, graph: Graph, specs: Mapping[str, ActionSpec]) -> Flow:
         """Another form of this graph (11.5) in which nodes that stay keep state, data and seen edges."""
         return Flow(graph, specs, previous=self)
 
-    def start(self) -> list[Effect]:
-        """The entry has ended `on_true`: what follows."""
+    def give(self, parameters: Mapping[str, Any]) -> None:
+        """Copy start parameters to those inputs of the entry actions that have no value (6)."""
+        for relation in self.entry:
+            item, renamed = self.nodes[relation.node.full_name], dict(relation.remap)
+            for source, value in parameters.items():
+                name = renamed.get(source, source)
+                own = item.node.input_parameters.get(name)
+                if own is None or name in item.values or not _accepts(own, own.type, value):
+                    continue
+                if own.type not in NATIVE_TYPES or fits_type(own.type, value):
+                    item.values[name] = value
+
+    def start(self, result: Result = Result.ON_TRUE) -> list[Effect]:
+        """The entry has ended with `result`: what follows."""
         self.started = True
         effects: list[Effect] = []
+        response = DEFAULT_CONDITIONS[result]
         for relation in self.entry:
             item = self.nodes[relation.node.full_name]
             item.received.add(ENTRY.full_name)
-            effects += self._respond(item, Response.RUN, "")
+            if response is Response.RUN:
+                effects += self._respond(item, response, "")
+            elif response is Response.BYPASS:
+                effects += [Effect("bypassed", item.name, result), *self.propagate(item.name, result)]
         return effects
 
     def propagate(self, name: str, result: Result) -> list[Effect]:
@@ -187,8 +232,9 @@ class Flow:
                 if edge in followed:
                     continue
                 followed.add(edge)
+                outputs = parent.outputs if parent.name == name else {}  # a bypassed node gave none
                 if relation.node == EXIT:
-                    if self._reaches_exit(parent, result):
+                    if self._reaches_exit(parent, result, outputs):
                         return [*effects, Effect("finish", result=result)]
                     continue
                 child = self.nodes[edge[1]]
@@ -198,12 +244,24 @@ class Flow:
                     effects.append(Effect("bypassed", child.name, result))
                     waiting.append(child.name)
                 elif response is not Response.IGNORE:
-                    outputs = parent.outputs if parent.name == name else {}  # a bypassed node gave none
                     given, refused = _carried(parent, outputs, child, relation)
                     child.values |= given
                     child.transferred |= given.keys()
                     effects += self._respond(child, response, refused)
         return effects
+
+    def reachable(self, name: str) -> list[FlowNode]:
+        """All nodes to which edges lead from node `name`, itself left out; cycles are no obstacle."""
+        found = {name: self.nodes[name]}
+        waiting = deque([name])
+        while waiting:
+            for relation in self.nodes[waiting.popleft()].children:
+                child = relation.node.full_name
+                if relation.node != EXIT and child not in found:
+                    found[child] = self.nodes[child]
+                    waiting.append(child)
+        del found[name]
+        return list(found.values())
 
     def waiting_for(self) -> str:
         """Why nodes that were reached do not run, in words; empty if there are none."""
@@ -252,7 +310,7 @@ class Flow:
                 return [Effect("restart", child.name)]
         return []
 
-    def _reaches_exit(self, parent: FlowNode, result: Result) -> bool:
+    def _reaches_exit(self, parent: FlowNode, result: Result, outputs: Mapping[str, Any]) -> bool:
         """Whether this end of an exit action ends the graph (5.3, 6)."""
         relation = self.exit[parent.name]
         self._exit_received.add(parent.name)
@@ -262,8 +320,12 @@ class Flow:
         if response is Response.IGNORE:
             return False
         # The reference reads outputs that were not given as zero values: they are no reason to wait for ever.
-        self._exit_given |= parent.node.output_parameters.keys()
-        if not self._exit_needs <= self._exit_given:
+        declared = parent.node.output_parameters
+        self._exit_given |= declared.keys()
+        for name, needed in self._exit_needs.items():
+            if name in outputs and name in declared and declared[name].type == needed.type:
+                self.exit_values[name] = outputs[name]
+        if not self._exit_needs.keys() <= self._exit_given:
             return False
         return all(name in self._exit_received for name, edge in self.exit.items() if edge.required)
 

@@ -10,7 +10,7 @@ from __future__ import annotations
 import json
 from collections.abc import Mapping
 from dataclasses import replace
-from typing import Any
+from typing import Any, Final
 
 from parley.errors import GraphRefusedError
 from parley.messages.pvf import SEPARATOR, Parameters, write_parameters
@@ -38,6 +38,11 @@ __all__ = [
     "write_graph",
 ]
 
+EXTRAS: Final = "parley"
+"""The key of a descriptor for what UMRF does not know; other engines ignore it."""
+_TEXTS: Final = ("phrases", "examples", "effects", "capabilities")
+_TIMES: Final = ("duration_s", "timeout_s")
+
 
 def read_graph(source: str | Mapping[str, Any]) -> Graph:
     """Read a graph from JSON text or an object that was parsed already.
@@ -60,8 +65,8 @@ def read_descriptor(source: str | Mapping[str, Any]) -> ActionSpec:
     Raises:
         GraphRefusedError: With every problem and where it is.
     """
-    reader = Reader()
-    node = reader.node(load_object(source, "descriptor"), "")
+    reader, raw = Reader(), load_object(source, "descriptor")
+    node = reader.node(raw, "")
     if node is None or reader.problems:
         raise GraphRefusedError("", reader.problems)
     return ActionSpec(
@@ -70,7 +75,21 @@ def read_descriptor(source: str | Mapping[str, Any]) -> ActionSpec:
         outputs=node.output_parameters,
         description=node.description,
         type=node.type,
+        **_read_extras(raw.get(EXTRAS)),
     )
+
+
+def _read_extras(raw: Any) -> dict[str, Any]:
+    """What a descriptor of ours says besides UMRF; what does not fit is left out, as for any unknown key."""
+    extras: dict[str, Any] = {}
+    for key, value in raw.items() if isinstance(raw, dict) else ():
+        if key in _TEXTS and isinstance(value, list) and all(isinstance(item, str) for item in value):
+            extras[key] = tuple(value)
+        elif key in _TIMES and isinstance(value, int | float) and value > 0:
+            extras[key] = float(value)
+        elif key == "risk" and value in ("none", "low", "high"):
+            extras[key] = value
+    return extras
 
 
 def write_graph(graph: Graph, *, faithful: bool = False) -> str:
@@ -160,6 +179,11 @@ def write_descriptor(spec: ActionSpec) -> str:
     for key, parameters in (("input_parameters", spec.inputs), ("output_parameters", spec.outputs)):
         if parameters:
             written[key] = _parameters(parameters, with_required=True)
+    extras = {key: getattr(spec, key) for key in (*_TEXTS, *_TIMES) if getattr(spec, key)}
+    if spec.risk != "low":
+        extras["risk"] = spec.risk
+    if extras:
+        written[EXTRAS] = extras
     return dump(written)
 
 

@@ -5,20 +5,38 @@ from __future__ import annotations
 import asyncio
 import inspect
 import threading
-from collections.abc import Callable
+from collections.abc import Awaitable, Callable, Mapping
+from dataclasses import dataclass, field
 from typing import Any, Final
 
 from parley.clock import Clock
 from parley.umrf.action import Outcome, RunHandle, bind_inputs, outcome_of
 from parley.umrf.flow import FlowNode
-from parley.umrf.model import LogMessage
+from parley.umrf.model import Result
 from parley.umrf.text import clean_text
 from parley.umrf.threads import in_thread
+from parley.umrf.time_limit import PausableTime, within
 
-__all__ = ["NodeRun"]
+__all__ = ["Ended", "NodeRun"]
 
 PROGRESS_INTERVAL_S: Final = 0.1
 ABANDON_S: Final = 0.1
+THREAD_GRACE_S: Final = 2.0
+"""Wall time that a plain action has to notice that its time is over, before its thread is abandoned."""
+
+
+@dataclass(frozen=True, slots=True)
+class Ended:
+    """How a run ended that did not fail."""
+
+    result: Result
+    outputs: Mapping[str, Any] = field(default_factory=dict)
+    facts: Mapping[str, Any] = field(default_factory=dict)
+
+    @classmethod
+    def of(cls, outcome: Outcome) -> Ended:
+        """The end of an action that returned."""
+        return cls(Result.ON_TRUE if outcome.result else Result.ON_FALSE, outcome.outputs, outcome.facts)
 
 
 class NodeRun:
@@ -54,27 +72,49 @@ class NodeRun:
         self._progress: tuple[float | None, str] | None = None
         self._progress_timer: asyncio.TimerHandle | None = None
         self._stop_timer: asyncio.TimerHandle | None = None
-        self._task: asyncio.Task[Outcome] | None = None
+        self._time: PausableTime | None = None
+        self._task: asyncio.Task[Ended] | None = None
 
     def begin(self, make_context: Callable[[RunHandle], Any], ended: Callable[[NodeRun], None]) -> None:
         """Start; `ended` is called on the loop once it is over, however it ends."""
         self._task = asyncio.create_task(self._call(make_context), name=f"{self.graph_name}/{self.node}")
         self._task.add_done_callback(lambda _: self._end(ended))
 
-    async def _call(self, make_context: Callable[[RunHandle], Any]) -> Outcome:
+    async def _call(self, make_context: Callable[[RunHandle], Any]) -> Ended:
         item = self._item
         run = item.runner.get()
         arguments = bind_inputs(item.spec, self._values)
         context = make_context(self)
+        if inspect.iscoroutinefunction(run):
+            work = run(context, **arguments)
+        else:
+            self._threaded = True
+            work = in_thread(f"action {self.node}", run, context, **arguments)
         try:
-            if inspect.iscoroutinefunction(run):
-                returned = await run(context, **arguments)
-            else:
-                self._threaded = True
-                returned = await in_thread(f"action {self.node}", run, context, **arguments)
+            returned = await self._limited(work)
         except SystemExit as error:  # would end the loop, and with it every robot of this process
             raise RuntimeError(f"it called exit({error.code})") from error
-        return outcome_of(item.spec, returned)
+        return Ended.of(outcome_of(item.spec, returned))
+
+    def _limited(self, work: Awaitable[Any]) -> Awaitable[Any]:
+        """`work`, within the action's time-out if it has one."""
+        spec = self._item.spec
+        if spec.timeout_s is None:
+            return work
+        self._time = PausableTime(self.clock)
+        return within(
+            work,
+            spec.timeout_s,
+            name=spec.name,
+            clock=self.clock,
+            time=self._time,
+            going=self._going.wait,
+            on_expiry=self._expired,
+        )
+
+    def _expired(self) -> float:
+        self._stopping = True
+        return THREAD_GRACE_S if self._threaded else 0.0
 
     def _end(self, ended: Callable[[NodeRun], None]) -> None:
         self._over = True
@@ -83,21 +123,30 @@ class NodeRun:
                 timer.cancel()
         ended(self)
 
-    def ending(self) -> Outcome | BaseException:
-        """What the action returned or raised, once it is over."""
+    def ending(self) -> Ended | BaseException:
+        """How it ended or what was raised, once it is over."""
         if self.task.cancelled():
             return asyncio.CancelledError()
         return self.task.exception() or self.task.result()
+
+    @property
+    def stands_still(self) -> bool:
+        """Whether it honours a pause at once; otherwise it is let finish."""
+        return self._item.spec.pausable
 
     def pause(self) -> None:
         """Ask the action to stand still."""
         self._paused = True
         self._going.clear()
+        if self._time is not None:
+            self._time.pause()
 
     def resume(self) -> None:
         """Let the action go on."""
         self._paused = False
         self._going.set()
+        if self._time is not None:
+            self._time.resume()
 
     def stop(self, timeout_s: float, timed_out: Callable[[], None]) -> None:
         """Ask the action to end; `timed_out` is called if it has not after `timeout_s` of wall time."""
@@ -108,7 +157,7 @@ class NodeRun:
         self._stop_timer = self._loop.call_later(timeout_s, timed_out)
 
     @property
-    def task(self) -> asyncio.Task[Outcome]:
+    def task(self) -> asyncio.Task[Ended]:
         """What runs it, once begun."""
         assert self._task is not None
         return self._task
@@ -122,7 +171,7 @@ class NodeRun:
     def log(self, text: str) -> None:
         """See `RunHandle.log`."""
         self.last_log = clean_text(text)
-        self._item.log.append(LogMessage(self.clock.unix_ms(), self.last_log))
+        self._item.note(self.last_log, self.clock.unix_ms())
 
     def progress(self, fraction: float | None, text: str = "") -> None:
         """See `RunHandle.progress`; what comes too soon waits, and the newest of it is sent."""

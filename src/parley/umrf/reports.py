@@ -4,11 +4,29 @@ from __future__ import annotations
 
 import asyncio
 
+import structlog
+
 from parley.errors import ActionFailure, FailureCode
 from parley.messages.failure import FailureReport
+from parley.umrf.model import Node
 from parley.umrf.text import clean_text
 
-__all__ = ["failure_text", "is_report"]
+__all__ = ["failure_lines", "failure_text", "is_report", "stop_timed_out_text"]
+
+log = structlog.get_logger(__name__)
+
+
+def failure_lines(graph_name: str, node: Node, error: BaseException, last_log: str) -> list[str]:
+    """What is to be the newest log line of a node that failed, where planners look for it (12.6).
+
+    None if it is there already: an action in the reference's style logs its report itself and raises
+    anything; then that one counts.
+    """
+    if not isinstance(error, ActionFailure | asyncio.CancelledError):
+        log.error("action raised", graph=graph_name, node=node.full_name, exc_info=error)
+        if is_report(last_log):
+            return []
+    return [failure_text(node.name, error)]
 
 
 def failure_text(action: str, error: BaseException) -> str:
@@ -22,6 +40,12 @@ def failure_text(action: str, error: BaseException) -> str:
         return FailureReport(message=f"{action} was cancelled from inside.").to_text()
     text = f"{action} failed: {type(error).__name__}: {error}".rstrip(": ")
     return FailureReport(message=clean_text(text), code=FailureCode.INTERNAL).to_text()
+
+
+def stop_timed_out_text(action: str, timeout_s: float) -> str:
+    """The runtime message for an action that did not stop."""
+    message = f"{action} did not stop within {timeout_s:g} s."
+    return FailureReport(message=message, code=FailureCode.TIMED_OUT).to_text()
 
 
 def is_report(text: str) -> bool:

@@ -4,16 +4,18 @@ from __future__ import annotations
 
 from collections.abc import Callable, Mapping
 from dataclasses import dataclass, field
-from typing import Any, Literal
+from types import MappingProxyType
+from typing import Any, Final, Literal
 
 import structlog
 
 from parley.clock import Clock
-from parley.messages.pvf import Parameter
+from parley.messages.pvf import Parameter, native_type
+from parley.umrf.flow import FlowNode
 from parley.umrf.model import GraphState, Node, NodeState, Result
 from parley.umrf.text import clean_text
 
-__all__ = ["Announcer", "Observer", "Transition"]
+__all__ = ["NO_FACTS", "Announcer", "Observer", "Transition"]
 
 log = structlog.get_logger(__name__)
 
@@ -32,7 +34,7 @@ class Transition:
     instance_id: int = -1
     cause: str = ""
     """`start`, `edge`, `bypass`, `run` (the action itself), `dry`, `exit`, `stop`, `pause`, `resume`,
-    `modify`, `continue`, `restart`."""
+    `modify`, `continue`, `restart`, `round` (of a spontaneous node)."""
     result: Result | None = None
     """How a node or the graph ended."""
     outputs: Mapping[str, Parameter] = field(default_factory=dict)
@@ -45,6 +47,8 @@ class Transition:
     robot_time_s: float = 0.0
     unix_ms: int = 0
 
+
+NO_FACTS: Final[Mapping[str, Any]] = MappingProxyType({})
 
 Observer = Callable[[Transition], None]
 """Only looks; called on the loop, at once, in order."""
@@ -63,24 +67,30 @@ class Announcer:
 
     def node(
         self,
-        node: Node,
-        state: NodeState,
+        item: FlowNode,
         cause: str,
-        *,
         result: Result | None = None,
-        outputs: Mapping[str, Parameter] | None = None,
-        message: str = "",
+        facts: Mapping[str, Any] = NO_FACTS,
     ) -> None:
-        """A node is now in `state`."""
+        """A node has got the state it has now.
+
+        Args:
+            item: The node.
+            cause: What brought it about.
+            result: How it ended, if it did.
+            facts: What it tells of its end besides its outputs, by flat name.
+        """
+        outputs = item.given_outputs() if cause == "run" else {}
+        outputs |= {name: Parameter(native_type(value), value) for name, value in facts.items()}
         self._tell(
             "node",
-            state=state.value,
-            node=node.full_name,
-            instance_id=node.instance_id,
+            state=item.state.value,
+            node=item.name,
+            instance_id=item.node.instance_id,
             cause=cause,
             result=result,
-            outputs=outputs or {},
-            message=message,
+            outputs=outputs,
+            message=item.log[-1].message if item.state is NodeState.ERROR and item.log else "",
         )
 
     def progress(self, node: Node, fraction: float | None, text: str) -> None:

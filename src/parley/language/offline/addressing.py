@@ -6,7 +6,7 @@ from parley.language.base import Situation
 from parley.language.offline.lexicon import lexicon
 from parley.language.offline.text import Phrase, closest, keys, tokens
 
-__all__ = ["addressed", "calls_several"]
+__all__ = ["addressed", "own_part"]
 
 _CALLS = frozenset(
     {"hey", "hi", "hello", "ok", "okay", "dear", "tell", "have", "let", "ask", "make", "and", "please", "get"}
@@ -17,7 +17,10 @@ def addressed(words: Phrase, situation: Situation) -> tuple[Phrase, tuple[str, .
     """The message without the names it calls, and the robots it is for (empty: nobody was named)."""
     group = lexicon().everybody.match(keys(words))
     if group is not None and group[0] < len(words) and situation.robots:
-        return _without_lead(words[group[0] :]), situation.robots
+        return _except(_without_lead(words[group[0] :]), situation.robots)
+    sent = _sent(words, situation.robots)
+    if sent is not None:
+        return sent
     named: list[str] = []
     rest = words
     while True:
@@ -32,21 +35,118 @@ def addressed(words: Phrase, situation: Situation) -> tuple[Phrase, tuple[str, .
     return rest, tuple(dict.fromkeys(named))
 
 
-def calls_several(words: Phrase, robots: tuple[str, ...]) -> bool:
-    """Whether different robots are given different orders ("A go to x and B go to y")."""
+def own_part(words: Phrase, situation: Situation) -> tuple[Phrase, tuple[str, ...]] | None:
+    """For "A, go to x and B, go to y": what the spoken-to robot is told, and who else is told something.
+
+    None if the message does not give several robots orders of their own.
+    """
+    starts = _calls(words, situation.robots)
+    names = tuple(dict.fromkeys(name for _, name in starts))
+    if len(names) < 2:
+        return None
+    parts: dict[str, Phrase] = {}
+    lead: list[str] = []
+    for number, (at, name) in enumerate(starts):
+        end = starts[number + 1][0] if number + 1 < len(starts) else len(words)
+        part = _without_lead(words[at + len(tokens(name)) : end])
+        lead.append(name)
+        if any(word.is_word and word.key not in {"and", "while", "then", "but"} for word in part):
+            # "A and B, go to x. C, go to y": names without order share the next one.
+            for each in lead:
+                parts[each] = (*parts.get(each, ()), *_without_end(part), *tokens("."))
+            lead = []
+    if len({keys(part) for part in parts.values()}) < 2:
+        return None
+    mine = parts.get(situation.robot)
+    return None if mine is None else (mine, tuple(name for name in parts if name != situation.robot))
+
+
+def _except(words: Phrase, robots: tuple[str, ...]) -> tuple[Phrase, tuple[str, ...]]:
+    """For "everyone but A, go to x"."""
     flat = keys(words)
-    called = {
-        name
-        for name in robots
-        for index in range(len(flat) - 2)
-        if flat[index] == name.lower() and (index == 0 or flat[index - 1] in {"and", ",", ".", "while", ";"})
-    }
-    return len(called) > 1 and " and ".join(sorted(n.lower() for n in called)) not in " ".join(flat)
+    size = next((len(m) for m in _EXCEPT if flat[: len(m)] == m), 0)
+    left_out: list[str] = []
+    rest = words[size:]
+    while size and rest:
+        name = next((n for n in robots if keys(rest[: len(tokens(n))]) == keys(tokens(n))), "")
+        if not name and (rest[0].is_word and rest[0].key not in {"and", "or"}):
+            break
+        left_out += [name] if name else []
+        rest = rest[len(tokens(name)) if name else 1 :]
+    if not left_out:
+        return words, robots
+    return _without_lead(rest), tuple(name for name in robots if name not in left_out)
+
+
+_EXCEPT = (("except", "for"), ("except",), ("but", "not"), ("but",), ("apart", "from"), ("other", "than"))
+
+
+def _sent(words: Phrase, robots: tuple[str, ...]) -> tuple[Phrase, tuple[str, ...]] | None:
+    """For "send A to the door", "I want A to look at it", "A should go there", "could A go there"."""
+    flat = keys(words)
+    for name in robots:
+        called = keys(tokens(name))
+        for index in range(len(flat) - len(called)):
+            if flat[index : index + len(called)] != called:
+                continue
+            before, rest = flat[:index], words[index + len(called) :]
+            if _ends_with(before, _SENDING) and rest:
+                verb = () if rest[0].key == "to" and len(rest) > 1 and _is_verb(rest[1].key) else tokens("go")
+                rest = rest[1:] if not verb else rest
+                return (*verb, *rest), (name,)
+            if rest and (
+                _ends_with(before, _WISHING) and rest[0].key == "to" or before and before[-1] in _ASKING
+            ):
+                return _without_lead(rest), (name,)
+    return None
+
+
+_SENDING = (("send",), ("dispatch",), ("direct",), ("route",))
+_WISHING = (
+    ("i", "want"), ("i", "need"), ("we", "want"), ("we", "need"), ("would", "like"), ("instruct",), ("order",),
+    ("command",), ("tell",), ("ask",), ("get",), ("remind",), ("i", "would", "like"),
+)  # fmt: skip
+_ASKING = frozenset({"could", "can", "would", "will", "should", "let", "have", "make", "may", "might"})
+
+
+def _ends_with(flat: tuple[str, ...], endings: tuple[tuple[str, ...], ...]) -> bool:
+    return any(flat[-len(end) :] == end for end in endings)
+
+
+def _is_verb(word: str) -> bool:
+    return lexicon().verbs.match((word,)) is not None
+
+
+def _calls(words: Phrase, robots: tuple[str, ...]) -> list[tuple[int, str]]:
+    """Where robots are called: at the start of a clause, before an order."""
+    flat = keys(words)
+    found: list[tuple[int, str]] = []
+    for index in range(len(flat)):
+        for name in robots:
+            called = keys(tokens(name))
+            opens = index == 0 or flat[index - 1] in _BEFORE_CALLS or not words[index - 1].is_word
+            if flat[index : index + len(called)] == called and opens:
+                found.append((index, name))
+    return found
+
+
+_BEFORE_CALLS = frozenset(
+    {"and", "while", "but", "then", "hey", "meanwhile", "whereas", "let", "have", "tell", "send"}
+)
+
+
+def _without_end(words: Phrase) -> Phrase:
+    while words and (not words[-1].is_word or words[-1].key in _BEFORE_CALLS):
+        words = words[:-1]
+    return words
 
 
 def _called_first(words: Phrase, robots: tuple[str, ...]) -> tuple[Phrase, str]:
     flat = keys(words)
     start = 0
+    greeting = lexicon().greetings.match(flat)
+    if greeting is not None:
+        start = greeting[0]
     while start < len(flat) and (flat[start] in _CALLS or not words[start].is_word):
         start += 1
     for name in robots:

@@ -5,6 +5,7 @@ from __future__ import annotations
 from dataclasses import dataclass, replace
 
 from parley.language.offline.commands import Command
+from parley.language.offline.facts import find_fact
 from parley.language.offline.going import UnableError
 from parley.language.offline.lexicon import lexicon
 from parley.language.offline.looking import ASKING, Looking
@@ -29,7 +30,7 @@ class Carrying(Looking):
         if self.scene.is_person(theme):
             self._guide(command, theme)
             return
-        recipient, goal = self._destination(command)
+        recipient, goal = self._destination(command, theme)
         fetcher = self.catalogue.with_role("fetch")
         if fetcher is not None and self.catalogue.with_role("grasp") is None:
             self._invoke(fetcher, replace(command, theme=theme, recipient=recipient))
@@ -41,7 +42,8 @@ class Carrying(Looking):
                     self._stand_at(source)
                 self._look_for(theme)
             self._take(theme)
-        self.travel(goal, f"bring {the(name)} to {self._person(recipient) if recipient else goal.label}")
+        if goal.value != self.here:
+            self.travel(goal, f"bring {the(name)} to {self._person(recipient) if recipient else goal.label}")
         self._hand_over(theme, recipient, command)
         self.carried = ()
         self.scene.mention(recipient)
@@ -69,7 +71,7 @@ class Carrying(Looking):
             raise UnclearError(f"Where is {the(plain(theme))}?")
         return (place.via.fact.subject if place.via is not None and place.via.fact.subject else theme), place
 
-    def _destination(self, command: Command) -> tuple[Phrase, Place]:
+    def _destination(self, command: Command, theme: Phrase) -> tuple[Phrase, Place]:
         recipient = command.recipient
         if not recipient and not command.place and command.verb in {"take", "carry", "deliver", "transport"}:
             raise UnclearError("Where should I bring it?")
@@ -78,7 +80,16 @@ class Carrying(Looking):
         recipient = self.scene.referent(recipient) if recipient else ()
         if command.place:
             return recipient, self.scene.place(command.place)
+        if self._just_arrived() and keys(theme) == keys(self.carried) and not self._is_known(recipient):
+            return recipient, Place(self.here)
         return recipient, self._recipient_place(recipient)
+
+    def _just_arrived(self) -> bool:
+        mover = self.catalogue.mover
+        return bool(self.here and self.steps) and mover is not None and self.steps[-1].name == mover.name
+
+    def _is_known(self, recipient: Phrase) -> bool:
+        return self._grounds(recipient) or find_fact(recipient, self.scene.facts)[0] is not None
 
     def _person(self, recipient: Phrase) -> str:
         return "you" if keys(recipient) == ("operator",) else the(plain(recipient))
@@ -97,7 +108,7 @@ class Carrying(Looking):
             self.will.append(f"take {the(name)}")
         elif asker is not None:
             question = f"I cannot pick things up. Please put {the(name)} on me and tell me when it is done."
-            self.steps += self._said(asker, question, f"I cannot pick up {the(name)} myself")
+            self.steps += self._said(asker, question, f"ask you to hand over {the(name)}")
             self.will.append(f"ask you to put {the(name)} on me, because I cannot pick things up")
         else:
             self.notes.append(f"I cannot pick things up, so somebody has to put {the(name)} on me.")
@@ -156,7 +167,7 @@ class Carrying(Looking):
             self._invoke(placer, replace(command, theme=theme))
         elif asker is not None:
             question = f"Please take {the(plain(theme))} off me and tell me when it is done."
-            self.steps += self._said(asker, question, f"I cannot put down {the(plain(theme))} myself")
+            self.steps += self._said(asker, question, f"ask you to take {the(plain(theme))} off me")
             self.will.append(f"ask you to take {the(plain(theme))} off me")
         self.carried = ()
 

@@ -5,6 +5,7 @@ from __future__ import annotations
 from collections.abc import Callable, Sequence
 from dataclasses import dataclass, replace
 
+from parley.language.offline.conditions import is_rule, split_condition
 from parley.language.offline.facts import read_statement, strip_openers
 from parley.language.offline.lexicon import lexicon
 from parley.language.offline.text import Phrase, Word, keys, lemma
@@ -22,7 +23,8 @@ class Clause:
     is_question: bool = False
     """Whether its sentence ends with a question mark."""
     condition: Phrase = ()
-    """What must be so before it is done ("if ...")."""
+    """What must be so before it is done ("if ..."); empty with `conditional` for what was looked at last."""
+    conditional: bool = False
     otherwise: bool = False
     """To be done if the condition of the clause before does not hold."""
     first: bool = False
@@ -39,8 +41,14 @@ def clauses(message: Phrase, opens: Opens) -> list[Clause]:
     """
     result: list[Clause] = []
     for number, (sentence, asked) in enumerate(_sentences(message)):
+        parts = _conditional(sentence, opens)
         result.extend(
-            replace(clause, is_question=asked, sentence=number) for clause in _conditional(sentence, opens)
+            replace(
+                clause,
+                is_question=asked and (clause is parts[-1] or _inverted(clause.words)),
+                sentence=number,
+            )
+            for clause in parts
         )
     ordered: list[Clause] = []
     for clause in result:
@@ -53,6 +61,7 @@ def clauses(message: Phrase, opens: Opens) -> list[Clause]:
 
 def opens_command(words: Phrase, extra_verbs: Sequence[tuple[str, ...]] = ()) -> bool:
     """Whether a clause begins like an order: a verb in its base form after politeness."""
+    unasked = strip_openers(words)
     words = strip_openers(words, requests=True)
     flat = keys(words)
     if not flat:
@@ -66,10 +75,18 @@ def opens_command(words: Phrase, extra_verbs: Sequence[tuple[str, ...]] = ()) ->
     if found is None:
         return False
     kind = found[1].partition(":")[0]
+    if base[0] != flat[0] and flat[0].endswith("ed") and len(words) == len(unasked):
+        return False
     if flat[0] in lexicon().transition_verbs | lexicon().placing_verbs and base[0] != flat[0]:
         return False
     # Many words of the last class are nouns too ("water", "light"): alone they are not an order.
     return kind != "other" or len(words) > found[0]
+
+
+def _inverted(words: Phrase) -> bool:
+    """Whether a clause has the order of words of a question."""
+    first = keys(strip_openers(words))[:1]
+    return bool(first) and first[0] in lexicon().question_starts | lexicon().be | lexicon().auxiliaries
 
 
 def _sentences(message: Phrase) -> list[tuple[Phrase, bool]]:
@@ -86,60 +103,61 @@ def _sentences(message: Phrase) -> list[tuple[Phrase, bool]]:
 
 
 def _conditional(sentence: Phrase, opens: Opens) -> list[Clause]:
-    """For "If S, V, otherwise W" and "V if S"; everything else goes on to be cut."""
-    flat = keys(strip_openers(sentence))
-    words = strip_openers(sentence)
-    if flat[:1] == ("if",) or flat[:2] == ("in", "case"):
-        start = 1 if flat[0] == "if" else 2
-        cut = next((i for i in range(start + 2, len(flat)) if flat[i] in {",", "then"}), 0) or next(
-            (i for i in range(start + 3, len(flat)) if opens(words[i:]) and not _bare_verb_noun(flat, i)), 0
-        )
-        if cut:
-            condition = _trim(words[start:cut])
-            return _with_otherwise(words[cut:], condition, opens)
-    for index in range(2, len(flat) - 2):
-        if {"ask", "remind"} & set(flat[:index]) or flat[0] == "tell":
-            break
-        before = keys(words[:index])
-        if (
-            flat[index] == "if"
-            and lexicon().verbs.match_end((lemma(before[-1]), "if")) == 0
-            and flat[index + 1] not in {"you", "possible"}
-            and flat[index - 1]
-            not in {"as", "check", "see", "out", "know", "me", "look", "and", "inspect", "tell", "verify"}
-        ):
-            condition = _trim(words[index + 1 :])
-            return _with_otherwise(words[:index], condition, opens)
-    return _before_after(sentence, opens)
+    """What is done in any case, then what is done under a condition and what otherwise."""
+    parts = split_condition(sentence, opens)
+    if parts is None:
+        return _before_after(sentence, opens)
+    condition = _trim(parts.condition)
+    if is_rule(condition):
+        # A rule for later ("if you see smoke, stop and tell me") is kept whole.
+        return [Clause(_trim(parts.then), condition=condition)]
+    result = _before_after(_trim(parts.before), opens) if parts.before else []
+    for words, otherwise in ((parts.then, False), (parts.otherwise, True)):
+        for clause in _conditional(_trim(words), opens) if words else ():
+            result.append(
+                clause
+                if clause.condition or clause.conditional
+                else replace(clause, condition=condition, conditional=True, otherwise=otherwise)
+            )
+    return result
 
 
 def _bare_verb_noun(flat: tuple[str, ...], index: int) -> bool:
     return flat[index - 1] in lexicon().determiners | {"to", "of"}
 
 
-def _with_otherwise(words: Phrase, condition: Phrase, opens: Opens) -> list[Clause]:
-    flat = keys(words)
-    if keys(condition)[:1] and keys(condition)[0] in _WHOEVER:
-        # A rule for later ("if you see smoke, stop and tell me") is kept whole.
-        return [Clause(_trim(words), condition=condition)]
-    cut = next(
-        (i for i in range(len(flat)) if flat[i] in {"otherwise", "else"} or flat[i : i + 2] == ("if", "not")),
-        len(flat),
-    )
-    then = [replace(c, condition=condition) for c in _before_after(_trim(words[:cut]), opens)]
-    rest = words[cut + (2 if flat[cut : cut + 2] == ("if", "not") else 1) :]
-    return then + [
-        replace(c, condition=condition, otherwise=True)
-        for c in (_before_after(_trim(rest), opens) if rest else [])
-    ]
-
-
-_WHOEVER = frozenset(
-    {"you", "i", "we", "anyone", "anybody", "somebody", "someone", "anything", "something", "nobody"}
+_VIA = (
+    ("via",),
+    ("by", "way", "of"),
+    ("passing", "by"),
+    ("passing",),
+    ("stopping", "at"),
+    ("stopping", "by"),
+    ("with", "a", "stop", "at"),
 )
+_ON_THE_WAY = (("on", "your", "way", "to"), ("on", "the", "way", "to"), ("on", "your", "way", "back", "to"))
+
+
+def _on_the_way(sentence: Phrase) -> tuple[Phrase, Phrase] | None:
+    """For "go to A via B" and "visit B on your way to A": B, then A."""
+    flat = keys(sentence)
+    for index in range(1, len(flat) - 1):
+        for marker in (*_VIA, *_ON_THE_WAY):
+            size = len(marker)
+            if flat[index : index + size] != marker or index + size >= len(flat):
+                continue
+            before, after = sentence[:index], sentence[index + size :]
+            if flat[index - 1] in {"without", "not"}:
+                return None
+            visit = (Word("visit", "visit"), *after)
+            return (visit, before) if marker in _VIA else (before, visit)
+    return None
 
 
 def _before_after(sentence: Phrase, opens: Opens) -> list[Clause]:
+    passed = _on_the_way(sentence)
+    if passed is not None and opens(passed[0]) and opens(passed[1]):
+        return [clause for part in passed for clause in _cut(_trim(part), opens)]
     flat = keys(sentence)
     lead = strip_openers(sentence)
     lead_flat = keys(lead)
@@ -186,7 +204,9 @@ def _without_you(words: Phrase) -> Phrase:
     flat = keys(words)
     if flat[:1] in {("you",), ("i",), ("we",)}:
         skip = 2 if flat[1:2] and flat[1] in lexicon().auxiliaries | lexicon().be else 1
-        return words[skip:]
+        words = words[skip:]
+        # "Once you have inspected it": what is done is meant.
+        return (Word(lemma(words[0].key), lemma(words[0].key)), *words[1:]) if words else words
     return words
 
 
@@ -218,7 +238,11 @@ def _cut(sentence: Phrase, opens: Opens) -> list[Clause]:
             pieces.append((start, index, first))
             start = index + 1
             following = flat[index : index + 3] if flat[index] == "but" else flat[index + 1 : index + 3]
-            first = following[:2] == ("but", "first")
+            first = following[:2] == ("but", "first") or (
+                "but" in flat[index : index + 2]
+                and flat[-1] == "first"
+                and not {",", "then"} & set(flat[index + 1 :])
+            )
         index += 1
     if len(flat) > start:
         pieces.append((start, len(flat), first))
@@ -241,6 +265,11 @@ def _new_clause(sentence: Phrase, start: int, index: int, opens: Opens) -> bool:
         return keys(rest[:1])[0] not in lexicon().person_words
     if lexicon().corrections.match(keys(rest)) and keys(rest)[0] in {"i", "or", "no", "wait", "rather"}:
         return True
+    if rest[0].key in {"just", "only", "but"} and lexicon().prohibitions.match(keys(before)):
+        # "Do not go to the box, just to the door": what is wanted instead.
+        return True
+    if keys(rest[:2]) in _THE_REST and opens(before):
+        return True
     rest_flat = keys(strip_openers(rest))
     if rest_flat[:1] == ("not",) or rest_flat[:2] == ("do", "not"):
         return not set(keys(before)) & lexicon().quantifiers
@@ -256,6 +285,9 @@ def _new_clause(sentence: Phrase, start: int, index: int, opens: Opens) -> bool:
     return bool(sentence[index].key == "," and len(before) <= 3 and read_statement(rest) is not None)
 
 
+_THE_REST = frozenset(
+    {("the", "rest"), ("the", "others"), ("everything", "else"), ("nothing", "else"), ("all", "else")}
+)
 _SERIAL_VERBS = frozenset((verb,) for verb in ("go", "come", "run", "hurry", "drive", "head", "try"))
 
 

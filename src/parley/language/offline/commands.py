@@ -88,9 +88,15 @@ def read_command(
             Command("motion", "go", True, place=bare(words), words=words, clause=words) if avoided else None
         )
     kind, _, verb = found[1].partition(":")
+    if flat[0] != words[0].key and words[0].key.endswith("ed") and not requested:
+        return None
     rest = words[found[0] :]
     if verb == "move" and _moves_something(keys(rest)):
         kind = "transfer"
+    if rest and kind == "motion" and rest[0].key.endswith("ing"):
+        doing = lex.verbs.match(_base(rest))
+        if doing is not None and not doing[1].startswith("other:"):
+            return read_command(rest, is_person, extra_verbs)
     serial = _serial(flat[0], rest, kind)
     if serial is not None:
         inner = read_command(serial, is_person, extra_verbs)

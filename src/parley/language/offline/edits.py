@@ -14,7 +14,7 @@ from parley.language.offline.scene import Scene, UnclearError
 from parley.language.offline.text import Phrase, keys, lemma, plain, singular, split_name, tokens
 from parley.messages.chat import ActionCall, SystemCommand
 
-__all__ = ["Edit", "read_edit", "steps_of"]
+__all__ = ["Edit", "drop_verb", "of_plan", "read_edit", "steps_of"]
 
 _STEP_WORDS = frozenset(
     {"step", "action", "task", "item", "stop", "one", "order", "command", "part", "thing", "waypoint"}
@@ -37,6 +37,8 @@ class Edit:
 
     commands: tuple[SystemCommand, ...]
     reply: str
+    queue: tuple[ActionCall, ...] = ()
+    """Pending steps that were taken out and are put back in another order."""
 
 
 def read_edit(words: Phrase, scene: Scene) -> Edit | None:
@@ -47,23 +49,11 @@ def read_edit(words: Phrase, scene: Scene) -> Edit | None:
 
 
 def _drop(words: Phrase, scene: Scene) -> Edit | None:
-    flat = keys(words)
-    if not flat:
+    size = drop_verb(words)
+    if not size or size >= len(words):
         return None
-    verbs = lexicon().verb_classes["drop_step"]
-    first = lemma(flat[0])
-    size = next((n for n in (3, 2, 1) if " ".join((first, *flat[1:n])) in verbs), 0)
-    if not size or size >= len(flat):
-        return None
-    rest = keys(bare(words[size:]))
-    while (
-        rest[-3:] == ("of", "the", "plan")
-        or rest[-3:] == ("from", "the", "plan")
-        or rest[-3:] == ("in", "the", "plan")
-        or rest[-3:] == ("from", "the", "queue")
-        or rest[-3:] == ("in", "the", "queue")
-    ):
-        rest = rest[:-3]
+    first = lemma(words[0].key)
+    rest = keys(of_plan(bare(words[size:])))
     index = _step_index(rest, len(scene.situation.queue))
     if index is None:
         index = _named_step(rest, scene.situation.queue, first)
@@ -80,6 +70,31 @@ def _drop(words: Phrase, scene: Scene) -> Edit | None:
         (SystemCommand(command="pop", arguments={"parameters": index}),),
         f"I leave out step {index + 1}: {dropped}.",
     )
+
+
+def drop_verb(words: Phrase) -> int:
+    """How many words at the start ask for something to be left out; 0 if they do not."""
+    flat = keys(words)
+    if not flat:
+        return 0
+    verbs = lexicon().verb_classes["drop_step"]
+    first = lemma(flat[0])
+    return next((n for n in (3, 2, 1) if " ".join((first, *flat[1:n])) in verbs and n <= len(flat)), 0)
+
+
+def of_plan(phrase: Phrase) -> Phrase:
+    """Without "from the plan" and the like at the end."""
+    while len(phrase) > 3 and _is_plan(keys(phrase[-3:])):
+        phrase = phrase[:-3]
+    return phrase
+
+
+def _is_plan(end: tuple[str, ...]) -> bool:
+    prepositions, plans = (
+        {"of", "from", "in", "on"},
+        {"plan", "queue", "list", "route", "mission", "tour", "schedule"},
+    )
+    return end[0] in prepositions and end[1] in {"the", "your"} and end[2] in plans
 
 
 def _step_index(rest: tuple[str, ...], count: int) -> int | None:
@@ -159,6 +174,9 @@ def steps_of(command: Command, scene: Scene) -> list[int]:
 
 def _forget(words: Phrase, scene: Scene) -> Edit | None:
     flat = keys(words)
+    untrue = _untrue(words)
+    if untrue:
+        return _forget_about(untrue, scene)
     start = next((s for s in _FORGET_STARTS if flat[: len(s)] == s), None)
     if start is None or len(flat) == len(start):
         return None
@@ -170,6 +188,19 @@ def _forget(words: Phrase, scene: Scene) -> Edit | None:
     } & set(flat)
     if not strong:
         return None
+    if (
+        flat[len(start) :]
+        in {
+            ("all", "that"),
+            ("it", "all"),
+            ("all", "of", "it"),
+            ("all", "of", "that"),
+            ("the", "plan"),
+            ("all", "this"),
+        }
+        and scene.situation.queue
+    ):
+        return Edit((SystemCommand(command="clear"),), "I cancel everything that was planned.")
     rest = words[len(start) :]
     while (
         rest
@@ -220,6 +251,27 @@ def _forget(words: Phrase, scene: Scene) -> Edit | None:
     if not about or keys(about)[0] in {"that", "it", "this", "said", "told"}:
         return _forget_last(scene)
     return _forget_about(about, scene)
+
+
+def _untrue(words: Phrase) -> Phrase:
+    """For "what I told you about A is no longer true": A."""
+    flat = keys(words)
+    if "about" not in flat[:8] or not {"told", "said", "thing", "fact"} & set(flat[:5]):
+        return ()
+    at = flat.index("about")
+    link = next((i for i in range(at + 2, len(flat)) if flat[i] in lexicon().be), 0)
+    denied = set(flat[link:]) & {
+        "not",
+        "no",
+        "wrong",
+        "false",
+        "outdated",
+        "obsolete",
+        "incorrect",
+        "untrue",
+        "old",
+    }
+    return bare(words[at + 1 : link]) if link and denied else ()
 
 
 def _remove(name: str) -> SystemCommand:

@@ -109,7 +109,12 @@ def strip_openers(phrase: Phrase, *, requests: bool = False, reporting: bool = F
             continue
         flat = keys(phrase)
         sizes = [found[0] for table in tables if (found := table.match(flat)) is not None]
+        if requests and flat[0] == "to" and lex.verbs.match(flat, 1) is not None:
+            sizes.append(1)
         if not sizes or max(sizes) >= len(phrase):
+            break
+        verb = lex.verbs.match(flat)
+        if verb is not None and verb[0] > max(sizes) and not verb[1].startswith("other:"):
             break
         phrase = phrase[max(sizes) :]
     return phrase
@@ -121,8 +126,52 @@ def read_statement(phrase: Phrase) -> Fact | None:
     flat = keys(phrase)
     if len(flat) < 3 or flat[0] in lexicon().question_starts - {"when"}:
         return None
-    fact = _there_is(phrase) or _placed(phrase) or _place_first(phrase) or _found(phrase) or _said_of(phrase)
+    if flat[0] in {"i", "we"} and flat[1] in {"hope", "hoped", "wish", "wonder", "feel"}:
+        return None
+    denial = lexicon().corrections.match(flat)
+    if denial is not None and flat[0] == "that" and len(flat) - denial[0] > 3:
+        phrase = strip_openers(phrase[denial[0] :], reporting=True)
+    fact = (
+        _there_is(phrase)
+        or _left(phrase)
+        or _holds(phrase)
+        or _placed(phrase)
+        or _place_first(phrase)
+        or _found(phrase)
+        or _said_of(phrase)
+    )
     return None if fact is None else replace(fact, sentence=_sentence(phrase))
+
+
+_LEAVING = (("has", "left"), ("have", "left"), ("just", "left"), ("left",))
+_CONTAINING = frozenset({"holds", "contains", "stores", "houses", "hosts", "keeps"})
+
+
+def _left(phrase: Phrase) -> Fact | None:
+    """For "A has left the room": A is not there any more."""
+    flat = keys(phrase)
+    for index in range(1, min(6, len(flat) - 1)):
+        size = next((len(verb) for verb in _LEAVING if flat[index : index + len(verb)] == verb), 0)
+        if not size or flat[0] in {"i", "we", "they", "he", "she"} | _NOT_SUBJECTS:
+            continue
+        place, subject = bare(phrase[index + size :]), bare(phrase[:index])
+        if not place or noun_phrase(place).anchors or any(not word.is_word for word in phrase[:index]):
+            return None
+        return Fact(subject, place, "in", negated=True)
+    return None
+
+
+def _holds(phrase: Phrase) -> Fact | None:
+    """For "The box contains tea": the tea is in the box."""
+    flat = keys(phrase)
+    link = next((i for i in range(1, min(6, len(flat) - 1)) if flat[i] in _CONTAINING), 0)
+    if link and flat[link + 1] == "now":
+        phrase, flat = (*phrase[: link + 1], *phrase[link + 2 :]), (*flat[: link + 1], *flat[link + 2 :])
+    if link and flat[link - 1] == "now":
+        phrase, link = (*phrase[: link - 1], *phrase[link:]), link - 1
+    if not link or flat[0] in _NOT_SUBJECTS or link >= len(phrase) - 1:
+        return None
+    return Fact(bare(phrase[link + 1 :]), bare(phrase[:link]), "in", another=True)
 
 
 def _without_end(phrase: Phrase) -> Phrase:
@@ -335,6 +384,8 @@ def _operator(subject: Phrase) -> Phrase:
 def _sentence(phrase: Phrase) -> str:
     """The clause as a sentence about a third person, to be remembered."""
     flat = keys(phrase)
+    if flat[0] in {"that"} and (denial := lexicon().corrections.match(flat)) is not None:
+        return _sentence(strip_openers(phrase[denial[0] :], reporting=True))
     if flat[0] in {"i", "we"} and flat[1] in {"am", "are", "was", "were"}:
         text = "The operator is " + plain(phrase[2:])
     elif flat[0] in {"i", "we"}:

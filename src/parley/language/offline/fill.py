@@ -7,13 +7,18 @@ from typing import Any
 
 from parley.language.offline.catalogue import parameter_role, text_inputs
 from parley.language.offline.commands import Command
+from parley.language.offline.durations import duration_s
 from parley.language.offline.grounding import describe, ground_phrase
+from parley.language.offline.lexicon import lexicon
 from parley.language.offline.nouns import bare
 from parley.language.offline.scene import Scene
-from parley.language.offline.text import Phrase, keys, lemma, plain, tokens
+from parley.language.offline.text import Phrase, keys, lemma, plain, split_name, tokens
 from parley.messages.status import ActionInfo
 
 __all__ = ["arguments"]
+
+
+_OF_TIME = frozenset({"duration", "time", "seconds", "second", "s", "sec", "secs", "timeout", "delay"})
 
 
 def arguments(info: ActionInfo, command: Command, scene: Scene) -> dict[str, Any]:
@@ -44,9 +49,18 @@ def arguments(info: ActionInfo, command: Command, scene: Scene) -> dict[str, Any
     ]
     if not values and left and spare:
         values[left[0]] = _named(spare[0], scene)
-    numbers = [float(text) for text in re.findall(r"-?\d+(?:\.\d+)?", plain(command.words))]
+    numbers = [
+        float(lexicon().numbers.get(word.key, word.key))
+        for word in command.words
+        if word.key in lexicon().numbers or re.fullmatch(r"-?\d+(?:\.\d+)?", word.key)
+    ]
     for name, kind in info.inputs.items():
-        if kind == "number" and "::" not in name and numbers:
+        if kind != "number" or "::" in name:
+            continue
+        span_s = duration_s(command.words) if set(split_name(name)) & _OF_TIME else None
+        if span_s is not None:
+            values[name] = span_s
+        elif numbers:
             values[name] = numbers.pop(0)
     return values
 

@@ -9,7 +9,7 @@ from parley.language.offline.catalogue import Catalogue, call, parameter_role, t
 from parley.language.offline.commands import Command
 from parley.language.offline.facts import find_fact
 from parley.language.offline.fill import arguments
-from parley.language.offline.nouns import bare
+from parley.language.offline.nouns import bare, noun_phrase
 from parley.language.offline.saying import the
 from parley.language.offline.scene import OPERATOR, Place, Scene, UnclearError
 from parley.language.offline.text import Phrase, keys, plain, tokens
@@ -75,10 +75,24 @@ class Going:
         }:
             self._back(command)
             return
+        middle = self._middle(command.place)
+        if middle is not None:
+            self._go_to_numbers(middle)
+            return
         for member in self.scene.several(command.place):
             place = self.scene.place(member)
             if place.value != self.here:
                 self.travel(place, f"go to {place.label}")
+
+    def _middle(self, phrase: Phrase) -> tuple[float, float] | None:
+        """For "between A and B": the point halfway."""
+        noun = noun_phrase(phrase)
+        if noun.core or "between" not in noun.relation or len(noun.anchors) != 2:
+            return None
+        items = [self.scene.place(anchor).item for anchor in noun.anchors]
+        if items[0] is None or items[1] is None:
+            return None
+        return (items[0].x_m + items[1].x_m) / 2, (items[0].y_m + items[1].y_m) / 2
 
     def _go_to_numbers(self, numbers: tuple[float, float]) -> None:
         mover = self.catalogue.mover

@@ -13,6 +13,7 @@ from dataclasses import dataclass
 from functools import lru_cache
 
 from rapidfuzz import fuzz
+from rapidfuzz.distance import OSA
 
 from parley.language.base import Grounding
 from parley.language.offline import spatial
@@ -47,7 +48,7 @@ def ground_phrase(
         objects: The map.
         pose: The robot's.
         among: The only objects that may be meant, if given; the others may still be referred to.
-        strict: Whether typing errors are ruled out.
+        strict: Whether the object must be called so: no other word of its description, no typing error.
     """
     eligible = among or objects
     by_id = [item for item in eligible if item.id.lower() == plain(phrase).lower()]
@@ -172,7 +173,7 @@ def _candidates(
         return (told, ()) if told else (list(profiles), generic)
     later = tuple(word for word in generic if word in _SETTLED_LATER)
     steps = (_by_head, _by_synonym, _by_kind, _by_any_word, _by_typo)
-    for step in steps[:-1] if strict else steps:
+    for step in steps[:-2] if strict else steps:
         for words, rest in ((generic, ()), (settled, later)):
             found = [profile for profile in step(words, profiles) if _labels_fit(words, profile)]
             if found:
@@ -244,10 +245,21 @@ def _by_typo(words: tuple[str, ...], profiles: Sequence[_Profile]) -> list[_Prof
         word if word in known or word in common or _is_label(word) else closest(word, known) or word
         for word in words
     )
+    if mended == words and len(words) > 1 and words[0] in known:
+        mended = _mended_beside(words, profiles)
     if mended == words:
         joined = "".join(words)
         return _by_head((joined,), profiles) if len(words) > 1 else []
     return _by_head(mended, profiles) or _by_synonym(mended, profiles) or _by_any_word(mended, profiles)
+
+
+def _mended_beside(words: tuple[str, ...], profiles: Sequence[_Profile]) -> tuple[str, ...]:
+    """A short last word mended where all others fit one object: "charging pol" beside "charging pole"."""
+    fitting = [p for p in profiles if set(words[:-1]) <= p.words]
+    heads = {head for p in fitting for head in p.heads if head[:1] == words[-1][:1] and len(words[-1]) > 2}
+    near = [head for head in heads if OSA.distance(head, words[-1]) == 1]
+    unknown = words[-1] not in lexicon().vocabulary and not _is_label(words[-1])
+    return (*words[:-1], near[0]) if len(near) == 1 and unknown else words
 
 
 def _labels_fit(words: Iterable[str], profile: _Profile) -> bool:
@@ -296,11 +308,16 @@ def _by_relation(
         if where.outcome == "match" and _is_called(where.candidates[0], anchor):
             anchors.append(where.candidates[0])
     wanted = tuple(sorted({word for anchor in noun.anchors for word in _comparable(anchor)}))
-    told = [
-        p.item
-        for p in found
-        if any(set(other) <= p.words for other in variants(wanted)) and p.item not in anchors
-    ]
+    compares = "between" in noun.relation or noun.relation.startswith(("far", "away"))
+    told = (
+        []
+        if compares and len(anchors) == len(noun.anchors)
+        else [
+            p.item
+            for p in found
+            if any(set(other) <= p.words for other in variants(wanted)) and p.item not in anchors
+        ]
+    )
     if told or len(anchors) < len(noun.anchors):
         return told or items
     return spatial.by_anchor([i for i in items if i not in anchors] or items, noun.relation, anchors, pose)

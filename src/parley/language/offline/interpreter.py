@@ -11,14 +11,16 @@ from parley.language.offline import addressing, edits, questions, social
 from parley.language.offline.abilities import abilities, cannot
 from parley.language.offline.clauses import Clause, clauses, opens_command
 from parley.language.offline.commands import Command, read_command
-from parley.language.offline.facts import Fact, read_statement, strip_openers
+from parley.language.offline.facts import Fact, find_fact, read_statement, strip_openers
 from parley.language.offline.followup import pending_request
 from parley.language.offline.lexicon import lexicon
 from parley.language.offline.mending import mended
 from parley.language.offline.noting import Noting
 from parley.language.offline.nouns import bare, noun_phrase
+from parley.language.offline.replanning import inserted, read_replanning, visit_of, without
 from parley.language.offline.saying import listing, the, whole_sentence
 from parley.language.offline.scene import Scene, UnclearError
+from parley.language.offline.stories import mentioned, told_around
 from parley.language.offline.tasks import Tasks, UnableError
 from parley.language.offline.text import Phrase, Word, keys, lemma, plain, tokens
 from parley.language.offline.wishes import missing, need, wish
@@ -47,9 +49,15 @@ def interpret(situation: Situation) -> ChatAction:
     if control is not None:
         command, reply = _CONTROL_REPLIES[control]
         return _say(situation, reply, commands=(SystemCommand(command=command),))
-    if addressing.calls_several(tokens(message), situation.robots):
-        return _say(situation, "Please give each robot its own message. What should I do myself?")
-    words, targets = addressing.addressed(mended(tokens(message), situation), situation)
+    words = mended(tokens(message), situation)
+    own = addressing.own_part(words, situation)
+    if own is not None:
+        mine = interpret(replace(situation, message=plain(own[0]), robots=(situation.robot,)))
+        others = f"I do only my part; {listing(own[1])} must get this message too."
+        return mine.model_copy(
+            update={"message_response": f"{mine.message_response} {others}", "targets": (situation.robot,)}
+        )
+    words, targets = addressing.addressed(words, situation)
     situation = replace(situation, robot=targets[0] if targets else situation.robot)
     if not any(word.is_word for word in words):
         return _say(situation, "Yes? What can I do for you?", targets=targets)
@@ -103,6 +111,8 @@ class _Reader(Noting):
     """What the message before asked for."""
     _leads_on: bool = False
     """Whether this message begins like a continuation."""
+    unread: list[Phrase] = field(default_factory=list)
+    """Clauses that mean nothing here."""
     _parts: Sequence[Clause] = ()
     _at: int = 0
     _before_last: tuple[int, int] = (0, 0)
@@ -112,29 +122,61 @@ class _Reader(Noting):
 
     def read(self, words: Phrase) -> ChatAction:
         self._mention_history()
+        edit = read_replanning(words, self.scene)
+        if edit is not None:
+            self.commands.extend(edit.commands)
+            return self._result(edit.reply, edit.queue)
+        before: tuple[ActionCall, ...] = ()
+        place = inserted(words, self.scene)
+        if place is not None:
+            words, at = place
+            before = self.scene.situation.queue[at:]
+            if any(step.flow is not None for step in before):
+                before = ()
+            count = len(self.scene.situation.queue)
+            taken = range(count - 1, count - 1 - len(before), -1)
+            self.commands.extend(SystemCommand(command="pop", arguments={"parameters": i}) for i in taken)
         parts = clauses(words, lambda phrase: opens_command(phrase, self.scene.catalogue.verbs))
         try:
             self._parts = parts
             self._leads_on = bool(words) and words[0].key in {"and", "now", "then", "next", "also"}
             for index, clause in enumerate(parts):
+                if index >= len(self._parts):
+                    break
                 self._at = index
                 self._clause(clause, alone=len(parts) == 1, index=index)
+            self._complain()
         except UnclearError as unclear:
+            self.commands = [c for c in self.commands if c.command != "pop"]
             return self._result(unclear.question, (), choices=unclear.choices)
         except UnableError as unable:
+            self.commands = [c for c in self.commands if c.command != "pop"]
             return self._result(cannot(unable.what, self.scene), ())
         self.learn()
-        return self._result(self._reply(), self.tasks.steps)
+        return self._result(self._reply(), (*self.tasks.steps, *before))
+
+    def _complain(self) -> None:
+        """Ask about what was not understood, unless it was only told around something that was."""
+        if not self.unread:
+            return
+        if not (self.tasks.steps or self.commands or self.replies):
+            raise UnclearError(f"{social.not_understood(self.unread[0])} {abilities(self.scene)}")
+        for words in self.unread:
+            if not told_around(words):
+                self.replies.append(whole_sentence(f"I did not understand “{plain(words)[:80]}”"))
 
     # -- clauses --
 
     def _clause(self, clause: Clause, *, alone: bool, index: int) -> None:
         start = len(self.tasks.steps)
-        if clause.condition:
+        if clause.condition or clause.conditional:
             self._condition(clause)
             return
         clause = self._corrected(self._instead(clause))
         if self.tasks.steps and keys(strip_openers(clause.words)) in _REPORTS:
+            return
+        called = {part for name in self.scene.situation.robots for part in keys(tokens(name))} | {"robot"}
+        if set(keys(strip_openers(clause.words))) <= called | {"dear", "my", "hi", "hello"}:
             return
         if not clause.words or lexicon().adverbs.match(keys(clause.words)) == (
             len(clause.words),
@@ -143,11 +185,29 @@ class _Reader(Noting):
             return
         if self._order(clause, alone, index) or self._spoken(clause):
             return
+        if self._named(clause):
+            return
         command = self._command(clause)
         if command is not None:
             self._do(command)
         elif len(self.tasks.steps) == start and not self.state(clause):
             self._fallback(clause, alone=alone)
+
+    def _named(self, clause: Clause) -> bool:
+        """For "the chair A is on, go there": named by what is remembered, asked for by the next clause."""
+        words = strip_openers(clause.words)
+        if self._at == len(self._parts) - 1 or opens_command(words):
+            return False
+        item = self.scene.told_apart(words)
+        if (
+            item is None
+            or not noun_phrase(words).core
+            or read_command(words, self.scene.is_person) is not None
+        ):
+            return False
+        self.scene.mention(tokens(item.description))
+        self.scene.places.append(tokens(item.description))
+        return True
 
     def _corrected(self, clause: Clause) -> Clause:
         """For "... I mean the desk": what the clause before it asked for is taken back."""
@@ -202,12 +262,24 @@ class _Reader(Noting):
             command, reply = _CONTROL_REPLIES[control]
             self._command_once(SystemCommand(command=command), reply)
             return True
-        edit = edits.read_edit(words, self.scene)
+        edit = self._dropped(words) or edits.read_edit(words, self.scene)
         if edit is not None:
             self.commands.extend(edit.commands)
             self.replies.append(edit.reply)
             return True
         return False
+
+    def _dropped(self, words: Phrase) -> edits.Edit | None:
+        """For "drop the box", "forget about the box" with a visit to the box pending."""
+        words = strip_openers(words, requests=True)
+        verb = edits.drop_verb(words)
+        if not verb or verb >= len(words) or not self.scene.situation.queue:
+            return None
+        rest = edits.of_plan(bare(words[verb:]))
+        if {"inspect", "inspection", "inspecting", "look", "looking", "check", "checking"} & set(keys(rest)):
+            return None
+        at = visit_of(rest, self.scene)
+        return None if at is None else without(at, self.scene)
 
     def _spoken(self, clause: Clause) -> bool:
         """Questions, and what is only social."""
@@ -226,14 +298,37 @@ class _Reader(Noting):
         return False
 
     def _look_for_answer(self, answer: questions.Answer) -> None:
+        if self._goes_to_look():
+            self._look_now(answer)
+            self._parts = self._parts[: self._at + 1]
+            return
+        if answer.counts and self.scene.catalogue.with_role("search") is not None:
+            self._look_now(answer)
+            return
         if self.scene.hints and questions.is_yes(self.scene.hints[0]):
             self.scene.hints.pop(0)
-            verb = ("look",) if answer.look[0].key == "at" else ("check", "whether")
-            command = read_command((*(Word(v, v) for v in verb), *answer.look), self.scene.is_person)
-            if command is not None:
-                self.tasks.do(command)
+            self._look_now(answer)
             return
         raise UnclearError(answer.text, ("yes", "no"))
+
+    def _goes_to_look(self) -> bool:
+        """Whether the next clause says to go and look, and nothing more: "Is it open? Please check."."""
+        following = self._parts[self._at + 1 : self._at + 2]
+        command = read_command(following[0].words, self.scene.is_person) if following else None
+        return (
+            command is not None
+            and command.kind in {"look", "whether"}
+            and not command.place
+            and keys(command.theme) in {(), ("it",), ("that",), ("this",)}
+        )
+
+    def _look_now(self, answer: questions.Answer) -> None:
+        verb = (
+            ("count",) if answer.counts else ("look",) if answer.look[0].key == "at" else ("check", "whether")
+        )
+        command = read_command((*(Word(v, v) for v in verb), *answer.look), self.scene.is_person)
+        if command is not None:
+            self.tasks.do(command)
 
     def _command(self, clause: Clause) -> Command | None:
         command = read_command(clause.words, self.scene.is_person, self.scene.catalogue.verbs)
@@ -300,7 +395,10 @@ class _Reader(Noting):
     def _do(self, command: Command) -> None:
         if command.negated:
             self._do_not(command)
+            self.last = self.last or replace(command, negated=False)
             return
+        if command.kind == "transfer" and command.verb in {"take"} and "instead" in keys(command.clause):
+            command = replace(command, kind="motion", verb="go", place=command.theme, theme=())
         if command.kind == "need":
             # Said before what is wanted ("X is cold, get him Z"), the need only explains; alone it asks.
             self.last = command
@@ -348,7 +446,9 @@ class _Reader(Noting):
 
     def _condition(self, clause: Clause) -> None:
         """Look first, then act or not."""
-        if not self._same_condition(clause):
+        if not clause.condition:
+            self._checked = ((), self._last_look())
+        elif not self._same_condition(clause):
             protocol = keys(clause.condition)[:1] in {
                 ("you",),
                 ("i",),
@@ -373,7 +473,7 @@ class _Reader(Noting):
             self.tasks.do(look)
             self._checked = (clause.condition, len(self.tasks.steps) - 1)
         start = len(self.tasks.steps)
-        self._clause(replace(clause, condition=()), alone=False, index=1)
+        self._clause(replace(clause, condition=(), conditional=False), alone=False, index=1)
         flow = Flow(if_=FlowIf(step=self._checked[1], result=not clause.otherwise))
         self.tasks.steps[start:] = [
             step.model_copy(update={"flow": flow}) for step in self.tasks.steps[start:]
@@ -383,6 +483,22 @@ class _Reader(Noting):
             self.tasks.will[-1] = f"{word}, {self.tasks.will[-1]}"
 
     _checked: tuple[Phrase, int] = ((), 0)
+
+    def _last_look(self) -> int:
+        """The step that looked last, for "if not, ...".
+
+        Raises:
+            UnclearError: Nothing was looked at.
+        """
+        looks = {
+            info.name
+            for info in self.scene.catalogue.infos
+            if self.scene.catalogue.roles(info) & {"look", "search"}
+        }
+        for index in range(len(self.tasks.steps) - 1, -1, -1):
+            if self.tasks.steps[index].name in looks:
+                return index
+        raise UnclearError("What does that depend on? Please tell me what I should look at first.")
 
     def _same_condition(self, clause: Clause) -> bool:
         return bool(self._checked[0]) and keys(self._checked[0]) == keys(clause.condition)
@@ -401,8 +517,18 @@ class _Reader(Noting):
             self.scene.mention(noun.phrase)
             self.scene.places.append(noun.phrase)
             return
+        if found and {"please", "now", "immediately", "asap", "quickly", "next"} & set(keys(clause.words)):
+            self._do(Command("motion", "go", place=noun.phrase, words=noun.phrase, clause=clause.words))
+            return
         if found:
             raise UnclearError(f"What should I do with {the(found)}? I can go there or have a look at it.")
+        if not alone and (told_around(words) or self._at < len(self._parts) - 1):
+            # Stories around an order are no orders; what cannot be one is only mentioned if nothing else is asked.
+            self.unread.append(words)
+            for phrase in mentioned(words, self.scene):
+                self.scene.mention(phrase)
+                self.scene.places.append(phrase)
+            return
         if not alone and (self.tasks.steps or self.commands or self.replies):
             self.replies.append(whole_sentence(f"I did not understand “{plain(words)[:80]}”"))
             return
@@ -439,6 +565,26 @@ class _Reader(Noting):
                     self.scene.mention(fact.subject)
                     if fact.place:
                         self.scene.places.append(fact.place)
+                else:
+                    self._mention_names(part.words)
+
+    def _mention_names(self, words: Phrase) -> None:
+        """What a question or a fragment was about."""
+        about = words
+        while len(about) > 1 and about[0].key in lexicon().question_starts | lexicon().be | {
+            "about",
+            "do",
+            "you",
+            "know",
+        }:
+            about = about[1:]
+        known = find_fact(bare(about), self.scene.facts, locations=False)[0]
+        if known is not None:
+            self.scene.mention(bare(about))
+            return
+        for phrase in mentioned(words, self.scene):
+            self.scene.mention(phrase)
+            self.scene.places.append(phrase)
 
     def _reply(self) -> str:
         if self.last is not None and self.last.kind == "need" and not self.tasks.steps:

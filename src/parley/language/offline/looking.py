@@ -2,21 +2,26 @@
 
 from __future__ import annotations
 
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 
 from parley.language.offline.catalogue import parameter_role, text_inputs
 from parley.language.offline.commands import Command
 from parley.language.offline.going import FORWARD, Going, UnableError
-from parley.language.offline.nouns import bare
+from parley.language.offline.nouns import bare, noun_phrase
 from parley.language.offline.saying import the
 from parley.language.offline.scene import Place, UnclearError
-from parley.language.offline.text import Phrase, keys, plain
+from parley.language.offline.text import Phrase, keys, plain, tokens
 from parley.messages.status import ActionInfo
 
 __all__ = ["ASKING", "Looking"]
 
 ASKING = frozenset({"it", "that", "this", "them", "there", "here", "those", "these"})
 """Words that point at something said before."""
+
+
+def _start_of(flat: tuple[str, ...], relation: str) -> int:
+    wanted = tuple(relation.split())
+    return next((i for i in range(len(flat)) if flat[i : i + len(wanted)] == wanted), len(flat))
 
 
 @dataclass
@@ -37,12 +42,39 @@ class Looking(Going):
             and len(command.theme) < 3
         ):
             raise UnableError("turn my camera")
+        if not command.theme and not self.here and self.scene.places:
+            self._stand_at(self.scene.place(self.scene.places[-1]))
+            place = self.scene.places[-1]
+            self._add_look(looker, plain(place), f"look at {the(plain(place))}")
+            return
         if not command.theme:
             request = "whether " + plain(command.words) if command.kind == "whether" else "what can be seen"
             self._add_look(looker, request, "look around")
             return
+        inner = self._inside(command)
+        if inner is not None:
+            self._look_there(inner, looker)
+            return
         for member in self.scene.several(command.theme):
             self._look_at(member, command, looker)
+
+    def _inside(self, command: Command) -> Command | None:
+        """For "count the cups on the table": at the table, look for the cups."""
+        if command.kind == "whether":
+            subject = keys(bare(command.theme))
+            if self._grounds(command.theme) or (subject and subject[0] in ASKING):
+                return None
+            noun = noun_phrase(command.words)
+        else:
+            if self.scene.ground(command.theme).outcome != "none":
+                return None
+            noun = noun_phrase(command.theme)
+        if len(noun.anchors) != 1 or noun.relation in {"of", "with", "from"} or not noun.core:
+            return None
+        if self.scene.ground(noun.anchors[0]).outcome == "none":
+            return None
+        theme = bare(command.theme[: _start_of(keys(command.theme), noun.relation)])
+        return replace(command, theme=theme, place=noun.anchors[0])
 
     def _look_there(self, command: Command, looker: ActionInfo) -> None:
         """Something in or at a place: "the shelf for leaks", "whether the cup is on the table"."""
@@ -66,7 +98,9 @@ class Looking(Going):
             return
         place = self._place_or_here(member)
         name = plain(bare(self.scene.referent(member)))
-        request = place.value if place is not None and place.item is not None and place.via is None else name
+        part = " of " in f" {name.lower()} " and self.scene.whole(tokens(name)) is not None
+        exact = place is not None and place.item is not None and place.via is None and not part
+        request = place.value if place is not None and exact else name
         self._stand_at(place)
         self._add_look(looker, request, f"look at {the(request)}")
 

@@ -25,7 +25,28 @@ def mended(words: Phrase, situation: Situation) -> Phrase:
     for info in situation.catalogue:
         known.update(split_name(info.name))
     known.update(name.lower() for name in situation.robots)
-    return mend(words, frozenset(known), lexicon().often_mistyped, _verbs())
+    return _without_haste(mend(words, frozenset(known), lexicon().often_mistyped, _verbs()))
+
+
+_HASTE = frozenset(
+    ["quick", "brief", "short", "close", "closer", "good", "proper", "careful", "thorough", "little", "nice"]
+)
+_DEEDS = frozenset(["look", "peek", "glance", "visit", "picture", "photo", "trip", "stop", "check", "round"])
+
+
+def _without_haste(words: Phrase) -> Phrase:
+    """For "have a quick look" reads "have a look": how it is done changes nothing."""
+    flat = tuple(word.key for word in words)
+    return tuple(
+        word
+        for index, word in enumerate(words)
+        if not (
+            word.key in _HASTE
+            and flat[index - 1 : index] in {("a",), ("another",)}
+            and flat[index + 1 : index + 2]
+            and flat[index + 1] in _DEEDS
+        )
+    )
 
 
 @cache

@@ -51,9 +51,9 @@ def bare(phrase: Phrase) -> Phrase:
     """Without punctuation and fillers around it and without determiners before it."""
     lex = lexicon()
     words = list(phrase)
-    while words and not words[-1].is_word:
-        words.pop()
     while True:
+        while words and not words[-1].is_word:
+            words.pop()
         size = lex.adverbs.match_end(keys(words))
         if not size or size >= len(words):
             break
@@ -135,7 +135,12 @@ def _first_relation(phrase: Phrase) -> tuple[int, int]:
             found = lex.places.match(flat, index + 1)
             if found:
                 return index, 1 + found[0]
-        if flat[index] in _SUPERLATIVES and index + 1 < len(flat) and flat[index + 1] != "to":
+        if flat[index] in _SUPERLATIVES and flat[index + 1 : index + 2] not in {
+            ("to",),
+            ("from",),
+            ("away",),
+            (),
+        }:
             continue
         found = lex.places.match(flat, index)
         if found and flat[index] not in {"of"} and index + found[0] < len(flat):

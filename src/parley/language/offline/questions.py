@@ -7,7 +7,7 @@ from dataclasses import dataclass
 from functools import cache
 
 from parley.language.offline.abilities import abilities
-from parley.language.offline.clauses import Clause
+from parley.language.offline.clauses import Clause, opens_command
 from parley.language.offline.facts import Remembered, find_fact, strip_openers
 from parley.language.offline.grounding import describe, ground_phrase
 from parley.language.offline.lexicon import lexicon
@@ -28,6 +28,8 @@ class Answer:
 
     text: str
     look: Phrase = ()
+    counts: bool = False
+    """Whether `look` names what is to be counted instead."""
 
 
 @cache
@@ -86,7 +88,7 @@ def answer(clause: Clause, scene: Scene) -> Answer | None:
         found = reader(words, flat, scene, clause.is_question or wrapped)
         if found is not None:
             return found
-    return _open_question(flat, clause.is_question)
+    return _open_question(words, clause.is_question)
 
 
 def _unwrapped(words: Phrase) -> tuple[Phrase, bool]:
@@ -120,7 +122,8 @@ def _begins(flat: tuple[str, ...], start: tuple[str, ...]) -> bool:
     return flat[: len(start)] == start
 
 
-def _open_question(flat: tuple[str, ...], marked: bool) -> Answer | None:
+def _open_question(words: Phrase, marked: bool) -> Answer | None:
+    flat = keys(words)
     if (
         flat[0] in {"do", "does", "did", "have", "has", "are"}
         and flat[1:2]
@@ -129,7 +132,8 @@ def _open_question(flat: tuple[str, ...], marked: bool) -> Answer | None:
     ):
         return Answer("I do not know that. Tell me, and I will remember it.")
     if flat[0] in lexicon().question_starts and not (flat[0] == "when" and not marked):
-        if flat[0] == "how" and flat[1:2] == ("about",):
+        if flat[1:2] == ("about",) or opens_command(words):
+            # "Why don't you go to ..." asks for it.
             return None
         return Answer("I do not know that. Tell me, and I will remember it.")
     return None
@@ -287,6 +291,11 @@ def _where(words: Phrase, flat: tuple[str, ...], scene: Scene, _: bool) -> Answe
             "put",
             "get",
             "keep",
+            "leave",
+            "store",
+            "place",
+            "hide",
+            "last",
         }:
             rest = rest[1:]
     elif flat[:3] in {("have", "you", "seen"), ("did", "you", "see"), ("what", "room", "is")}:
@@ -354,6 +363,17 @@ def _how_many(words: Phrase, flat: tuple[str, ...], scene: Scene, _: bool) -> An
     end = next((i for i in range(start + 1, len(flat)) if flat[i] in lexicon().be | {"do", "can"}), len(flat))
     about = bare(words[start:end])
     found = ground_phrase(about, scene.objects) if about else None
+    where = noun_phrase(words[start:]) if start == 2 else None
+    if where is not None and where.core and len(where.anchors) == 1 and where.relation != "of":
+        if ground_phrase(where.anchors[0], scene.objects).outcome == "match" and (
+            found is None or found.outcome == "none"
+        ):
+            look = (*about, *tokens(where.relation), *where.anchors[0])
+            return Answer(
+                f"I do not know. Shall I go to {the(plain(where.anchors[0]))} and have a look?",
+                look,
+                counts=True,
+            )
     if found is None or found.outcome == "none":
         return Answer(f"I do not know of any {plain(about)}.") if start == 2 else None
     names = listing([the(describe(item, scene.objects)) for item in found.candidates])

@@ -93,6 +93,9 @@ def _candidates(situation: ErrorSituation) -> list[MapObject]:
         if isinstance(entry, dict) and isinstance(entry.get("description"), str):
             identifier = str(entry.get("id", entry["description"]))
             result.append(known.get(identifier) or MapObject(identifier, entry["description"], 0.0, 0.0))
+        elif isinstance(entry, str):
+            named = next((item for item in situation.objects if entry in {item.id, item.description}), None)
+            result.append(named or MapObject(entry, entry, 0.0, 0.0))
     return result
 
 
@@ -305,7 +308,7 @@ def _told(situation: ErrorSituation, relation: str, place: str) -> list[SystemCo
         return []
     sentence = f"{capital(the(wanted))} is {relation} {the(place)}"
     fact = read_statement(tokens(sentence))
-    if fact is None or keys(tokens(wanted)) == keys(tokens(place)):
+    if fact is None or set(keys(tokens(wanted))) <= set(keys(tokens(place))):
         return []
     name = memory_name(fact, remembered(situation.memory))
     return [

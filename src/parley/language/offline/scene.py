@@ -12,6 +12,7 @@ from parley.language.offline.facts import Fact, Remembered, find_fact, memory_na
 from parley.language.offline.grounding import describe, ground_phrase
 from parley.language.offline.lexicon import lexicon
 from parley.language.offline.nouns import NounPhrase, bare, coordinated, noun_phrase
+from parley.language.offline.relative import described_by_facts
 from parley.language.offline.saying import listing, the
 from parley.language.offline.text import Phrase, Word, keys, plain, singular, tokens
 from parley.messages.memory import MemoryEntry
@@ -20,6 +21,21 @@ from parley.world.object_map import MapObject
 __all__ = ["Place", "Scene", "UnclearError"]
 
 _MAX_HOPS = 3
+_ALL_OF_THEM = frozenset(
+    tuple(text.split())
+    for text in (
+        "both",
+        "all",
+        "both of them",
+        "all of them",
+        "all three",
+        "all of those",
+        "both of those",
+        "every one",
+        "each",
+        "each of them",
+    )
+)
 OPERATOR = (Word("operator", "operator"),)
 
 
@@ -87,9 +103,21 @@ class Scene:
 
     def ground(self, phrase: Phrase) -> Grounding:
         """What the phrase means on the map; what is remembered by that very name is no misspelt object."""
+        told = self.told_apart(phrase)
+        if told is not None:
+            return Grounding("match", (told,))
         flat = keys(bare(phrase))
         remembered_so = any(keys(item.fact.subject) == flat for item in self.facts)
         return ground_phrase(phrase, self.objects, self.situation.robot_pose, strict=remembered_so)
+
+    def told_apart(self, phrase: Phrase) -> MapObject | None:
+        """The object that is described by what is remembered of it, e.g. "the chair A is on"."""
+        found = described_by_facts(phrase, self.objects, self.facts)
+        if found is None:
+            return None
+        for fact in found[1]:
+            self.use(fact)
+        return found[0]
 
     def is_person(self, phrase: Phrase) -> bool:
         """Whether words name somebody rather than something."""
@@ -165,6 +193,8 @@ class Scene:
         if found.outcome == "match":
             item = found.candidates[0]
             return Place(describe(item, self.objects), item, via)
+        if found.outcome != "match" and (whole := self.whole(phrase)) is not None:
+            return Place(describe(whole, self.objects), whole, via)
         if found.outcome == "ambiguous":
             # What a memory leaves open is found out on the way; only the operator's own words are asked.
             if remembered_words:
@@ -182,6 +212,16 @@ class Scene:
         if remembered_words or not self.objects:
             return Place(plain(bare(phrase)), None, via)
         raise self.unknown(phrase, found.candidates)
+
+    def whole(self, phrase: Phrase) -> MapObject | None:
+        """For "the handle of the door", the door: what is no object itself may be a part of one."""
+        flat = keys(phrase)
+        if "of" not in flat[1:-1] or find_fact(phrase, self.facts)[0] is not None:
+            return None
+        if ground_phrase(phrase[: flat.index("of", 1)], self.objects).outcome != "none":
+            return None
+        found = self.ground(phrase[flat.index("of", 1) + 1 :])
+        return found.candidates[0] if found.outcome == "match" else None
 
     def told_place(self, phrase: Phrase, near: Sequence[MapObject] = ()) -> Place | None:
         """Where the operator's answer to an earlier question puts something; it is remembered."""
@@ -288,6 +328,16 @@ class Scene:
 
     def several(self, phrase: Phrase) -> list[Phrase]:
         """The things a phrase names one by one: "A and B", "all chairs", "both", "every X except Y"."""
+        told = self.told_apart(phrase)
+        if told is not None:
+            return [tokens(describe(told, self.objects))]
+        phrase = self._uncounted(phrase)
+        everything = next((h for h in self.hints if keys(bare(tokens(h.lower()))) in _ALL_OF_THEM), None)
+        if everything is not None:
+            found = self.ground(phrase)
+            if found.outcome == "ambiguous":
+                self.hints.remove(everything)
+                return [tokens(describe(item, self.objects)) for item in found.candidates]
         members: list[Phrase] = []
         whole = ground_phrase(phrase, self.objects, self.situation.robot_pose)
         if whole.outcome == "match" and not noun_phrase(phrase).quantifier:
@@ -301,6 +351,18 @@ class Scene:
                 part = (quantified, *part)
             members.extend(self._expanded(part))
         return members
+
+    def _uncounted(self, phrase: Phrase) -> Phrase:
+        """For "the two doors" "the doors", if there are as many."""
+        noun = noun_phrase(phrase)
+        words = bare(phrase)
+        while words and words[0].key in lexicon().quantifiers:
+            words = bare(words[1:])
+        first = noun.core[0] if noun.core else ""
+        if not (first.isdigit() and len(words) > 1 and self._is_plural(noun) and words[0].key != first + "."):
+            return phrase
+        counted = ground_phrase(words[1:], self.objects, self.situation.robot_pose)
+        return words[1:] if len(counted.candidates) == int(first) else phrase
 
     def _either(self, phrase: Phrase) -> Phrase:
         """One of "A or B", as an earlier answer says.

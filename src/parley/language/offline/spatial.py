@@ -54,7 +54,7 @@ def by_anchor(
         second = anchors[1]
         return _smallest(
             items,
-            lambda item: _gap(item, first.x_m, first.y_m) + _gap(item, second.x_m, second.y_m),
+            lambda item: max(_gap(item, first.x_m, first.y_m), _gap(item, second.x_m, second.y_m)),
         )
     if first.width_m * first.height_m >= _ROOM_M2 and relation in {
         "in",
@@ -73,6 +73,8 @@ def by_anchor(
     elif relation == "behind" and pose is not None:
         beyond = pose.distance_to(Pose2D(first.x_m, first.y_m))
         items = [i for i in items if pose.distance_to(Pose2D(i.x_m, i.y_m)) > beyond] or list(items)
+    if relation.startswith(("far", "away")):
+        return _smallest(items, lambda item: -_gap(item, first.x_m, first.y_m), absolute=True)
     near = nearest_to(items, first.x_m, first.y_m)
     # "The closest to" is a comparison: the nearest is meant even if others are not much farther.
     return near[:1] if "closest" in relation or "nearest" in relation else near

@@ -13,6 +13,7 @@ from parley.language.offline.carrying import Carrying
 from parley.language.offline.catalogue import call, parameter_role, text_inputs
 from parley.language.offline.commands import Command
 from parley.language.offline.going import UnableError
+from parley.language.offline.durations import duration_s
 from parley.language.offline.nouns import bare, noun_phrase
 from parley.language.offline.scene import UnclearError
 from parley.language.offline.text import Phrase, Word, keys, plain
@@ -62,16 +63,28 @@ class Tasks(Carrying):
         if info is None and command.kind == "count":
             self._look(replace(command, kind="look"))
             return
-        if info is None and command.kind == "wait" and self.steps:
-            if any(
-                word.key.isdigit() or word.key in {"until", "minute", "minutes", "seconds"}
-                for word in command.words
-            ):
-                self.notes.append("I cannot wait for a set time, so I go on at once.")
+        if info is None and command.kind == "wait":
+            self._wait(command)
             return
         if info is None:
             raise UnableError(plain(command.clause))
         self._invoke(info, command)
+
+    def _wait(self, command: Command) -> None:
+        """Wait for a time or an event without an action for it: the operator says when to go on."""
+        asker = self.catalogue.with_role("ask_operator")
+        until = "until" in keys(command.words)
+        if duration_s(command.words) is None and not until:
+            if not self.steps:
+                raise UnableError(plain(command.clause))
+            return
+        if asker is None:
+            self.notes.append("I cannot wait for a set time, so I go on at once.")
+            return
+        rest = plain(command.words).removeprefix("for ")
+        over = f"Please tell me when I may go on: I am to wait {rest if until else f'for {rest}'}."
+        self.steps += self._said(asker, over, f"ask you when to go on, after waiting {rest}")
+        self.will.append(f"wait {rest if until else f'for {rest}'} (please tell me when I may go on)")
 
     def _speak(self, command: Command) -> None:
         """Say something, to somebody in particular if named: then where that person is."""
@@ -85,6 +98,8 @@ class Tasks(Carrying):
         if listener:
             self._go_to_person(listener)
         text = "hello" if keys(said) == ("hello",) else plain(said)
+        if command.verb.startswith("introduce yourself") and self.scene.situation.robot:
+            text = f"hello, I am {self.scene.situation.robot}"
         name = next((n for n in texts if parameter_role(n) == "text"), texts[0])
         values = {name: text}
         values |= {

@@ -38,6 +38,8 @@ class Word:
 Phrase = tuple[Word, ...]
 
 _TOKEN = re.compile(r"\d+(?:[.,]\d+)+|[^\W_]+(?:['-][^\W_]+)*'?|\.{2,}|[.,!?;:()\"]|\n", re.UNICODE)
+_DASH = re.compile(r"\s+(?:[-=]+>|-+|[–—→])\s+")
+"""Between words it parts them like a comma."""
 _SUFFIX = {"n't": "not", "'re": "are", "'m": "am", "'ve": "have", "'ll": "will", "'d": "would"}
 
 
@@ -48,6 +50,7 @@ def tokens(text: str) -> Phrase:
     A possessive keeps its ``'s``; ``X's`` before something that can be said of X is read as "X is".
     """
     text = unicodedata.normalize("NFC", text).replace("’", "'").replace("‘", "'").replace("`", "'")
+    text = _DASH.sub(" , ", text)
     raw = [match.group() for match in _TOKEN.finditer(text)]
     result: list[Word] = []
     for index, piece in enumerate(raw):

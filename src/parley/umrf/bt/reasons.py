@@ -12,7 +12,7 @@ __all__ = ["EXPORT_REASONS", "IMPORT_REASONS", "refusal"]
 
 EXPORT_REASONS: Final[Mapping[str, str]] = MappingProxyType(
     {
-        "broken_graph": "a relation leads nowhere or is stated on one side only, or two actions have one name",
+        "broken_graph": "a relation leads nowhere or is stated on one side, or two actions have one name",
         "control_response": "a condition answers with `stop`, `pause` or `restart`",
         "stopped_response": "a condition answers `on_stopped` with anything but `ignore`",
         "spontaneous": "a spontaneous action runs until it is stopped",
@@ -21,6 +21,7 @@ EXPORT_REASONS: Final[Mapping[str, str]] = MappingProxyType(
         "entry_waits": "an action is an entry and also requires a parent",
         "join_in_cycle": "a join of required parents lies on a cycle",
         "join_never": "a join requires a parent that does not always end before",
+        "join_order": "one end of an action reaches a join by several edges with different answers",
         "join_error": "the failure of one of several branches leads somewhere else than to the graph's end",
         "ends_while_running": "the exit is reached while other branches go on",
         "unreachable_node": "no way leads from the entry to an action",
@@ -40,21 +41,22 @@ IMPORT_REASONS: Final[Mapping[str, str]] = MappingProxyType(
     {
         "malformed_xml": "the text is not well-formed XML",
         "doctype": "the text has a document type or entities of its own",
-        "too_large": "the text is longer than 1 MB, nested deeper than 100, or has more than 5000 actions",
+        "too_large": "more than 1 MB of text, 100 levels, 20000 elements or 5000 actions",
         "not_a_tree_file": "the file is not a BTCPP_format 4 file with exactly one tree to run",
         "unsupported_element": "an element other than those of the subset",
         "unsupported_attribute": "a script, precondition or other attribute outside of the subset",
         "wrong_children": "an element has too few or too many children",
         "bad_number": "a number of attempts or a threshold is none that the subset has",
         "unknown_port": "a port that TreeNodesModel does not declare, or declares as both input and output",
-        "entry_in_text": "a blackboard entry stands inside of a longer text",
         "value_form": "a port's text is not a value of its type",
         "entry_without_giver": "an entry is read that no action written before gives",
         "entry_passes_by": "an entry is read by an action that does not directly follow its only giver",
+        "equal_names": "an output reaches the next action's input of that name, which the tree does not want",
         "join_error": "a branch of a parallel fails while something else than the end of the tree follows",
         "join_in_cycle": "something follows a parallel inside of a retry",
         "join_mixed": "an action follows a parallel and something else as well",
         "branch_ends": "a branch of a parallel that something follows can succeed in several places",
+        "never_runs": "an action can never run: what stands before it goes on for ever or always succeeds",
         "end_result": "the tree's result is not the one of the action that ran last",
     }
 )

@@ -17,10 +17,12 @@ __all__ = [
     "Retry",
     "Sequence",
     "Shape",
+    "ends",
     "fallback",
     "inverter",
     "leaves",
     "sequence",
+    "starts",
 ]
 
 FOREVER = -1
@@ -109,3 +111,34 @@ def leaves(shape: Shape) -> Iterator[Leaf]:
                 yield from leaves(child)
         case Retry() | Inverter() | ForceSuccess():
             yield from leaves(shape.child)
+
+
+def starts(shape: Shape) -> tuple[NodeRef, ...]:
+    """The actions that run first."""
+    match shape:
+        case Leaf():
+            return (shape.node,)
+        case Sequence() | Fallback():
+            return starts(shape.children[0])
+        case Parallel():
+            return tuple(ref for child in shape.children for ref in starts(child))
+        case _:
+            return starts(shape.child)
+
+
+def ends(shape: Shape, success: bool) -> tuple[NodeRef, ...]:
+    """The actions that may run last before success (or failure)."""
+    match shape:
+        case Leaf():
+            return (shape.node,)
+        case Sequence() | Fallback() if isinstance(shape, Sequence) == success:
+            return ends(shape.children[-1], success)
+        case Sequence() | Fallback() | Parallel():
+            return tuple(ref for child in shape.children for ref in ends(child, success))
+        case Retry():
+            return ends(shape.child, True) if success else ()
+        case Inverter():
+            return ends(shape.child, not success)
+        case ForceSuccess():
+            both = (*ends(shape.child, True), *ends(shape.child, False)) if success else ()
+            return tuple(dict.fromkeys(both))

@@ -1,13 +1,13 @@
 """From a graph to the tree that does the same, or to the reasons why there is none.
 
-Regions, at first one per action, know where they go on after success and after failure. Two that share all but
-one way become one region; a graph that has a tree shrinks to a single one.
+Regions, at first one per action, know where they go on after success and after failure. Two that share all
+but one way become one region; a graph that has a tree shrinks to a single one.
 """
 
 from __future__ import annotations
 
 from collections import Counter
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from typing import Final, Literal
 
 from parley.errors import GraphRefusedError, Problem
@@ -78,7 +78,10 @@ class _Reducer:
             **{ref: self._leaf(ref) for ref in ways.nodes},
         }
         self._uses = Counter(
-            target for region in self._regions.values() for way in region.ways() for target in way.cont.targets
+            target
+            for region in self._regions.values()
+            for way in region.ways()
+            for target in way.cont.targets
         )
 
     def reduce(self) -> Shape | None:
@@ -122,7 +125,9 @@ class _Reducer:
         if self._force(region) or self._loop(ref, region):
             return True
         sides: tuple[Side, ...] = ("ok", "bad")
-        return any(self._resolve(region, s) or self._follow(ref, region, s) or self._fork(region, s) for s in sides)
+        return any(
+            self._resolve(region, s) or self._follow(ref, region, s) or self._fork(region, s) for s in sides
+        )
 
     def _force(self, region: _Region) -> bool:
         """Success and failure lead to one place: no need to tell them apart."""
@@ -146,17 +151,19 @@ class _Reducer:
     def _resolve(self, region: _Region, side: Side) -> bool:
         """A join is an ordinary next step once all that it requires has certainly been seen."""
         way = getattr(region, side)
-        target = _only(way)
-        if target is None or target not in self._ways.joins or target in self._resolved:
+        if way is None:
             return False
-        if self._uses[target] != 1 or not self._arrived(target, way.seen):
-            return False
-        if target == EXIT:
+        arrived = {
+            target
+            for target in way.cont.targets & self._ways.joins.keys() - self._resolved
+            if self._uses[target] == 1 and self._arrived(target, way.seen)
+        }
+        if arrived == {EXIT} == way.cont.targets:
             self._uses[EXIT] = 0
             setattr(region, side, Way(Cont(verdict=side == "ok", end="finish"), way.seen))
             return True
-        self._resolved.add(target)
-        return True
+        self._resolved |= arrived - {EXIT}
+        return bool(arrived - {EXIT})
 
     def _follow(self, ref: NodeRef, region: _Region, side: Side) -> bool:
         """What only this region leads to becomes part of it, if the other ways of both agree."""
@@ -198,26 +205,53 @@ class _Reducer:
         if way is None or len(way.cont.targets) < 2:
             return False
         waiting = {ref for ref in way.cont.targets if ref in self._ways.joins and ref not in self._resolved}
-        heads = sorted(way.cont.targets - waiting, key=lambda ref: self._ways.index[ref])
-        branches = [self._regions[ref] for ref in heads]
-        ends = {branch.ok.cont for branch in branches if branch.ok is not None}
-        if any(self._uses[ref] != 1 for ref in heads) or not branches or len(ends) != 1:
-            return False
-        (end,) = ends
+        groups: dict[Cont, list[NodeRef]] = {}
+        for ref in sorted(way.cont.targets - waiting, key=lambda ref: self._ways.index[ref]):
+            after = self._regions[ref].ok
+            if after is not None and self._uses[ref] == 1:
+                groups.setdefault(after.cont, []).append(ref)
+        for end, heads in groups.items():
+            is_all = len(heads) == len(way.cont.targets - waiting)
+            branches = [self._regions[ref] for ref in heads]
+            together = self._together(branches, way, end, waiting if is_all else None)
+            if together is not None:
+                left = frozenset() if is_all else way.cont.targets - {*heads}
+                self._replace(region, side, heads, together, left)
+                return True
+        return False
+
+    def _together(
+        self, branches: list[_Region], way: Way, end: Cont, waiting: set[NodeRef] | None
+    ) -> _Region | None:
+        """One region of branches with a common end.
+
+        Args:
+            branches: What runs at once.
+            way: How they are reached.
+            end: Where they lead after success.
+            waiting: Joins that the fork itself leads to; None if it leads to other branches as well.
+        """
         if end.is_end:
-            together = None if waiting or end.end != "dry" else self._apart(branches)
-        else:
-            together = self._joined(branches, way, end, waiting)
-        if together is None:
-            return False
-        for ref in heads:
-            del self._regions[ref]
-        for ways in (way, *(item for branch in branches for item in branch.ways())):
-            self._uses.subtract(ways.cont.targets)
+            return self._apart(branches) if waiting == set() and end.end == "dry" else None
+        together = self._joined(branches, way, end, waiting or set())
+        if waiting is not None or together is None or together.ok is None:
+            return together
+        # Branches that are some of several must not need the others, which may meet elsewhere.
+        complete = len(branches) > 1 and end.targets.isdisjoint(way.cont.targets)
+        seen = together.ok.seen
+        return together if complete and all(self._arrived(join, seen) for join in end.targets) else None
+
+    def _replace(
+        self, region: _Region, side: Side, heads: list[NodeRef], together: _Region, left: frozenset[NodeRef]
+    ) -> None:
+        """Put `together` into the place of the branches `heads`; `left` are other ways of the fork."""
+        way: Way = getattr(region, side)
+        gone = [way, *(item for ref in heads for item in self._regions.pop(ref).ways())]
+        for item in gone:
+            self._uses.subtract(item.cont.targets)
         self._regions[heads[0]] = together
-        setattr(region, side, Way(Cont(frozenset({heads[0]})), way.seen))
-        self._uses.update([heads[0], *(target for item in together.ways() for target in item.cont.targets)])
-        return True
+        setattr(region, side, Way(Cont(left | {heads[0]}), way.seen))
+        self._uses.update([heads[0], *left, *(ref for item in together.ways() for ref in item.cont.targets)])
 
     def _apart(self, branches: list[_Region]) -> _Region | None:
         """Branches that nothing follows: each runs to its own end."""
@@ -228,21 +262,18 @@ class _Reducer:
         ends = Way(Cont(verdict=True, end="dry")), Way(Cont(verdict=False, end="dry")) if bad else None
         return _Region(shape, *ends)
 
-    def _joined(
-        self, branches: list[_Region], way: Way, end: Cont, waiting: set[NodeRef]
-    ) -> _Region | None:
-        """Branches that meet at one join; a branch may be empty (the fork names the join itself)."""
-        join = next(iter(end.targets))
-        if len(end.targets) != 1 or join not in self._ways.joins or waiting - {join} or join in self._resolved:
+    def _joined(self, branches: list[_Region], way: Way, end: Cont, waiting: set[NodeRef]) -> _Region | None:
+        """Branches that meet at the same joins; a branch may be empty (the fork names the join itself)."""
+        joins = end.targets
+        if waiting - joins or joins - self._ways.joins.keys() or joins & self._resolved:
             return None
-        if len(branches) == 1:
-            only = branches[0]
-            bad = None if only.bad is None else Way(only.bad.cont, only.bad.seen | way.seen)
-            return _Region(only.shape, Way(end, (only.ok.seen if only.ok else frozenset()) | way.seen), bad)
         seen = [branch.ok.seen for branch in branches if branch.ok is not None]
-        if len(seen) < len(branches) or not self._each_needed(join, [*seen, way.seen]):
+        if len(seen) < len(branches) or not self._each_needed(joins, [*seen, way.seen]):
             return None
         bad = [branch.bad for branch in branches if branch.bad is not None]
+        if len(branches) == 1:
+            failed = Way(bad[0].cont, bad[0].seen | way.seen) if bad else None
+            return _Region(branches[0].shape, Way(end, seen[0] | way.seen), failed)
         if not all(item.cont.end == "finish" for item in bad):
             return None
         shape = Parallel(tuple(branch.shape for branch in branches))
@@ -252,13 +283,15 @@ class _Reducer:
     def _arrived(self, join: NodeRef, seen: frozenset[Edge]) -> bool:
         return all((parent, join) in seen for parent in self._ways.joins[join])
 
-    def _each_needed(self, join: NodeRef, seen: list[frozenset[Edge]]) -> bool:
-        """Whether the join waits for every branch, so that it is run once, by the last."""
+    def _each_needed(self, joins: frozenset[NodeRef], seen: list[frozenset[Edge]]) -> bool:
+        """Whether the joins wait for every branch, so that they are run once, by the last."""
         *branches, before = seen
-        return all(
-            not self._arrived(join, before.union(*branches[:position], *branches[position + 1 :]))
-            for position in range(len(branches))
-        )
+        for position, own in enumerate(branches):
+            new = own - before.union(*branches[:position], *branches[position + 1 :])
+            for join in joins:
+                if not any((parent, join) in new for parent in self._ways.joins[join]):
+                    return False
+        return True
 
     # -- why not --------------------------------------------------------------------------------------------
 
@@ -297,7 +330,7 @@ def _same(one: Way | None, other: Way | None) -> bool:
 
 def _either(one: Way, other: Way) -> Way:
     """What is certain if either of two ways was gone."""
-    end = one.cont if one.cont.end != "finish" else other.cont
+    end = one.cont if one.cont.end == other.cont.end else replace(one.cont, end="either")
     return Way(end, one.seen & other.seen)
 
 

@@ -1,19 +1,19 @@
-"""What each end of each action leads to: a graph's conditions followed through bypasses, one action at a time.
+"""What each end of each action leads to: a graph's conditions, followed through bypasses.
 
-This is the propagation of `spec/umrf.md` 10.4 without a run: it says which actions would be told to run, which
-edges into joins would be seen, and whether the graph would end.
+This is the propagation of `spec/umrf.md` 10.4 without a run: it says which actions would be told to run,
+which edges into joins would be seen, and whether the graph would end.
 """
 
 from __future__ import annotations
 
 from collections import deque
-from collections.abc import Iterator
+from collections.abc import Iterator, Sequence
 from dataclasses import dataclass
 from typing import Literal
 
 from parley.errors import Problem
 from parley.umrf.bt.reasons import refusal
-from parley.umrf.model import EXIT, Graph, Node, NodeRef, ParentRelation, Response, Result
+from parley.umrf.model import EXIT, ChildRelation, Graph, Node, NodeRef, ParentRelation, Response, Result
 
 __all__ = ["Cont", "Edge", "Way", "Ways"]
 
@@ -30,8 +30,8 @@ class Cont:
     targets: frozenset[NodeRef] = frozenset()
     verdict: bool | None = None
     """At an end: whether the last action succeeded."""
-    end: Literal["", "finish", "dry"] = ""
-    """At an end: whether the exit was reached, or nothing is left to do."""
+    end: Literal["", "finish", "dry", "either"] = ""
+    """At an end: whether the exit was reached, or nothing is left to do, or that depends."""
 
     @property
     def is_end(self) -> bool:
@@ -83,14 +83,17 @@ class Ways:
         """Where it goes on after the action `ref` has ended so."""
         targets: set[NodeRef] = set()
         seen: set[Edge] = set()
+        answers: dict[NodeRef, set[Response]] = {}
         waiting, followed = deque([ref]), {ref}
         verdict = result is Result.ON_TRUE
         while waiting:
             parent = waiting.popleft()
             for child in self.nodes[parent].children:
                 seen.add((parent, child.node))
-                match self._relation(parent, child.node).response(result):
-                    case Response.RUN:
+                response = self._relation(parent, child.node).response(result)
+                answers.setdefault(child.node, set()).add(response)
+                match response:
+                    case Response.RUN if child.node != ref:  # what still runs is not run again
                         targets.add(child.node)
                     case Response.BYPASS if child.node not in followed:
                         followed.add(child.node)
@@ -103,6 +106,9 @@ class Ways:
                 if response is Response.BYPASS or EXIT not in self.joins:
                     return Way(self._finish(parent, result, targets, verdict), self._of_joins(seen))
                 targets.add(EXIT)
+        for join, given in answers.items():
+            if join in self.joins and len(given) > 1:
+                self.problems.append(refusal("join_order", self.path(join), join.full_name))
         cont = Cont(frozenset(targets)) if targets else Cont(verdict=verdict, end="dry")
         if EXIT in targets and result is Result.ON_ERROR:
             self.problems.append(refusal("three_ways", self.path(ref), f"{ref.full_name} at the exit"))
@@ -112,7 +118,7 @@ class Ways:
         if targets:
             self.problems.append(refusal("ends_while_running", self.path(parent), parent.full_name))
         at_once = len(self.exits) == 1 or self.exits[parent].response(result) is Response.BYPASS
-        return Cont(verdict=verdict, end="finish" if at_once else "dry")
+        return Cont(verdict=verdict, end="finish" if at_once else "either")
 
     def _of_joins(self, seen: set[Edge]) -> frozenset[Edge]:
         return frozenset(edge for edge in seen if edge[1] in self.joins)
@@ -128,14 +134,21 @@ class Ways:
         for index, node in enumerate(self.graph.nodes):
             sides = [(item.node, "children") for item in node.children]
             for other, key in sides + [(item.node, "parents") for item in node.parents]:
-                back = self.nodes.get(other)
-                relations = () if back is None else (back.parents if key == "children" else back.children)
-                if node.ref not in [item.node for item in relations]:
+                if node.ref not in self._related(other, "parents" if key == "children" else "children"):
                     yield refusal("broken_graph", f"actions[{index}].{key}", other.full_name)
-        for key, refs in (("graph_entry", self.graph.entry), ("graph_exit", self.graph.exit)):
-            for position, relation in enumerate(refs):
+        relations: list[tuple[str, Sequence[ChildRelation | ParentRelation]]]
+        relations = [("graph_entry", self.graph.entry), ("graph_exit", self.graph.exit)]
+        for key, related in relations:
+            for position, relation in enumerate(related):
                 if relation.node not in self.nodes:
                     yield refusal("broken_graph", f"{key}[{position}]", relation.node.full_name)
+
+    def _related(self, ref: NodeRef, key: str) -> list[NodeRef]:
+        node = self.nodes.get(ref)
+        relations: tuple[ParentRelation | ChildRelation, ...] = ()
+        if node is not None:
+            relations = node.parents if key == "parents" else node.children
+        return [relation.node for relation in relations]
 
     def _refusals(self) -> Iterator[Problem]:
         actors = {node.actor for node in self.graph.nodes}
@@ -182,4 +195,3 @@ class Ways:
                 reached.add(at)
                 waiting += [child.node for child in self.nodes[at].children]
         return False
-

@@ -1,0 +1,206 @@
+"""Graphs of several actors on one engine: starting them together, and commands that reach all (13)."""
+
+from __future__ import annotations
+
+import asyncio
+from collections.abc import Awaitable, Callable, Collection, Coroutine, Mapping, Sequence
+from typing import Any, Literal
+
+from parley.clock import Clock
+from parley.engine.runs import GraphRuns
+from parley.engine.sync import PEER_TIMEOUT_S, Session, Sync
+from parley.errors import GraphRefusedError, Problem
+from parley.messages.status import ActorStatus, SyncNotice
+from parley.umrf.executor import GraphRun
+from parley.umrf.io import read_graph
+from parley.umrf.model import Graph, GraphState, Result
+from parley.umrf.transition import NO_FACTS
+
+__all__ = ["Together"]
+
+Command = Literal["stop", "pause", "resume", "modify", "end"]
+
+
+class Together:
+    """Starts graphs, with others where they name others, and keeps all of them in step.
+
+    Args:
+        actor: This actor.
+        names: Its name and wake words.
+        runs: Its graphs.
+        clock: For the wall time.
+        publish: Where notices to other engines go.
+        refuse: Told what was refused after the command had been accepted: what, which graph, why.
+        watch: Called before the first graph with others: from then on `note` must be told who lives.
+        timeout_s: Wall time to wait for others.
+    """
+
+    def __init__(
+        self,
+        actor: str,
+        names: Collection[str],
+        runs: GraphRuns,
+        clock: Clock,
+        *,
+        publish: Callable[[SyncNotice], None],
+        refuse: Callable[[str, str, Sequence[Problem]], None],
+        watch: Callable[[], Awaitable[None]],
+        timeout_s: float = PEER_TIMEOUT_S,
+    ) -> None:
+        self._actor, self._names, self._runs = actor, frozenset(names), runs
+        self._refuse, self._watch, self._publish = refuse, watch, publish
+        self._sync = Sync(
+            actor, clock, publish, lambda name, problem: refuse("sync", name, [problem]), timeout_s=timeout_s
+        )
+        self._watching = False
+        self._tasks: set[asyncio.Task[None]] = set()
+
+    # -- starting -------------------------------------------------------------------------------------------
+
+    def start(
+        self,
+        graph: Graph | str,
+        parameters: Mapping[str, Any] = NO_FACTS,
+        result: Result = Result.ON_TRUE,
+    ) -> GraphRun:
+        """See `GraphRuns.start`; a graph that names other actors begins when all of them have taken it up.
+
+        Raises:
+            GraphRefusedError: See there. That others do not answer is told later.
+        """
+        found = self._runs.indexed(graph) if isinstance(graph, str) else graph
+        named = self._runs.catalogue.actors(found)
+        if not named:
+            return self._runs.start(graph, parameters, result)
+        self._runs.refuse_if_busy(found.name)  # before the session of a run that goes on is closed
+        session = self._sync.open(found.name, named - {self._actor})
+        try:
+            run = self._runs.prepare(graph, parameters, session)
+        except GraphRefusedError:
+            self._sync.drop(session)
+            raise
+        if session.actors:
+            self._spawn(self._begin(run, session, result))
+        else:
+            self._runs.begin(run, result)
+        return run
+
+    async def _begin(self, run: GraphRun, session: Session, result: Result) -> None:
+        if not self._watching:
+            self._watching = True
+            await self._watch()
+        silent = await session.handshake()
+        problems = [
+            Problem(
+                "actor",
+                self._sync.absence(name),
+                f"send {run.name} to {name}, too, and see that it runs",
+                "peer_silent",
+            )
+            for name in silent
+        ]
+        try:
+            if problems:
+                raise GraphRefusedError(run.name, problems)
+            self._runs.begin(run, result)
+        except GraphRefusedError as error:
+            self._runs.drop(run)
+            self._sync.drop(session)
+            self._refuse("umrf_graph_start", run.name, error.problems)
+
+    # -- commands -------------------------------------------------------------------------------------------
+
+    def check(self, name: str) -> None:
+        """What would run something must wait until no emergency stop is in force at any actor of the graph.
+
+        Raises:
+            GraphRefusedError: One is.
+        """
+        run = self._runs.get(name)
+        others = run.peers.others if run is not None and isinstance(run.peers, Session) else ()
+        if stopped := self._sync.stopped(others):
+            names = ", ".join(stopped)
+            raise GraphRefusedError(
+                name,
+                [
+                    Problem(
+                        "",
+                        f"{names} was stopped by the emergency stop",
+                        "make sure that it is safe, reset the stop, then go on",
+                        "stop_latched",
+                    )
+                ],
+            )
+
+    def pass_on(self, command: Command, name: str, targets: Sequence[str] = (), **more: str) -> None:
+        """Tell the other actors of a graph what was done with it here.
+
+        Args:
+            command: What was done.
+            name: The graph.
+            targets: Who was told so directly.
+            **more: Fields of the notice.
+        """
+        run = self._runs.get(name)
+        if run is not None and run.peers is not None:
+            self._publish(
+                SyncNotice(
+                    kind="command",
+                    actor=self._actor,
+                    graph_name=name,
+                    command=command,
+                    targets=tuple(targets),
+                    **more,
+                )
+            )
+
+    def hold(self) -> None:
+        """An emergency stop has paused what goes on here: nor may the others go on with it."""
+        for run in self._runs.all:
+            if run.state in (GraphState.RUNNING, GraphState.PAUSED):
+                self.pass_on("pause", run.name)
+
+    def take(self, notice: SyncNotice) -> None:
+        """Something came from another engine."""
+        if notice.kind != "command":
+            self._sync.take(notice)
+            return
+        run = self._runs.get(notice.graph_name)
+        told = not self._names.isdisjoint(notice.targets)
+        if notice.actor == self._actor or told or run is None or run.peers is None:
+            return
+        try:
+            self._obey(notice)
+        except GraphRefusedError as error:
+            self._refuse(f"sync {notice.command}", notice.graph_name, error.problems)
+
+    def note(self, status: ActorStatus) -> None:
+        """Another actor lives."""
+        self._sync.note(status)
+
+    async def close(self) -> None:
+        """End what still waits for others."""
+        tasks = list(self._tasks)
+        for task in tasks:
+            task.cancel()
+        await asyncio.gather(*tasks, return_exceptions=True)
+        self._sync.close()
+
+    def _obey(self, notice: SyncNotice) -> None:
+        name = notice.graph_name
+        match notice.command:
+            case "stop":
+                self._runs.stop(name)
+            case "pause":
+                self._runs.pause(name)
+            case "resume":
+                self._runs.resume(name)
+            case "modify":
+                self._runs.modify(read_graph(notice.graph_json), notice.continue_from)
+            case "end":
+                self._runs.end_node(name, notice.node)
+
+    def _spawn(self, work: Coroutine[Any, Any, None]) -> None:
+        task = asyncio.create_task(work, name=f"start together {self._actor}")
+        self._tasks.add(task)
+        task.add_done_callback(self._tasks.discard)

@@ -1,0 +1,212 @@
+"""Conditions of a sentence: "if S, V, otherwise W", "V unless S", "when S, V", "..., if not, W"."""
+
+from __future__ import annotations
+
+from collections.abc import Callable
+from dataclasses import dataclass
+
+from parley.language.offline.facts import strip_openers
+from parley.language.offline.lexicon import lexicon
+from parley.language.offline.text import Phrase, keys, lemma
+
+__all__ = ["LAST", "Conditional", "is_rule", "split_condition"]
+
+Opens = Callable[[Phrase], bool]
+
+LAST: Phrase = ()
+"""Stands for what the step before looked at."""
+
+_LEADING: tuple[tuple[tuple[str, ...], bool], ...] = (
+    (("if",), True),
+    (("in", "case"), True),
+    (("provided", "that"), True),
+    (("provided",), True),
+    (("assuming", "that"), True),
+    (("assuming",), True),
+    (("as", "long", "as"), True),
+    (("should",), True),
+    (("unless",), False),
+)
+"""How a condition begins, and whether it must hold."""
+_TRAILING: tuple[tuple[tuple[str, ...], bool], ...] = (
+    (("only", "if"), True),
+    (("but", "only", "if"), True),
+    (("provided", "that"), True),
+    (("in", "case"), True),
+    (("as", "long", "as"), True),
+    (("unless",), False),
+    (("if",), True),
+)
+_FURTHER: tuple[tuple[tuple[str, ...], bool], ...] = (
+    (("if", "it", "is", "not"), False),
+    (("if", "that", "is", "not", "the", "case"), False),
+    (("if", "there", "is", "none"), False),
+    (("if", "not"), False),
+    (("if", "no"), False),
+    (("or", "else"), False),
+    (("otherwise",), False),
+    (("else",), False),
+    (("if", "it", "is"), True),
+    (("if", "that", "is", "the", "case"), True),
+    (("if", "so"), True),
+    (("if", "yes"), True),
+)
+"""What refers to a condition said before."""
+_ASKING = frozenset(
+    [
+        "as",
+        "check",
+        "see",
+        "out",
+        "know",
+        "me",
+        "look",
+        "inspect",
+        "tell",
+        "verify",
+        "what",
+        "even",
+        "ask",
+        "or",
+        "like",
+    ]
+)
+_WHOEVER = frozenset(
+    ["you", "i", "we", "anyone", "anybody", "somebody", "someone", "anything", "something", "nobody"]
+)
+
+
+@dataclass(frozen=True, slots=True)
+class Conditional:
+    """A sentence in parts."""
+
+    before: Phrase
+    """What is done in any case, first."""
+    condition: Phrase
+    """What has to be looked at; `LAST` if it has been."""
+    then: Phrase
+    otherwise: Phrase
+
+
+def is_rule(condition: Phrase) -> bool:
+    """Whether it is about whatever may happen later ("you see smoke"): such a rule is kept, not done."""
+    return bool(condition) and condition[0].key in _WHOEVER
+
+
+def split_condition(sentence: Phrase, opens: Opens) -> Conditional | None:
+    """The parts of a sentence with a condition; None if it has none."""
+    words = strip_openers(sentence)
+    return _further(words) or _leading(words, opens) or _inside(words, opens)
+
+
+def _further(words: Phrase) -> Conditional | None:
+    """A sentence that begins with "if not" and the like."""
+    flat = keys(words)
+    for marker, holds in _FURTHER:
+        end = len(marker)
+        if flat[:end] == marker and len(flat) > end and (len(marker) < 3 or flat[end] in {",", "then"}):
+            rest = words[end:]
+            return Conditional((), LAST, rest, ()) if holds else Conditional((), LAST, (), rest)
+    return None
+
+
+def _leading(words: Phrase, opens: Opens) -> Conditional | None:
+    flat = keys(words)
+    found = next(((m, holds) for m, holds in _LEADING if flat[: len(m)] == m), None)
+    if found is None and _is_state(flat):
+        found = ("when",), True
+    if (
+        found is None
+        or flat[len(found[0]) : len(found[0]) + 1] == ("you",)
+        and flat[-1] != "?"
+        and _polite(flat)
+    ):
+        return None
+    marker, holds = found
+    start = len(marker)
+    cut = next((i for i in range(start + 2, len(flat)) if flat[i] in {",", "then"}), 0) or next(
+        (i for i in range(start + 3, len(flat)) if opens(words[i:]) and not _is_noun(flat, i)), 0
+    )
+    if not cut or (marker == ("should",) and not opens(words[cut:])):
+        return None
+    return _parts((), words[start:cut], words[cut:], holds)
+
+
+def _polite(flat: tuple[str, ...]) -> bool:
+    return flat[1:3] in {("you", "can"), ("you", "could"), ("you", "want"), ("you", "like"), ("you", "have")}
+
+
+def _is_state(flat: tuple[str, ...]) -> bool:
+    """For "When the box is empty, ...": a state, and neither the robot's nor "when that is done"."""
+    if (
+        flat[:1] != ("when",)
+        or flat[1:2] == ()
+        or flat[1] in {"you", "i", "that", "this", "done", "it", "we"}
+    ):
+        return False
+    return any(word in lexicon().be for word in flat[2:7])
+
+
+def _inside(words: Phrase, opens: Opens) -> Conditional | None:
+    """A condition behind what it is for, or behind a look: "V if S", "check X and if it is P, V"."""
+    flat = keys(words)
+    if flat[:1] == ("tell",) or {"remind"} & set(flat[:3]):
+        return None
+    for index in range(2, len(flat) - 1):
+        if flat[index - 1] in {"and", ",", "but", "then"}:
+            start = index
+            further = _further(words[start:])
+            if further is not None:
+                return _with_before(words[: start - 1], further)
+            leading = _leading(words[start:], opens) if flat[index] in {"if", "unless"} else None
+            if leading is not None:
+                return _with_before(words[: start - 1], leading)
+        for marker, holds in _TRAILING:
+            if flat[index : index + len(marker)] != marker or len(flat) < index + len(marker) + 2:
+                continue
+            if not _may_follow(flat, index, marker):
+                continue
+            return _parts((), words[index + len(marker) :], words[:index], holds)
+    return None
+
+
+def _with_before(before: Phrase, parts: Conditional) -> Conditional:
+    return Conditional(before, parts.condition, parts.then, parts.otherwise)
+
+
+def _may_follow(flat: tuple[str, ...], index: int, marker: tuple[str, ...]) -> bool:
+    if marker != ("if",):
+        return True
+    before = flat[index - 1]
+    return (
+        lexicon().verbs.match_end((lemma(before), "if")) == 0
+        and flat[index + 1] not in {"you", "possible", "not", "so", "it's"}
+        and before not in _ASKING
+        and before not in {"and", ","}
+        and "ask" not in flat[:index]
+    )
+
+
+def _parts(before: Phrase, condition: Phrase, rest: Phrase, holds: bool) -> Conditional:
+    """Cut "otherwise" off, which may stand behind the condition as well."""
+    condition, late = _otherwise(condition)
+    rest, other = _otherwise(rest)
+    other = other or late
+    if is_rule(condition):
+        return Conditional(before, condition, rest, ())
+    return (
+        Conditional(before, condition, rest, other) if holds else Conditional(before, condition, other, rest)
+    )
+
+
+def _otherwise(words: Phrase) -> tuple[Phrase, Phrase]:
+    flat = keys(words)
+    for index in range(1, len(flat)):
+        for marker, holds in _FURTHER:
+            if not holds and flat[index : index + len(marker)] == marker:
+                return words[:index], words[index + len(marker) :]
+    return words, ()
+
+
+def _is_noun(flat: tuple[str, ...], index: int) -> bool:
+    return flat[index - 1] in lexicon().determiners | {"to", "of"}

@@ -1,0 +1,107 @@
+"""Inspect: shows the picture, says what is there, and fails in the way that tells what help is needed."""
+
+from __future__ import annotations
+
+from dataclasses import replace
+
+import numpy as np
+import pytest
+
+from parley.actions.inspect import FEED, inspect
+from parley.errors import ActionFailure, FailureCode, LanguageError
+from parley.language.base import InspectionReport
+from parley.robots.base import CameraImage, Detection
+from tests.actions.room import Room, room
+
+SEEN = InspectionReport("I can see a green crate.", found=True, wanted="green crate")
+MISSING = InspectionReport("I cannot see a cup.", found=False, wanted="cup")
+
+
+class Eyes:
+    """The simulated robot, but its camera saw what the test says."""
+
+    def __init__(self, here: Room, *detections: Detection) -> None:
+        self._robot = here.robot
+        picture = np.zeros((100, 100, 3), np.uint8)
+        self._image = CameraImage(100, 100, "rgb8", picture, 0.0, detections)
+
+    def __getattr__(self, name: str) -> object:
+        return getattr(self._robot, name)
+
+    async def image(self) -> CameraImage:
+        return self._image
+
+
+async def test_picture_is_shown_with_the_request_and_the_report_is_told_and_given_on() -> None:
+    async with room() as here:
+        here.script.will("inspect", SEEN)
+        result = await inspect(here.context, "the crate")
+        assert result.inspection_result == "I can see a green crate."
+        assert here.person.told == ["I can see a green crate."]
+        ((feed, image, info),) = here.person.shown
+        assert (feed, info) == (FEED, {"request": "the crate"})
+        assert image.data.shape == (image.height, image.width, 3)
+
+
+async def test_what_is_not_there_is_no_match_with_what_was_seen() -> None:
+    async with room() as here:
+        here.script.will("inspect", MISSING)
+        context = replace(here.context, robot=Eyes(here, Detection("green crate", 5000, (0, 0, 9, 9), 2.0)))  # type: ignore[arg-type]
+        with pytest.raises(ActionFailure) as caught:
+            await inspect(context, "the cup")
+        assert caught.value.code is FailureCode.NO_MATCH
+        assert caught.value.details == {"wanted": "cup", "seen": ["green crate"]}
+
+
+async def test_large_stranger_in_the_picture_may_hide_what_is_looked_for() -> None:
+    near, far = Detection("carton", 500, (0, 0, 9, 9), 0.5), Detection("curtain", 900, (0, 0, 9, 9), 3.0)
+    async with room() as here:
+        here.script.will("inspect", MISSING)
+        context = replace(here.context, robot=Eyes(here, far, near))  # type: ignore[arg-type]
+        with pytest.raises(ActionFailure) as caught:
+            await inspect(context, "the cup")
+        assert caught.value.code is FailureCode.BLOCKED
+        assert caught.value.details["in_the_way"] == "carton"
+        assert caught.value.message == "I cannot see the cup: a carton is in the way."
+
+
+async def test_small_stranger_hides_nothing() -> None:
+    async with room() as here:
+        here.script.will("inspect", MISSING)
+        context = replace(here.context, robot=Eyes(here, Detection("pen", 399, (0, 0, 9, 9), 0.5)))  # type: ignore[arg-type]
+        with pytest.raises(ActionFailure) as caught:
+            await inspect(context, "the cup")
+        assert caught.value.code is FailureCode.NO_MATCH
+
+
+async def test_what_a_person_should_decide_is_a_failure_of_its_own() -> None:
+    async with room() as here:
+        here.script.will("inspect", replace(SEEN, attention=True, text="The crate lies on its side."))
+        with pytest.raises(ActionFailure) as caught:
+            await inspect(here.context, "the crate")
+        assert (caught.value.code, caught.value.message) == (
+            FailureCode.ATTENTION, "The crate lies on its side.",
+        )  # fmt: skip
+
+
+async def test_looking_at_nothing_in_particular_never_misses_anything() -> None:
+    async with room() as here:
+        here.script.will("inspect", InspectionReport("I can see a wall."))
+        assert (await inspect(here.context, "around")).inspection_result == "I can see a wall."
+
+
+async def test_broken_camera_is_a_hardware_failure_and_nothing_is_shown() -> None:
+    async with room({"camera": {"A": "broken"}}) as here:
+        with pytest.raises(ActionFailure) as caught:
+            await inspect(here.context, "the crate")
+        assert caught.value.code is FailureCode.HARDWARE
+        assert here.person.shown == []
+
+
+async def test_language_engine_that_fails_leaves_the_picture_on_the_screen() -> None:
+    async with room() as here:
+        here.script.will("inspect", LanguageError("gone"))
+        with pytest.raises(ActionFailure) as caught:
+            await inspect(here.context, "the crate")
+        assert caught.value.code is FailureCode.UNAVAILABLE
+        assert len(here.person.shown) == 1

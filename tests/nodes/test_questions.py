@@ -1,0 +1,87 @@
+"""Which questions of robots are open."""
+
+from __future__ import annotations
+
+import pytest
+
+from parley.messages.chat import ChatFeedback, ChatInput
+from parley.nodes.questions import OpenQuestions
+
+
+def ask(text: str, *targets: str) -> ChatFeedback:
+    return ChatFeedback(message=text, targets=targets or ("A",), type="request", id=text)
+
+
+def answer(questions: OpenQuestions, *targets: str, reply_to: str = "", kind: str = "response") -> None:
+    questions.on_input(
+        ChatInput.model_validate(
+            {"message": "yes", "targets": targets or ("A",), "type": kind, "reply_to": reply_to}
+        )
+    )
+
+
+def first(questions: OpenQuestions, target: str = "A") -> str:
+    found = questions.first(target)
+    return found.id if found else ""
+
+
+@pytest.fixture
+def questions() -> OpenQuestions:
+    found = OpenQuestions()
+    found.on_feedback(ask("one"))
+    found.on_feedback(ask("two"))
+    return found
+
+
+def test_nobody_asked_anything() -> None:
+    assert OpenQuestions().first("A") is None
+
+
+def test_oldest_comes_first_and_an_answer_settles_it(questions: OpenQuestions) -> None:
+    assert first(questions) == "one"
+    answer(questions)
+    assert first(questions) == "two"
+    answer(questions)
+    assert first(questions) == ""
+
+
+def test_answer_settles_the_question_it_names(questions: OpenQuestions) -> None:
+    answer(questions, reply_to="two")
+    answer(questions)
+    assert first(questions) == ""
+
+
+def test_answer_to_a_question_nobody_asked_settles_nothing(questions: OpenQuestions) -> None:
+    answer(questions, reply_to="three")
+    assert first(questions) == "one"
+
+
+def test_order_settles_nothing(questions: OpenQuestions) -> None:
+    answer(questions, kind="request")
+    assert first(questions) == "one"
+
+
+@pytest.mark.parametrize("kind", ["info", "response", "error"])
+def test_robot_withdraws_its_question_with_whatever_it_says(questions: OpenQuestions, kind: str) -> None:
+    questions.on_feedback(
+        ChatFeedback.model_validate({"message": "", "targets": ["A"], "type": kind, "closes": "one"})
+    )
+    assert first(questions) == "two"
+
+
+def test_robots_have_questions_of_their_own(questions: OpenQuestions) -> None:
+    questions.on_feedback(ask("three", "B"))
+    answer(questions, "B")
+    assert (first(questions), first(questions, "B")) == ("one", "")
+
+
+def test_robot_is_found_whatever_the_capitals(questions: OpenQuestions) -> None:
+    assert first(questions, "a") == "one"
+    answer(questions, " a")
+    assert first(questions) == "two"
+
+
+def test_what_robots_say_beside_questions_is_no_question() -> None:
+    questions = OpenQuestions()
+    questions.on_feedback(ChatFeedback(message="I am there.", targets=("A",)))
+    assert questions.first("A") is None
