@@ -17,6 +17,8 @@ class SystemConfig(BaseModel):
 
     data_dir: Path | None = None
     """Where the memory file lives; None keeps memories only while the system runs."""
+    actions_dir: Path | None = None
+    """Folder with more actions, watched while the system runs."""
     language: Literal["offline"] = "offline"
     """Which language engine understands people."""
     approval: Literal["run_at_once", "ask_first"] = "run_at_once"
@@ -42,3 +44,8 @@ class SystemConfig(BaseModel):
     def memory_file(self) -> Path | None:
         """The memory's database file, None for a memory that is not kept."""
         return self.data_dir / "memory.db" if self.data_dir is not None else None
+
+    @property
+    def journal_file(self) -> Path | None:
+        """The journal of what ran, None if it is not kept."""
+        return self.data_dir / "journal.db" if self.data_dir is not None else None

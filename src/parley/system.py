@@ -13,6 +13,7 @@ from parley.actions.context import ActionContext
 from parley.clock import SimClock
 from parley.config import SystemConfig
 from parley.engine.engine import ActionEngine
+from parley.engine.journal import Journal
 from parley.engine.services import ContextServices
 from parley.language.base import Language
 from parley.language.offline import OfflineLanguage
@@ -22,6 +23,8 @@ from parley.nodes.chat_interface import ChatInterface
 from parley.nodes.display_interface import DisplayInterface
 from parley.nodes.error_handler import ErrorHandler
 from parley.nodes.memory import MemoryNode
+from parley.nodes.notices import Notices
+from parley.nodes.plan_restore import interruption_text, restored_steps
 from parley.nodes.umrf_planner import UmrfPlanner
 from parley.robots.base import Robot
 from parley.robots.simulated import SimulatedRobot
@@ -31,6 +34,7 @@ from parley.transport.base import Transport
 from parley.transport.local import LocalTransport
 from parley.umrf.action import ActionSpec, RunHandle
 from parley.umrf.catalogue import Catalogue
+from parley.umrf.discovery import ActionFolder, LiveActions, installed_actions
 from parley.world.object_map import MapObject, ObjectMap
 from parley.world.occupancy import OccupancyMap
 
@@ -77,9 +81,13 @@ class System:
         self.language: Language = language or OfflineLanguage()
         self.simulator = Simulator(world, clock=self.clock, speed=config.speed, seed=config.seed)
         self.objects = objects or world.object_map()
-        self.catalogue = Catalogue(actions)
+        installed = installed_actions()
+        self._actions = (*actions, *installed.specs)
+        self._problems = installed.problems
+        self.catalogue = Catalogue(self._actions)
         self.robots: dict[str, Robot] = {}
         self.store: MemoryStore | None = None
+        self._journal: Journal | None = None
         self._occupancy = occupancy
         self._stack = AsyncExitStack()
 
@@ -106,6 +114,7 @@ class System:
         config, transport, clock = self.config, self.transport, self.clock
         await enter(transport)
         self.store = await enter(await MemoryStore.open(config.memory_file or ":memory:", clock))
+        journal = self._journal = await enter(await Journal.open(config.journal_file or ":memory:", clock))
         await enter(self.simulator)
         await enter(MemoryNode(transport, self.store, self.language))
         await enter(
@@ -114,7 +123,7 @@ class System:
             )
         )
         ask_first = self.robot_names if config.approval == "ask_first" else ()
-        await enter(UmrfPlanner(transport, clock, ask_first=ask_first))
+        planner = await enter(UmrfPlanner(transport, clock, ask_first=ask_first))
         await enter(
             ErrorHandler(
                 transport,
@@ -135,9 +144,31 @@ class System:
                 language_timeout_s=config.language_timeout_s,
             )
         )
+        notices = await enter(Notices(transport))
+        self._tell_interrupted(journal, planner, notices)
+        await self._open_actions(notices)
         views: Mapping[str, WorldView] = {name: self._view(name) for name in self.robot_names}
         for name in self.robot_names:
             await self._open_robot(name, views[name])
+
+    def _tell_interrupted(self, journal: Journal, planner: UmrfPlanner, notices: Notices) -> None:
+        """Hold what a killed process left of each robot's plan, and offer it to the operator."""
+        newest = {was.actor: was for was in journal.interrupted if was.actor in self.robot_names}
+        for robot, was in newest.items():
+            steps = restored_steps(was)
+            planner.restore(robot, steps)
+            notices.tell(interruption_text(was, steps), [robot])
+
+    async def _open_actions(self, notices: Notices) -> None:
+        def tell(problem: str) -> None:
+            notices.tell(f"An action cannot be used: {problem}", self.robot_names, "error")
+
+        for problem in self._problems:
+            tell(problem)
+        if self.config.actions_dir is not None:
+            folder = ActionFolder(self.config.actions_dir)
+            live = LiveActions(self.catalogue, folder, self._actions, tell=tell)
+            await self._stack.enter_async_context(live)
 
     async def _open_robot(self, name: str, view: WorldView) -> None:
         robot = SimulatedRobot(self.simulator, name, view.occupancy)
@@ -163,6 +194,7 @@ class System:
                 clock=self.clock,
                 make_context=make_context,
                 robot=robot,
+                journal=self._journal,
             )
         )
         await self._stack.enter_async_context(CameraFeed(self.transport, robot, self.config.camera_hz))

@@ -106,6 +106,9 @@ class Rig:
     async def until_graph(self, name: str, state: str, actor: str = "") -> None:
         await self.until(lambda: self.graph_states(name, actor)[-1:] == [state])
 
+    async def until_node(self, name: str, node: str, states: list[str], actor: str = "") -> None:
+        await self.until(lambda: self.node_states(name, node, actor) == states)
+
     def graph_states(self, name: str, actor: str = "") -> list[str]:
         found = self._events("graph", name, actor)
         return [item.state for item in found]
@@ -151,19 +154,14 @@ class Rig:
 
 def engine_of(actor: str, rig: Rig, **options: Any) -> ActionEngine:
     """An engine on the rig's transport; open it with ``async with``."""
-    return ActionEngine(
-        actor,
-        **(
-            {
-                "transport": rig.transport,
-                "catalogue": CATALOGUE,
-                "clock": WallClock(),
-                "make_context": lambda handle: handle,
-                "heartbeat_s": 60.0,
-            }
-            | options
-        ),
-    )
+    defaults: dict[str, Any] = {
+        "transport": rig.transport,
+        "catalogue": CATALOGUE,
+        "clock": WallClock(),
+        "make_context": lambda handle: handle,
+        "heartbeat_s": 60.0,
+    }
+    return ActionEngine(actor, **(defaults | options))
 
 
 @asynccontextmanager

@@ -24,7 +24,7 @@ from tests.umrf.spec_actions import SPECS, chain, node, planner_chain
 from .rig import DummyRobot, Rig, engine_of, rigged
 
 BOTH = ("A", "B")
-QUICK = {"heartbeat_s": 0.02, "peer_timeout_s": 0.3}
+QUICK: dict[str, Any] = {"heartbeat_s": 0.02, "peer_timeout_s": 0.3}
 
 
 @asynccontextmanager
@@ -73,16 +73,15 @@ async def test_values_and_results_are_handed_over_in_both_directions() -> None:
         assert results == {("A", "on_true"), ("B", "on_true")}
 
 
+async def finished(rig: Rig, count: int) -> None:
+    await rig.until(lambda: rig.graph_states("g").count("FINISHED") == count)
+
+
 async def test_a_graph_may_be_run_together_again() -> None:
     async with crew() as rig:
-        for _ in range(3):
-            seen = len(rig.events)
+        for index in range(3):
             rig.start(relay(), BOTH)
-            await rig.until(
-                lambda seen=seen: (
-                    [item.state for item in rig.events[seen:] if item.kind == "graph"].count("FINISHED") == 2
-                )
-            )
+            await finished(rig, 2 * index + 2)
         assert not rig.rejections
 
 
@@ -281,7 +280,7 @@ async def at_work(rig: Rig) -> None:
     await ended(rig, "g", "RUNNING")
     for actor in BOTH:
         for full_name in ("WaitFor_0", "WaitFor_7"):
-            await rig.until(lambda actor=actor, full_name=full_name: rig.node_states("g", full_name, actor))
+            await rig.until_node("g", full_name, ["RUNNING"], actor)
 
 
 @pytest.mark.spec("13", "11.2", "D34")
@@ -338,11 +337,7 @@ async def test_a_step_of_another_actor_can_be_ended() -> None:
         step = rig.transport.publisher(topics.STEP)
         step.publish(to_string(StepCommand(target="B", graph_name="g", node="WaitFor_0")))
         for actor in BOTH:
-            await rig.until(
-                lambda actor=actor: (
-                    rig.node_states("g", "WaitFor_0", actor) == ["RUNNING", "STOPPING", "FINISHED"]
-                )
-            )
+            await rig.until_node("g", "WaitFor_0", ["RUNNING", "STOPPING", "FINISHED"], actor)
         assert rig.graph_states("g") == ["RUNNING", "RUNNING"]
 
 
@@ -359,11 +354,8 @@ async def test_a_command_to_all_is_not_carried_out_twice() -> None:
             )
         )
         for actor in BOTH:
-            await rig.until(
-                lambda actor=actor: (
-                    rig.graph_states("g", actor) == ["RUNNING", "HALTED"] + ["HALTED", "RUNNING", "HALTED"]
-                )
-            )
+            await rig.until_node("g", "NoOp_1", ["RUNNING", "FINISHED"], actor)
+            await rig.until_graph("g", "HALTED", actor)
             assert rig.node_states("g", "NoOp_1", actor) == ["RUNNING", "FINISHED"]
 
 

@@ -229,20 +229,24 @@ class Storm:
                     self.ends["refused" if account.refused else account.state] += 1
 
     async def _calm_down(self) -> None:
-        for actor, accounts in self._open.items():
+        """Stop what still goes on; who has not come to rest after 15 s is found missing."""
+        end_s = time.monotonic() + 15
+        for actor in self._open:
             self._send(topics.STOP, to_string(StopCommand(command="reset", targets=(actor,))))
-            for name, account in accounts.items():
-                if not account.refused and account.state not in OVER:
-                    self._send(topics.GRAPH_STOP, ros.UmrfGraphStop(name, (actor,)))
-        async with asyncio.timeout(15):
-            while any(
-                not account.refused and account.state not in OVER
-                for accounts in self._open.values()
-                for account in accounts.values()
-            ):
-                await asyncio.sleep(0.05)
+        while (left := self._going_on()) and time.monotonic() < end_s:
+            for actor, name in left:
+                self._send(topics.GRAPH_STOP, ros.UmrfGraphStop(name, (actor,)))
+            await asyncio.sleep(0.2)
         for actor in self._open:
             self._close_books(actor)
+
+    def _going_on(self) -> list[tuple[str, str]]:
+        return [
+            (actor, name)
+            for actor, accounts in self._open.items()
+            for name, account in accounts.items()
+            if not account.refused and account.state not in OVER
+        ]
 
 
 _FINAL: Final = OVER - {"HALTED"}

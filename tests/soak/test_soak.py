@@ -7,18 +7,29 @@ from __future__ import annotations
 
 import asyncio
 import json
+import logging
 import os
 import statistics
 import threading
+from collections.abc import Iterator
 from pathlib import Path
 
 import pytest
+import structlog
 
 from .storm import ACTORS, Sample, Storm, sample
 
 SOAK_S = float(os.environ.get("PARLEY_SOAK_S", "600"))
 MAX_GROWTH_MB = 15.0
 """Between the first and the last quarter of a run of minutes, of memory that is not in use twice over."""
+
+
+@pytest.fixture(autouse=True)
+def quiet() -> Iterator[None]:
+    """Refusals and crashes are what is wanted here; their log would fill the memory that is measured."""
+    structlog.configure(wrapper_class=structlog.make_filtering_bound_logger(logging.CRITICAL))
+    yield
+    structlog.reset_defaults()
 
 
 async def blow(seconds: float, folder: Path) -> Storm:

@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 import asyncio
-from collections.abc import Callable
 from typing import Any
 
 import pytest
@@ -12,7 +11,7 @@ from parley.errors import GraphRefusedError
 from parley.umrf.model import GraphState, NodeState, Result
 
 from .spec_actions import node
-from .watched import Watched
+from .watched import Watched, until
 
 LONG = 60.0
 
@@ -31,12 +30,6 @@ def monitor(trigger: dict[str, Any], reaction: dict[str, Any], **graph: Any) -> 
         "graph_exit": [],
         "actions": [trigger, reaction],
     } | graph
-
-
-async def until(condition: Callable[[], bool]) -> None:
-    async with asyncio.timeout(5):
-        while not condition():
-            await asyncio.sleep(0.001)
 
 
 @pytest.mark.spec("10.7", "10.7-better", "10.4")

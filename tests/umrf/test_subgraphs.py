@@ -1,9 +1,8 @@
-"""Indexed graphs used as actions: values in and out, failures, commands that reach inside, recursion (10.8)."""
+"""Indexed graphs used as actions: values in and out, failures, commands inside, recursion (10.8)."""
 
 from __future__ import annotations
 
 import asyncio
-from collections.abc import Callable
 from typing import Any
 
 import pytest
@@ -22,6 +21,7 @@ from parley.umrf.transition import Transition
 
 from .inner_graphs import CATALOGUE, bare, ref, use
 from .spec_actions import SPECS, chain, node
+from .watched import until
 
 
 class Nest:
@@ -54,12 +54,6 @@ class Nest:
             for item in self.told.get(name, [])
             if item.node == full_name and item.kind != "progress" and item.cause != "bypass"
         ]
-
-
-async def until(condition: Callable[[], Any]) -> None:
-    async with asyncio.timeout(5):
-        while not condition():
-            await asyncio.sleep(0.001)
 
 
 def nested_example() -> dict[str, Any]:

@@ -2,6 +2,8 @@
 
 from __future__ import annotations
 
+import asyncio
+from collections.abc import Callable
 from typing import Any
 
 from parley.clock import WallClock
@@ -11,6 +13,13 @@ from parley.umrf.model import NodeState
 from parley.umrf.transition import Transition
 
 from .spec_actions import CATALOGUE
+
+
+async def until(condition: Callable[[], Any]) -> None:
+    """Wait, at most 5 s, until `condition` holds."""
+    async with asyncio.timeout(5):
+        while not condition():  # noqa: ASYNC110 - runs tell their observers, not those who wait
+            await asyncio.sleep(0.001)
 
 
 class Watched:

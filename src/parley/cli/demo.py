@@ -46,6 +46,9 @@ def demo(
     data: Annotated[
         Path | None, typer.Option(help="Folder for memories; default: kept for chatting, fresh for scripts.")
     ] = None,
+    actions: Annotated[
+        Path | None, typer.Option(help="Folder with more actions: Python files; watched while it runs.")
+    ] = None,
     ask_first: Annotated[
         bool, typer.Option("--ask-first", help="Show each plan and wait for your yes.")
     ] = False,
@@ -58,6 +61,7 @@ def demo(
     if speed is not None and speed <= 0:
         raise ConfigError("--speed must be a positive number")
     settings: dict[str, Any] = {"seed": seed, "approval": "ask_first" if ask_first else "run_at_once"}
+    settings["actions_dir"] = actions
     if script:
         raise typer.Exit(_script(loaded, story, variant, settings | {"speed": speed}, data, json))
     if story is not None or variant:

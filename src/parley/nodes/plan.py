@@ -135,6 +135,10 @@ class TargetPlan:
             return self._start()
         return self._push()
 
+    def restore(self, steps: Sequence[Step]) -> None:
+        """Take over what an earlier process left; it waits until the operator says to go on."""
+        self.steps, self._pause_wanted = [*steps], bool(steps)
+
     def pause(self) -> list[Effect]:
         """Stand still, keep the plan."""
         if self.held:

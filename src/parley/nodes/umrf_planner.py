@@ -39,6 +39,7 @@ from parley.nodes.plan_steps import (
     ResumeGraph,
     Say,
     StartGraph,
+    Step,
     StopGraph,
 )
 from parley.nodes.presence import LOST_AFTER_S, Presence
@@ -101,6 +102,12 @@ class UmrfPlanner(Node):
         await self.subscribe(topics.GRAPH_EVENTS, GraphEvent, self._on_event)
         await self.subscribe_raw(topics.GRAPH_FEEDBACK, self._on_feedback, depth=100)
         self.spawn(self._watch_presence(), name="presence")
+
+    def restore(self, target: str, steps: Sequence[Step]) -> None:
+        """Hold `steps`, which an earlier process left, until the operator says to go on or to drop them."""
+        plan = self._plan(target)
+        plan.restore(steps)
+        self._send(plan, [])
 
     # -- orders ----------------------------------------------------------------------------------------
 

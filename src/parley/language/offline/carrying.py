@@ -9,7 +9,7 @@ from parley.language.offline.facts import find_fact
 from parley.language.offline.going import UnableError
 from parley.language.offline.lexicon import lexicon
 from parley.language.offline.looking import ASKING, Looking
-from parley.language.offline.nouns import bare
+from parley.language.offline.nouns import bare, noun_phrase
 from parley.language.offline.saying import the
 from parley.language.offline.scene import OPERATOR, Place, UnclearError
 from parley.language.offline.text import Phrase, keys, plain, tokens
@@ -26,6 +26,15 @@ class Carrying(Looking):
     def _fetch(self, command: Command) -> None:
         if not command.theme:
             raise UnclearError(f"What should I {command.verb}?")
+        command = self._from_where_it_is(command)
+        only = (
+            not command.recipient
+            and not command.place
+            and command.verb in {"get", "grab", "retrieve", "go get", "get hold of"}
+        )
+        if only and self.catalogue.with_role("grasp") is not None:
+            self.collect(command)
+            return
         theme, source = self._theme(command)
         if self.scene.is_person(theme):
             self._guide(command, theme)
@@ -42,12 +51,31 @@ class Carrying(Looking):
                     self._stand_at(source)
                 self._look_for(theme)
             self._take(theme)
-        if goal.value != self.here:
+        if goal.value and goal.value != self.here:
             self.travel(goal, f"bring {the(name)} to {self._person(recipient) if recipient else goal.label}")
         self._hand_over(theme, recipient, command)
         self.carried = ()
         self.scene.mention(recipient)
         self.scene.mention(theme)
+
+    def _from_where_it_is(self, command: Command) -> Command:
+        """For "the cup on the table": the table is where it is taken from, unless that is one object of the map."""
+        noun = noun_phrase(command.theme)
+        if (
+            command.source
+            or len(noun.anchors) != 1
+            or not noun.core
+            or noun.relation in {"of", "with", "from"}
+        ):
+            return command
+        if self._grounds(command.theme) or not self._grounds(noun.anchors[0]):
+            return command
+        size = next(
+            i
+            for i in range(len(command.theme))
+            if keys(command.theme[i:])[: len(noun.relation.split())] == tuple(noun.relation.split())
+        )
+        return replace(command, theme=bare(command.theme[:size]), source=noun.anchors[0])
 
     def _theme(self, command: Command) -> tuple[Phrase, Place | None]:
         """What is to be brought, in the words it is remembered by, and where it is."""
@@ -78,6 +106,10 @@ class Carrying(Looking):
         if not recipient and not command.place:
             recipient = self.scene.persons[-1] if self.scene.persons else OPERATOR
         recipient = self.scene.referent(recipient) if recipient else ()
+        unknown = recipient == OPERATOR and not command.place and not self._is_known(OPERATOR)
+        if unknown and self.catalogue.with_role("handover") is not None and not self.scene.hints:
+            self.notes.append("I do not know where you are, so please come to me or tell me.")
+            return recipient, Place("")
         if command.place:
             return recipient, self.scene.place(command.place)
         if self._just_arrived() and keys(theme) == keys(self.carried) and not self._is_known(recipient):
@@ -134,6 +166,7 @@ class Carrying(Looking):
         self.scene.mention(theme)
 
     def _grasp(self, command: Command) -> None:
+        command = self._from_where_it_is(command)
         theme = bare(self.scene.referent(command.theme)) if command.theme else ()
         if not theme:
             raise UnclearError("What should I pick up?")

@@ -12,7 +12,7 @@ from collections.abc import Mapping, Sequence
 from typing import Any
 
 from parley.language.offline.lexicon import lexicon
-from parley.language.offline.text import lemma, split_name
+from parley.language.offline.text import lemma, singular, split_name
 from parley.messages.chat import ActionCall
 from parley.messages.pvf import Parameter
 from parley.messages.status import ActionInfo
@@ -97,16 +97,21 @@ def roles_of(info: ActionInfo) -> frozenset[str]:
         return frozenset({"locate"})
     if words[0] == "ask" or (text_inputs(info) == ["question"] and words[0] != "answer"):
         return frozenset({"ask_operator"})
-    roles = _by_words(words)
+    roles = _by_words(words) - (frozenset() if text_inputs(info) else _PHYSICAL)
     if roles:
         return roles
     phrase_words = [re.split(r"[^a-z]+", phrase.lower()) for phrase in info.phrases]
     described = re.findall(r"[a-z]+", info.description.lower())[:3]
     for candidate in (*phrase_words, described):
         roles = _by_words(tuple(word for word in candidate if word))
+        roles -= frozenset() if text_inputs(info) else _PHYSICAL
         if roles:
             return roles
     return frozenset()
+
+
+_PHYSICAL = frozenset({"place"})
+"""Roles that need something named: without an input for it, "set" or "release" mean something else."""
 
 
 def _by_words(words: tuple[str, ...]) -> frozenset[str]:
@@ -167,6 +172,18 @@ class Catalogue:
     def for_verb(self, verb: str) -> ActionInfo | None:
         """The action whose name or phrase begins with a verb."""
         return self._table.get(tuple(verb.split()))
+
+    def by_topic(self, words: Sequence[str]) -> ActionInfo | None:
+        """The one action of no common kind whose name is about what is said ("turn the volume up")."""
+        said = {singular(lemma(word)) for word in words} | {singular(word) for word in words}
+        fitting = [
+            info
+            for info in self.infos
+            if not self._roles[info.name]
+            and len(split_name(info.name)) > 1
+            and {singular(word) for word in split_name(info.name)[1:]} <= said
+        ]
+        return fitting[0] if len(fitting) == 1 else None
 
     @property
     def mover(self) -> ActionInfo | None:

@@ -152,8 +152,16 @@ def _fill(command: Command, is_person: IsPerson) -> Command:
             return _look(command)
         case "whether":
             return _whether(command)
-        case "search" | "meet" | "follow":
+        case "search" | "meet":
             return _search(command)
+        case "follow":
+            parts = _cut_at(_trim_end(command.words), frozenset({"from", "to", "into", "towards"}))
+            return replace(
+                command,
+                theme=bare(parts.get("", ())),
+                source=bare(parts.get("from", ())),
+                place=bare(parts.get("to", ())),
+            )
         case "transfer" | "grasp" | "place" | "guide":
             return _transfer(command, is_person)
     return replace(command, theme=bare(command.words))

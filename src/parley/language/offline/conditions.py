@@ -124,9 +124,16 @@ def _leading(words: Phrase, opens: Opens) -> Conditional | None:
         return None
     marker, holds = found
     start = len(marker)
-    cut = next((i for i in range(start + 2, len(flat)) if flat[i] in {",", "then"}), 0) or next(
-        (i for i in range(start + 3, len(flat)) if opens(words[i:]) and not _is_noun(flat, i)), 0
+    comma = next((i for i in range(start + 2, len(flat)) if flat[i] in {",", "then"}), len(flat))
+    verb = next(
+        (
+            i
+            for i in range(start + 3, comma)
+            if opens(words[i:]) and not _is_noun(flat, i) and flat[i - 1] not in lexicon().be
+        ),
+        0,
     )
+    cut = verb or (comma if comma < len(flat) else 0)
     if not cut or (marker == ("should",) and not opens(words[cut:])):
         return None
     return _parts((), words[start:cut], words[cut:], holds)

@@ -113,6 +113,9 @@ def strip_openers(phrase: Phrase, *, requests: bool = False, reporting: bool = F
             sizes.append(1)
         if not sizes or max(sizes) >= len(phrase):
             break
+        forbids = lex.prohibitions.match(flat)
+        if forbids is not None and forbids[0] > max(sizes):
+            break
         verb = lex.verbs.match(flat)
         if verb is not None and verb[0] > max(sizes) and not verb[1].startswith("other:"):
             break

@@ -12,7 +12,7 @@ from parley.language.offline.grounding import describe, ground_phrase
 from parley.language.offline.lexicon import lexicon
 from parley.language.offline.nouns import bare
 from parley.language.offline.scene import Scene
-from parley.language.offline.text import Phrase, keys, lemma, plain, split_name, tokens
+from parley.language.offline.text import Phrase, keys, lemma, plain, singular, split_name, tokens
 from parley.messages.status import ActionInfo
 
 __all__ = ["arguments"]
@@ -47,6 +47,12 @@ def arguments(info: ActionInfo, command: Command, scene: Scene) -> dict[str, Any
     spare = [
         w for w in (command.theme, command.place, command.recipient, command.words) if w and w not in used
     ]
+    # "Measure the temperature": what the action is about anyway is no value for it.
+    spare = [
+        w
+        for w in spare
+        if not {singular(k) for k in keys(bare(w))} <= {singular(n) for n in split_name(info.name)}
+    ]
     if not values and left and spare:
         values[left[0]] = _named(spare[0], scene)
     numbers = [
@@ -80,7 +86,7 @@ def _named(words: Phrase, scene: Scene) -> str:
 
 def _by_phrase(info: ActionInfo, command: Command) -> dict[str, Phrase]:
     """Values where one of the action's own phrases fits the whole clause."""
-    clause = [word for word in command.clause if word.is_word]
+    clause = [word for word in bare(command.clause) if word.is_word]
     text = " ".join([lemma(clause[0].key), *(word.key for word in clause[1:])]) if clause else ""
     for phrase in info.phrases:
         names = re.findall(r"\{(\w+)\}", phrase)

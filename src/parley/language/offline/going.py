@@ -12,7 +12,7 @@ from parley.language.offline.fill import arguments
 from parley.language.offline.nouns import bare, noun_phrase
 from parley.language.offline.saying import the
 from parley.language.offline.scene import OPERATOR, Place, Scene, UnclearError
-from parley.language.offline.text import Phrase, keys, plain, tokens
+from parley.language.offline.text import Phrase, keys, plain, singular, split_name, tokens
 from parley.messages.chat import ActionCall
 from parley.messages.status import ActionInfo
 from parley.world.geometry import Pose2D
@@ -190,6 +190,12 @@ class Going:
         values = arguments(info, command, self.scene)
         words = plain(command.place or command.theme or command.words)
         missing = [name for name in text_inputs(info) if name not in values]
+        topic = {singular(word) for word in split_name(info.name)}
+        if words and {singular(word.key) for word in bare(tokens(words))} <= topic:
+            words = ""
+        if missing and not words and self.here and parameter_role(missing[0]) in {"place", "object"}:
+            values[missing[0]] = words = self.here
+            missing = missing[1:]
         if missing and not words:
             raise UnclearError(f"What should I {command.verb}?")
         steps = self.catalogue.chain(info, values, words, plain(command.clause))

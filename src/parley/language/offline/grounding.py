@@ -318,9 +318,23 @@ def _by_relation(
             if any(set(other) <= p.words for other in variants(wanted)) and p.item not in anchors
         ]
     )
+    if "between" in noun.relation and len(noun.anchors) == 1:
+        pair = ground_phrase(_uncounted(noun.anchors[0]), objects, pose)
+        anchors = (
+            list(pair.candidates) if pair.outcome == "ambiguous" and len(pair.candidates) == 2 else anchors
+        )
+        told = []
     if told or len(anchors) < len(noun.anchors):
         return told or items
     return spatial.by_anchor([i for i in items if i not in anchors] or items, noun.relation, anchors, pose)
+
+
+def _uncounted(phrase: Phrase) -> Phrase:
+    """For "the two doors" "the doors"."""
+    words = bare(phrase)
+    while len(words) > 1 and (words[0].key in lexicon().numbers or words[0].key in {"both", "all"}):
+        words = bare(words[1:])
+    return words
 
 
 def _is_called(item: MapObject, phrase: Phrase) -> bool:

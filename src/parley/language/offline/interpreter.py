@@ -23,7 +23,7 @@ from parley.language.offline.scene import Scene, UnclearError
 from parley.language.offline.stories import mentioned, told_around
 from parley.language.offline.tasks import Tasks, UnableError
 from parley.language.offline.text import Phrase, Word, keys, lemma, plain, tokens
-from parley.language.offline.wishes import missing, need, wish
+from parley.language.offline.wishes import due, missing, need, wish
 from parley.messages.chat import ActionCall, ChatAction, CommandName, Flow, FlowIf, SystemCommand
 
 __all__ = ["interpret"]
@@ -122,6 +122,7 @@ class _Reader(Noting):
 
     def read(self, words: Phrase) -> ChatAction:
         self._mention_history()
+        words = _as_visit(words)
         edit = read_replanning(words, self.scene)
         if edit is not None:
             self.commands.extend(edit.commands)
@@ -341,7 +342,8 @@ class _Reader(Noting):
             return None
         if command is None:
             command = (
-                wish(words, self.scene)
+                due(words, self.scene)
+                or wish(words, self.scene)
                 or need(words, self.scene)
                 or missing(words, self.scene)
                 or self._going(words)
@@ -413,6 +415,10 @@ class _Reader(Noting):
         ):
             self.tasks.collect(command)
             return
+        own = self.scene.catalogue.for_verb(command.verb)
+        if own is not None and any(kind == "number" for kind in own.inputs.values()) and not own.outputs:
+            self.tasks.do(command)
+            return
         for _ in range(self._times(command)):
             self.tasks.do(_without_times(command))
             if self._times(command) > 1:
@@ -472,14 +478,14 @@ class _Reader(Noting):
                 raise UnclearError(f"How can I tell whether {plain(clause.condition)}?")
             self.tasks.do(look)
             self._checked = (clause.condition, len(self.tasks.steps) - 1)
-        start = len(self.tasks.steps)
+        start, told = len(self.tasks.steps), len(self.tasks.will)
         self._clause(replace(clause, condition=(), conditional=False), alone=False, index=1)
         flow = Flow(if_=FlowIf(step=self._checked[1], result=not clause.otherwise))
         self.tasks.steps[start:] = [
             step.model_copy(update={"flow": flow}) for step in self.tasks.steps[start:]
         ]
         word = "if not" if clause.otherwise else "if so"
-        if self.tasks.will:
+        if len(self.tasks.will) > told:
             self.tasks.will[-1] = f"{word}, {self.tasks.will[-1]}"
 
     _checked: tuple[Phrase, int] = ((), 0)
@@ -628,6 +634,23 @@ class _Reader(Noting):
             choices=tuple(choices),
             sources=tuple(self.scene.sources),
         )
+
+
+def _as_visit(words: Phrase) -> Phrase:
+    """For "add (a stop at) the desk to the plan": a visit."""
+    rest = strip_openers(words, requests=True)
+    if keys(rest[:1]) not in {("add",), ("include",), ("insert",)} or len(rest) < 2:
+        return words
+    rest = rest[1:]
+    flat = keys(rest)
+    if flat[:2] in {("a", "stop"), ("a", "visit"), ("another", "stop"), ("a", "trip")} and len(flat) > 3:
+        rest = rest[3:]
+    plans = {"plan", "queue", "list", "route", "mission", "tour", "schedule"}
+    for index in range(1, len(rest) - 2):
+        if rest[index].key in {"to", "in", "into"} and rest[index + 2].key in plans:
+            rest = (*rest[:index], *rest[index + 3 :])
+            break
+    return (Word("visit", "visit"), *rest) if rest else words
 
 
 def _without_times(command: Command) -> Command:

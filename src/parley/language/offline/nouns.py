@@ -89,6 +89,8 @@ def noun_phrase(phrase: Phrase) -> NounPhrase:
     relation = " ".join(keys(phrase[cut : cut + size]))
     rest = bare(phrase[cut + size :])
     anchors = tuple(coordinated(rest)) if "between" in relation else (rest,)
+    if relation.startswith("halfway"):
+        relation = "between"
     return NounPhrase(phrase, core, relation, anchors, quantifier, excluded)
 
 
@@ -135,6 +137,14 @@ def _first_relation(phrase: Phrase) -> tuple[int, int]:
             found = lex.places.match(flat, index + 1)
             if found:
                 return index, 1 + found[0]
+        if (
+            index
+            and flat[index] in {"nearest", "closest"}
+            and index + 1 < len(flat)
+            and flat[index + 1] in lex.determiners | {"area", "gate"}
+        ):
+            # "The chair nearest the door".
+            return index, 1
         if flat[index] in _SUPERLATIVES and flat[index + 1 : index + 2] not in {
             ("to",),
             ("from",),

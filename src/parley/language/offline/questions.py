@@ -315,7 +315,8 @@ def _where(words: Phrase, flat: tuple[str, ...], scene: Scene, _: bool) -> Answe
         scene.use(item)
     if hits:
         return Answer(" ".join(whole_sentence(item.fact.sentence) for item in hits))
-    found = ground_phrase(about, scene.objects, scene.situation.robot_pose)
+    name = len(about) == 1 and about[0].is_capital
+    found = ground_phrase(about, scene.objects, scene.situation.robot_pose, strict=name)
     if found.outcome == "match":
         thing = found.candidates[0]
         name = capital(the(describe(thing, scene.objects)))
@@ -395,6 +396,12 @@ def _who(words: Phrase, flat: tuple[str, ...], scene: Scene, _: bool) -> Answer 
 def _whether(words: Phrase, flat: tuple[str, ...], scene: Scene, asked: bool) -> Answer | None:
     """For "Is there an X in the Y?", "is the X open?": from memory, else looking is offered."""
     if flat[0] not in lexicon().be or len(flat) < 3 or flat[1] == "you" or (not asked and flat[1] != "there"):
+        return None
+    words = tuple(
+        word for word in words if word.key not in {"still", "already", "really", "currently", "now"}
+    )
+    flat = keys(words)
+    if len(flat) < 3:
         return None
     there = flat[1] == "there"
     rest = words[2:] if there else words[1:]

@@ -26,7 +26,8 @@ def described_by_facts(
     if not 2 < len(words) <= 14:
         return None
     return (
-        _excluded(words, objects)
+        _with_adjective(words, objects)
+        or _excluded(words, objects)
         or _where_something_is(words, objects, facts)
         or _holding(words, objects, facts)
         or _beside(words, objects, facts)
@@ -129,6 +130,18 @@ def _beside(
         return item, used
     nearest = sorted(found, key=lambda o: (o.x_m - item.x_m) ** 2 + (o.y_m - item.y_m) ** 2)
     return (nearest[0], used) if nearest else None
+
+
+def _with_adjective(
+    words: Phrase, objects: Sequence[MapObject]
+) -> tuple[MapObject, tuple[Remembered, ...]] | None:
+    """For "the door that is red" the red door."""
+    flat = keys(words)
+    for index in range(1, len(flat) - 2):
+        if flat[index] in {"that", "which"} and flat[index + 1] in lexicon().be and len(flat) == index + 3:
+            found = ground_phrase((words[index + 2], *bare(words[:index])), objects)
+            return (found.candidates[0], ()) if found.outcome == "match" else None
+    return None
 
 
 def _excluded(words: Phrase, objects: Sequence[MapObject]) -> tuple[MapObject, tuple[Remembered, ...]] | None:

@@ -9,8 +9,10 @@ from __future__ import annotations
 from collections.abc import Sequence
 from dataclasses import dataclass, replace
 
+from parley.language.control import control_of
 from parley.language.offline.catalogue import text_inputs
-from parley.language.offline.edits import Edit
+from parley.language.offline.clauses import opens_command
+from parley.language.offline.edits import Edit, drop_verb
 from parley.language.offline.facts import strip_openers
 from parley.language.offline.grounding import describe
 from parley.language.offline.lexicon import lexicon
@@ -125,10 +127,13 @@ def _relative(words: Phrase, scene: Scene) -> Edit | None:
     if at < 0:
         return None
     if at == 0:
-        cut = next((i for i in range(2, len(flat) - 1) if flat[i] == ","), 0)
+        cut = _main_clause(words)
         if not cut:
             return None
-        moved, anchor = visit_of(words[cut + 1 :], scene), visit_of(words[1:cut], scene)
+        moved, anchor = (
+            visit_of(words[cut + 1 :], scene),
+            visit_of(words[1 : cut + (words[cut].key != ",")], scene),
+        )
     else:
         moved, anchor = visit_of(words[:at], scene), visit_of(words[at + 1 :], scene)
     if moved is None or anchor is None or moved == anchor:
@@ -136,6 +141,13 @@ def _relative(words: Phrase, scene: Scene) -> Edit | None:
     order = [index for index in range(len(visits(scene))) if index != moved]
     order.insert(order.index(anchor) + (flat[at] == "after"), moved)
     return _ordered(order, scene)
+
+
+def _main_clause(words: Phrase) -> int:
+    """Where the main clause begins after "before A, ..."; 0 if nowhere."""
+    flat = keys(words)
+    comma = next((i for i in range(2, len(flat) - 1) if flat[i] == ","), 0)
+    return comma or next((i - 1 for i in range(2, len(flat) - 1) if opens_command(words[i:])), 0)
 
 
 def _extreme(words: Phrase, scene: Scene) -> Edit | None:
@@ -158,6 +170,7 @@ def _extreme(words: Phrase, scene: Scene) -> Edit | None:
 
 _EXTREMES = {
     ("first",): False, ("next",): False, ("first", "of", "all"): False, ("right", "after", "this"): False,
+    ("until", "last"): True, ("for", "last"): True, ("until", "the", "end"): True, ("to", "last"): True,
     ("last",): True, ("at", "the", "end"): True, ("in", "the", "end"): True, ("to", "the", "end"): True,
     ("last", "of", "all"): True, ("at", "the", "very", "end"): True,
 }  # fmt: skip
@@ -265,10 +278,12 @@ def inserted(words: Phrase, scene: Scene) -> tuple[Phrase, int] | None:
         return None
     at = next(i for i in range(len(flat)) if flat[i] in {"before", "after"})
     if at == 0:
-        cut = next((i for i in range(2, len(flat) - 1) if flat[i] == ","), 0)
-        anchor, rest = words[1:cut], words[cut + 1 :]
+        cut = _main_clause(words)
+        anchor, rest = words[1 : cut + (words[cut].key != ",")], words[cut + 1 :]
     else:
         anchor, rest = words[at + 1 :], words[:at]
+    if control_of(plain(rest)) is not None or drop_verb(strip_openers(rest, requests=True)):
+        return None
     listed = visits(scene)
     index = visit_of(anchor, scene) if anchor and rest and not noun_phrase(anchor).anchors else None
     if index is None:

@@ -14,9 +14,11 @@ from parley.language.offline.catalogue import call, parameter_role, text_inputs
 from parley.language.offline.commands import Command
 from parley.language.offline.going import UnableError
 from parley.language.offline.durations import duration_s
+from parley.language.offline.lexicon import lexicon
 from parley.language.offline.nouns import bare, noun_phrase
 from parley.language.offline.scene import UnclearError
 from parley.language.offline.text import Phrase, Word, keys, plain
+from parley.messages.status import ActionInfo
 
 __all__ = ["Tasks", "UnableError"]
 
@@ -34,8 +36,12 @@ class Tasks(Carrying):
         """
         own = self.catalogue.for_verb(command.verb)
         special = own is not None and command.kind in {"catalogue", "other"}
+        topical = command.kind in {"other", "transfer", "place", "count", "look", "catalogue", "motion"}
+        if not special and topical:
+            about = self.catalogue.by_topic(keys(command.clause))
+            special, own = about is not None, about or own
         if special and own is not None:
-            self._invoke(own, command)
+            self._invoke_each(own, command)
             return
         match command.kind:
             case "motion":
@@ -48,6 +54,10 @@ class Tasks(Carrying):
                 self._search(command)
             case "transfer":
                 self._fetch(command)
+            case "follow" if self.catalogue.with_role("follow") is not None:
+                self._follow(command)
+            case "guide":
+                self._lead(command)
             case "grasp":
                 self._grasp(command)
             case "place":
@@ -56,6 +66,17 @@ class Tasks(Carrying):
                 self._speak(command)
             case _:
                 self._other(command)
+
+    def _invoke_each(self, info: ActionInfo, command: Command) -> None:
+        """An action of its own kind, once for everything that is named."""
+        quantified = bool({"and"} & set(keys(command.theme))) or noun_phrase(command.theme).quantifier
+        members = self.scene.several(command.theme) if command.theme and quantified else []
+        if len(members) < 2 or "and" in keys(command.theme) and any(not self._grounds(m) for m in members):
+            self._invoke(info, command)
+            return
+        verb = command.clause[: len(command.clause) - len(command.words)]
+        for member in members:
+            self._invoke(info, replace(command, theme=member, words=member, clause=(*verb, *member)))
 
     def _other(self, command: Command) -> None:
         info = self.catalogue.for_verb(command.verb) or self.catalogue.for_verb(command.verb.split()[0])
@@ -69,6 +90,27 @@ class Tasks(Carrying):
         if info is None:
             raise UnableError(plain(command.clause))
         self._invoke(info, command)
+
+    def _follow(self, command: Command) -> None:
+        """Follow somebody, from where that is said to begin."""
+        info = self.catalogue.with_role("follow")
+        person = _person_of(command.theme)
+        where = command.source or next(iter(noun_phrase(command.theme).anchors), ())
+        if where:
+            self._stand_at(self.scene.place(where))
+        if info is not None:
+            self._invoke(
+                info, replace(command, theme=person or command.theme, recipient=(), place=(), source=())
+            )
+
+    def _lead(self, command: Command) -> None:
+        """Lead somebody somewhere: by an action, else by going ahead."""
+        guide, goal = self.catalogue.with_role("guide"), command.place
+        if guide is not None or not goal or self.catalogue.mover is None:
+            self._other(command)
+            return
+        self.notes.append("I go ahead; whoever comes along can follow me.")
+        self.travel(self.scene.place(goal), f"lead the way to {plain(goal)}")
 
     def _wait(self, command: Command) -> None:
         """Wait for a time or an event without an action for it: the operator says when to go on."""
@@ -120,23 +162,64 @@ class Tasks(Carrying):
         self.scene.mention(bare(listener[: len(noun.core)] if noun.anchors else listener))
 
 
+def _person_of(words: Phrase) -> Phrase:
+    """Without where the person is."""
+    relation = tuple(noun_phrase(words).relation.split())
+    flat = keys(words)
+    end = next(
+        (i for i in range(len(flat)) if relation and flat[i : i + len(relation)] == relation), len(flat)
+    )
+    return bare(words[:end])
+
+
+def _placed_listener(words: Phrase, size: int) -> int:
+    """For "P at the desk that S": where S begins; 0 if P stands alone."""
+    flat = keys(words)
+    if lexicon().places.match(flat, size) is None:
+        return 0
+    return next(
+        (
+            i
+            for i in range(size + 2, len(flat))
+            if flat[i] in {"that", "to", "about", "what", "how", "who", "when", "where"}
+        ),
+        0,
+    )
+
+
 def spoken(command: Command, is_person: Callable[[Phrase], bool]) -> tuple[Phrase, Phrase]:
     """What is to be said and to whom: "tell P that S", "say S to P", "greet P"."""
     words = tuple(word for word in command.words if word.is_word)
     hello = (Word("hello", "hello"),)
-    if command.verb in {"greet", "welcome", "say hello to", "say hi to", "introduce yourself to", "talk to"}:
+    if command.verb in {
+        "greet",
+        "welcome",
+        "say hello to",
+        "say hi to",
+        "introduce yourself to",
+        "talk to",
+        "speak to",
+        "speak with",
+        "talk with",
+        "chat with",
+        "have a word with",
+    }:
         return hello, words
     flat = keys(words)
     if command.verb in {"tell", "inform", "notify", "remind", "warn", "alert"}:
         for size in range(min(3, len(words)), 0, -1):
             if is_person(words[:size]):
+                placed = _placed_listener(words, size)
+                if placed:
+                    rest = words[placed:]
+                    return (rest[1:] if keys(rest[:1]) in {("that",), ("about",), ("to",)} else rest), words[
+                        :placed
+                    ]
                 rest = words[size:]
                 return (rest[1:] if keys(rest[:1]) in {("that",), ("about",), ("to",)} else rest), words[
                     :size
                 ]
     for index in range(len(flat) - 2, 0, -1):
-        if flat[index] == "to" and is_person(
-            words[index + 1 : index + 1 + len(noun_phrase(words[index + 1 :]).core)]
-        ):
+        if flat[index] == "to" and is_person(_person_of(words[index + 1 :])):
             return bare(words[:index]), words[index + 1 :]
     return words, ()

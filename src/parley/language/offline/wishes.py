@@ -2,13 +2,16 @@
 
 from __future__ import annotations
 
-from parley.language.offline.commands import Command, read_command
-from parley.language.offline.lexicon import lexicon
-from parley.language.offline.nouns import bare
-from parley.language.offline.scene import Scene
-from parley.language.offline.text import Phrase, Word, keys, tokens
+from dataclasses import replace
 
-__all__ = ["missing", "need", "wish"]
+from parley.language.offline.commands import Command, read_command
+from parley.language.offline.facts import find_fact
+from parley.language.offline.lexicon import lexicon
+from parley.language.offline.nouns import bare, noun_phrase
+from parley.language.offline.scene import Scene
+from parley.language.offline.text import Phrase, Word, keys, lemma, tokens
+
+__all__ = ["due", "missing", "need", "wish"]
 
 
 def wish(words: Phrase, scene: Scene) -> Command | None:
@@ -22,7 +25,22 @@ def wish(words: Phrase, scene: Scene) -> Command | None:
             return read_command(theme[1:], scene.is_person)
         if keys(theme)[0] in {"to", "you"}:
             return None
-        return read_command((Word("bring", "bring"), Word("me", "me"), *theme), scene.is_person)
+        command = read_command((Word("bring", "bring"), Word("me", "me"), *theme), scene.is_person)
+        noun = noun_phrase(theme)
+        if (
+            command is not None
+            and noun.core
+            and len(noun.anchors) == 1
+            and noun.relation in {"at", "in", "by", "near"}
+        ):
+            size = next(
+                i
+                for i in range(len(theme))
+                if keys(theme[i:])[: len(noun.relation.split())] == tuple(noun.relation.split())
+            )
+            if find_fact(bare(theme[:size]), scene.facts)[0] is not None:
+                return replace(command, theme=bare(theme[:size]), place=noun.anchors[0], recipient=())
+        return command
     flat = keys(words)
     for index in range(1, min(4, len(flat) - 1)):
         if flat[index] in {"needs", "wants", "need", "want"} or flat[index : index + 2] == (
@@ -34,6 +52,30 @@ def wish(words: Phrase, scene: Scene) -> Command | None:
             if scene.is_person(who) and theme and theme[0].key not in {"to", "you"}:
                 scene.mention(bare(who))
                 return read_command((Word("bring", "bring"), *theme, Word("to", "to"), *who), scene.is_person)
+    return None
+
+
+_DUE = (
+    ("needs", "to", "be"), ("need", "to", "be"), ("has", "to", "be"), ("have", "to", "be"), ("should", "be"),
+    ("must", "be"), ("ought", "to", "be"), ("is", "to", "be"), ("are", "to", "be"), ("wants",), ("needs",), ("need",),
+    ("requires",), ("require",),
+)  # fmt: skip
+
+
+def due(words: Phrase, scene: Scene) -> Command | None:
+    """For "the box should be inspected", "the box needs checking"."""
+    flat = keys(words)
+    for index in range(1, len(flat) - 1):
+        size = next((len(marker) for marker in _DUE if flat[index : index + len(marker)] == marker), 0)
+        done = flat[index + size] if size and index + size < len(flat) else ""
+        passive = flat[index + size - 1 : index + size] == ("be",)
+        if not done or lemma(done) == done or not (passive or done.endswith("ing")):
+            continue
+        subject, rest = words[:index], words[index + size + 1 :]
+        if subject[0].key in {"i", "you", "we", "it"} and len(subject) == 1 and subject[0].key != "it":
+            return None
+        verb = Word(lemma(done), lemma(done))
+        return read_command((verb, *subject, *rest), scene.is_person, scene.catalogue.verbs)
     return None
 
 

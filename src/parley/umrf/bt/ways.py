@@ -7,7 +7,7 @@ which edges into joins would be seen, and whether the graph would end.
 from __future__ import annotations
 
 from collections import deque
-from collections.abc import Iterator, Sequence
+from collections.abc import Iterator, Mapping, Sequence
 from dataclasses import dataclass
 from typing import Literal
 
@@ -66,6 +66,7 @@ class Ways:
         self.exits = {relation.node: relation for relation in graph.exit}
         self.problems: list[Problem] = list(self._broken())
         self.joins: dict[NodeRef, frozenset[NodeRef]] = {}
+        self._relations = {(item.node, node.ref): item for node in graph.nodes for item in node.parents}
         if not self.problems:
             self.problems = list(self._refusals())
             self._find_joins()
@@ -82,16 +83,15 @@ class Ways:
     def follow(self, ref: NodeRef, result: Result) -> Way:
         """Where it goes on after the action `ref` has ended so."""
         targets: set[NodeRef] = set()
-        seen: set[Edge] = set()
-        answers: dict[NodeRef, set[Response]] = {}
+        seen: dict[Edge, Response] = {}
         waiting, followed = deque([ref]), {ref}
         verdict = result is Result.ON_TRUE
         while waiting:
             parent = waiting.popleft()
             for child in self.nodes[parent].children:
-                seen.add((parent, child.node))
-                response = self._relation(parent, child.node).response(result)
-                answers.setdefault(child.node, set()).add(response)
+                response = self._relations[parent, child.node].response(result)
+                if child.node in self.joins:
+                    seen[parent, child.node] = response
                 match response:
                     case Response.RUN if child.node != ref:  # what still runs is not run again
                         targets.add(child.node)
@@ -102,29 +102,28 @@ class Ways:
                 response = self.exits[parent].response(result)
                 if response is Response.IGNORE:
                     continue
-                seen.add((parent, EXIT))
+                seen[parent, EXIT] = response
                 if response is Response.BYPASS or EXIT not in self.joins:
-                    return Way(self._finish(parent, result, targets, verdict), self._of_joins(seen))
+                    return Way(self._finish(parent, result, targets, verdict), frozenset(seen))
                 targets.add(EXIT)
-        for join, given in answers.items():
-            if join in self.joins and len(given) > 1:
-                self.problems.append(refusal("join_order", self.path(join), join.full_name))
+        self._check_order(seen)
         cont = Cont(frozenset(targets)) if targets else Cont(verdict=verdict, end="dry")
         if EXIT in targets and result is Result.ON_ERROR:
             self.problems.append(refusal("three_ways", self.path(ref), f"{ref.full_name} at the exit"))
-        return Way(cont, self._of_joins(seen))
+        return Way(cont, frozenset(seen))
+
+    def _check_order(self, seen: Mapping[Edge, Response]) -> None:
+        """An end that reaches a join by several edges must be answered alike: the last one would count."""
+        answers: dict[NodeRef, Response] = {}
+        for (_, join), response in seen.items():
+            if answers.setdefault(join, response) is not response:
+                self.problems.append(refusal("join_order", self.path(join), join.full_name))
 
     def _finish(self, parent: NodeRef, result: Result, targets: set[NodeRef], verdict: bool) -> Cont:
         if targets:
             self.problems.append(refusal("ends_while_running", self.path(parent), parent.full_name))
         at_once = len(self.exits) == 1 or self.exits[parent].response(result) is Response.BYPASS
         return Cont(verdict=verdict, end="finish" if at_once else "either")
-
-    def _of_joins(self, seen: set[Edge]) -> frozenset[Edge]:
-        return frozenset(edge for edge in seen if edge[1] in self.joins)
-
-    def _relation(self, parent: NodeRef, child: NodeRef) -> ParentRelation:
-        return next(relation for relation in self.nodes[child].parents if relation.node == parent)
 
     # -- what cannot be followed ----------------------------------------------------------------------------
 

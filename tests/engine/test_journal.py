@@ -1,0 +1,180 @@
+"""What ran is written down as it happens, and a kill -9 leaves it readable."""
+
+from __future__ import annotations
+
+import asyncio
+import json
+import sqlite3
+import subprocess
+import sys
+from pathlib import Path
+from typing import Any
+
+from parley.clock import WallClock
+from parley.engine import journal as room
+from parley.engine.journal import Interrupted, Journal
+from parley.umrf.executor import GraphRun
+from parley.umrf.io import read_graph
+from parley.umrf.model import GraphState, NodeState
+from tests.umrf.spec_actions import CATALOGUE, chain, node, planner_chain
+
+from .rig import rigged
+
+ROOT = Path(__file__).parent.parent.parent
+
+VICTIM = """
+import asyncio, json, sys
+from parley.clock import WallClock
+from parley.engine.engine import ActionEngine
+from parley.engine.journal import Journal
+from parley.messages import topics
+from parley.messages.ros import UmrfGraphStart
+from parley.transport.local import LocalTransport
+from tests.umrf.spec_actions import CATALOGUE, planner_chain, node
+
+async def main():
+    async with LocalTransport() as transport, await Journal.open(sys.argv[1], WallClock()) as journal:
+        async with ActionEngine("A", transport=transport, catalogue=CATALOGUE, clock=WallClock(),
+                                make_context=lambda run: run, journal=journal):
+            graph = planner_chain("errand", [
+                node("JoinText", 0, left="a", right="b"), node("WaitFor", 1, seconds=60.0),
+                node("InThread", 2, text="c"),
+            ])
+            transport.publisher(topics.GRAPH_START).publish(UmrfGraphStart("", json.dumps(graph), ("A",)))
+            await asyncio.sleep(0.3)
+            await journal.flush()
+            print("ready", flush=True)
+            await asyncio.sleep(60)
+
+asyncio.run(main())
+"""
+
+
+async def found(path: Path) -> tuple[Interrupted, ...]:
+    async with await Journal.open(path, WallClock()) as journal:
+        return journal.interrupted
+
+
+def killed(path: Path) -> None:
+    """An engine that is killed in the middle of its second step."""
+    command = [sys.executable, "-c", VICTIM, str(path)]
+    with subprocess.Popen(command, stdout=subprocess.PIPE, text=True, cwd=ROOT) as victim:
+        assert victim.stdout is not None
+        assert victim.stdout.readline() == "ready\n"
+        victim.kill()
+
+
+def rows(path: Path, sql: str) -> list[Any]:
+    with sqlite3.connect(path) as connection:
+        found = connection.execute(sql).fetchall()
+    connection.close()
+    return found
+
+
+async def test_after_a_kill_it_is_known_what_was_interrupted_where(tmp_path: Path) -> None:
+    file = tmp_path / "journal.db"
+    killed(file)
+    async with await Journal.open(file, WallClock()) as journal:
+        (was,) = journal.interrupted
+    assert (was.actor, was.graph.name, was.graph.state) == ("A", "errand", GraphState.RUNNING)
+    assert [item.full_name for item in was.going_on] == ["WaitFor_1"]
+    assert [item.full_name for item in was.remaining] == ["WaitFor_1", "InThread_2"]
+    assert was.outputs == {"JoinText_0": {"text": "a-b"}}
+    assert was.is_linear
+
+
+async def test_a_proper_end_leaves_nothing_to_go_on_with(tmp_path: Path) -> None:
+    file = tmp_path / "journal.db"
+    killed(file)
+    assert len(await found(file)) == 1
+    assert await found(file) == ()
+
+
+async def test_a_second_kill_still_knows_until_something_new_begins(tmp_path: Path) -> None:
+    file = tmp_path / "journal.db"
+    killed(file)
+    killed(file)
+    assert [was.graph.name for was in await found(file)] == ["errand"]
+    assert [state for (state,) in rows(file, "SELECT settled FROM run")] == [1, 1]
+
+
+async def test_everything_that_ran_is_written_down_in_order(tmp_path: Path) -> None:
+    file = tmp_path / "journal.db"
+    async with await Journal.open(file, WallClock()) as journal, rigged(journal=journal) as rig:
+        rig.start(
+            planner_chain("g", [node("JoinText", 0, left="a", right="b"), node("Fail", 1, reason="door")])
+        )
+        await rig.until_graph("g", "HALTED")
+        rig.modify(planner_chain("g", [node("JoinText", 0, left="a", right="b"), node("NoOp", 2)]), "NoOp_2")
+        await rig.until(lambda: rig.graph_states("g")[-1:] == ["HALTED"] and len(rig.graph_states("g")) > 3)
+        told = [(item.sequence, item.node, item.state) for item in rig.events]
+        await journal.flush()
+    assert rows(file, "SELECT sequence, node, state FROM transition ORDER BY sequence") == told
+    ((started, now),) = rows(file, "SELECT graph_started, graph_now FROM run")
+    assert [item.full_name for item in read_graph(started).nodes] == ["JoinText_0", "Fail_1"]
+    assert [item.full_name for item in read_graph(now).nodes] == ["JoinText_0", "NoOp_2"]
+    ((outputs,),) = rows(file, "SELECT outputs FROM node WHERE node = 'JoinText_0'")
+    assert json.loads(outputs) == {"text": "a-b"}
+    ((message,),) = rows(file, "SELECT message FROM transition WHERE node = 'Fail_1' AND state = 'ERROR'")
+    assert "door" in message
+
+
+async def run_to_its_end(journal: Journal, name: str, length: int) -> None:
+    run = GraphRun(
+        read_graph(chain(name, [node("NoOp", index) for index in range(length)])),
+        CATALOGUE,
+        actor="A",
+        clock=WallClock(),
+        make_context=lambda handle: handle,
+        observer=lambda transition: journal.record(run, transition),
+    )
+    run.start()
+    await run.wait()
+    await run.close()
+
+
+async def test_old_runs_and_endless_ones_are_cut(tmp_path: Path, monkeypatch: Any) -> None:
+    monkeypatch.setattr(room, "KEPT_RUNS", 20)
+    monkeypatch.setattr(room, "KEPT_TRANSITIONS", 200)
+    file = tmp_path / "journal.db"
+    async with await Journal.open(file, WallClock()) as journal:
+        for index in range(201):
+            await run_to_its_end(journal, f"g{index}", 1)
+        await run_to_its_end(journal, "long", 500)
+    ((runs,),) = rows(file, "SELECT count(*) FROM run")
+    assert runs <= 20 + room._TIDY_EVERY
+    ((transitions,),) = rows(file, "SELECT count(*) FROM transition WHERE run = 202")
+    assert transitions <= 200 + room._TIDY_EVERY
+    ((orphans,),) = rows(file, "SELECT count(*) FROM transition WHERE run NOT IN (SELECT id FROM run)")
+    assert orphans == 0
+
+
+async def test_a_journal_that_cannot_be_written_stops_nobody(tmp_path: Path) -> None:
+    file = tmp_path / "journal.db"
+    async with await Journal.open(file, WallClock()) as journal:
+        with sqlite3.connect(file) as connection:
+            connection.execute("DROP TABLE transition")
+        connection.close()
+        await run_to_its_end(journal, "g", 3)
+        await journal.flush()
+
+
+async def test_a_graph_that_waits_for_repair_was_interrupted_and_one_that_ran_dry_was_not(
+    tmp_path: Path,
+) -> None:
+    file = tmp_path / "journal.db"
+    journal = await Journal.open(file, WallClock())
+    for name, last in (("repair", node("Fail", 1, reason="door")), ("dry", node("NoOp", 1))):
+        run = GraphRun(
+            read_graph(planner_chain(name, [node("NoOp", 0), last])), CATALOGUE, actor="A", clock=WallClock(),
+            make_context=lambda handle: handle, observer=lambda told: journal.record(run, told),
+        )  # fmt: skip
+        run.start()
+        await run.wait()
+    await journal.flush()
+    second = await Journal.open(file, WallClock())  # the first is still open, as after a kill
+    assert [was.graph.name for was in second.interrupted] == ["repair"]
+    assert second.interrupted[0].remaining[0].state is NodeState.ERROR
+    await second.close()
+    await journal.close()
+    await asyncio.sleep(0)
