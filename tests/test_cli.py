@@ -50,6 +50,24 @@ def test_unknown_variant_is_named_with_those_that_exist() -> None:
     assert "no_bottle" in done.stderr
 
 
+@pytest.mark.spec("W9", "W11")
+@pytest.mark.parametrize(
+    ("arguments", "words"),
+    [
+        (("demo", "nursing-home", "--script", "--actions", "nowhere"), "no folder"),
+        (("demo", "nursing-home", "--ros-args"), "--ros-args"),
+        (("graph", "check", "nowhere.json"), "nowhere.json"),
+    ],
+)
+def test_what_is_wrong_at_the_start_is_one_line_and_exit_code_2(
+    arguments: tuple[str, ...], words: str
+) -> None:
+    done = parley(*arguments)
+    assert done.returncode == 2
+    assert words in done.stderr
+    assert "Traceback" not in done.stderr
+
+
 def test_unknown_demo_is_named_with_those_that_exist() -> None:
     done = parley("demo", "moon")
     assert done.returncode == 2

@@ -78,6 +78,7 @@ def test_every_json_topic_has_an_example() -> None:
     assert set(re.findall(r"^### `([^`]+)`", section("Payloads"), re.MULTILINE)) == spoken == PAYLOADS.keys()
 
 
+@pytest.mark.spec("W10")
 @pytest.mark.parametrize(
     ("topic", "index"), [(topic, index) for topic, kinds in PAYLOADS.items() for index in range(len(kinds))]
 )

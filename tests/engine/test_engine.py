@@ -18,6 +18,7 @@ from tests.umrf.spec_actions import CATALOGUE, chain, node, planner_chain
 from .rig import DummyRobot, rigged
 
 
+@pytest.mark.spec("D16", "12.2-better", "W4")
 async def test_a_graph_runs_and_its_events_come_once_each_in_order() -> None:
     async with rigged() as rig:
         rig.start(chain("g", [node("JoinText", 0, left="a", right="b"), node("NoOp", 1)]))
@@ -35,6 +36,7 @@ async def test_a_graph_runs_and_its_events_come_once_each_in_order() -> None:
         assert rig.events[2].outputs["text"].value == "a-b"
 
 
+@pytest.mark.spec("12.2-better", "D16", "12.5")
 async def test_feedback_ends_with_the_last_state_of_each_graph() -> None:
     async with rigged() as rig:
         rig.start(chain("g", [node("NoOp", index) for index in range(30)]))
@@ -45,6 +47,7 @@ async def test_feedback_ends_with_the_last_state_of_each_graph() -> None:
         assert {item["state"] for item in rig.last_feedback("g")["actions"]} == {"FINISHED"}
 
 
+@pytest.mark.spec("12.3", "W7")
 async def test_messages_for_others_are_ignored_and_wake_words_are_heard() -> None:
     async with rigged(wake_words=("everybody",)) as rig:
         rig.start(chain("not_ours", [node("NoOp")]), targets=("B",))
@@ -55,6 +58,7 @@ async def test_messages_for_others_are_ignored_and_wake_words_are_heard() -> Non
         assert not rig.rejections
 
 
+@pytest.mark.spec("11.3-better", "D17")
 async def test_pause_and_resume_are_told_and_a_paused_graph_stands_still() -> None:
     async with rigged() as rig:
         rig.start(chain("g", [node("WaitFor", 0, seconds=0.01), node("NoOp", 1)]))
@@ -67,6 +71,7 @@ async def test_pause_and_resume_are_told_and_a_paused_graph_stands_still() -> No
         assert rig.graph_states("g") == ["RUNNING", "PAUSED", "RUNNING", "FINISHED"]
 
 
+@pytest.mark.spec("W1", "12.4", "17")
 async def test_the_misspelt_pause_topic_of_the_reference_is_heard() -> None:
     async with rigged() as rig:
         rig.start(chain("g", [node("WaitFor", 0, seconds=60)]))
@@ -75,6 +80,7 @@ async def test_the_misspelt_pause_topic_of_the_reference_is_heard() -> None:
         await rig.until_graph("g", "PAUSED")
 
 
+@pytest.mark.spec("11.2", "8.1")
 async def test_stop_ends_stopped() -> None:
     async with rigged() as rig:
         rig.start(chain("g", [node("WaitFor", 0, seconds=60), node("NoOp", 1)]))
@@ -85,6 +91,7 @@ async def test_stop_ends_stopped() -> None:
         assert not rig.node_states("g", "NoOp_1")
 
 
+@pytest.mark.spec("12.6", "D17", "10.3-better")
 async def test_a_failure_reaches_clients_as_the_newest_log_line_of_its_node() -> None:
     async with rigged() as rig:
         rig.start(planner_chain("g", [node("Fail", 0, reason="A box is in the way."), node("NoOp", 1)]))
@@ -101,6 +108,7 @@ async def test_a_failure_reaches_clients_as_the_newest_log_line_of_its_node() ->
         assert shown["runtime"]["messages"][-1]["message"] == failed.message
 
 
+@pytest.mark.spec("D13", "11.1-better")
 async def test_starting_a_running_graph_again_is_refused_and_the_run_goes_on() -> None:
     async with rigged() as rig:
         graph = chain("g", [node("WaitFor", 0, seconds=60)])
@@ -112,6 +120,7 @@ async def test_starting_a_running_graph_again_is_refused_and_the_run_goes_on() -
         assert rig.graph_states("g") == ["RUNNING"]
 
 
+@pytest.mark.spec("D8", "11.1", "11.1-better")
 async def test_an_ended_graph_may_be_started_again_and_is_matched_again() -> None:
     async with rigged() as rig:
         rig.start(chain("g", [node("NoOp", 0)]))
@@ -155,6 +164,7 @@ async def test_a_graph_that_was_started_anew_is_silent_about_its_old_run() -> No
         ('{"graph_name": "g", "graph_entry": 3, "graph_exit": [], "actions": []}', "malformed"),
     ],
 )
+@pytest.mark.spec("W2", "2", "12.5-better")
 async def test_malformed_graphs_are_refused_with_a_reason(text: str, code: str) -> None:
     async with rigged() as rig:
         rig.start(text)
@@ -171,6 +181,7 @@ async def test_an_empty_start_names_no_graph_and_is_refused() -> None:
 
 
 @pytest.mark.parametrize("command", ["pause", "resume", "stop"])
+@pytest.mark.spec("11.1", "11.2", "11.3", "11.4", "W2", "12.5-better")
 async def test_commands_to_unknown_graphs_are_refused(command: str) -> None:
     async with rigged() as rig:
         getattr(rig, command)("nowhere")
@@ -179,6 +190,7 @@ async def test_commands_to_unknown_graphs_are_refused(command: str) -> None:
         assert rig.rejections[0].graph_name == "nowhere"
 
 
+@pytest.mark.spec("D11", "11.5-better", "W2")
 async def test_a_refused_modify_leaves_the_graph_as_it_was() -> None:
     async with rigged() as rig:
         rig.start(planner_chain("g", [node("WaitFor", 0, seconds=60), node("NoOp", 1)]))
@@ -191,6 +203,7 @@ async def test_a_refused_modify_leaves_the_graph_as_it_was() -> None:
         assert len(json.loads(found.graph_jsons_running[0])["actions"]) == 2
 
 
+@pytest.mark.spec("11.5", "D1", "17")
 async def test_a_modify_appends_to_a_running_graph_without_disturbing_it() -> None:
     async with rigged() as rig:
         first = [node("WaitFor", 0, seconds=0.05)]
@@ -227,6 +240,7 @@ async def test_unusable_step_commands_are_refused() -> None:
         assert codes == ["malformed", "unknown_graph", "unknown_node"]
 
 
+@pytest.mark.spec("12.4")
 async def test_the_query_service_lists_descriptors_and_graphs_under_both_names() -> None:
     async with rigged() as rig:
         rig.start(chain("g", [node("NoOp", 0)]))
@@ -237,6 +251,7 @@ async def test_the_query_service_lists_descriptors_and_graphs_under_both_names()
             assert [json.loads(text)["graph_name"] for text in found.graph_jsons_running] == ["g"]
 
 
+@pytest.mark.spec("11.6")
 async def test_old_graphs_are_forgotten() -> None:
     async with rigged() as rig:
         for index in range(30):
@@ -277,6 +292,7 @@ async def test_progress_is_an_event_but_no_feedback() -> None:
         assert (progress.progress, progress.progress_text, progress.node) == (0.5, "half", "InThread_0")
 
 
+@pytest.mark.spec("11.6")
 async def test_closing_stops_what_runs_and_publishes_its_last_state() -> None:
     async with rigged() as rig:
         rig.start(chain("g", [node("WaitFor", 0, seconds=60)]))
@@ -285,6 +301,7 @@ async def test_closing_stops_what_runs_and_publishes_its_last_state() -> None:
     assert rig.last_feedback("g")["graph_state"] == "STOPPED"
 
 
+@pytest.mark.spec("D27")
 async def test_two_engines_share_a_transport() -> None:
     async with (
         rigged() as rig,

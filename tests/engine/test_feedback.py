@@ -5,6 +5,8 @@ from __future__ import annotations
 import asyncio
 import json
 
+import pytest
+
 from parley.clock import WallClock
 from parley.engine.feedback import Feedback
 from parley.messages.ros import UmrfGraphFeedback
@@ -17,6 +19,7 @@ async def settle() -> None:
         await asyncio.sleep(0)
 
 
+@pytest.mark.spec("12.2-better", "D16", "D18", "17")
 async def test_changes_within_the_interval_are_sent_as_one_and_the_last_at_the_close() -> None:
     sent: list[UmrfGraphFeedback] = []
     feedback = Feedback("A", WallClock(), sent.append, interval_s=3600)
@@ -38,6 +41,7 @@ async def test_changes_within_the_interval_are_sent_as_one_and_the_last_at_the_c
     await watched.run.close()
 
 
+@pytest.mark.spec("W4", "12.5")
 async def test_graphs_do_not_wait_for_each_other() -> None:
     sent: list[UmrfGraphFeedback] = []
     feedback = Feedback("A", WallClock(), sent.append, interval_s=3600)

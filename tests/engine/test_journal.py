@@ -120,8 +120,12 @@ async def test_everything_that_ran_is_written_down_in_order(tmp_path: Path) -> N
 
 
 async def run_to_its_end(journal: Journal, name: str, length: int) -> None:
+    await run_to_its_rest(journal, chain(name, [node("NoOp", index) for index in range(length)]))
+
+
+async def run_to_its_rest(journal: Journal, graph: dict[str, Any]) -> None:
     run = GraphRun(
-        read_graph(chain(name, [node("NoOp", index) for index in range(length)])),
+        read_graph(graph),
         CATALOGUE,
         actor="A",
         clock=WallClock(),
@@ -130,7 +134,6 @@ async def run_to_its_end(journal: Journal, name: str, length: int) -> None:
     )
     run.start()
     await run.wait()
-    await run.close()
 
 
 async def test_old_runs_and_endless_ones_are_cut(tmp_path: Path, monkeypatch: Any) -> None:
@@ -164,13 +167,8 @@ async def test_a_graph_that_waits_for_repair_was_interrupted_and_one_that_ran_dr
 ) -> None:
     file = tmp_path / "journal.db"
     journal = await Journal.open(file, WallClock())
-    for name, last in (("repair", node("Fail", 1, reason="door")), ("dry", node("NoOp", 1))):
-        run = GraphRun(
-            read_graph(planner_chain(name, [node("NoOp", 0), last])), CATALOGUE, actor="A", clock=WallClock(),
-            make_context=lambda handle: handle, observer=lambda told: journal.record(run, told),
-        )  # fmt: skip
-        run.start()
-        await run.wait()
+    await run_to_its_rest(journal, planner_chain("repair", [node("NoOp", 0), node("Fail", 1, reason="door")]))
+    await run_to_its_rest(journal, planner_chain("dry", [node("NoOp", 0), node("NoOp", 1)]))
     await journal.flush()
     second = await Journal.open(file, WallClock())  # the first is still open, as after a kill
     assert [was.graph.name for was in second.interrupted] == ["repair"]

@@ -59,7 +59,7 @@ async def ended(rig: Rig, name: str, state: str) -> None:
 # -- handing over -------------------------------------------------------------------------------------------
 
 
-@pytest.mark.spec("13")
+@pytest.mark.spec("13", "W8")
 async def test_values_and_results_are_handed_over_in_both_directions() -> None:
     async with crew() as rig:
         rig.start(relay(), BOTH)

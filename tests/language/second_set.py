@@ -1,13 +1,15 @@
 """Reads the second set of situations and says what is wrong with an answer (design section 5).
 
-A case names a world, what is said (`say`) and, where it matters, `history`, `queue`, `status` and `robot`. What
-is right: `do` (the plan in short), `final` (what is pending once commands and plan have been applied),
+A case names a world, what is said (`say`) and, where it matters, `history`, `queue`, `status` and `robot`.
+What is right: `do` (the plan in short), `final` (what is pending once commands and plan have been applied),
 `commands`, `remember` (words of each new memory), `forget`, `says` (alternatives joined by ``|``), `asks`,
-`choices`, `targets`. `do_any` and `final_any` list several right plans.
+`choices`, `targets`. `do_any` and `final_any` list several right plans; `any_order`, `any_do` and
+`any_commands` leave open what their names say.
 
-A step in short: ``go X``, ``look X``, ``ask``, ``locate X``, ``driving`` (NavigateTo with values of an earlier
-step), ``back`` (NavigateTo to numbers), ``Name(arg, arg)``; ``~`` behind the verb makes it optional, ``if 2:`` and
-``unless 2:`` before it condition it. X is an object's id or words, with ``|`` between alternatives.
+A step in short: ``go X``, ``look X``, ``ask``, ``locate X``, ``driving`` (NavigateTo with values of an
+earlier step), ``back`` (NavigateTo to numbers), ``Name(arg, arg)``; ``~`` behind the verb makes it optional,
+``if 2:`` and ``unless 2:`` before it condition it. X is an object's id or words, with ``|`` between
+alternatives.
 """
 
 from __future__ import annotations
@@ -44,7 +46,9 @@ TOOLS = (
     ),
     ActionInfo(name="BlinkLights", inputs={"times": "number"}, phrases=("blink the lights {times} times",)),
     ActionInfo(
-        name="MeasureTemperature", inputs={"location": "string"}, description="Measure the temperature of a place."
+        name="MeasureTemperature",
+        inputs={"location": "string"},
+        description="Measure the temperature of a place.",
     ),
 )
 """Actions that nothing in the engine can know."""
@@ -188,7 +192,9 @@ def steps(queue: Sequence[ActionCall]) -> list[Step]:
         elif call.name == "NavigateTo":
             found.append(Step("back" if values else "driving", (), flow))
         else:
-            verb = {"GetCoordinates": "locate", "Inspect": "look", "AskOperator": "ask"}.get(call.name, call.name)
+            verb = {"GetCoordinates": "locate", "Inspect": "look", "AskOperator": "ask"}.get(
+                call.name, call.name
+            )
             found.append(Step(verb, values, flow))
     return found
 
@@ -283,7 +289,9 @@ def wrong(case: Case, situation: Situation | ErrorSituation, action: ChatAction)
     return [*problems, f"reply: {said}"] if problems else []
 
 
-def _plan_problems(body: dict[str, Any], situation: Situation | ErrorSituation, action: ChatAction) -> list[str]:
+def _plan_problems(
+    body: dict[str, Any], situation: Situation | ErrorSituation, action: ChatAction
+) -> list[str]:
     if "final" in body or "final_any" in body:
         assert isinstance(situation, Situation)
         right, got = body.get("final_any", [body.get("final")]), steps(pending(situation.queue, action))
@@ -315,7 +323,9 @@ def _command_problems(body: dict[str, Any], action: ChatAction) -> list[str]:
         if not any(all(word.casefold() in text.casefold() for word in words) for text in added):
             problems.append(f"remember: expected {words}, got {added}")
     gone = [str(c.arguments.get("name", "")) for c in action.system_cmd if c.command == "remove_memory"]
-    if sorted(gone) != sorted(body.get("forget", [])) and not ("forget" not in body and body.get("any_commands")):
+    if sorted(gone) != sorted(body.get("forget", [])) and not (
+        "forget" not in body and body.get("any_commands")
+    ):
         problems.append(f"forget: expected {body.get('forget', [])}, got {gone}")
     if "remember" not in body and added and not body.get("any_commands"):
         problems.append(f"remembers {added}")

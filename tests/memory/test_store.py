@@ -120,6 +120,7 @@ async def test_memories_come_oldest_first_and_a_changed_one_counts_as_new(store:
     assert names(await store.newest(2)) == ["a", "c"]
 
 
+@pytest.mark.spec("P17")
 async def test_time_stamps_keep_their_order_when_the_clock_goes_back() -> None:
     clock = SteppingClock()
     async with await MemoryStore.open(":memory:", clock) as store:
@@ -337,6 +338,7 @@ async def test_two_processes_may_use_one_file(tmp_path: Path) -> None:
         assert len(await one.all()) == len(await other.all()) == 20
 
 
+@pytest.mark.spec("P17")
 def test_what_was_acknowledged_survives_kill_9(tmp_path: Path) -> None:
     path = tmp_path / "memory.db"
     program = """

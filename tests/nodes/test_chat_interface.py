@@ -16,7 +16,7 @@ from parley.messages import topics
 from parley.messages.chat import ActionCall, ChatAction, ChatInput, SystemCommand
 from parley.messages.memory import MemoryEvent
 from parley.messages.pvf import Parameter
-from parley.messages.status import ActionInfo, ActorStatus, StopCommand
+from parley.messages.status import ActionInfo, ActorStatus, PlanStep, PlanUpdate, StopCommand
 from parley.nodes.base import Node
 from parley.nodes.chat_interface import MAX_CHARS, ChatInterface
 from parley.transport.local import LocalTransport
@@ -95,6 +95,7 @@ async def test_order_is_answered_and_handed_to_the_planner(room: Room) -> None:
     assert (order.targets, [call.name for call in order.queue]) == (("A",), ["Look"])
 
 
+@pytest.mark.spec("P20")
 async def test_history_reaches_the_next_question(room: Room) -> None:
     room.language.will(
         "interpret", ChatAction(message_response="Which?"), ChatAction(message_response="Fine.")
@@ -105,6 +106,18 @@ async def test_history_reaches_the_next_question(room: Room) -> None:
     await room.reply(2)
     situation = room.language.asked[-1][1]
     assert [turn.content for turn in situation.history] == ["look at the box", "Which?"]
+
+
+@pytest.mark.spec("P21")
+async def test_what_is_still_to_be_done_is_known_when_the_next_message_is_understood(room: Room) -> None:
+    steps = (PlanStep(action=look("box"), state="running"), PlanStep(action=look("chair")))
+    room.observer.publish(topics.PLAN, PlanUpdate(target="A", state="running", steps=steps))
+    room.language.will("interpret", ChatAction(message_response="Fine."))
+    room.observer.say("and then the door", "A")
+    await room.reply()
+    situation = room.language.asked[-1][1]
+    assert [call.input_parameters["what"].value for call in situation.queue] == ["box", "chair"]
+    assert situation.status == "running"
 
 
 @pytest.mark.parametrize("text", ["", "   ", "\n"])
@@ -191,6 +204,7 @@ async def test_emergency_stop_goes_straight_to_the_engines(room: Room) -> None:
     assert room.planner.stops[0].targets == ("A",)
 
 
+@pytest.mark.spec("P20")
 async def test_language_that_fails_ends_in_a_plain_sentence(room: Room) -> None:
     room.language.will("interpret", LanguageError("the model is gone"))
     room.observer.say("look at the box", "A")
@@ -215,6 +229,7 @@ async def test_defect_of_the_language_engine_ends_in_a_plain_sentence(room: Room
     ],
     ids=["unknown action", "unknown parameter", "wrong type", "missing value"],
 )
+@pytest.mark.spec("P12")
 async def test_plan_that_the_robot_cannot_carry_out_never_leaves(room: Room, call: ActionCall) -> None:
     room.language.will("interpret", ChatAction(message_response="Sure.", queue=(call,)))
     room.observer.say("do something", "A")

@@ -102,6 +102,7 @@ async def test_question_carries_choices_and_the_answer_repairs(room: Room) -> No
     assert [turn.content for turn in situation.dialogue] == ["Which box do you mean?"]
 
 
+@pytest.mark.spec("P18")
 async def test_after_three_questions_the_robot_is_held_and_what_remains_is_said(room: Room) -> None:
     room.language.will("resolve", ASK, ASK, ASK, ASK)
     room.fail(umrf_queue=(look("door"),))
@@ -126,6 +127,7 @@ async def test_attempts_count_on_when_the_repaired_step_fails_in_the_same_way(ro
     assert room.corrections.seen[-1].success is False
 
 
+@pytest.mark.spec("P8")
 async def test_same_failure_reported_twice_is_handled_once(room: Room) -> None:
     room.language.will("resolve", ASK, ASK)
     room.fail()
@@ -164,6 +166,7 @@ async def test_plan_that_goes_on_for_another_reason_withdraws_the_question(room:
     assert room.observer.questions.first("A") is None
 
 
+@pytest.mark.spec("P18", "P20")
 async def test_one_robots_hanging_repair_does_not_delay_another(room: Room) -> None:
     room.language.will("resolve", asyncio.Event(), SOLVED)
     room.language.will("resolve", SOLVED)

@@ -82,6 +82,7 @@ async def test_several_memories_in_one_message_are_each_announced_in_order(house
     assert [entry.name for entry in await house.store.all()] == ["c", "a", "b"]
 
 
+@pytest.mark.spec("P17")
 async def test_a_memory_is_forgotten_by_its_name_wherever_it_belongs(house: House) -> None:
     await house.store.add(MemoryEntry(name="box", data="x"))
     await house.store.add(MemoryEntry(name="box", data="y", scope="A"))

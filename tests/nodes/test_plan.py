@@ -141,6 +141,7 @@ def names(graph: Graph) -> list[str]:
     return [node.full_name for node in graph.nodes]
 
 
+@pytest.mark.spec("12.6")
 def test_first_order_starts_a_linear_graph_whose_errors_halt_it(plan: TargetPlan) -> None:
     (start,) = plan.append([find("box"), drive()])
     assert isinstance(start, StartGraph)
@@ -162,6 +163,7 @@ def test_done_steps_end_idle_and_the_next_order_gets_a_graph_of_its_own(
     assert again.graph.name == "graph_1"
 
 
+@pytest.mark.spec("P3")
 def test_append_while_running_modifies_without_naming_a_node(plan: TargetPlan, engine: Engine) -> None:
     engine.take(list(plan.append([look()])))
     engine.report()
@@ -178,6 +180,7 @@ def test_append_before_the_start_is_confirmed_waits_for_it(plan: TargetPlan, eng
     assert len(modify.graph.nodes) == 2
 
 
+@pytest.mark.spec("P9")
 def test_append_that_races_with_the_end_is_nudged_on(plan: TargetPlan, engine: Engine) -> None:
     engine.take(list(plan.append([look()])))
     engine.report()
@@ -204,6 +207,7 @@ def test_stale_halt_after_the_nudge_is_not_a_failure_but_lasting_silence_is(
     assert isinstance(failure, ReportFailure)
 
 
+@pytest.mark.spec("P8")
 def test_failure_holds_the_robot_and_is_reported_once(plan: TargetPlan, engine: Engine) -> None:
     engine.take(list(plan.append([find("box"), drive(), look()])))
     engine.finish(("x", 1.5))
@@ -225,6 +229,7 @@ def test_correction_replaces_the_failed_step_and_continues_there(plan: TargetPla
     assert not plan.held
 
 
+@pytest.mark.spec("P14")
 def test_orders_during_a_repair_run_after_it(plan: TargetPlan, engine: Engine) -> None:
     engine.take(list(plan.append([look()])))
     engine.fail()
@@ -265,6 +270,7 @@ def test_leaving_out_a_failed_step_drops_what_depends_on_it(plan: TargetPlan, en
     assert [node.name for node in modify.graph.nodes] == ["Look"]
 
 
+@pytest.mark.spec("P7", "P15")
 def test_skip_ends_the_running_step_and_goes_on_with_the_next(plan: TargetPlan, engine: Engine) -> None:
     engine.take(list(plan.append([look(), look("door")])))
     engine.report()
@@ -319,6 +325,7 @@ def test_pause_that_overtook_the_start_is_sent_again(plan: TargetPlan, engine: E
     assert engine.report() == [PauseGraph("graph_0")]
 
 
+@pytest.mark.spec("P5")
 def test_clear_stops_and_nothing_new_starts_before_the_end_is_reported(
     plan: TargetPlan, engine: Engine
 ) -> None:
@@ -332,6 +339,7 @@ def test_clear_stops_and_nothing_new_starts_before_the_end_is_reported(
     assert start.graph.name == "graph_1"
 
 
+@pytest.mark.spec("P4")
 def test_late_reports_of_an_old_graph_change_nothing(plan: TargetPlan, engine: Engine) -> None:
     engine.take(list(plan.append([look()])))
     engine.report()
@@ -362,6 +370,7 @@ def test_pop_drops_the_named_step(plan: TargetPlan, engine: Engine) -> None:
 
 
 @pytest.mark.parametrize("index", [None, -1, 5])
+@pytest.mark.spec("P15")
 def test_impossible_pop_changes_nothing_and_says_so(
     plan: TargetPlan, engine: Engine, index: int | None
 ) -> None:
@@ -385,6 +394,7 @@ def test_after_giving_up_the_next_order_takes_the_failed_steps_place(
     assert [node.name for node in modify.graph.nodes] == ["Look"]
 
 
+@pytest.mark.spec("P2")
 def test_refused_start_leaves_nothing_running(plan: TargetPlan) -> None:
     plan.append([look()])
     plan.on_refused("graph_0", "umrf_graph_start")
@@ -404,6 +414,7 @@ def test_correction_without_a_failure_is_late_and_changes_nothing(plan: TargetPl
     assert plan.correct([look("lid")]) == []
 
 
+@pytest.mark.spec("P11")
 def test_finished_steps_do_not_pile_up_in_the_graph(plan: TargetPlan, engine: Engine) -> None:
     engine.take(list(plan.append([look(str(n)) for n in range(KEEP_DONE + 30)])))
     for _ in range(KEEP_DONE + 20):
@@ -439,6 +450,7 @@ def _move(plan: TargetPlan, engine: Engine, move: str) -> list[Effect]:
         st.sampled_from(["append", "finish", "fail", "correct", "skip", "pop", "clear", "pause", "start"])
     )
 )
+@pytest.mark.spec("P7")
 def test_ids_rise_along_the_plan_and_are_never_reused(moves: list[str]) -> None:
     numbers = itertools.count()
     plan = TargetPlan("A", new_graph_name=lambda: f"graph_{next(numbers)}")

@@ -61,6 +61,7 @@ def dropped(party: Crew) -> list[str]:
 
 
 @pytest.mark.parametrize("words", ["stop", "Wait!", "hold on", "A, pause please"])
+@pytest.mark.spec("P1")
 async def test_stop_pauses_stands_still_keeps_the_plan_and_carry_on_resumes(party: Crew, words: str) -> None:
     party.observer.say(words, "A")
     await party.hears("I have stopped")
@@ -151,6 +152,7 @@ async def test_drop_the_second_one_changes_the_graph_and_leaves_it_running(party
     assert party.body.did == ["drive 1"]
 
 
+@pytest.mark.spec("P5")
 async def test_cancel_everything_stops_the_graph_empties_the_plan_and_a_new_order_runs(party: Crew) -> None:
     party.observer.say("cancel everything", "A")
     await party.hears("I have dropped everything.")
@@ -219,6 +221,7 @@ async def test_order_that_is_being_understood_when_the_stop_button_is_pressed_mo
         assert party.wire.commands() == []
 
 
+@pytest.mark.spec("P1")
 async def test_last_attempt_of_error_handling_pauses_holds_and_tells_what_remains(failed: Crew) -> None:
     for _ in range(3):
         await failed.until(lambda: failed.observer.questions.first("A") is not None)

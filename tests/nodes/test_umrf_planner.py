@@ -9,7 +9,7 @@ import pytest
 
 from parley.errors import FailureCode
 from parley.messages import ros, topics
-from parley.messages.chat import ActionCall, ChatAction, SystemCommand
+from parley.messages.chat import ActionCall, ChatAction, Flow, SystemCommand
 from parley.messages.pvf import Parameter
 from parley.messages.ros import String
 from parley.messages.status import ActorStatus, PlanDecision, Rejection, RejectionProblem, StopCommand
@@ -52,6 +52,7 @@ async def test_step_that_waits_for_a_person_is_shown_as_waiting() -> None:
         await party.state("idle")
 
 
+@pytest.mark.spec("P19")
 async def test_graph_names_are_never_used_twice() -> None:
     async with crew("A", "B") as party:
         for count in range(1, 4):
@@ -63,6 +64,7 @@ async def test_graph_names_are_never_used_twice() -> None:
         assert len(names) == len(set(names)) == 6
 
 
+@pytest.mark.spec("P3")
 async def test_order_while_one_runs_is_appended_and_disturbs_nothing() -> None:
     async with crew("A") as party:
         party.body.gate("box")
@@ -88,6 +90,7 @@ async def test_orders_that_race_with_the_end_of_the_plan_all_run_once_and_in_ord
         await party.state("idle")
 
 
+@pytest.mark.spec("P13")
 async def test_two_robots_have_plans_of_their_own() -> None:
     async with crew("A", "B") as party:
         party.bodies["A"].gate("box")
@@ -119,6 +122,36 @@ async def test_unknown_robot_moves_nobody_and_is_told() -> None:
         party.order(look("box"), target="Z")
         await party.hears("There is no robot called Z. I know A.")
         assert party.observer.refusals[-1].problems[0].code == "unknown_robot"
+        assert party.wire.commands() == []
+
+
+def repeated(call: ActionCall, times: int) -> ActionCall:
+    return call.model_copy(update={"flow": Flow(repeat=times)})
+
+
+async def test_step_that_is_to_be_repeated_runs_so_often_and_what_follows_once() -> None:
+    async with crew("A") as party:
+        party.order(repeated(look("box"), 3), look("door"))
+        await party.until(lambda: party.steps() == ["finished"] * 4)
+        assert party.body.did == ["look box", "look box", "look box", "look door"]
+
+
+async def test_one_repetition_can_be_dropped() -> None:
+    async with crew("A") as party:
+        party.order(ask("ready"), repeated(look("box"), 3))
+        await party.until(lambda: party.steps() == ["waiting", "queued", "queued", "queued"])
+        party.command("pop", parameters=2)
+        await party.until(lambda: party.steps() == ["waiting", "queued", "queued"])
+        party.body.gate("ready").set()
+        await party.state("idle")
+        assert party.body.did.count("look box") == 2
+
+
+async def test_more_repetitions_than_a_person_can_follow_are_refused() -> None:
+    async with crew("A") as party:
+        party.order(repeated(look("box"), 1000))
+        await party.until(lambda: party.observer.refusals)
+        assert party.observer.refusals[-1].problems[0].code == "too_long"
         assert party.wire.commands() == []
 
 
@@ -192,6 +225,7 @@ async def test_several_pops_of_one_message_count_the_steps_as_they_were() -> Non
 
 
 @pytest.mark.parametrize("arguments", [{}, {"parameters": 7}, {"parameters": "two"}, {"parameters": -1}])
+@pytest.mark.spec("P15")
 async def test_impossible_pop_changes_nothing_and_is_told(arguments: dict[str, Any]) -> None:
     async with crew("A") as party:
         party.body.gate("1")
@@ -217,6 +251,7 @@ async def test_skipping_the_last_step_says_that_nothing_is_left() -> None:
 # -- failures ------------------------------------------------------------------------------------------
 
 
+@pytest.mark.spec("P16")
 async def test_failure_is_reported_with_all_keys_of_the_thesis() -> None:
     async with crew("A") as party:
         party.body.failures["drive 3"] = 1
@@ -265,6 +300,7 @@ async def test_empty_correction_leaves_the_failed_step_out() -> None:
         assert party.body.did == ["look box", "look door"]
 
 
+@pytest.mark.spec("P14")
 async def test_orders_during_a_repair_run_after_it() -> None:
     async with crew("A") as party:
         party.body.failures["look box"] = 1
@@ -431,6 +467,7 @@ async def test_policy_is_switched_on_and_off_and_an_empty_one_switches_nothing()
 # -- refusals and silence ------------------------------------------------------------------------------
 
 
+@pytest.mark.spec("P2")
 async def test_start_that_an_engine_refuses_is_told_and_nothing_counts_as_running() -> None:
     async with crew(heartless=["Z"], patience=Patience(answer_s=60)) as party:
         party.order(look("box"), target="Z")
@@ -497,6 +534,7 @@ async def test_graph_that_comes_to_life_after_nobody_answered_is_stopped() -> No
         assert party.wire.of(topics.GRAPH_STOP)[0].umrf_graph_name == graph.name
 
 
+@pytest.mark.spec("P4")
 async def test_late_feedback_and_events_of_a_dropped_graph_change_nothing() -> None:
     async with crew("A") as party:
         party.body.gate("box")
@@ -613,6 +651,7 @@ def full() -> list[ActionCall]:
     ]
 
 
+@pytest.mark.spec("P6", "P9")
 async def test_engine_without_heartbeat_is_driven_by_its_feedback_alone() -> None:
     async with crew(heartless=["Z"]) as party:
         body = Body()
@@ -622,6 +661,7 @@ async def test_engine_without_heartbeat_is_driven_by_its_feedback_alone() -> Non
             assert body.did == ["find box", "drive 3", "look box"]
 
 
+@pytest.mark.spec("P1", "W1")
 async def test_engine_without_heartbeat_is_paused_on_both_spellings_and_goes_on() -> None:
     async with crew(heartless=["Z"]) as party:
         body = Body(far={1})

@@ -158,6 +158,10 @@ class Storm:
 
     async def _restart(self, actor: str) -> None:
         """The engine ends and another begins, as if its process had been started anew."""
+        while any(  # noqa: ASYNC110
+            not item.state and not item.refused for item in self._open[actor].values()
+        ):
+            await asyncio.sleep(0.01)  # what nobody has taken yet would be nobody's
         await self._engines.pop(actor).__aexit__(None, None, None)
         await asyncio.sleep(0)
         self._close_books(actor)

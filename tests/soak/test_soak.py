@@ -60,7 +60,6 @@ async def test_a_long_storm_does_not_grow(tmp_path: Path) -> None:
     storm = await blow(SOAK_S, tmp_path)
     quarter = len(storm.samples) // 4
     first, last = storm.samples[quarter // 2 : quarter], storm.samples[-quarter:]
-    journal_mb = sum(file.stat().st_size for file in tmp_path.iterdir()) / 2**20
     figures = {
         "seconds": SOAK_S,
         "commands": dict(storm.commands),
@@ -70,7 +69,7 @@ async def test_a_long_storm_does_not_grow(tmp_path: Path) -> None:
         "tasks": [median(first, "tasks"), median(last, "tasks")],
         "threads": [median(first, "threads"), median(last, "threads")],
         "files": [median(first, "files"), median(last, "files")],
-        "journal_mb": round(journal_mb, 1),
+        "journal_mb": round(size_mb(tmp_path), 1),
     }
     print(json.dumps(figures))  # noqa: T201 - what `make soak` is run for
     assert sum(storm.ends.values()) == storm.commands["start"]
@@ -80,5 +79,9 @@ async def test_a_long_storm_does_not_grow(tmp_path: Path) -> None:
     assert median(last, "files") <= median(first, "files") + 3
 
 
+def size_mb(folder: Path) -> float:
+    return sum(file.stat().st_size for file in folder.iterdir()) / 2**20
+
+
 def median(samples: list[Sample], what: str) -> float:
-    return statistics.median(getattr(item, what) for item in samples)
+    return float(statistics.median(getattr(item, what) for item in samples))

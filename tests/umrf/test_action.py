@@ -215,6 +215,7 @@ def test_a_returned_dataclass_is_flattened_without_its_gaps() -> None:
         Outcome(True, {"names": [1]}),
     ],
 )
+@pytest.mark.spec("D23")
 def test_what_was_not_declared_is_a_failure(returned: Any) -> None:
     with pytest.raises(ActionFailure):
         outcome_of(look_for.spec, returned)
@@ -252,6 +253,7 @@ class Counter:
         return self.runs > step
 
 
+@pytest.mark.spec("10.1")
 def test_a_class_action_has_an_object_of_its_own_each_time() -> None:
     spec = action(Counter).spec
     assert (spec.name, spec.description, list(spec.inputs)) == ("Counter", "Count its own runs.", ["step"])

@@ -4,6 +4,8 @@ from __future__ import annotations
 
 from pathlib import Path
 
+import pytest
+
 from parley.messages.pvf import Parameter
 from parley.umrf.action import ActionSpec
 from parley.umrf.catalogue import Catalogue, descriptor_file_name, merge
@@ -17,6 +19,7 @@ def spec(**inputs: Parameter) -> ActionSpec:
     return ActionSpec("Move", inputs, {"at": Parameter("number")}, description="Move.", phrases=("go",))
 
 
+@pytest.mark.spec("7.2")
 def test_a_node_matches_by_name_and_flat_names_whatever_the_types() -> None:
     catalogue = Catalogue([spec(x=Parameter("number"))])
     outputs = {"at": Parameter("string")}
@@ -28,6 +31,7 @@ def test_a_node_matches_by_name_and_flat_names_whatever_the_types() -> None:
     assert catalogue.match(Node("Jump")) is None
 
 
+@pytest.mark.spec("7.2")
 def test_the_first_descriptor_of_a_name_wins() -> None:
     first, second = spec(), spec(x=Parameter("number"))
     catalogue = Catalogue([first, second])
@@ -48,6 +52,7 @@ def test_infos_tell_parameters_as_types() -> None:
     assert (info.description, info.phrases) == ("Move.", ("go",))
 
 
+@pytest.mark.spec("7.3", "D35", "4.2")
 def test_merging_takes_all_but_value_and_allowed_values_from_the_descriptor() -> None:
     known = spec(
         x=Parameter("number", 1.0, required=False, updatable=False, allowed=(1.0,)),
@@ -69,11 +74,13 @@ def test_merging_takes_all_but_value_and_allowed_values_from_the_descriptor() ->
     }
 
 
+@pytest.mark.spec("7.1")
 def test_file_names_follow_the_convention() -> None:
     assert descriptor_file_name("GetCoordinates") == "get_coordinates.umrf.json"
     assert descriptor_file_name("A") == "a.umrf.json"
 
 
+@pytest.mark.spec("7.1")
 def test_descriptors_are_read_from_a_folder_and_two_levels_below(tmp_path: Path) -> None:
     for depth, item in enumerate(SPECS[:4]):
         folder = tmp_path.joinpath(*["deeper"] * depth)

@@ -37,6 +37,7 @@ def test_a_good_graph_has_no_problems() -> None:
     assert problems(two()) == []
 
 
+@pytest.mark.spec("D7", "2-better")
 def test_two_nodes_of_one_name_are_refused() -> None:
     raw = two()
     raw["actions"].append(raw["actions"][0])
@@ -44,12 +45,14 @@ def test_two_nodes_of_one_name_are_refused() -> None:
 
 
 @pytest.mark.parametrize("name", ["graph_entry", "graph_exit"])
+@pytest.mark.spec("1")
 def test_the_names_of_entry_and_exit_are_reserved(name: str) -> None:
     raw = {"graph_name": "g", "actions": [{"name": name, "type": "sync"}]}
     assert found(raw)["actions[0].name"] in ("reserved_name", "unknown_action")
     assert "reserved_name" in {problem.code for problem in problems(raw)}
 
 
+@pytest.mark.spec("5.2-better", "5.2", "D6", "2-better")
 def test_a_relation_must_be_stated_on_both_sides() -> None:
     assert found(two(parents=[])) == {
         "actions[0].children[0]": "one_sided_relation",
@@ -60,6 +63,7 @@ def test_a_relation_must_be_stated_on_both_sides() -> None:
     assert found(raw)["actions[1].parents[0]"] == "one_sided_relation"
 
 
+@pytest.mark.spec("2-better", "D6")
 def test_relations_to_missing_nodes_are_refused() -> None:
     raw = two()
     raw["actions"][1]["children"] = [{"name": "Ghost", "instance_id": 4}]
@@ -73,6 +77,7 @@ def test_a_relation_stated_twice_is_refused() -> None:
     assert found(raw) == {"actions[0].children[1]": "duplicate_relation"}
 
 
+@pytest.mark.spec("2-better")
 def test_nodes_that_cannot_be_reached_are_refused() -> None:
     raw = two()
     raw["actions"].append(node("NoOp", 7))
@@ -84,6 +89,7 @@ def test_a_graph_without_an_entry_may_wait_for_a_modify() -> None:
     assert found(raw) == {}
 
 
+@pytest.mark.spec("7.2", "D7")
 def test_an_unknown_action_is_refused_with_the_names_that_look_like_it() -> None:
     raw = {"graph_name": "g", "actions": [{"name": "waitfor", "type": "sync"}]}
     [problem] = problems(raw)
@@ -92,6 +98,7 @@ def test_an_unknown_action_is_refused_with_the_names_that_look_like_it() -> None
     assert problem.message == "A has no action 'waitfor'"
 
 
+@pytest.mark.spec("7.2")
 def test_missing_and_surplus_parameters_are_named() -> None:
     raw = {"graph_name": "g", "actions": [node("JoinText", 0, left="a", right="b")]}
     inputs = raw["actions"][0]["input_parameters"]  # type: ignore[index]
@@ -104,12 +111,14 @@ def test_missing_and_surplus_parameters_are_named() -> None:
     }
 
 
+@pytest.mark.spec("D30")
 def test_a_parameter_of_another_type_is_refused() -> None:
     raw = {"graph_name": "g", "actions": [node("WaitFor", 0, seconds=1)]}
     raw["actions"][0]["input_parameters"]["seconds"] = {"pvf_type": "string", "pvf_value": "1"}  # type: ignore[index]
     assert found(raw) == {"actions[0].input_parameters.seconds.pvf_type": "wrong_type"}
 
 
+@pytest.mark.spec("6-better", "D19")
 def test_inputs_that_nobody_gives_are_refused_and_those_of_parents_are_not() -> None:
     assert found(two()) == {}
     raw = two()
@@ -117,6 +126,7 @@ def test_inputs_that_nobody_gives_are_refused_and_those_of_parents_are_not() -> 
     assert found(raw) == {"actions[1].input_parameters.text": "missing_input"}
 
 
+@pytest.mark.spec("4.2")
 def test_an_input_that_may_not_be_overwritten_needs_a_value() -> None:
     fixed = ActionSpec("SameText", {"text": Parameter("string", updatable=False)}, {})
     catalogue = Catalogue([fixed, *CATALOGUE])
@@ -125,6 +135,7 @@ def test_an_input_that_may_not_be_overwritten_needs_a_value() -> None:
     assert codes == {"missing_input"}
 
 
+@pytest.mark.spec("D6", "5.1")
 def test_a_remap_must_name_an_output_and_an_input() -> None:
     raw = two(input_parameters=node("SameText", text="own", expected="x")["input_parameters"])
     raw["actions"][0]["children"][0]["remap"] = [{"from": "sound", "to": "picture"}]
@@ -143,6 +154,7 @@ def test_a_remap_must_name_an_output_and_an_input() -> None:
         ("B", {"actor": ""}, None),
     ],
 )
+@pytest.mark.spec("13", "3")
 def test_nodes_of_others_are_for_those_who_take_part(
     actor: str, options: dict[str, Any], code: str | None
 ) -> None:
@@ -151,10 +163,12 @@ def test_nodes_of_others_are_for_those_who_take_part(
 
 
 @pytest.mark.parametrize("kind", ["sync", "async", "spontaneous", "whatever"])
+@pytest.mark.spec("3", "D30")
 def test_every_type_of_node_is_accepted(kind: str) -> None:
     assert found({"graph_name": "g", "actions": [node("NoOp") | {"type": kind}]}) == {}
 
 
+@pytest.mark.spec("2-better")
 def test_all_problems_are_found_at_once_and_have_remedies() -> None:
     raw = two(children=[{"name": "Ghost"}], parents=[])
     raw["actions"].append({"name": "Nothing", "instance_id": 7, "type": "sync"})
@@ -168,6 +182,7 @@ def test_all_problems_are_found_at_once_and_have_remedies() -> None:
     assert all(problem.message and problem.remedy for problem in problems(raw))
 
 
+@pytest.mark.spec("7.3")
 def test_resolving_refuses_with_all_problems_and_merges_defaults() -> None:
     with pytest.raises(GraphRefusedError) as error:
         resolve(read_graph(two(parents=[])), CATALOGUE, actor="A")

@@ -151,7 +151,7 @@ def test_no_installed_package_breaks_the_list() -> None:
 
 async def changed(catalogue: Catalogue, wanted: list[str]) -> None:
     async with asyncio.timeout(10):
-        while [spec.name for spec in catalogue] != wanted:
+        while [spec.name for spec in catalogue] != wanted:  # noqa: ASYNC110
             await asyncio.sleep(0.01)
 
 
@@ -169,7 +169,7 @@ async def test_added_changed_and_removed_files_are_noticed(tmp_path: Path) -> No
         await changed(catalogue, ["JoinText", "Welcome"])
         (tmp_path / "bad.py").write_text("import nothing_at_all", encoding="utf-8")
         async with asyncio.timeout(10):
-            while not told:
+            while not told:  # noqa: ASYNC110
                 await asyncio.sleep(0.01)
         file.unlink()
         await changed(catalogue, ["JoinText"])

@@ -55,6 +55,7 @@ LOOP = """{"graph_name": "ex_loop",
 REPORT = '{"message": "door is closed"}'
 
 
+@pytest.mark.spec("10.4", "10.6", "5.1")
 async def test_fan_out_and_join_with_remaps_finish_on_true() -> None:
     watched = Watched(HANDOVER)
     watched.run.start()
@@ -64,6 +65,7 @@ async def test_fan_out_and_join_with_remaps_finish_on_true() -> None:
     await watched.run.close()
 
 
+@pytest.mark.spec("10.4", "5.3", "D2", "11.2", "8.2")
 async def test_a_loop_ends_by_stopping_another_node() -> None:
     watched = Watched(LOOP)
     watched.run.start()
@@ -80,6 +82,7 @@ def planner_graph(second: dict[str, Any]) -> dict[str, Any]:
     )
 
 
+@pytest.mark.spec("12.6", "10.9", "11.5", "8.2", "17")
 async def test_a_planner_graph_halts_on_an_error_and_goes_on_after_repair() -> None:
     watched = Watched(planner_graph(node("RaiseError", 1, text=REPORT)))
     watched.run.start()
@@ -104,6 +107,7 @@ async def test_a_planner_graph_halts_on_an_error_and_goes_on_after_repair() -> N
 
 
 @pytest.mark.parametrize("source", [HANDOVER, LOOP])
+@pytest.mark.spec("12.2-better", "D16")
 async def test_every_transition_is_numbered_without_gaps(source: str) -> None:
     watched = Watched(source)
     watched.run.start()

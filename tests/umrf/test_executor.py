@@ -43,6 +43,7 @@ async def test_a_linear_graph_runs_in_order_and_finishes() -> None:
     await watched.run.close()
 
 
+@pytest.mark.spec("10.3", "17")
 async def test_running_is_announced_before_the_action_begins() -> None:
     watched = Watched(chain("g", [node("NoOp")]))
     watched.run.start()
@@ -50,12 +51,14 @@ async def test_running_is_announced_before_the_action_begins() -> None:
     await watched.run.wait()
 
 
+@pytest.mark.spec("2", "10.5")
 async def test_an_empty_graph_halts_as_soon_as_it_is_started() -> None:
     watched = Watched({"graph_name": "g", "graph_entry": [], "graph_exit": [], "actions": []})
     watched.run.start()
     assert await watched.run.wait() is Result.ON_HALTED
 
 
+@pytest.mark.spec("5.3")
 async def test_a_result_of_false_goes_on_by_default() -> None:
     watched = Watched(chain("g", [node("SameText", 0, text="a", expected="b"), node("NoOp", 1)]))
     watched.run.start()
@@ -65,6 +68,7 @@ async def test_a_result_of_false_goes_on_by_default() -> None:
     )
 
 
+@pytest.mark.spec("10.9", "8.1", "D5", "8.2")
 async def test_an_error_runs_through_to_the_exit_by_default() -> None:
     watched = Watched(chain("g", [node("Crash", 0), node("NoOp", 1), node("NoOp", 2)]))
     watched.run.start()
@@ -74,6 +78,7 @@ async def test_an_error_runs_through_to_the_exit_by_default() -> None:
     assert watched.state("NoOp_1") is NodeState.UNINITIALIZED
 
 
+@pytest.mark.spec("10.5-better", "D19", "P10")
 async def test_a_missing_output_halts_the_graph_and_names_the_input() -> None:
     watched = Watched(chain("g", [node("FindNothing", 0), node("SameText", 1, expected="x")]))
     watched.run.start()
@@ -93,6 +98,7 @@ async def test_a_graph_starts_only_once() -> None:
 # -- failures -----------------------------------------------------------------------------------------------
 
 
+@pytest.mark.spec("12.6", "10.1-better", "D36", "17")
 async def test_a_failure_is_logged_as_a_report_in_the_same_transition_as_the_error() -> None:
     watched = Watched(chain("g", [node("Fail", 0, reason="A box is in the way.")]))
     watched.run.start()
@@ -105,6 +111,7 @@ async def test_a_failure_is_logged_as_a_report_in_the_same_transition_as_the_err
     assert watched.log("Fail_0") == [error.message]
 
 
+@pytest.mark.spec("10.1-better", "D36", "10.1")
 async def test_a_defect_of_an_action_is_an_internal_failure_that_names_it() -> None:
     watched = Watched(chain("g", [node("Crash", 0)]))
     watched.run.start()
@@ -122,6 +129,7 @@ async def test_facts_that_cannot_be_written_are_left_out_of_the_report() -> None
     assert (report.message, report.code, report.details) == ("half ?", FailureCode.BLOCKED, {})
 
 
+@pytest.mark.spec("17")
 async def test_an_action_cannot_end_the_program() -> None:
     watched = Watched(chain("g", [node("Leave", 0)]))
     watched.run.start()
@@ -129,6 +137,7 @@ async def test_an_action_cannot_end_the_program() -> None:
     assert "exit(3)" in watched.log("Leave_0")[-1]
 
 
+@pytest.mark.spec("10.1")
 async def test_a_plain_log_line_does_not_hide_the_reason_of_a_defect() -> None:
     watched = Watched(chain("g", [node("RaiseError", 0, text="getting on")]))
     watched.run.start()
@@ -138,6 +147,7 @@ async def test_a_plain_log_line_does_not_hide_the_reason_of_a_defect() -> None:
     )
 
 
+@pytest.mark.spec("3")
 async def test_only_the_ten_newest_log_lines_are_kept() -> None:
     handles: list[Any] = []
     told: list[Transition] = []
@@ -225,6 +235,7 @@ async def test_plain_functions_run_in_a_named_thread() -> None:
     await watched.run.close()
 
 
+@pytest.mark.spec("10.1", "11.2")
 async def test_stopping_tells_a_thread_and_waits_for_it() -> None:
     watched = Watched(chain("g", [node("ThreadLoop", 0)]))
     watched.run.start()
@@ -237,6 +248,7 @@ async def test_stopping_tells_a_thread_and_waits_for_it() -> None:
 # -- pause and resume ---------------------------------------------------------------------------------------
 
 
+@pytest.mark.spec("11.3", "11.4")
 async def test_an_action_that_honours_pauses_is_paused_at_once() -> None:
     watched = Watched(chain("g", [node("WaitFor", 0, seconds=LONG)]))
     watched.run.start()
@@ -250,6 +262,7 @@ async def test_an_action_that_honours_pauses_is_paused_at_once() -> None:
     await watched.run.close()
 
 
+@pytest.mark.spec("11.3-better", "D3", "10.3")
 async def test_an_action_that_ignores_pauses_is_let_finish_and_its_children_are_held() -> None:
     watched = Watched(chain("g", [node("Insist", 0, seconds=0.01), node("NoOp", 1)]))
     watched.run.start()
@@ -274,6 +287,7 @@ async def test_a_pause_can_be_taken_back_before_it_took_hold() -> None:
     assert "PAUSED" not in watched.states()
 
 
+@pytest.mark.spec("10.3", "11.3")
 async def test_a_paused_action_that_ends_holds_its_children_too() -> None:
     watched = Watched(chain("g", [node("WaitFor", 0, seconds=0.001), node("NoOp", 1)]))
     watched.run.start()
@@ -286,6 +300,7 @@ async def test_a_paused_action_that_ends_holds_its_children_too() -> None:
 
 
 @pytest.mark.parametrize("pause_first", [False, True])
+@pytest.mark.spec("11.2", "11.2-better", "D4", "17")
 async def test_stop_ends_stopped_also_when_paused(pause_first: bool) -> None:
     watched = Watched(chain("g", [node("WaitFor", 0, seconds=LONG), node("NoOp", 1)]))
     watched.run.start()
@@ -299,6 +314,7 @@ async def test_stop_ends_stopped_also_when_paused(pause_first: bool) -> None:
     assert watched.state("NoOp_1") is NodeState.UNINITIALIZED
 
 
+@pytest.mark.spec("11.2")
 async def test_stopping_twice_or_after_the_end_changes_nothing() -> None:
     watched = Watched(chain("g", [node("NoOp")]))
     watched.run.start()
@@ -310,6 +326,7 @@ async def test_stopping_twice_or_after_the_end_changes_nothing() -> None:
     assert len(watched.told) == told
 
 
+@pytest.mark.spec("11.2", "8.2")
 async def test_an_action_that_does_not_stop_ends_in_error_after_the_time_out() -> None:
     watched = Watched(chain("g", [node("Stubborn", 0, seconds=0.15)]), stop_timeout_s=0.02)
     watched.run.start()
@@ -325,6 +342,7 @@ async def test_an_action_that_does_not_stop_ends_in_error_after_the_time_out() -
     assert watched.run.idle
 
 
+@pytest.mark.spec("11.2")
 async def test_stopping_one_node_follows_its_edges() -> None:
     raw = chain("g", [node("WaitFor", 0, seconds=LONG), node("NoOp", 1)], conditions=["on_stopped -> run"])
     watched = Watched(raw)
@@ -336,6 +354,7 @@ async def test_stopping_one_node_follows_its_edges() -> None:
         watched.run.end_node("WaitFor_7")
 
 
+@pytest.mark.spec("D32", "6")
 async def test_nodes_that_outlive_their_graph_can_be_stopped() -> None:
     raw = {
         "graph_name": "g",
@@ -367,6 +386,7 @@ def triggering(response: str, watched_node: dict[str, Any]) -> dict[str, Any]:
     }
 
 
+@pytest.mark.spec("D30", "5.3")
 async def test_restart_stops_a_running_child_and_runs_it_again() -> None:
     watched = Watched(triggering("restart", node("WaitFor", 0, seconds=LONG)))
     watched.run.start()
@@ -409,6 +429,7 @@ async def test_a_node_paused_by_an_edge_goes_on_with_a_resume() -> None:
     await watched.run.close()
 
 
+@pytest.mark.spec("10.4")
 async def test_a_node_that_triggers_itself_is_still_running_then() -> None:
     raw = {
         "graph_name": "g",
@@ -435,12 +456,14 @@ async def halted(*nodes: dict[str, Any]) -> Watched:
     return watched
 
 
+@pytest.mark.spec("11.4-better", "11.4")
 async def test_resuming_a_halted_graph_without_a_node_leaves_it_halted() -> None:
     watched = await halted(node("NoOp"))
     watched.run.resume()
     assert watched.run.state is GraphState.HALTED
 
 
+@pytest.mark.spec("10.9", "11.4")
 async def test_a_failed_step_can_be_tried_again_with_the_inputs_it_had() -> None:
     watched = await halted(node("JoinText", 0, left="a", right="b"), node("RaiseError", 1))
     assert watched.state("RaiseError_1") is NodeState.ERROR
@@ -449,6 +472,7 @@ async def test_a_failed_step_can_be_tried_again_with_the_inputs_it_had() -> None
     assert watched.runs() == ["JoinText_0", "RaiseError_1", "RaiseError_1"]
 
 
+@pytest.mark.spec("4.3-better")
 async def test_a_step_that_is_run_out_of_turn_takes_what_its_parent_gave() -> None:
     first = node("JoinText", 0, left="a", right="b")
     watched = await halted(first)
@@ -470,6 +494,7 @@ async def test_a_step_without_its_inputs_is_not_run_out_of_turn() -> None:
     assert (watched.run.snapshot(), len(watched.told)) == (before, told)
 
 
+@pytest.mark.spec("D1", "11.5-better", "17")
 async def test_continuing_from_a_running_node_is_no_change() -> None:
     nodes = [node("WaitFor", 0, seconds=0.01)]
     watched = Watched(planner_chain("g", nodes))
@@ -480,6 +505,7 @@ async def test_continuing_from_a_running_node_is_no_change() -> None:
 
 
 @pytest.mark.parametrize("name", ["NoOp_7", "None_0"])
+@pytest.mark.spec("11.4")
 async def test_an_unknown_node_to_continue_from_is_refused(name: str) -> None:
     watched = await halted(node("NoOp"))
     told = len(watched.told)
@@ -492,6 +518,7 @@ async def test_an_unknown_node_to_continue_from_is_refused(name: str) -> None:
     assert len(watched.told) == told
 
 
+@pytest.mark.spec("11.5")
 async def test_modifying_without_a_node_to_continue_from_leaves_a_halted_graph_halted() -> None:
     watched = await halted(node("NoOp"))
     watched.run.modify(read_graph(planner_chain("g", [node("NoOp"), node("NoOp", 1)])))
@@ -499,6 +526,7 @@ async def test_modifying_without_a_node_to_continue_from_leaves_a_halted_graph_h
     assert watched.state("NoOp_1") is NodeState.UNINITIALIZED
 
 
+@pytest.mark.spec("11.5")
 async def test_a_paused_graph_can_be_modified_and_stays_paused() -> None:
     nodes = [node("WaitFor", 0, seconds=0.01), node("Crash", 1)]
     watched = Watched(planner_chain("g", nodes))
@@ -536,6 +564,7 @@ async def test_a_node_that_ended_during_the_pause_may_be_removed() -> None:
     assert watched.runs() == ["WaitFor_0", "NoOp_2"]
 
 
+@pytest.mark.spec("D12")
 async def test_the_last_child_of_a_running_node_can_be_removed() -> None:
     nodes = [node("WaitFor", 0, seconds=0.01), node("Crash", 1)]
     watched = Watched(planner_chain("g", nodes))
@@ -545,6 +574,7 @@ async def test_the_last_child_of_a_running_node_can_be_removed() -> None:
     assert watched.runs() == ["WaitFor_0"]
 
 
+@pytest.mark.spec("11.5")
 async def test_new_values_count_for_the_next_run_of_a_node() -> None:
     watched = await halted(node("JoinText", 0, left="a", right="b"))
     watched.run.modify(
@@ -554,6 +584,7 @@ async def test_new_values_count_for_the_next_run_of_a_node() -> None:
     assert watched.run.outputs("JoinText_0") == {"text": "c-d"}
 
 
+@pytest.mark.spec("D9", "11.5-better")
 async def test_a_join_keeps_the_edges_it_has_seen_through_a_modify() -> None:
     def graph(*extra: dict[str, Any]) -> dict[str, Any]:
         fast, slow, join = node("NoOp", 0), node("WaitFor", 1, seconds=0.02), node("NoOp", 2)
@@ -578,6 +609,7 @@ async def test_a_join_keeps_the_edges_it_has_seen_through_a_modify() -> None:
 
 
 @pytest.mark.parametrize("end", ["finish", "stop"])
+@pytest.mark.spec("11.5")
 async def test_an_ended_graph_cannot_be_modified_or_resumed(end: str) -> None:
     seconds = 0.0 if end == "finish" else LONG
     watched = Watched(chain("g", [node("WaitFor", 0, seconds=seconds)]))
@@ -593,6 +625,7 @@ async def test_an_ended_graph_cannot_be_modified_or_resumed(end: str) -> None:
     assert refusal(error) == "graph_ended"
 
 
+@pytest.mark.spec("D10", "11.5-better")
 async def test_a_modify_that_cannot_run_names_every_reason_and_changes_nothing() -> None:
     watched = await halted(node("NoOp"))
     before = watched.run.snapshot()
@@ -608,6 +641,7 @@ async def test_a_modify_that_cannot_run_names_every_reason_and_changes_nothing()
 # -- what is seen -------------------------------------------------------------------------------------------
 
 
+@pytest.mark.spec("4.3", "4.3-better")
 async def test_the_snapshot_shows_transferred_data_only_while_it_is_used() -> None:
     raw = chain("g", [node("JoinText", 0, left="a", right="b"), node("RaiseError", 1)])
     seen: list[Any] = []

@@ -62,6 +62,7 @@ RUN, FINISH = [("run", "NoOp_2")], [("bypassed", "NoOp_2"), ("bypassed", "NoOp_3
         ({"optional": []}, ("on_true", RUN), ("on_true", RUN)),
     ],
 )
+@pytest.mark.spec("10.4", "5.2", "5.3")
 def test_a_join_waits_for_all_required_edges_and_the_last_one_decides(
     conditions: dict[str, list[str]],
     first: tuple[str, list[tuple[str, str]]],
@@ -73,18 +74,21 @@ def test_a_join_waits_for_all_required_edges_and_the_last_one_decides(
     assert effects(flow, "NoOp_1", then[0]) == then[1]
 
 
+@pytest.mark.spec("10.4", "5.3")
 def test_an_early_bypass_does_not_wait_for_the_other_edges() -> None:
     flow = flow_of(diamond(a=["on_false -> bypass"]))
     flow.start()
     assert effects(flow, "NoOp_0", "on_false") == [("bypassed", "NoOp_2"), ("run", "NoOp_3")]
 
 
+@pytest.mark.spec("10.9", "D5", "5.3")
 def test_an_error_is_bypassed_to_the_exit_by_default() -> None:
     flow = flow_of(diamond())
     flow.start()
     assert effects(flow, "NoOp_0", "on_error") == FINISH
 
 
+@pytest.mark.spec("10.4")
 def test_edges_stay_received_so_a_join_fires_at_once_in_the_next_round() -> None:
     flow = flow_of(diamond())
     flow.start()
@@ -116,12 +120,14 @@ def test_a_cycle_of_bypasses_ends() -> None:
     ("condition", "ends"),
     [("run", True), ("stop", True), ("pause", True), ("restart", True), ("bypass", True), ("ignore", False)],
 )
+@pytest.mark.spec("5.3")
 def test_every_response_but_ignore_ends_the_graph_at_its_exit(condition: str, ends: bool) -> None:
     flow = flow_of(chain("g", [node("NoOp", 0)], exit_conditions=[f"on_false -> {condition}"]))
     flow.start()
     assert effects(flow, "NoOp_0", "on_false") == ([("finish", "")] if ends else [])
 
 
+@pytest.mark.spec("6")
 def test_all_required_exits_must_be_reached() -> None:
     raw = {
         "graph_name": "g",
@@ -136,6 +142,7 @@ def test_all_required_exits_must_be_reached() -> None:
     assert effects(flow_of(raw), "NoOp_0", "on_true") == [("finish", "")]
 
 
+@pytest.mark.spec("6")
 def test_an_optional_exit_without_the_outputs_of_the_graph_does_not_end_it() -> None:
     ends = [node("NoOp", 0), node("JoinText", 1, left="a", right="b")]
     refs = [{"name": item["name"], "instance_id": item["instance_id"]} for item in ends]
@@ -149,6 +156,7 @@ def test_an_optional_exit_without_the_outputs_of_the_graph_does_not_end_it() -> 
     assert effects(flow_of(raw), "JoinText_1", "on_true") == [("finish", "")]
 
 
+@pytest.mark.spec("10.6")
 def test_values_of_another_type_are_not_handed_over() -> None:
     raw = read_graph(chain("g", [node("NoOp", 0), node("NoOp", 1)]))
     giver = replace(raw.nodes[0], output_parameters={"size": Parameter("string")})
@@ -176,18 +184,21 @@ def end_with(flow: Flow, value: str) -> list[tuple[str, str]]:
     return effects(flow, "JoinText_0", "on_true")
 
 
+@pytest.mark.spec("10.6")
 def test_equal_names_hand_values_over_and_overwrite() -> None:
     flow = handing([], pvf_value="old")
     assert end_with(flow, "new") == [("run", "SameText_1")]
     assert flow.nodes["SameText_1"].values == {"text": "new", "expected": "x"}
 
 
+@pytest.mark.spec("10.6", "5.1")
 def test_after_a_rename_the_old_name_is_gone() -> None:
     flow = handing([{"from": "text", "to": "expected"}], pvf_value="own")
     assert end_with(flow, "new") == [("run", "SameText_1")]
     assert flow.nodes["SameText_1"].values == {"text": "own", "expected": "new"}
 
 
+@pytest.mark.spec("4.3", "10.3")
 def test_transferred_values_are_dropped_after_the_run_and_own_ones_stay() -> None:
     flow = handing([])
     end_with(flow, "new")
@@ -195,6 +206,7 @@ def test_transferred_values_are_dropped_after_the_run_and_own_ones_stay() -> Non
     assert flow.nodes["SameText_1"].values == {"expected": "x"}
 
 
+@pytest.mark.spec("4.4", "4.4-better", "D6")
 def test_a_value_that_is_not_allowed_is_the_error_of_the_node() -> None:
     flow = handing([], pvf_allowed_values=["red", "green"])
     assert end_with(flow, "red") == [("run", "SameText_1")]
@@ -206,6 +218,7 @@ def test_a_value_that_is_not_allowed_is_the_error_of_the_node() -> None:
     assert "text must be one of red, green, not blue" in effect.message
 
 
+@pytest.mark.spec("10.5-better", "D19")
 def test_a_node_without_its_inputs_waits_and_says_for_what() -> None:
     flow = handing([])
     flow.start()
@@ -213,6 +226,7 @@ def test_a_node_without_its_inputs_waits_and_says_for_what() -> None:
     assert flow.waiting_for() == "SameText_1 has no data for text"
 
 
+@pytest.mark.spec("D5", "10.4")
 def test_a_bypassed_node_hands_nothing_on() -> None:
     conditions = ["on_true -> bypass"]
     raw = chain(

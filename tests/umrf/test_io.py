@@ -53,6 +53,7 @@ def refused(raw: Any) -> dict[str, str]:
 # -- reading ------------------------------------------------------------------------------------------------
 
 
+@pytest.mark.spec("2")
 def test_the_short_form_is_its_own_entry_and_exit() -> None:
     read = read_graph({"graph_name": "g", "actions": [ONE | {"instance_id": 3}]})
     assert read.entry == (ChildRelation(NodeRef("NoOp", 3)),)
@@ -68,10 +69,12 @@ def test_the_short_form_is_its_own_entry_and_exit() -> None:
         {"graph_name": "g", "actions": []},
     ],
 )
+@pytest.mark.spec("2")
 def test_other_graphs_must_state_entry_and_exit(raw: dict[str, Any]) -> None:
     assert {"graph_entry", "graph_exit"} & refused(raw).keys()
 
 
+@pytest.mark.spec("2", "17")
 def test_unknown_keys_are_ignored_at_every_level() -> None:
     extra: dict[str, Any] = {"x_ours": {"deep": [1]}}
     action: dict[str, Any] = ONE | extra | {"input_parameters": {"a": {"pvf_type": "string"} | extra}}
@@ -80,12 +83,14 @@ def test_unknown_keys_are_ignored_at_every_level() -> None:
 
 
 @pytest.mark.parametrize("text", ["on_true -> run", "on_true->run", "  on_true  ->  run "])
+@pytest.mark.spec("5.3")
 def test_blanks_in_conditions_do_not_matter(text: str) -> None:
     action = ONE | {"parents": [{"name": "NoOp", "conditions": [text]}]}
     [relation] = read_graph(graph(actions=[action])).nodes[0].parents
     assert relation.conditions == {Result.ON_TRUE: Response.RUN}
 
 
+@pytest.mark.spec("5.3")
 def test_the_last_condition_of_a_precondition_wins() -> None:
     action = ONE | {"parents": [{"name": "NoOp", "conditions": ["on_true -> run", "on_true -> stop"]}]}
     [relation] = read_graph(graph(actions=[action])).nodes[0].parents
@@ -93,6 +98,7 @@ def test_the_last_condition_of_a_precondition_wins() -> None:
     assert relation.response(Result.ON_ERROR) is DEFAULT_CONDITIONS[Result.ON_ERROR]
 
 
+@pytest.mark.spec("3")
 def test_only_the_ten_newest_messages_are_kept_oldest_first() -> None:
     messages = [{"timestamp": stamp, "message": str(stamp)} for stamp in range(14, 0, -1)]
     read = read_graph(graph(actions=[ONE | {"runtime": {"messages": messages}}]))
@@ -158,6 +164,7 @@ def test_only_the_ten_newest_messages_are_kept_oldest_first() -> None:
         (ONE | {"runtime": {"messages": [{"timestamp": "1"}]}}, "actions[0].runtime.messages[0]"),
     ],
 )
+@pytest.mark.spec("3", "4.1", "4.2", "5.1", "5.2", "5.3")
 def test_a_wrong_action_is_refused_with_the_path_of_what_is_wrong(action: Any, path: str) -> None:
     assert list(refused(graph(actions=[action]))) == [path]
 
@@ -180,6 +187,7 @@ def test_a_wrong_action_is_refused_with_the_path_of_what_is_wrong(action: Any, p
         ('{"graph_name": "g", "gui": 1e999, "actions": []}', ""),
     ],
 )
+@pytest.mark.spec("2")
 def test_a_wrong_graph_is_refused_with_the_path_of_what_is_wrong(raw: Any, path: str) -> None:
     assert path in refused(raw)
 
@@ -190,6 +198,7 @@ def test_an_object_that_is_no_json_is_refused_like_its_text(value: object) -> No
         read_graph(graph(x=value))
 
 
+@pytest.mark.spec("2-better", "17")
 def test_every_problem_is_named_at_once() -> None:
     actions = [
         {"name": "A"},
@@ -218,6 +227,7 @@ def test_problems_say_what_to_do() -> None:
 # -- writing ------------------------------------------------------------------------------------------------
 
 
+@pytest.mark.spec("9", "12.1", "17")
 def test_the_published_form_is_the_reference_s() -> None:
     exit_relation = ParentRelation(NodeRef("B", 10), conditions={Result.ON_TRUE: Response.IGNORE})
     first = Node("B", 2, children=(ChildRelation(NodeRef("B", 10), (("x", "y"),)),), type="async")
@@ -282,6 +292,7 @@ def test_the_published_form_is_the_reference_s() -> None:
     }
 
 
+@pytest.mark.spec("9", "D23")
 def test_text_beyond_ascii_is_written_as_it_is() -> None:
     assert "Tür öffnen" in write_graph(Graph("g", description="Tür öffnen"))
 
@@ -349,11 +360,13 @@ def graphs(draw: st.DrawFn) -> Graph:
 
 
 @given(graphs())
+@pytest.mark.spec("9", "D35")
 def test_the_faithful_form_reads_back_to_the_same_graph(written: Graph) -> None:
     assert read_graph(write_graph(written, faithful=True)) == written
 
 
 @given(graphs())
+@pytest.mark.spec("9", "9-better", "3")
 def test_the_published_form_is_stable_and_loses_no_more_than_the_reference(written: Graph) -> None:
     text = write_graph(written)
     read = read_graph(text)
@@ -365,6 +378,7 @@ def test_the_published_form_is_stable_and_loses_no_more_than_the_reference(writt
 
 @given(st.lists(graphs(), max_size=3))
 @settings(max_examples=30)
+@pytest.mark.spec("D18")
 def test_a_writer_that_remembers_writes_the_same_text(versions: list[Graph]) -> None:
     writer = GraphWriter()
     for version in versions:
@@ -382,6 +396,7 @@ def test_both_forms_of_a_mapping_and_its_text_read_the_same() -> None:
 # -- descriptors --------------------------------------------------------------------------------------------
 
 
+@pytest.mark.spec("7.1")
 def test_descriptors_read_back_what_was_written() -> None:
     for spec in CATALOGUE:
         read = read_descriptor(write_descriptor(spec))
@@ -396,6 +411,7 @@ def test_a_wrong_descriptor_is_refused_with_a_path() -> None:
     assert [problem.path for problem in error.value.problems] == ["type", "input_parameters.x"]
 
 
+@pytest.mark.spec("12.6", "D35")
 def test_the_form_of_planners_keeps_exit_conditions_and_what_is_not_required() -> None:
     conditions = {Result.ON_TRUE: Response.IGNORE}
     node = Node("A", input_parameters={"x": Parameter("string", required=False)})

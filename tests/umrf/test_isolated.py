@@ -8,6 +8,7 @@ import multiprocessing
 import os
 import sys
 import time
+from collections.abc import Mapping
 from dataclasses import dataclass
 from pathlib import Path
 from typing import Any
@@ -92,10 +93,12 @@ class Polite:
 ACTIONS: tuple[Any, ...] = (tell, misbehave, ignore_everything, work_until_stopped, Polite)
 
 
+CATALOGUE = Catalogue(item.spec for item in ACTIONS)
+
+
 def started(
-    name: str, catalogue: Catalogue | None = None, **values: Any
+    name: str, values: Mapping[str, Any], catalogue: Catalogue = CATALOGUE
 ) -> tuple[GraphRun, list[Transition]]:
-    catalogue = catalogue or Catalogue(item.spec for item in ACTIONS)
     spec = catalogue.get(name)
     assert spec is not None
     inputs: dict[str, Any] = {}
@@ -128,7 +131,7 @@ def report(run: GraphRun, node: str) -> FailureReport:
 
 async def begun(told: list[Transition]) -> None:
     async with asyncio.timeout(20):
-        while not any(item.progress_text == "begun" for item in told):
+        while not any(item.progress_text == "begun" for item in told):  # noqa: ASYNC110
             await asyncio.sleep(0.01)
 
 
@@ -137,7 +140,7 @@ def nobody_is_left() -> bool:
 
 
 async def test_inputs_outputs_log_and_progress_cross_over() -> None:
-    run, told = started("Tell", **{"place::x": 1.5, "place::y": 2.0})
+    run, told = started("Tell", {"place::x": 1.5, "place::y": 2.0})
     assert await run.wait() is Result.ON_TRUE
     outputs = run.outputs("Tell_0")
     assert outputs["text"] == "A Tell_0 1.5 " * 2
@@ -160,7 +163,7 @@ async def test_inputs_outputs_log_and_progress_cross_over() -> None:
     ],
 )
 async def test_a_bad_end_is_the_nodes_failure_alone(how: str, code: FailureCode, words: str) -> None:
-    run, _ = started("Misbehave", how=how)
+    run, _ = started("Misbehave", {"how": how})
     assert await run.wait() is Result.ON_ERROR
     failure = report(run, "Misbehave_0")
     assert failure.code is code
@@ -170,7 +173,7 @@ async def test_a_bad_end_is_the_nodes_failure_alone(how: str, code: FailureCode,
 
 @pytest.mark.parametrize("name", ["WorkUntilStopped", "Polite"])
 async def test_a_stop_reaches_the_action(name: str) -> None:
-    run, told = started(name)
+    run, told = started(name, {})
     await begun(told)
     run.stop()
     assert await run.wait() is Result.ON_STOPPED
@@ -179,9 +182,9 @@ async def test_a_stop_reaches_the_action(name: str) -> None:
 
 async def test_a_stop_kills_what_does_not_end(monkeypatch: pytest.MonkeyPatch) -> None:
     monkeypatch.setattr(room, "STOP_GRACE_S", 0.2)
-    run, _ = started("IgnoreEverything")
+    run, _ = started("IgnoreEverything", {})
     async with asyncio.timeout(20):
-        while nobody_is_left():
+        while nobody_is_left():  # noqa: ASYNC110
             await asyncio.sleep(0.01)
     run.stop()
     assert await run.wait() is Result.ON_STOPPED
@@ -196,8 +199,7 @@ async def test_an_action_file_of_a_folder_can_be_isolated(tmp_path: Path) -> Non
     )
     index = ActionFolder(tmp_path)
     index.scan()
-    catalogue = Catalogue(index.found.specs)
-    run, _ = started("Mine", catalogue, text="chair")
+    run, _ = started("Mine", {"text": "chair"}, Catalogue(index.found.specs))
     assert await run.wait() is Result.ON_FALSE
 
 
@@ -206,6 +208,6 @@ async def test_what_is_hidden_in_a_function_cannot_be_isolated_and_says_so() -> 
     def hidden(ctx: RunHandle) -> None:
         """Not at the top of its module."""
 
-    run, _ = started("Hidden", Catalogue([hidden.spec]))
+    run, _ = started("Hidden", {}, Catalogue([hidden.spec]))
     assert await run.wait() is Result.ON_ERROR
     assert "top of its module" in report(run, "Hidden_0").message

@@ -5,6 +5,7 @@ from __future__ import annotations
 import asyncio
 from typing import Any
 
+import pytest
 from hypothesis import given, settings
 from hypothesis import strategies as st
 
@@ -124,6 +125,7 @@ async def play(raw: dict[str, Any], orders: list[Any]) -> None:
 
 @given(raw=graphs(), orders=commands)
 @settings(max_examples=150, deadline=None)
+@pytest.mark.spec("D2", "D14", "D25", "D26", "D28", "10.5-better", "12.2-better", "17")
 def test_runs_end_tell_each_change_once_and_leave_nothing_behind(
     raw: dict[str, Any], orders: list[Any]
 ) -> None:

@@ -29,7 +29,7 @@ class Watched:
         self.told: list[Transition] = []
         self.run = GraphRun(
             read_graph(source),
-            CATALOGUE,
+            options.pop("catalogue", CATALOGUE),
             actor="A",
             clock=WallClock(),
             make_context=lambda handle: handle,

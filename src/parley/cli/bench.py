@@ -3,11 +3,13 @@
 from __future__ import annotations
 
 import asyncio
-from typing import Annotated
+from collections.abc import Sequence
+from typing import Annotated, Any
 
 import typer
 
-from parley.bench.engine import run_chain
+from parley.bench.control import measure_control
+from parley.bench.engine import Figures, chain, fan_out, run_chain, run_graphs, share
 from parley.bench.story import measure_demo
 from parley.cli.output import emit_json, quiet_logs
 
@@ -17,28 +19,58 @@ app = typer.Typer(help="Measure on this machine.", no_args_is_help=True)
 
 JsonOption = Annotated[bool, typer.Option("--json", help="One JSON object per figure.")]
 LENGTHS = (10, 100, 1000)
+AT_ONCE = 100
+CONTROL_TIMES = 100
 
 
 @app.command("engine")
 def engine(json: JsonOption = False) -> None:
-    """Chains of actions that do nothing, async and threaded, every event checked."""
+    """Chains, a fan-out, a hundred graphs at once, latencies; async and threaded, every event checked."""
     quiet_logs()
     for threaded in (False, True):
         asyncio.run(run_chain(LENGTHS[0], threaded=threaded))  # so that first-time imports are not measured
         for length in LENGTHS:
-            result = asyncio.run(run_chain(length, threaded=threaded))
-            facts = {
-                "kind": result.kind,
-                "actions": result.actions,
-                "wall_ms": round(1000 * result.wall_s, 1),
-                "actions_per_s": round(result.actions_per_s),
-                "events": result.events,
-                "gaps": result.gaps,
-            }
-            if json:
-                emit_json(facts)
-            else:
-                typer.echo("  ".join(f"{name} {value}" for name, value in facts.items()))
+            _show_run("chain", asyncio.run(run_chain(length, threaded=threaded)), json)
+        _show_run("fan_out", asyncio.run(run_graphs([fan_out("fan", AT_ONCE)], threaded=threaded)), json)
+        many = [chain(f"g{index}", 10) for index in range(AT_ONCE)]
+        _show_run("graphs_at_once", asyncio.run(run_graphs(many, threaded=threaded)), json)
+        slow = run_graphs([chain("slow", 100)], threaded=threaded, seconds=0.01, feedback=True)
+        _show_run("actions_of_10_ms", asyncio.run(slow), json)
+        control = asyncio.run(measure_control(CONTROL_TIMES, threaded=threaded))
+        for command, taken_ms in control.items():
+            kind = "threaded" if threaded else "async"
+            _show({"case": f"{command}_to_action", "kind": kind, **_latency("", taken_ms)}, json)
+
+
+def _show_run(case: str, figures: Figures, as_json: bool) -> None:
+    facts: dict[str, Any] = {
+        "case": case,
+        "kind": figures.kind,
+        "actions": figures.actions,
+        "wall_ms": round(1000 * figures.wall_s, 1),
+        "actions_per_s": round(figures.actions_per_s),
+        "events": figures.events,
+        "gaps": figures.gaps,
+        "peak_rss_mb": round(figures.rss_mb, 1),
+    }
+    facts |= _latency("event_", figures.event_ms) | _latency("feedback_", figures.feedback_ms)
+    _show(facts, as_json)
+
+
+def _latency(what: str, values_ms: Sequence[float]) -> dict[str, float]:
+    if not values_ms:
+        return {}
+    return {
+        f"{what}p50_ms": round(share(values_ms, 0.5), 2),
+        f"{what}p99_ms": round(share(values_ms, 0.99), 2),
+    }
+
+
+def _show(facts: dict[str, Any], as_json: bool) -> None:
+    if as_json:
+        emit_json(facts)
+    else:
+        typer.echo("  ".join(f"{name} {value}" for name, value in facts.items()))
 
 
 @app.command("demo")

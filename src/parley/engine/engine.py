@@ -56,6 +56,8 @@ M = TypeVar(
 P = TypeVar("P", bound=BaseModel)
 
 SOURCE = "action_engine"
+COMMAND_DEPTH = 1000
+"""Commands that may come at once; the reference loses all but one (W3)."""
 
 
 class ActionEngine:
@@ -179,7 +181,7 @@ class ActionEngine:
     async def _listen(self, stack: AsyncExitStack) -> None:
         async def on(topic: Topic[M], command: Callable[[M], None]) -> None:
             subscription = await self._transport.subscribe(
-                topic, lambda message: self._command(topic.name, message, command)
+                topic, lambda message: self._command(topic.name, message, command), depth=COMMAND_DEPTH
             )
             stack.push_async_callback(subscription.close)
 

@@ -211,6 +211,8 @@ def _write(connection: sqlite3.Connection, *, batch: _Batch, first: int) -> None
             connection.execute("UPDATE run SET graph_now = ? WHERE id = ?", (text, number))
         for number, transition in batch.told:
             _write_transition(connection, number, transition)
+        if tidy := [number for number, *_ in batch.begun if number % _TIDY_EVERY == 0]:
+            _drop_old(connection, tidy[-1])
         connection.execute("COMMIT")
     except BaseException:
         connection.execute("ROLLBACK")
@@ -229,10 +231,12 @@ def _write_begun(
         "INSERT INTO run VALUES (?, ?, ?, ?, ?, ?, 0, ?, ?)",
         (number, actor, graph.name, graph.state.value, unix_ms, unix_ms, text, text),
     )
-    if number % _TIDY_EVERY == 0:
-        connection.execute("DELETE FROM run WHERE id <= ?", (number - KEPT_RUNS,))
-        for table in ("node", "transition"):
-            connection.execute(f"DELETE FROM {table} WHERE run <= ?", (number - KEPT_RUNS,))
+
+
+def _drop_old(connection: sqlite3.Connection, newest: int) -> None:
+    connection.execute("DELETE FROM run WHERE id <= ?", (newest - KEPT_RUNS,))
+    for table in ("node", "transition"):
+        connection.execute(f"DELETE FROM {table} WHERE run <= ?", (newest - KEPT_RUNS,))
 
 
 def _write_transition(connection: sqlite3.Connection, number: int, told: Transition) -> None:

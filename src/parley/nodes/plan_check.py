@@ -11,7 +11,7 @@ from parley.errors import Problem
 from parley.messages.chat import ActionCall
 from parley.messages.pvf import Parameter
 from parley.messages.status import ActionInfo
-from parley.nodes.plan_steps import Step, build_graph
+from parley.nodes.plan_steps import Step, build_graph, unrolled
 from parley.umrf.action import ActionSpec
 from parley.umrf.catalogue import Catalogue
 from parley.umrf.check import check
@@ -39,8 +39,12 @@ def spec_of(info: ActionInfo) -> ActionSpec:
 
 
 def complete_calls(calls: Iterable[ActionCall], catalogue: Iterable[ActionInfo]) -> list[ActionCall]:
-    """Spell out inputs and outputs that were left out; a graph must name them all (`spec/umrf.md` 7.2)."""
+    """Spell out inputs and outputs that were left out; a graph must name them all (`spec/umrf.md` 7.2).
+
+    What is to be repeated is there as often as it is to run.
+    """
     known = {info.name: info for info in catalogue}
+    calls = unrolled(calls)
     return [_complete(call, known[call.name]) if call.name in known else call for call in calls]
 
 
@@ -60,11 +64,11 @@ def check_calls(
         catalogue: What the robot can do.
         before: Actions that run right before and hand their outputs on.
     """
+    flows = [index for index, call in enumerate(calls) if call.flow is not None]
     if len(calls) > MAX_ACTIONS:
         return [
             Problem("queue", f"{len(calls)} actions are more than the {MAX_ACTIONS} allowed", code="too_long")
         ]
-    flows = [index for index, call in enumerate(calls) if call.flow is not None]
     if flows:
         return [
             Problem(

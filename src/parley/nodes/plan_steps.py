@@ -2,19 +2,19 @@
 
 from __future__ import annotations
 
-from collections.abc import Sequence
+from collections.abc import Iterable, Sequence
 from dataclasses import dataclass, field
 from typing import Any, Final, Literal
 
-from parley.messages.chat import ActionCall
+from parley.messages.chat import ActionCall, Flow
 from parley.messages.failure import ErrorHandlingMessage, FailureReport
 from parley.umrf.model import ChildRelation, Graph, Node, NodeRef, NodeState, ParentRelation, Response, Result
 
 __all__ = [
     "ACTIVE_STATES", "GONE_CODES", "LATCHED", "OPEN_STATES", "Effect", "EndStep", "ModifyGraph", "PauseGraph",
     "ReportFailure", "ResumeGraph", "RunState", "Say", "StartGraph", "Step", "StepState", "StopGraph",
-    "build_graph", "failure_message", "fill_inputs", "handed_over", "known_outputs", "with_givers",
-    "with_values", "without_orphans",
+    "build_graph", "failure_message", "fill_inputs", "handed_over", "known_outputs", "unrolled",
+    "with_givers", "with_values", "without_orphans",
 ]  # fmt: skip
 
 StepState = Literal["queued", "running", "finished", "failed", "stopped", "skipped", "paused", "waiting"]
@@ -180,6 +180,23 @@ def handed_over(call: ActionCall, before: Step | None) -> frozenset[str]:
         return frozenset()
     blank = {name for name, parameter in call.input_parameters.items() if not parameter.has_data}
     return frozenset(blank & set(before.call.output_parameters))
+
+
+def unrolled(calls: Iterable[ActionCall]) -> list[ActionCall]:
+    """`calls` with those that are to be repeated as often as they are to run.
+
+    Copies instead of a cycle: people see how far it got, and can drop or skip one of them.
+    """
+    found: list[ActionCall] = []
+    for call in calls:
+        flow = call.flow
+        if flow is None or flow.repeat is None:
+            found.append(call)
+            continue
+        rest = flow.model_copy(update={"repeat": None})
+        once = call.model_copy(update={"flow": rest if rest != Flow() else None})
+        found += [once] * flow.repeat
+    return found
 
 
 def with_values(call: ActionCall, values: dict[str, Any]) -> ActionCall:

@@ -149,7 +149,7 @@ class GraphWriter:
 
 
 def _state_line(node: Node) -> str:
-    """The line of a node's state: in JSON text a line break is always layout, and this depth is the node's."""
+    """The line of a node's state: in JSON text line breaks are layout only, and this depth is the node's."""
     return f'\n            "state": "{node.state.value}"'
 
 
@@ -196,6 +196,9 @@ def write_descriptor(spec: ActionSpec) -> str:
     return dump(written)
 
 
+_LITERALS: Final = {True: "true", False: "false"}
+
+
 def dump(value: Any) -> str:
     """The layout of section 9: keys sorted, four blanks."""
     return _lay_out(value, "\n")
@@ -216,7 +219,7 @@ def _lay_out(value: Any, line: str) -> str:
         return f"{{{inner}{f',{inner}'.join(pairs)}{line}}}"
     if isinstance(value, list | tuple) and value:
         return f"[{inner}{f',{inner}'.join(_lay_out(item, inner) for item in value)}{line}]"
-    return json.dumps(value, allow_nan=False)
+    return _LITERALS[value] if isinstance(value, bool) else json.dumps(value, allow_nan=False)
 
 
 def _parameters(parameters: Parameters, *, with_required: bool) -> dict[str, Any]:

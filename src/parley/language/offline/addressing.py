@@ -95,7 +95,7 @@ def _sent(words: Phrase, robots: tuple[str, ...]) -> tuple[Phrase, tuple[str, ..
                 rest = rest[1:] if not verb else rest
                 return (*verb, *rest), (name,)
             if rest and (
-                _ends_with(before, _WISHING) and rest[0].key == "to" or before and before[-1] in _ASKING
+                (_ends_with(before, _WISHING) and rest[0].key == "to") or (before and before[-1] in _ASKING)
             ):
                 return _without_lead(rest), (name,)
     return None
@@ -103,7 +103,8 @@ def _sent(words: Phrase, robots: tuple[str, ...]) -> tuple[Phrase, tuple[str, ..
 
 _SENDING = (("send",), ("dispatch",), ("direct",), ("route",))
 _WISHING = (
-    ("i", "want"), ("i", "need"), ("we", "want"), ("we", "need"), ("would", "like"), ("instruct",), ("order",),
+    ("i", "want"), ("i", "need"), ("we", "want"), ("we", "need"), ("would", "like"), ("instruct",),
+    ("order",),
     ("command",), ("tell",), ("ask",), ("get",), ("remind",), ("i", "would", "like"),
 )  # fmt: skip
 _ASKING = frozenset({"could", "can", "would", "will", "should", "let", "have", "make", "may", "might"})

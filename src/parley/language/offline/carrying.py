@@ -5,11 +5,11 @@ from __future__ import annotations
 from dataclasses import dataclass, replace
 
 from parley.language.offline.commands import Command
-from parley.language.offline.facts import find_fact
 from parley.language.offline.going import UnableError
 from parley.language.offline.lexicon import lexicon
 from parley.language.offline.looking import ASKING, Looking
 from parley.language.offline.nouns import bare, noun_phrase
+from parley.language.offline.remembering import find_fact
 from parley.language.offline.saying import the
 from parley.language.offline.scene import OPERATOR, Place, UnclearError
 from parley.language.offline.text import Phrase, keys, plain, tokens
@@ -59,7 +59,7 @@ class Carrying(Looking):
         self.scene.mention(theme)
 
     def _from_where_it_is(self, command: Command) -> Command:
-        """For "the cup on the table": the table is where it is taken from, unless that is one object of the map."""
+        """For "the cup on the table": taken from the table, unless that is one object of the map."""
         noun = noun_phrase(command.theme)
         if (
             command.source
@@ -80,6 +80,9 @@ class Carrying(Looking):
     def _theme(self, command: Command) -> tuple[Phrase, Place | None]:
         """What is to be brought, in the words it is remembered by, and where it is."""
         need = lexicon().need_phrases.get(" ".join(keys(bare(command.theme))))
+        pointing = keys(command.theme) in {("it",), ("them",), ("that",), ("this",)}
+        if pointing and self.carried:
+            return self.carried, None
         theme = bare(self.scene.referent(tokens(need) if need else command.theme))
         if keys(theme) == keys(self.carried):
             return theme, None

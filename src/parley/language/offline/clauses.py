@@ -268,7 +268,9 @@ def _new_clause(sentence: Phrase, start: int, index: int, opens: Opens) -> bool:
     if rest[0].key in {"just", "only", "but"} and lexicon().prohibitions.match(keys(before)):
         # "Do not go to the box, just to the door": what is wanted instead.
         return True
-    if keys(rest[:2]) in _THE_REST and opens(before):
+    head = strip_openers(before, requests=True)
+    drops = bool(head) and lemma(head[0].key) in {v.split()[0] for v in lexicon().verb_classes["drop_step"]}
+    if keys(rest[:2]) in _THE_REST and (drops or opens(before)):
         return True
     rest_flat = keys(strip_openers(rest))
     if rest_flat[:1] == ("not",) or rest_flat[:2] == ("do", "not"):

@@ -213,6 +213,9 @@ def _look(command: Command) -> Command:
     while len(words) > 1 and words[0].key in {"at", "on", "into", "in", "inside", "over", "around"}:
         words = words[1:]
     flat = keys(words)
+    if flat and flat[0] in _HERE and (anchors := noun_phrase(words).anchors) and anchors[0]:
+        # "Inspect everything in the room": the room.
+        return replace(command, theme=anchors[0])
     if flat and (flat[0] in _HERE or words == ()):
         return replace(command, theme=())
     if flat[:1] and flat[0] in {"for"} and command.kind == "look":
@@ -320,6 +323,8 @@ def _transfer(command: Command, is_person: IsPerson) -> Command:
             result = replace(result, recipient=bare(person), place=place or result.place)
         elif marker != "for":
             result = replace(result, place=goal)
+    if len(theme) > 1 and theme[-1].key in {"back", "over", "along"}:
+        theme = theme[:-1]
     noun = noun_phrase(theme)
     if command.kind in {"grasp", "place"} and len(theme) > 1 and theme[-1].key in {"up", "down"}:
         theme = theme[:-1]

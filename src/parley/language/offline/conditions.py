@@ -115,11 +115,8 @@ def _leading(words: Phrase, opens: Opens) -> Conditional | None:
     found = next(((m, holds) for m, holds in _LEADING if flat[: len(m)] == m), None)
     if found is None and _is_state(flat):
         found = ("when",), True
-    if (
-        found is None
-        or flat[len(found[0]) : len(found[0]) + 1] == ("you",)
-        and flat[-1] != "?"
-        and _polite(flat)
+    if found is None or (
+        flat[len(found[0]) : len(found[0]) + 1] == ("you",) and flat[-1] != "?" and _polite(flat)
     ):
         return None
     marker, holds = found

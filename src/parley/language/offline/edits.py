@@ -6,9 +6,10 @@ from collections.abc import Sequence
 from dataclasses import dataclass
 
 from parley.language.offline.commands import Command
-from parley.language.offline.facts import find_fact, strip_openers
+from parley.language.offline.facts import strip_openers
 from parley.language.offline.lexicon import lexicon
 from parley.language.offline.nouns import bare
+from parley.language.offline.remembering import find_fact
 from parley.language.offline.saying import the, whole_sentence
 from parley.language.offline.scene import Scene, UnclearError
 from parley.language.offline.text import Phrase, keys, lemma, plain, singular, split_name, tokens

@@ -2,19 +2,13 @@
 
 from __future__ import annotations
 
-import re
-from collections.abc import Iterable, Sequence
 from dataclasses import dataclass, replace
-from functools import lru_cache
 
-from parley.language.offline.grounding import ground_phrase
 from parley.language.offline.lexicon import lexicon
 from parley.language.offline.nouns import bare, noun_phrase
-from parley.language.offline.text import Phrase, Word, keys, plain, tokens
-from parley.messages.memory import MemoryEntry
-from parley.world.object_map import MapObject
+from parley.language.offline.text import Phrase, Word, keys, plain
 
-__all__ = ["Fact", "Remembered", "find_fact", "memory_name", "read_statement", "remembered", "strip_openers"]
+__all__ = ["Fact", "read_statement", "strip_openers"]
 
 
 @dataclass(frozen=True, slots=True)
@@ -39,14 +33,6 @@ class Fact:
     def is_location(self) -> bool:
         """Whether it says where something is."""
         return bool(self.place)
-
-
-@dataclass(frozen=True, slots=True)
-class Remembered:
-    """A fact with the memory it comes from."""
-
-    fact: Fact
-    entry: MemoryEntry
 
 
 _NOT_SUBJECTS = frozenset(
@@ -114,7 +100,7 @@ def strip_openers(phrase: Phrase, *, requests: bool = False, reporting: bool = F
         if not sizes or max(sizes) >= len(phrase):
             break
         forbids = lex.prohibitions.match(flat)
-        if forbids is not None and forbids[0] > max(sizes):
+        if flat[0] == "no" and forbids is not None and forbids[0] > max(sizes):
             break
         verb = lex.verbs.match(flat)
         if verb is not None and verb[0] > max(sizes) and not verb[1].startswith("other:"):
@@ -397,81 +383,3 @@ def _sentence(phrase: Phrase) -> str:
         text = plain(phrase)
         text = text[0].upper() + text[1:]
     return text.rstrip(" ,;")
-
-
-def remembered(memory: Iterable[MemoryEntry]) -> list[Remembered]:
-    """What the text memories say, newest first."""
-    result: list[Remembered] = []
-    for entry in memory:
-        if entry.type != "text":
-            continue
-        fact = _entry_fact(entry.name, entry.data)
-        if fact is not None:
-            result.append(Remembered(fact, entry))
-    return result[::-1]
-
-
-@lru_cache(maxsize=4096)
-def _entry_fact(name: str, data: str) -> Fact | None:
-    first = re.split(r"(?<=[.!;])\s", data.strip(), maxsplit=1)[0][:400]
-    words = tokens(first)
-    fact = read_statement(words)
-    if fact is not None:
-        return fact
-    about, _, kind = name.rpartition("_")
-    if about and kind in {"location", "place", "position"} and words and len(words) < 12:
-        noun = noun_phrase(words)
-        place = noun.anchors[0] if not noun.core and noun.anchors else noun.phrase
-        return Fact(tokens(about.replace("_", " ")), place, noun.relation or "at", sentence=data)
-    return None
-
-
-def find_fact(
-    about: Phrase, facts: Sequence[Remembered], *, locations: bool = True
-) -> tuple[Remembered | None, list[Remembered]]:
-    """What is remembered about something: the one fact that holds, or several different things it may mean.
-
-    Args:
-        about: The words that name the thing.
-        facts: Newest first.
-        locations: Only where things are.
-    """
-    usable = [f for f in facts if f.fact.is_location and not f.fact.negated] if locations else list(facts)
-    denied = {
-        keys(f.fact.subject) + keys(f.fact.place) for f in facts if f.fact.is_location and f.fact.negated
-    }
-    newest: dict[tuple[str, ...], Remembered] = {}
-    for item in usable:
-        if keys(item.fact.subject) + keys(item.fact.place) in denied:
-            continue
-        name = item.entry.name if item.fact.another else ""
-        newest.setdefault((*keys(item.fact.subject), name), item)
-    listed = list(newest.values())
-    stand_ins = [
-        MapObject(id=f"fact-{'i' * (i + 1)}", description=plain(f.fact.subject), x_m=0.0, y_m=0.0)
-        for i, f in enumerate(listed)
-    ]
-    found = ground_phrase(about, stand_ins)
-    if found.outcome == "none":
-        return None, []
-    hits = [listed[stand_ins.index(item)] for item in found.candidates]
-    return (hits[0], []) if len(hits) == 1 else (None, hits)
-
-
-def memory_name(fact: Fact, facts: Sequence[Remembered]) -> str:
-    """A stable name for a fact: the one of the older fact it replaces, or made from subject and relation."""
-    if not fact.another:
-        for item in facts:
-            same_kind = item.fact.is_location == fact.is_location and (
-                fact.is_location or item.fact.relation == fact.relation
-            )
-            if same_kind and keys(item.fact.subject) == keys(fact.subject):
-                return item.entry.name
-    subject = _slug(keys(fact.subject))
-    if fact.is_location:
-        return f"{subject}_location" + (f"_{_slug(keys(fact.place))}" if fact.another else "")
-    return f"{subject}_{'state' if fact.relation in lexicon().be else _slug((fact.relation,))}"
-
-
-def _slug(words: Iterable[str]) -> str:
-    return "_".join(re.sub(r"[^\w]+", "_", word).strip("_") for word in words)[:80].strip("_") or "fact"

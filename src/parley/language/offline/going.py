@@ -7,9 +7,9 @@ from dataclasses import dataclass, field, replace
 
 from parley.language.offline.catalogue import Catalogue, call, parameter_role, text_inputs
 from parley.language.offline.commands import Command
-from parley.language.offline.facts import find_fact
 from parley.language.offline.fill import arguments
 from parley.language.offline.nouns import bare, noun_phrase
+from parley.language.offline.remembering import find_fact
 from parley.language.offline.saying import the
 from parley.language.offline.scene import OPERATOR, Place, Scene, UnclearError
 from parley.language.offline.text import Phrase, keys, plain, singular, split_name, tokens
@@ -75,7 +75,7 @@ class Going:
         }:
             self._back(command)
             return
-        middle = self._middle(command.place)
+        middle = None if command.verb == "patrol" else self._middle(command.place)
         if middle is not None:
             self._go_to_numbers(middle)
             return

@@ -242,7 +242,9 @@ def _by_typo(words: tuple[str, ...], profiles: Sequence[_Profile]) -> list[_Prof
     known = {word for profile in profiles for word in profile.words | profile.heads}
     common = lexicon().synonyms
     mended = tuple(
-        word if word in known or word in common or _is_label(word) else closest(word, known) or word
+        word
+        if word in known or word in common or word in lexicon().nouns or _is_label(word)
+        else closest(word, known) or word
         for word in words
     )
     if mended == words and len(words) > 1 and words[0] in known:
@@ -258,7 +260,7 @@ def _mended_beside(words: tuple[str, ...], profiles: Sequence[_Profile]) -> tupl
     fitting = [p for p in profiles if set(words[:-1]) <= p.words]
     heads = {head for p in fitting for head in p.heads if head[:1] == words[-1][:1] and len(words[-1]) > 2}
     near = [head for head in heads if OSA.distance(head, words[-1]) == 1]
-    unknown = words[-1] not in lexicon().vocabulary and not _is_label(words[-1])
+    unknown = words[-1] not in lexicon().vocabulary | lexicon().nouns and not _is_label(words[-1])
     return (*words[:-1], near[0]) if len(near) == 1 and unknown else words
 
 

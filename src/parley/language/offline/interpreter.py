@@ -3,39 +3,34 @@
 from __future__ import annotations
 
 from collections.abc import Sequence
-from dataclasses import dataclass, field, replace
+from dataclasses import dataclass, replace
 
 from parley.language.base import Situation
 from parley.language.control import control_of
-from parley.language.offline import addressing, edits, questions, social
+from parley.language.offline import addressing, social
 from parley.language.offline.abilities import abilities, cannot
+from parley.language.offline.answering import Answering
+from parley.language.offline.changing import CONTROL_REPLIES
 from parley.language.offline.clauses import Clause, clauses, opens_command
 from parley.language.offline.commands import Command, read_command
-from parley.language.offline.facts import Fact, find_fact, read_statement, strip_openers
+from parley.language.offline.facts import Fact, read_statement, strip_openers
 from parley.language.offline.followup import pending_request
 from parley.language.offline.lexicon import lexicon
 from parley.language.offline.mending import mended
-from parley.language.offline.noting import Noting
 from parley.language.offline.nouns import bare, noun_phrase
-from parley.language.offline.replanning import inserted, read_replanning, visit_of, without
+from parley.language.offline.remembering import find_fact
+from parley.language.offline.replanning import inserted, read_replanning
 from parley.language.offline.saying import listing, the, whole_sentence
 from parley.language.offline.scene import Scene, UnclearError
 from parley.language.offline.stories import mentioned, told_around
-from parley.language.offline.tasks import Tasks, UnableError
-from parley.language.offline.text import Phrase, Word, keys, lemma, plain, tokens
+from parley.language.offline.tasks import UnableError
+from parley.language.offline.text import Phrase, Word, keys, plain, tokens
 from parley.language.offline.wishes import due, missing, need, wish
-from parley.messages.chat import ActionCall, ChatAction, CommandName, Flow, FlowIf, SystemCommand
+from parley.messages.chat import ActionCall, ChatAction, Flow, FlowIf, SystemCommand
 
 __all__ = ["interpret"]
 
 _LONGEST_CHARS = 6000
-_CONTROL_REPLIES: dict[str, tuple[CommandName, str]] = {
-    "stop": ("stop", "I stop here and wait. Say “carry on” when I may go on."),
-    "emergency_stop": ("stop", "I stop at once."),
-    "start": ("start", "I carry on."),
-    "skip": ("skip", "I leave this step out."),
-    "clear": ("clear", "I cancel everything that was planned."),
-}
 
 
 def interpret(situation: Situation) -> ChatAction:
@@ -47,7 +42,7 @@ def interpret(situation: Situation) -> ChatAction:
         return _say(situation, "That is too long for me to follow. Please tell me in a few short sentences.")
     control = control_of(message, situation.robots)
     if control is not None:
-        command, reply = _CONTROL_REPLIES[control]
+        command, reply = CONTROL_REPLIES[control]
         return _say(situation, reply, commands=(SystemCommand(command=command),))
     words = mended(tokens(message), situation)
     own = addressing.own_part(words, situation)
@@ -101,24 +96,8 @@ _FOLLOW_ON = (("what", "about"), ("how", "about"), ("the", "same", "for"), ("sam
 
 
 @dataclass
-class _Reader(Noting):
+class _Reader(Answering):
     """Reads the clauses of one message in order."""
-
-    targets: tuple[str, ...] = ()
-    tasks: Tasks = field(init=False)
-    last: Command | None = None
-    _previous: Command | None = None
-    """What the message before asked for."""
-    _leads_on: bool = False
-    """Whether this message begins like a continuation."""
-    unread: list[Phrase] = field(default_factory=list)
-    """Clauses that mean nothing here."""
-    _parts: Sequence[Clause] = ()
-    _at: int = 0
-    _before_last: tuple[int, int] = (0, 0)
-
-    def __post_init__(self) -> None:
-        self.tasks = Tasks(self.scene)
 
     def read(self, words: Phrase) -> ChatAction:
         self._mention_history()
@@ -155,16 +134,6 @@ class _Reader(Noting):
             return self._result(cannot(unable.what, self.scene), ())
         self.learn()
         return self._result(self._reply(), (*self.tasks.steps, *before))
-
-    def _complain(self) -> None:
-        """Ask about what was not understood, unless it was only told around something that was."""
-        if not self.unread:
-            return
-        if not (self.tasks.steps or self.commands or self.replies):
-            raise UnclearError(f"{social.not_understood(self.unread[0])} {abilities(self.scene)}")
-        for words in self.unread:
-            if not told_around(words):
-                self.replies.append(whole_sentence(f"I did not understand “{plain(words)[:80]}”"))
 
     # -- clauses --
 
@@ -209,127 +178,6 @@ class _Reader(Noting):
         self.scene.mention(tokens(item.description))
         self.scene.places.append(tokens(item.description))
         return True
-
-    def _corrected(self, clause: Clause) -> Clause:
-        """For "... I mean the desk": what the clause before it asked for is taken back."""
-        found = lexicon().corrections.match(keys(clause.words))
-        if (
-            found is None
-            or self.last is None
-            or found[0] >= len(clause.words)
-            or found[1] in {"no longer", "not any more"}
-        ):
-            return clause
-        if read_statement(clause.words[found[0] :]) is not None:
-            return clause
-        steps, will = self._before_last
-        del self.tasks.steps[steps:]
-        del self.tasks.will[will:]
-        self.tasks.here = ""
-        return replace(clause, words=clause.words[found[0] :])
-
-    def _instead(self, clause: Clause) -> Clause:
-        """For "Instead of the desk go to the box": pending steps about the desk are dropped."""
-        flat = keys(clause.words)
-        at = next((i for i in range(len(flat) - 2) if flat[i : i + 2] == ("instead", "of")), -1)
-        if at < 0:
-            return clause
-        rest = clause.words[at + 2 :]
-        end = (
-            len(rest)
-            if at
-            else next(
-                (i for i in range(1, len(rest)) if opens_command(rest[i:]) or rest[i].key == ","), len(rest)
-            )
-        )
-        refused = Command("motion", "go", True, place=bare(rest[:end]), clause=rest[:end])
-        for index in reversed(edits.steps_of(refused, self.scene)):
-            self.commands.append(SystemCommand(command="pop", arguments={"parameters": index}))
-        return replace(clause, words=clause.words[:at] if at else rest[end:])
-
-    def _order(self, clause: Clause, alone: bool, index: int) -> bool:
-        """Stop words among other clauses, and changes of the plan."""
-        words = strip_openers(clause.words)
-        control = None if clause.is_question else control_of(plain(words))
-        if control is not None:
-            if control == "start" and not alone and index:
-                return True
-            if control == "stop" and not alone:
-                # "Stop and go to the desk": the new order takes the place of the old ones. Elsewhere ("go to
-                # the desk and wait there") standing still is what the robot does anyway.
-                if index or keys(words)[0] not in {"stop", "halt"}:
-                    return True
-                control = "clear"
-            command, reply = _CONTROL_REPLIES[control]
-            self._command_once(SystemCommand(command=command), reply)
-            return True
-        edit = self._dropped(words) or edits.read_edit(words, self.scene)
-        if edit is not None:
-            self.commands.extend(edit.commands)
-            self.replies.append(edit.reply)
-            return True
-        return False
-
-    def _dropped(self, words: Phrase) -> edits.Edit | None:
-        """For "drop the box", "forget about the box" with a visit to the box pending."""
-        words = strip_openers(words, requests=True)
-        verb = edits.drop_verb(words)
-        if not verb or verb >= len(words) or not self.scene.situation.queue:
-            return None
-        rest = edits.of_plan(bare(words[verb:]))
-        if {"inspect", "inspection", "inspecting", "look", "looking", "check", "checking"} & set(keys(rest)):
-            return None
-        at = visit_of(rest, self.scene)
-        return None if at is None else without(at, self.scene)
-
-    def _spoken(self, clause: Clause) -> bool:
-        """Questions, and what is only social."""
-        answer = questions.answer(clause, self.scene)
-        if answer is not None:
-            if answer.look:
-                self._look_for_answer(answer)
-            else:
-                self.replies.append(answer.text)
-            return True
-        small_talk = social.reply(clause.words, alone=False)
-        if small_talk is not None:
-            if not self.replies and small_talk:
-                self.replies.append(small_talk)
-            return True
-        return False
-
-    def _look_for_answer(self, answer: questions.Answer) -> None:
-        if self._goes_to_look():
-            self._look_now(answer)
-            self._parts = self._parts[: self._at + 1]
-            return
-        if answer.counts and self.scene.catalogue.with_role("search") is not None:
-            self._look_now(answer)
-            return
-        if self.scene.hints and questions.is_yes(self.scene.hints[0]):
-            self.scene.hints.pop(0)
-            self._look_now(answer)
-            return
-        raise UnclearError(answer.text, ("yes", "no"))
-
-    def _goes_to_look(self) -> bool:
-        """Whether the next clause says to go and look, and nothing more: "Is it open? Please check."."""
-        following = self._parts[self._at + 1 : self._at + 2]
-        command = read_command(following[0].words, self.scene.is_person) if following else None
-        return (
-            command is not None
-            and command.kind in {"look", "whether"}
-            and not command.place
-            and keys(command.theme) in {(), ("it",), ("that",), ("this",)}
-        )
-
-    def _look_now(self, answer: questions.Answer) -> None:
-        verb = (
-            ("count",) if answer.counts else ("look",) if answer.look[0].key == "at" else ("check", "whether")
-        )
-        command = read_command((*(Word(v, v) for v in verb), *answer.look), self.scene.is_person)
-        if command is not None:
-            self.tasks.do(command)
 
     def _command(self, clause: Clause) -> Command | None:
         command = read_command(clause.words, self.scene.is_person, self.scene.catalogue.verbs)
@@ -438,18 +286,6 @@ class _Reader(Noting):
             return min(lexicon().numbers.get(word, int(word) if word.isdigit() else 1), 10)
         return 1
 
-    def _do_not(self, command: Command) -> None:
-        for phrase in (command.place, command.theme):
-            self.scene.mention(bare(phrase))
-            if phrase:
-                self.scene.places.append(bare(phrase))
-        words = " ".join([lemma(command.clause[0].key), plain(command.clause[1:])]).strip()
-        dropped = edits.steps_of(command, self.scene)
-        self.commands.extend(
-            SystemCommand(command="pop", arguments={"parameters": i}) for i in reversed(dropped)
-        )
-        self.replies.append(whole_sentence(f"All right, I will not {words}"))
-
     def _condition(self, clause: Clause) -> None:
         """Look first, then act or not."""
         if not clause.condition:
@@ -487,8 +323,6 @@ class _Reader(Noting):
         word = "if not" if clause.otherwise else "if so"
         if len(self.tasks.will) > told:
             self.tasks.will[-1] = f"{word}, {self.tasks.will[-1]}"
-
-    _checked: tuple[Phrase, int] = ((), 0)
 
     def _last_look(self) -> int:
         """The step that looked last, for "if not, ...".
@@ -529,7 +363,7 @@ class _Reader(Noting):
         if found:
             raise UnclearError(f"What should I do with {the(found)}? I can go there or have a look at it.")
         if not alone and (told_around(words) or self._at < len(self._parts) - 1):
-            # Stories around an order are no orders; what cannot be one is only mentioned if nothing else is asked.
+            # Stories around an order are no orders, but what they name may be meant by what follows.
             self.unread.append(words)
             for phrase in mentioned(words, self.scene):
                 self.scene.mention(phrase)
@@ -547,11 +381,6 @@ class _Reader(Noting):
         return plain(phrase) if found.outcome != "none" else ""
 
     # -- the result --
-
-    def _command_once(self, command: SystemCommand, reply: str) -> None:
-        if command not in self.commands:
-            self.commands.append(command)
-            self.replies.append(reply)
 
     def _mention_history(self) -> None:
         """What was spoken of before, for pronouns."""
@@ -591,49 +420,6 @@ class _Reader(Noting):
         for phrase in mentioned(words, self.scene):
             self.scene.mention(phrase)
             self.scene.places.append(phrase)
-
-    def _reply(self) -> str:
-        if self.last is not None and self.last.kind == "need" and not self.tasks.steps:
-            self._serve_need(self.last)
-            self.learn()
-        parts = [*self.replies, *self.tasks.notes]
-        known = [
-            whole_sentence(f.fact.sentence)
-            for f in self.scene.facts
-            if f.entry.name in self.scene.sources and f.fact.sentence and f not in self._new()
-        ]
-        if self.tasks.steps and known:
-            parts.append("I remember: " + " ".join(dict.fromkeys(known)))
-        if self.tasks.will:
-            parts.append(whole_sentence(f"I will {listing(self._will(), 'and then')}"))
-        return " ".join(part for part in parts if part) or "All right."
-
-    def _new(self) -> list[object]:
-        names = {c.arguments.get("name") for c in self.commands if c.command == "add_memory"}
-        return [f for f in self.scene.facts if f.entry.name in names and not f.entry.info]
-
-    def _will(self) -> list[str]:
-        said: list[str] = []
-        for text in self.tasks.will:
-            if not said or said[-1] != text:
-                said.append(text)
-        return said
-
-    def _serve_need(self, need: Command) -> None:
-        try:
-            self.tasks.do(replace(need, kind="transfer", verb="bring"))
-        except UnclearError as unclear:
-            self.replies.append(unclear.question)
-
-    def _result(self, text: str, steps: Sequence[ActionCall], choices: Sequence[str] = ()) -> ChatAction:
-        return ChatAction(
-            message_response=text,
-            queue=tuple(steps),
-            system_cmd=tuple(self.commands),
-            targets=self.targets or ((self.scene.situation.robot,) if self.scene.situation.robot else ()),
-            choices=tuple(choices),
-            sources=tuple(self.scene.sources),
-        )
 
 
 def _as_visit(words: Phrase) -> Phrase:

@@ -99,6 +99,10 @@ class Lexicon:
     often_mistyped: frozenset[str]
     meaningful: frozenset[str]
     """Words of these lists that carry meaning of their own."""
+    nouns: frozenset[str]
+    """Common nouns, never taken for a typing error of another."""
+    hazards: frozenset[str]
+    """What a person should decide about when it is seen."""
     effects: Mapping[str, str]
     action_words: Mapping[str, str]
     synonyms: Mapping[str, frozenset[str]]
@@ -177,6 +181,8 @@ def lexicon() -> Lexicon:
         prohibitions=PhraseTable.of(words["prohibitions"]),
         everybody=PhraseTable.of(words["everybody"]),
         your_choice=PhraseTable.of(words["your_choice"]),
+        nouns=frozenset(thesaurus["nouns"]),
+        hazards=frozenset(thesaurus["hazards"]),
         effects=verbs["effects"],
         action_words=verbs["action_words"],
         synonyms=_synonyms(thesaurus["same"]),

@@ -5,9 +5,10 @@ from __future__ import annotations
 from dataclasses import dataclass, field, replace
 
 from parley.language.offline.clauses import Clause
-from parley.language.offline.facts import Fact, memory_name, read_statement, strip_openers
+from parley.language.offline.facts import Fact, read_statement, strip_openers
 from parley.language.offline.lexicon import lexicon
 from parley.language.offline.nouns import bare
+from parley.language.offline.remembering import memory_name
 from parley.language.offline.saying import the, whole_sentence
 from parley.language.offline.scene import Scene
 from parley.language.offline.text import keys, lemma, plain, tokens

@@ -10,7 +10,7 @@ from parley.language.offline.grounding import ground_phrase, head_of
 from parley.language.offline.lexicon import lexicon
 from parley.language.offline.nouns import bare, coordinated, noun_phrase
 from parley.language.offline.saying import a, listing, the, whole_sentence
-from parley.language.offline.text import Phrase, keys, lemma, plain, tokens
+from parley.language.offline.text import Phrase, keys, lemma, plain, singular, tokens
 from parley.robots.base import CameraImage, Detection
 from parley.world.object_map import MapObject
 
@@ -75,8 +75,11 @@ def inspect(image: CameraImage, request: str) -> InspectionReport:
     seen = _distinct([d for d in image.detections if d.pixels >= MIN_PIXELS])
     subject, condition = _subject(tokens(request))
     if not subject or keys(subject)[0] in _GENERAL:
-        return InspectionReport(_overview(seen, image))
+        return InspectionReport(
+            _overview(seen, image) + _warning(_alarming(seen)), attention=bool(_alarming(seen))
+        )
     name = plain(subject)
+    alarming = _alarming(seen)
     found = [d for part in coordinated(subject) for d in _fitting(part, seen)]
     missing = [plain(part) for part in coordinated(subject) if not _fitting(part, seen)]
     if missing:
@@ -86,7 +89,10 @@ def inspect(image: CameraImage, request: str) -> InspectionReport:
             else " I can see nothing that I know."
         )
         return InspectionReport(
-            f"I cannot see {a(listing(missing, 'or'))}.{others}", found=False, wanted=name
+            f"I cannot see {a(listing(missing, 'or'))}.{others}{_warning(alarming)}",
+            found=False,
+            wanted=name,
+            attention=bool(alarming),
         )
     places = listing([f"{a(d.label)}, {_where(d, image)}" for d in found])
     text = f"I can see {places}."
@@ -94,7 +100,19 @@ def inspect(image: CameraImage, request: str) -> InspectionReport:
         text += (
             f" Whether {the(name)} {condition}, I cannot judge by myself: please have a look at the picture."
         )
-    return InspectionReport(text, found=True, wanted=name)
+    return InspectionReport(text + _warning(alarming), found=True, wanted=name, attention=bool(alarming))
+
+
+def _alarming(seen: Sequence[Detection]) -> list[str]:
+    """Labels of finds that a person should know of at once, whatever was asked."""
+    hazards = lexicon().hazards
+    return [d.label for d in seen if {singular(word.key) for word in tokens(d.label)} & hazards]
+
+
+def _warning(alarming: Sequence[str]) -> str:
+    return (
+        f" Please decide what to do about {listing([the(label) for label in alarming])}." if alarming else ""
+    )
 
 
 def _distinct(detections: Sequence[Detection]) -> list[Detection]:

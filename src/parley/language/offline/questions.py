@@ -2,22 +2,22 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable
 from dataclasses import dataclass
 from functools import cache
 
-from parley.language.offline.abilities import abilities
+from parley.language.offline.abilities import abilities, cannot
 from parley.language.offline.clauses import Clause, opens_command
-from parley.language.offline.facts import Remembered, find_fact, strip_openers
+from parley.language.offline.facts import strip_openers
 from parley.language.offline.grounding import describe, ground_phrase
 from parley.language.offline.lexicon import lexicon
 from parley.language.offline.nouns import bare, noun_phrase
+from parley.language.offline.own_state import ABOUT_ITSELF, told_about
+from parley.language.offline.remembering import find_fact
 from parley.language.offline.replies import agrees
 from parley.language.offline.saying import a, capital, listing, the, whole_sentence
 from parley.language.offline.scene import Scene
-from parley.language.offline.text import Phrase, Word, keys, plain, split_name, tokens
+from parley.language.offline.text import Phrase, Word, keys, lemma, plain, singular, tokens
 from parley.language.word_lists import load_data
-from parley.messages.chat import ActionCall
 
 __all__ = ["Answer", "answer", "is_yes"]
 
@@ -80,7 +80,10 @@ def answer(clause: Clause, scene: Scene) -> Answer | None:
     )
     if not question:
         return None
-    for kind, reply in _FIXED.items():
+    able = _able(words, flat, scene) if clause.is_question else None
+    if able is not None:
+        return able
+    for kind, reply in ABOUT_ITSELF.items():
         for start in _starts(kind):
             if _begins(flat, start):
                 return Answer(reply(scene, words[len(start) :]))
@@ -89,6 +92,51 @@ def answer(clause: Clause, scene: Scene) -> Answer | None:
         if found is not None:
             return found
     return _open_question(words, clause.is_question)
+
+
+_ABLE = (
+    ("are", "you", "able", "to"),
+    ("can", "you"),
+    ("could", "you"),
+    ("do", "you", "know", "how", "to"),
+    ("are", "you", "capable", "of"),
+)
+_GENERIC = frozenset(
+    {
+        "thing",
+        "object",
+        "something",
+        "stuff",
+        "people",
+        "person",
+        "item",
+        "place",
+        "anything",
+        "someone",
+        "somebody",
+        "around",
+    }
+)
+
+
+def _able(words: Phrase, flat: tuple[str, ...], scene: Scene) -> Answer | None:
+    """For "can you carry things?", "are you able to drive?": about abilities, not about doing it now."""
+    size = next((len(start) for start in _ABLE if flat[: len(start)] == start), 0)
+    if not size or size >= len(flat):
+        return None
+    base = (lemma(flat[size]), *flat[size + 1 :])
+    found = lexicon().verbs.match(base)
+    rest = flat[size + found[0] :] if found is not None else ()
+    if found is None or any(singular(word) not in _GENERIC for word in rest):
+        return None
+    kind = found[1].partition(":")[0]
+    said = plain((Word(base[0], base[0]), *words[size + 1 :]))
+    roles = {"whether": {"look"}, "transfer": {"fetch", "grasp", "ask_operator"}, "back": {"motion"}}.get(
+        kind, {kind}
+    )
+    if scene.catalogue.with_role(*sorted(roles)) is not None or scene.catalogue.for_verb(base[0]) is not None:
+        return Answer(f"Yes, I can {said}. {abilities(scene)}")
+    return None if kind in {"look", "search", "motion"} and not rest else Answer(cannot(said, scene))
 
 
 def _unwrapped(words: Phrase) -> tuple[Phrase, bool]:
@@ -142,137 +190,6 @@ def _open_question(words: Phrase, marked: bool) -> Answer | None:
 # -- fixed kinds --
 
 
-def _say_abilities(scene: Scene, _: Phrase) -> str:
-    return abilities(scene)
-
-
-def _say_status(scene: Scene, _: Phrase) -> str:
-    situation = scene.situation
-    if not situation.queue:
-        return (
-            "I am waiting for your instructions."
-            if situation.status != "paused"
-            else "I am standing still; say “carry on” when I may go on."
-        )
-    now = step_words(situation.queue[0])
-    if situation.status == "paused":
-        return f"I am paused. Next I would {now}."
-    rest = f" After that I have {len(situation.queue) - 1} more to do." if len(situation.queue) > 1 else ""
-    return f"I am at this step: {now}.{rest}"
-
-
-def _say_left(scene: Scene, _: Phrase) -> str:
-    queue = scene.situation.queue
-    if not queue:
-        return "Nothing is left to do. I am waiting for your instructions."
-    steps = [step_words(step) for step in queue]
-    return f"{len(steps)} {'step is' if len(steps) == 1 else 'steps are'} left: {listing(steps, 'and then')}."
-
-
-def _say_where(scene: Scene, _: Phrase) -> str:
-    pose = scene.situation.robot_pose
-    if pose is None:
-        return "I do not know where I am."
-    near = sorted(scene.objects, key=lambda item: (item.x_m - pose.x_m) ** 2 + (item.y_m - pose.y_m) ** 2)
-    nearest = f" The nearest thing I know is {the(describe(near[0], scene.objects))}." if near else ""
-    return f"I am at x {pose.x_m:.1f} m, y {pose.y_m:.1f} m on the map.{nearest}"
-
-
-def _say_name(scene: Scene, _: Phrase) -> str:
-    name = scene.situation.robot
-    return (
-        f"I am {name}, a robot that you can talk to. {abilities(scene)}"
-        if name
-        else f"I am a robot that you can talk to. {abilities(scene)}"
-    )
-
-
-def _say_objects(scene: Scene, _: Phrase) -> str:
-    if not scene.objects:
-        return "I know no objects: my map has none."
-    names = [the(describe(item, scene.objects)) for item in scene.objects]
-    shown = names[:30]
-    more = f" and {len(names) - 30} more" if len(names) > 30 else ""
-    return f"On my map are {listing(shown) if not more else ', '.join(shown)}{more}."
-
-
-def _say_memory(scene: Scene, rest: Phrase) -> str:
-    about = bare(rest)
-    while (
-        about
-        and about[0].key
-        in {"about", "of", "regarding", "on", "now", "so", "far", "i", "told", "you", "concerning"}
-        and len(about) > 1
-    ):
-        about = bare(about[1:])
-    if not about or keys(about)[0] in {
-        "about",
-        "of",
-        "everything",
-        "anything",
-        "so",
-        "now",
-        "far",
-        "i",
-        "all",
-    }:
-        if not scene.situation.memory:
-            return "You have not told me anything to remember yet."
-        return "I remember: " + " ".join(
-            whole_sentence(entry.data[:200] if entry.type == "text" else entry.info)
-            for entry in scene.situation.memory[-20:]
-        )
-    about = scene.referent(about)
-    found = _about(about, scene)
-    for item in found:
-        scene.use(item)
-    if found:
-        return " ".join(whole_sentence(item.fact.sentence) for item in found)
-    on_map = ground_phrase(about, scene.objects)
-    if on_map.outcome != "none":
-        names = listing([the(describe(item, scene.objects)) for item in on_map.candidates])
-        return f"I know {names} on the map, and nothing else about it."
-    return f"I do not know anything about {the(plain(about))}. Tell me, and I will remember it."
-
-
-def _about(about: Phrase, scene: Scene) -> list[Remembered]:
-    fact, several = find_fact(about, scene.facts, locations=False)
-    direct = [fact] if fact is not None else several
-    names = {item.entry.name for item in direct}
-    wanted = set(noun_phrase(about).core)
-    related = [
-        i
-        for i in scene.facts
-        if i.entry.name not in names and wanted and wanted <= set(noun_phrase(i.fact.place).core)
-    ]
-    return [*direct, *related]
-
-
-def _say_robots(scene: Scene, _: Phrase) -> str:
-    robots = scene.situation.robots or ((scene.situation.robot,) if scene.situation.robot else ())
-    return f"The robots here are {listing(list(robots))}." if robots else "I do not know of any other robots."
-
-
-_FIXED: dict[str, Callable[[Scene, Phrase], str]] = {
-    "ability": _say_abilities,
-    "status": _say_status,
-    "left": _say_left,
-    "objects": _say_objects,
-    "memory": _say_memory,
-    "self": _say_where,
-    "name": _say_name,
-    "robots": _say_robots,
-}
-
-
-def step_words(step: ActionCall) -> str:
-    """A step in words."""
-    if step.reason:
-        return step.reason
-    values = [str(p.value) for p in step.input_parameters.values() if isinstance(p.value, str)]
-    return " ".join([*split_name(step.name), *values])
-
-
 # -- questions about the world --
 
 
@@ -315,8 +232,8 @@ def _where(words: Phrase, flat: tuple[str, ...], scene: Scene, _: bool) -> Answe
         scene.use(item)
     if hits:
         return Answer(" ".join(whole_sentence(item.fact.sentence) for item in hits))
-    name = len(about) == 1 and about[0].is_capital
-    found = ground_phrase(about, scene.objects, scene.situation.robot_pose, strict=name)
+    named = len(about) == 1 and about[0].is_capital
+    found = ground_phrase(about, scene.objects, scene.situation.robot_pose, strict=named)
     if found.outcome == "match":
         thing = found.candidates[0]
         name = capital(the(describe(thing, scene.objects)))
@@ -365,16 +282,13 @@ def _how_many(words: Phrase, flat: tuple[str, ...], scene: Scene, _: bool) -> An
     about = bare(words[start:end])
     found = ground_phrase(about, scene.objects) if about else None
     where = noun_phrase(words[start:]) if start == 2 else None
-    if where is not None and where.core and len(where.anchors) == 1 and where.relation != "of":
-        if ground_phrase(where.anchors[0], scene.objects).outcome == "match" and (
-            found is None or found.outcome == "none"
-        ):
-            look = (*about, *tokens(where.relation), *where.anchors[0])
-            return Answer(
-                f"I do not know. Shall I go to {the(plain(where.anchors[0]))} and have a look?",
-                look,
-                counts=True,
-            )
+    unknown = found is None or found.outcome == "none"
+    placed = where is not None and bool(where.core) and len(where.anchors) == 1 and where.relation != "of"
+    if where is not None and placed and unknown:
+        anchor = where.anchors[0]
+        if ground_phrase(anchor, scene.objects).outcome == "match":
+            text = f"I do not know. Shall I go to {the(plain(anchor))} and have a look?"
+            return Answer(text, (*about, *tokens(where.relation), *anchor), counts=True)
     if found is None or found.outcome == "none":
         return Answer(f"I do not know of any {plain(about)}.") if start == 2 else None
     names = listing([the(describe(item, scene.objects)) for item in found.candidates])
@@ -385,7 +299,7 @@ def _who(words: Phrase, flat: tuple[str, ...], scene: Scene, _: bool) -> Answer 
     if flat[:2] not in {("who", "is"), ("what", "is"), ("what", "are"), ("who", "are")} or len(flat) < 3:
         return None
     about = bare(words[2:])
-    found = _about(about, scene)
+    found = told_about(about, scene)
     for item in found:
         scene.use(item)
     if found:

@@ -4,8 +4,8 @@ from __future__ import annotations
 
 from collections.abc import Sequence
 
-from parley.language.offline.facts import remembered
 from parley.language.offline.lexicon import lexicon
+from parley.language.offline.remembering import remembered
 from parley.language.offline.text import lemma, singular, split_name, tokens
 from parley.messages.memory import MemoryEntry
 

@@ -8,159 +8,59 @@ again in other words.
 from __future__ import annotations
 
 from collections.abc import Sequence
-from dataclasses import replace
 from functools import cache
 
 from parley.errors import FailureCode
 from parley.language.base import ErrorSituation, Situation
 from parley.language.control import control_of
-from parley.language.offline.catalogue import Catalogue, roles_of, text_inputs
+from parley.language.offline.catalogue import Catalogue
 from parley.language.offline.choosing import choose, choose_object, strip_lead_ins
 from parley.language.offline.clauses import opens_command
 from parley.language.offline.commands import read_command
-from parley.language.offline.facts import memory_name, read_statement, remembered
+from parley.language.offline.facts import read_statement
+from parley.language.offline.failed_step import (
+    AGAIN,
+    STOP,
+    WITHOUT,
+    ask_again,
+    ask_what,
+    ask_which,
+    candidates_of,
+    perceives,
+    with_words,
+    words_of,
+)
 from parley.language.offline.grounding import describe, ground_phrase
 from parley.language.offline.interpreter import interpret
 from parley.language.offline.nouns import noun_phrase
+from parley.language.offline.remembering import memory_name, remembered
 from parley.language.offline.replies import agrees
-from parley.language.offline.saying import capital, listing, the, whole_sentence
+from parley.language.offline.saying import capital, the, whole_sentence
 from parley.language.offline.scene import place_said
 from parley.language.offline.text import keys, tokens
 from parley.language.word_lists import load_data
 from parley.messages.chat import ActionCall, ChatAction, SystemCommand
-from parley.messages.status import ActionInfo
 from parley.world.object_map import MapObject
 
 __all__ = ["resolve"]
 
-AGAIN, WITHOUT, STOP = "try again", "go on without it", "stop"
-
-_ASKING: dict[FailureCode, tuple[str, str]] = {
-    FailureCode.UNREACHABLE: (
-        "I cannot find a way to get there.",
-        "Is there a door to open, or should I go on without it?",
-    ),
-    FailureCode.BLOCKED: (
-        "Something is in my way.",
-        "Can you move it, so that I can try again, or should I go on without it?",
-    ),
-    FailureCode.TIMED_OUT: ("It took too long, so I gave up for now.", "Should I try again?"),
-    FailureCode.UNAVAILABLE: ("Something I need does not answer.", "Should I try again?"),
-    FailureCode.NOT_CAPABLE: (
-        "I am not able to do this.",
-        "Can you do it for me and tell me when it is done?",
-    ),
-    FailureCode.DECLINED: ("You said no to this step.", "Should I go on without it?"),
-    FailureCode.NOT_UNDERSTOOD: (
-        "I could not understand the answer.",
-        "Is it done, or should I go on without it?",
-    ),
-    FailureCode.HARDWARE: ("A part of me does not work.", "Please have a look at me. Should I try again?"),
-    FailureCode.INTERNAL: ("Something went wrong inside me.", "Should I try again?"),
-    FailureCode.ATTENTION: ("I found something that you should decide about.", "Should I go on?"),
-    FailureCode.NO_MATCH: ("I cannot find it.", "What should I do?"),
-    FailureCode.AMBIGUOUS: ("Several things fit.", "Which one do you mean?"),
-}
-
 
 def resolve(situation: ErrorSituation) -> ChatAction:
     """Repair a failure, or ask."""
-    candidates = _candidates(situation)
+    candidates = candidates_of(situation)
     if situation.reply is None:
         if situation.code is FailureCode.AMBIGUOUS:
-            return _from_memory(situation, candidates) or _ask_which(situation, candidates)
-        return _corrected_by_memory(situation) or _ask_what(situation)
+            return _from_memory(situation, candidates) or ask_which(situation, candidates)
+        return _corrected_by_memory(situation) or ask_what(situation)
     reply = situation.reply.strip()
     if situation.code is FailureCode.AMBIGUOUS or candidates:
         chosen = choose_object(candidates, reply, situation.objects, situation.robot_pose)
         if chosen is not None:
             words = describe(chosen, candidates)
             return _solved(
-                situation, f"Thank you. I take {the(words)}.", [_with_words(situation.failed_action, words)]
+                situation, f"Thank you. I take {the(words)}.", [with_words(situation.failed_action, words)]
             )
-    return _answered(situation, reply) or _ask_again(situation, candidates)
-
-
-# -- asking --
-
-
-def _candidates(situation: ErrorSituation) -> list[MapObject]:
-    """What the failure lists, as objects of the map where it knows them."""
-    listed = situation.details.get("candidates", ())
-    known = {item.id: item for item in situation.objects}
-    result: list[MapObject] = []
-    for entry in listed if isinstance(listed, Sequence) else ():
-        if isinstance(entry, dict) and isinstance(entry.get("description"), str):
-            identifier = str(entry.get("id", entry["description"]))
-            result.append(known.get(identifier) or MapObject(identifier, entry["description"], 0.0, 0.0))
-        elif isinstance(entry, str):
-            named = next((item for item in situation.objects if entry in {item.id, item.description}), None)
-            result.append(named or MapObject(entry, entry, 0.0, 0.0))
-    return result
-
-
-def _ask_which(situation: ErrorSituation, candidates: Sequence[MapObject]) -> ChatAction:
-    if not candidates:
-        return _question(
-            f"Several things fit “{_words(situation.failed_action)}”. Which one do you mean?", ()
-        )
-    names = [describe(item, candidates) for item in candidates]
-    shown = listing([the(name) for name in names])
-    wanted = _words(situation.failed_action)
-    about = f" that could be “{wanted}”" if wanted else ""
-    return _question(f"I know {len(names)} things{about}: {shown}. Which one do you mean?", names)
-
-
-def _ask_what(situation: ErrorSituation) -> ChatAction:
-    said, question = _ASKING.get(situation.code, _ASKING[FailureCode.INTERNAL])
-    wanted = _words(situation.failed_action)
-    if situation.code is FailureCode.NO_MATCH:
-        looking = _looks(situation)
-        said = (
-            f"I looked, but I cannot see {the(wanted)}."
-            if looking
-            else f"I do not know where {the(wanted)} is."
-        )
-        if wanted.startswith(("whether", "what")):
-            said = "I looked, but I could not see what you asked about."
-        question = (
-            "Should I try again, go on without it, or stop?"
-            if looking
-            else "Where is it? Or should I go on without it, or stop?"
-        )
-    elif _is_plain(situation.error_message):
-        said = whole_sentence(situation.error_message)
-    return _question(f"{said} {question}", (AGAIN, WITHOUT, STOP))
-
-
-def _is_plain(message: str) -> bool:
-    """Whether a failure's own sentence can be shown to people."""
-    technical = any(
-        mark in message
-        for mark in ("/", "_", "::", "{", "}", "Error", "Exception", "Traceback", "<", "0x", "()", "=")
-    )
-    return bool(message.strip()) and len(message) < 200 and "\n" not in message and not technical
-
-
-def _ask_again(situation: ErrorSituation, candidates: Sequence[MapObject]) -> ChatAction:
-    asked = sum(turn.role == "assistant" for turn in situation.dialogue)
-    if situation.code is FailureCode.AMBIGUOUS and candidates:
-        names = [describe(item, candidates) for item in candidates]
-        numbered = listing([f"{index}, {the(name)}" for index, name in enumerate(names, 1)], "or")
-        start = (
-            "I am sorry, I still do not see which one you mean."
-            if asked > 1
-            else "I did not understand which one you mean."
-        )
-        return _question(f"{start} Please say one of these or its number: {numbered}?", names)
-    start = "I am sorry, I still do not understand." if asked > 1 else "I did not understand that."
-    return _question(
-        f"{start} You can say “{AGAIN}”, “{WITHOUT}” or “{STOP}”. What should I do?", (AGAIN, WITHOUT, STOP)
-    )
-
-
-def _question(text: str, choices: Sequence[str]) -> ChatAction:
-    return ChatAction(message_response=text, success=False, choices=tuple(choices))
+    return _answered(situation, reply) or ask_again(situation, candidates)
 
 
 # -- answers --
@@ -260,7 +160,7 @@ def _solved(
 
 def _new_words(situation: ErrorSituation, reply: str) -> ChatAction | None:
     """For a step that turns words into a place: other words that the map knows."""
-    if situation.code not in {FailureCode.NO_MATCH, FailureCode.AMBIGUOUS} or _looks(situation):
+    if situation.code not in {FailureCode.NO_MATCH, FailureCode.AMBIGUOUS} or perceives(situation):
         return None
     ordered = read_command(tokens(reply), lambda _: False)
     where = (
@@ -274,13 +174,13 @@ def _new_words(situation: ErrorSituation, reply: str) -> ChatAction | None:
     words = describe(found.candidates[0], situation.objects)
     commands = _told(situation, where[0], words)
     return _solved(
-        situation, f"Thank you. I take {the(words)}.", [_with_words(situation.failed_action, words)], commands
+        situation, f"Thank you. I take {the(words)}.", [with_words(situation.failed_action, words)], commands
     )
 
 
 def _new_place(situation: ErrorSituation, reply: str) -> ChatAction | None:
     """For a step that looks for something: the place where it really is."""
-    if not _looks(situation):
+    if not perceives(situation):
         return None
     phrase = tokens(reply)
     fact = read_statement(phrase)
@@ -303,7 +203,7 @@ def _new_place(situation: ErrorSituation, reply: str) -> ChatAction | None:
 
 def _told(situation: ErrorSituation, relation: str, place: str) -> list[SystemCommand]:
     """The operator's answer as a memory."""
-    wanted = _words(situation.failed_action)
+    wanted = words_of(situation.failed_action)
     if not wanted or wanted.startswith(("whether", "what")):
         return []
     sentence = f"{capital(the(wanted))} is {relation} {the(place)}"
@@ -356,7 +256,7 @@ def _from_memory(situation: ErrorSituation, candidates: Sequence[MapObject]) -> 
             solved = _solved(
                 situation,
                 f"I remember: {whole_sentence(fact.sentence)} So I take {the(words)}.",
-                [_with_words(situation.failed_action, words)],
+                [with_words(situation.failed_action, words)],
             )
             return solved.model_copy(update={"sources": (item.entry.name,)})
     return None
@@ -364,9 +264,9 @@ def _from_memory(situation: ErrorSituation, candidates: Sequence[MapObject]) -> 
 
 def _corrected_by_memory(situation: ErrorSituation) -> ChatAction | None:
     """What was looked for under one name on the map is remembered to be somewhere that the map knows."""
-    if situation.code is not FailureCode.NO_MATCH or _looks(situation) or not situation.memory:
+    if situation.code is not FailureCode.NO_MATCH or perceives(situation) or not situation.memory:
         return None
-    wanted = tokens(_words(situation.failed_action))
+    wanted = tokens(words_of(situation.failed_action))
     for item in remembered(situation.memory):
         if not item.fact.is_location or item.fact.negated or keys(item.fact.subject) != keys(wanted):
             continue
@@ -376,38 +276,7 @@ def _corrected_by_memory(situation: ErrorSituation) -> ChatAction | None:
             solved = _solved(
                 situation,
                 f"I remember: {whole_sentence(item.fact.sentence)}",
-                [_with_words(situation.failed_action, words)],
+                [with_words(situation.failed_action, words)],
             )
             return solved.model_copy(update={"sources": (item.entry.name,)})
     return None
-
-
-# -- the failed step --
-
-
-def _words(step: ActionCall) -> str:
-    """What the failed step was given in words; empty if nothing."""
-    return next((p.value for p in step.input_parameters.values() if isinstance(p.value, str) and p.value), "")
-
-
-def _with_words(step: ActionCall, words: str) -> ActionCall:
-    """The same step with other words in its first worded input."""
-    inputs = dict(step.input_parameters)
-    for name, parameter in inputs.items():
-        if parameter.type == "string":
-            inputs[name] = replace(parameter, value=words)
-            break
-    return step.model_copy(update={"input_parameters": inputs})
-
-
-def _looks(situation: ErrorSituation) -> bool:
-    """Whether the failed step is one that perceives."""
-    info = next((info for info in situation.catalogue if info.name == situation.failed_action.name), None)
-    step = situation.failed_action
-    if info is None:
-        info = ActionInfo(
-            name=step.name,
-            inputs={name: p.type for name, p in step.input_parameters.items()},
-            outputs={name: p.type for name, p in step.output_parameters.items()},
-        )
-    return bool(roles_of(info) & {"look", "search", "count"}) and bool(text_inputs(info))

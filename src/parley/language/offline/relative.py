@@ -1,13 +1,13 @@
-"""Descriptions by what is remembered: "the chair A is on", "the desk with the cup", "the door that is not red"."""
+"""Descriptions by what is remembered or denied: "the chair A is on", "the door that is not red"."""
 
 from __future__ import annotations
 
 from collections.abc import Sequence
 
-from parley.language.offline.facts import Remembered, find_fact
 from parley.language.offline.grounding import ground_phrase, matching
 from parley.language.offline.lexicon import lexicon
 from parley.language.offline.nouns import bare, noun_phrase
+from parley.language.offline.remembering import Remembered, find_fact
 from parley.language.offline.text import Phrase, keys
 from parley.world.object_map import MapObject
 

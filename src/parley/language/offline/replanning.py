@@ -61,7 +61,7 @@ def visit_of(phrase: Phrase, scene: Scene) -> int | None:
     if not words or not listed:
         return None
     flat = keys(words)
-    if flat[-1] in {"one", "visit", "stop", "place"} and flat[0] in lexicon().ordinals | {"last": 0}:
+    if flat[-1] in {"one", "visit", "stop", "place"} and (flat[0] in lexicon().ordinals or flat[0] == "last"):
         index = len(listed) - 1 if flat[0] == "last" else lexicon().ordinals[flat[0]] - 1
         return index if index < len(listed) else None
     meant = scene.ground(words)
@@ -95,8 +95,28 @@ def read_replanning(words: Phrase, scene: Scene) -> Edit | None:
         return None
     words = tuple(word for word in strip_openers(words, requests=True) if word.is_word or word.key == ",")
     return (
-        _swapped(words, scene) or _relative(words, scene) or _extreme(words, scene) or _replaced(words, scene)
+        _cut_short(words, scene)
+        or _swapped(words, scene)
+        or _relative(words, scene)
+        or _extreme(words, scene)
+        or _replaced(words, scene)
     )
+
+
+def _cut_short(words: Phrase, scene: Scene) -> Edit | None:
+    """For "remove everything after A", with A pending."""
+    flat = keys(words)
+    size = drop_verb(words)
+    at = next((i for i in range(len(flat)) if flat[i] in {"before", "after"}), 0)
+    if not size or flat[size:at] not in {("everything",), ("all",), ("all", "steps"), ("everything", "else")}:
+        return None
+    anchor = visit_of(words[at + 1 :], scene)
+    if anchor is None:
+        return Edit((), f"{plain(words[at + 1 :])} is not in the plan, so I leave it as it is.")
+    listed = visits(scene)
+    gone = listed[anchor + 1 :] if flat[at] == "after" else listed[:anchor]
+    indices = [visit.start + i for visit in gone for i in range(len(visit.steps))]
+    return Edit(_pops(indices), f"I leave out everything {plain(words[at:])}.")
 
 
 def _swapped(words: Phrase, scene: Scene) -> Edit | None:

@@ -8,11 +8,12 @@ from dataclasses import dataclass, field, replace
 from parley.language.base import Grounding, Situation
 from parley.language.offline.catalogue import Catalogue
 from parley.language.offline.choosing import choose_object
-from parley.language.offline.facts import Fact, Remembered, find_fact, memory_name, read_statement, remembered
+from parley.language.offline.facts import Fact, read_statement
 from parley.language.offline.grounding import describe, ground_phrase
 from parley.language.offline.lexicon import lexicon
 from parley.language.offline.nouns import NounPhrase, bare, coordinated, noun_phrase
 from parley.language.offline.relative import described_by_facts
+from parley.language.offline.remembering import Remembered, find_fact, memory_name, remembered
 from parley.language.offline.saying import listing, the
 from parley.language.offline.text import Phrase, Word, keys, plain, singular, tokens
 from parley.messages.memory import MemoryEntry
@@ -81,6 +82,9 @@ class Scene:
     """Mentioned, newest last."""
     persons: list[Phrase] = field(default_factory=list)
     places: list[Phrase] = field(default_factory=list)
+    _told: dict[tuple[tuple[str, ...], int], tuple[MapObject, tuple[Remembered, ...]] | None] = field(
+        default_factory=dict
+    )
 
     @classmethod
     def of(cls, situation: Situation, hints: Sequence[str] = ()) -> Scene:
@@ -112,7 +116,10 @@ class Scene:
 
     def told_apart(self, phrase: Phrase) -> MapObject | None:
         """The object that is described by what is remembered of it, e.g. "the chair A is on"."""
-        found = described_by_facts(phrase, self.objects, self.facts)
+        key = keys(phrase), len(self.facts)
+        if key not in self._told:
+            self._told[key] = described_by_facts(phrase, self.objects, self.facts)
+        found = self._told[key]
         if found is None:
             return None
         for fact in found[1]:
@@ -168,6 +175,9 @@ class Scene:
         if word in lex.person_pronouns and self.persons and word not in {"them", "they"}:
             return self.persons[-1]
         if word in {"him", "he", "she", "her"}:
+            named = self._only_person_told()
+            if named:
+                return named
             raise UnclearError("Who do you mean?")
         if word in {"it", "that", "this", "them", "they", "those", "these"}:
             if word in {"them", "they"} and not self.things and self.persons:
@@ -181,6 +191,19 @@ class Scene:
             raise UnclearError("Where do you mean? Please name the place.")
         return phrase
 
+    def _only_person_told(self) -> Phrase:
+        """The one remembered person whose name stands in this message or the one before."""
+        said = " ".join(
+            [*(turn.content for turn in self.situation.history[-2:]), self.situation.message]
+        ).lower()
+        names = {
+            keys(item.fact.subject): item.fact.subject
+            for item in self.facts
+            if " ".join(keys(item.fact.subject)) in said and item.fact.subject[0].is_capital
+        }
+        persons = [subject for subject in names.values() if self.is_person(subject)]
+        return persons[0] if len(persons) == 1 else ()
+
     def place(self, phrase: Phrase, *, hops: int = 0, via: Remembered | None = None) -> Place:
         """Where something is, from the operator's own words (or a remembered fact's, then `via` is given).
 
@@ -193,7 +216,8 @@ class Scene:
         if found.outcome == "match":
             item = found.candidates[0]
             return Place(describe(item, self.objects), item, via)
-        if found.outcome != "match" and (whole := self.whole(phrase)) is not None:
+        whole = self.whole(phrase)
+        if whole is not None:
             return Place(describe(whole, self.objects), whole, via)
         if found.outcome == "ambiguous":
             # What a memory leaves open is found out on the way; only the operator's own words are asked.

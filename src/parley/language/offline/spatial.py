@@ -32,7 +32,9 @@ def by_size(items: Sequence[MapObject], sign: float) -> list[MapObject]:
 
 def by_view(items: Sequence[MapObject], word: str, pose: Pose2D) -> list[MapObject]:
     """The nearest, farthest, left or right one as seen from `pose`."""
-    if word in {"nearest", "closest", "nearby"}:
+    if word in {"nearest", "closest"}:
+        return nearest_to(items, pose.x_m, pose.y_m)[:1]
+    if word == "nearby":
         return nearest_to(items, pose.x_m, pose.y_m)
     if word in {"farthest", "furthest"}:
         return _smallest(items, lambda item: -_gap(item, pose.x_m, pose.y_m), absolute=True)

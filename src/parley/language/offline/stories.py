@@ -11,51 +11,22 @@ from parley.language.offline.text import Phrase, keys, lemma
 
 __all__ = ["mentioned", "told_around"]
 
-_TELLERS = frozenset(
-    ["i", "we", "they", "he", "she", "it", "there", "today", "yesterday", "tomorrow", "somebody", "someone"]
-    + [
-        "everybody",
-        "everyone",
-        "nobody",
-        "something",
-        "because",
-        "since",
-        "as",
-        "while",
-        "although",
-        "my",
-        "our",
-    ]
-    + [
-        "this",
-        "that",
-        "these",
-        "those",
-        "the",
-        "a",
-        "an",
-        "his",
-        "her",
-        "your",
-        "one",
-        "some",
-        "tonight",
-        "people",
-    ]
-)
+_TELLERS = frozenset([
+    "i", "we", "they", "he", "she", "it", "there", "today", "yesterday", "tomorrow", "tonight",
+    "somebody", "someone", "everybody", "everyone", "nobody", "something", "because", "since", "as",
+    "while", "although", "my", "our", "this", "that", "these", "those", "the", "a", "an", "his", "her",
+    "your", "one", "some", "people",
+])  # fmt: skip
 _LONGEST_NAME = 5
 
 
 def told_around(words: Phrase) -> bool:
-    """Whether a clause tells something, as against a garbled order: it begins with who or when, or with a name."""
+    """Whether a clause tells something, as against a garbled order: who or when comes first."""
     flat = keys(words)
     if not flat or opens_command(words):
         return False
-    if (
-        flat[0] in _TELLERS
-        or words[0].is_capital
-        and len(words) > 1
-        and words[1].key not in lexicon().vocabulary
+    if flat[0] in _TELLERS or (
+        words[0].is_capital and len(words) > 1 and words[1].key not in lexicon().vocabulary
     ):
         return True
     return any(lemma(word) != word for word in flat[1:4])
@@ -71,8 +42,7 @@ def mentioned(words: Phrase, scene: Scene) -> list[Phrase]:
             if (
                 not part
                 or any(not word.is_word for word in part)
-                or part[0].key in lexicon().vocabulary
-                and size == 1
+                or (part[0].key in lexicon().vocabulary and size == 1)
             ):
                 continue
             if ground_phrase(part, scene.objects, strict=True).outcome == "match":

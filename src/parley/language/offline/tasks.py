@@ -12,8 +12,8 @@ from dataclasses import dataclass, replace
 from parley.language.offline.carrying import Carrying
 from parley.language.offline.catalogue import call, parameter_role, text_inputs
 from parley.language.offline.commands import Command
-from parley.language.offline.going import UnableError
 from parley.language.offline.durations import duration_s
+from parley.language.offline.going import UnableError
 from parley.language.offline.lexicon import lexicon
 from parley.language.offline.nouns import bare, noun_phrase
 from parley.language.offline.scene import UnclearError
@@ -54,10 +54,8 @@ class Tasks(Carrying):
                 self._search(command)
             case "transfer":
                 self._fetch(command)
-            case "follow" if self.catalogue.with_role("follow") is not None:
-                self._follow(command)
-            case "guide":
-                self._lead(command)
+            case "follow" | "guide":
+                self._with_somebody(command)
             case "grasp":
                 self._grasp(command)
             case "place":
@@ -71,7 +69,7 @@ class Tasks(Carrying):
         """An action of its own kind, once for everything that is named."""
         quantified = bool({"and"} & set(keys(command.theme))) or noun_phrase(command.theme).quantifier
         members = self.scene.several(command.theme) if command.theme and quantified else []
-        if len(members) < 2 or "and" in keys(command.theme) and any(not self._grounds(m) for m in members):
+        if len(members) < 2 or ("and" in keys(command.theme) and any(not self._grounds(m) for m in members)):
             self._invoke(info, command)
             return
         verb = command.clause[: len(command.clause) - len(command.words)]
@@ -91,9 +89,18 @@ class Tasks(Carrying):
             raise UnableError(plain(command.clause))
         self._invoke(info, command)
 
+    def _with_somebody(self, command: Command) -> None:
+        if command.kind == "guide":
+            self._lead(command)
+        else:
+            self._follow(command)
+
     def _follow(self, command: Command) -> None:
         """Follow somebody, from where that is said to begin."""
         info = self.catalogue.with_role("follow")
+        if info is None:
+            self._other(command)
+            return
         person = _person_of(command.theme)
         where = command.source or next(iter(noun_phrase(command.theme).anchors), ())
         if where:
@@ -139,6 +146,8 @@ class Tasks(Carrying):
             raise UnclearError("What should I say?")
         if listener:
             self._go_to_person(listener)
+        elif keys(command.words[:1]) == ("me",):
+            said = self._find_out(bare(command.words[1:]))
         text = "hello" if keys(said) == ("hello",) else plain(said)
         if command.verb.startswith("introduce yourself") and self.scene.situation.robot:
             text = f"hello, I am {self.scene.situation.robot}"
@@ -152,6 +161,27 @@ class Tasks(Carrying):
         self.steps.append(call(speaker, values, f"say “{text}”"))
         self.will.append(f"say “{text}”")
 
+    def _find_out(self, said: Phrase) -> Phrase:
+        """For "tell me the name of the person in the kitchen": it has to be found out there first."""
+        noun = noun_phrase(said)
+        flat = keys(said)
+        place = next(
+            (
+                said[i + size :]
+                for i in range(len(flat))
+                if (size := _place_size(flat, i)) and self._grounds(said[i + size :])
+            ),
+            (),
+        )
+        if place and noun.core:
+            self._stand_at(self.scene.place(place))
+            who = _person_of(said[flat.index("of") + 1 :]) if "of" in flat else ()
+            start = len(said) - len(place)
+            who = tuple(word for word in who if word in said[:start])
+            if who and self.scene.is_person(who[:2] if len(who) > 1 else who):
+                self._look_for(bare(who[:1]))
+        return said
+
     def _go_to_person(self, listener: Phrase) -> None:
         noun = noun_phrase(listener)
         if noun.anchors and noun.anchors[0]:
@@ -160,6 +190,15 @@ class Tasks(Carrying):
             person = self.scene.referent(bare(listener))
             self._stand_at(self.scene.remembered_place(person))
         self.scene.mention(bare(listener[: len(noun.core)] if noun.anchors else listener))
+
+
+def _place_size(flat: tuple[str, ...], index: int) -> int:
+    found = lexicon().places.match(flat, index)
+    return (
+        found[0]
+        if found is not None and index and flat[index] != "of" and index + found[0] < len(flat)
+        else 0
+    )
 
 
 def _person_of(words: Phrase) -> Phrase:

@@ -5,9 +5,9 @@ from __future__ import annotations
 from dataclasses import replace
 
 from parley.language.offline.commands import Command, read_command
-from parley.language.offline.facts import find_fact
 from parley.language.offline.lexicon import lexicon
 from parley.language.offline.nouns import bare, noun_phrase
+from parley.language.offline.remembering import find_fact
 from parley.language.offline.scene import Scene
 from parley.language.offline.text import Phrase, Word, keys, lemma, tokens
 
@@ -57,7 +57,8 @@ def wish(words: Phrase, scene: Scene) -> Command | None:
 
 _DUE = (
     ("needs", "to", "be"), ("need", "to", "be"), ("has", "to", "be"), ("have", "to", "be"), ("should", "be"),
-    ("must", "be"), ("ought", "to", "be"), ("is", "to", "be"), ("are", "to", "be"), ("wants",), ("needs",), ("need",),
+    ("must", "be"), ("ought", "to", "be"), ("is", "to", "be"), ("are", "to", "be"), ("wants",),
+    ("needs",), ("need",),
     ("requires",), ("require",),
 )  # fmt: skip
 

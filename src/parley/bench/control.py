@@ -1,0 +1,137 @@
+"""How soon a command reaches what it commands: from publishing the message to the action that notices."""
+
+from __future__ import annotations
+
+import asyncio
+import time
+from collections.abc import Callable
+from dataclasses import dataclass, field
+from typing import Final
+
+from parley.bench.engine import chain, engine_with
+from parley.messages import topics
+from parley.messages.ros import (
+    String,
+    UmrfGraphModify,
+    UmrfGraphPause,
+    UmrfGraphResume,
+    UmrfGraphStart,
+    UmrfGraphStop,
+)
+from parley.messages.status import GraphEvent
+from parley.messages.wire import decode
+from parley.transport.local import LocalTransport
+from parley.umrf.action import ActionSpec, RunHandle
+from parley.umrf.io import write_graph
+
+__all__ = ["COMMANDS", "measure_control"]
+
+COMMANDS: Final = ("pause", "resume", "modify", "stop")
+_LOOK_S: Final = 0.0005
+"""How often a plain action looks up; part of what is measured."""
+_TARGETS: Final = ("bench",)
+
+
+@dataclass(eq=False)
+class _Noticed:
+    """When the action noticed what; set from the loop or from its thread."""
+
+    loop: asyncio.AbstractEventLoop
+    at_s: dict[str, float] = field(default_factory=dict)
+    changed: asyncio.Event = field(default_factory=asyncio.Event)
+
+    def note(self, what: str) -> None:
+        self.at_s[what] = time.perf_counter()
+        self.loop.call_soon_threadsafe(self.changed.set)
+
+    async def until(self, what: str) -> float:
+        async with asyncio.timeout(30):
+            while what not in self.at_s:
+                self.changed.clear()
+                await self.changed.wait()
+        return self.at_s[what]
+
+
+def _work(noticed: _Noticed) -> Callable[[RunHandle], object]:
+    async def work(run: RunHandle) -> None:
+        noticed.note("begun")
+        try:
+            while not run.paused:  # noqa: ASYNC110 - there is nothing to wait for
+                await asyncio.sleep(0)
+            noticed.note("pause")
+            await run.wait_while_paused()
+            noticed.note("resume")
+            await asyncio.sleep(60)
+        except asyncio.CancelledError:
+            noticed.note("stop")
+            raise
+
+    return work
+
+
+def _work_in_a_thread(noticed: _Noticed) -> Callable[[RunHandle], object]:
+    def wait(condition: Callable[[], bool]) -> None:
+        while not condition():
+            time.sleep(_LOOK_S)
+
+    def work(run: RunHandle) -> None:
+        noticed.note("begun")
+        wait(lambda: run.paused)
+        noticed.note("pause")
+        wait(lambda: not run.paused)
+        noticed.note("resume")
+        wait(lambda: run.stop_requested)
+        noticed.note("stop")
+
+    return work
+
+
+async def measure_control(times: int, *, threaded: bool) -> dict[str, list[float]]:
+    """Milliseconds from each command's publication to its effect, by command.
+
+    A pause, a resume and a stop have reached the action; a modify has changed the running graph and said so.
+
+    Args:
+        times: How often.
+        threaded: Plain functions, which cross to threads, instead of async ones.
+
+    Raises:
+        TimeoutError: A command did not arrive within 30 s.
+    """
+    found: dict[str, list[float]] = {command: [] for command in COMMANDS}
+    noticed = _Noticed(asyncio.get_running_loop())
+    run = (_work_in_a_thread if threaded else _work)(noticed)
+    async with engine_with(ActionSpec("Work", {}, {}, run=run)) as transport:
+
+        def on_event(message: String) -> None:
+            event = decode(GraphEvent, message.data)
+            if event.kind == "graph":
+                noticed.note("modify" if event.cause == "modify" else event.state)
+
+        await transport.subscribe(topics.GRAPH_EVENTS, on_event)
+        for index in range(times):
+            noticed.at_s.clear()
+            await _one(transport, noticed, f"g{index}", found)
+    return found
+
+
+async def _one(
+    transport: LocalTransport, noticed: _Noticed, name: str, found: dict[str, list[float]]
+) -> None:
+    text = write_graph(chain(name, 1), faithful=True)
+    longer = write_graph(chain(name, 2), faithful=True)
+    transport.publisher(topics.GRAPH_START).publish(UmrfGraphStart("", text, _TARGETS))
+    await noticed.until("begun")
+    sends: dict[str, Callable[[], None]] = {
+        "pause": lambda: transport.publisher(topics.GRAPH_PAUSE).publish(UmrfGraphPause(name, _TARGETS)),
+        "resume": lambda: transport.publisher(topics.GRAPH_RESUME).publish(UmrfGraphResume(name, _TARGETS)),
+        "modify": lambda: transport.publisher(topics.GRAPH_MODIFY).publish(
+            UmrfGraphModify(name, _TARGETS, longer, "")
+        ),
+        "stop": lambda: transport.publisher(topics.GRAPH_STOP).publish(UmrfGraphStop(name, _TARGETS)),
+    }
+    for command in COMMANDS:
+        began_s = time.perf_counter()
+        sends[command]()
+        found[command].append(1000 * (await noticed.until(command) - began_s))
+    await noticed.until("STOPPED")

@@ -1,0 +1,126 @@
+"""What is answered at once, and what is said in the end."""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from dataclasses import dataclass, replace
+
+from parley.language.offline import questions, social
+from parley.language.offline.abilities import abilities
+from parley.language.offline.changing import Changing
+from parley.language.offline.clauses import Clause
+from parley.language.offline.commands import Command, read_command
+from parley.language.offline.saying import listing, whole_sentence
+from parley.language.offline.scene import UnclearError
+from parley.language.offline.stories import told_around
+from parley.language.offline.text import Word, keys, plain
+from parley.messages.chat import ActionCall, ChatAction
+
+__all__ = ["Answering"]
+
+
+@dataclass
+class Answering(Changing):
+    """How a message is answered."""
+
+    def _spoken(self, clause: Clause) -> bool:
+        """Questions, and what is only social."""
+        answer = questions.answer(clause, self.scene)
+        if answer is not None:
+            if answer.look:
+                self._look_for_answer(answer)
+            else:
+                self.replies.append(answer.text)
+            return True
+        small_talk = social.reply(clause.words, alone=False)
+        if small_talk is not None:
+            if not self.replies and small_talk:
+                self.replies.append(small_talk)
+            return True
+        return False
+
+    def _look_for_answer(self, answer: questions.Answer) -> None:
+        if self._goes_to_look():
+            self._look_now(answer)
+            self._parts = self._parts[: self._at + 1]
+            return
+        if answer.counts and self.scene.catalogue.with_role("search") is not None:
+            self._look_now(answer)
+            return
+        if self.scene.hints and questions.is_yes(self.scene.hints[0]):
+            self.scene.hints.pop(0)
+            self._look_now(answer)
+            return
+        raise UnclearError(answer.text, ("yes", "no"))
+
+    def _goes_to_look(self) -> bool:
+        """Whether the next clause says to go and look, and nothing more: "Is it open? Please check."."""
+        following = self._parts[self._at + 1 : self._at + 2]
+        command = read_command(following[0].words, self.scene.is_person) if following else None
+        return (
+            command is not None
+            and command.kind in {"look", "whether"}
+            and not command.place
+            and keys(command.theme) in {(), ("it",), ("that",), ("this",)}
+        )
+
+    def _look_now(self, answer: questions.Answer) -> None:
+        verb = (
+            ("count",) if answer.counts else ("look",) if answer.look[0].key == "at" else ("check", "whether")
+        )
+        command = read_command((*(Word(v, v) for v in verb), *answer.look), self.scene.is_person)
+        if command is not None:
+            self.tasks.do(command)
+
+    def _complain(self) -> None:
+        """Ask about what was not understood, unless it was only told around something that was."""
+        if not self.unread:
+            return
+        if not (self.tasks.steps or self.commands or self.replies):
+            raise UnclearError(f"{social.not_understood(self.unread[0])} {abilities(self.scene)}")
+        for words in self.unread:
+            if not told_around(words):
+                self.replies.append(whole_sentence(f"I did not understand “{plain(words)[:80]}”"))
+
+    def _reply(self) -> str:
+        if self.last is not None and self.last.kind == "need" and not self.tasks.steps:
+            self._serve_need(self.last)
+            self.learn()
+        parts = [*self.replies, *self.tasks.notes]
+        known = [
+            whole_sentence(f.fact.sentence)
+            for f in self.scene.facts
+            if f.entry.name in self.scene.sources and f.fact.sentence and f not in self._new()
+        ]
+        if self.tasks.steps and known:
+            parts.append("I remember: " + " ".join(dict.fromkeys(known)))
+        if self.tasks.will:
+            parts.append(whole_sentence(f"I will {listing(self._will(), 'and then')}"))
+        return " ".join(part for part in parts if part) or "All right."
+
+    def _new(self) -> list[object]:
+        names = {c.arguments.get("name") for c in self.commands if c.command == "add_memory"}
+        return [f for f in self.scene.facts if f.entry.name in names and not f.entry.info]
+
+    def _will(self) -> list[str]:
+        said: list[str] = []
+        for text in self.tasks.will:
+            if not said or said[-1] != text:
+                said.append(text)
+        return said
+
+    def _serve_need(self, need: Command) -> None:
+        try:
+            self.tasks.do(replace(need, kind="transfer", verb="bring"))
+        except UnclearError as unclear:
+            self.replies.append(unclear.question)
+
+    def _result(self, text: str, steps: Sequence[ActionCall], choices: Sequence[str] = ()) -> ChatAction:
+        return ChatAction(
+            message_response=text,
+            queue=tuple(steps),
+            system_cmd=tuple(self.commands),
+            targets=self.targets or ((self.scene.situation.robot,) if self.scene.situation.robot else ()),
+            choices=tuple(choices),
+            sources=tuple(self.scene.sources),
+        )

@@ -1,0 +1,37 @@
+"""What is known while one message is being read."""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from dataclasses import dataclass, field
+
+from parley.language.offline.clauses import Clause
+from parley.language.offline.commands import Command
+from parley.language.offline.noting import Noting
+from parley.language.offline.tasks import Tasks
+from parley.language.offline.text import Phrase
+
+__all__ = ["Reading"]
+
+
+@dataclass
+class Reading(Noting):
+    """The state of reading one message."""
+
+    targets: tuple[str, ...] = ()
+    tasks: Tasks = field(init=False)
+    last: Command | None = None
+    _previous: Command | None = None
+    """What the message before asked for."""
+    _leads_on: bool = False
+    """Whether this message begins like a continuation."""
+    unread: list[Phrase] = field(default_factory=list)
+    """Clauses that mean nothing here."""
+    _parts: Sequence[Clause] = ()
+    _at: int = 0
+    _before_last: tuple[int, int] = (0, 0)
+
+    _checked: tuple[Phrase, int] = ((), 0)
+
+    def __post_init__(self) -> None:
+        self.tasks = Tasks(self.scene)

@@ -1,0 +1,67 @@
+"""What all tests share: the table of the specification's statements and the tests that hold them."""
+
+from __future__ import annotations
+
+import ast
+from collections.abc import Iterator
+from pathlib import Path
+
+import pytest
+
+from tests.conformance_ids import IDS
+
+HERE = Path(__file__).parent
+
+
+def pytest_addoption(parser: pytest.Parser) -> None:
+    parser.addoption(
+        "--conformance",
+        action="store_true",
+        help="show which test holds which statement of the specification",
+    )
+
+
+def holders() -> dict[str, list[str]]:
+    """Statement -> the tests marked with it, in all test files, whatever part of them is run now."""
+    found: dict[str, list[str]] = {}
+    for file in sorted(HERE.rglob("test_*.py")):
+        tree = ast.parse(file.read_text(encoding="utf-8"))
+        whole = [name for item in tree.body if isinstance(item, ast.Assign) for name in _marks(item.value)]
+        for test in _tests(tree):
+            marked = [name for decorator in test.decorator_list for name in _marks(decorator)]
+            for name in dict.fromkeys(whole + marked):
+                found.setdefault(name, []).append(f"{file.relative_to(HERE).as_posix()}::{test.name}")
+    return found
+
+
+def _tests(tree: ast.Module) -> Iterator[ast.FunctionDef | ast.AsyncFunctionDef]:
+    for item in ast.walk(tree):
+        if isinstance(item, ast.FunctionDef | ast.AsyncFunctionDef) and item.name.startswith("test_"):
+            yield item
+
+
+def _marks(expression: ast.expr) -> Iterator[str]:
+    """The arguments of every ``pytest.mark.spec(...)`` in an expression."""
+    for item in ast.walk(expression):
+        if (
+            isinstance(item, ast.Call)
+            and isinstance(item.func, ast.Attribute)
+            and item.func.attr == "spec"
+            and isinstance(item.func.value, ast.Attribute)
+            and item.func.value.attr == "mark"
+        ):
+            yield from (str(a.value) for a in item.args if isinstance(a, ast.Constant))
+
+
+def pytest_terminal_summary(terminalreporter: pytest.TerminalReporter, config: pytest.Config) -> None:
+    found = holders()
+    held = sum(name in found for name in IDS)
+    terminalreporter.write_line(
+        f"specification: {held} of {len(IDS)} statements are held by tests"
+        + ("" if config.getoption("--conformance") else " (--conformance shows which by which)")
+    )
+    if config.getoption("--conformance"):
+        for name, words in IDS.items():
+            terminalreporter.write_line(f"{name:12} {words}")
+            for test in found.get(name, ["NO TEST"]):
+                terminalreporter.write_line(f"{'':12}   {test}")
