@@ -39,6 +39,9 @@ ACTION_INFO: dict[str, Any] = {
     "effects": ["moves"],
     "risk": "high",
     "capabilities": ["drive"],
+    "examples": ["move to the box"],
+    "duration_s": 5.0,
+    "timeout_s": 60.0,
 }
 
 SAMPLES: dict[type[BaseModel], dict[str, Any]] = {
@@ -154,6 +157,12 @@ SAMPLES: dict[type[BaseModel], dict[str, Any]] = {
         "node": "Move_0",
         "result": "on_true",
         "outputs": {"x": {"pvf_type": "number", "pvf_value": 1.0}},
+        "answers": "2",
+        "message": "it did not work",
+        "command": "modify",
+        "targets": ["A", "B"],
+        "graph_json": "{}",
+        "continue_from": "Move_1",
     },
     status.RejectionProblem: {"path": "x", "message": "wrong", "remedy": "right it", "code": "bad"},
     status.Rejection: {

@@ -92,7 +92,9 @@ class Database:
         try:
             return await asyncio.get_running_loop().run_in_executor(self._thread, work, connection)
         except (sqlite3.Error, UnicodeEncodeError) as error:
-            raise StoreError(f"the {self._what} file {self._path} cannot be read or written: {error}") from error
+            raise StoreError(
+                f"the {self._what} file {self._path} cannot be read or written: {error}"
+            ) from error
 
     async def close(self) -> None:
         """Finish the work that waits, close the file, end the thread. Idempotent."""
