@@ -26,6 +26,7 @@ from tests.umrf.spec_actions import CATALOGUE, chain, node, planner_chain
 
 ACTORS: Final = 20
 OVER: Final = {"FINISHED", "STOPPED", "ERROR", "HALTED"}
+ACTIVE: Final = {"RUNNING", "PAUSE_REQUESTED", "PAUSED", "STOPPING"}
 RESULTS: Final = ("on_true", "on_false", "on_stopped", "on_error")
 RESPONSES: Final = ("run", "stop", "pause", "bypass", "ignore", "restart")
 
@@ -37,6 +38,18 @@ class Account:
     sequence: int = -1
     state: str = ""
     refused: bool = False
+    active: set[str] = field(default_factory=set)
+    """Nodes that are going on, which they may be beyond the end of their graph."""
+
+    @property
+    def at_rest(self) -> bool:
+        """Whether it is over, or dry, and nothing of it goes on."""
+        return self.refused or (self.state in OVER and not self.active)
+
+    @property
+    def silent(self) -> bool:
+        """Whether nothing more can come."""
+        return self.refused or (self.state in _FINAL and not self.active)
 
 
 @dataclass
@@ -97,6 +110,8 @@ class Storm:
             await self._calm_down()
             for engine in self._engines.values():
                 await engine.__aexit__(None, None, None)
+            for actor in self._open:
+                await self._close_books(actor)
             self.handler_failures = transport.handler_failures
 
     async def _begin(self, actor: str) -> None:
@@ -163,8 +178,7 @@ class Storm:
         ):
             await asyncio.sleep(0.01)  # what nobody has taken yet would be nobody's
         await self._engines.pop(actor).__aexit__(None, None, None)
-        await asyncio.sleep(0)
-        self._close_books(actor)
+        await self._close_books(actor)
         await self._begin(actor)
 
     def _graph(self, name: str) -> dict[str, Any]:
@@ -205,6 +219,10 @@ class Storm:
         account.sequence = event.sequence
         if event.kind == "graph":
             account.state = event.state
+        elif event.kind == "node" and event.state in ACTIVE:
+            account.active.add(event.node)
+        elif event.kind == "node":
+            account.active.discard(event.node)
 
     def _on_rejection(self, message: ros.String) -> None:
         refusal = decode(Rejection, message.data)
@@ -212,13 +230,17 @@ class Storm:
         if account is not None and refusal.what == topics.GRAPH_START.name:
             account.refused = True
 
-    def _close_books(self, actor: str) -> None:
+    async def _close_books(self, actor: str) -> None:
         """Count what has come to rest; what has not, although its engine is gone, is missing."""
+        end_s = time.monotonic() + 5
+        while any(not item.at_rest for item in self._open[actor].values()) and time.monotonic() < end_s:
+            await asyncio.sleep(0.01)  # the last events are still on their way
         for name, account in self._open[actor].items():
-            if account.refused or account.state in OVER:
+            if account.at_rest:
                 self.ends["refused" if account.refused else account.state] += 1
             else:
-                self.unaccounted.append(f"{name}: {account.state or 'never heard of'}")
+                going_on = f" with {sorted(account.active)}" if account.active else ""
+                self.unaccounted.append(f"{name}: {account.state or 'never heard of'}{going_on}")
         self._open[actor].clear()
 
     async def _watch(self) -> None:
@@ -227,7 +249,7 @@ class Storm:
             await asyncio.sleep(min(5.0, self.seconds / 20))
             self.samples.append(sample())
             for accounts in self._open.values():
-                over = [name for name, item in accounts.items() if item.refused or item.state in _FINAL]
+                over = [name for name, item in accounts.items() if item.silent]
                 for name in over[:-5]:
                     account = accounts.pop(name)
                     self.ends["refused" if account.refused else account.state] += 1
@@ -241,8 +263,6 @@ class Storm:
             for actor, name in left:
                 self._send(topics.GRAPH_STOP, ros.UmrfGraphStop(name, (actor,)))
             await asyncio.sleep(0.2)
-        for actor in self._open:
-            self._close_books(actor)
 
     def _going_on(self) -> list[tuple[str, str]]:
         return [

@@ -162,7 +162,7 @@ class Tasks(Carrying):
         self.will.append(f"say “{text}”")
 
     def _find_out(self, said: Phrase) -> Phrase:
-        """For "tell me the name of the person in the kitchen": it has to be found out there first."""
+        """For "tell me the name of the person in the hall": it has to be found out there first."""
         noun = noun_phrase(said)
         flat = keys(said)
         place = next(
