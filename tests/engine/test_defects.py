@@ -10,6 +10,7 @@ from typing import Any
 import pytest
 
 from parley.clock import WallClock
+from parley.engine.runs import KEPT_HALTED
 from parley.messages import ros, topics
 from parley.umrf.action import RunHandle, action
 from parley.umrf.catalogue import Catalogue
@@ -137,6 +138,18 @@ async def test_a_burst_of_commands_is_carried_out_whole() -> None:
         assert rig.rejections == []
         await asyncio.sleep(0.05)
         assert len(asyncio.all_tasks()) <= before
+
+
+async def test_an_engine_does_not_keep_every_graph_that_ran_dry() -> None:
+    async with rigged() as rig:
+        for index in range(KEPT_HALTED + 30):
+            rig.start(planner_chain(f"g{index}", [node("NoOp", 0)]))
+        last = f"g{KEPT_HALTED + 29}"
+        await rig.until_graph(last, "HALTED")
+        rig.start(planner_chain("newest", [node("NoOp", 0)]))
+        await rig.until(lambda: rig.statuses and rig.statuses[-1].graphs.get("newest") == "HALTED")
+        assert len(rig.statuses[-1].graphs) <= KEPT_HALTED + 1
+        assert last in rig.statuses[-1].graphs
 
 
 @pytest.mark.spec("W6")

@@ -24,6 +24,9 @@ __all__ = ["GraphRuns", "RunObserver"]
 KEPT_ENDED: Final = 20
 """How many graphs that have ended are kept for queries."""
 
+KEPT_HALTED: Final = 100
+"""How many graphs that have run dry are kept, to be gone on with; each order to a robot leaves one."""
+
 _BUSY: Final = frozenset({GraphState.INITIALIZED, GraphState.RUNNING, GraphState.PAUSED, GraphState.STOPPING})
 _ENDED: Final = frozenset({GraphState.FINISHED, GraphState.STOPPED, GraphState.ERROR})
 
@@ -272,7 +275,8 @@ class GraphRuns:
             for name, run in self._runs.items()
             if run.idle and (run.state in _ENDED or (run in self._inner and run.state is GraphState.HALTED))
         ]
-        for name in ended[:-KEPT_ENDED]:
+        halted = [name for name, run in self._runs.items() if run.idle and run.state is GraphState.HALTED]
+        for name in {*ended[:-KEPT_ENDED], *halted[:-KEPT_HALTED]}:
             self._inner.discard(self._runs.pop(name))
 
 
