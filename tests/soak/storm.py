@@ -16,9 +16,9 @@ from pathlib import Path
 from typing import Any, Final
 
 from parley.clock import WallClock
+from parley.engine import runs
 from parley.engine.engine import ActionEngine
 from parley.engine.journal import Journal
-from parley.engine.runs import KEPT_HALTED
 from parley.messages import ros, topics
 from parley.messages.status import GraphEvent, Rejection, StopCommand
 from parley.messages.wire import decode, to_string
@@ -259,7 +259,7 @@ class Storm:
             for accounts in self._open.values():
                 over = [name for name, item in accounts.items() if item.silent]
                 dry = [name for name, item in accounts.items() if item.at_rest and not item.silent]
-                for name in over[:-5] + dry[:-KEPT_HALTED]:
+                for name in over[:-5] + dry[: -runs.KEPT_HALTED]:
                     account = accounts.pop(name)
                     self.ends["refused" if account.refused else account.state] += 1
 
