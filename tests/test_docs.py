@@ -10,9 +10,11 @@ from typing import Any
 import pytest
 from pydantic import BaseModel
 
-from parley.messages.chat import SYSTEM_COMMANDS, ChatAction, ChatFeedback, ChatInput
+from parley.messages.chat import SYSTEM_COMMANDS, ChatAction, ChatFeedback, ChatInput, ReplyDraft
 from parley.messages.display import DisplayFeed
 from parley.messages.failure import ErrorHandlingMessage
+from parley.messages.incident import Incident
+from parley.messages.map import MapView
 from parley.messages.memory import AddToMemory, MemoryEvent, RemoveMemory
 from parley.messages.status import (
     ActorStatus,
@@ -48,6 +50,9 @@ PAYLOADS: dict[str, tuple[type[BaseModel], ...]] = {
     "/parley/stop_report": (StopReport,),
     "/parley/rejection": (Rejection,),
     "/parley/memory_event": (MemoryEvent,),
+    "/parley/reply_draft": (ReplyDraft,),
+    "/parley/incident": (Incident,),
+    "/parley/map_view": (MapView,),
 }
 
 

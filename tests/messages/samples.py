@@ -6,7 +6,7 @@ from typing import Any
 
 from pydantic import BaseModel
 
-from parley.messages import chat, display, failure, memory, status
+from parley.messages import chat, display, failure, incident, map, memory, status
 
 MOVE: dict[str, Any] = {
     "Move": {
@@ -44,8 +44,40 @@ ACTION_INFO: dict[str, Any] = {
     "timeout_s": 60.0,
 }
 
+THING = {
+    "id": "box_1",
+    "kind": "box",
+    "description": "red box",
+    "x": 1.0,
+    "y": 2.0,
+    "width": 0.5,
+    "height": 0.25,
+}
+INCIDENT: dict[str, Any] = {
+    "id": "g/Move_0",
+    "robot": "A",
+    "graph_name": "g",
+    "step": MOVE,
+    "code": "blocked",
+    "message": "The way is blocked.",
+    "attempts": [{"kind": "alone", "asked": "", "answered": "", "tried": "another way", "unix_ms": 1}],
+    "ending": "held",
+    "opened_unix_ms": 1,
+    "closed_unix_ms": 2,
+}
+
 SAMPLES: dict[type[BaseModel], dict[str, Any]] = {
-    chat.ChatInput: {"message": "go", "targets": ["A"], "type": "response", "id": "1", "reply_to": "q"},
+    chat.ChatImage: {"name": "box.jpg", "data": "aGk="},
+    chat.ChatInput: {
+        "message": "go",
+        "targets": ["A"],
+        "type": "response",
+        "id": "1",
+        "reply_to": "q",
+        "author": "Kim",
+        "images": [{"name": "box.jpg", "data": "aGk="}],
+    },
+    chat.ReplyDraft: {"reply_to": "1", "targets": ["A"], "message": "I will"},
     chat.ChatFeedback: {
         "message": "Which one?",
         "targets": ["A"],
@@ -54,6 +86,7 @@ SAMPLES: dict[type[BaseModel], dict[str, Any]] = {
         "choices": ["this", "that"],
         "id": "q",
         "closes": "p",
+        "reply_to": "1",
     },
     chat.FlowIf: {"step": 2, "result": False},
     chat.Flow: {"if": {"step": 2, "result": True}, "together_with": 1, "repeat": 2},
@@ -92,7 +125,14 @@ SAMPLES: dict[type[BaseModel], dict[str, Any]] = {
         "failure_id": "g/Move_0",
     },
     memory.MemoryBody: MEMORY,
-    memory.MemoryEntry: {**MEMORY, "name": "box", "created_unix_ms": 1, "updated_unix_ms": 2},
+    memory.MemoryEntry: {
+        **MEMORY,
+        "name": "box",
+        "created_unix_ms": 1,
+        "updated_unix_ms": 2,
+        "used_unix_ms": 3,
+        "used_count": 4,
+    },
     memory.AddToMemory: {
         "box": MEMORY,
         "door": {"type": "image", "data": "aGk=", "info": "", "scope": "", "source": ""},
@@ -130,6 +170,37 @@ SAMPLES: dict[type[BaseModel], dict[str, Any]] = {
         "robot_time_s": 12.25,
         "unix_ms": 1,
     },
+    incident.IncidentAttempt: {
+        "kind": "asked",
+        "asked": "So?",
+        "answered": "yes",
+        "tried": "I go on.",
+        "unix_ms": 1,
+    },
+    incident.Incident: INCIDENT,
+    incident.GetIncidents: {"robot": "A", "limit": 5},
+    incident.IncidentList: {"incidents": [INCIDENT]},
+    map.MapThing: THING,
+    map.GetMap: {"robot": "A"},
+    map.MapInfo: {
+        "robot": "A",
+        "name": "hall",
+        "resolution": 0.05,
+        "width": 1,
+        "height": 2,
+        "origin": POSE,
+        "image": "aGk=",
+        "objects": [THING],
+    },
+    map.MapView: {
+        "actor": "A",
+        "map_name": "hall",
+        "pose": POSE,
+        "path": [[1.0, 2.0]],
+        "goal": POSE,
+        "scan": [[0.5, 0.25]],
+        "unix_ms": 1,
+    },
     status.PlanStep: {"action": MOVE, "node": "Move_0", "state": "running"},
     status.PlanUpdate: {
         "kind": "update",
@@ -137,6 +208,8 @@ SAMPLES: dict[type[BaseModel], dict[str, Any]] = {
         "graph_name": "g",
         "state": "paused",
         "steps": [{"action": MOVE, "node": "Move_0", "state": "paused"}],
+        "revision": 3,
+        "policy": "ask_when_risky",
     },
     status.PlanProposal: {"kind": "proposal", "id": "1", "target": "A", "message": "So?", "steps": [MOVE]},
     status.PlanDecision: {
@@ -144,6 +217,7 @@ SAMPLES: dict[type[BaseModel], dict[str, Any]] = {
         "target": "A",
         "decision": "edit",
         "steps": [MOVE],
+        "revision": 3,
         "policy": "ask_first",
     },
     status.StepCommand: {"target": "A", "graph_name": "g", "node": "Move_0", "command": "end"},

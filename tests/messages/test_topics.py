@@ -40,7 +40,9 @@ ROS_NAME = re.compile(r"/?[A-Za-z_][A-Za-z0-9_]*(/[A-Za-z_][A-Za-z0-9_]*)*")
 def test_names_and_types_are_those_other_programs_depend_on() -> None:
     theirs = {topic.name: topic.ros_type for topic in ALL_TOPICS if not topic.name.startswith("/parley/")}
     assert theirs == CONTRACT
-    assert {service.name: service.ros_type for service in ALL_SERVICES} == SERVICES
+    services = {service.name: service.ros_type for service in ALL_SERVICES}
+    assert {name: kind for name, kind in services.items() if not name.startswith("/parley/")} == SERVICES
+    assert {kind for name, kind in services.items() if name not in SERVICES} == {SERVICES["get_memory"]}
 
 
 def test_what_is_ours_stands_under_one_prefix_as_json_text() -> None:

@@ -17,10 +17,12 @@ __all__ = [
     "ActionCall",
     "ChatAction",
     "ChatFeedback",
+    "ChatImage",
     "ChatInput",
     "CommandName",
     "Flow",
     "FlowIf",
+    "ReplyDraft",
     "SystemCommand",
 ]
 
@@ -30,6 +32,15 @@ CommandName = Literal["stop", "pause", "start", "clear", "pop", "skip", "add_mem
 SYSTEM_COMMANDS: tuple[CommandName, ...] = (
     "stop", "pause", "start", "clear", "pop", "skip", "add_memory", "remove_memory",
 )  # fmt: skip
+
+
+class ChatImage(Payload):
+    """A picture that goes with a message."""
+
+    name: str = ""
+    """File name, for people."""
+    data: str
+    """Base64 of a JPEG or PNG."""
 
 
 class ChatInput(Payload):
@@ -44,6 +55,10 @@ class ChatInput(Payload):
     """Ours: chosen by the sender, to recognise a message sent twice."""
     reply_to: str = ""
     """Ours: `id` of the question that is answered."""
+    author: str = ""
+    """Ours: who writes, where several people operate."""
+    images: tuple[ChatImage, ...] = ()
+    """Ours: pictures attached to the message."""
 
 
 class ChatFeedback(Payload):
@@ -62,6 +77,20 @@ class ChatFeedback(Payload):
     """Ours: identifies a question."""
     closes: str = ""
     """Ours: `id` of a question that is settled and awaits no answer any more."""
+    reply_to: str = ""
+    """Ours: `id` of the operator's message that is answered."""
+
+
+class ReplyDraft(Payload):
+    """`/parley/reply_draft`: a reply that is still being written, as far as it is; sent whole each time.
+
+    The `chat_interface_feedback` with the same `reply_to` takes its place.
+    """
+
+    reply_to: str
+    """`id` of the operator's message that is answered."""
+    targets: tuple[str, ...] = ()
+    message: str = ""
 
 
 class FlowIf(Payload):

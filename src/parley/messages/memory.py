@@ -46,6 +46,10 @@ class MemoryEntry(MemoryBody):
     """When it was first added; 0 while it is not stored."""
     updated_unix_ms: int = 0
     """When it last changed; 0 while it is not stored."""
+    used_unix_ms: int = 0
+    """When a reply was last founded on it; 0 if never."""
+    used_count: int = 0
+    """How many replies were founded on it."""
 
     def body(self) -> dict[str, Any]:
         """The object behind the name on the wire."""

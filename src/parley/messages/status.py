@@ -124,6 +124,10 @@ class PlanUpdate(Payload):
     graph_name: str = ""
     state: Literal["idle", "awaiting_approval", "running", "paused", "held"] = "idle"
     steps: tuple[PlanStep, ...] = ()
+    revision: int = 0
+    """Counts the changes of this robot's plan; an edit says which one it was made from."""
+    policy: Literal["run_at_once", "ask_when_risky", "ask_first"] = "run_at_once"
+    """Whether new steps of this robot wait for a person's yes."""
 
 
 class PlanProposal(Payload):
@@ -143,9 +147,12 @@ class PlanDecision(Payload):
     target: str
     decision: Literal["approve", "reject", "edit", "policy"]
     steps: tuple[ActionCall, ...] = ()
-    """For `edit`: the steps to run instead."""
-    policy: Literal["run_at_once", "ask_first", ""] = ""
-    """For `policy`."""
+    """For `edit`: the steps to run instead of the proposed ones; with an empty `id`, instead of all steps of
+    the plan in progress that have not begun."""
+    revision: int | None = None
+    """For an `edit` of the plan in progress: the `PlanUpdate.revision` it was made from; refused if past."""
+    policy: Literal["run_at_once", "ask_when_risky", "ask_first", ""] = ""
+    """For `policy`; `ask_when_risky` asks when a step's risk is `high`."""
 
 
 class StepCommand(Payload):

@@ -162,7 +162,7 @@ class UmrfPlanner(Node):
         del self._proposals[decision.id]
         self._append(plan, calls)
 
-    def _set_policy(self, target: str, policy: Literal["run_at_once", "ask_first", ""]) -> None:
+    def _set_policy(self, target: str, policy: Literal["run_at_once", "ask_when_risky", "ask_first", ""]) -> None:
         if policy == "ask_first":
             self._ask_first.add(target)
         elif policy == "run_at_once":

@@ -1,0 +1,61 @@
+"""`/parley/incident`: the record of one failure, from the first sign to its end (ours)."""
+
+from __future__ import annotations
+
+from typing import Literal
+
+from pydantic import Field
+
+from parley.errors import FailureCode
+from parley.messages.base import Payload
+from parley.messages.chat import ActionCall
+
+__all__ = ["GetIncidents", "Incident", "IncidentAttempt", "IncidentList"]
+
+
+class IncidentAttempt(Payload):
+    """One try to get over a failure."""
+
+    kind: Literal["alone", "asked"]
+    """`alone`: with what was known; `asked`: with what the operator answered."""
+    asked: str = ""
+    """The question, for `asked`."""
+    answered: str = ""
+    """What the operator said, word for word."""
+    tried: str = ""
+    """What was then tried, in words for the operator; empty if nothing was."""
+    unix_ms: int = 0
+
+
+class Incident(Payload):
+    """What happened, what was tried, what the operator said, and how it ended; sent whole at each change."""
+
+    id: str
+    robot: str
+    graph_name: str = ""
+    step: ActionCall
+    """The step that failed."""
+    code: FailureCode = FailureCode.INTERNAL
+    message: str = ""
+    """What went wrong, in plain words."""
+    attempts: tuple[IncidentAttempt, ...] = ()
+    ending: Literal["open", "solved", "skipped", "cancelled", "replaced", "held"] = "open"
+    """`held`: the last attempt failed, the robot waits; `replaced`: the operator ordered something else."""
+    opened_unix_ms: int = 0
+    closed_unix_ms: int = 0
+    """0 while it is open."""
+
+
+class GetIncidents(Payload):
+    """Request of `/parley/get_incidents`."""
+
+    robot: str = ""
+    """Only those of this robot; empty: of all."""
+    limit: int = Field(default=100, ge=1, le=1000)
+
+
+class IncidentList(Payload):
+    """Response of `/parley/get_incidents`."""
+
+    incidents: tuple[Incident, ...] = ()
+    """Newest first."""

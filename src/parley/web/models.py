@@ -1,0 +1,330 @@
+"""What the page sees: one model for REST and for the live stream (snapshot, then changes).
+
+Every entity has a key, and a change carries the whole entity: applying a change twice does no harm, and the
+newest wins. `/openapi.json` is made of these types, and the page's own types are made of that.
+"""
+
+from __future__ import annotations
+
+from typing import Annotated, Any, Literal
+
+from pydantic import BaseModel, ConfigDict, Field
+
+from parley.messages.incident import Incident
+from parley.messages.map import MapView
+from parley.messages.status import ActionInfo, PoseInfo
+
+__all__ = [
+    "Change",
+    "ChatEntry",
+    "FeedInfo",
+    "MemoryItem",
+    "ParameterView",
+    "PlanView",
+    "ProposalView",
+    "RobotView",
+    "ServerInfo",
+    "Snapshot",
+    "StepView",
+    "StopView",
+]
+
+Policy = Literal["run_at_once", "ask_when_risky", "ask_first"]
+
+
+class WebModel(BaseModel):
+    """Base of everything below: closed, so that page and server cannot drift apart unseen."""
+
+    model_config = ConfigDict(extra="forbid", frozen=True)
+
+
+class StopView(WebModel):
+    """How far an emergency stop of one robot has come."""
+
+    state: Literal["none", "sent", "received", "at_rest", "overdue"] = "none"
+    """`sent`: published; `received`: the engine told; `at_rest`: its measured velocity is zero;
+    `overdue`: not confirmed within the deadline. Latched in every state but `none`."""
+    id: str = ""
+    sent_unix_ms: int = 0
+    at_rest_unix_ms: int = 0
+
+
+class RobotView(WebModel):
+    """One robot. Key: `name`."""
+
+    name: str
+    state: Literal["idle", "running", "paused", "stopped", "leaving", "unknown"] = "unknown"
+    connection: Literal["here", "lost", "left", "never_seen"] = "never_seen"
+    """`lost`: no heartbeat; `left`: it said goodbye; `never_seen`: added by name only."""
+    last_seen_unix_ms: int = 0
+    pose: PoseInfo | None = None
+    at_rest: bool | None = None
+    battery: float | None = None
+    """0 to 1; None: not known."""
+    map_name: str = ""
+    policy: Policy = "run_at_once"
+    stop: StopView = StopView()
+    graphs: dict[str, str] = Field(default_factory=dict)
+    """Graph name -> graph state."""
+    catalogue: tuple[ActionInfo, ...] = ()
+
+
+class ChatEntry(WebModel):
+    """One thing said. Key: `id`."""
+
+    id: str
+    seq: int = 0
+    """Order in the conversation; grows, never reused."""
+    unix_ms: int
+    who: Literal["operator", "robot"]
+    author: str = ""
+    """The person's name, if it is known."""
+    targets: tuple[str, ...] = ()
+    """To whom (operator) or from whom (robot)."""
+    type: Literal["request", "response", "info", "error"]
+    message: str
+    images: tuple[str, ...] = ()
+    """Addresses of attached pictures, below this server."""
+    choices: tuple[str, ...] = ()
+    sources: tuple[str, ...] = ()
+    """Names of the memories it is founded on."""
+    question: Literal["", "open", "answered", "closed"] = ""
+    """For a `request` of a robot: whether it awaits an answer."""
+    answer_id: str = ""
+    """Key of the message that answered it."""
+    reply_to: str = ""
+    """Key of the question or message that this one answers."""
+    draft: bool = False
+    """Still being written; it is replaced by the finished one under the same key."""
+
+
+class ParameterView(WebModel):
+    """One parameter of a step, flat."""
+
+    name: str
+    type: str = ""
+    value: Any = None
+    """JSON value; null if it has none yet."""
+
+
+class StepView(WebModel):
+    """One step of a plan or graph. Key within its plan: `id`."""
+
+    id: str
+    action: str
+    """Name of the action."""
+    label: str
+    """For people, e.g. the reason, else the action's name in words."""
+    reason: str = ""
+    state: Literal[
+        "queued", "running", "finished", "failed", "stopped", "skipped", "paused", "stopping", "waiting"
+    ]
+    """`waiting`: for the operator's answer."""
+    inputs: tuple[ParameterView, ...] = ()
+    outputs: tuple[ParameterView, ...] = ()
+    progress: float | None = None
+    progress_text: str = ""
+    message: str = ""
+    """Why it failed, in plain words."""
+    risk: Literal["none", "low", "high"] = "low"
+    call: dict[str, Any] = Field(default_factory=dict)
+    """The step in Chat Action form, for edits."""
+    started_unix_ms: int = 0
+    ended_unix_ms: int = 0
+
+
+class PlanView(WebModel):
+    """One plan or other graph of a robot. Key: `robot` and `graph_name` (empty while a plan has no graph)."""
+
+    robot: str
+    graph_name: str = ""
+    kind: Literal["plan", "graph"] = "plan"
+    """`plan`: from conversation, can be edited; `graph`: started otherwise, only watched."""
+    state: Literal["idle", "awaiting_approval", "running", "paused", "held", "ended"] = "idle"
+    revision: int = 0
+    steps: tuple[StepView, ...] = ()
+    changed: tuple[str, ...] = ()
+    """Ids of the steps that the newest change of a running plan added or altered."""
+
+
+class ProposalView(WebModel):
+    """Steps that wait for a yes. Key: `id`."""
+
+    id: str
+    robot: str
+    message: str = ""
+    steps: tuple[StepView, ...] = ()
+
+
+class FeedInfo(WebModel):
+    """One picture feed. Key: `robot` and `name`."""
+
+    robot: str
+    name: str
+    continuous: bool = False
+    """A camera or map, rather than single pictures."""
+    width: int = 0
+    height: int = 0
+    last_unix_ms: int = 0
+    """When its last picture came; 0 if none did yet."""
+
+
+class MemoryItem(WebModel):
+    """One memory. Key: `name` and `scope`."""
+
+    name: str
+    scope: str = ""
+    type: Literal["text", "image"] = "text"
+    data: str
+    """The text; for a picture its address below this server."""
+    info: str = ""
+    source: str = ""
+    created_unix_ms: int = 0
+    updated_unix_ms: int = 0
+    used_unix_ms: int = 0
+    used_count: int = 0
+
+
+class ServerInfo(WebModel):
+    """What the page should know about the system behind it."""
+
+    version: str
+    language: str
+    """Label of the language engine."""
+    offline_language: bool
+    """Whether it works without a model, which the page says plainly."""
+    modules: dict[str, bool] = Field(default_factory=dict)
+    """chat, plan, display, map, memory, robots, incidents: what is switched on."""
+    examples: tuple[str, ...] = ()
+    """Sentences to begin with."""
+    addresses: tuple[str, ...] = ()
+    """Where else this page can be opened, e.g. from a phone in the same network."""
+
+
+class Snapshot(WebModel):
+    """Everything as it stands."""
+
+    run: str
+    """Which log `seq` counts in; another one means: begin anew."""
+    seq: int
+    """Number of the newest change that is contained."""
+    info: ServerInfo
+    robots: tuple[RobotView, ...] = ()
+    chat: tuple[ChatEntry, ...] = ()
+    """The newest ones, oldest first; older ones by `GET /api/chat`."""
+    chat_complete: bool = True
+    """Whether `chat` holds the beginning of the conversation."""
+    plans: tuple[PlanView, ...] = ()
+    proposals: tuple[ProposalView, ...] = ()
+    feeds: tuple[FeedInfo, ...] = ()
+    incidents: tuple[Incident, ...] = ()
+    views: tuple[MapView, ...] = ()
+
+
+class RobotChange(WebModel):
+    """A robot appeared or changed."""
+
+    kind: Literal["robot"] = "robot"
+    seq: int
+    robot: RobotView
+
+
+class RobotGone(WebModel):
+    """A robot was taken off the list."""
+
+    kind: Literal["robot_gone"] = "robot_gone"
+    seq: int
+    name: str
+
+
+class ChatChange(WebModel):
+    """Something was said, or changed (a question was answered, a draft grew)."""
+
+    kind: Literal["chat"] = "chat"
+    seq: int
+    entry: ChatEntry
+
+
+class PlanChange(WebModel):
+    """A plan or graph changed."""
+
+    kind: Literal["plan"] = "plan"
+    seq: int
+    plan: PlanView
+
+
+class PlanGone(WebModel):
+    """A plan or graph is no longer listed."""
+
+    kind: Literal["plan_gone"] = "plan_gone"
+    seq: int
+    robot: str
+    graph_name: str
+
+
+class ProposalChange(WebModel):
+    """Steps wait for a yes."""
+
+    kind: Literal["proposal"] = "proposal"
+    seq: int
+    proposal: ProposalView
+
+
+class ProposalGone(WebModel):
+    """A proposal is decided."""
+
+    kind: Literal["proposal_gone"] = "proposal_gone"
+    seq: int
+    id: str
+
+
+class FeedChange(WebModel):
+    """A feed appeared or changed its size; not sent for every picture."""
+
+    kind: Literal["feed"] = "feed"
+    seq: int
+    feed: FeedInfo
+
+
+class MemoryChange(WebModel):
+    """Memories changed: ask again."""
+
+    kind: Literal["memory"] = "memory"
+    seq: int
+    event: Literal["added", "removed", "failed"]
+    name: str
+    message: str = ""
+
+
+class IncidentChange(WebModel):
+    """A failure happened, or its record changed."""
+
+    kind: Literal["incident"] = "incident"
+    seq: int
+    incident: Incident
+
+
+class RejectionChange(WebModel):
+    """Something was refused, in plain words."""
+
+    kind: Literal["rejection"] = "rejection"
+    seq: int
+    robot: str = ""
+    message: str
+
+
+Change = Annotated[
+    RobotChange
+    | RobotGone
+    | ChatChange
+    | PlanChange
+    | PlanGone
+    | ProposalChange
+    | ProposalGone
+    | FeedChange
+    | MemoryChange
+    | IncidentChange
+    | RejectionChange,
+    Field(discriminator="kind"),
+]
+"""One entry of the live stream. `MapView`s travel beside it, unnumbered: the newest wins."""
