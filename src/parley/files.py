@@ -3,17 +3,40 @@
 from __future__ import annotations
 
 import json
+from abc import abstractmethod
 from pathlib import Path
-from typing import Any, TypeVar
+from typing import Any, Self, TypeVar
 
 import yaml
 from pydantic import BaseModel, ValidationError
 
 from parley.errors import FileFormatError
 
-__all__ = ["field_path", "parse_json", "parse_yaml", "read_text", "validated"]
+__all__ = ["TextFile", "field_path", "parse_json", "parse_yaml", "read_text", "validated"]
 
 M = TypeVar("M", bound=BaseModel)
+
+
+class TextFile:
+    """Base of what is read from one text file that people write; a subclass says how by `parse`."""
+
+    @classmethod
+    def load(cls, path: Path) -> Self:
+        """Read a file of this kind.
+
+        Raises:
+            FileFormatError: Names the file and the field.
+        """
+        return cls.parse(read_text(path), file=path.name)
+
+    @classmethod
+    @abstractmethod
+    def parse(cls, text: str, file: str) -> Self:
+        """Read the text of such a file; `file` is only for messages.
+
+        Raises:
+            FileFormatError: Names the file and the field.
+        """
 
 
 def read_text(path: Path) -> str:

@@ -18,13 +18,12 @@ A variant changes the world (or the operator) of one run and says how the story 
 
 from __future__ import annotations
 
-from pathlib import Path
 from typing import Annotated, Self
 
 from pydantic import BaseModel, ConfigDict, Field, model_validator
 
 from parley.errors import FileFormatError
-from parley.files import parse_yaml, read_text, validated
+from parley.files import TextFile, parse_yaml, validated
 from parley.sim.world_file import WorldChanges
 
 __all__ = ["Finished", "Story", "StoryStep", "Variant"]
@@ -88,7 +87,7 @@ class Variant(_Entry):
     """The reason the story must report; empty: it holds."""
 
 
-class Story(_Entry):
+class Story(_Entry, TextFile):
     """A whole story."""
 
     robot: str
@@ -96,15 +95,6 @@ class Story(_Entry):
     """Sentences a newcomer may try."""
     steps: tuple[StoryStep, ...] = Field(min_length=1)
     variants: dict[Annotated[str, Field(min_length=1)], Variant] = Field(default_factory=dict)
-
-    @classmethod
-    def load(cls, path: Path) -> Self:
-        """Read a story file.
-
-        Raises:
-            FileFormatError: Names the file and the field.
-        """
-        return cls.parse(read_text(path), file=path.name)
 
     @classmethod
     def parse(cls, text: str, file: str = "story") -> Self:

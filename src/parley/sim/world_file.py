@@ -22,13 +22,12 @@ from __future__ import annotations
 
 import math
 from collections.abc import Mapping
-from pathlib import Path
 from typing import Any, Self
 
 from pydantic import Field
 
 from parley.errors import FileFormatError
-from parley.files import parse_yaml, read_text, validated
+from parley.files import TextFile, parse_yaml, validated
 from parley.sim.entries import Colour, Entry, Name, RobotEntry, Thing, Wall, WorldChanges
 from parley.world.geometry import Pose2D
 from parley.world.object_map import MapObject, ObjectMap
@@ -36,7 +35,7 @@ from parley.world.object_map import MapObject, ObjectMap
 __all__ = ["RobotEntry", "Thing", "WorldChanges", "WorldFile"]
 
 
-class WorldFile(Entry):
+class WorldFile(Entry, TextFile):
     """A world as described by its file."""
 
     name: Name
@@ -44,15 +43,6 @@ class WorldFile(Entry):
     walls: tuple[Wall, ...] = ()
     things: tuple[Thing, ...] = ()
     robots: tuple[RobotEntry, ...] = Field(min_length=1)
-
-    @classmethod
-    def load(cls, path: Path) -> Self:
-        """Read a world file.
-
-        Raises:
-            FileFormatError: Names the file and the field.
-        """
-        return cls.parse(read_text(path), file=path.name)
 
     @classmethod
     def parse(cls, text: str, file: str = "world file") -> Self:

@@ -14,13 +14,12 @@ faces, radians in the map frame: stand there to use it).
 from __future__ import annotations
 
 from dataclasses import dataclass, field
-from pathlib import Path
-from typing import Any
+from typing import Any, Self
 
 from pydantic import BaseModel, ConfigDict, Field
 
 from parley.errors import FileFormatError
-from parley.files import parse_json, read_text, validated
+from parley.files import TextFile, parse_json, validated
 
 __all__ = ["MapObject", "ObjectMap"]
 
@@ -72,7 +71,7 @@ class _File(BaseModel):
 
 
 @dataclass(frozen=True, slots=True)
-class ObjectMap:
+class ObjectMap(TextFile):
     """All objects of one map, ids unique."""
 
     objects: tuple[MapObject, ...] = field(default=())
@@ -82,16 +81,7 @@ class ObjectMap:
         return next((item for item in self.objects if item.id == object_id), None)
 
     @classmethod
-    def load(cls, path: Path) -> ObjectMap:
-        """Read an object map file.
-
-        Raises:
-            FileFormatError: Names the file and the field.
-        """
-        return cls.parse(read_text(path), file=path.name)
-
-    @classmethod
-    def parse(cls, text: str, file: str = "object map") -> ObjectMap:
+    def parse(cls, text: str, file: str = "object map") -> Self:
         """Read the JSON text of an object map; `file` is only for messages.
 
         Raises:
