@@ -16,7 +16,8 @@ from PIL import Image
 
 from parley.errors import InvalidMessageError
 from parley.messages.display import RawImage
-from parley.nodes.display_images import MAX_SIDE_PX, RAW_ENCODINGS, to_jpeg
+from parley.nodes.display_images import MAX_SIDE_PX, to_jpeg
+from parley.nodes.raw_images import RAW_ENCODINGS, picture_of
 
 RED, GREEN, BLUE, WHITE = (255, 0, 0), (0, 255, 0), (0, 0, 255), (255, 255, 255)
 
@@ -38,7 +39,7 @@ def raw(
     data: Any, *, width: int = 48, height: int = 32, encoding: str = "rgb8", step: int | None = None
 ) -> RawImage:
     text = base64.b64encode(data).decode() if isinstance(data, bytes) else data
-    return RawImage(data=text, height=height, width=width, encoding=encoding, step=step)
+    return RawImage(data=text, height=len(raw), width=len(raw[0]), encoding=encoding, step=step)
 
 
 def assert_shows_quarters(jpeg: bytes) -> None:
@@ -245,3 +246,65 @@ def test_raw_pixels_that_do_not_fit_are_refused_by_field(image: RawImage, field:
 def test_a_refused_encoding_names_those_that_are_supported() -> None:
     said = refused(raw(b"", encoding="odd")).problem
     assert all(encoding in said for encoding in RAW_ENCODINGS)
+
+
+SCENE = (
+    np.array(
+        [
+            [[200, 10, 20], [200, 10, 20], [30, 180, 40], [30, 180, 40]],
+            [[200, 10, 20], [200, 10, 20], [30, 180, 40], [30, 180, 40]],
+            [[50, 60, 220], [50, 60, 220], [90, 90, 90], [90, 90, 90]],
+            [[50, 60, 220], [50, 60, 220], [90, 90, 90], [90, 90, 90]],
+        ],
+        np.uint8,
+    )
+    .repeat(4, axis=0)
+    .repeat(4, axis=1)
+)
+"""Four patches of 8 x 8 pixels: red, green, blue, grey."""
+
+
+def seen_through(pattern: str) -> RawImage:
+    """The scene as a sensor with this colour filter measures it: one colour per pixel."""
+    raw = np.zeros(SCENE.shape[:2], np.uint8)
+    for place, colour in enumerate(pattern):
+        row, column = place // 2, place % 2
+        raw[row::2, column::2] = SCENE[row::2, column::2, "rgb".index(colour)]
+    return RawImage(data=base64.b64encode(raw.tobytes()).decode(), height=len(raw),
+                    width=len(raw[0]), encoding=f"bayer_{pattern}8")  # fmt: skip
+
+
+@pytest.mark.parametrize("pattern", ["rggb", "bggr", "gbrg", "grbg"])
+def test_a_mosaic_gets_its_colours_back(pattern: str) -> None:
+    picture = np.asarray(picture_of(seen_through(pattern)))
+    inner = [slice(1, 7), slice(9, 15)]
+    for rows in inner:
+        for columns in inner:
+            np.testing.assert_array_equal(picture[rows, columns], SCENE[rows, columns])
+
+
+@pytest.mark.parametrize("pattern", ["rggb", "bggr", "gbrg", "grbg"])
+def test_what_a_mosaic_measured_stays_as_it_is(pattern: str) -> None:
+    picture = np.asarray(picture_of(seen_through(pattern)))
+    for place, colour in enumerate(pattern):
+        at = (slice(place // 2, None, 2), slice(place % 2, None, 2), "rgb".index(colour))
+        np.testing.assert_array_equal(picture[at], SCENE[at])
+
+
+def test_a_mosaic_of_one_pixel_is_a_picture_too() -> None:
+    image = RawImage(data=[77], height=1, width=1, encoding="bayer_rggb8")
+    assert np.asarray(picture_of(image)).tolist() == [[[77, 0, 0]]]
+
+
+@pytest.mark.parametrize(
+    ("bigendian", "data"), [(0, [0x34, 0x12, 0xFF, 0xFE]), (1, [0x12, 0x34, 0xFE, 0xFF])]
+)
+def test_16_bit_grey_keeps_its_upper_bits_in_either_byte_order(bigendian: int, data: list[int]) -> None:
+    image = RawImage(data=data, height=1, width=2, encoding="mono16", is_bigendian=bigendian)
+    assert np.asarray(picture_of(image)).tolist() == [[0x12, 0xFE]]
+
+
+def test_bytes_behind_each_row_are_skipped_in_a_mosaic_too() -> None:
+    image = RawImage(data=[1, 2, 99, 3, 4, 99], height=2, width=2, encoding="bayer_rggb8", step=3)
+    tight = RawImage(data=[1, 2, 3, 4], height=2, width=2, encoding="bayer_rggb8")
+    np.testing.assert_array_equal(np.asarray(picture_of(image)), np.asarray(picture_of(tight)))

@@ -19,9 +19,11 @@ class RawImage(Payload):
     height: int = Field(gt=0, le=8192)
     width: int = Field(gt=0, le=8192)
     encoding: str
-    """sensor_msgs encoding: `rgb8`, `bgr8`, ..."""
+    """sensor_msgs encoding: `rgb8`, `bgr8`, `rgba8`, `bgra8`, `mono8`, `mono16`, `bayer_rggb8`, ..."""
     step: int | None = Field(default=None, ge=0)
     """Bytes per row; absent means tightly packed."""
+    is_bigendian: int = Field(default=0, ge=0, le=1)
+    """Whether 16-bit values have their upper byte first (sensor_msgs)."""
 
 
 class DisplayFeed(Payload):
