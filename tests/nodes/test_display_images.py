@@ -39,7 +39,7 @@ def raw(
     data: Any, *, width: int = 48, height: int = 32, encoding: str = "rgb8", step: int | None = None
 ) -> RawImage:
     text = base64.b64encode(data).decode() if isinstance(data, bytes) else data
-    return RawImage(data=text, height=len(raw), width=len(raw[0]), encoding=encoding, step=step)
+    return RawImage(data=text, height=height, width=width, encoding=encoding, step=step)
 
 
 def assert_shows_quarters(jpeg: bytes) -> None:
@@ -266,12 +266,12 @@ SCENE = (
 
 def seen_through(pattern: str) -> RawImage:
     """The scene as a sensor with this colour filter measures it: one colour per pixel."""
-    raw = np.zeros(SCENE.shape[:2], np.uint8)
+    measured = np.zeros(SCENE.shape[:2], np.uint8)
     for place, colour in enumerate(pattern):
         row, column = place // 2, place % 2
-        raw[row::2, column::2] = SCENE[row::2, column::2, "rgb".index(colour)]
-    return RawImage(data=base64.b64encode(raw.tobytes()).decode(), height=len(raw),
-                    width=len(raw[0]), encoding=f"bayer_{pattern}8")  # fmt: skip
+        measured[row::2, column::2] = SCENE[row::2, column::2, "rgb".index(colour)]
+    return RawImage(data=base64.b64encode(measured.tobytes()).decode(), height=16,
+                    width=16, encoding=f"bayer_{pattern}8")  # fmt: skip
 
 
 @pytest.mark.parametrize("pattern", ["rggb", "bggr", "gbrg", "grbg"])

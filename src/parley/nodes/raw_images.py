@@ -1,4 +1,4 @@
-"""Raw pixels as sensor_msgs/Image spells them become pictures: colours in any order, grey, mosaics (Bayer)."""
+"""Raw pixels as sensor_msgs/Image spells them become pictures: colours in any order, grey, Bayer mosaics."""
 
 from __future__ import annotations
 
