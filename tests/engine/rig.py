@@ -42,6 +42,12 @@ class DummyRobot:
     def scan(self) -> LaserScan:
         raise ActionFailure(FailureCode.NOT_CAPABLE, "no lidar")
 
+    def planned_path(self) -> tuple[tuple[float, float], ...]:
+        return ()
+
+    def battery(self) -> float | None:
+        return None
+
     async def image(self) -> CameraImage:
         raise ActionFailure(FailureCode.NOT_CAPABLE, "no camera")
 

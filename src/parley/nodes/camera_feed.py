@@ -9,6 +9,7 @@ from parley.engine.services import ContextServices
 from parley.errors import ActionFailure
 from parley.messages.topics import display_topic
 from parley.nodes.base import Node
+from parley.nodes.watching import Watched
 from parley.robots.base import Robot
 from parley.transport.base import Transport
 
@@ -23,6 +24,8 @@ RETRY_S: Final = 2.0
 class CameraFeed(Node):
     """Takes pictures only while `/webapp/display_feed/<robot>/camera` has a subscriber.
 
+    The topic is advertised from the start, so that people find the feed.
+
     Args:
         transport: Where the topics are.
         robot: Whose camera.
@@ -34,29 +37,19 @@ class CameraFeed(Node):
     def __init__(self, transport: Transport, robot: Robot, rate_hz: float = 5.0) -> None:
         super().__init__(transport)
         self._robot, self._interval_s = robot, 1.0 / rate_hz
-        self._topic = display_topic(robot.name, FEED).name
         self._services = ContextServices(robot.name, transport)
-        self._watched = asyncio.Event()
 
     async def open(self) -> None:
         """See `Node.open`."""
+        topic = display_topic(self._robot.name, FEED)
         await self.opened.enter_async_context(self._services)
-        self.opened.callback(self.transport.on_endpoints_changed(self._look_who_watches))
-        self._look_who_watches()
-        self.spawn(self._run(), name=self._robot.name)
+        self.opened.callback(self.transport.publisher(topic).close)
+        watched = self.opened.enter_context(Watched(self.transport, [topic.name]))
+        self.spawn(self._run(watched), name=self._robot.name)
 
-    def _look_who_watches(self) -> None:
-        watched = any(
-            end.name == self._topic and end.role == "subscription" for end in self.transport.endpoints()
-        )
-        if watched:
-            self._watched.set()
-        else:
-            self._watched.clear()
-
-    async def _run(self) -> None:
+    async def _run(self, watched: Watched) -> None:
         while True:
-            await self._watched.wait()
+            await watched.wait()
             try:
                 self._services.show(FEED, await self._robot.image())
                 await asyncio.sleep(self._interval_s)

@@ -100,6 +100,14 @@ class Robot(Protocol):
         """The newest lidar sweep."""
         ...
 
+    def planned_path(self) -> tuple[tuple[float, float], ...]:
+        """What is left of the way of a running `navigate`, map-frame x and y; else empty."""
+        ...
+
+    def battery(self) -> float | None:
+        """How full it is, 0 to 1; None if the robot cannot tell."""
+        ...
+
     async def image(self) -> CameraImage:
         """Take a picture now.
 

@@ -91,12 +91,20 @@ class Navigator:
         self._limits, self._timeout_s = limits, timeout_s
         self._seen = ObservedObstacles(occupancy)
         self._driven_s = 0.0
+        self._path: Path | None = None
+        self._index = 0
         self._was_at, self._was_there_s = vehicle.pose(), 0.0
 
     @staticmethod
     def keep_out_m(radius_m: float) -> float:
         """What a robot of that radius keeps between its centre and what its lidar sees."""
         return radius_m + _KEEP_OUT_MARGIN_M
+
+    def way_ahead(self) -> tuple[tuple[float, float], ...]:
+        """What is left of the newest plan: map-frame x and y; empty before there is one."""
+        if self._path is None:
+            return ()
+        return tuple((round(x, 3), round(y, 3)) for x, y in self._path.points_m[self._index :].tolist())
 
     async def drive_to(self, goal: Pose2D) -> Pose2D:
         """Drive there and return where it ended.
@@ -145,7 +153,7 @@ class Navigator:
 
     async def _follow(self, path: Path) -> bool:
         """Follow a path to its end; False as soon as a new path should be made."""
-        index = 0
+        self._path, self._index = path, 0
         began_s = told_s = self._driven_s
         seen_before = len(self._seen)
         end_x, end_y = (float(value) for value in path.points_m[-1])
@@ -154,7 +162,7 @@ class Navigator:
             if math.hypot(end_x - pose.x_m, end_y - pose.y_m) <= ARRIVED_M:
                 return True
             self._seen.update(scan, pose)
-            index = path.nearest(pose.x_m, pose.y_m, index)
+            index = self._index = path.nearest(pose.x_m, pose.y_m, self._index)
             if self._stuck(pose):
                 raise self._blocked(*path.ahead(index, _LOOKAHEAD_M))
             if self._driven_s - told_s >= _PROGRESS_S:

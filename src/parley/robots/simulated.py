@@ -27,7 +27,7 @@ class SimulatedRobot:
         self.name = name
         self._simulator, self._map = simulator, occupancy
         self._model = simulator.model(name)
-        self._driving = False
+        self._navigator: Navigator | None = None
 
     @property
     def capabilities(self) -> frozenset[str]:
@@ -57,6 +57,16 @@ class SimulatedRobot:
         sweep = self._simulator.scan(self.name)
         return LaserScan(0.0, sweep.increment_rad, sweep.ranges_m, sweep.range_max_m, sweep.stamp_s)
 
+    def planned_path(self) -> tuple[tuple[float, float], ...]:
+        """See `Robot.planned_path`."""
+        return self._navigator.way_ahead() if self._navigator is not None else ()
+
+    def battery(self) -> float | None:
+        """See `Robot.battery`: it empties evenly over the model's endurance, whatever the robot does."""
+        if self._model.endurance_s is None:
+            return None
+        return max(0.0, 1.0 - self._simulator.clock.now_s() / self._model.endurance_s)
+
     def drive(self, velocity: Velocity) -> None:
         """Command a velocity; must be repeated to keep moving, and does nothing while stopped."""
         self._simulator.command(self.name, velocity.linear_mps, velocity.angular_radps)
@@ -81,7 +91,7 @@ class SimulatedRobot:
 
     async def navigate(self, goal: Pose2D, control: NavigationControl, *, timeout_s: float) -> Pose2D:
         """See `Robot.navigate`; time while it is paused or stopped does not count against `timeout_s`."""
-        if self._driving:
+        if self._navigator is not None:
             raise ActionFailure(FailureCode.INTERNAL, f"{self.name} is driving somewhere else already.")
         model = self._model
         limits = DriveLimits(
@@ -91,12 +101,11 @@ class SimulatedRobot:
             model.max_turn_acceleration_radps2,
             Navigator.keep_out_m(model.radius_m),
         )
-        navigator = Navigator(self, limits, self._map, self._simulator.clock, control, timeout_s)
-        self._driving = True
+        self._navigator = Navigator(self, limits, self._map, self._simulator.clock, control, timeout_s)
         try:
-            return await navigator.drive_to(goal)
+            return await self._navigator.drive_to(goal)
         finally:
-            self._driving = False
+            self._navigator = None
 
     async def stop(self) -> None:
         """See `Robot.stop`."""

@@ -50,6 +50,8 @@ class RobotModel(_Part):
     max_turn_radps: float = Field(gt=0)
     max_acceleration_mps2: float = Field(default=0.5, gt=0)
     max_turn_acceleration_radps2: float = Field(default=3.0, gt=0)
+    endurance_s: float | None = Field(default=None, gt=0)
+    """How long a full battery lasts; None: the robot cannot tell how full it is."""
     colour: str = "#2b2f36"
     camera: CameraModel | None = CameraModel()
     lidar: LidarModel = LidarModel()
@@ -57,7 +59,9 @@ class RobotModel(_Part):
 
 PRESETS: Mapping[str, RobotModel] = MappingProxyType(
     {
-        "turtlebot3_waffle": RobotModel(radius_m=0.2, height_m=0.3, max_speed_mps=0.26, max_turn_radps=1.82),
+        "turtlebot3_waffle": RobotModel(
+            radius_m=0.2, height_m=0.3, max_speed_mps=0.26, max_turn_radps=1.82, endurance_s=2.0 * 3600
+        ),
     }
 )
 """Robots that a world file may name instead of describing them."""
