@@ -10,6 +10,7 @@ from parley.demos.catalogue import load_demo
 from parley.umrf.discovery import ActionFolder
 from tests.demos.house import running
 
+EXAMPLES = Path(__file__).parent.parent / "examples"
 PAGE = (Path(__file__).parent.parent / "docs" / "tutorial-action.md").read_text(encoding="utf-8")
 
 
@@ -19,6 +20,11 @@ def written(folder: Path) -> Path:
     (name,) = re.findall(r"Save this as `my_actions/([a-z_]+\.py)`", PAGE)
     (folder / name).write_text(code, encoding="utf-8")
     return folder
+
+
+def test_the_page_shows_the_example_as_it_is() -> None:
+    (code,) = re.findall(r"```python\n(.*?)```", PAGE, re.DOTALL)
+    assert code == (EXAMPLES / "actions" / "report_battery.py").read_text(encoding="utf-8")
 
 
 def test_the_action_is_ten_lines_and_is_found(tmp_path: Path) -> None:

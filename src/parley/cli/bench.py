@@ -9,7 +9,9 @@ from typing import Annotated, Any
 import typer
 
 from parley.bench.control import measure_control
+from parley.bench.display import measure_display
 from parley.bench.engine import Figures, chain, fan_out, run_chain, run_graphs, share
+from parley.bench.memory import measure_memory
 from parley.bench.story import measure_demo
 from parley.cli.output import emit_json, quiet_logs
 
@@ -71,6 +73,45 @@ def _show(facts: dict[str, Any], as_json: bool) -> None:
         emit_json(facts)
     else:
         typer.echo("  ".join(f"{name} {value}" for name, value in facts.items()))
+
+
+@app.command("memory")
+def memory(
+    memories: Annotated[int, typer.Option(min=100, help="How many there are.")] = 100_000,
+    json: JsonOption = False,
+) -> None:
+    """Searches among many memories, rare and common words, before any model is asked."""
+    quiet_logs()
+    figures = asyncio.run(measure_memory(memories))
+    _show(
+        {
+            "case": "file",
+            "memories": figures.memories,
+            "fill_ms": round(figures.fill_ms),
+            "open_ms": round(figures.open_ms),
+            "file_mb": round(figures.file_mb, 1),
+        },
+        json,
+    )
+    for case, taken_ms in {**figures.search_ms, "through_the_node": figures.service_ms}.items():
+        _show({"case": f"search_{case}", "searches": len(taken_ms), **_latency("", taken_ms)}, json)
+    _show({"case": "add", "times": len(figures.add_ms), **_latency("", figures.add_ms)}, json)
+
+
+@app.command("display")
+def display(
+    frames: Annotated[int, typer.Option(min=1, help="How many of each kind.")] = 300, json: JsonOption = False
+) -> None:
+    """Pictures of 640 x 480 through the display interface: passed on untouched, and encoded anew."""
+    quiet_logs()
+    for figures in asyncio.run(measure_display(frames)):
+        facts = {
+            "case": figures.kind,
+            "frames": figures.frames,
+            "frames_per_s": round(figures.frames_per_s),
+            "frames_per_core_s": round(figures.frames_per_core_s),
+        }
+        _show(facts | _latency("", figures.latency_ms), json)
 
 
 @app.command("demo")

@@ -23,14 +23,16 @@ from parley.messages.ros import UmrfGraphStart
 from parley.umrf.bt import export_tree, import_tree
 from parley.umrf.catalogue import Catalogue
 from parley.umrf.io import read_graph, write_graph
-from parley.umrf.model import GraphState, NodeState
+from parley.umrf.model import GraphState
 from parley.umrf.show import show as show_graph
 
 __all__ = ["app"]
 
 app = typer.Typer(help="Check, run, show and convert UMRF graphs.", no_args_is_help=True)
 
-_ENDED = {GraphState.FINISHED, GraphState.HALTED, GraphState.STOPPED, GraphState.ERROR}
+_ENDED = {
+    state.value for state in (GraphState.FINISHED, GraphState.HALTED, GraphState.STOPPED, GraphState.ERROR)
+}
 START_WITHIN_S = 30.0
 
 
@@ -148,7 +150,7 @@ async def _run(text: str, demo: str, robot: str, as_json: bool, timeout_s: float
         observer.send(topics.GRAPH_START, UmrfGraphStart(umrf_graph_json=text, targets=(target,)))
 
         def over() -> bool:
-            return bool(observer.refusals) or _state(observer, name) in _ENDED
+            return bool(observer.refusals) or observer.graph_states.get(name) in _ENDED
 
         try:
             await observer.until(over, timeout_s=timeout_s)
@@ -157,15 +159,7 @@ async def _run(text: str, demo: str, robot: str, as_json: bool, timeout_s: float
         if observer.refusals:
             problems = [str(problem.message) for problem in observer.refusals[0].problems]
             return fail(f"{name} was refused: {'; '.join(problems)}", code=1)
-        failed = [event for event in observer.events if event.state == NodeState.ERROR.value]
-        return 1 if failed or _state(observer, name) is GraphState.ERROR else 0
-
-
-def _state(observer: Observer, graph: str) -> GraphState | None:
-    for event in reversed(observer.events):
-        if event.kind == "graph" and event.graph_name == graph:
-            return GraphState(event.state)
-    return None
+        return 0 if observer.graph_states[name] == GraphState.FINISHED.value else 1
 
 
 def _tell(event: dict[str, Any]) -> None:
@@ -177,4 +171,5 @@ def _tell(event: dict[str, Any]) -> None:
         case "refused":
             typer.echo(f"refused: {'; '.join(event['problems'])}")
         case "failure" | "progress" | "picture":
-            typer.echo(f"{event['robot_time_s']:8.2f} s  {event['event']}: {event.get('text', '')}")
+            what = event.get("text") or event.get("feed", "")
+            typer.echo(f"{event['robot_time_s']:8.2f} s  {event['event']}: {what}")

@@ -12,6 +12,7 @@ from parley.messages import topics
 from parley.messages.chat import ChatFeedback, ChatInput
 from parley.messages.display import DisplayFeed
 from parley.messages.failure import ErrorHandlingMessage
+from parley.messages.incident import Incident
 from parley.messages.memory import MemoryEvent
 from parley.messages.ros import String
 from parley.messages.status import ActorStatus, GraphEvent, PlanUpdate, Rejection, StopReport
@@ -46,8 +47,12 @@ class Observer(Node):
         """Everything that was refused."""
         self.events: list[GraphEvent] = []
         """Every transition of every graph, in order."""
+        self.graph_states: dict[str, str] = {}
+        """The newest state of each graph."""
         self.plans: dict[str, PlanUpdate] = {}
         """The newest plan of each robot."""
+        self.incidents: dict[str, Incident] = {}
+        """The newest form of each record of a failure, oldest failure first."""
         self.memory_events: list[MemoryEvent] = []
         self.stop_reports: list[StopReport] = []
         self.feeds: set[tuple[str, str]] = set()
@@ -67,6 +72,7 @@ class Observer(Node):
         await self.subscribe(topics.STOP_REPORT, StopReport, self._on_stop_report)
         await self.subscribe(topics.DISPLAY_FEED, DisplayFeed, self._on_picture)
         await self.subscribe(topics.ACTOR_STATUS, ActorStatus, self._on_status)
+        await self.subscribe(topics.INCIDENT, Incident, self._on_incident)
         await self.subscribe_raw(topics.PLAN, self._on_plan)
 
     def say(self, text: str, robot: str, *, answer: bool = False) -> None:
@@ -129,6 +135,8 @@ class Observer(Node):
         if event.kind == "progress":
             await self._note("progress", robot=event.actor, node=event.node, text=event.progress_text)
             return
+        if event.kind == "graph":
+            self.graph_states[event.graph_name] = event.state
         outputs = {name: item.value for name, item in event.outputs.items() if item.has_data}
         await self._note(
             "transition",
@@ -158,6 +166,10 @@ class Observer(Node):
         if status.actor not in self.robots:
             self.robots.add(status.actor)
             await self._note("robot", robot=status.actor, state=status.state)
+
+    async def _on_incident(self, incident: Incident) -> None:
+        self.incidents[incident.id] = incident
+        await self._note("incident", robot=incident.robot, code=incident.code.value, ending=incident.ending)
 
     async def _on_plan(self, message: String) -> None:
         raw = json.loads(message.data)
