@@ -24,13 +24,14 @@ def test_parameters_are_those_of_the_thesis() -> None:
         "NavigateTo": (POSE, {}),
         "Inspect": ({"inspect": "string"}, {"inspection_result": "string"}),
         "AskOperator": ({"question": "string"}, {"answer": "string"}),
+        "KeepPicture": ({"name": "string"}, {}),
     }
 
 
 def test_effects_say_who_moves_and_who_asks() -> None:
     assert {spec.name: spec.effects for spec in BUILTIN_ACTIONS} == {
         "GetCoordinates": ("locates",), "NavigateTo": ("moves",), "Inspect": ("looks",),
-        "AskOperator": ("asks_operator",),
+        "AskOperator": ("asks_operator",), "KeepPicture": ("remembers",),
     }  # fmt: skip
 
 

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from contextlib import suppress
 from dataclasses import replace
 
 import numpy as np
@@ -41,6 +42,28 @@ async def test_picture_is_shown_with_the_request_and_the_report_is_told_and_give
         ((feed, image, info),) = here.person.shown
         assert (feed, info) == (FEED, {"request": "the crate"})
         assert image.data.shape == (image.height, image.width, 3)
+
+
+async def test_what_was_found_is_remembered_for_all_with_where_the_robot_stood() -> None:
+    async with room() as here:
+        here.run.node = "Inspect_0"
+        here.script.will("inspect", SEEN)
+        await inspect(here.context, "the crate")
+        (entry,) = here.person.memories
+        assert (entry.name, entry.source, entry.scope) == ("green_crate_sighting", "A/Inspect", "")
+        assert entry.info == "Where A saw the green crate"
+        pose = here.robot.pose()
+        assert entry.data.startswith("I saw the green crate from where I stood, ")
+        assert f"x {pose.x_m:.1f} m, y {pose.y_m:.1f} m" in entry.data
+
+
+@pytest.mark.parametrize("report", [MISSING, InspectionReport("I can see a wall.")])
+async def test_what_was_not_looked_for_or_not_found_is_not_remembered(report: InspectionReport) -> None:
+    async with room() as here:
+        here.script.will("inspect", report)
+        with suppress(ActionFailure):
+            await inspect(here.context, "the cup")
+        assert here.person.memories == []
 
 
 async def test_what_is_not_there_is_no_match_with_what_was_seen() -> None:

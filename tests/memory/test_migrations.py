@@ -65,4 +65,29 @@ def test_an_unknown_step_means_a_newer_program_wrote_the_file(db: sqlite3.Connec
 
 
 def test_names_of_steps_never_change() -> None:
-    assert NAMES[:2] == ["create_memory", "bound_history"]
+    assert NAMES[:5] == ["create_memory", "bound_history", "record_use", "order_by_time", "keep_vectors"]
+
+
+def test_what_an_older_version_remembered_is_kept_searched_and_bounded(
+    db: sqlite3.Connection, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    monkeypatch.setattr(migrations, "MIGRATIONS", MIGRATIONS[:2])
+    migrate(db, unix_ms=7)
+    monkeypatch.undo()
+    insert = (
+        "INSERT INTO memory"
+        " (name, scope, type, data, info, source, name_key, created_unix_ms, updated_unix_ms)"
+        " VALUES ('box', '', 'text', ?, '', '', 'box', 1, ?)"
+    )
+    for number in range(3):
+        db.execute(insert, (f"word{number}", number))
+    migrate(db, unix_ms=8)
+    for number in range(3, 60):
+        db.execute(insert, (f"word{number}", number))
+    assert db.execute("SELECT data, used_count FROM memory WHERE ended_unix_ms IS NULL").fetchall() == [
+        ("word59", 0)
+    ]
+    assert db.execute("SELECT count(*), min(updated_unix_ms) FROM memory").fetchone() == (51, 9)
+    found = "SELECT rowid FROM memory_search WHERE memory_search MATCH ?"
+    assert len(db.execute(found, ("word59",)).fetchall()) == 1
+    assert db.execute(found, ("word2",)).fetchall() == []

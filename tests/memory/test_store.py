@@ -71,7 +71,7 @@ async def test_a_memory_of_the_same_name_is_replaced_and_the_older_one_kept_as_h
         new = await store.add(MemoryEntry(name="box", data="on the chair"))
         assert (new.created_unix_ms, new.updated_unix_ms) == (1_000, 2_000)
         assert await store.all() == [new]
-        assert await store.history("box") == [old]
+        assert await store.history("box") == [old.model_copy(update={"ended_unix_ms": 2_000})]
         assert names(await store.search("door")) == []
         assert names(await store.search("chair")) == ["box"]
 
@@ -154,6 +154,55 @@ async def test_a_cancelled_change_leaves_the_store_usable(store: MemoryStore) ->
         await task
     await fill(store, chair="y")
     assert "chair" in names(await store.all())
+
+
+async def test_what_was_forgotten_can_be_remembered_again(store: MemoryStore) -> None:
+    await store.add(MemoryEntry(name="box", data="by the door", info="the box", source="Kim"))
+    assert await store.restore("box") is None, "it was not forgotten"
+    await store.remove("box")
+    again = await store.restore("box")
+    assert again is not None
+    assert (again.data, again.info, again.source, again.ended_unix_ms) == ("by the door", "the box", "Kim", 0)
+    assert await store.get("box") == again
+    assert await store.restore("chair") is None
+
+
+async def test_restoring_concerns_one_scope(store: MemoryStore) -> None:
+    await store.add(MemoryEntry(name="dock", data="own", scope="A"))
+    await store.remove("dock", "A")
+    assert await store.restore("dock") is None
+    assert (again := await store.restore("dock", "A")) is not None
+    assert again.scope == "A"
+
+
+async def test_use_is_counted_with_its_time_and_changes_neither_order_nor_text() -> None:
+    clock = SteppingClock()
+    async with await MemoryStore.open(":memory:", clock) as store:
+        await fill(store, a="1", b="2")
+        clock.unix = 5_000
+        await store.mark_used(["a", "unheard of"])
+        await store.mark_used(["a"])
+        used, unused = await store.all()
+        assert (used.name, used.used_count, used.used_unix_ms, used.updated_unix_ms) == ("a", 2, 5_000, 1_000)
+        assert (unused.used_count, unused.used_unix_ms) == (0, 0)
+        await fill(store, a="3")
+        assert [entry.used_count for entry in await store.all()] == [0, 0], "the new fact was never used"
+        assert [entry.used_count for entry in await store.history("a")] == [2]
+
+
+async def test_of_one_name_the_robots_own_memory_is_the_one_that_was_used(store: MemoryStore) -> None:
+    for scope in ("", "A"):
+        await store.add(MemoryEntry(name="dock", data="x", scope=scope))
+    await store.mark_used(["dock"], ["A"])
+    await store.mark_used(["dock"], ["A", "B"])
+    assert [(entry.scope, entry.used_count) for entry in await store.all()] == [("", 1), ("A", 2)]
+
+
+async def test_texts_and_pictures_are_listed_apart(store: MemoryStore) -> None:
+    await store.add(MemoryEntry(name="photo", type="image", data="aGk="))
+    await fill(store, box="x")
+    assert names(await store.all(kind="image")) == ["photo"]
+    assert names(await store.all(kind="text")) == ["box"]
 
 
 # Searching
@@ -336,6 +385,151 @@ async def test_two_processes_may_use_one_file(tmp_path: Path) -> None:
     async with await MemoryStore.open(path) as one, await MemoryStore.open(path) as other:
         await asyncio.gather(*(fill(store, **{f"m{n}": "x"}) for n in range(20) for store in (one, other)))
         assert len(await one.all()) == len(await other.all()) == 20
+
+
+WRITER = """
+import asyncio, sys
+from parley.memory.store import MemoryStore
+from parley.messages.memory import MemoryEntry
+
+async def main():
+    async with await MemoryStore.open(sys.argv[1]) as store:
+        print("open", flush=True)
+        sys.stdin.readline()
+        for number in range(40):
+            await store.add(MemoryEntry(name=f"{sys.argv[2]}{number}", data="x"))
+            await store.add(MemoryEntry(name="shared", data=f"{sys.argv[2]}{number}"))
+
+asyncio.run(main())
+"""
+
+
+def test_two_processes_that_write_at_once_lose_nothing(tmp_path: Path) -> None:
+    path = tmp_path / "memory.db"
+    children = [
+        subprocess.Popen(
+            [sys.executable, "-c", WRITER, str(path), who],
+            stdin=subprocess.PIPE, stdout=subprocess.PIPE, stderr=subprocess.PIPE, text=True,
+        )
+        for who in "ab"
+    ]  # fmt: skip
+    for child in children:
+        assert child.stdout is not None
+        while "open" not in child.stdout.readline():
+            assert child.poll() is None
+    errors = [child.communicate("go\n", timeout=100)[1] for child in children]
+    assert [child.returncode for child in children] == [0, 0], errors
+
+    async def kept() -> tuple[set[str], int]:
+        async with await MemoryStore.open(path) as store:
+            return set(names(await store.all())), len(await store.history("shared"))
+
+    found, versions = asyncio.run(kept())
+    assert found == {"shared"} | {f"{who}{number}" for who in "ab" for number in range(40)}
+    assert versions == 50
+
+
+FILLER = """
+import asyncio, resource, signal, sys
+from parley.errors import StoreError
+from parley.memory.store import MemoryStore
+from parley.messages.memory import MemoryEntry
+
+async def main():
+    async with await MemoryStore.open(sys.argv[1]) as store:
+        await store.add(MemoryEntry(name="first", data="x"))
+        # Beyond this size every write of a file fails, as on a disk that is full.
+        signal.signal(signal.SIGXFSZ, signal.SIG_IGN)
+        resource.setrlimit(resource.RLIMIT_FSIZE, (300_000, resource.RLIM_INFINITY))
+        kept = []
+        try:
+            for number in range(100):
+                await store.add(MemoryEntry(name=f"m{number}", data="word " * 2_000))
+                kept.append(f"m{number}")
+        except StoreError as error:
+            print("refused", error)
+        resource.setrlimit(resource.RLIMIT_FSIZE, (resource.RLIM_INFINITY, resource.RLIM_INFINITY))
+        await store.add(MemoryEntry(name="last", data="y"))
+        print("kept", *kept)
+
+asyncio.run(main())
+"""
+
+
+def test_writes_that_the_disk_refuses_lose_nothing_acknowledged_and_room_heals(tmp_path: Path) -> None:
+    path = tmp_path / "memory.db"
+    done = subprocess.run(
+        [sys.executable, "-c", FILLER, str(path)], capture_output=True, text=True, timeout=100, check=False
+    )
+    assert done.returncode == 0, done.stderr
+    assert "refused" in done.stdout
+    kept = done.stdout.rpartition("kept ")[2].split()
+    assert kept
+
+    async def remembered() -> set[str]:
+        async with await MemoryStore.open(path) as store:
+            assert store.notice == ""
+            return set(names(await store.all()))
+
+    assert asyncio.run(remembered()) == {"first", "last", *kept}
+
+
+READER = """
+import asyncio, os, sys
+from parley.errors import StoreError
+from parley.memory.store import MemoryStore
+from parley.messages.memory import MemoryEntry
+if os.geteuid() == 0:
+    os.setgid(65534)
+    os.setuid(65534)
+
+async def main():
+    try:
+        async with await MemoryStore.open(sys.argv[1]) as store:
+            await store.add(MemoryEntry(name="box", data="x"))
+            print("stored")
+    except StoreError as error:
+        print("refused", error)
+
+asyncio.run(main())
+"""
+
+
+@pytest.mark.parametrize("what", ["file", "folder"])
+def test_file_or_folder_that_may_only_be_read_is_refused_and_left_as_it_was(
+    tmp_path: Path, what: str
+) -> None:
+    folder = tmp_path / "data"
+    path = folder / "memory.db"
+
+    async def make() -> None:
+        async with await MemoryStore.open(path) as store:
+            await fill(store, chair="y")
+
+    if what == "file":
+        asyncio.run(make())
+        path.chmod(0o444)
+    else:
+        folder.mkdir()
+    before = path.read_bytes() if path.exists() else b""
+    for parent in (tmp_path, *tmp_path.parents[:2]):
+        parent.chmod(0o755)
+    folder.chmod(0o555)
+    try:
+        done = subprocess.run(
+            [sys.executable, "-c", READER, str(path)],
+            capture_output=True,
+            text=True,
+            timeout=100,
+            check=False,
+        )
+    finally:
+        folder.chmod(0o755)
+    assert done.returncode == 0, done.stderr
+    assert "refused" in done.stdout
+    assert str(path) in done.stdout
+    assert (path.read_bytes() if path.exists() else b"") == before
+    assert not list(folder.glob("*.corrupt-*"))
 
 
 @pytest.mark.spec("P17")

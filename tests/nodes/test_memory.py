@@ -10,14 +10,20 @@ from typing import Any
 
 import pytest
 
+from parley.clock import WallClock
 from parley.errors import LanguageError, TransportError
 from parley.language.scripted import ScriptedLanguage
+from parley.memory.client import ask_memory
+from parley.memory.embedder import Embedder
+from parley.memory.embedding_server import EmbeddingServer
+from parley.memory.meanings import Meanings
 from parley.memory.store import MemoryStore
 from parley.messages import topics
-from parley.messages.memory import MemoryEntry, MemoryEvent, MemoryReply
+from parley.messages.chat import ChatFeedback
+from parley.messages.memory import RETURN_ALL, GetMemory, MemoryEntry, MemoryEvent, MemoryReply
 from parley.messages.ros import ChatRequest, String
 from parley.messages.status import Rejection
-from parley.messages.wire import decode
+from parley.messages.wire import decode, to_string
 from parley.nodes.memory import MemoryNode
 from parley.transport.local import LocalTransport
 from tests.transport.backends import until
@@ -46,6 +52,15 @@ class House:
         answer = await self.transport.call(topics.GET_MEMORY, ChatRequest(message), timeout_s=10.0)
         return {entry.name: entry.data for entry in decode(MemoryReply, answer.response).entries()}
 
+    async def whole(self) -> dict[str, MemoryEntry]:
+        """All memories by name, as the reply has them."""
+        answer = await self.transport.call(topics.GET_MEMORY, ChatRequest(RETURN_ALL), timeout_s=10.0)
+        return {entry.name: entry for entry in decode(MemoryReply, answer.response).entries()}
+
+    async def listed(self, request: str = "", **rest: Any) -> list[MemoryEntry]:
+        """The answer to a request of one of our own kinds."""
+        return list(await ask_memory(self.transport, GetMemory(request=request, **rest)))
+
 
 @pytest.fixture
 async def house() -> AsyncIterator[House]:
@@ -69,7 +84,7 @@ async def house() -> AsyncIterator[House]:
 async def test_what_is_announced_as_remembered_is_in_the_store(house: House) -> None:
     body = {"type": "text", "data": "The box is by the door.", "info": "the box", "scope": "A", "source": "B"}
     await house.tell(topics.ADD_TO_MEMORY, {"box": body})
-    assert house.events == [MemoryEvent(kind="added", name="box")]
+    assert house.events == [MemoryEvent(kind="added", name="box", scope="A")]
     stored = await house.store.get("box", scope="A")
     assert stored is not None
     assert (stored.data, stored.info, stored.source) == ("The box is by the door.", "the box", "B")
@@ -120,6 +135,16 @@ async def test_a_store_that_cannot_write_is_told_without_technical_words(house: 
     await house.tell(topics.REMOVE_MEMORY, {"box": {}})
     assert [event.kind for event in house.events] == ["failed", "failed"]
     assert house.events[0].message == "I could not remember that: my memory file cannot be written."
+
+
+async def test_a_full_disk_is_told_as_such_and_nothing_is_lost(house: House) -> None:
+    await house.tell(topics.ADD_TO_MEMORY, {"box": {"data": "x"}})
+    await house.store.database.run(lambda db: db.execute("PRAGMA max_page_count = 1"))
+    await house.tell(topics.ADD_TO_MEMORY, {"big": {"data": "word " * 50_000}})
+    assert house.events[-1].message == (
+        "I could not remember that: there is no room left where I keep what I remember."
+    )
+    assert [entry.name for entry in await house.store.all()] == ["box"]
 
 
 async def test_all_memories_are_returned_oldest_first_without_asking_anybody(house: House) -> None:
@@ -227,6 +252,92 @@ async def test_the_reply_has_the_keys_of_the_thesis(house: House) -> None:
     assert {key: reply["a"][key] for key in ("type", "data", "info")} == {
         "type": "image", "data": "aGk=", "info": "a picture",
     }  # fmt: skip
+
+
+async def test_times_source_and_use_come_with_the_reply(house: House) -> None:
+    await house.tell(topics.ADD_TO_MEMORY, {"box": {"data": "x", "source": "Kim"}})
+    house.transport.publisher(topics.CHAT_FEEDBACK).publish(
+        to_string(ChatFeedback(message="It is there.", targets=("A",), sources=("box", "unheard of")))
+    )
+    async with asyncio.timeout(5):
+        while not (entry := await house.whole())["box"].used_count:  # noqa: ASYNC110 - use is not announced
+            await asyncio.sleep(0.01)
+    assert entry["box"].source == "Kim"
+    assert 0 < entry["box"].created_unix_ms <= entry["box"].updated_unix_ms <= entry["box"].used_unix_ms
+
+
+async def test_feedback_that_rests_on_nothing_uses_nothing(house: House) -> None:
+    await house.tell(topics.ADD_TO_MEMORY, {"box": {"data": "x"}})
+    house.transport.publisher(topics.CHAT_FEEDBACK).publish(to_string(ChatFeedback(message="box")))
+    await house.tell(topics.ADD_TO_MEMORY, {"chair": {"data": "x"}})
+    assert (await house.whole())["box"].used_count == 0
+
+
+async def test_forgetting_may_concern_one_robot_alone(house: House) -> None:
+    for scope in ("", "A", "B"):
+        await house.store.add(MemoryEntry(name="dock", data="x", scope=scope))
+    await house.tell(topics.REMOVE_MEMORY, {"dock": {"scope": "A"}})
+    assert house.events == [MemoryEvent(kind="removed", name="dock", scope="A")]
+    assert [entry.scope for entry in await house.store.all()] == ["", "B"]
+    await house.tell(topics.REMOVE_MEMORY, {"dock": {"scope": "A"}})
+    assert house.events[-1].kind == "failed"
+
+
+async def test_list_has_every_scope_by_itself_and_pictures_with_or_without_their_data(house: House) -> None:
+    for scope in ("", "A"):
+        await house.store.add(MemoryEntry(name="dock", data="x", scope=scope))
+    await house.store.add(MemoryEntry(name="photo", type="image", data="aGk="))
+    listed = await house.listed(kind="list")
+    assert [(e.name, e.scope, e.data) for e in listed] == [
+        ("dock", "", "x"), ("dock", "A", "x"), ("photo", "", "aGk="),
+    ]  # fmt: skip
+    assert [e.data for e in await house.listed(kind="list", pictures=False)] == ["x", "x", ""]
+    assert [e.name for e in await house.listed(kind="list", type="image")] == ["photo"]
+    assert [e.name for e in await house.listed(kind="list", limit=1)] == ["photo"]
+    assert [e.scope for e in await house.listed(kind="list", scope="B")] == ["", ""]
+    assert house.language.asked == []
+
+
+async def test_search_is_answered_best_first_without_the_language_engine(house: House) -> None:
+    await house.store.add(MemoryEntry(name="box", data="a red box"))
+    await house.store.add(MemoryEntry(name="other", data="a box"))
+    await house.store.add(MemoryEntry(name="photo", type="image", data="aGk=", info="the box"))
+    found = await house.listed("the red box", kind="search")
+    assert found[0].name == "box"
+    assert [e.name for e in await house.listed("the red box", kind="search", limit=1)] == ["box"]
+    assert [e.name for e in await house.listed("box", kind="search", type="image")] == ["photo"]
+    assert house.language.asked == []
+
+
+async def test_older_versions_can_be_read_and_put_back(house: House) -> None:
+    for data in ("first", "second"):
+        await house.tell(topics.ADD_TO_MEMORY, {"box": {"data": data, "info": "i", "source": "Kim"}})
+    await house.tell(topics.REMOVE_MEMORY, {"box": {}})
+    older = await house.listed("box", kind="history")
+    assert [entry.data for entry in older] == ["first", "second"]
+    assert all(entry.ended_unix_ms > 0 for entry in older)
+    assert await house.listed("box", kind="named") == []
+    await house.tell(topics.ADD_TO_MEMORY, {"box": older[-1].body()})
+    (again,) = await house.listed("box", kind="named")
+    assert (again.data, again.info, again.source, again.ended_unix_ms) == ("second", "i", "Kim", 0)
+
+
+async def test_memories_are_found_by_meaning_where_that_is_configured() -> None:
+    language = ScriptedLanguage()
+    with EmbeddingServer({"crate": "box"}) as server:
+        async with LocalTransport() as transport, await MemoryStore.open(":memory:") as store:
+            meanings = Meanings(store, Embedder(server.address, "words"), WallClock())
+            async with MemoryNode(transport, store, language, short_list=1, meanings=meanings):
+                house = House(transport, store, language)
+                for name, data in {"a": "the box", "b": "a chair", "c": "a lamp"}.items():
+                    await store.add(MemoryEntry(name=name, data=data))
+                meanings.wake()
+                async with asyncio.timeout(10):
+                    await meanings.settled.wait()
+                assert [e.name for e in await house.listed("crate", kind="search")] == ["a"]
+                assert list(await house.ask("crate")) == ["a"]
+                server.status = 500
+                assert [e.name for e in await house.listed("chair", kind="search")] == ["b"]
 
 
 async def test_closing_the_node_frees_its_service() -> None:

@@ -5,11 +5,12 @@ from __future__ import annotations
 from parley.actions.ask_operator import ask_operator
 from parley.actions.get_coordinates import get_coordinates
 from parley.actions.inspect import inspect
+from parley.actions.keep_picture import keep_picture
 from parley.actions.navigate_to import navigate_to
 from parley.umrf.action import ActionSpec
 
 __all__ = ["BUILTIN_ACTIONS"]
 
 BUILTIN_ACTIONS: tuple[ActionSpec, ...] = tuple(
-    action.spec for action in (get_coordinates, navigate_to, inspect, ask_operator)
+    action.spec for action in (get_coordinates, navigate_to, inspect, ask_operator, keep_picture)
 )

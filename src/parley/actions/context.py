@@ -2,19 +2,25 @@
 
 from __future__ import annotations
 
+import math
+import re
 from collections.abc import Mapping, Sequence
 from dataclasses import dataclass
-from typing import Any, Protocol
+from typing import Any, Final, Protocol
 
 from parley.clock import Clock
 from parley.language.base import Language
+from parley.memory.pictures import pixels_to_jpeg
 from parley.messages.memory import MemoryEntry
 from parley.robots.base import CameraImage, Robot
 from parley.umrf.action import RunHandle
 from parley.world.object_map import ObjectMap
 from parley.world.occupancy import OccupancyMap
 
-__all__ = ["ActionContext", "Display", "MemoryAccess", "Operator", "World"]
+__all__ = ["NEAR_M", "ActionContext", "Display", "MemoryAccess", "Operator", "World"]
+
+NEAR_M: Final = 2.0
+"""A thing on the map that is no farther away may be named to say where the robot stands."""
 
 
 class Operator(Protocol):
@@ -84,3 +90,48 @@ class ActionContext:
     def actor(self) -> str:
         """The robot's name."""
         return self.run.actor
+
+    @property
+    def source(self) -> str:
+        """Who remembers, for memories: robot and action, e.g. ``Ada/Inspect``."""
+        return f"{self.actor}/{re.sub(r'_[0-9]+$', '', self.run.node)}"
+
+    def whereabouts(self) -> str:
+        """Where the robot stands, in words: near what, and at which metres of the map."""
+        pose = self.robot.pose()
+        distances = [
+            (math.hypot(item.x_m - pose.x_m, item.y_m - pose.y_m), item)
+            for item in self.world.objects.objects
+        ]
+        distance_m, nearest = min(distances, key=lambda pair: pair[0], default=(math.inf, None))
+        at = f"x {pose.x_m:.1f} m, y {pose.y_m:.1f} m"
+        near = nearest is not None and distance_m <= NEAR_M
+        return (
+            f"near the {nearest.description or nearest.class_name} ({at})" if nearest and near else f"at {at}"
+        )
+
+    def remember(self, name: str, text: str, *, info: str = "", own: bool = False) -> None:
+        """Remember something this robot saw or did.
+
+        Args:
+            name: Of the memory; one of the same name is replaced.
+            text: What is to be remembered, as a sentence.
+            info: What it is about, if that is not the sentence itself.
+            own: For this robot alone instead of for all.
+        """
+        scope = self.actor if own else ""
+        self.memory.add(MemoryEntry(name=name, data=text, info=info or text, scope=scope, source=self.source))
+
+    def remember_picture(self, name: str, image: CameraImage, *, info: str = "", own: bool = False) -> None:
+        """Remember a picture of this robot's camera; the arguments are those of `remember`."""
+        scope = self.actor if own else ""
+        self.memory.add(
+            MemoryEntry(
+                name=name,
+                type="image",
+                data=pixels_to_jpeg(image.data),
+                info=info or name,
+                scope=scope,
+                source=self.source,
+            )
+        )

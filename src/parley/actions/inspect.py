@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import re
 from dataclasses import dataclass
 from typing import Final
 
@@ -54,7 +55,16 @@ async def inspect(ctx: ActionContext, inspect: str) -> Inspection:
         raise _not_seen(image, report.wanted or inspect, report.text, ctx.world.objects)
     if report.attention:
         raise ActionFailure(FailureCode.ATTENTION, report.text, {"wanted": report.wanted})
+    if report.found and report.wanted:
+        _note_sighting(ctx, report.wanted)
     return Inspection(report.text)
+
+
+def _note_sighting(ctx: ActionContext, wanted: str) -> None:
+    """For all robots: what was found, and where this robot stood; the newest time replaces the one before."""
+    name = "_".join(re.findall(r"\w+", wanted.lower()))[:150]
+    sentence = f"I saw the {wanted} from where I stood, {ctx.whereabouts()}."
+    ctx.remember(f"{name}_sighting", sentence, info=f"Where {ctx.actor} saw the {wanted}")
 
 
 def _not_seen(image: CameraImage, wanted: str, text: str, known: ObjectMap) -> ActionFailure:

@@ -94,7 +94,79 @@ def bound_history(db: sqlite3.Connection) -> None:
     )
 
 
-MIGRATIONS: tuple[Callable[[sqlite3.Connection], None], ...] = (create_memory, bound_history)
+def record_use(db: sqlite3.Connection) -> None:
+    """When and how often a reply was founded on a memory."""
+    db.execute("ALTER TABLE memory ADD COLUMN used_unix_ms INTEGER NOT NULL DEFAULT 0")
+    db.execute("ALTER TABLE memory ADD COLUMN used_count INTEGER NOT NULL DEFAULT 0")
+
+
+def order_by_time(db: sqlite3.Connection) -> None:
+    """Memories that come from another file bring their times, so ids no longer tell which is newer.
+
+    Rows that ended elsewhere may now be inserted as they are: they end nothing and are not searched.
+    """
+    db.execute("CREATE INDEX memory_time ON memory (updated_unix_ms)")
+    db.execute("CREATE INDEX memory_current_time ON memory (updated_unix_ms) WHERE ended_unix_ms IS NULL")
+    for trigger in ("memory_end_older", "memory_index", "memory_bound_history"):
+        db.execute(f"DROP TRIGGER {trigger}")
+    db.execute(
+        """
+        CREATE TRIGGER memory_end_older BEFORE INSERT ON memory WHEN NEW.ended_unix_ms IS NULL BEGIN
+            UPDATE memory SET ended_unix_ms = NEW.updated_unix_ms
+            WHERE name = NEW.name AND scope = NEW.scope AND ended_unix_ms IS NULL;
+        END
+        """
+    )
+    db.execute(
+        """
+        CREATE TRIGGER memory_index AFTER INSERT ON memory WHEN NEW.ended_unix_ms IS NULL BEGIN
+            INSERT INTO memory_search (rowid, name, info, data) VALUES (
+                NEW.id, NEW.name_key, NEW.info, CASE NEW.type WHEN 'text' THEN NEW.data ELSE '' END
+            );
+        END
+        """
+    )
+    for event in ("UPDATE OF ended_unix_ms", "INSERT"):
+        db.execute(
+            f"""
+            CREATE TRIGGER memory_bound_history_{event.split()[0].lower()} AFTER {event} ON memory
+            WHEN NEW.ended_unix_ms IS NOT NULL BEGIN
+                DELETE FROM memory WHERE id IN (
+                    SELECT id FROM memory
+                    WHERE name = NEW.name AND scope = NEW.scope AND ended_unix_ms IS NOT NULL
+                    ORDER BY updated_unix_ms DESC, id DESC LIMIT -1 OFFSET 50
+                );
+            END
+            """
+        )
+
+
+def keep_vectors(db: sqlite3.Connection) -> None:
+    """What a memory means, as numbers, for those who have an embedding model; dropped with the memory."""
+    db.execute(
+        """
+        CREATE TABLE memory_vector (
+            memory INTEGER PRIMARY KEY, model TEXT NOT NULL, vector BLOB NOT NULL
+        ) STRICT
+        """
+    )
+    db.execute(
+        """
+        CREATE TRIGGER memory_drop_vector AFTER UPDATE OF ended_unix_ms ON memory
+        WHEN NEW.ended_unix_ms IS NOT NULL BEGIN
+            DELETE FROM memory_vector WHERE memory = NEW.id;
+        END
+        """
+    )
+
+
+MIGRATIONS: tuple[Callable[[sqlite3.Connection], None], ...] = (
+    create_memory,
+    bound_history,
+    record_use,
+    order_by_time,
+    keep_vectors,
+)
 """In order. Their names are recorded in the file: do not rename, do not edit, append."""
 
 

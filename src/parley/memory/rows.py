@@ -9,10 +9,18 @@ from parley.messages.memory import MemoryEntry
 
 __all__ = ["COLUMNS", "read_entry"]
 
-COLUMNS: Final = "name, scope, type, data, info, source, created_unix_ms, updated_unix_ms"
+COLUMNS: Final = (
+    "name, scope, type, data, info, source, created_unix_ms, updated_unix_ms, ended_unix_ms, used_unix_ms,"
+    " used_count"
+)
 """What `read_entry` wants selected, in this order."""
+
+_NAMES: Final = tuple(COLUMNS.replace(",", "").split())
 
 
 def read_entry(row: Iterable[Any]) -> MemoryEntry:
-    """The memory in a row of `COLUMNS`."""
-    return MemoryEntry(**dict(zip(COLUMNS.split(", "), row, strict=True)))
+    """The memory in a row of `COLUMNS`; a memory that holds has no time of its end."""
+    values = dict(zip(_NAMES, row, strict=True))
+    values["ended_unix_ms"] = values["ended_unix_ms"] or 0
+    # The file was checked when it was written; a list of thousands is read many times faster this way.
+    return MemoryEntry.model_construct(**values)

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from collections.abc import Sequence
 from pathlib import Path
 from types import TracebackType
 from typing import Any, Self
@@ -12,6 +13,7 @@ from parley.memory.migrations import migrate
 from parley.memory.retrieval import name_key
 from parley.memory.rows import COLUMNS, read_entry
 from parley.memory.search import search_words
+from parley.memory.transfer import MergeCounts, merge
 from parley.messages.memory import MemoryEntry
 
 __all__ = ["MemoryStore"]
@@ -27,6 +29,11 @@ class MemoryStore:
 
     def __init__(self, database: Database, clock: Clock) -> None:
         self._database, self._clock = database, clock
+
+    @property
+    def database(self) -> Database:
+        """The file's one door, for what else is kept beside the memories."""
+        return self._database
 
     @classmethod
     async def open(cls, path: Path | str, clock: Clock | None = None) -> Self:
@@ -84,7 +91,7 @@ class MemoryStore:
                 WHERE name = :name AND scope = :scope AND ended_unix_ms IS NULL
             ), stamp), stamp
             FROM (SELECT max(:now, coalesce((
-                SELECT updated_unix_ms + 1 FROM memory ORDER BY id DESC LIMIT 1
+                SELECT max(updated_unix_ms) + 1 FROM memory
             ), 0)) AS stamp)
             RETURNING {COLUMNS}
             """,
@@ -105,6 +112,52 @@ class MemoryStore:
         )
         return bool(rows)
 
+    async def restore(self, name: str, scope: str = "") -> MemoryEntry | None:
+        """Remember again what was forgotten last under this name: forgetting undone.
+
+        Returns:
+            The memory as it stands now; None if there is one (nothing was forgotten) or never was.
+        """
+        if await self.get(name, scope) is not None:
+            return None
+        older = [entry for entry in await self.history(name) if entry.scope == scope]
+        return await self.add(older[-1]) if older else None
+
+    async def mark_used(self, names: Sequence[str], robots: Sequence[str] = ()) -> None:
+        """Record that a reply was founded on these memories.
+
+        Args:
+            names: Of the memories; unknown ones are passed over.
+            robots: Who replied: of one name, a robot's own memory counts before everybody's.
+        """
+        found: set[tuple[str, str]] = set()
+        for name in names:
+            scopes = {entry.scope for entry in await self.named(name)}
+            found |= {(name, robot if robot in scopes else "") for robot in (robots or ("",))}
+        now = self._clock.unix_ms()
+        values = [(now, name, scope) for name, scope in sorted(found)]
+        sql = (
+            "UPDATE memory SET used_unix_ms = ?, used_count = used_count + 1"
+            " WHERE name = ? AND scope = ? AND ended_unix_ms IS NULL"
+        )
+
+        def work(db: Any) -> None:
+            db.execute("BEGIN IMMEDIATE")
+            try:
+                db.executemany(sql, values)
+            except BaseException:
+                db.execute("ROLLBACK")
+                raise
+            db.execute("COMMIT")
+
+        if values:
+            await self._database.run(work)
+
+    async def merge(self, entries: Sequence[MemoryEntry], history: Sequence[MemoryEntry] = ()) -> MergeCounts:
+        """Take over memories of another file: all or, if it fails, nothing. See `transfer.merge`."""
+        now = self._clock.unix_ms()
+        return await self._database.run(lambda db: merge(db, entries, history, unix_ms=now))
+
     async def get(self, name: str, scope: str = "") -> MemoryEntry | None:
         """The memory of exactly this name and scope, if there is one."""
         rows = await self._rows(
@@ -113,18 +166,33 @@ class MemoryStore:
         )
         return read_entry(rows[0]) if rows else None
 
-    async def all(self, scope: str | None = None) -> list[MemoryEntry]:
-        """Everything that is remembered now, oldest first."""
-        return await self._current("ORDER BY id", scope)
+    async def named(self, name: str, scope: str | None = None) -> list[MemoryEntry]:
+        """The memories of exactly this name, oldest first."""
+        return await self._current("AND name = :name ORDER BY updated_unix_ms", scope, name=name)
 
-    async def newest(self, limit: int, scope: str | None = None) -> list[MemoryEntry]:
-        """The `limit` memories that were added or changed last, newest first."""
-        return await self._current("ORDER BY id DESC LIMIT :limit", scope, limit=limit)
+    async def all(self, scope: str | None = None, kind: str = "") -> list[MemoryEntry]:
+        """Everything that is remembered now, oldest first; with `kind` only texts or only images."""
+        return await self._current(
+            "AND (:kind = '' OR type = :kind) ORDER BY updated_unix_ms", scope, kind=kind
+        )
 
-    async def history(self, name: str) -> list[MemoryEntry]:
-        """The older versions of a memory, replaced or forgotten, oldest first; at most 50 per scope."""
+    async def newest(self, limit: int, scope: str | None = None, kind: str = "") -> list[MemoryEntry]:
+        """The `limit` memories that were added or changed last, newest first; `kind` as in `all`."""
+        return await self._current(
+            "AND (:kind = '' OR type = :kind) ORDER BY updated_unix_ms DESC LIMIT :limit",
+            scope,
+            limit=limit,
+            kind=kind,
+        )
+
+    async def history(self, name: str = "") -> list[MemoryEntry]:
+        """The older versions of a memory, replaced or forgotten, oldest first; at most 50 per scope.
+
+        Without a name: of all memories.
+        """
         rows = await self._rows(
-            f"SELECT {COLUMNS} FROM memory WHERE name = :name AND ended_unix_ms IS NOT NULL ORDER BY id",
+            f"SELECT {COLUMNS} FROM memory WHERE (:name = '' OR name = :name) AND ended_unix_ms IS NOT NULL"
+            " ORDER BY updated_unix_ms, id",
             {"name": name},
         )
         return [read_entry(row) for row in rows]
@@ -134,7 +202,9 @@ class MemoryStore:
 
         A memory whose name is the request comes first, then by how telling the shared words are.
         """
-        named = await self._current("AND name_key = :key ORDER BY id DESC", scope, key=name_key(query))
+        named = await self._current(
+            "AND name_key = :key ORDER BY updated_unix_ms DESC", scope, key=name_key(query)
+        )
         worded = await self._database.run(lambda db: search_words(db, query, limit=limit, scope=scope))
         unique = {(entry.name, entry.scope): entry for entry in [*named, *worded]}
         return list(unique.values())[:limit]

@@ -2,7 +2,8 @@
 
 from __future__ import annotations
 
-from typing import Annotated, Any, Literal
+from collections.abc import Iterable
+from typing import Annotated, Any, Literal, Self
 
 from pydantic import Field, RootModel
 
@@ -14,8 +15,10 @@ __all__ = [
     "MemoryBody",
     "MemoryEntry",
     "MemoryEvent",
+    "MemoryList",
     "MemoryReply",
     "RemoveMemory",
+    "StoredMemory",
 ]
 
 MemoryName = Annotated[str, Field(min_length=1, max_length=200)]
@@ -38,18 +41,25 @@ class MemoryBody(Payload):
     """Ours: who said or saw it, e.g. ``operator`` or a robot's name."""
 
 
-class MemoryEntry(MemoryBody):
-    """A memory with its name and, when it comes from the store, its time."""
+class StoredMemory(MemoryBody):
+    """A memory as the store hands it out. Ours: other programs see `type`, `data` and `info`."""
 
-    name: MemoryName
     created_unix_ms: int = 0
     """When it was first added; 0 while it is not stored."""
     updated_unix_ms: int = 0
     """When it last changed; 0 while it is not stored."""
+    ended_unix_ms: int = 0
+    """When it was replaced or forgotten; 0 while it holds."""
     used_unix_ms: int = 0
     """When a reply was last founded on it; 0 if never."""
     used_count: int = 0
     """How many replies were founded on it."""
+
+
+class MemoryEntry(StoredMemory):
+    """A memory with its name."""
+
+    name: MemoryName
 
     def body(self) -> dict[str, Any]:
         """The object behind the name on the wire."""
@@ -67,23 +77,54 @@ class AddToMemory(RootModel[dict[MemoryName, MemoryBody]]):
 
 
 class RemoveMemory(RootModel[dict[str, Any]]):
-    """`remove_memory`: the keys are the names to forget; what stands behind them does not matter."""
+    """`remove_memory`: the keys are the names to forget.
+
+    Ours: an object with `scope` behind a name forgets it in that scope alone; else everywhere.
+    """
+
+    def scope_of(self, name: str) -> str | None:
+        """The scope in which `name` is to be forgotten; None for all."""
+        body = self.root.get(name)
+        scope = body.get("scope") if isinstance(body, dict) else None
+        return scope if isinstance(scope, str) else None
 
 
 class GetMemory(Payload):
     """Request of `get_memory`."""
 
     request: str
+    """What the memories should matter for; for `named` and `history` the name of a memory."""
     scope: str = ""
-    """Ours: only global memories and those of this robot; empty = all."""
+    """Ours: a robot's name: everybody's memories and its own; empty or left out: all."""
+    kind: Literal["select", "list", "search", "named", "history"] = "select"
+    """Ours. `select` is the thesis's and is answered by `MemoryReply`, the others by `MemoryList`: `list` is
+    everything, oldest first; `search` the best finds first, without the language engine; `named` those of
+    exactly that name; `history` the versions that were replaced or forgotten, oldest first."""
+    type: Literal["", "text", "image"] = ""
+    """Ours: only memories of this type."""
+    pictures: bool = True
+    """Ours: whether pictures come with their data, which is long."""
+    limit: int = Field(default=0, ge=0)
+    """Ours: at most so many; 0: no bound but for `search`, which has one."""
 
 
-class MemoryReply(RootModel[dict[MemoryName, MemoryBody]]):
+class MemoryReply(RootModel[dict[MemoryName, StoredMemory]]):
     """Response of `get_memory`: name -> body, oldest first."""
+
+    @classmethod
+    def of(cls, entries: Iterable[MemoryEntry]) -> Self:
+        """The reply that holds these entries; of one name the last."""
+        return cls({entry.name: entry for entry in entries})
 
     def entries(self) -> list[MemoryEntry]:
         """The entries with their names inside."""
         return [MemoryEntry(name=name, **body.model_dump()) for name, body in self.root.items()]
+
+
+class MemoryList(Payload):
+    """Response of `get_memory` to the kinds of requests that are ours: a name may stand in several scopes."""
+
+    memories: tuple[MemoryEntry, ...] = ()
 
 
 class MemoryEvent(Payload):
@@ -91,5 +132,7 @@ class MemoryEvent(Payload):
 
     kind: Literal["added", "removed", "failed"]
     name: str
+    scope: str = ""
+    """The robot it belongs to; empty for everybody's."""
     message: str = ""
     """Why it failed, in plain words."""

@@ -9,14 +9,17 @@ from typing import ClassVar
 
 from parley.errors import InvalidMessageError, LanguageError, StoreError
 from parley.language.base import Language
+from parley.memory.meanings import Meanings, fused
 from parley.memory.store import MemoryStore
 from parley.messages import topics
+from parley.messages.chat import ChatFeedback
 from parley.messages.memory import (
     RETURN_ALL,
     AddToMemory,
     GetMemory,
     MemoryEntry,
     MemoryEvent,
+    MemoryList,
     MemoryReply,
     RemoveMemory,
 )
@@ -39,7 +42,9 @@ class MemoryNode(Node):
         store: An open store; the caller closes it.
         language: Picks from the short list what matters.
         short_list: How many memories the language engine is shown.
-        select_timeout_s: How long it may take (wall time) before the lexical finds are used instead.
+        select_timeout_s: How long it may take (wall time) before the finds are used as they are.
+        meanings: Finds memories by what they mean too, where an embedding model is configured; opened and
+            closed with the node.
     """
 
     name: ClassVar[str] = "memory"
@@ -52,43 +57,64 @@ class MemoryNode(Node):
         *,
         short_list: int = 20,
         select_timeout_s: float = 5.0,
+        meanings: Meanings | None = None,
     ) -> None:
         super().__init__(transport)
-        self._store, self._language = store, language
+        self._store, self._language, self._meanings = store, language, meanings
         self._short_list, self._select_timeout_s = short_list, select_timeout_s
 
     async def open(self) -> None:
         """See `Node.open`."""
+        if self._meanings is not None:
+            await self.opened.enter_async_context(self._meanings)
         await self.subscribe(topics.ADD_TO_MEMORY, AddToMemory, self._on_add)
         await self.subscribe(topics.REMOVE_MEMORY, RemoveMemory, self._on_remove)
+        await self.subscribe(topics.CHAT_FEEDBACK, ChatFeedback, self._on_feedback)
         server = await self.transport.serve(topics.GET_MEMORY, self._on_get)
         self.opened.push_async_callback(server.close)
 
+    # -- changes ---------------------------------------------------------------------------------------
+
     async def _on_add(self, message: AddToMemory) -> None:
         for entry in message.entries():
-            await self._change(entry.name, "remember", self._add(entry))
+            await self._change(entry.name, entry.scope, "remember", self._add(entry))
 
     async def _add(self, entry: MemoryEntry) -> MemoryEvent:
         await self._store.add(entry)
-        return MemoryEvent(kind="added", name=entry.name)
+        if self._meanings is not None:
+            self._meanings.wake()
+        return MemoryEvent(kind="added", name=entry.name, scope=entry.scope)
 
     async def _on_remove(self, message: RemoveMemory) -> None:
         for name in message.root:
-            await self._change(name, "forget", self._remove(name))
+            scope = message.scope_of(name)
+            await self._change(name, scope or "", "forget", self._remove(name, scope))
 
-    async def _remove(self, name: str) -> MemoryEvent:
-        if await self._store.remove(name, scope=None):
-            return MemoryEvent(kind="removed", name=name)
-        return MemoryEvent(kind="failed", name=name, message=f"I remember nothing under the name {name}.")
+    async def _remove(self, name: str, scope: str | None) -> MemoryEvent:
+        if await self._store.remove(name, scope=scope):
+            return MemoryEvent(kind="removed", name=name, scope=scope or "")
+        said = f"I remember nothing under the name {name}."
+        return MemoryEvent(kind="failed", name=name, scope=scope or "", message=said)
 
-    async def _change(self, name: str, verb: str, change: Awaitable[MemoryEvent]) -> None:
+    async def _change(self, name: str, scope: str, verb: str, change: Awaitable[MemoryEvent]) -> None:
         try:
             event = await change
         except StoreError as error:
             self.log.error("memory not changed", name=name, verb=verb, problem=str(error))
-            said = f"I could not {verb} that: my memory file cannot be written."
-            event = MemoryEvent(kind="failed", name=name, message=said)
+            said = f"I could not {verb} that: {_plain(error)}"
+            event = MemoryEvent(kind="failed", name=name, scope=scope, message=said)
         self.publish(topics.MEMORY_EVENT, event)
+
+    async def _on_feedback(self, feedback: ChatFeedback) -> None:
+        """Record which memories a reply was founded on; of the reply itself nothing depends on it."""
+        if not feedback.sources:
+            return
+        try:
+            await self._store.mark_used(feedback.sources, feedback.targets)
+        except StoreError as error:
+            self.log.warning("use of memories not recorded", problem=str(error))
+
+    # -- requests --------------------------------------------------------------------------------------
 
     async def _on_get(self, asked: ChatRequest) -> ChatResponse:
         try:
@@ -96,15 +122,39 @@ class MemoryNode(Node):
         except InvalidMessageError as error:
             self.refuse(topics.GET_MEMORY.name, error)
             raise
-        found = await self._find(request)
-        return ChatResponse(encode(MemoryReply({entry.name: entry for entry in _time_order(found)})))
+        if request.kind == "select":
+            found = [entry for entry in await self._find(request) if request.type in ("", entry.type)]
+            reply = MemoryReply.of(_shown(_time_order(found), request))
+            return ChatResponse(encode(reply))
+        listed = [entry for entry in await self._list(request) if request.type in ("", entry.type)]
+        if request.kind == "search":
+            listed = listed[: request.limit or self._short_list]
+        elif request.limit:
+            listed = listed[-request.limit :]
+        return ChatResponse(encode(MemoryList(memories=tuple(_shown(listed, request)))))
+
+    async def _list(self, request: GetMemory) -> list[MemoryEntry]:
+        scope = request.scope or None
+        match request.kind:
+            case "search":
+                wanted = request.limit or self._short_list
+                # Pictures are few among texts, so more is looked through when only they are asked for.
+                return await self._search(request.request, scope, 10 * wanted if request.type else wanted)
+            case "named":
+                return await self._store.named(request.request, scope)
+            case "history":
+                older = await self._store.history(request.request)
+                return [entry for entry in older if scope is None or entry.scope in ("", scope)]
+        if request.limit:
+            return (await self._store.newest(request.limit, scope, request.type))[::-1]
+        return await self._store.all(scope, request.type)
 
     async def _find(self, request: GetMemory) -> list[MemoryEntry]:
         scope = request.scope or None
         if request.request.strip().rstrip(".!").casefold() == RETURN_ALL:
             return await self._store.all(scope)
-        lexical = await self._store.search(request.request, self._short_list, scope)
-        short_list = await self._fill_up(lexical, scope)
+        found = await self._search(request.request, scope, self._short_list)
+        short_list = _own_first(await self._fill_up(found, scope))
         if not short_list:
             return []
         try:
@@ -112,8 +162,17 @@ class MemoryNode(Node):
                 chosen = set(await self._language.select_memories(request.request, short_list))
         except (LanguageError, TimeoutError) as error:
             self.log.warning("memories chosen by words alone", problem=str(error) or "no answer in time")
-            return lexical
+            return found
         return [entry for entry in short_list if entry.name in chosen]
+
+    async def _search(self, words: str, scope: str | None, limit: int) -> list[MemoryEntry]:
+        """By words, and by meaning where that is configured."""
+        if self._meanings is None:
+            return await self._store.search(words, limit, scope)
+        lexical, alike = await asyncio.gather(
+            self._store.search(words, limit, scope), self._meanings.alike(words, limit, scope)
+        )
+        return fused(lexical, alike, first=words)[:limit] if alike else lexical
 
     async def _fill_up(self, lexical: Sequence[MemoryEntry], scope: str | None) -> list[MemoryEntry]:
         """Add the newest memories up to the length of a short list.
@@ -138,7 +197,27 @@ def read_request(message: str) -> GetMemory:
     return decode(GetMemory, message) if is_object else GetMemory(request=message)
 
 
+def _own_first(entries: Sequence[MemoryEntry]) -> list[MemoryEntry]:
+    """Of one name in several scopes only the one of the narrower scope, in the order in which they came."""
+    own = {entry.name for entry in entries if entry.scope}
+    return [entry for entry in entries if entry.scope or entry.name not in own]
+
+
 def _time_order(entries: Sequence[MemoryEntry]) -> list[MemoryEntry]:
     """Oldest first; of one name in several scopes the one of the narrower scope wins."""
     one_each = {entry.name: entry for entry in sorted(entries, key=lambda entry: entry.scope != "")}
     return sorted(one_each.values(), key=lambda entry: entry.updated_unix_ms)
+
+
+def _shown(entries: Sequence[MemoryEntry], request: GetMemory) -> list[MemoryEntry]:
+    """With or without the data of pictures, as was asked for."""
+    if request.pictures:
+        return list(entries)
+    return [e.model_copy(update={"data": ""}) if e.type == "image" else e for e in entries]
+
+
+def _plain(error: StoreError) -> str:
+    """What is wrong with the file, for operators."""
+    if "disk is full" in str(error):
+        return "there is no room left where I keep what I remember."
+    return "my memory file cannot be written."

@@ -1,0 +1,282 @@
+"""Memories found by what they mean, beside those found by their words.
+
+Vectors stand in the memory file beside the memories and are made in the background. Where the server is gone,
+words alone decide, and people are told once.
+"""
+
+from __future__ import annotations
+
+import asyncio
+import sqlite3
+from collections.abc import Callable, Sequence
+from types import TracebackType
+from typing import Final, Self
+
+import numpy as np
+import structlog
+
+from parley.clock import Clock
+from parley.errors import LanguageError, StoreError
+from parley.memory.embedder import Embedder, RefusedTextError, Vectors
+from parley.memory.retrieval import words
+from parley.memory.rows import COLUMNS, read_entry
+from parley.memory.store import MemoryStore
+from parley.messages.memory import MemoryEntry
+
+__all__ = ["GONE", "Meanings", "fused"]
+
+log = structlog.get_logger(__name__)
+
+GONE: Final = (
+    "The service that finds memories by their meaning does not answer."
+    " I look for the words themselves meanwhile."
+)
+"""What people are told once, each time the server is lost."""
+
+_BATCH: Final = 64
+_MAX_CHARS: Final = 2000
+"""Of one memory: what it is about stands at its beginning."""
+_SPARE: Final = 1000
+"""So many forgotten vectors may stay in working memory."""
+
+
+class Meanings:
+    """Keeps a vector for each memory and finds those that are alike. Use as ``async with``.
+
+    Args:
+        store: An open store; it outlives this.
+        embedder: Makes the vectors.
+        clock: Wall time, for when to try again.
+        tell: Told once when the server is gone.
+        retry_s: Wall time for which a server that failed is left alone.
+        min_alike: Least cosine of a find.
+    """
+
+    def __init__(
+        self,
+        store: MemoryStore,
+        embedder: Embedder,
+        clock: Clock,
+        *,
+        tell: Callable[[str], None] = lambda _: None,
+        retry_s: float = 30.0,
+        min_alike: float = 0.3,
+    ) -> None:
+        self._store, self._embedder, self._clock, self._tell = store, embedder, clock, tell
+        self._retry_s, self._min_alike = retry_s, min_alike
+        self._ids = np.zeros(0, np.int64)
+        self._vectors: Vectors = np.zeros((0, 1), np.float32)
+        self._seen_id = 0
+        self._retry_at_s = 0.0
+        self._gone = False
+        self._wanted = asyncio.Event()
+        self._task: asyncio.Task[None] | None = None
+        self.settled = asyncio.Event()
+        """Set while every memory that can have a vector has one, or the server is gone."""
+
+    async def __aenter__(self) -> Self:
+        await self._load()
+        self.wake()
+        self._task = asyncio.create_task(self._work(), name="meanings of memories")
+        return self
+
+    async def __aexit__(
+        self, kind: type[BaseException] | None, error: BaseException | None, trace: TracebackType | None
+    ) -> None:
+        if self._task is not None:
+            self._task.cancel()
+            await asyncio.gather(self._task, return_exceptions=True)
+
+    def wake(self) -> None:
+        """There may be memories without a vector."""
+        self.settled.clear()
+        self._wanted.set()
+
+    async def alike(self, request: str, limit: int, scope: str | None = None) -> list[MemoryEntry]:
+        """The memories whose meaning is nearest to a request, nearest first.
+
+        None while the server is gone, and as long as no memory has a vector.
+        """
+        if self._clock.wall_s() < self._retry_at_s or not request.strip():
+            return []
+        if self._gone:
+            self.wake()
+        if not len(self._ids):
+            return []
+        try:
+            vector = (await self._embedder.embed([request[:_MAX_CHARS]]))[0]
+        except LanguageError as error:
+            self._lost(error)
+            return []
+        self._gone = False
+        ids, vectors = self._ids, self._vectors
+        if vector.shape[0] != vectors.shape[1]:
+            log.warning("vectors of another length", model=self._embedder.model)
+            return []
+        least = self._min_alike
+        return await self._store.database.run(
+            lambda db: _nearest(db, vector, ids, vectors, least=least, limit=limit, scope=scope)
+        )
+
+    # -- in the background -----------------------------------------------------------------------------
+
+    async def _work(self) -> None:
+        while True:
+            await self._wanted.wait()
+            self._wanted.clear()
+            try:
+                await self._embed_missing()
+            except LanguageError as error:
+                self._lost(error)
+            except StoreError as error:
+                log.warning("meanings not kept", problem=str(error))
+            if not self._wanted.is_set():
+                self.settled.set()
+
+    async def _embed_missing(self) -> None:
+        if self._clock.wall_s() < self._retry_at_s:
+            return
+        model = self._embedder.model
+        while True:
+            after = self._seen_id
+            batch = await self._store.database.run(lambda db, a=after: _missing(db, model, a))  # type: ignore[misc]
+            if not batch:
+                return
+            done, vectors = await self._embed(batch)
+            self._gone = False
+            if done:
+                current = await self._store.database.run(
+                    lambda db, d=done, v=vectors: _keep(db, model, d, v)  # type: ignore[misc]
+                )
+                self._extend(done, vectors)
+                if len(self._ids) > 2 * current + _SPARE:
+                    await self._load()
+            self._seen_id = batch[-1][0]
+
+    async def _embed(self, batch: Sequence[tuple[int, str]]) -> tuple[list[int], Vectors]:
+        """Vectors of a batch; a text that the server will not have is left out, the rest goes on."""
+        try:
+            return [identity for identity, _ in batch], await self._embedder.embed(
+                [text for _, text in batch]
+            )
+        except RefusedTextError:
+            done: list[int] = []
+            rows: list[Vectors] = []
+            for identity, text in batch:
+                try:
+                    rows.append(await self._embedder.embed([text]))
+                    done.append(identity)
+                except RefusedTextError as error:
+                    log.warning("memory without a meaning", memory=identity, problem=str(error))
+            return done, np.concatenate(rows) if rows else np.zeros((0, 1), np.float32)
+
+    async def _load(self) -> None:
+        model = self._embedder.model
+        rows = await self._store.database.run(
+            lambda db: db.execute(
+                "SELECT memory, vector FROM memory_vector WHERE model = ? ORDER BY memory", (model,)
+            ).fetchall()
+        )
+        self._ids, self._vectors = np.zeros(0, np.int64), np.zeros((0, 1), np.float32)
+        length = len(rows[0][1]) if rows else 0
+        fitting = [(identity, vector) for identity, vector in rows if len(vector) == length]
+        if fitting:
+            joined = np.frombuffer(b"".join(vector for _, vector in fitting), np.float32)
+            self._extend([identity for identity, _ in fitting], joined.reshape(len(fitting), -1))
+
+    def _extend(self, ids: Sequence[int], vectors: Vectors) -> None:
+        if len(self._ids) and self._vectors.shape[1] != vectors.shape[1]:
+            self._ids, self._vectors = np.zeros(0, np.int64), np.zeros((0, 1), np.float32)
+        same = bool(len(self._ids))
+        self._ids = np.concatenate([self._ids, np.asarray(ids, np.int64)])
+        self._vectors = np.concatenate([self._vectors, vectors]) if same else vectors
+
+    def _lost(self, error: LanguageError) -> None:
+        log.warning("memories found by words alone", problem=str(error))
+        self._retry_at_s = self._clock.wall_s() + self._retry_s
+        if not self._gone:
+            self._gone = True
+            self._tell(GONE)
+
+
+def fused(
+    lexical: Sequence[MemoryEntry], alike: Sequence[MemoryEntry], *, first: str = ""
+) -> list[MemoryEntry]:
+    """Two rankings as one: who stands high in either stands high (reciprocal ranks).
+
+    Args:
+        lexical: By words, best first.
+        alike: By meaning, best first.
+        first: A memory of this name stands before all others.
+    """
+    score: dict[tuple[str, str], float] = {}
+    entries: dict[tuple[str, str], MemoryEntry] = {}
+    for ranking in (lexical, alike):
+        for rank, entry in enumerate(ranking):
+            key = (entry.name, entry.scope)
+            score[key] = score.get(key, 0.0) + 1.0 / (60 + rank)
+            entries[key] = entry
+    wanted = words(first)
+    order = sorted(
+        score, key=lambda key: (bool(wanted) and words(key[0]) == wanted, score[key]), reverse=True
+    )
+    return [entries[key] for key in order]
+
+
+def _missing(db: sqlite3.Connection, model: str, after: int) -> list[tuple[int, str]]:
+    rows = db.execute(
+        "SELECT m.id, m.name_key, m.info, CASE m.type WHEN 'text' THEN substr(m.data, 1, ?) ELSE '' END"
+        " FROM memory m LEFT JOIN memory_vector v ON v.memory = m.id AND v.model = ?"
+        " WHERE m.id > ? AND m.ended_unix_ms IS NULL AND v.memory IS NULL ORDER BY m.id LIMIT ?",
+        (_MAX_CHARS, model, after, _BATCH),
+    )
+    return [(row[0], ". ".join(part for part in row[1:] if part)[:_MAX_CHARS]) for row in rows]
+
+
+def _keep(db: sqlite3.Connection, model: str, ids: Sequence[int], vectors: Vectors) -> int:
+    """Write vectors of memories that still hold; returns how many there are in all."""
+    rows = [
+        (identity, model, vector.tobytes(), identity) for identity, vector in zip(ids, vectors, strict=True)
+    ]
+    db.execute("BEGIN IMMEDIATE")
+    try:
+        db.executemany(
+            "INSERT OR REPLACE INTO memory_vector SELECT ?, ?, ?"
+            " WHERE EXISTS (SELECT 1 FROM memory WHERE id = ? AND ended_unix_ms IS NULL)",
+            rows,
+        )
+    except BaseException:
+        db.execute("ROLLBACK")
+        raise
+    db.execute("COMMIT")
+    (count,) = db.execute("SELECT count(*) FROM memory_vector").fetchone()
+    return int(count)
+
+
+def _nearest(
+    db: sqlite3.Connection,
+    vector: Vectors,
+    ids: np.ndarray[tuple[int], np.dtype[np.int64]],
+    vectors: Vectors,
+    *,
+    least: float,
+    limit: int,
+    scope: str | None,
+) -> list[MemoryEntry]:
+    """On the file's thread: the product over many memories takes a while and leaves the loop alone."""
+    cosine = vectors @ vector
+    wanted = min(len(cosine), 8 * limit)
+    top = np.argpartition(cosine, -wanted)[-wanted:]
+    ranked = sorted((int(n) for n in top if cosine[n] >= least), key=lambda n: float(cosine[n]), reverse=True)
+    found: list[MemoryEntry] = []
+    for number in ranked:
+        row = db.execute(
+            f"SELECT {COLUMNS} FROM memory WHERE id = ? AND ended_unix_ms IS NULL"
+            " AND (? IS NULL OR scope IN ('', ?))",
+            (int(ids[number]), scope, scope),
+        ).fetchone()
+        if row is not None:
+            found.append(read_entry(row))
+        if len(found) == limit:
+            break
+    return found
