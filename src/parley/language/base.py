@@ -7,7 +7,7 @@ instruction.
 
 from __future__ import annotations
 
-from collections.abc import Mapping, Sequence
+from collections.abc import Callable, Mapping, Sequence
 from dataclasses import dataclass, field
 from typing import Any, Literal, Protocol
 
@@ -20,6 +20,7 @@ from parley.world.geometry import Pose2D
 from parley.world.object_map import MapObject
 
 __all__ = [
+    "DraftHandler",
     "ErrorSituation",
     "Grounding",
     "InspectionReport",
@@ -30,6 +31,9 @@ __all__ = [
 ]
 
 Status = Literal["idle", "running", "paused"]
+
+DraftHandler = Callable[[str], None]
+"""Gets the reply so far, whole each time, while the plan behind it is still being written; must not block."""
 
 
 @dataclass(frozen=True, slots=True)
@@ -78,6 +82,8 @@ class ErrorSituation:
     """Questions and answers about this failure so far."""
     reply: str | None = None
     """What the operator just answered; None for the attempt without asking."""
+    tried: tuple[tuple[ActionCall, ...], ...] = ()
+    """Corrections of this step that were carried out already, in vain."""
     robot: str = ""
     robot_pose: Pose2D | None = None
     catalogue: tuple[ActionInfo, ...] = ()
@@ -127,8 +133,11 @@ class Language(Protocol):
         """What operators are told about this engine, e.g. that it works without a model."""
         ...
 
-    async def interpret(self, situation: Situation) -> ChatAction:
-        """What the operator's message asks for: reply, actions, commands, memories."""
+    async def interpret(self, situation: Situation, *, on_draft: DraftHandler | None = None) -> ChatAction:
+        """What the operator's message asks for: reply, actions, commands, memories.
+
+        Engines that answer at once never call `on_draft`.
+        """
         ...
 
     async def select_memories(self, query: str, index: Sequence[MemoryEntry]) -> list[str]:
@@ -136,7 +145,12 @@ class Language(Protocol):
         ...
 
     async def resolve(self, situation: ErrorSituation) -> ChatAction:
-        """How to repair a failure; `success` False asks with `message_response` and `choices`."""
+        """How to repair a failure.
+
+        `success` True: the correction, done after `delay_s`; with the command `stop` alone the robot is held.
+        False: asks with `message_response` and `choices`. None: `message_response` answers what the operator
+        asked (and `queue` is what they want done afterwards), while the question to them remains open.
+        """
         ...
 
     async def ground(

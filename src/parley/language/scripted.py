@@ -12,6 +12,7 @@ from typing import Any, Literal
 
 from parley.errors import LanguageError
 from parley.language.base import (
+    DraftHandler,
     ErrorSituation,
     Grounding,
     InspectionReport,
@@ -67,8 +68,13 @@ class ScriptedLanguage:
             raise LanguageError(f"the script has no answer to {question}")
         return await getattr(self._behind, question)(asked, *rest)
 
-    async def interpret(self, situation: Situation) -> ChatAction:
-        """See `Language.interpret`."""
+    async def interpret(self, situation: Situation, *, on_draft: DraftHandler | None = None) -> ChatAction:
+        """See `Language.interpret`; texts in the script before the answer are drafts of its reply."""
+        prepared = self._script["interpret"]
+        while prepared and isinstance(prepared[0], str):
+            draft = prepared.popleft()
+            if on_draft is not None:
+                on_draft(draft)
         answer: ChatAction = await self._answer("interpret", situation)
         return answer
 

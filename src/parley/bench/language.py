@@ -1,0 +1,104 @@
+"""What understanding costs: the offline engine, and what is added to a model's own time."""
+
+from __future__ import annotations
+
+import time
+from collections.abc import Sequence
+from dataclasses import dataclass
+from typing import Final
+
+from parley.actions.builtin import BUILTIN_ACTIONS
+from parley.config import ModelSettings
+from parley.language.base import Language, Situation
+from parley.language.llm import build_language
+from parley.language.llm.scripted_server import Say, ScriptedServer
+from parley.language.offline import OfflineLanguage
+from parley.messages.memory import MemoryEntry
+from parley.nodes.plan_check import plan_problems
+from parley.umrf.catalogue import Catalogue
+from parley.world.geometry import Pose2D
+from parley.world.object_map import MapObject
+
+__all__ = ["LanguageFigures", "measure_language"]
+
+MESSAGES: Final = (
+    "go to box {n}",
+    "look at box {n}",
+    "go to box {n}, then inspect it",
+    "where is box {n}?",
+    "remember that box {n} is empty",
+    "what can you do?",
+)
+OBJECTS: Final = 40
+MEMORIES: Final = 20
+WARM_UP: Final = 5
+
+
+@dataclass(frozen=True, slots=True)
+class LanguageFigures:
+    """What messages took, in milliseconds."""
+
+    case: str
+    latency_ms: tuple[float, ...]
+    """Wall time of each."""
+    cpu_ms: float
+    """Time of the processor for one, on average; says more than wall time while the machine is busy."""
+
+
+async def measure_language(times: int) -> list[LanguageFigures]:
+    """Answer `times` messages each: offline, and by a model that answers at once (whole, and streamed).
+
+    What the second and third take is what is added to a model's own time, the scripted server's included.
+    """
+    situations = [_situation(number) for number in range(WARM_UP + times)]
+    figures = [await _measure("offline", OfflineLanguage(), situations)]
+    async with ScriptedServer() as server:
+        server.always(Say(answer=_PLAN, pieces=20))
+        settings = ModelSettings(max_tokens_per_hour=None)
+        for case, streams in (("model_overhead", False), ("model_overhead_streamed", True)):
+            language = build_language([f"local:scripted@{server.url}"], settings, check=plan_problems)
+            async with language:  # type: ignore[attr-defined]
+                figures.append(await _measure(case, language, situations, streams=streams))
+    return figures
+
+
+async def _measure(
+    case: str, language: Language, situations: Sequence[Situation], *, streams: bool = False
+) -> LanguageFigures:
+    taken_ms: list[float] = []
+    cpu_s = 0.0
+    for number, situation in enumerate(situations):
+        if number == WARM_UP:
+            cpu_s = time.process_time()
+        start_s = time.perf_counter()
+        await language.interpret(situation, on_draft=(lambda _: None) if streams else None)
+        taken_ms.append(1000 * (time.perf_counter() - start_s))
+    cpu_ms = 1000 * (time.process_time() - cpu_s) / (len(situations) - WARM_UP)
+    return LanguageFigures(case, tuple(taken_ms[WARM_UP:]), cpu_ms)
+
+
+_PLAN: Final = {
+    "message_response": "I will go to the box and look at it.",
+    "queue": [
+        {"action": "GetCoordinates", "parameters": {"target": "box 1"}, "reason": "find the box"},
+        {"action": "NavigateTo", "parameters": {}, "reason": "go to the box"},
+        {"action": "Inspect", "parameters": {"inspect": "box 1"}, "reason": "look at the box"},
+    ],
+}
+
+
+def _situation(number: int) -> Situation:
+    message = MESSAGES[number % len(MESSAGES)].format(n=1 + number % OBJECTS)
+    things = tuple(MapObject(f"box_{n}", f"box {n}", float(n), 1.0, "box") for n in range(1, OBJECTS + 1))
+    known = tuple(
+        MemoryEntry(name=f"fact_{n}", data=f"Box {n} belongs to room {n}.") for n in range(MEMORIES)
+    )
+    return Situation(
+        message,
+        memory=known,
+        objects=things,
+        robot_pose=Pose2D(0.0, 0.0, 0.0),
+        robot="Robot",
+        robots=("Robot",),
+        catalogue=Catalogue(BUILTIN_ACTIONS).infos(),
+    )

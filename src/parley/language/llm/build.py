@@ -1,0 +1,105 @@
+"""A language engine from the settings. The libraries for models are loaded only when a model is asked for."""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from pathlib import Path
+
+from parley.clock import Clock, WallClock
+from parley.config import ModelSettings
+from parley.errors import ConfigError
+from parley.language.base import Language
+from parley.language.llm.guard import Budget
+from parley.language.llm.reading import PlanCheck
+from parley.language.llm.usage import Usage
+from parley.language.offline import OfflineLanguage
+
+__all__ = ["OFFLINE", "build_language"]
+
+OFFLINE = "offline"
+_REPLAY = "replay:"
+
+
+def build_language(
+    names: Sequence[str],
+    settings: ModelSettings,
+    *,
+    check: PlanCheck,
+    clock: Clock | None = None,
+    usage: Usage | None = None,
+    within_s: float | None = None,
+) -> Language:
+    """The engine that `names` says, the next behind the one before.
+
+    Args:
+        names: `offline`, `provider:model`, `provider:model@address` or `replay:file`; the usual one first.
+        settings: How models are asked.
+        check: Whether a plan can be carried out.
+        clock: Wall time; None: this machine's.
+        usage: Adds up what the models take; None: each its own.
+        within_s: Wall time in which all models together have to answer; None: each has its own.
+
+    Raises:
+        ConfigError: A name is not understood, a library or a key is missing, a file cannot be read.
+    """
+    if names[0] == OFFLINE:
+        return OfflineLanguage()
+    try:
+        from parley.language.llm.chain import ChainLanguage
+    except ImportError as error:
+        raise ConfigError("language models need a library: pip install 'parley-hri[openai]'") from error
+
+    clock = clock or WallClock()
+    settings = _shared(settings, sum(name != OFFLINE for name in set(names)), within_s)
+    budget = Budget(clock, max_tokens=settings.max_tokens_per_hour, max_usd=settings.max_usd_per_hour)
+    engines = [
+        OfflineLanguage()
+        if name == OFFLINE
+        else _model(name, settings, first=not number, check=check, clock=clock, usage=usage, budget=budget)
+        for number, name in enumerate(dict.fromkeys(names))
+    ]
+    return ChainLanguage(engines) if len(engines) > 1 else engines[0]
+
+
+def _shared(settings: ModelSettings, models: int, within_s: float | None) -> ModelSettings:
+    """The settings with the time shared among so many models."""
+    limit_s = settings.timeout_s if within_s is None else min(settings.timeout_s, within_s / models)
+    memory_s = settings.memory_timeout_s / models
+    return settings.model_copy(update={"timeout_s": limit_s, "memory_timeout_s": memory_s})
+
+
+def _model(
+    name: str,
+    settings: ModelSettings,
+    *,
+    first: bool,
+    check: PlanCheck,
+    clock: Clock,
+    usage: Usage | None,
+    budget: Budget,
+) -> Language:
+    from parley.language.llm.engine import LlmLanguage
+    from parley.language.llm.models import ModelSpec, make_model, read_key
+    from parley.language.llm.recording import Recorder, Redactor, replay_model
+
+    replays = name.startswith(_REPLAY)
+    key = read_key(settings.key_file) if first and not replays else ""
+    redactor = Redactor([key])
+    if replays:
+        model, shown = replay_model(Path(name.removeprefix(_REPLAY))), "replay"
+    else:
+        spec = ModelSpec.parse(name, settings.base_url if first else "")
+        model, shown = make_model(spec, key), spec.name
+    recorder = Recorder(settings.record_file, redactor) if settings.record_file and not replays else None
+    return LlmLanguage(
+        model,
+        shown,
+        settings,
+        clock=clock,
+        check=check,
+        usage=usage,
+        budget=budget,
+        redactor=redactor,
+        recorder=recorder,
+        streams=not replays,
+    )

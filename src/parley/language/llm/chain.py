@@ -1,0 +1,113 @@
+"""Several language engines, one after the other: the next is asked when one cannot answer."""
+
+from __future__ import annotations
+
+from collections.abc import Awaitable, Callable, Sequence
+from contextlib import AbstractAsyncContextManager, AsyncExitStack
+from types import TracebackType
+from typing import Final, Self, TypeVar
+
+import structlog
+
+from parley.errors import LanguageError
+from parley.language.base import (
+    DraftHandler,
+    ErrorSituation,
+    Grounding,
+    InspectionReport,
+    Language,
+    ReplyReading,
+    Situation,
+)
+from parley.language.llm.failures import DeclinedError
+from parley.messages.chat import ChatAction
+from parley.messages.memory import MemoryEntry
+from parley.robots.base import CameraImage
+from parley.world.geometry import Pose2D
+from parley.world.object_map import MapObject
+
+__all__ = ["NOTICE", "ChainLanguage"]
+
+log = structlog.get_logger(__name__)
+
+R = TypeVar("R")
+
+NOTICE: Final = "(My usual language service gives no answer; I work with a simpler one meanwhile.) "
+"""Said once, when another engine steps in."""
+
+
+class ChainLanguage:
+    """Asks the first engine; what it cannot answer goes to the next. A refusal is final.
+
+    Args:
+        engines: In the order in which they are asked; at least one.
+    """
+
+    def __init__(self, engines: Sequence[Language]) -> None:
+        self.engines = tuple(engines)
+        self._told = False
+        self._stack = AsyncExitStack()
+
+    async def __aenter__(self) -> Self:
+        for engine in self.engines:
+            if isinstance(engine, AbstractAsyncContextManager):
+                await self._stack.enter_async_context(engine)
+        return self
+
+    async def __aexit__(
+        self, kind: type[BaseException] | None, error: BaseException | None, trace: TracebackType | None
+    ) -> None:
+        await self._stack.aclose()
+
+    @property
+    def label(self) -> str:
+        """See `Language.label`."""
+        first, *others = [engine.label for engine in self.engines]
+        return f"{first}; if it gives no answer: {', then '.join(others)}" if others else first
+
+    async def _first(self, ask: Callable[[Language], Awaitable[R]]) -> tuple[R, bool]:
+        """The first answer, and whether it is the first engine's."""
+        failures: list[LanguageError] = []
+        for engine in self.engines:
+            try:
+                return await ask(engine), not failures
+            except DeclinedError:
+                raise
+            except LanguageError as error:
+                log.warning("language engine gave no answer", engine=engine.label, error=str(error))
+                failures.append(error)
+        raise failures[0]
+
+    async def interpret(self, situation: Situation, *, on_draft: DraftHandler | None = None) -> ChatAction:
+        """See `Language.interpret`."""
+        return self._noticed(*await self._first(lambda e: e.interpret(situation, on_draft=on_draft)))
+
+    async def resolve(self, situation: ErrorSituation) -> ChatAction:
+        """See `Language.resolve`."""
+        answer, _ = await self._first(lambda engine: engine.resolve(situation))
+        return answer
+
+    def _noticed(self, answer: ChatAction, usual: bool) -> ChatAction:
+        if usual or self._told:
+            self._told = not usual
+            return answer
+        self._told = True
+        return answer.model_copy(update={"message_response": NOTICE + answer.message_response})
+
+    async def select_memories(self, query: str, index: Sequence[MemoryEntry]) -> list[str]:
+        """See `Language.select_memories`."""
+        return (await self._first(lambda engine: engine.select_memories(query, index)))[0]
+
+    async def ground(
+        self, description: str, objects: Sequence[MapObject], pose: Pose2D | None = None
+    ) -> Grounding:
+        """See `Language.ground`."""
+        return (await self._first(lambda engine: engine.ground(description, objects, pose)))[0]
+
+    async def inspect(self, image: CameraImage, request: str) -> InspectionReport:
+        """See `Language.inspect`."""
+        return (await self._first(lambda engine: engine.inspect(image, request)))[0]
+
+    async def read_reply(self, question: str, reply: str, choices: Sequence[str] = ()) -> ReplyReading:
+        """See `Language.read_reply`."""
+        return (await self._first(lambda engine: engine.read_reply(question, reply, choices)))[0]

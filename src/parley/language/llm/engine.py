@@ -1,0 +1,350 @@
+"""The language engine that asks a model."""
+
+from __future__ import annotations
+
+import io
+from collections.abc import Callable, Sequence
+from contextlib import AsyncExitStack
+from types import TracebackType
+from typing import Any, Final, Self, TypeVar, cast
+
+import httpx2
+import structlog
+from PIL import Image
+from pydantic_ai import Agent, BinaryContent, capture_run_messages
+from pydantic_ai.messages import ModelMessage, ModelResponse, UserContent
+from pydantic_ai.models import Model
+from pydantic_ai.settings import ModelSettings as RequestSettings
+from pydantic_ai.usage import RunUsage
+
+from parley.clock import Clock
+from parley.config import ModelPrice, ModelSettings
+from parley.errors import LanguageError
+from parley.language.base import (
+    DraftHandler,
+    ErrorSituation,
+    Grounding,
+    InspectionReport,
+    ReplyReading,
+    Situation,
+)
+from parley.language.llm import reading
+from parley.language.llm.agents import draft_handler, make_agent
+from parley.language.llm.failures import ModelFailedError, UnusableError, sorted_failure
+from parley.language.llm.guard import Breaker, Budget
+from parley.language.llm.reading import AnswerRefusedError, PlanCheck
+from parley.language.llm.recording import Recorder, Redactor
+from parley.language.llm.usage import Exchange, Usage
+from parley.language.prompts import (
+    KINDS,
+    Kind,
+    Prompt,
+    compose_ground,
+    compose_inspect,
+    compose_interpret,
+    compose_reply,
+    compose_resolve,
+    compose_selection,
+)
+from parley.messages.chat import ChatAction
+from parley.messages.memory import MemoryEntry
+from parley.robots.base import CameraImage
+from parley.world.geometry import Pose2D
+from parley.world.object_map import MapObject
+
+__all__ = ["LlmLanguage"]
+
+log = structlog.get_logger(__name__)
+
+R = TypeVar("R")
+
+_MEMORY_KINDS: Final[frozenset[Kind]] = frozenset({"select_memories", "ground", "read_reply"})
+"""Questions with short answers."""
+_RAISED: Final = (
+    RuntimeError, OSError, ValueError, TypeError, LookupError, AttributeError, AssertionError,
+    httpx2.HTTPError,
+)  # fmt: skip
+"""What the libraries raise when a server talks nonsense; errors of the agents are among the first."""
+_NOT_FEASIBLE: Final = "I found no way to do that with what I can do."
+
+
+class LlmLanguage:
+    """Asks one model; checks every answer before anybody else sees it. Use as ``async with``.
+
+    Args:
+        model: Whom to ask.
+        name: What people know it by.
+        settings: How it is asked.
+        clock: Wall time, for time-outs, waits and limits.
+        check: Whether a plan can be carried out.
+        usage: Adds up what it takes.
+        budget: What it may take; shared by the models of one system.
+        redactor: Keeps keys out of texts.
+        recorder: Keeps exchanges; None: nothing is kept.
+        streams: Whether the model can be heard while it writes.
+    """
+
+    def __init__(
+        self,
+        model: Model[Any],
+        name: str,
+        settings: ModelSettings,
+        *,
+        clock: Clock,
+        check: PlanCheck,
+        usage: Usage | None = None,
+        budget: Budget | None = None,
+        redactor: Redactor | None = None,
+        recorder: Recorder | None = None,
+        streams: bool = True,
+    ) -> None:
+        self._model, self._name, self._settings = model, name, settings
+        self._clock, self._check, self._streams = clock, check, streams
+        self.usage = usage or Usage()
+        self._budget = budget or Budget(clock)
+        self._redactor, self._recorder = redactor or Redactor(), recorder
+        self.breaker = Breaker(clock, failures=settings.breaker_failures, open_s=settings.breaker_open_s)
+        self._agents: dict[Kind, Agent[Callable[[Any], object], Any]] = {
+            kind: make_agent(kind, settings.output, settings.corrections) for kind in KINDS
+        }
+        self._stack = AsyncExitStack()
+
+    async def __aenter__(self) -> Self:
+        await self._stack.enter_async_context(self._model)
+        return self
+
+    async def __aexit__(
+        self, kind: type[BaseException] | None, error: BaseException | None, trace: TracebackType | None
+    ) -> None:
+        await self._stack.aclose()
+
+    @property
+    def label(self) -> str:
+        """See `Language.label`."""
+        return f"language model {self._name}"
+
+    @property
+    def timeout_s(self) -> float:
+        """How long it may take over an answer, picking memories apart."""
+        return self._settings.timeout_s
+
+    # -- the questions ---------------------------------------------------------------------------------
+
+    async def interpret(self, situation: Situation, *, on_draft: DraftHandler | None = None) -> ChatAction:
+        """See `Language.interpret`."""
+        prompt = compose_interpret(situation)
+        return await self._ask(
+            prompt, lambda answer: reading.read_plan(answer, situation, self._check), on_draft=on_draft
+        )
+
+    async def resolve(self, situation: ErrorSituation) -> ChatAction:
+        """See `Language.resolve`."""
+        prompt = compose_resolve(situation)
+        return await self._ask(prompt, lambda answer: reading.read_resolution(answer, situation, self._check))
+
+    async def select_memories(self, query: str, index: Sequence[MemoryEntry]) -> list[str]:
+        """See `Language.select_memories`."""
+        if not index:
+            return []
+        prompt = compose_selection(query, index)
+        return await self._ask(prompt, lambda answer: reading.read_selection(answer, index))
+
+    async def ground(
+        self, description: str, objects: Sequence[MapObject], pose: Pose2D | None = None
+    ) -> Grounding:
+        """See `Language.ground`."""
+        if not objects:
+            return Grounding("none")
+        prompt = compose_ground(description, objects, pose)
+        return await self._ask(prompt, lambda answer: reading.read_grounding(answer, objects))
+
+    async def inspect(self, image: CameraImage, request: str) -> InspectionReport:
+        """See `Language.inspect`."""
+        seen = None if image.detections is None else [found.label for found in image.detections]
+        prompt = compose_inspect(request, seen)
+        return await self._ask(
+            prompt,
+            lambda a: InspectionReport(a.text, a.found, a.wanted, a.attention),
+            picture=_jpeg(image),
+        )
+
+    async def read_reply(self, question: str, reply: str, choices: Sequence[str] = ()) -> ReplyReading:
+        """See `Language.read_reply`."""
+        prompt = compose_reply(question, reply, choices)
+        return await self._ask(prompt, lambda answer: reading.read_reading(answer, choices))
+
+    # -- asking ----------------------------------------------------------------------------------------
+
+    async def _ask(
+        self,
+        prompt: Prompt,
+        read: Callable[[Any], R],
+        *,
+        picture: bytes | None = None,
+        on_draft: DraftHandler | None = None,
+    ) -> R:
+        """Ask, within time, budget and breaker.
+
+        Raises:
+            LanguageError: There is no answer that can be used.
+        """
+        self._budget.admit()
+        self.breaker.admit()
+        short = prompt.kind == "select_memories"
+        limit_s = self._settings.memory_timeout_s if short else self._settings.timeout_s
+        try:
+            async with self._clock.timeout(limit_s):
+                answer = await self._tries(prompt, read, picture, on_draft)
+        except TimeoutError:
+            self.breaker.failed()
+            text = f"{self._name} gave no answer within {limit_s:g} s"
+            raise LanguageError(text, plain="My language service takes too long.") from None
+        except ModelFailedError:
+            self.breaker.failed()
+            raise
+        except LanguageError:
+            self.breaker.succeeded()  # it is there, whatever it said
+            raise
+        except BaseException:
+            self.breaker.left()
+            raise
+        self.breaker.succeeded()
+        return answer
+
+    async def _tries(
+        self, prompt: Prompt, read: Callable[[Any], R], picture: bytes | None, on_draft: DraftHandler | None
+    ) -> R:
+        wait_s = self._settings.backoff_s
+        for left in reversed(range(self._settings.retries + 1)):
+            try:
+                return await self._once(prompt, read, picture, on_draft)
+            except ModelFailedError as error:
+                if not error.may_help or not left:
+                    raise
+                log.warning("model is asked again", model=self._name, error=str(error))
+                await self._clock.sleep(max(wait_s, error.wait_s or 0.0))
+                wait_s *= 2
+                self._budget.admit()
+        raise AssertionError("the last try returns or raises")
+
+    async def _once(
+        self, prompt: Prompt, read: Callable[[Any], R], picture: bytes | None, on_draft: DraftHandler | None
+    ) -> R:
+        start_s, usage = self._clock.wall_s(), RunUsage()
+        failure = LanguageError("nobody waits for the answer any more")  # unless something else happens
+        answered = False
+        refused = _Refusals(read)
+        with capture_run_messages() as messages:
+            try:
+                result = await self._agents[prompt.kind].run(
+                    _content(prompt, picture),
+                    model=self._model,
+                    deps=refused,
+                    instructions=prompt.instructions,
+                    model_settings=self._request_settings(prompt.kind),
+                    usage=usage,
+                    event_stream_handler=draft_handler(on_draft) if on_draft and self._streams else None,
+                )
+                answer = read(result.output)
+                answered = True
+                return answer
+            except LanguageError as error:
+                failure = error
+                raise
+            except _RAISED as error:
+                failure = self._failure(error, refused)
+                raise failure from None  # what is behind it may hold a key
+            finally:
+                error_text = "" if answered else str(failure)
+                await self._note(prompt, messages, usage, self._clock.wall_s() - start_s, error_text)
+
+    def _failure(self, error: Exception, refused: _Refusals) -> LanguageError:
+        text = self._redactor.clean(f"{self._name}: {str(error) or type(error).__name__}")[:1000]
+        failure = sorted_failure(error, text)
+        if isinstance(failure, UnusableError) and refused.last is not None:
+            problems = self._redactor.clean("; ".join(refused.last.problems))[:1000]
+            return UnusableError(f"{text}: {problems}", plain=_NOT_FEASIBLE)
+        return failure
+
+    def _request_settings(self, kind: Kind) -> RequestSettings:
+        own = self._settings
+        settings = RequestSettings(
+            max_tokens=own.max_memory_tokens if kind in _MEMORY_KINDS else own.max_plan_tokens,
+            timeout=own.timeout_s,
+            max_retries=0,
+        )
+        if own.temperature is not None:
+            settings["temperature"] = own.temperature
+        if own.top_p is not None:
+            settings["top_p"] = own.top_p
+        if own.frequency_penalty:
+            settings["frequency_penalty"] = own.frequency_penalty
+        if own.presence_penalty:
+            settings["presence_penalty"] = own.presence_penalty
+        return settings
+
+    # -- accounting ------------------------------------------------------------------------------------
+
+    async def _note(
+        self,
+        prompt: Prompt,
+        messages: Sequence[ModelMessage],
+        usage: RunUsage,
+        latency_s: float,
+        error: str,
+    ) -> None:
+        cost_usd = self._cost(messages, usage)
+        exchange = Exchange(
+            kind=prompt.kind,
+            model=self._name,
+            prompt_version=prompt.version,
+            outcome="failed" if error else "answered",
+            requests=usage.requests,
+            input_tokens=usage.input_tokens,
+            output_tokens=usage.output_tokens,
+            cost_usd=cost_usd,
+            latency_s=round(latency_s, 4),
+            error=error,
+        )
+        self.usage.note(exchange)
+        self._budget.spend(usage.input_tokens + usage.output_tokens, cost_usd or 0.0)
+        if self._recorder is not None:
+            await self._recorder.keep(prompt, exchange, messages)
+
+    def _cost(self, messages: Sequence[ModelMessage], usage: RunUsage) -> float | None:
+        price: ModelPrice | None = self._settings.prices.get(self._name)
+        if price is not None:
+            return (usage.input_tokens * price.input + usage.output_tokens * price.output) / 1e6
+        try:
+            responses = [message for message in messages if isinstance(message, ModelResponse)]
+            return float(sum(response.cost().total_price for response in responses))
+        except (LookupError, ValueError, AssertionError):
+            return None  # nobody knows what this model costs
+
+
+class _Refusals:
+    """Reads answers, and remembers why the last one could not be used."""
+
+    def __init__(self, read: Callable[[Any], object]) -> None:
+        self._read = read
+        self.last: AnswerRefusedError | None = None
+
+    def __call__(self, answer: Any) -> object:
+        self.last = None
+        try:
+            return self._read(answer)
+        except AnswerRefusedError as refused:
+            self.last = refused
+            raise
+
+
+def _content(prompt: Prompt, picture: bytes | None) -> str | list[UserContent]:
+    if picture is None:
+        return prompt.content
+    return [prompt.content, BinaryContent(picture, media_type="image/jpeg")]
+
+
+def _jpeg(image: CameraImage) -> bytes:
+    buffer = io.BytesIO()
+    Image.fromarray(cast(Any, image.data)).save(buffer, "JPEG", quality=85)
+    return buffer.getvalue()

@@ -1,0 +1,124 @@
+"""How a model is asked: parameters, pictures, every question, in every form of answer."""
+
+from __future__ import annotations
+
+import subprocess
+import sys
+from typing import Any
+
+import numpy as np
+import pytest
+
+from parley.errors import FailureCode, LanguageError
+from parley.language.base import ErrorSituation, InspectionReport, ReplyReading
+from parley.language.llm.scripted_server import Say
+from parley.messages.memory import MemoryEntry
+from parley.robots.base import CameraImage, Detection
+from tests.language.llm.rig import BOX, LOOK, LOOKS, model, situation
+from tests.nodes.crew import look
+
+
+def picture() -> CameraImage:
+    seen = (Detection("box", 40, (0, 0, 8, 5)),)
+    return CameraImage(32, 24, "rgb8", np.zeros((24, 32, 3), np.uint8), 0.0, seen)
+
+
+async def test_parameters_of_the_thesis_are_the_defaults() -> None:
+    async with model() as asked:
+        asked.will(LOOKS, Say(answer={"names": []}))
+        await asked.language.interpret(situation())
+        await asked.language.select_memories("box", [MemoryEntry(name="a", data="b")])
+        plan, memory = (request.body for request in asked.server.requests)
+        assert (plan["temperature"], plan["top_p"], plan["max_completion_tokens"]) == (0.1, 0.6, 2048)
+        assert memory["max_completion_tokens"] == 1024
+
+
+async def test_parameters_may_be_left_to_the_model() -> None:
+    async with model(temperature=None, top_p=None) as asked:
+        asked.will(LOOKS)
+        await asked.language.interpret(situation())
+        assert not {"temperature", "top_p"} & asked.server.requests[0].body.keys()
+
+
+@pytest.mark.parametrize(
+    ("form", "key"), [("tool", "tools"), ("native", "response_format"), ("prompted", "response_format")]
+)
+async def test_answer_is_asked_for_in_the_chosen_form(form: str, key: str) -> None:
+    async with model(output=form) as asked:
+        asked.will(LOOKS)
+        assert (await asked.language.interpret(situation())).queue[0].name == "Look"
+        assert key in asked.server.requests[0].body
+
+
+async def test_picture_goes_along_with_what_the_robot_recognised() -> None:
+    async with model() as asked:
+        asked.will(Say(answer={"text": "There is a box.", "found": True, "wanted": "box"}))
+        report = await asked.language.inspect(picture(), "is there a box?")
+        assert report == InspectionReport("There is a box.", True, "box")
+        parts: list[dict[str, Any]] = asked.server.requests[0].body["messages"][-1]["content"]
+        assert parts[1]["image_url"]["url"].startswith("data:image/jpeg;base64,")
+        assert '"box"' in parts[0]["text"]
+
+
+async def test_description_is_grounded_on_the_map() -> None:
+    async with model() as asked:
+        asked.will(
+            Say(answer={"outcome": "match", "ids": ["box_9"]}),
+            Say(answer={"outcome": "match", "ids": ["box_1"]}),
+        )
+        found = await asked.language.ground("the box", [BOX])
+        assert (found.outcome, found.candidates) == ("match", (BOX,))
+
+
+async def test_reply_is_read() -> None:
+    async with model() as asked:
+        asked.will(Say(answer={"kind": "choice", "choice": "red"}))
+        assert await asked.language.read_reply("Which?", "that red one", ["red", "blue"]) == ReplyReading(
+            "choice", "red"
+        )
+
+
+async def test_failure_is_resolved() -> None:
+    async with model() as asked:
+        asked.will(Say(answer={"message_response": "Which one?", "success": False, "choices": ["a", "b"]}))
+        failure = ErrorSituation("Several fit.", look("box"), FailureCode.AMBIGUOUS, catalogue=(LOOK,))
+        asks = await asked.language.resolve(failure)
+        assert (asks.success, asks.choices) == (False, ("a", "b"))
+
+
+async def test_nothing_is_asked_where_there_is_nothing_to_pick_from() -> None:
+    async with model() as asked:
+        assert await asked.language.select_memories("box", []) == []
+        assert (await asked.language.ground("box", [])).outcome == "none"
+        assert asked.server.requests == []
+
+
+async def test_memories_are_not_waited_for_as_long_as_plans() -> None:
+    async with model("offline", memory_timeout_s=4.0) as asked:
+        asked.will(Say(drop_after=0))
+        entries = [MemoryEntry(name="box", data="The box is red.")]
+        assert await asked.language.select_memories("the box", entries) == ["box"]
+
+
+async def test_chain_answers_with_the_first_engine_that_can() -> None:
+    async with model("local:other@http://127.0.0.1:9/v1", "offline", retries=0) as asked:
+        asked.will(Say(body="oops", status=500))
+        order = await asked.language.interpret(situation(objects=(BOX,)))
+        assert order.queue[-1].name == "Look"
+        assert "offline" in asked.language.label
+
+
+async def test_failure_of_every_engine_is_that_of_the_first() -> None:
+    async with model("local:other@http://127.0.0.1:9/v1", retries=0) as asked:
+        asked.will(Say(body="{}", status=401))
+        with pytest.raises(LanguageError) as caught:
+            await asked.language.interpret(situation())
+        assert "key" in caught.value.plain
+
+
+def test_libraries_for_models_are_not_loaded_for_the_offline_engine() -> None:
+    code = (
+        "import sys, parley.system, parley.cli; print('pydantic_ai' in sys.modules, 'openai' in sys.modules)"
+    )
+    done = subprocess.run([sys.executable, "-c", code], capture_output=True, text=True, check=True)
+    assert done.stdout.split() == ["False", "False"]

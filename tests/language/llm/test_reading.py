@@ -1,0 +1,174 @@
+"""What a model answered, checked before it is used; no model needed."""
+
+from __future__ import annotations
+
+import pytest
+from pydantic import ValidationError
+
+from parley.errors import FailureCode
+from parley.language.base import ErrorSituation, ReplyReading
+from parley.language.llm.answers import GroundAnswer, PlanAnswer, ReplyAnswer, ResolveAnswer, SelectAnswer
+from parley.language.llm.reading import (
+    AnswerRefusedError,
+    read_grounding,
+    read_plan,
+    read_reading,
+    read_resolution,
+    read_selection,
+)
+from parley.messages.chat import ActionCall, Flow, FlowIf
+from parley.messages.memory import MemoryEntry
+from parley.messages.pvf import Parameter
+from parley.nodes.plan_check import plan_problems
+from tests.language.llm.rig import BOX, DRIVE, FIND, LOOK, LOOK_PLAN, situation
+from tests.nodes.crew import drive, find
+
+
+def plan(**changes: object) -> PlanAnswer:
+    return PlanAnswer.model_validate(LOOK_PLAN | changes)
+
+
+def test_value_that_an_earlier_step_gives_may_be_left_out() -> None:
+    steps = [{"action": "Find", "parameters": {"target": "box"}}, {"action": "Drive"}]
+    order = read_plan(plan(queue=steps), situation(), plan_problems)
+    assert [call.name for call in order.queue] == ["Find", "Drive"]
+
+
+def test_value_that_nobody_gives_is_asked_for() -> None:
+    with pytest.raises(AnswerRefusedError, match="x"):
+        read_plan(plan(queue=[{"action": "Drive"}]), situation(), plan_problems)
+
+
+@pytest.mark.parametrize(("given", "meant"), [("2.5", 2.5), (2, 2.0), (2.5, 2.5)])
+def test_numbers_are_taken_as_they_are_plainly_meant(given: object, meant: float) -> None:
+    order = read_plan(
+        plan(queue=[{"action": "Drive", "parameters": {"x": given}}]), situation(), plan_problems
+    )
+    assert order.queue[0].input_parameters["x"].value == meant
+
+
+@pytest.mark.parametrize("given", [True, "far", [1], "inf", "nan", 1e999])
+def test_what_is_no_number_is_refused(given: object) -> None:
+    with pytest.raises(AnswerRefusedError, match="number"):
+        read_plan(plan(queue=[{"action": "Drive", "parameters": {"x": given}}]), situation(), plan_problems)
+
+
+def test_all_problems_are_told_at_once() -> None:
+    steps = [{"action": "Fly"}, {"action": "Look", "parameters": {"where": "box"}}]
+    with pytest.raises(AnswerRefusedError) as caught:
+        read_plan(plan(queue=steps, targets=["Nobody"]), situation(), plan_problems)
+    assert len(caught.value.problems) == 3
+
+
+def test_repetition_of_a_step_is_kept() -> None:
+    steps = [{"action": "Look", "parameters": {"what": "box"}, "repeat": 3}]
+    order = read_plan(plan(queue=steps), situation(), plan_problems)
+    assert order.queue[0].flow is not None
+    assert order.queue[0].flow.repeat == 3
+
+
+def test_conditions_between_steps_are_kept() -> None:
+    look = {"action": "Look", "parameters": {"what": "box"}}
+    other = look | {"only_if": {"step": 0, "result": False}}
+    order = read_plan(plan(queue=[look, other]), situation(), plan_problems)
+    assert order.queue[1].flow == Flow(if_=FlowIf(step=0, result=False))
+    beside = read_plan(plan(queue=[look, look | {"together_with": 0}]), situation(), plan_problems)
+    assert beside.queue[1].flow == Flow(together_with=0)
+
+
+def test_condition_on_a_later_step_is_refused() -> None:
+    look = {"action": "Look", "parameters": {"what": "box"}}
+    with pytest.raises(AnswerRefusedError, match="earlier"):
+        read_plan(plan(queue=[look | {"only_if": {"step": 1}}, look]), situation(), plan_problems)
+
+
+def test_sources_are_memories_that_there_are() -> None:
+    known = situation(memory=(MemoryEntry(name="box", data="It is red."),))
+    assert read_plan(plan(sources=["box", "made_up"]), known, plan_problems).sources == ("box",)
+
+
+def test_another_robot_is_found_whatever_its_capitals() -> None:
+    assert read_plan(plan(targets=["b"]), situation(), plan_problems).targets == ("B",)
+
+
+@pytest.mark.parametrize(
+    "form",
+    [
+        {"command": "pop", "index": 1},
+        {"pop": {"parameters": 1}},
+        {"pop": 1},
+        {"command": "pop", "index": "1"},
+    ],
+)
+def test_pop_is_read_in_every_form(form: object) -> None:
+    queue = (find("box"), drive())
+    order = read_plan(plan(queue=[], system_cmd=[form]), situation(queue=queue), plan_problems)
+    assert order.system_cmd[0].pop_index == 1
+
+
+def test_empty_memory_is_not_kept() -> None:
+    with pytest.raises(AnswerRefusedError, match="data"):
+        read_plan(plan(system_cmd=[{"command": "add_memory", "data": " "}]), situation(), plan_problems)
+
+
+@pytest.mark.parametrize(
+    "changes",
+    [{"message_response": ""}, {"queue": "Look"}, {"system_cmd": [{"command": "__class__"}]}, {"choices": 3}],
+)
+def test_answer_of_the_wrong_form_is_no_answer(changes: dict[str, object]) -> None:
+    with pytest.raises(ValidationError):
+        plan(**changes)
+
+
+def failure(**known: object) -> ErrorSituation:
+    call = ActionCall(name="Look", input_parameters={"what": Parameter("string", "box")})
+    given = {"code": FailureCode.BLOCKED, "robot": "A", "catalogue": (LOOK, FIND, DRIVE)} | known
+    return ErrorSituation("There is something in the way.", call, **given)  # type: ignore[arg-type]
+
+
+def resolution(**changes: object) -> ResolveAnswer:
+    return ResolveAnswer.model_validate(LOOK_PLAN | {"success": True} | changes)
+
+
+def test_correction_may_use_what_the_steps_before_gave() -> None:
+    answer = resolution(queue=[{"action": "Drive"}])
+    assert read_resolution(answer, failure(completed=(find("box"),)), plan_problems).success
+    with pytest.raises(AnswerRefusedError):
+        read_resolution(answer, failure(), plan_problems)
+
+
+def test_question_carries_no_steps() -> None:
+    with pytest.raises(AnswerRefusedError, match="queue"):
+        read_resolution(resolution(success=False), failure(), plan_problems)
+    asked = resolution(success=False, queue=[], choices=["red", "blue"])
+    assert read_resolution(asked, failure(), plan_problems).choices == ("red", "blue")
+
+
+def test_only_a_correction_waits() -> None:
+    assert read_resolution(resolution(delay_s=5), failure(), plan_problems).delay_s == 5.0
+    aside = resolution(success=None, queue=[], delay_s=5)
+    assert read_resolution(aside, failure(), plan_problems).delay_s == 0.0
+
+
+def test_selection_keeps_to_the_list() -> None:
+    index = [MemoryEntry(name=name, data="x") for name in ("one", "two", "three")]
+    assert read_selection(SelectAnswer(names=["three", "four", "one"]), index) == ["one", "three"]
+
+
+def test_grounding_goes_with_its_outcome() -> None:
+    assert read_grounding(GroundAnswer(outcome="match", ids=["box_1"]), [BOX]).candidates == (BOX,)
+    assert read_grounding(GroundAnswer(outcome="none", ids=["made_up"]), [BOX]).candidates == ()
+    for answer in (
+        GroundAnswer(outcome="match", ids=["box_2"]),
+        GroundAnswer(outcome="match"),
+        GroundAnswer(outcome="ambiguous", ids=["box_1", "box_1"]),
+    ):
+        with pytest.raises(AnswerRefusedError):
+            read_grounding(answer, [BOX])
+
+
+def test_choice_is_one_of_those_offered() -> None:
+    answer = ReplyAnswer(kind="choice", choice="RED box")
+    assert read_reading(answer, ["red box", "blue box"]) == ReplyReading("choice", "red box")
+    with pytest.raises(AnswerRefusedError):
+        read_reading(answer, ["blue box"])
