@@ -13,6 +13,7 @@ from typing import Any, cast
 from parley.clock import WallClock
 from parley.demos.observer import Observer
 from parley.engine.engine import ActionEngine
+from parley.engine.journal import Journal
 from parley.engine.runs import GraphRuns
 from parley.errors import ActionFailure, FailureCode
 from parley.language.scripted import ScriptedLanguage
@@ -56,12 +57,18 @@ class Body:
     """Looking at these things ends when the event is set."""
     failures: Counter[str] = field(default_factory=Counter)
     """How often the run of that text fails yet."""
+    code: FailureCode = FailureCode.BLOCKED
+    """How it fails."""
+    there: set[str] = field(default_factory=set)
+    """What checking finds."""
+    broken: set[str] = field(default_factory=set)
+    """Looking at these things fails, at its end."""
 
     def note(self, text: str) -> None:
         self.did.append(text)
         if self.failures[text] > 0:
             self.failures[text] -= 1
-            raise ActionFailure(FailureCode.BLOCKED, f"I cannot {text}.", {"by": "a box"})
+            raise ActionFailure(self.code, f"I cannot {text}.", {"by": "a box"})
 
     def gate(self, what: str) -> asyncio.Event:
         return self.gates.setdefault(what, asyncio.Event())
@@ -98,6 +105,19 @@ def actions_of(body: Body) -> Catalogue:
         body.note(f"look {what}")
         if what in body.gates:
             await body.gates[what].wait()
+        if what in body.broken:
+            raise ActionFailure(FailureCode.BLOCKED, f"I cannot see the {what}.")
+
+    @action(effects=("looks",), pausable=False)
+    async def check(ctx: RunHandle, what: str) -> bool:
+        """Say whether a thing is there."""
+        body.note(f"check {what}")
+        return what in body.there
+
+    @action(risk="high", pausable=False)
+    async def press(ctx: RunHandle, what: str) -> None:
+        """Press a thing, which may have consequences."""
+        body.note(f"press {what}")
 
     @action(effects=("asks_operator",), pausable=False)
     async def ask(ctx: RunHandle, question: str) -> None:
@@ -105,7 +125,7 @@ def actions_of(body: Body) -> Catalogue:
         body.note(f"ask {question}")
         await body.gate(question).wait()
 
-    return Catalogue([find.spec, drive.spec, look.spec, ask.spec])
+    return Catalogue([find.spec, drive.spec, look.spec, check.spec, press.spec, ask.spec])
 
 
 def find(target: str) -> ActionCall:
@@ -199,6 +219,7 @@ class Crew:
     wire: Wire
     language: ScriptedLanguage
     stack: AsyncExitStack
+    planner: UmrfPlanner
     bodies: dict[str, Body] = field(default_factory=dict)
     _engines: dict[str, tuple[Cable, AsyncExitStack]] = field(default_factory=dict)
 
@@ -206,7 +227,9 @@ class Crew:
     def body(self) -> Body:
         return self.bodies["A"]
 
-    async def engine(self, name: str, robot: Robot | None = None) -> None:
+    async def engine(
+        self, name: str, robot: Robot | None = None, journal: Journal | None = None
+    ) -> ActionEngine:
         """Let an engine of ours come."""
         body = self.bodies.setdefault(name, Body())
         cable, stack = Cable(self.transport), await self.stack.enter_async_context(AsyncExitStack())
@@ -214,10 +237,11 @@ class Crew:
         self.observer.robots.discard(name)
         engine = ActionEngine(
             name, transport=cast(Transport, cable), catalogue=actions_of(body), clock=WallClock(),
-            make_context=lambda handle: handle, robot=robot,
+            make_context=lambda handle: handle, robot=robot, journal=journal,
         )  # fmt: skip
         await stack.enter_async_context(engine)
         await self.until(lambda: name in self.observer.robots)
+        return engine
 
     async def dismiss(self, name: str) -> None:
         """Close its engine."""
@@ -290,16 +314,16 @@ async def crew(
         clock, language = WallClock(), ScriptedLanguage()
         observer = await stack.enter_async_context(Observer(transport, clock))
         wire = await stack.enter_async_context(Wire(transport))
-        await stack.enter_async_context(
+        planner = await stack.enter_async_context(
             UmrfPlanner(
-                transport, clock, known_robots=heartless, ask_first=ask_first,
+                transport, clock, known_robots=heartless, policies=dict.fromkeys(ask_first, "ask_first"),
                 patience=patience or Patience(answer_s=1.0, progress_s=1.0, end_s=2.0),
             )
         )  # fmt: skip
         if talking:
             await stack.enter_async_context(ErrorHandler(transport, language, clock))
             await stack.enter_async_context(ChatInterface(transport, language, clock))
-        party = Crew(transport, observer, wire, language, stack)
+        party = Crew(transport, observer, wire, language, stack, planner)
         for name in robots:
             await party.engine(name)
         yield party

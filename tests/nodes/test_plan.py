@@ -14,7 +14,7 @@ from parley.messages.chat import ActionCall
 from parley.messages.failure import FailureReport
 from parley.messages.pvf import Parameter
 from parley.nodes.plan import KEEP_DONE, TargetPlan
-from parley.nodes.plan_steps import (
+from parley.nodes.plan_effects import (
     Effect,
     EndStep,
     ModifyGraph,

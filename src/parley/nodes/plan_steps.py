@@ -1,4 +1,4 @@
-"""The pieces of a plan: its steps, what is sent because of it, and the graph it makes. Pure."""
+"""The steps of a plan: what each is, what it depends on, and what it hands on. Pure."""
 
 from __future__ import annotations
 
@@ -6,14 +6,13 @@ from collections.abc import Iterable, Sequence
 from dataclasses import dataclass, field
 from typing import Any, Final, Literal
 
-from parley.messages.chat import ActionCall, Flow
+from parley.messages.chat import ActionCall
 from parley.messages.failure import ErrorHandlingMessage, FailureReport
-from parley.umrf.model import ChildRelation, Graph, Node, NodeRef, NodeState, ParentRelation, Response, Result
+from parley.umrf.model import NodeState
 
 __all__ = [
-    "ACTIVE_STATES", "GONE_CODES", "LATCHED", "OPEN_STATES", "Effect", "EndStep", "ModifyGraph", "PauseGraph",
-    "ReportFailure", "ResumeGraph", "RunState", "Say", "StartGraph", "Step", "StepState", "StopGraph",
-    "build_graph", "failure_message", "fill_inputs", "handed_over", "known_outputs", "unrolled",
+    "ACTIVE_NODES", "ACTIVE_STATES", "GONE_CODES", "LATCHED", "OPEN_STATES", "RunState", "Step", "StepState",
+    "When", "failure_message", "fill_inputs", "handed_over", "known_outputs", "previous", "stages", "verdict",
     "with_givers", "with_values", "without_orphans",
 ]  # fmt: skip
 
@@ -21,10 +20,13 @@ StepState = Literal["queued", "running", "finished", "failed", "stopped", "skipp
 RunState = Literal["none", "starting", "continuing", "running", "paused", "halted", "stopping"]
 """`starting` and `continuing`: told to run, but not reported as running yet."""
 
-OPEN_STATES: Final = frozenset({"queued", "running", "paused", "waiting"})
+ACTIVE_STATES: Final = frozenset({"running", "paused", "waiting"})
+"""States of steps that are being carried out."""
+
+OPEN_STATES: Final = ACTIVE_STATES | {"queued"}
 """States of steps that are still to be done."""
 
-ACTIVE_STATES: Final = frozenset({NodeState.RUNNING, NodeState.PAUSED, NodeState.PAUSE_REQUESTED})
+ACTIVE_NODES: Final = frozenset({NodeState.RUNNING, NodeState.PAUSED, NodeState.PAUSE_REQUESTED})
 """States of nodes that are being carried out."""
 
 GONE_CODES: Final = frozenset({"unknown_graph", "graph_ended"})
@@ -33,136 +35,96 @@ GONE_CODES: Final = frozenset({"unknown_graph", "graph_ended"})
 LATCHED: Final = "I was stopped for safety. Release the stop first, then say “carry on”."
 """What the operator is told when an emergency stop is in force."""
 
-_EDGE = {
-    Result.ON_TRUE: Response.RUN,
-    Result.ON_FALSE: Response.RUN,
-    Result.ON_STOPPED: Response.IGNORE,
-    Result.ON_ERROR: Response.IGNORE,
-}
-_EXIT = dict.fromkeys((Result.ON_TRUE, Result.ON_FALSE, Result.ON_STOPPED, Result.ON_ERROR), Response.IGNORE)
+
+@dataclass(frozen=True, slots=True, eq=False)
+class When:
+    """A condition: `step` ended with `result`."""
+
+    step: Step
+    result: bool
 
 
-@dataclass(frozen=True, slots=True)
-class StartGraph:
-    """Publish on `umrf_graph_start`."""
-
-    graph: Graph
-
-
-@dataclass(frozen=True, slots=True)
-class ModifyGraph:
-    """Publish on `umrf_graph_modify`."""
-
-    graph: Graph
-    continue_from: str = ""
-
-
-@dataclass(frozen=True, slots=True)
-class PauseGraph:
-    """Publish on `umrf_graph_pause`."""
-
-    graph_name: str
-
-
-@dataclass(frozen=True, slots=True)
-class ResumeGraph:
-    """Publish on `umrf_graph_resume`."""
-
-    graph_name: str
-
-
-@dataclass(frozen=True, slots=True)
-class StopGraph:
-    """Publish on `umrf_graph_stop`."""
-
-    graph_name: str
-
-
-@dataclass(frozen=True, slots=True)
-class EndStep:
-    """Publish on `/parley/step`."""
-
-    graph_name: str
-    node: str
-
-
-@dataclass(frozen=True, slots=True)
-class ReportFailure:
-    """Publish on `error_handling_message`."""
-
-    message: ErrorHandlingMessage
-
-
-@dataclass(frozen=True, slots=True)
-class Say:
-    """Tell the operator."""
-
-    text: str
-    type: Literal["info", "error"] = "info"
-
-
-Effect = StartGraph | ModifyGraph | PauseGraph | ResumeGraph | StopGraph | EndStep | ReportFailure | Say
-
-
-@dataclass(slots=True)
+@dataclass(slots=True, eq=False)
 class Step:
     """One action of the plan."""
 
     call: ActionCall
+    """Without its `flow`, which `when` and `together` stand for."""
     instance_id: int = -1
     """-1 until it is part of a graph."""
     state: StepState = "queued"
     outputs: dict[str, Any] = field(default_factory=dict)
     """Values the engine reported when it finished, by flat name."""
     fed: frozenset[str] = frozenset()
-    """Inputs without a value of their own that the step before hands over."""
+    """Inputs without a value of their own that the steps right before hand over."""
     ending: bool = False
     """The operator skipped it while it ran; its end is awaited."""
+    when: When | None = None
+    """It runs only if this holds."""
+    together: object = field(default_factory=object)
+    """Neighbours that share it run at the same time."""
+    result: bool | None = None
+    """How it ended, if the engine said so."""
+    stopped: bool = False
+    """The engine said that it was stopped before its end."""
+    upset: bool = False
+    """A step beside it failed, which stops this one: what it did does not count unless it was done."""
 
     @property
     def node(self) -> str:
         """Full name of its node, empty before it has one."""
         return f"{self.call.name}_{self.instance_id}" if self.instance_id >= 0 else ""
 
-
-def build_graph(name: str, steps: Sequence[Step]) -> Graph:
-    """The linear graph of `steps` in the planner's style (`spec/umrf.md` 12.6): errors and ends halt it."""
-    nodes = []
-    for index, step in enumerate(steps):
-        before = steps[index - 1] if index else None
-        after = steps[index + 1] if index + 1 < len(steps) else None
-        nodes.append(
-            Node(
-                name=step.call.name,
-                instance_id=step.instance_id,
-                description=step.call.reason,
-                input_parameters=step.call.input_parameters,
-                output_parameters=step.call.output_parameters,
-                parents=(ParentRelation(_ref(before), True, _EDGE),) if before else (),
-                children=(ChildRelation(_ref(after)),) if after else (),
-            )
-        )
-    return Graph(
-        name=name,
-        nodes=tuple(nodes),
-        entry=(ChildRelation(nodes[0].ref),) if nodes else (),
-        exit=(ParentRelation(nodes[-1].ref, True, _EXIT),) if nodes else (),
-    )
+    def again(self) -> None:
+        """Put it back among those that have not begun."""
+        self.instance_id, self.state, self.result = -1, "queued", None
+        self.stopped = self.upset = self.ending = False
+        self.outputs.clear()
 
 
-def _ref(step: Step) -> NodeRef:
-    return NodeRef(step.call.name, step.instance_id)
+def verdict(step: Step) -> bool | None:
+    """Whether the condition of `step` holds; None if that is not known yet."""
+    if step.when is None:
+        return True
+    on = step.when.step
+    if on.state in ("skipped", "stopped") or (on.state == "finished" and on.stopped):
+        return False
+    return None if on.result is None else on.result is step.when.result
+
+
+def stages(steps: Iterable[Step]) -> list[list[Step]]:
+    """`steps` in groups: those of one group run at the same time, one group after the other."""
+    groups: list[list[Step]] = []
+    for step in steps:
+        if groups and groups[-1][0].together is step.together:
+            groups[-1].append(step)
+        else:
+            groups.append([step])
+    return groups
+
+
+def previous(steps: Sequence[Step], index: int, together: object) -> list[Step]:
+    """Who comes right before place `index`: the last group other than `together` that is not left out."""
+    found: list[Step] = []
+    for place in range(index - 1, -1, -1):
+        step = steps[place]
+        if step.together is together or step.state in ("skipped", "stopped"):
+            continue
+        if found and step.together is not found[0].together:
+            break
+        found.append(step)
+    return found
 
 
 def failure_message(
-    target: str, graph_name: str, failed: Step, steps: Sequence[Step], report: FailureReport
-) -> ErrorHandlingMessage:
-    """What the error handler is told about a step that failed."""
-    behind = steps[steps.index(failed) + 1 :]
+    target: str, graph_name: str, failed: Step, pending: Sequence[ActionCall], steps: Sequence[Step],
+    report: FailureReport,
+) -> ErrorHandlingMessage:  # fmt: skip
+    """What the error handler is told about a step that failed; `pending` is what comes behind it."""
     return ErrorHandlingMessage(
         error_message=report.message,
         action_called=failed.call,
-        umrf_queue=tuple(step.call for step in behind if step.state in OPEN_STATES),
+        umrf_queue=tuple(pending),
         target=target,
         process_instructions=report.process_instructions,
         process_data_text=report.process_data_text,
@@ -174,29 +136,10 @@ def failure_message(
     )
 
 
-def handed_over(call: ActionCall, before: Step | None) -> frozenset[str]:
-    """The inputs without a value of their own that the step before gives."""
-    if before is None:
-        return frozenset()
+def handed_over(call: ActionCall, before: Sequence[Step]) -> frozenset[str]:
+    """The inputs without a value of their own that the steps right before give."""
     blank = {name for name, parameter in call.input_parameters.items() if not parameter.has_data}
-    return frozenset(blank & set(before.call.output_parameters))
-
-
-def unrolled(calls: Iterable[ActionCall]) -> list[ActionCall]:
-    """`calls` with those that are to be repeated as often as they are to run.
-
-    Copies instead of a cycle: people see how far it got, and can drop or skip one of them.
-    """
-    found: list[ActionCall] = []
-    for call in calls:
-        flow = call.flow
-        if flow is None or flow.repeat is None:
-            found.append(call)
-            continue
-        rest = flow.model_copy(update={"repeat": None})
-        once = call.model_copy(update={"flow": rest if rest != Flow() else None})
-        found += [once] * flow.repeat
-    return found
+    return frozenset(blank & {name for step in before for name in step.call.output_parameters})
 
 
 def with_values(call: ActionCall, values: dict[str, Any]) -> ActionCall:
@@ -208,28 +151,32 @@ def with_values(call: ActionCall, values: dict[str, Any]) -> ActionCall:
     return call.model_copy(update={"input_parameters": inputs})
 
 
-def known_outputs(steps: Sequence[Step]) -> dict[str, Any]:
+def known_outputs(steps: Iterable[Step]) -> dict[str, Any]:
     """What `steps` gave: of each name what its last giver did, if that is known."""
     known: dict[str, Any] = {}
     for step in steps:
-        for name in step.call.output_parameters:
-            known.pop(name, None)
-        known.update(step.outputs)
+        _take(known, step)
     return known
 
 
+def _take(known: dict[str, Any], step: Step) -> None:
+    if step.state in ("skipped", "stopped"):
+        return
+    for name in step.call.output_parameters:
+        known.pop(name, None)
+    known.update(step.outputs)
+
+
 def fill_inputs(steps: Sequence[Step]) -> None:
-    """Write into waiting steps what they can no longer get from the step right before them."""
+    """Write into waiting steps what they can no longer get from the steps right before them."""
+    known: dict[str, Any] = {}
     for index, step in enumerate(steps):
-        if step.state != "queued" or not step.fed:
-            continue
-        before = steps[index - 1] if index else None
-        if before is not None and before.state in OPEN_STATES:
-            continue
-        known = known_outputs(steps[:index])
-        values = {name: known[name] for name in step.fed if name in known}
-        if values:
-            step.call = with_values(step.call, values)
+        if step.state == "queued" and step.fed:
+            before = previous(steps, index, step.together)
+            values = {name: known[name] for name in step.fed if name in known}
+            if values and not any(giver.state in OPEN_STATES for giver in before):
+                step.call = with_values(step.call, values)
+        _take(known, step)
 
 
 def with_givers(calls: Sequence[ActionCall], before: Sequence[Step]) -> list[ActionCall]:
@@ -247,13 +194,23 @@ def with_givers(calls: Sequence[ActionCall], before: Sequence[Step]) -> list[Act
 
 
 def without_orphans(steps: Sequence[Step]) -> list[Step]:
-    """`steps` less those waiting ones that lost the step which was to give them their inputs."""
+    """`steps` less those waiting ones that lost what they depend on.
+
+    That is the step which was to give them their inputs, or the one whose end decides whether they run.
+    """
     kept: list[Step] = []
+    there: set[int] = set()
+    known: dict[str, Any] = {}
     for step in steps:
         if step.state == "queued" and step.fed:
-            before = next((s for s in reversed(kept) if s.state not in ("skipped", "stopped")), None)
-            offered = set(before.call.output_parameters) if before else set()
-            if not step.fed <= (offered | set(known_outputs(kept))):
+            before = previous(kept, len(kept), step.together)
+            offered = {name for giver in before for name in giver.call.output_parameters}
+            if not step.fed <= (offered | set(known)):
                 continue
+        lost = step.when is not None and id(step.when.step) not in there
+        if step.state == "queued" and lost and verdict(step) is not True:
+            continue
         kept.append(step)
+        there.add(id(step))
+        _take(known, step)
     return kept

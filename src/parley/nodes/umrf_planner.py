@@ -7,68 +7,59 @@ from __future__ import annotations
 
 import asyncio
 import uuid
-from collections.abc import Callable, Sequence
-from dataclasses import dataclass
-from typing import ClassVar, Literal
+from collections.abc import Mapping, Sequence
+from types import MappingProxyType
+from typing import ClassVar, Final, Literal
 
 from parley.clock import Clock
 from parley.errors import GraphRefusedError, Problem
 from parley.messages import ros, topics
-from parley.messages.chat import ActionCall, ChatAction, ChatFeedback, SystemCommand
-from parley.messages.memory import AddToMemory, MemoryBody, RemoveMemory
+from parley.messages.chat import ActionCall, ChatAction, ChatFeedback, ChatInput, SystemCommand
+from parley.messages.memory import AddToMemory, RemoveMemory
 from parley.messages.status import (
+    ActionInfo,
     ActorStatus,
     GraphEvent,
     PlanDecision,
     PlanProposal,
-    PlanUpdate,
     Rejection,
-    RejectionProblem,
-    StepCommand,
 )
-from parley.messages.wire import to_string
-from parley.nodes.base import Node
+from parley.nodes.left_graphs import LeftGraphs
 from parley.nodes.plan import TargetPlan
+from parley.nodes.plan_approval import Approvals, PlanBoard, Policy
 from parley.nodes.plan_check import check_calls, complete_calls
-from parley.nodes.plan_steps import (
+from parley.nodes.plan_effects import (
     Effect,
-    EndStep,
-    ModifyGraph,
-    PauseGraph,
-    ReportFailure,
-    ResumeGraph,
-    Say,
-    StartGraph,
-    Step,
-    StopGraph,
 )
+from parley.nodes.plan_flow import listed, rebased
+from parley.nodes.plan_memory import memory_change
+from parley.nodes.plan_sending import Patience, PlanSender
+from parley.nodes.plan_steps import Step
 from parley.nodes.presence import LOST_AFTER_S, Presence
+from parley.nodes.questions import OpenQuestions
 from parley.transport.base import Transport
-from parley.umrf.io import read_graph, write_graph
+from parley.umrf.io import read_graph
 
 __all__ = ["Patience", "UmrfPlanner"]
 
 
-@dataclass(frozen=True, slots=True)
-class Patience:
-    """Wall time that an engine is given."""
-
-    answer_s: float = 5.0
-    """To report something about a graph that was started."""
-    progress_s: float = 3.0
-    """To go on with a dry graph after it was told to."""
-    end_s: float = 7.0
-    """To end a stopped graph; an engine gives its actions 5 s."""
+_HELP: Final = "Say “try again”, “skip it” or “cancel everything”, or give me another order."
+_WAITING: Final = f"Then I am waiting here. {_HELP}"
+_WAITING_HELPLESS: Final = f"What I worked out would not help, so I am waiting here. {_HELP}"
+_NOTHING_DONE: Final = "I worked out a plan that I cannot carry out, so I did nothing."
+_LEFT: Final = "I cannot carry out these steps, so I left everything as it is."
+_CHANGED: Final = "The plan has changed in the meantime, so I left it as it is. Please look at it again."
 
 
-class UmrfPlanner(Node):
+class UmrfPlanner(PlanSender):
     """One plan per robot; sends graphs, reads feedback, holds a robot whose step failed.
 
     Args:
         transport: Where the topics are.
         clock: Its wall time limits how long answers are waited for.
         known_robots: Robots that send no heartbeat of ours (a TeMoto engine).
-        ask_first: Robots whose plans wait for a person's approval from the start.
+        approval: Whether new steps wait for a person's yes.
+        policies: Robots for which that is otherwise.
         patience: How long an engine is waited for.
     """
 
@@ -80,17 +71,19 @@ class UmrfPlanner(Node):
         clock: Clock,
         *,
         known_robots: Sequence[str] = (),
-        ask_first: Sequence[str] = (),
-        patience: Patience = Patience(),
+        approval: Policy = "run_at_once",
+        policies: Mapping[str, Policy] = MappingProxyType({}),
+        patience: Patience | None = None,
     ) -> None:
-        super().__init__(transport)
-        self._patience = patience
+        super().__init__(transport, patience or Patience())
         self._clock = clock
         self._presence = Presence(clock, tuple(known_robots), self._on_presence)
         self._plans: dict[str, TargetPlan] = {}
-        self._ask_first = set(ask_first)
-        self._proposals: dict[str, PlanProposal] = {}
-        self._published: dict[str, PlanUpdate] = {}
+        self._approvals, self._board = Approvals(approval, policies), PlanBoard()
+        self._questions = OpenQuestions()
+        self._left = LeftGraphs()
+        self._answered: set[str] = set()
+        """Robots of which a person answered a question since their step failed."""
 
     async def open(self) -> None:
         """See `Node.open`."""
@@ -101,6 +94,8 @@ class UmrfPlanner(Node):
         await self.subscribe(topics.REJECTION, Rejection, self._on_rejection)
         await self.subscribe(topics.GRAPH_EVENTS, GraphEvent, self._on_event)
         await self.subscribe_raw(topics.GRAPH_FEEDBACK, self._on_feedback, depth=100)
+        await self.subscribe(topics.CHAT_FEEDBACK, ChatFeedback, self._on_said)
+        await self.subscribe(topics.CHAT_INPUT, ChatInput, self._on_input)
         self.spawn(self._watch_presence(), name="presence")
 
     def restore(self, target: str, steps: Sequence[Step]) -> None:
@@ -108,6 +103,16 @@ class UmrfPlanner(Node):
         plan = self._plan(target)
         plan.restore(steps)
         self._send(plan, [])
+
+    def adopt(self, target: str, name: str, steps: Sequence[Step], *, dry: bool) -> None:
+        """Hold the plan behind a graph that an earlier process left and the engine of `target` took up."""
+        plan = self._plan(target)
+        plan.adopt(name, steps, dry=dry)
+        self._send(plan, [])
+
+    def hold_graph(self, target: str, name: str) -> None:
+        """The engine of `target` holds a graph that an earlier process left; the same words go for it."""
+        self._left.hold(self._plan(target).target, name)
 
     # -- orders ----------------------------------------------------------------------------------------
 
@@ -122,7 +127,7 @@ class UmrfPlanner(Node):
                 commands = [item for item in commands if item.command in ("stop", "pause")]
             for command in commands:
                 self._send(plan, self._command(plan, command))
-            if calls and target in self._ask_first:
+            if calls and self._approvals.asks(target, calls, self._catalogue(target)):
                 self._propose(plan, order.message_response, calls)
             elif calls:
                 self._append(plan, calls)
@@ -135,42 +140,112 @@ class UmrfPlanner(Node):
             if order.success is False:
                 self._send(plan, plan.give_up())
                 continue
-            calls = self._accept(plan, order.queue, correcting=True)
+            control = [c for c in order.system_cmd if c.command not in ("add_memory", "remove_memory")]
+            clears = any(command.command == "clear" for command in control)
+            calls = self._accept(plan, order.queue, correcting=not clears)
             if calls is None:
                 self._send(plan, plan.give_up())
                 continue
-            control = [c for c in order.system_cmd if c.command not in ("add_memory", "remove_memory")]
             for command in _in_order(control):
                 self._send(plan, self._command(plan, command))
-            if calls or not control:
-                self._send(plan, plan.correct(calls))
+            if clears:
+                self._take_anew(plan, order.message_response, calls)
+            elif calls or not control:
+                self._correct(plan, order.message_response, calls)
+
+    def _take_anew(self, plan: TargetPlan, message: str, calls: list[ActionCall]) -> None:
+        """A repair that dropped the plan brings another one."""
+        if self._asks_for_repair(plan, calls):
+            self._propose(plan, message, calls)
+        elif calls:
+            self._send(plan, plan.append(calls))
+
+    def _correct(self, plan: TargetPlan, message: str, calls: list[ActionCall]) -> None:
+        """Repair, unless new steps that nobody asked for wait for a yes first; it is held till then."""
+        failed = plan.failed
+        new = failed is not None and [call for call in calls if not _same(call, failed.call)]
+        if new and not plan.given_up and self._asks_for_repair(plan, calls):
+            self._propose(plan, message, calls, repairs=failed)
+            self._say(plan.target, "I wait for your yes before I do this.", "info")
+        else:
+            self._send(plan, plan.correct(calls))
+
+    def _asks_for_repair(self, plan: TargetPlan, calls: Sequence[ActionCall]) -> bool:
+        """Whoever answered the question about a failure has said yes to what follows from the answer."""
+        answered = plan.target in self._answered
+        return not answered and self._approvals.asks(plan.target, calls, self._catalogue(plan.target))
+
+    # -- decisions -------------------------------------------------------------------------------------
 
     def _on_decision(self, decision: PlanDecision) -> None:
+        target = self._presence.resolve(decision.target) or decision.target
         if decision.decision == "policy":
-            self._set_policy(self._presence.resolve(decision.target) or decision.target, decision.policy)
-            return
-        proposal = self._proposals.get(decision.id)
+            self._set_policy(target, decision.policy)
+        elif decision.decision == "edit" and not decision.id:
+            self._edit(target, decision)
+        else:
+            self._decide(decision)
+
+    def _decide(self, decision: PlanDecision) -> None:
+        proposal = self._approvals.get(decision.id)
         if proposal is None:
             self._say(decision.target, "That plan is no longer waiting for an answer.", "error")
             return
-        plan = self._plan(proposal.target)
-        calls: list[ActionCall] | None = []
-        if decision.decision != "reject":
-            calls = self._accept(plan, decision.steps if decision.decision == "edit" else proposal.steps)
+        plan, repairs = self._plan(proposal.target), self._approvals.repairs(decision.id)
+        if decision.decision == "reject":
+            self._approvals.drop(decision.id)
+            self._send(plan, plan.give_up() if repairs else [])
+            if repairs:
+                self._say(plan.target, _WAITING, "info")
+            return
+        calls: list[ActionCall] | None = list(proposal.steps)
+        if decision.decision == "edit":
+            calls, problems = rebased(decision.steps, proposal.steps)
+            if problems:
+                self._refuse_plan(plan, problems, decided=True)
+                return
+        edited = decision.decision == "edit"
+        calls = self._accept(plan, calls or (), correcting=repairs, decided=edited)
         if calls is None:
             return  # it goes on waiting, for a better edit
-        del self._proposals[decision.id]
-        self._append(plan, calls)
+        self._approvals.drop(decision.id)
+        if repairs:
+            self._send(plan, _repair(plan, calls))
+        else:
+            self._append(plan, calls)
 
-    def _set_policy(self, target: str, policy: Literal["run_at_once", "ask_when_risky", "ask_first", ""]) -> None:
-        if policy == "ask_first":
-            self._ask_first.add(target)
-        elif policy == "run_at_once":
-            self._ask_first.discard(target)
+    def _edit(self, target: str, decision: PlanDecision) -> None:
+        """Put other steps in the place of all that have not begun; whoever edits has said yes to them."""
+        plan = self._plan(target)
+        if self._board.is_past(target, decision.revision):
+            problem = Problem(
+                "revision", "the plan is another by now", "edit it as it is now", "past_revision"
+            )
+            self._refuse(topics.PLAN_DECISION.name, target, [problem])
+            self._say(target, _CHANGED, "error")
+            return
+        free = {id(step) for step in plan.not_begun}
+        begun = [index for index, step in enumerate(plan.steps) if id(step) not in free]
+        known, catalogue = [plan.steps[index] for index in begun], self._catalogue(target)
+        calls, problems = rebased(decision.steps, listed(plan.steps), begun)
+        if not problems:
+            calls = complete_calls(calls, catalogue, known=len(known))
+            problems = check_calls(calls, catalogue, before=known, known=known, path="steps")
+        if problems:
+            self._refuse_plan(plan, problems, decided=True)
+        else:
+            self._send(plan, plan.edit(calls))
 
-    def _propose(self, plan: TargetPlan, message: str, calls: list[ActionCall]) -> None:
+    def _set_policy(self, target: str, policy: Policy | Literal[""]) -> None:
+        if policy:
+            self._approvals.choose(target, policy)
+            self._send(self._plan(target), [])
+
+    def _propose(
+        self, plan: TargetPlan, message: str, calls: list[ActionCall], repairs: Step | None = None
+    ) -> None:
         proposal = PlanProposal(id=uuid.uuid4().hex, target=plan.target, message=message, steps=tuple(calls))
-        self._proposals[proposal.id] = proposal
+        self._approvals.put(proposal, repairs)
         self.publish(topics.PLAN, proposal)
         self._send(plan, [])
 
@@ -180,21 +255,29 @@ class UmrfPlanner(Node):
         if calls and still and plan.update().state == "paused":
             self._say(plan.target, "I am still standing still. Say “carry on” when I should go on.", "info")
 
-    def _approve_all(self, plan: TargetPlan) -> list[Effect]:
+    def _approve(self, plan: TargetPlan) -> list[Effect]:
         """The operator said to go ahead, and nothing else can be meant than what waits for approval."""
-        waiting = [item for item in self._proposals.values() if item.target == plan.target]
-        self._drop_proposals(plan.target)
-        return [effect for item in waiting for effect in plan.append(item.steps)]
+        repair = self._approvals.repair(plan.target)
+        if repair is not None:
+            self._approvals.drop(repair.id)
+            return _repair(plan, repair.steps)
+        effects: list[Effect] = []
+        for proposal in [] if plan.pending else self._approvals.of(plan.target):
+            self._approvals.drop(proposal.id)
+            effects += plan.append(proposal.steps)
+        return effects
 
     def _command(self, plan: TargetPlan, command: SystemCommand) -> list[Effect]:
         match command.command:
             case "stop" | "pause":
-                return plan.pause()
+                return [*self._left.pause(plan.target), *plan.pause()]
             case "start":
-                return (self._approve_all(plan) if not plan.pending else []) or plan.start()
+                left = [] if plan.pending else self._left.go_on(plan.target)
+                return self._approve(plan) or left or plan.start()
             case "clear":
-                self._drop_proposals(plan.target)
-                return plan.clear()
+                for proposal in self._approvals.of(plan.target):
+                    self._approvals.drop(proposal.id)
+                return [*self._left.stop(plan.target), *plan.clear()]
             case "skip":
                 return plan.skip()
             case "pop":
@@ -203,43 +286,50 @@ class UmrfPlanner(Node):
 
     def _remember(self, commands: Sequence[SystemCommand], targets: Sequence[str]) -> None:
         for command in commands:
-            arguments = command.arguments
-            if command.command == "add_memory" and isinstance(arguments.get("data"), str):
-                body = MemoryBody(
-                    type="image" if arguments.get("type") == "image" else "text",
-                    data=arguments["data"],
-                    info=str(arguments.get("info") or arguments["data"]),
-                    source="operator",
-                )
-                name = str(arguments.get("name") or f"memory_{uuid.uuid4().hex[:12]}")
-                self.publish(topics.ADD_TO_MEMORY, AddToMemory({name: body}))
-            elif command.command == "remove_memory":
-                name = str(arguments.get("name") or arguments.get("parameters") or "")
-                self.publish(topics.REMOVE_MEMORY, RemoveMemory({name: {}}))
-            elif command.command == "add_memory":
-                problem = Problem("system_cmd.add_memory.data", "expected a text to remember")
-                self._refuse("chat_action", ",".join(targets), [problem])
+            match memory_change(command):
+                case AddToMemory() as added:
+                    self.publish(topics.ADD_TO_MEMORY, added)
+                case RemoveMemory() as removed:
+                    self.publish(topics.REMOVE_MEMORY, removed)
+                case Problem() as problem:
+                    self._refuse("chat_action", ",".join(targets), [problem])
 
     def _accept(
-        self, plan: TargetPlan, queue: Sequence[ActionCall], *, correcting: bool = False
+        self,
+        plan: TargetPlan,
+        queue: Sequence[ActionCall],
+        *,
+        correcting: bool = False,
+        decided: bool = False,
     ) -> list[ActionCall] | None:
-        """The completed actions, or None (and everybody told) if the robot cannot carry them out."""
-        status = self._presence.get(plan.target)
-        if status is None or not status.catalogue or not queue:
-            return list(queue)
-        calls = complete_calls(queue, status.catalogue)
-        problems = check_calls(plan.correction(calls) if correcting else calls, status.catalogue)
+        """The completed actions, or None (and everybody told) if the robot cannot carry them out.
+
+        Args:
+            plan: Of the robot.
+            queue: The actions.
+            correcting: Whether they take the failed step's place.
+            decided: Whether a person put them together.
+        """
+        catalogue = self._catalogue(plan.target)
+        calls = complete_calls(queue, catalogue)
+        put = plan.correction(calls) if correcting else calls
+        problems = check_calls(put, catalogue, path="steps" if decided else "queue")
         if not problems:
             return calls
-        self._refuse("chat_action", plan.target, problems)
-        text = "I worked out a plan that I cannot carry out, so I did nothing."
-        if correcting:
-            text = (
-                "What I worked out would not help, so I am waiting here. Say “try again”, “skip it” or "
-                "“cancel everything”, or give me another order."
-            )
-        self._say(plan.target, text, "error")
+        text = _WAITING_HELPLESS if correcting and not decided else ""
+        self._refuse_plan(plan, problems, decided=decided, text=text)
         return None
+
+    def _refuse_plan(
+        self, plan: TargetPlan, problems: Sequence[Problem], *, decided: bool, text: str = ""
+    ) -> None:
+        topic = topics.PLAN_DECISION if decided else topics.CHAT_ACTION
+        self._refuse(topic.name, plan.target, problems)
+        self._say(plan.target, text or (_LEFT if decided else _NOTHING_DONE), "error")
+
+    def _catalogue(self, target: str) -> Sequence[ActionInfo]:
+        status = self._presence.get(target)
+        return status.catalogue if status is not None else ()
 
     def _targets(self, order: ChatAction, what: str) -> list[str]:
         """The robots an order is for; no addressee or an unknown one means no motion."""
@@ -275,10 +365,36 @@ class UmrfPlanner(Node):
             self._send(plan, plan.on_graph(graph))
 
     def _on_event(self, event: GraphEvent) -> None:
+        self._left.told(event)
         plan = self._plans.get(event.actor)
-        if plan is not None and event.outputs:
+        if plan is None or event.kind != "node":
+            return
+        if event.outputs:
             values = {name: item.value for name, item in event.outputs.items() if item.has_data}
             plan.on_outputs(event.graph_name, event.node, values)
+        if event.result and event.cause != "bypass":
+            self._send(plan, plan.on_result(event.graph_name, event.node, event.result))
+
+    def _on_said(self, feedback: ChatFeedback) -> None:
+        self._questions.on_feedback(feedback)
+        for target in feedback.targets:
+            self._note_question(target)
+
+    def _on_input(self, said: ChatInput) -> None:
+        answered = [target for target, _ in self._questions.answered(said)]
+        self._questions.on_input(said)
+        for target in answered:
+            self._note_question(target)
+            plan = self._plans.get(target)
+            if plan is not None and plan.held:
+                self._answered.add(target)
+
+    def _note_question(self, target: str) -> None:
+        plan = self._plans.get(target)
+        asked = self._questions.first(target) is not None
+        if plan is not None and plan.asked != asked:
+            plan.asked = asked
+            self._send(plan, [])
 
     def _on_rejection(self, rejection: Rejection) -> None:
         plan = self._plans.get(rejection.target or rejection.source)
@@ -290,6 +406,8 @@ class UmrfPlanner(Node):
         self._send(plan, plan.on_refused(rejection.graph_name, rejection.what, codes))
 
     def _on_presence(self, robot: str, joined: bool) -> None:
+        if joined and self._approvals.policy(robot) != "run_at_once":
+            self._send(self._plan(robot), [])
         plan = self._plans.get(robot)
         if plan is None or not plan.pending:
             return
@@ -303,6 +421,9 @@ class UmrfPlanner(Node):
             await asyncio.sleep(LOST_AFTER_S / 4)
             self._presence.expire()
 
+    def _speaks_parley(self, target: str) -> bool:
+        return self._presence.get(target) is not None
+
     # -- sending ---------------------------------------------------------------------------------------
 
     def _plan(self, target: str) -> TargetPlan:
@@ -312,7 +433,7 @@ class UmrfPlanner(Node):
                 target,
                 new_graph_name=lambda: f"{target}_{uuid.uuid4().hex[:12]}",
                 waits_for_operator=lambda action: self._has_effect(target, action, "asks_operator"),
-                can_end_step=lambda: self._presence.get(target) is not None,
+                can_end_step=lambda: self._speaks_parley(target),
             )
         return plan
 
@@ -321,71 +442,22 @@ class UmrfPlanner(Node):
         return status is not None and any(i.name == action and effect in i.effects for i in status.catalogue)
 
     def _send(self, plan: TargetPlan, effects: Sequence[Effect]) -> None:
-        for effect in effects:
-            self._send_one(plan, effect)
-        update = plan.update()
-        waiting = any(proposal.target == plan.target for proposal in self._proposals.values())
-        if waiting and update.state == "idle":
-            update = update.model_copy(update={"state": "awaiting_approval"})
-        if self._published.get(plan.target) != update:
-            self._published[plan.target] = update
+        super()._send(plan, effects)
+        if not plan.held:
+            self._answered.discard(plan.target)
+        self._approvals.drop_settled(plan)
+        update = self._board.show(plan, self._approvals)
+        if update is not None:
             self.publish(topics.PLAN, update)
 
-    def _send_one(self, plan: TargetPlan, effect: Effect) -> None:
-        targets = (plan.target,)
-        match effect:
-            case StartGraph(graph):
-                text = write_graph(graph, faithful=True)
-                self.send(topics.GRAPH_START, ros.UmrfGraphStart(umrf_graph_json=text, targets=targets))
-                self._later(self._patience.answer_s, plan, lambda: plan.on_no_answer(graph.name))
-            case ModifyGraph(graph, continue_from):
-                text = write_graph(graph, faithful=True)
-                message = ros.UmrfGraphModify(graph.name, targets, text, continue_from)
-                self.send(topics.GRAPH_MODIFY, message)
-                if continue_from:
-                    self._later(
-                        self._patience.progress_s,
-                        plan,
-                        lambda: plan.on_no_progress(graph.name, continue_from),
-                    )
-            case PauseGraph(name):
-                self.send(topics.GRAPH_PAUSE, ros.UmrfGraphPause(name, targets))
-                if self._presence.get(plan.target) is None:  # the reference listens to its own misspelling
-                    self.send(topics.GRAPH_PAUSE_TEMOTO, ros.UmrfGraphPause(name, targets))
-            case ResumeGraph(name):
-                self.send(topics.GRAPH_RESUME, ros.UmrfGraphResume(name, targets))
-            case StopGraph(name):
-                self.send(topics.GRAPH_STOP, ros.UmrfGraphStop(name, targets))
-                self._later(self._patience.end_s, plan, lambda: plan.on_no_end(name))
-            case EndStep(name, node):
-                self.publish(topics.STEP, StepCommand(target=plan.target, graph_name=name, node=node))
-            case ReportFailure(message):
-                self.publish(topics.ERROR_HANDLING, message)
-            case Say(text, kind):
-                self._say(plan.target, text, kind)
 
-    def _later(self, seconds: float, plan: TargetPlan, look: Callable[[], list[Effect]]) -> None:
-        """Look again after some wall time; `look` decides whether anything is still amiss."""
+def _repair(plan: TargetPlan, calls: Sequence[ActionCall]) -> list[Effect]:
+    """Do what a person agreed to, even if the robot was told to stand still meanwhile."""
+    return plan.append(calls) if plan.given_up and calls else plan.correct(calls)
 
-        async def wait() -> None:
-            await asyncio.sleep(seconds)
-            self._send(plan, look())
 
-        self.spawn(wait(), name=f"deadline {plan.target}")
-
-    def _drop_proposals(self, target: str) -> None:
-        self._proposals = {key: p for key, p in self._proposals.items() if p.target != target}
-
-    def _say(self, target: str, text: str, kind: Literal["info", "error"]) -> None:
-        self.publish(topics.CHAT_FEEDBACK, ChatFeedback(message=text, targets=(target,), type=kind))
-
-    def _refuse(self, what: str, target: str, problems: Sequence[Problem]) -> None:
-        self.log.warning("refused", what=what, target=target, problems=[str(p) for p in problems])
-        listed = tuple(
-            RejectionProblem(path=p.path, message=p.message, remedy=p.remedy, code=p.code) for p in problems
-        )
-        rejection = Rejection(source=self.name, target=target, what=what, problems=listed)
-        self.send(topics.REJECTION, to_string(rejection))
+def _same(first: ActionCall, second: ActionCall) -> bool:
+    return first.name == second.name and first.input_parameters == second.input_parameters
 
 
 def _in_order(commands: Sequence[SystemCommand]) -> list[SystemCommand]:
