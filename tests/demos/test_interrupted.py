@@ -7,11 +7,16 @@ import signal
 import subprocess
 import sys
 from pathlib import Path
+from typing import Any
 
 import pytest
 
 from parley.config import SystemConfig
 from parley.demos.catalogue import load_demo
+from parley.messages import topics
+from parley.messages.ros import String, UmrfGraphStart
+from parley.messages.status import GraphEvent
+from parley.messages.wire import decode
 from tests.demos.house import House, running
 
 STORY = """
@@ -61,3 +66,66 @@ async def test_it_says_so_and_carries_on_when_told(killed: Path) -> None:
         reply = await home.say("carry on")
         assert "nothing" in reply.message.lower()
         assert not any("interrupted" in said.message for said in home.observer.said)
+
+
+def forked(question: str) -> dict[str, Any]:
+    """Finds a place and asks a person at once, and looks for another place when both are done."""
+    pose = {
+        "position": {axis: {"pvf_type": "number"} for axis in "xyz"},
+        "orientation": {axis: {"pvf_type": "number"} for axis in "rpy"},
+    }
+
+    def find(index: int, target: str, **more: Any) -> dict[str, Any]:
+        inputs = {"target": {"pvf_type": "string", "pvf_value": target}}
+        action = {"name": "GetCoordinates", "instance_id": index, "type": "sync"}
+        return action | {"input_parameters": inputs, "output_parameters": {"pose": pose}} | more
+
+    first, last = {"name": "GetCoordinates", "instance_id": 0}, {"name": "GetCoordinates", "instance_id": 2}
+    ask = {"name": "AskOperator", "instance_id": 1}
+    asking = ask | {
+        "type": "sync",
+        "input_parameters": {"question": {"pvf_type": "string", "pvf_value": question}},
+        "output_parameters": {"answer": {"pvf_type": "string"}},
+        "children": [last],
+    }
+    return {
+        "graph_name": "forked",
+        "graph_entry": [first, ask],
+        "graph_exit": [last],
+        "actions": [find(0, "TV", children=[last]), asking, find(2, "TV", parents=[first, ask])],
+    }
+
+
+async def test_a_graph_with_branches_goes_on_when_told_and_asks_again_only_what_is_open(
+    tmp_path: Path,
+) -> None:
+    demo = load_demo("nursing-home")
+    before, after = tmp_path / "before", tmp_path / "after"
+    after.mkdir()
+    async with running(demo.system(SystemConfig(speed=None, data_dir=before))) as home:
+        text = json.dumps(forked("Which way?"))
+        home.observer.send(topics.GRAPH_START, UmrfGraphStart("", text, (home.robot,)))
+        assert (await home.question()).message == "Which way?"
+        journal = home.system._journal
+        assert journal is not None
+        await journal.flush()
+        for file in before.glob("journal.db*"):  # what a kill would leave now
+            (after / file.name).write_bytes(file.read_bytes())
+    async with running(demo.system(SystemConfig(speed=None, data_dir=after))) as home:
+        assert "carry on" in await notice(home)
+        began: list[str] = []
+
+        def on_event(message: String) -> None:
+            event = decode(GraphEvent, message.data)
+            if event.graph_name == "forked" and event.kind == "node" and event.state == "RUNNING":
+                began.append(event.node)
+
+        await home.system.transport.subscribe(topics.GRAPH_EVENTS, on_event)
+        reply = await home.say("carry on")
+        assert reply.message == "I am going on."
+        assert (await home.question()).message == "Which way?"
+        home.observer.say("that way", home.robot, answer=True)
+        await home.observer.until(lambda: home.observer.graph_states.get("forked") == "FINISHED")
+        assert began == ["AskOperator_1", "GetCoordinates_2"], (
+            "the place that was found is not looked for again"
+        )

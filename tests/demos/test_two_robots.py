@@ -8,7 +8,7 @@ import time
 from parley.actions.builtin import BUILTIN_ACTIONS
 from parley.actions.context import ActionContext
 from parley.demos.catalogue import load_demo
-from parley.language.base import Situation
+from parley.language.base import DraftHandler, Situation
 from parley.language.offline import OfflineLanguage
 from parley.language.scripted import ScriptedLanguage
 from parley.messages.chat import ActionCall, ChatAction
@@ -32,10 +32,10 @@ class HangsForOne(ScriptedLanguage):
     def __init__(self) -> None:
         super().__init__(OfflineLanguage())
 
-    async def interpret(self, situation: Situation) -> ChatAction:
+    async def interpret(self, situation: Situation, *, on_draft: DraftHandler | None = None) -> ChatAction:
         if situation.robot == "David":
             await asyncio.Event().wait()
-        return await super().interpret(situation)
+        return await super().interpret(situation, on_draft=on_draft)
 
 
 async def test_hung_language_call_of_one_robot_does_not_delay_the_other() -> None:

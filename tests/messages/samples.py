@@ -29,6 +29,14 @@ MEMORY = {
     "scope": "A",
     "source": "operator",
 }
+STORED = {
+    **MEMORY,
+    "created_unix_ms": 1,
+    "updated_unix_ms": 2,
+    "ended_unix_ms": 5,
+    "used_unix_ms": 3,
+    "used_count": 4,
+}
 ACTION_INFO: dict[str, Any] = {
     "name": "Move",
     "inputs": {"pose::position::x": "number"},
@@ -64,6 +72,7 @@ INCIDENT: dict[str, Any] = {
     "ending": "held",
     "opened_unix_ms": 1,
     "closed_unix_ms": 2,
+    "note": "It was late.",
 }
 
 SAMPLES: dict[type[BaseModel], dict[str, Any]] = {
@@ -101,7 +110,14 @@ SAMPLES: dict[type[BaseModel], dict[str, Any]] = {
         "choices": ["yes"],
         "sources": ["box"],
     },
-    display.RawImage: {"data": [1, 2, 3], "height": 1, "width": 1, "encoding": "rgb8", "step": 3},
+    display.RawImage: {
+        "data": [1, 2, 3],
+        "height": 1,
+        "width": 1,
+        "encoding": "rgb8",
+        "step": 3,
+        "is_bigendian": 1,
+    },
     display.DisplayFeed: {"target": "A", "name": "camera", "image": "aGk=", "info": {"k": [1]}},
     failure.FailureReport: {
         "message": "No way.",
@@ -125,22 +141,24 @@ SAMPLES: dict[type[BaseModel], dict[str, Any]] = {
         "failure_id": "g/Move_0",
     },
     memory.MemoryBody: MEMORY,
-    memory.MemoryEntry: {
-        **MEMORY,
-        "name": "box",
-        "created_unix_ms": 1,
-        "updated_unix_ms": 2,
-        "used_unix_ms": 3,
-        "used_count": 4,
-    },
+    memory.StoredMemory: STORED,
+    memory.MemoryEntry: {**STORED, "name": "box"},
     memory.AddToMemory: {
         "box": MEMORY,
         "door": {"type": "image", "data": "aGk=", "info": "", "scope": "", "source": ""},
     },
     memory.RemoveMemory: {"box": {}, "door": None},
-    memory.GetMemory: {"request": "where is the box?", "scope": "A"},
-    memory.MemoryReply: {"box": MEMORY},
-    memory.MemoryEvent: {"kind": "failed", "name": "box", "message": "The disk is full."},
+    memory.GetMemory: {
+        "request": "where is the box?",
+        "scope": "A",
+        "kind": "search",
+        "type": "image",
+        "pictures": False,
+        "limit": 5,
+    },
+    memory.MemoryReply: {"box": STORED},
+    memory.MemoryList: {"memories": [{**STORED, "name": "box"}]},
+    memory.MemoryEvent: {"kind": "failed", "name": "box", "scope": "A", "message": "The disk is full."},
     status.PoseInfo: POSE,
     status.ActionInfo: ACTION_INFO,
     status.ActorStatus: {
@@ -149,6 +167,7 @@ SAMPLES: dict[type[BaseModel], dict[str, Any]] = {
         "sequence": 3,
         "pose": POSE,
         "at_rest": False,
+        "battery": 0.75,
         "graphs": {"g": "RUNNING"},
         "catalogue": [ACTION_INFO],
         "map_name": "hall",

@@ -13,7 +13,7 @@ from parley.demos.observer import Observer
 from parley.errors import LanguageError
 from parley.language.scripted import ScriptedLanguage
 from parley.messages import topics
-from parley.messages.chat import ActionCall, ChatAction, ChatInput, SystemCommand
+from parley.messages.chat import ActionCall, ChatAction, ChatInput, ReplyDraft, SystemCommand
 from parley.messages.memory import MemoryEvent
 from parley.messages.pvf import Parameter
 from parley.messages.status import ActionInfo, ActorStatus, PlanStep, PlanUpdate, StopCommand
@@ -274,3 +274,42 @@ async def test_answer_that_nobody_waits_for_is_taken_as_an_order(room: Room) -> 
     room.language.will("interpret", ChatAction(message_response="I will look."))
     room.observer.publish(topics.CHAT_INPUT, ChatInput(message="look", targets=("A",), type="response"))
     assert await room.reply() == "I will look."
+
+
+async def test_draft_of_a_reply_is_published_for_the_message_it_answers(room: Room) -> None:
+    drafts: list[ReplyDraft] = []
+    await room.observer.subscribe(topics.REPLY_DRAFT, ReplyDraft, drafts.append)
+    room.language.will("interpret", "I will", "I will look", ChatAction(message_response="I will look."))
+    room.observer.publish(topics.CHAT_INPUT, ChatInput(message="look", targets=("A",), id="m1"))
+    assert await room.reply() == "I will look."
+    assert drafts[0] == ReplyDraft(reply_to="m1", targets=("A",), message="I will")
+    assert len(drafts) == 1  # the second came too soon after the first
+
+
+async def test_message_without_an_id_gets_no_drafts(room: Room) -> None:
+    drafts: list[ReplyDraft] = []
+    await room.observer.subscribe(topics.REPLY_DRAFT, ReplyDraft, drafts.append)
+    room.language.will("interpret", "I will", ChatAction(message_response="I will look."))
+    room.observer.publish(topics.CHAT_INPUT, ChatInput(message="look", targets=("A",)))
+    assert await room.reply() == "I will look."
+    assert drafts == []
+
+
+@pytest.mark.parametrize(
+    ("message", "targets"),
+    [("look", ("A",)), ("stop", ("A",)), ("look", ("Nobody",)), ("look", ()), (" ", ("A",))],
+    ids=["plan", "stop", "unknown robot", "no robot", "no words"],
+)
+async def test_every_reply_names_the_message_it_answers(
+    room: Room, message: str, targets: tuple[str, ...]
+) -> None:
+    room.language.will("interpret", ChatAction(message_response="Yes."))
+    room.observer.publish(topics.CHAT_INPUT, ChatInput(message=message, targets=targets, id="m7"))
+    await room.reply()
+    assert room.observer.said[0].reply_to == "m7"
+
+
+async def test_reason_of_the_language_engine_is_told_in_its_plain_words(room: Room) -> None:
+    room.language.will("interpret", LanguageError("HTTP 500", plain="My helper is asleep."))
+    room.observer.publish(topics.CHAT_INPUT, ChatInput(message="look", targets=("A",)))
+    assert await room.reply() == "My helper is asleep. Nothing was started; please try again."

@@ -308,3 +308,17 @@ def test_bytes_behind_each_row_are_skipped_in_a_mosaic_too() -> None:
     image = RawImage(data=[1, 2, 99, 3, 4, 99], height=2, width=2, encoding="bayer_rggb8", step=3)
     tight = RawImage(data=[1, 2, 3, 4], height=2, width=2, encoding="bayer_rggb8")
     np.testing.assert_array_equal(np.asarray(picture_of(image)), np.asarray(picture_of(tight)))
+
+
+@pytest.mark.parametrize("kind", ["JPEG", "PNG"])
+def test_a_picture_that_is_too_wide_is_made_smaller_in_its_shape(kind: str) -> None:
+    out = io.BytesIO()
+    Image.new("RGB", (400, 100), (200, 40, 40)).save(out, kind)
+    jpeg = to_jpeg(base64.b64encode(out.getvalue()).decode(), max_width_px=100)
+    assert Image.open(io.BytesIO(jpeg)).size == (100, 25)
+
+
+def test_a_jpeg_that_is_just_narrow_enough_passes_untouched() -> None:
+    out = io.BytesIO()
+    Image.new("RGB", (100, 25), (200, 40, 40)).save(out, "JPEG")
+    assert to_jpeg(base64.b64encode(out.getvalue()).decode(), max_width_px=100) == out.getvalue()

@@ -14,6 +14,7 @@ import pytest
 from PIL import Image
 
 from parley.clock import WallClock
+from parley.config import FeedSettings
 from parley.messages import topics
 from parley.messages.ros import CompressedImage, String
 from parley.messages.status import Rejection
@@ -191,3 +192,26 @@ async def test_closing_leaves_no_task_and_no_end_behind() -> None:
             sender.close()
         assert transport.endpoints() == ()
         assert asyncio.all_tasks() == before
+
+
+async def test_single_feeds_have_settings_of_their_own_and_those_of_one_robot_come_first() -> None:
+    settings = {
+        "camera": FeedSettings(max_width_px=32),
+        "A/camera": FeedSettings(max_width_px=64, interval_s=3600.0),
+    }
+    async with LocalTransport() as transport:
+        screen = Screen(transport)
+        async with DisplayInterface(transport, WallClock(), min_interval_s=0.0, feeds=settings):
+            shown = {
+                key: await screen.watch(*key) for key in [("A", "camera"), ("B", "camera"), ("B", "map")]
+            }
+            out = io.BytesIO()
+            Image.new("RGB", (128, 128)).save(out, "JPEG")
+            for _ in range(2):
+                for key in shown:
+                    screen.send(base64.b64encode(out.getvalue()).decode(), *key)
+                await until(lambda: shown[("B", "map")] and shown[("B", "camera")] and shown[("A", "camera")])
+            await until(lambda: len(shown[("B", "camera")]) == 2)
+        widths = {key: Image.open(io.BytesIO(images[0].data)).width for key, images in shown.items()}
+        assert widths == {("A", "camera"): 64, ("B", "camera"): 32, ("B", "map"): 128}
+        assert len(shown[("A", "camera")]) == 1

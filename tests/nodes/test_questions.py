@@ -85,3 +85,37 @@ def test_what_robots_say_beside_questions_is_no_question() -> None:
     questions = OpenQuestions()
     questions.on_feedback(ChatFeedback(message="I am there.", targets=("A",)))
     assert questions.first("A") is None
+
+
+def test_answer_to_a_named_question_settles_it_whoever_it_was_sent_to(questions: OpenQuestions) -> None:
+    questions.on_feedback(ask("three", "B"))
+    answer(questions, "A", reply_to="three")
+    assert (first(questions), first(questions, "B")) == ("one", "")
+
+
+@pytest.mark.parametrize(
+    ("message", "robots"),
+    [
+        ("Ada, take it", ["Ada"]),
+        ("take it, ada!", ["Ada"]),
+        ("it is beside Ada", ["Bob"]),
+        ("Adam, take it", ["Bob"]),
+        ("take it", ["Bob"]),
+    ],
+)
+def test_robot_called_by_name_comes_before_the_one_it_was_sent_to(message: str, robots: list[str]) -> None:
+    questions = OpenQuestions()
+    questions.on_feedback(ask("one", "Ada"))
+    questions.on_feedback(ask("two", "Bob"))
+    said = ChatInput(message=message, targets=("Bob",), type="response")
+    assert [robot for robot, _ in questions.answered(said)] == robots
+
+
+def test_answer_for_nobody_is_only_clear_while_one_robot_waits() -> None:
+    questions = OpenQuestions()
+    questions.on_feedback(ask("one", "Ada"))
+    said = ChatInput(message="yes", type="response")
+    assert [robot for robot, _ in questions.answered(said)] == ["Ada"]
+    questions.on_feedback(ask("two", "Bob"))
+    assert questions.answered(said) == []
+    assert questions.robots() == ["Ada", "Bob"]

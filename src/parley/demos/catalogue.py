@@ -2,17 +2,21 @@
 
 from __future__ import annotations
 
-from dataclasses import dataclass
+from collections.abc import Sequence
+from dataclasses import dataclass, replace
 from importlib import resources
 from pathlib import Path
 from typing import Final
 
+from parley.actions.builtin import BUILTIN_ACTIONS
 from parley.config import SystemConfig
+from parley.demos.faults import with_faults
 from parley.demos.story import Story, Variant
 from parley.errors import ConfigError
 from parley.language.base import Language
-from parley.sim.world_file import WorldFile
+from parley.sim.world_file import RobotEntry, WorldFile
 from parley.system import System
+from parley.umrf.action import ActionSpec
 from parley.world.object_map import ObjectMap
 from parley.world.occupancy import OccupancyMap
 
@@ -33,13 +37,30 @@ class Demo:
     story: Story
 
     def system(
-        self, config: SystemConfig, variant: Variant | None = None, *, language: Language | None = None
+        self,
+        config: SystemConfig,
+        variant: Variant | None = None,
+        *,
+        language: Language | None = None,
+        actions: Sequence[ActionSpec] = BUILTIN_ACTIONS,
     ) -> System:
         """A system for it; the robots' maps stay as surveyed, whatever a variant changes in the world."""
         world = self.world.with_changes(variant.world) if variant is not None else self.world
         gone = set(variant.world.remove) if variant is not None else set()
         objects = ObjectMap(tuple(item for item in self.objects.objects if item.id not in gone))
-        return System(world, config, occupancy=self.occupancy, objects=objects, language=language)
+        return System(
+            world, config, occupancy=self.occupancy, objects=objects, language=language, actions=actions
+        )
+
+    def system_for(self, story: Story, config: SystemConfig, variant: Variant | None = None) -> System:
+        """A system for a story with a world, robots and faults of its own."""
+        world = self.world.with_changes(story.world)
+        first = world.robots[0]
+        more = tuple(
+            RobotEntry(name=name, model=first.model, pose=pose) for name, pose in story.robots.items()
+        )
+        own = replace(self, world=world.model_copy(update={"robots": (*world.robots, *more)}))
+        return own.system(config, variant, actions=with_faults(BUILTIN_ACTIONS, story.faults))
 
 
 def load_demo(name: str, folder: Path | None = None) -> Demo:

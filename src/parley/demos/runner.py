@@ -108,7 +108,8 @@ class _Player:
         self._system: System
         self._observer: Observer
         self._earlier_s = 0.0
-        self._heard = 0
+        self._heard: dict[str, int] = {}
+        self._speaker = story.robot
         self.latencies_s: list[float] = []
 
     async def __aenter__(self) -> _Player:
@@ -129,7 +130,7 @@ class _Player:
         except BaseException:
             await self._stack.aclose()
             raise
-        self._heard = 0
+        self._heard.clear()
 
     async def _close(self) -> None:
         self._earlier_s += self._system.clock.now_s()
@@ -142,10 +143,12 @@ class _Player:
 
     @property
     def _robot(self) -> str:
-        return self._story.robot
+        """The robot that the present step is about."""
+        return self._speaker
 
     async def play(self) -> None:
         for step in self._story.steps:
+            self._speaker = step.robot or self._story.robot
             if step.id and step.id in self._variant.leave_out:
                 continue
             if step.say is not None:
@@ -154,6 +157,8 @@ class _Player:
                 await self._answer(step, step.asked)
             elif step.finished is not None:
                 await self._finish(step.finished)
+            elif not step.restart:
+                await self._see(step)
             else:
                 self._emit({"event": "restart"})
                 await self._close()
@@ -203,7 +208,8 @@ class _Player:
         offered = {choice.lower() for choice in question.choices}
         if not {choice.lower() for choice in step.choices} <= offered:
             raise StoryBroken("other_question", f"offered {list(question.choices)}, not {list(step.choices)}")
-        self._observer.say(step.answer, self._robot, answer=True)
+        if step.answer:
+            self._observer.say(step.answer, self._robot, answer=True)
 
     async def _question(self) -> ChatFeedback:
         """The robot's next open question; it is a break of the story if the plan ends without one."""
@@ -252,6 +258,23 @@ class _Player:
         if distance_m > expected.within_m:
             raise StoryBroken("elsewhere", f"the robot is {distance_m:.2f} m away from {expected.near}")
 
+    async def _see(self, step: StoryStep) -> None:
+        observer = self._observer
+        if step.change is not None:
+            self._system.simulator.change(step.change)
+            self._emit({"event": "change", "text": step.note})
+        elif step.told is not None:
+            parts = [part.lower() for part in step.told]
+            await self._next_said(lambda said: all(part in said.message.lower() for part in parts))
+        elif step.state:
+            await self._wait(lambda: observer.state(self._robot) == step.state, f"the state {step.state}")
+        else:
+            await self._wait(lambda: self._newest_ending() == step.incident, f"a failure {step.incident}")
+
+    def _newest_ending(self) -> str:
+        mine = [incident for incident in self._observer.incidents.values() if incident.robot == self._robot]
+        return mine[-1].ending if mine else ""
+
     # -- helpers ---------------------------------------------------------------------------------------
 
     def _idle(self) -> bool:
@@ -262,17 +285,20 @@ class _Player:
         return self._observer.failures[-1].code.value if self._observer.failures else ""
 
     async def _next_said(self, wanted: Callable[[ChatFeedback], bool]) -> ChatFeedback:
+        """The next thing of this kind that the robot says, after what was heard of it before."""
         found: list[ChatFeedback] = []
 
         def look() -> bool:
             said = self._observer.said
-            while self._heard < len(said) and not found:
-                if wanted(said[self._heard]):
-                    found.append(said[self._heard])
-                self._heard += 1
+            heard = self._heard.get(self._robot, 0)
+            while heard < len(said) and not found:
+                if self._robot in said[heard].targets and wanted(said[heard]):
+                    found.append(said[heard])
+                heard += 1
+            self._heard[self._robot] = heard
             return bool(found)
 
-        await self._wait(look, "a reply")
+        await self._wait(look, "something that the robot says")
         return found[0]
 
     async def _wait(self, condition: Callable[[], bool], what: str) -> None:

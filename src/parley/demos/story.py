@@ -9,6 +9,8 @@
       - {say: "bring me the key", plan: [GetCoordinates, NavigateTo]}
       - {id: which, asked: ["which box"], choices: ["red box", "blue box"], answer: "the red one"}
       - {restart: true}
+      - {told: ["something is in the way"]}
+      - {change: {remove: [crate_1]}}
       - {finished: {near: box_1, within_m: 1.0, shown: [inspection]}}
     variants:
       no_key: {world: {remove: [key_1]}, fails: no_match}
@@ -18,12 +20,14 @@ A variant changes the world (or the operator) of one run and says how the story 
 
 from __future__ import annotations
 
-from typing import Annotated, Self
+from typing import Annotated, Literal, Self
 
 from pydantic import BaseModel, ConfigDict, Field, model_validator
 
+from parley.demos.faults import Fault
 from parley.errors import FileFormatError
 from parley.files import TextFile, parse_yaml, validated
+from parley.sim.entries import PoseTuple
 from parley.sim.world_file import WorldChanges
 
 __all__ = ["Finished", "Story", "StoryStep", "Variant"]
@@ -45,9 +49,14 @@ class Finished(_Entry):
 
 
 class StoryStep(_Entry):
-    """One thing that happens; exactly one of `say`, `asked`, `restart`, `finished`."""
+    """One thing that happens.
+
+    Exactly one of `say`, `asked`, `told`, `state`, `incident`, `change`, `restart`, `finished`.
+    """
 
     id: str = ""
+    robot: str = ""
+    """The robot it is about; empty: the story's."""
     say: str | None = None
     """The operator says this ..."""
     reply: tuple[str, ...] = ()
@@ -62,6 +71,16 @@ class StoryStep(_Entry):
     """... offering these choices ..."""
     answer: str = ""
     """... and the operator answers."""
+    told: tuple[str, ...] | None = None
+    """The robot says something that has each of these texts in it, after what was heard of it before."""
+    state: Literal["idle", "running", "paused", "held", ""] = ""
+    """The plan is in this state."""
+    incident: Literal["solved", "skipped", "cancelled", "replaced", "held", ""] = ""
+    """The newest record of a failure ends so."""
+    change: WorldChanges | None = None
+    """The world changes ..."""
+    note: str = ""
+    """... which a transcript tells in these words."""
     restart: bool = False
     """Everything is shut down and started again."""
     finished: Finished | None = None
@@ -69,9 +88,14 @@ class StoryStep(_Entry):
 
     @model_validator(mode="after")
     def _one_kind(self) -> Self:
-        kinds = [self.say is not None, self.asked is not None, self.restart, self.finished is not None]
+        things = (self.say, self.asked, self.told, self.change, self.finished)
+        kinds = [thing is not None for thing in things] + [
+            self.restart, bool(self.state), bool(self.incident),
+        ]  # fmt: skip
         if sum(kinds) != 1:
-            raise ValueError("expected exactly one of say, asked, restart, finished")
+            raise ValueError(
+                "expected exactly one of say, asked, told, state, incident, change, restart, finished"
+            )
         return self
 
 
@@ -91,6 +115,14 @@ class Story(_Entry, TextFile):
     """A whole story."""
 
     robot: str
+    title: str = ""
+    """What it shows, in a few words."""
+    world: WorldChanges = Field(default_factory=WorldChanges)
+    """What is different in the world from the start."""
+    robots: dict[str, PoseTuple] = Field(default_factory=dict)
+    """More robots, of the first one's model, by name, and where they start."""
+    faults: dict[str, tuple[Fault, ...]] = Field(default_factory=dict)
+    """Actions that fail at first, by name."""
     examples: tuple[str, ...] = ()
     """Sentences a newcomer may try."""
     steps: tuple[StoryStep, ...] = Field(min_length=1)

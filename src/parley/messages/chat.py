@@ -196,9 +196,12 @@ class ChatAction(Payload):
     system_cmd: tuple[SystemCommand, ...] = ()
     targets: tuple[str, ...] = ()
     success: bool | None = None
-    """Only for error resolutions: whether the correction is complete."""
+    """Only for error resolutions: True, the correction is complete; False, `message_response` asks; None, it is
+    said aside (an answer to a question, an order kept for afterwards), and what was asked remains open."""
     choices: tuple[str, ...] = ()
     sources: tuple[str, ...] = ()
+    delay_s: float = Field(default=0.0, ge=0.0, le=3600.0)
+    """Ours, only for error resolutions: robot time to wait before the correction is carried out."""
 
     @model_validator(mode="before")
     @classmethod
@@ -248,4 +251,6 @@ class ChatAction(Payload):
             wire["choices"] = list(self.choices)
         if self.sources:
             wire["sources"] = list(self.sources)
+        if self.delay_s:
+            wire["delay_s"] = self.delay_s
         return wire

@@ -44,6 +44,8 @@ class Incident(Payload):
     opened_unix_ms: int = 0
     closed_unix_ms: int = 0
     """0 while it is open."""
+    note: str = ""
+    """What else is to be said about its end, e.g. that the program was ended before."""
 
 
 class GetIncidents(Payload):

@@ -71,6 +71,8 @@ class ActorStatus(Payload):
     pose: PoseInfo | None = None
     at_rest: bool | None = None
     """Whether the measured velocity is zero; None if the robot cannot tell."""
+    battery: float | None = Field(default=None, ge=0, le=1)
+    """How full it is; None if the robot cannot tell."""
     graphs: dict[str, str] = Field(default_factory=dict)
     """Graph name -> graph state."""
     catalogue: tuple[ActionInfo, ...] = ()
@@ -214,9 +216,10 @@ class SyncNotice(Payload):
     TeMoto's own format is not public, so these are ours alone.
     """
 
-    kind: Literal["hello", "ready", "ended", "received", "command"]
+    kind: Literal["hello", "ready", "ended", "received", "command", "ask", "answer"]
     """`hello` and `ready` are the start handshake; `ended` hands a result over, `received` confirms it;
-    `command` passes on what the speaker was told to do with the graph."""
+    `command` passes on what the speaker was told to do with the graph; `ask` asks whether everybody could do
+    it, which `answer` says, before anybody does."""
     actor: str
     """Who speaks."""
     graph_name: str
@@ -224,14 +227,14 @@ class SyncNotice(Payload):
     """Of `hello` and `ready`: the speaker's run of the graph. Of `ended`: that, a slash and a number, so that
     it can be confirmed and is taken once."""
     answers: str = ""
-    """Of `ready` and `received`: the id of what is answered."""
+    """Of `ready`, `received` and `answer`: the id of what is answered."""
     node: str = ""
     """Full name of the node that ended."""
     result: str = ""
-    """`on_true`, `on_false`, `on_error`, `on_stopped`."""
+    """`on_true`, `on_false`, `on_error`, `on_stopped`; of an `answer` `yes` or `no`."""
     outputs: ParameterTree = Field(default_factory=dict)
     message: str = ""
-    """The failure report of a node that failed."""
+    """The failure report of a node that failed; why the answer is no."""
     command: Literal["stop", "pause", "resume", "modify", "end", ""] = ""
     """Of a `command`; `end` ends the node."""
     targets: tuple[str, ...] = ()

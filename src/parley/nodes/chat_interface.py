@@ -9,24 +9,30 @@ import asyncio
 import uuid
 from collections import deque
 from collections.abc import Awaitable, Callable, Sequence
+from dataclasses import dataclass
 from typing import ClassVar, Final
 
 from parley.clock import Clock
 from parley.errors import LanguageError
 from parley.language.base import Language, Situation, Turn
 from parley.language.control import Control, control_of
-from parley.memory.client import recall
+from parley.memory.because import OPERATOR
+from parley.memory.client import recall, recall_newest
+from parley.memory.sayings import asks_for_all, for_oneself, keeping_action
 from parley.messages import topics
-from parley.messages.chat import ChatAction, ChatFeedback, ChatInput, SystemCommand
-from parley.messages.memory import MemoryEvent
+from parley.messages.chat import ActionCall, ChatAction, ChatFeedback, ChatInput, SystemCommand
+from parley.messages.memory import AddToMemory, MemoryBody, MemoryEntry, MemoryEvent
 from parley.messages.ros import String
 from parley.messages.status import ActorStatus, PlanUpdate, Rejection, RejectionProblem, StopCommand
 from parley.nodes.base import Mailboxes, Node
 from parley.nodes.conversation import Conversation
+from parley.nodes.drafts import Drafts
 from parley.nodes.plan_check import check_calls, complete_calls
+from parley.nodes.plan_flow import pending_calls
 from parley.nodes.plan_steps import LATCHED
 from parley.nodes.presence import Presence
 from parley.nodes.questions import OpenQuestions
+from parley.nodes.recollections import Recollections
 from parley.transport.base import Transport
 from parley.world.geometry import Pose2D
 from parley.world.object_map import MapObject
@@ -37,6 +43,8 @@ MAX_CHARS: Final = 10_000
 """A longer message is not a request that a person wrote."""
 MEMORY_WITHIN_S: Final = 5.0
 """Wall time in which the memory must have confirmed what the reply promises."""
+AFTERWARDS: Final = "I will do that afterwards; first I need your answer to my question."
+"""Added to the reply to an order that has to wait until a failed step is settled."""
 
 _CONTROL_REPLIES: Final[dict[Control, str]] = {
     "stop": "I have stopped. Say “carry on” when I should go on.",
@@ -53,6 +61,23 @@ _NOTHING_TO_DO: Final[dict[Control, str]] = {
 }
 _HALTING: Final = ("stop", "clear", "emergency_stop")
 """Controls after which nothing that was said before may still set a robot in motion."""
+
+
+@dataclass(frozen=True, slots=True)
+class _Keeping:
+    """For whom and on whose word memories are kept."""
+
+    own: str
+    """The robot that was asked to remember for itself; empty for everybody."""
+    source: str
+    known: Sequence[MemoryEntry]
+
+    def of(self, command: str, name: str) -> dict[str, str]:
+        """Arguments beside name and data: what replaces or forgets a robot's own memory concerns that one."""
+        scope = next((entry.scope for entry in self.known if entry.name == name), None)
+        if command == "remove_memory":
+            return {} if scope is None else {"scope": scope}
+        return {"scope": self.own or scope or "", "source": self.source}
 
 
 class ChatInterface(Node):
@@ -82,7 +107,7 @@ class ChatInterface(Node):
         known_robots: Sequence[str] = (),
     ) -> None:
         super().__init__(transport)
-        self._language, self._objects = language, objects
+        self._language, self._objects, self._clock = language, objects, clock
         self._language_timeout_s, self._history_exchanges = language_timeout_s, history_exchanges
         self._presence = Presence(clock, tuple(known_robots))
         self._questions = OpenQuestions()
@@ -91,6 +116,7 @@ class ChatInterface(Node):
         self._plans: dict[str, PlanUpdate] = {}
         self._seen_ids: deque[str] = deque(maxlen=1000)
         self._memory_waits: dict[str, asyncio.Future[MemoryEvent]] = {}
+        self._recollections = Recollections(self, clock, self._remember, self._presence.names)
         self._halts: dict[str, int] = {}
         """How often each robot was told to stop: what was asked for before that is dropped."""
 
@@ -111,21 +137,28 @@ class ChatInterface(Node):
             if said.id in self._seen_ids:
                 return  # sent twice, e.g. after a reconnect
             self._seen_ids.append(said.id)
-        if problem := _unreadable(said.message):
-            self._say(said.targets, problem, "error")
+        if problem := _unreadable(said.message, bare=bool(said.images)):
+            self._say(said.targets, problem, "error", said.id)
             return
-        targets = self._addressed(said)
         control = control_of(said.message, self._presence.names())
+        if control is None and said.type == "response" and not said.targets and self._questions.robots():
+            self._questions.on_input(said)
+            return  # an answer; where several robots wait, the error handler asks which is meant
+        targets = self._addressed(said)
         if control is not None:
             targets = self._presence.named_in(said.message) or targets
         for target in targets:
             question = self._questions.first(target) if said.type == "response" else None
             if control is not None and not self._answers(target, question, control):
-                self._control(target, control, said.message)
+                self._control(target, control, said)
             elif not self._presence.is_there(target):
-                self._say((target,), f"{target} is not there at the moment, so I cannot ask it.", "error")
-            elif question is None:
-                self._mailboxes.post(target, self._work(target, said.message))
+                text = f"{target} is not there at the moment, so I cannot ask it."
+                self._say((target,), text, "error", said.id)
+            else:
+                about = said.reply_to or (question.id if question else "")
+                ours = about if said.type == "response" and self._recollections.asked(about) else ""
+                if question is None or ours:
+                    self._mailboxes.post(target, self._work(target, said, ours))
         self._questions.on_input(said)
 
     def _answers(self, target: str, question: ChatFeedback | None, control: Control) -> bool:
@@ -133,9 +166,14 @@ class ChatInterface(Node):
         plan = self._plans.get(target)
         return question is not None and control == "start" and not (plan and plan.state == "paused")
 
-    def _work(self, target: str, message: str) -> Callable[[], Awaitable[None]]:
+    def _work(self, target: str, said: ChatInput, ours: str = "") -> Callable[[], Awaitable[None]]:
         halts = self._halts.get(target, 0)
-        return lambda: self._answer(target, message, halts)
+
+        async def work() -> None:
+            if not await self._recollections.handles(target, said, ours):
+                await self._answer(target, said, halts)
+
+        return work
 
     def _addressed(self, said: ChatInput) -> list[str]:
         """The robots a message is for; without an addressee nothing may move."""
@@ -144,12 +182,13 @@ class ChatInterface(Node):
         if not said.targets and len(names) == 1:
             return [names[0]]
         if not said.targets:
-            self._say((), f"Which robot do you mean? {self._presence.known_text()}", "error")
+            self._say((), f"Which robot do you mean? {self._presence.known_text()}", "error", said.id)
         found: list[str] = []
         for name in said.targets:
             known = self._presence.resolve(name)
             if known is None:
-                self._say((name,), f"There is no robot called {name}. {self._presence.known_text()}", "error")
+                text = f"There is no robot called {name}. {self._presence.known_text()}"
+                self._say((name,), text, "error", said.id)
                 problem = RejectionProblem(
                     path="targets", message=f"unknown robot {name!r}", code="unknown_robot"
                 )
@@ -181,7 +220,7 @@ class ChatInterface(Node):
 
     # -- control ---------------------------------------------------------------------------------------
 
-    def _control(self, target: str, control: Control, message: str) -> None:
+    def _control(self, target: str, control: Control, said: ChatInput) -> None:
         """Act at once, ahead of anything that is still being understood."""
         if control in _HALTING:
             self._halts[target] = self._halts.get(target, 0) + 1
@@ -189,6 +228,8 @@ class ChatInterface(Node):
         state = plan.state if plan is not None else "idle"
         # A plan that waits for approval has no step yet: only approving or dropping it does anything.
         nothing = state == "idle" or (state == "awaiting_approval" and control in ("stop", "skip"))
+        if state == "idle" and status is not None and status.state == "paused":
+            nothing = False  # its engine holds a graph that is no plan of ours
         reply = _NOTHING_TO_DO.get(control, "") if nothing else ""
         if control == "start" and status is not None and status.state == "stopped":
             reply = LATCHED
@@ -200,45 +241,57 @@ class ChatInterface(Node):
             command = SystemCommand(command=control)
             self.publish(topics.CHAT_ACTION, ChatAction(system_cmd=(command,), targets=(target,)))
         reply = reply or _CONTROL_REPLIES[control]
-        self._conversation(target).operator(message)
+        self._conversation(target).operator(said.message)
         self._conversation(target).assistant(reply)
         asked = self._questions.first(target) if state == "held" else None
         self.publish(
             topics.CHAT_FEEDBACK,
-            ChatFeedback(message=reply, targets=(target,), closes=asked.id if asked else ""),
+            ChatFeedback(
+                message=reply, targets=(target,), closes=asked.id if asked else "", reply_to=said.id
+            ),
         )
 
     # -- understanding ---------------------------------------------------------------------------------
 
-    async def _answer(self, target: str, message: str, halts: int) -> None:
-        situation = await self._situation(target, message)
+    async def _answer(self, target: str, said: ChatInput, halts: int) -> None:
+        message = said.message
+        own = for_oneself(message)
+        situation = await self._situation(target, own or message)
+        drafts = Drafts(said.id, target, lambda draft: self.publish(topics.REPLY_DRAFT, draft), self._clock)
         try:
             async with asyncio.timeout(self._language_timeout_s):
-                understood = await self._language.interpret(situation)
+                understood = _kept(situation) or await self._language.interpret(
+                    situation, on_draft=drafts
+                )
         except (LanguageError, TimeoutError) as error:
             self.log.warning("not understood", target=target, error=repr(error))
-            self._say(
-                (target,),
-                "I could not work that out just now. Nothing was started; please try again.",
-                "error",
-            )
+            plain = error.plain if isinstance(error, LanguageError) else ""
+            text = f"{plain or 'I could not work that out just now.'} Nothing was started; please try again."
+            self._say((target,), text, "error", said.id)
             return
         if halts != self._halts.get(target, 0) and (understood.queue or understood.system_cmd):
-            self._say((target,), f"You told me to stop, so I leave this: “{message}”", "response")
+            self._say((target,), f"You told me to stop, so I leave this: “{message}”", "response", said.id)
             return
         order = self._trusted(target, understood)
         if order is None:
             text = "I worked out a plan that I cannot carry out, so I did nothing. Please say it another way."
-            self._say((target,), text, "error")
+            self._say((target,), text, "error", said.id)
             return
-        order, confirmations = self._name_memories(order)
+        kept = _Keeping(target if own else "", said.author or OPERATOR, situation.memory)
+        order, confirmations = self._name_memories(order, kept)
         if order.queue or order.system_cmd:
             self.publish(topics.CHAT_ACTION, order)
         failed = await self._confirmed(confirmations)
         reply = failed or understood.message_response or "Done."
+        if not failed and self._waits_behind_a_question(target, order):
+            reply = f"{reply} {AFTERWARDS}"
         conversation = self._conversation(target)
         conversation.operator(message)
         conversation.assistant(reply)
+        told = {str(command.arguments.get("name")) for command in order.system_cmd}
+        sources = tuple(name for name in understood.sources if name not in told)
+        why = "" if failed else self._recollections.why(target, said, sources, situation.memory)
+        reply = f"{reply} {why}".strip()
         asks = bool(understood.choices) and not understood.queue
         self.publish(
             topics.CHAT_FEEDBACK,
@@ -248,18 +301,25 @@ class ChatInterface(Node):
                 type="error" if failed else "response",
                 sources=understood.sources,
                 choices=understood.choices if asks else (),
+                reply_to=said.id,
             ),
         )
 
+    def _waits_behind_a_question(self, target: str, order: ChatAction) -> bool:
+        """Whether an order is kept until the robot's question about a failed step is answered."""
+        plan = self._plans.get(target)
+        control = {command.command for command in order.system_cmd} - {"add_memory", "remove_memory"}
+        held = plan is not None and plan.state == "held" and self._questions.first(target) is not None
+        return held and bool(order.queue) and not control
+
     async def _situation(self, target: str, message: str) -> Situation:
         turns = self._conversation(target).turns
-        memory = await recall(self.transport, _memory_query(message, turns), scope=target)
+        if asks_for_all(message):
+            memory = await recall_newest(self.transport, scope=target)
+        else:
+            memory = await recall(self.transport, _memory_query(message, turns), scope=target)
         status, plan = self._presence.get(target), self._plans.get(target)
-        pending = (
-            [s.action for s in plan.steps if s.state not in ("finished", "skipped", "stopped")]
-            if plan
-            else []
-        )
+        pending = pending_calls(plan) if plan else []
         state = plan.state if plan else "idle"
         return Situation(
             message=message,
@@ -294,21 +354,32 @@ class ChatInterface(Node):
 
     # -- memory ----------------------------------------------------------------------------------------
 
-    def _name_memories(self, order: ChatAction) -> tuple[ChatAction, list[asyncio.Future[MemoryEvent]]]:
-        """Give each new memory a name, so that its confirmation can be recognised."""
+    def _name_memories(
+        self, order: ChatAction, kept: _Keeping
+    ) -> tuple[ChatAction, list[asyncio.Future[MemoryEvent]]]:
+        """Give each new memory a name, so that its confirmation can be recognised, a scope and a source."""
         waits: list[asyncio.Future[MemoryEvent]] = []
         commands: list[SystemCommand] = []
         for command in order.system_cmd:
             if command.command in ("add_memory", "remove_memory"):
                 name = str(command.arguments.get("name") or f"memory_{uuid.uuid4().hex[:12]}")
-                command = SystemCommand(
-                    command=command.command, arguments={**command.arguments, "name": name}
-                )
-                wait: asyncio.Future[MemoryEvent] = asyncio.get_running_loop().create_future()
-                self._memory_waits[name] = wait
-                waits.append(wait)
+                arguments = {**kept.of(command.command, name), **command.arguments, "name": name}
+                command = SystemCommand(command=command.command, arguments=arguments)
+                waits.append(self._wait_for(name))
             commands.append(command)
         return order.model_copy(update={"system_cmd": tuple(commands)}), waits
+
+    def _wait_for(self, name: str) -> asyncio.Future[MemoryEvent]:
+        wait: asyncio.Future[MemoryEvent] = asyncio.get_running_loop().create_future()
+        self._memory_waits[name] = wait
+        return wait
+
+    async def _remember(self, entry: MemoryEntry) -> str:
+        """Store a memory; the plain reason if it is not durable in time."""
+        wait = self._wait_for(entry.name)
+        body = MemoryBody.model_validate(entry.model_dump())
+        self.publish(topics.ADD_TO_MEMORY, AddToMemory({entry.name: body}))
+        return await self._confirmed([wait])
 
     async def _confirmed(self, waits: list[asyncio.Future[MemoryEvent]]) -> str:
         """Wait until what the reply promises is stored; the plain reason if it is not."""
@@ -329,8 +400,10 @@ class ChatInterface(Node):
     def _conversation(self, target: str) -> Conversation:
         return self._conversations.setdefault(target, Conversation(self._history_exchanges))
 
-    def _say(self, targets: Sequence[str], text: str, kind: str) -> None:
-        feedback = ChatFeedback.model_validate({"message": text, "targets": tuple(targets), "type": kind})
+    def _say(self, targets: Sequence[str], text: str, kind: str, reply_to: str = "") -> None:
+        feedback = ChatFeedback.model_validate(
+            {"message": text, "targets": tuple(targets), "type": kind, "reply_to": reply_to}
+        )
         self.publish(topics.CHAT_FEEDBACK, feedback)
 
     def _on_defect(self, target: str, error: Exception) -> None:
@@ -339,16 +412,30 @@ class ChatInterface(Node):
         )
 
 
-def _unreadable(message: str) -> str:
+def _kept(situation: Situation) -> ChatAction | None:
+    """The order to remember what the robot sees, if the message says that and nothing else."""
+    name = keeping_action(situation.message, situation.catalogue)
+    if not name:
+        return None
+    call = ActionCall(name=name, reason="remember what I see")
+    return ChatAction(message_response="I will keep what I see now.", queue=(call,))
+
+
+def _unreadable(message: str, *, bare: bool = False) -> str:
     """Why a message cannot be a request, in plain words; empty if it can."""
-    if not message.strip():
+    if not message.strip() and not bare:
         return "I did not get any words. Please write what I should do."
     if len(message) > MAX_CHARS:
         return f"That message is too long for me ({len(message)} characters). Please use fewer words."
     return ""
 
 
+_RECALLED_TURNS = 6
+"""How many turns back what is asked or meant may lie ("bring it to him")."""
+_RECALLED_CHARS = 300
+
+
 def _memory_query(message: str, turns: Sequence[Turn]) -> str:
     """What to look up: the message, and what it may refer back to."""
-    last = next((turn.content for turn in reversed(turns) if turn.role == "operator"), "")
-    return f"{message}\n{last}" if last else message
+    recent = [turn.content[:_RECALLED_CHARS] for turn in turns[-_RECALLED_TURNS:]]
+    return "\n".join([message, *reversed(recent)])

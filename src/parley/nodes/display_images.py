@@ -23,25 +23,27 @@ _BASELINE_FRAMES = (0xC0, 0xC1)
 _OTHER_FRAMES = frozenset(range(0xC2, 0xD0)) - {0xC4, 0xC8, 0xCC}
 
 
-def to_jpeg(image: str | RawImage, *, quality: int = 85) -> bytes:
+def to_jpeg(image: str | RawImage, *, quality: int = 85, max_width_px: int | None = None) -> bytes:
     """The picture as a JPEG that every browser shows.
 
-    A base64 text that holds a plain JPEG comes back untouched; other JPEGs and PNGs are encoded anew.
+    A plain JPEG, as base64, that is not too wide comes back untouched; the rest is encoded anew.
 
     Args:
         image: Base64 of a JPEG or PNG (a ``data:`` address is understood too), or raw pixels.
         quality: JPEG quality, where encoding is needed.
+        max_width_px: Wider pictures are made smaller, keeping their shape.
 
     Raises:
         InvalidMessageError: It is not such a picture or too large; names the field of the `DisplayFeed`.
     """
     if isinstance(image, RawImage):
         _check_size(image.width, image.height, "image.width")
-        return _encode(_to_rgb(picture_of(image)), quality)
+        return _encode(_narrowed(_to_rgb(picture_of(image)), max_width_px), quality)
     data = decode_base64(image.partition(",")[2] if image.startswith("data:") else image, "image")
-    if _is_plain_jpeg(data):
+    width = _plain_jpeg_width(data)
+    if width is not None and (max_width_px is None or width <= max_width_px):
         return data
-    return _encode(_unpack(data), quality)
+    return _encode(_narrowed(_unpack(data), max_width_px), quality)
 
 
 def _check_size(width: int, height: int, field: str) -> None:
@@ -52,18 +54,18 @@ def _check_size(width: int, height: int, field: str) -> None:
         )
 
 
-def _is_plain_jpeg(data: bytes) -> bool:
-    """Whether this is a whole baseline JPEG with 8 bits and one or three colours, judged by its markers."""
+def _plain_jpeg_width(data: bytes) -> int | None:
+    """Width of a whole baseline JPEG with 8 bits and one or three colours, by its markers; else None."""
     if not data.startswith(b"\xff\xd8") or b"\xff\xd9" not in data[-64:]:
-        return False
+        return None
     for marker, body in _segments(data):
         if marker in _BASELINE_FRAMES and len(body) >= 6:
             precision, height, width, colours = struct.unpack_from(">BHHB", body)
             _check_size(width, height, "image")
-            return precision == 8 and colours in (1, 3)
+            return int(width) if precision == 8 and colours in (1, 3) else None
         if marker in _OTHER_FRAMES:
-            return False
-    return False
+            return None
+    return None
 
 
 def _segments(data: bytes) -> Iterator[tuple[int, bytes]]:
@@ -114,3 +116,10 @@ def _encode(picture: Image.Image, quality: int) -> bytes:
     out = io.BytesIO()
     picture.save(out, "JPEG", quality=quality)
     return out.getvalue()
+
+
+def _narrowed(picture: Image.Image, max_width_px: int | None) -> Image.Image:
+    if max_width_px is None or picture.width <= max_width_px:
+        return picture
+    height_px = max(1, round(picture.height * max_width_px / picture.width))
+    return picture.resize((max_width_px, height_px), Image.Resampling.BILINEAR)

@@ -3,10 +3,12 @@
 from __future__ import annotations
 
 import asyncio
+from collections.abc import Mapping
 from dataclasses import dataclass
-from typing import ClassVar
+from typing import ClassVar, TypeVar
 
 from parley.clock import Clock
+from parley.config import FeedSettings
 from parley.errors import InvalidMessageError
 from parley.messages import topics
 from parley.messages.display import DisplayFeed
@@ -18,6 +20,8 @@ from parley.transport.base import Transport
 
 __all__ = ["DisplayInterface"]
 
+N = TypeVar("N", int, float)
+
 MAX_FEEDS = 256
 """More feeds than any screen has room for are somebody's mistake."""
 
@@ -27,6 +31,7 @@ class _Feed:
     """One feed that is being shown: its newest picture that still waits, if any."""
 
     topic: Topic[CompressedImage]
+    settings: FeedSettings
     waiting: DisplayFeed | None = None
 
 
@@ -41,15 +46,23 @@ class DisplayInterface(Node):
         clock: For time stamps; the pace is wall time.
         quality: JPEG quality where encoding is needed.
         min_interval_s: Least wall time between two pictures of a feed.
+        feeds: What differs for single feeds, by `robot/feed` or `feed`.
     """
 
     name: ClassVar[str] = "display_interface"
 
     def __init__(
-        self, transport: Transport, clock: Clock, *, quality: int = 85, min_interval_s: float = 0.1
+        self,
+        transport: Transport,
+        clock: Clock,
+        *,
+        quality: int = 85,
+        min_interval_s: float = 0.1,
+        feeds: Mapping[str, FeedSettings] | None = None,
     ) -> None:
         super().__init__(transport)
         self._clock, self._quality, self._min_interval_s = clock, quality, min_interval_s
+        self._feeds = dict(feeds or {})
         self._known: set[str] = set()
         self._busy: dict[str, _Feed] = {}
 
@@ -73,7 +86,7 @@ class DisplayInterface(Node):
         if feed is not None:
             feed.waiting = picture
             return
-        self._busy[topic.name] = feed = _Feed(topic, picture)
+        self._busy[topic.name] = feed = _Feed(topic, self._settings(picture.target, picture.name), picture)
         self.spawn(self._show(feed), name=topic.name)
 
     async def _show(self, feed: _Feed) -> None:
@@ -81,17 +94,27 @@ class DisplayInterface(Node):
         try:
             while (picture := feed.waiting) is not None:
                 feed.waiting = None
-                await self._show_one(feed.topic, picture)
-                await asyncio.sleep(self._min_interval_s)
+                await self._show_one(feed, picture)
+                await asyncio.sleep(_either(feed.settings.interval_s, self._min_interval_s))
         finally:
             del self._busy[feed.topic.name]
 
-    async def _show_one(self, topic: Topic[CompressedImage], picture: DisplayFeed) -> None:
+    async def _show_one(self, feed: _Feed, picture: DisplayFeed) -> None:
         unix_ms = self._clock.unix_ms()
+        quality = _either(feed.settings.quality, self._quality)
         try:
-            jpeg = await asyncio.to_thread(to_jpeg, picture.image, quality=self._quality)
+            jpeg = await asyncio.to_thread(
+                to_jpeg, picture.image, quality=quality, max_width_px=feed.settings.max_width_px
+            )
         except InvalidMessageError as error:
             self.refuse(topics.DISPLAY_FEED.name, error, target=picture.target)
             return
         stamp = Time(unix_ms // 1000, unix_ms % 1000 * 1_000_000)
-        self.send(topic, CompressedImage(Header(stamp, frame_id=picture.name), "jpeg", jpeg))
+        self.send(feed.topic, CompressedImage(Header(stamp, frame_id=picture.name), "jpeg", jpeg))
+
+    def _settings(self, robot: str, feed: str) -> FeedSettings:
+        return self._feeds.get(f"{robot}/{feed}") or self._feeds.get(feed) or FeedSettings()
+
+
+def _either(special: N | None, general: N) -> N:
+    return general if special is None else special

@@ -5,40 +5,36 @@ from __future__ import annotations
 import asyncio
 import uuid
 from collections.abc import Callable, Sequence
-from dataclasses import dataclass, field
 from typing import ClassVar, Literal
 
 from parley.clock import Clock
-from parley.errors import LanguageError
+from parley.errors import InvalidMessageError, LanguageError
 from parley.language.base import ErrorSituation, Language, Turn
-from parley.language.control import control_of
+from parley.language.control import Control, control_of
 from parley.memory.client import recall
+from parley.memory.incidents import IncidentStore
 from parley.messages import topics
 from parley.messages.chat import ActionCall, ChatAction, ChatFeedback, ChatInput, SystemCommand
 from parley.messages.failure import ErrorHandlingMessage
-from parley.messages.ros import String
-from parley.messages.status import ActorStatus, PlanUpdate
+from parley.messages.incident import GetIncidents
+from parley.messages.ros import ChatRequest, ChatResponse, String
+from parley.messages.status import ActorStatus, PlanUpdate, StopCommand
+from parley.messages.wire import decode, encode
 from parley.nodes.base import Mailboxes, Node
+from parley.nodes.incident_log import IncidentLog
 from parley.nodes.presence import Presence
+from parley.nodes.questions import OpenQuestions
+from parley.nodes.repair import MAX_ALONE, Ending, Repair, ending_of, memory_query, steps_left
+from parley.nodes.which_robot import WhichRobot
 from parley.transport.base import Transport
 from parley.world.geometry import Pose2D
 from parley.world.object_map import MapObject
 
 __all__ = ["ErrorHandler"]
 
-
-@dataclass(slots=True)
-class _Repair:
-    """One failed step and what was said about it."""
-
-    failure: ErrorHandlingMessage
-    attempts: int = 0
-    """Questions asked so far."""
-    question_id: str = ""
-    """Open question, empty when none is."""
-    seen_held: bool = False
-    """Whether the plan was reported as held since; before that, its reports are older than the failure."""
-    dialogue: list[Turn] = field(default_factory=list)
+_ENDED_BY: dict[Control, Ending] = {
+    "stop": "held", "emergency_stop": "held", "clear": "cancelled", "skip": "skipped",
+}  # fmt: skip
 
 
 class ErrorHandler(Node):
@@ -47,10 +43,12 @@ class ErrorHandler(Node):
     Args:
         transport: Where the topics are.
         language: What understands.
-        clock: Wall time.
+        clock: Robot time for corrections that wait, wall time for the rest.
         objects: The things a robot's map knows, by the robot's name.
         max_attempts: How often the operator is asked before the robot is held.
         language_timeout_s: Wall time an answer of the language engine may take.
+        incidents: Where failures are written down, open; its owner closes it. None: kept while the node is
+            open.
     """
 
     name: ClassVar[str] = "error_handler"
@@ -64,98 +62,186 @@ class ErrorHandler(Node):
         objects: Callable[[str], Sequence[MapObject]] = lambda _: (),
         max_attempts: int = 3,
         language_timeout_s: float = 30.0,
+        incidents: IncidentStore | None = None,
     ) -> None:
         super().__init__(transport)
-        self._language, self._objects = language, objects
+        self._language, self._objects, self._clock = language, objects, clock
         self._max_attempts, self._language_timeout_s = max_attempts, language_timeout_s
+        self._store = incidents
+        self._log: IncidentLog
         self._presence = Presence(clock)
+        self._questions = OpenQuestions()
+        self._which = WhichRobot()
         self._mailboxes: Mailboxes[str] = Mailboxes(self._on_defect)
-        self._repairs: dict[str, _Repair] = {}
-        self._earlier: dict[str, _Repair] = {}
-        """The last repair that was thought to have worked, to notice when the same step fails again."""
+        self._repairs: dict[str, Repair] = {}
+        """What is being worked out, by robot."""
+        self._trying: dict[str, Repair] = {}
+        """Corrections under way, to see whether they help."""
 
     async def open(self) -> None:
         """See `Node.open`."""
+        store = self._store
+        if store is None:
+            own = await IncidentStore.open(":memory:", self._clock)
+            store = await self.opened.enter_async_context(own)
+        self._log = IncidentLog(store, self._clock)
+        await self._log.settle_left_over()
+        self.opened.push_async_callback(self._log.flush)
         await self.opened.enter_async_context(self._mailboxes)
         await self.subscribe(topics.ACTOR_STATUS, ActorStatus, self._presence.on_status)
+        await self.subscribe(topics.CHAT_FEEDBACK, ChatFeedback, self._questions.on_feedback)
         await self.subscribe(topics.ERROR_HANDLING, ErrorHandlingMessage, self._on_failure)
         await self.subscribe(topics.CHAT_INPUT, ChatInput, self._on_input)
+        await self.subscribe(topics.STOP, StopCommand, self._on_stop)
         await self.subscribe_raw(topics.PLAN, self._on_plan)
+        server = await self.transport.serve(topics.GET_INCIDENTS, self._on_get)
+        self.opened.push_async_callback(server.close)
 
     # -- from the wire ---------------------------------------------------------------------------------
 
     def _on_failure(self, failure: ErrorHandlingMessage) -> None:
-        known = self._repairs.get(failure.target)
-        if known is not None and failure.failure_id and known.failure.failure_id == failure.failure_id:
+        target, earlier = failure.target, self._trying.get(failure.target)
+        known = [repair for repair in (self._repairs.get(target), earlier) if repair is not None]
+        if failure.failure_id and any(repair.failure.failure_id == failure.failure_id for repair in known):
             return  # the same failure, reported twice
-        repair = _Repair(failure)
-        earlier = self._earlier.pop(failure.target, None)
-        if earlier is not None and _same_step(earlier.failure, failure):
-            repair.attempts, repair.dialogue = earlier.attempts, earlier.dialogue
-        self._repairs[failure.target] = repair
-        self._mailboxes.post(failure.target, lambda: self._attempt(repair, None))
+        if target in self._repairs:
+            self._end(self._repairs.pop(target), "replaced", "Another step failed in the meantime.")
+        self._trying.pop(target, None)
+        if earlier is not None and earlier.is_repeated_by(failure):
+            repair = earlier
+            repair.again(failure)
+        else:
+            if earlier is not None:
+                self._end(earlier, "solved")
+            repair = Repair.begin(failure, incident_id=uuid.uuid4().hex, unix_ms=self._clock.unix_ms())
+        self._repairs[target] = repair
+        self._record(repair)
+        self._mailboxes.post(target, lambda: self._attempt(repair, None))
 
     def _on_input(self, said: ChatInput) -> None:
         control = control_of(said.message, self._presence.names())
-        named = self._presence.named_in(said.message) if control is not None else []
-        for target in named or [self._presence.resolve(name) or name for name in said.targets]:
+        if control is not None and not (control == "start" and said.type == "response"):
+            named = self._presence.named_in(said.message)
+            for target in named or [self._presence.resolve(name) or name for name in said.targets]:
+                self._controlled(target, control, said.message)
+            self._questions.on_input(said)
+            return
+        addressed = self._which.addressed(said, self._questions.robots())
+        if addressed is not None:
+            self.publish(topics.CHAT_INPUT, addressed)
+            return
+        answered = self._questions.answered(said)
+        self._questions.on_input(said)
+        for target, question in answered:
             repair = self._repairs.get(target)
-            if repair is None:
-                continue
-            if control is not None and not (control == "start" and said.type == "response"):
-                # Acted upon by the chat interface, whose reply closes the question too; nothing that is still
-                # being worked out may move the robot.
-                del self._repairs[target]
-            elif said.type == "response" and repair.question_id and said.reply_to in ("", repair.question_id):
+            if repair is not None and repair.question_id == question.id:
                 repair.question_id = ""
                 self._mailboxes.post(target, lambda r=repair: self._attempt(r, said.message))  # type: ignore[misc]
+        if not answered and self._which.needed(said, self._questions.robots()):
+            self._ask_which(said)
+
+    def _controlled(self, target: str, control: Control, words: str) -> None:
+        """The chat interface acts on it and closes the question; what is still worked out moves nobody."""
+        repair = self._repairs.pop(target, None)
+        if repair is None:
+            return  # what becomes of a correction under way, the plan will tell
+        if words:
+            repair.note_answered(words)
+        if control == "start":
+            self._record(repair)
+            self._watch(repair, ())
+            return
+        if control == "emergency_stop":
+            self._hold(target)
+        self._end(repair, _ENDED_BY[control])
+
+    def _on_stop(self, command: StopCommand) -> None:
+        """The stop button: what is still worked out, or waits for its time, is dropped; a question stays."""
+        if command.command != "stop":
+            return
+        for target in command.targets or tuple(self._repairs):
+            repair = self._repairs.get(self._presence.resolve(target) or target)
+            if repair is not None and not repair.question_id:
+                self._controlled(repair.failure.target, "emergency_stop", "")
+
+    def _ask_which(self, said: ChatInput) -> None:
+        robots = self._questions.robots()
+        question = self._which.ask(said, robots, uuid.uuid4().hex)
+        self.publish(topics.CHAT_FEEDBACK, question)
 
     def _on_plan(self, message: String) -> None:
         """A repair ends when the robot is no longer held, whoever brought that about."""
         if '"kind":"update"' not in message.data.replace(" ", ""):
             return
         update = PlanUpdate.model_validate_json(message.data)
+        trying = self._trying.get(update.target)
+        if trying is not None and (outcome := trying.outcome(update)) != "open":
+            del self._trying[update.target]
+            self._end(trying, outcome)
         repair = self._repairs.get(update.target)
         if repair is None:
             return
         if update.state == "held":
             repair.seen_held = True
-        elif repair.seen_held and repair.question_id:
+        elif repair.seen_held:
             del self._repairs[update.target]
-            text = "You need not answer my question any more."
-            self._say(update.target, text, "info", closes=repair.question_id)
+            self._end(repair, "cancelled" if update.state == "idle" else "replaced")
+            if repair.question_id:
+                text = "You need not answer my question any more."
+                self._say(update.target, text, "info", closes=repair.question_id)
+
+    async def _on_get(self, asked: ChatRequest) -> ChatResponse:
+        try:
+            request = decode(GetIncidents, asked.message or "{}")
+        except InvalidMessageError as error:
+            self.refuse(topics.GET_INCIDENTS.name, error)
+            raise
+        return ChatResponse(encode(await self._log.newest(request.robot, request.limit)))
 
     # -- repairing -------------------------------------------------------------------------------------
 
-    async def _attempt(self, repair: _Repair, reply: str | None) -> None:
-        if self._repairs.get(repair.failure.target) is not repair:
+    async def _attempt(self, repair: Repair, reply: str | None) -> None:
+        if not self._is_current(repair):
             return  # settled otherwise in the meantime
+        if reply is not None:
+            repair.note_answered(reply)
+            self._record(repair)
         resolution = await self._resolve(repair, reply)
-        if self._repairs.get(repair.failure.target) is not repair:
+        if not self._is_current(repair):
             return
         if reply is not None:
             repair.dialogue.append(Turn("operator", reply))
+        if resolution.success and reply is None and self._is_used_up(repair, resolution):
+            resolution = _plain_question(repair.failure)
         if resolution.success:
-            self._solved(repair, resolution)
+            self._solve(repair, resolution, alone=reply is None)
+        elif resolution.success is None and reply is not None and repair.question is not None:
+            self._answer_aside(repair, resolution, repair.question)
         elif repair.attempts >= self._max_attempts:
             self._give_up(repair)
         else:
             self._ask(repair, resolution)
 
-    async def _resolve(self, repair: _Repair, reply: str | None) -> ChatAction:
+    def _is_current(self, repair: Repair) -> bool:
+        return self._repairs.get(repair.failure.target) is repair
+
+    def _is_used_up(self, repair: Repair, correction: ChatAction) -> bool:
+        """Nothing is tried the same way twice without asking, nor for ever."""
+        return repair.alone >= MAX_ALONE or repair.is_known(correction)
+
+    async def _resolve(self, repair: Repair, reply: str | None) -> ChatAction:
         """Ask the language engine; when it cannot answer, fall back to the failure's own sentence."""
         try:
             async with asyncio.timeout(self._language_timeout_s):
                 return await self._language.resolve(await self._situation(repair, reply))
         except (LanguageError, TimeoutError) as error:
             self.log.warning("no resolution", target=repair.failure.target, error=repr(error))
-            text = f"{repair.failure.error_message} What should I do?"
-            return ChatAction(message_response=text, success=False)
+            return _plain_question(repair.failure)
 
-    async def _situation(self, repair: _Repair, reply: str | None) -> ErrorSituation:
+    async def _situation(self, repair: Repair, reply: str | None) -> ErrorSituation:
         failure = repair.failure
         status = self._presence.get(failure.target)
-        memory = await recall(self.transport, _memory_query(failure, reply), scope=failure.target)
+        memory = await recall(self.transport, memory_query(failure, reply), scope=failure.target)
         return ErrorSituation(
             error_message=failure.error_message,
             failed_action=failure.action_called,
@@ -167,6 +253,7 @@ class ErrorHandler(Node):
             objects=tuple(self._objects(failure.target)),
             dialogue=tuple(repair.dialogue),
             reply=reply,
+            tried=tuple(repair.tried),
             robot=failure.target,
             robot_pose=Pose2D(status.pose.x, status.pose.y, status.pose.yaw)
             if status and status.pose
@@ -174,55 +261,110 @@ class ErrorHandler(Node):
             catalogue=status.catalogue if status else (),
         )
 
-    def _solved(self, repair: _Repair, resolution: ChatAction) -> None:
+    def _solve(self, repair: Repair, resolution: ChatAction, *, alone: bool) -> None:
+        target = repair.failure.target
+        text = resolution.message_response or "Thank you, I am going on."
+        repair.alone += alone
+        repair.note_tried(text, alone=alone, unix_ms=self._clock.unix_ms())
+        self._record(repair)
+        if resolution.delay_s:
+            # Beside the mailbox: whoever says something meanwhile is heard, and may settle it otherwise.
+            self.spawn(self._solve_later(repair, resolution), name=f"waiting {target}")
+        else:
+            self._correct(repair, resolution)
+        self._say(target, text, "info")
+
+    async def _solve_later(self, repair: Repair, resolution: ChatAction) -> None:
+        await self._clock.sleep(resolution.delay_s)
+        if self._is_current(repair):
+            self._correct(repair, resolution)
+
+    def _correct(self, repair: Repair, resolution: ChatAction) -> None:
         target = repair.failure.target
         del self._repairs[target]
-        self._earlier[target] = repair
-        self.publish(
-            topics.UMRF_CORRECTION, resolution.model_copy(update={"targets": (target,), "success": True})
-        )
-        self._say(target, resolution.message_response or "Thank you, I am going on.", "info")
+        correction = resolution.model_copy(update={"targets": (target,), "success": True})
+        ending = ending_of(resolution)
+        if ending == "open":
+            self._watch(repair, resolution.queue)
+        else:
+            self._end(repair, ending)
+        self.publish(topics.UMRF_CORRECTION, correction)
 
-    def _ask(self, repair: _Repair, resolution: ChatAction) -> None:
-        repair.attempts += 1
-        repair.question_id = uuid.uuid4().hex
+    def _watch(self, repair: Repair, correction: Sequence[ActionCall]) -> None:
+        """See whether the correction helps (none: the step as it was)."""
+        repair.tried.append(tuple(correction) or (repair.failure.action_called,))
+        self._trying[repair.failure.target] = repair
+
+    def _answer_aside(self, repair: Repair, resolution: ChatAction, question: ChatAction) -> None:
+        """Answer what the operator asked, keep what they ordered for later, and ask again: no attempt."""
+        target = repair.failure.target
         repair.dialogue.append(Turn("assistant", resolution.message_response))
+        if resolution.queue or resolution.system_cmd:
+            order = resolution.model_copy(update={"targets": (target,), "success": None, "choices": ()})
+            self.publish(topics.CHAT_ACTION, order)
+        self._say(target, resolution.message_response, "response", sources=resolution.sources)
+        self._put(repair, question)
+
+    def _ask(self, repair: Repair, resolution: ChatAction) -> None:
+        repair.attempts += 1
+        repair.dialogue.append(Turn("assistant", resolution.message_response))
+        self._put(repair, resolution)
+
+    def _put(self, repair: Repair, question: ChatAction) -> None:
+        repair.question, repair.question_id = question, uuid.uuid4().hex
+        repair.note_asked(question.message_response, self._clock.unix_ms())
+        self._record(repair)
         self._say(
             repair.failure.target,
-            resolution.message_response,
+            question.message_response,
             "request",
-            choices=resolution.choices,
+            choices=question.choices,
             question_id=repair.question_id,
         )
 
-    def _give_up(self, repair: _Repair) -> None:
+    def _give_up(self, repair: Repair) -> None:
         """Hold the robot and say what remains (design section 2, last row of the table)."""
         target = repair.failure.target
         del self._repairs[target]
-        stop = SystemCommand(command="stop", arguments={})
-        self.publish(topics.UMRF_CORRECTION, ChatAction(system_cmd=(stop,), targets=(target,), success=False))
-        left = _steps_left([repair.failure.action_called, *repair.failure.umrf_queue])
+        self._end(repair, "held")
+        self._hold(target)
+        left = steps_left([repair.failure.action_called, *repair.failure.umrf_queue])
         text = (
             f"I could not solve this, so I am waiting here. {repair.failure.error_message} "
             f"{left} Say “try again”, “skip it” or “cancel everything”, or give me another order."
         )
         self._say(target, text, "info")
 
+    def _hold(self, target: str) -> None:
+        """No repair any more: the plan waits, and the next order goes on."""
+        stop = SystemCommand(command="stop", arguments={})
+        self.publish(topics.UMRF_CORRECTION, ChatAction(system_cmd=(stop,), targets=(target,), success=False))
+
     # -- helpers ---------------------------------------------------------------------------------------
+
+    def _record(self, repair: Repair) -> None:
+        self.publish(topics.INCIDENT, repair.incident)
+        self._log.write(repair.incident)
+
+    def _end(self, repair: Repair, ending: Ending, note: str = "") -> None:
+        repair.note_end(ending, self._clock.unix_ms(), note)
+        self._record(repair)
 
     def _say(
         self,
         target: str,
         text: str,
-        kind: Literal["request", "info", "error"],
+        kind: Literal["request", "response", "info", "error"],
         *,
         choices: Sequence[str] = (),
+        sources: Sequence[str] = (),
         question_id: str = "",
         closes: str = "",
     ) -> None:
         feedback = ChatFeedback(
-            message=text, targets=(target,), type=kind, choices=tuple(choices), id=question_id, closes=closes
-        )
+            message=text, targets=(target,), type=kind, choices=tuple(choices), sources=tuple(sources),
+            id=question_id, closes=closes,
+        )  # fmt: skip
         self.publish(topics.CHAT_FEEDBACK, feedback)
 
     def _on_defect(self, target: str, error: Exception) -> None:
@@ -231,22 +373,6 @@ class ErrorHandler(Node):
             self._give_up(repair)
 
 
-def _same_step(first: ErrorHandlingMessage, second: ErrorHandlingMessage) -> bool:
-    """Whether the same thing failed again, with nothing achieved in between."""
-    return (
-        first.code == second.code
-        and first.action_called == second.action_called
-        and len(first.completed) == len(second.completed)
-    )
-
-
-def _memory_query(failure: ErrorHandlingMessage, reply: str | None) -> str:
-    values = [str(p.value) for p in failure.action_called.input_parameters.values() if p.type == "string"]
-    return "\n".join([failure.error_message, *values, *([reply] if reply else [])])
-
-
-def _steps_left(calls: Sequence[ActionCall]) -> str:
-    reasons = [call.reason for call in calls if call.reason]
-    if not reasons:
-        return f"{len(calls)} steps are left." if len(calls) != 1 else "One step is left."
-    return f"Left to do: {'; '.join(reasons)}."
+def _plain_question(failure: ErrorHandlingMessage) -> ChatAction:
+    """The failure's own sentence, for when nothing better is at hand."""
+    return ChatAction(message_response=f"{failure.error_message} What should I do?", success=False)

@@ -2,6 +2,8 @@
 
 from __future__ import annotations
 
+import re
+
 from parley.messages.chat import ChatFeedback, ChatInput
 
 __all__ = ["OpenQuestions"]
@@ -12,10 +14,12 @@ class OpenQuestions:
 
     def __init__(self) -> None:
         self._open: dict[str, list[ChatFeedback]] = {}
+        self._names: dict[str, str] = {}
 
     def on_feedback(self, feedback: ChatFeedback) -> None:
         """Take over what robots say."""
         for target in feedback.targets:
+            self._names[_key(target)] = target
             waiting = self._open.setdefault(_key(target), [])
             if feedback.closes:
                 waiting[:] = [question for question in waiting if question.id != feedback.closes]
@@ -23,19 +27,46 @@ class OpenQuestions:
                 waiting.append(feedback)
 
     def on_input(self, said: ChatInput) -> None:
-        """Take over what the operator answers; the named question, or the oldest, is settled."""
+        """Take over what the operator answers; what it answers is settled."""
+        for robot, question in self.answered(said):
+            self._open[_key(robot)].remove(question)
+
+    def answered(self, said: ChatInput) -> list[tuple[str, ChatFeedback]]:
+        """Robots with the question of theirs that `said` answers.
+
+        The named question counts first; then the robot that is called by name; then the robots that the
+        message is for; last, if it is for nobody, the only one that waits. Of several questions of a robot
+        the oldest is meant.
+        """
         if said.type != "response":
-            return
-        for target in said.targets:
-            waiting = self._open.get(_key(target), [])
-            settled = next((q for q in waiting if said.reply_to in ("", q.id)), None)
-            if settled is not None:
-                waiting.remove(settled)
+            return []
+        keys = [_key(target) for target in said.targets]
+        if said.reply_to:
+            named = [
+                (key, q) for key, waiting in self._open.items() for q in waiting if q.id == said.reply_to
+            ]
+            meant = [(key, q) for key, q in named if key in keys] or named
+            return [(self._names[key], question) for key, question in meant]
+        waits = [_key(robot) for robot in self.robots()]
+        chosen = [key for key in waits if _calls(said.message, self._names[key])]
+        if not chosen:
+            chosen = [key for key in waits if key in keys] if keys else waits if len(waits) == 1 else []
+        return [(self._names[key], self._open[key][0]) for key in chosen]
 
     def first(self, target: str) -> ChatFeedback | None:
         """The question of a robot that waits longest, or None."""
         waiting = self._open.get(_key(target))
         return waiting[0] if waiting else None
+
+    def robots(self) -> list[str]:
+        """The robots that wait for an answer."""
+        return [self._names[key] for key, waiting in self._open.items() if waiting]
+
+
+def _calls(message: str, name: str) -> bool:
+    """Whether a message calls a robot: its name stands at the start, or behind a comma at the end."""
+    called = re.escape(name.strip())
+    return bool(re.search(rf"^\W*{called}\b|,\s*{called}\W*$", message, re.IGNORECASE))
 
 
 def _key(target: str) -> str:

@@ -1,23 +1,27 @@
 """What to do when a step failed: decided by the failure's code and facts, never by its prose.
 
-Without an answer of the operator only memory may decide; else a question is asked. With an answer the failed
-step is repaired, tried again or left out, or the plan is cancelled; an answer that says nothing is asked
-again in other words.
+Without an answer of the operator only what is known for certain may decide (`parley.language.offline.alone`);
+else a question is asked. With an answer the failed step is repaired, tried again or left out, or the plan is
+changed; a question is answered, and an answer that says nothing is asked again in other words.
 """
 
 from __future__ import annotations
 
+import re
 from collections.abc import Sequence
 from functools import cache
 
 from parley.errors import FailureCode
-from parley.language.base import ErrorSituation, Situation
-from parley.language.control import control_of
+from parley.language.base import ErrorSituation
+from parley.language.control import Control, control_of
+from parley.language.offline.alone import as_message, looked_there, remembered_places, repaired_alone
+from parley.language.offline.asides import answered_aside, asks
 from parley.language.offline.catalogue import Catalogue
 from parley.language.offline.choosing import choose, choose_object, strip_lead_ins
-from parley.language.offline.clauses import opens_command
+from parley.language.offline.clauses import clauses, opens_command
 from parley.language.offline.commands import read_command
-from parley.language.offline.facts import read_statement
+from parley.language.offline.durations import duration_s
+from parley.language.offline.facts import Fact, read_statement
 from parley.language.offline.failed_step import (
     AGAIN,
     STOP,
@@ -27,40 +31,70 @@ from parley.language.offline.failed_step import (
     ask_which,
     candidates_of,
     perceives,
+    solved,
     with_words,
     words_of,
 )
 from parley.language.offline.grounding import describe, ground_phrase
 from parley.language.offline.interpreter import interpret
-from parley.language.offline.nouns import noun_phrase
+from parley.language.offline.lexicon import lexicon
+from parley.language.offline.protocols import first_act
 from parley.language.offline.remembering import memory_name, remembered
+from parley.language.offline.reordering import new_order
 from parley.language.offline.replies import agrees
-from parley.language.offline.saying import capital, the, whole_sentence
+from parley.language.offline.saying import capital, the
 from parley.language.offline.scene import place_said
 from parley.language.offline.text import keys, tokens
 from parley.language.word_lists import load_data
-from parley.messages.chat import ActionCall, ChatAction, SystemCommand
-from parley.world.object_map import MapObject
+from parley.messages.chat import ChatAction, SystemCommand
 
 __all__ = ["resolve"]
+
+_SUGGESTION = re.compile(r"^why (?:don['’]?t|do not|not) (?:you )?(?:just )?(?=\w)", re.IGNORECASE)
+"""How an order may be put as a question."""
 
 
 def resolve(situation: ErrorSituation) -> ChatAction:
     """Repair a failure, or ask."""
     candidates = candidates_of(situation)
+    fact, places = ("", []) if candidates else remembered_places(situation)
+    candidates = candidates or places
     if situation.reply is None:
-        if situation.code is FailureCode.AMBIGUOUS:
-            return _from_memory(situation, candidates) or ask_which(situation, candidates)
-        return _corrected_by_memory(situation) or ask_what(situation)
-    reply = situation.reply.strip()
-    if situation.code is FailureCode.AMBIGUOUS or candidates:
+        repair = repaired_alone(situation, candidates, interpret)
+        if repair is not None:
+            return repair
+        if not _is_ambiguous(situation) and not places:
+            return ask_what(situation)
+        asked = ask_which(situation, candidates)
+        text = f"I remember: {fact} {asked.message_response}" if fact else asked.message_response
+        return asked.model_copy(update={"message_response": text})
+    reply = _SUGGESTION.sub("", situation.reply.strip())
+    if _is_ambiguous(situation) or candidates:
         chosen = choose_object(candidates, reply, situation.objects, situation.robot_pose)
-        if chosen is not None:
+        if chosen is not None and not _asks_about(reply) and not _leaves_it(situation, reply):
             words = describe(chosen, candidates)
-            return _solved(
+            return solved(
                 situation, f"Thank you. I take {the(words)}.", [with_words(situation.failed_action, words)]
             )
     return _answered(situation, reply) or ask_again(situation, candidates)
+
+
+def _is_ambiguous(situation: ErrorSituation) -> bool:
+    return situation.code is FailureCode.AMBIGUOUS
+
+
+def _asks_about(reply: str) -> bool:
+    """Whether a reply that names a candidate only asks about it ("where is the red one?")."""
+    first = keys(tokens(reply))[:1]
+    return asks(reply) and first in {("where",), ("why",), ("who",), ("how",)}
+
+
+def _leaves_it(situation: ErrorSituation, reply: str) -> bool:
+    """Whether a reply that names a candidate asks for more than that ("forget it, go to the red one")."""
+    order = new_order(situation, reply, interpret)
+    if order is None:
+        return False
+    return order.success is None or any(command.command == "clear" for command in order.system_cmd)
 
 
 # -- answers --
@@ -69,25 +103,107 @@ def resolve(situation: ErrorSituation) -> ChatAction:
 def _answered(situation: ErrorSituation, reply: str) -> ChatAction | None:
     """The repair that an answer asks for; None if it says nothing that helps."""
     order = control_of(reply)
-    index = choose((AGAIN, WITHOUT, STOP), reply) if order is None else None
     text = " " + " ".join(word.key for word in tokens(reply) if word.is_word) + " "
-    if order in {"stop", "clear", "emergency_stop"} or index == 2:
+    if order is not None:
+        return _controlled(situation, order, text)
+    for reader in (_later_again, _asked, _new_words, _ordered, _another_way, _new_place, _told, _promised):
+        found = reader(situation, reply)
+        if found is not None:
+            return found
+    index = choose((AGAIN, WITHOUT, STOP), reply)
+    if index == 2:
         return _cancelled(situation)
+    if not _denied(text):
+        for kind, action in (("retry", _again), ("without", _without), ("cancel", _cancelled)):
+            if _mentions(text, _said(kind)):
+                return _done(situation, reply) or action(situation)
+    if index is not None:
+        return (_again, _without)[index](situation)
+    return _yes_or_no(situation, reply)
+
+
+def _controlled(situation: ErrorSituation, order: Control, text: str) -> ChatAction:
     if order == "skip":
         return _without(situation)
     if order == "start":
         return _again(situation) if _mentions(text, _said("retry")) else _without(situation)
-    for reader in (_new_words, _new_place):
-        found = reader(situation, reply)
-        if found is not None:
-            return found
-    if not _denied(text):
-        for kind, action in (("retry", _again), ("without", _without), ("cancel", _cancelled)):
-            if _mentions(text, _said(kind)):
-                return action(situation)
-    if index is not None:
-        return (_again, _without)[index](situation)
-    return _yes_or_no(situation, reply) or _other_order(situation, reply)
+    return _cancelled(situation)
+
+
+def _later_again(situation: ErrorSituation, reply: str) -> ChatAction | None:
+    """For "wait a minute and try again", "try again in five minutes"."""
+    words = tokens(reply)
+    seconds = duration_s(words)
+    text = " " + " ".join(keys(words)) + " "
+    if not seconds or not (_mentions(text, ("wait", "give it")) or _mentions(text, _said("retry"))):
+        return None
+    again = solved(situation, "All right, I wait and then try again.", [situation.failed_action])
+    return again.model_copy(update={"delay_s": min(seconds, 3600.0)})
+
+
+def _ordered(situation: ErrorSituation, reply: str) -> ChatAction | None:
+    there = looked_there(situation, reply) if situation.code is FailureCode.NO_MATCH else ()
+    if there:
+        return solved(situation, "All right, I go and look there.", there)
+    return new_order(situation, reply, interpret)
+
+
+def _another_way(situation: ErrorSituation, reply: str) -> ChatAction | None:
+    act = first_act(tokens(reply))
+    return _again(situation) if act is not None and act.kind == "around" else None
+
+
+def _told(situation: ErrorSituation, reply: str) -> ChatAction | None:
+    """A fact about something else is remembered, and the question remains."""
+    fact = read_statement(tokens(reply))
+    if fact is None or not fact.is_location or _is_about_step(fact, situation):
+        return None
+    understood = interpret(as_message(situation, reply))
+    if understood.queue or not understood.system_cmd:
+        return None
+    return understood.model_copy(update={"success": None})
+
+
+def _is_about_step(fact: Fact, situation: ErrorSituation) -> bool:
+    """Whether a fact says where the thing of the failed step is."""
+    subject = {key for key in keys(fact.subject) if key not in {"the", "a", "an", "my", "your"}}
+    step = set(keys(tokens(f"{words_of(situation.failed_action)} {situation.failed_action.reason}")))
+    pronouns = lexicon().thing_pronouns | lexicon().person_pronouns
+    return bool(subject & (step | set(pronouns))) or not subject
+
+
+def _promised(situation: ErrorSituation, reply: str) -> ChatAction | None:
+    """For "I will move it", "I am coming": wait for them to say that it is done."""
+    flat = keys(word for word in tokens(reply) if word.is_word)
+    text = f" {' '.join(flat)} "
+    coming = flat[:2] in {("i", "will"), ("we", "will")} or _mentions(text, ("i am coming", "on my way"))
+    if not coming or "not" in flat or _mentions(text, _said("without")):
+        return None
+    return ChatAction(message_response="All right, I wait. Please tell me when it is done.")
+
+
+def _asked(situation: ErrorSituation, reply: str) -> ChatAction | None:
+    return answered_aside(situation, reply) if asks(reply) else None
+
+
+_HELPED = frozenset(
+    {FailureCode.BLOCKED, FailureCode.UNREACHABLE, FailureCode.HARDWARE, FailureCode.UNAVAILABLE}
+)
+"""Failures about which the operator is asked to do something, after which it is worth another try."""
+_HELPING = frozenset(
+    {FailureCode.NOT_CAPABLE, FailureCode.DECLINED, FailureCode.NOT_UNDERSTOOD, FailureCode.ATTENTION}
+)
+"""Failures where the operator does the step: done, it is over."""
+
+
+def _done(situation: ErrorSituation, reply: str) -> ChatAction | None:
+    """For "I did it": what was asked for is done, which clears the way or ends the step."""
+    said = keys(word for word in tokens(reply) if word.is_word)
+    if agrees(reply) is not True or said[:1] in {("skip",), ("ignore",), ("leave",), ("go",), ("never",)}:
+        return None
+    if situation.code in _HELPING:
+        return _without(situation)
+    return _again(situation) if situation.code in _HELPED else None
 
 
 @cache
@@ -110,57 +226,43 @@ def _yes_or_no(situation: ErrorSituation, reply: str) -> ChatAction | None:
     agreed = agrees(reply)
     if agreed is None:
         return None
-    helping = {
-        FailureCode.NOT_CAPABLE,
-        FailureCode.DECLINED,
-        FailureCode.NOT_UNDERSTOOD,
-        FailureCode.ATTENTION,
-    }
     if agreed:
         # "Done", said where the robot could not do it itself, ends the step; elsewhere it clears the way.
-        finished = situation.code in helping or (
-            situation.code is FailureCode.NO_MATCH
-            and len(tokens(reply)) > 0
-            and not reply.lower().startswith("yes")
+        finished = situation.code in _HELPING or (
+            situation.code is FailureCode.NO_MATCH and not reply.lower().startswith("yes")
         )
         return _without(situation) if finished else _again(situation)
-    return (
-        None
-        if situation.code is FailureCode.AMBIGUOUS
-        else _cancelled(situation)
-        if situation.code in helping
-        else None
-    )
+    if situation.code in _HELPING:
+        return _cancelled(situation)
+    if _is_ambiguous(situation):
+        return None
+    text = "All right, I do not try again. Should I go on without it, or stop?"
+    return ChatAction(message_response=text, choices=(WITHOUT, STOP), success=False)
 
 
 def _again(situation: ErrorSituation) -> ChatAction:
-    return _solved(situation, "All right, I try again.", [situation.failed_action])
+    around = situation.code in {FailureCode.BLOCKED, FailureCode.UNREACHABLE} and first_act(
+        tokens(situation.reply or "")
+    )
+    if around and around.kind == "around":
+        return solved(situation, "All right, I look for a way around it.", [situation.failed_action])
+    return solved(situation, "All right, I try again.", [situation.failed_action])
 
 
 def _without(situation: ErrorSituation) -> ChatAction:
-    return _solved(situation, "All right, I go on with the next step.", [])
+    return solved(situation, "All right, I go on with the next step.", [])
 
 
 def _cancelled(situation: ErrorSituation) -> ChatAction:
     text = "All right, I stop here and drop the rest of the plan."
-    return _solved(situation, text, [], [SystemCommand(command="clear")])
-
-
-def _solved(
-    situation: ErrorSituation, text: str, steps: Sequence[ActionCall], commands: Sequence[SystemCommand] = ()
-) -> ChatAction:
-    return ChatAction(
-        message_response=text,
-        queue=tuple(steps),
-        system_cmd=tuple(commands),
-        success=True,
-        targets=(situation.robot,) if situation.robot else (),
-    )
+    return solved(situation, text, [], [SystemCommand(command="clear")])
 
 
 def _new_words(situation: ErrorSituation, reply: str) -> ChatAction | None:
     """For a step that turns words into a place: other words that the map knows."""
     if situation.code not in {FailureCode.NO_MATCH, FailureCode.AMBIGUOUS} or perceives(situation):
+        return None
+    if len(clauses(tokens(reply), opens_command)) > 1:
         return None
     ordered = read_command(tokens(reply), lambda _: False)
     where = (
@@ -172,8 +274,8 @@ def _new_words(situation: ErrorSituation, reply: str) -> ChatAction | None:
     if found is None or found.outcome != "match" or where is None:
         return None
     words = describe(found.candidates[0], situation.objects)
-    commands = _told(situation, where[0], words)
-    return _solved(
+    commands = _as_memory(situation, where[0], words)
+    return solved(
         situation, f"Thank you. I take {the(words)}.", [with_words(situation.failed_action, words)], commands
     )
 
@@ -184,7 +286,7 @@ def _new_place(situation: ErrorSituation, reply: str) -> ChatAction | None:
         return None
     phrase = tokens(reply)
     fact = read_statement(phrase)
-    if fact is not None and not fact.is_location:
+    if fact is not None and not (fact.is_location and _is_about_step(fact, situation)):
         return None
     where = (fact.relation, fact.place) if fact is not None else place_said(phrase)
     if where is None or ground_phrase(where[1], situation.objects, situation.robot_pose).outcome != "match":
@@ -198,10 +300,10 @@ def _new_place(situation: ErrorSituation, reply: str) -> ChatAction | None:
     if steps is None:
         return None
     text = f"Thank you. I will go to {the(place)} and look there."
-    return _solved(situation, text, [*steps, situation.failed_action], _told(situation, where[0], place))
+    return solved(situation, text, [*steps, situation.failed_action], _as_memory(situation, where[0], place))
 
 
-def _told(situation: ErrorSituation, relation: str, place: str) -> list[SystemCommand]:
+def _as_memory(situation: ErrorSituation, relation: str, place: str) -> list[SystemCommand]:
     """The operator's answer as a memory."""
     wanted = words_of(situation.failed_action)
     if not wanted or wanted.startswith(("whether", "what")):
@@ -217,66 +319,3 @@ def _told(situation: ErrorSituation, relation: str, place: str) -> list[SystemCo
             arguments={"data": sentence, "info": f"Where {the(wanted)} is", "name": name},
         )
     ]
-
-
-def _other_order(situation: ErrorSituation, reply: str) -> ChatAction | None:
-    """A different order takes the place of the failed step."""
-    if not opens_command(tokens(reply)):
-        return None
-    understood = interpret(
-        Situation(
-            reply,
-            memory=situation.memory,
-            queue=(situation.failed_action, *situation.pending),
-            objects=situation.objects,
-            robot_pose=situation.robot_pose,
-            robot=situation.robot,
-            catalogue=situation.catalogue,
-        )
-    )
-    if not understood.queue:
-        return None
-    return understood.model_copy(update={"success": True})
-
-
-# -- memory --
-
-
-def _from_memory(situation: ErrorSituation, candidates: Sequence[MapObject]) -> ChatAction | None:
-    """The candidate that a fact about what this step is for singles out."""
-    about = set(keys(tokens(situation.failed_action.reason)))
-    for item in remembered(situation.memory):
-        fact = item.fact
-        subject = set(noun_phrase(fact.subject).core)
-        if not fact.is_location or fact.negated or not subject or not subject <= about:
-            continue
-        found = ground_phrase(fact.place, candidates)
-        if found.outcome == "match" and len(candidates) > 1:
-            words = describe(found.candidates[0], candidates)
-            solved = _solved(
-                situation,
-                f"I remember: {whole_sentence(fact.sentence)} So I take {the(words)}.",
-                [with_words(situation.failed_action, words)],
-            )
-            return solved.model_copy(update={"sources": (item.entry.name,)})
-    return None
-
-
-def _corrected_by_memory(situation: ErrorSituation) -> ChatAction | None:
-    """What was looked for under one name on the map is remembered to be somewhere that the map knows."""
-    if situation.code is not FailureCode.NO_MATCH or perceives(situation) or not situation.memory:
-        return None
-    wanted = tokens(words_of(situation.failed_action))
-    for item in remembered(situation.memory):
-        if not item.fact.is_location or item.fact.negated or keys(item.fact.subject) != keys(wanted):
-            continue
-        found = ground_phrase(item.fact.place, situation.objects)
-        if found.outcome == "match":
-            words = describe(found.candidates[0], situation.objects)
-            solved = _solved(
-                situation,
-                f"I remember: {whole_sentence(item.fact.sentence)}",
-                [with_words(situation.failed_action, words)],
-            )
-            return solved.model_copy(update={"sources": (item.entry.name,)})
-    return None

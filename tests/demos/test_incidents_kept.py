@@ -1,0 +1,103 @@
+"""Records of failures over the lives of real processes, as the command line shows them."""
+
+from __future__ import annotations
+
+import json
+import signal
+import subprocess
+import sys
+from pathlib import Path
+from typing import Any
+
+import pytest
+
+STORY = """
+robot: David
+faults: {NavigateTo: [{code: blocked, message: Somebody stands in the way.}]}
+steps:
+  - {say: go to the bookshelf}
+  - {asked: [in the way], answer: try again}
+  - {finished: {near: bookshelf_1}}
+  - {incident: solved}
+"""
+QUIET = """
+robot: David
+steps:
+  - {say: hello}
+"""
+WAITING = STORY.replace("answer: try again", 'answer: "why?"').replace(
+    "{finished: {near: bookshelf_1}}", "{state: idle}"
+)
+
+
+def parley(*arguments: str) -> list[str]:
+    return [sys.executable, "-m", "parley", *arguments]
+
+
+def play(folder: Path, story: str) -> None:
+    (folder / "story.yaml").write_text(story, encoding="utf-8")
+    done = subprocess.run(
+        parley("demo", "nursing-home", "--script", str(folder / "story.yaml"), "--data", str(folder)),
+        capture_output=True, text=True, timeout=100, check=False,
+    )  # fmt: skip
+    assert done.returncode == 0, done.stderr
+
+
+def incidents(folder: Path, *arguments: str) -> list[dict[str, Any]]:
+    done = subprocess.run(
+        parley("incidents", "--data", str(folder), "--json", *arguments),
+        capture_output=True, text=True, timeout=100, check=True,
+    )  # fmt: skip
+    return [json.loads(line) for line in done.stdout.splitlines()]
+
+
+def test_record_is_there_after_the_system_has_ended(tmp_path: Path) -> None:
+    play(tmp_path, STORY)
+    play(tmp_path, QUIET)
+    (incident,) = incidents(tmp_path, "--robot", "david")
+    assert (incident["robot"], incident["code"], incident["ending"]) == ("David", "blocked", "solved")
+    assert incident["attempts"][0]["answered"] == "try again"
+    assert incidents(tmp_path, "--robot", "Ruth") == []
+    told = subprocess.run(
+        parley("incidents", "--data", str(tmp_path)), capture_output=True, text=True, timeout=100, check=True
+    )
+    assert "David: Somebody stands in the way." in told.stdout
+    assert "you said: try again" in told.stdout
+
+
+def test_folder_without_records_is_named(tmp_path: Path) -> None:
+    done = subprocess.run(
+        parley("incidents", "--data", str(tmp_path)), capture_output=True, text=True, timeout=100, check=False
+    )
+    assert (done.returncode, str(tmp_path) in done.stderr) == (2, True)
+
+
+@pytest.mark.timeout(200)
+def test_record_that_kill_9_left_open_is_closed_by_the_next_start(tmp_path: Path) -> None:
+    (tmp_path / "story.yaml").write_text(WAITING, encoding="utf-8")
+    arguments = (
+        "demo",
+        "nursing-home",
+        "--script",
+        str(tmp_path / "story.yaml"),
+        "--json",
+        "--data",
+        str(tmp_path),
+    )
+    process = subprocess.Popen(parley(*arguments), stdout=subprocess.PIPE, text=True)
+    assert process.stdout is not None
+    asked = 0
+    for line in process.stdout:
+        event = json.loads(line)
+        asked += event["event"] == "said" and event["type"] == "request"
+        if asked == 2:  # what was written down for the first question is durable by now or never
+            break
+    while not incidents(tmp_path):
+        assert process.poll() is None
+    process.send_signal(signal.SIGKILL)
+    process.stdout.close()
+    process.wait(timeout=30)
+    assert incidents(tmp_path)[0]["ending"] == "open"
+    play(tmp_path, QUIET)
+    (incident,) = incidents(tmp_path)
+    assert (incident["ending"], "ended before" in incident["note"]) == ("cancelled", True)
