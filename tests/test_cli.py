@@ -83,7 +83,7 @@ def test_chat_over_a_pipe_answers_and_leaves_at_the_end_of_input(tmp_path: Path)
 
 
 def test_memories_of_a_chat_are_listed_afterwards(tmp_path: Path) -> None:
-    parley("demo", "--data", str(tmp_path), text="John is on the sofa.\n")
+    parley("demo", "--terminal", "--data", str(tmp_path), text="John is on the sofa.\n")
     listed = parley("memory", "list", "--data", str(tmp_path), "--json")
     assert "John is on the sofa" in json.loads(listed.stdout.splitlines()[0])["data"]
 

@@ -20,7 +20,7 @@ LAYERS: tuple[frozenset[str], ...] = (
     frozenset({"sim"}),
     frozenset({"language", "robots", "engine", "actions"}),
     frozenset({"nodes", "web"}),
-    frozenset({"terminal", "system", "demos", "bench", "cli"}),
+    frozenset({"terminal", "system", "demos", "bench", "doctor", "cli"}),
 )
 """Rooms by height, lowest first; rooms of one height may know each other."""
 
@@ -38,6 +38,8 @@ ONLY_IN = {
     "mujoco": {"sim/"},
     "prompt_toolkit": {"terminal/"},
     "typer": {"cli.py", "cli/"},
+    "pydantic_ai": {"language/llm/"},
+    "openai": {"language/llm/"},
 }
 """Third parties that one place hides from the rest."""
 

@@ -8,9 +8,11 @@ from pathlib import Path
 
 import pytest
 
-from parley.config import SystemConfig
+from parley.config import EmbeddingSettings, SystemConfig
 from parley.demos.catalogue import load_demo
 from parley.errors import StoreError
+from parley.memory.embedding_server import EmbeddingServer
+from parley.memory.meanings import GONE
 from tests.demos.house import running
 
 
@@ -47,4 +49,28 @@ async def test_opening_that_fails_closes_what_was_opened(tmp_path: Path) -> None
     with pytest.raises(StoreError, match="memory"):
         async with system:
             pass
+    assert others() == set()
+
+
+async def test_damaged_memory_file_is_told_to_whoever_comes(tmp_path: Path) -> None:
+    (tmp_path / "memory.db").write_bytes(b"this is no database\n" * 500)
+    config = SystemConfig(speed=None, data_dir=tmp_path)
+    async with running(load_demo("nursing-home").system(config)) as home:
+        await home.observer.until(lambda: any("damaged" in said.message for said in home.observer.said))
+        (told,) = [said for said in home.observer.said if "damaged" in said.message]
+        assert (told.type, told.targets) == ("error", home.system.robot_names)
+        assert "memory.db.corrupt-" in told.message
+
+
+async def test_embedding_server_that_is_gone_is_told_once_and_words_still_find(tmp_path: Path) -> None:
+    with EmbeddingServer() as server:
+        server.status = 503
+        settings = EmbeddingSettings(url=server.address, model="words")
+        config = SystemConfig(speed=None, embeddings=settings)
+        async with running(load_demo("nursing-home").system(config)) as home:
+            await home.say("The key is in the drawer.")
+            await home.observer.until(lambda: any(said.message == GONE for said in home.observer.said))
+            reply = await home.say("Where is the key?")
+            assert "drawer" in reply.message
+            assert [said.message for said in home.observer.said].count(GONE) == 1
     assert others() == set()

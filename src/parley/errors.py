@@ -139,7 +139,15 @@ class StoreError(ParleyError):
 
 
 class LanguageError(ParleyError):
-    """The language engine could not answer; nothing was decided."""
+    """The language engine could not answer; nothing was decided.
+
+    Attributes:
+        plain: One sentence for the operator, saying why; may be empty.
+    """
+
+    def __init__(self, message: str, *, plain: str = "") -> None:
+        self.plain = plain
+        super().__init__(message)
 
 
 class FailureCode(StrEnum):

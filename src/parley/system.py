@@ -3,28 +3,40 @@
 from __future__ import annotations
 
 from collections.abc import Mapping, Sequence
-from contextlib import AsyncExitStack
+from contextlib import AbstractAsyncContextManager, AsyncExitStack
 from dataclasses import dataclass
 from types import TracebackType
-from typing import Self
+from typing import Literal, Self
+
+import structlog
 
 from parley.actions.builtin import BUILTIN_ACTIONS
 from parley.actions.context import ActionContext
 from parley.clock import SimClock
 from parley.config import SystemConfig
 from parley.engine.engine import ActionEngine
+from parley.engine.interrupted import Interrupted
 from parley.engine.journal import Journal
 from parley.engine.services import ContextServices
+from parley.errors import GraphRefusedError
 from parley.language.base import Language
-from parley.language.offline import OfflineLanguage
+from parley.language.llm import build_language
+from parley.language.llm.usage import Usage
+from parley.memory.embedder import configured_embedder
+from parley.memory.incidents import IncidentStore
+from parley.memory.meanings import Meanings
 from parley.memory.store import MemoryStore
 from parley.nodes.camera_feed import CameraFeed
 from parley.nodes.chat_interface import ChatInterface
 from parley.nodes.display_interface import DisplayInterface
 from parley.nodes.error_handler import ErrorHandler
+from parley.nodes.map_feed import MapFeed, MapViews
+from parley.nodes.map_service import MapService
 from parley.nodes.memory import MemoryNode
 from parley.nodes.notices import Notices
-from parley.nodes.plan_restore import interruption_text, restored_steps
+from parley.nodes.plan_check import plan_problems
+from parley.nodes.plan_restore import adopted_steps, interruption_text, restored_steps
+from parley.nodes.plan_steps import Step
 from parley.nodes.umrf_planner import UmrfPlanner
 from parley.robots.base import Robot
 from parley.robots.simulated import SimulatedRobot
@@ -35,10 +47,13 @@ from parley.transport.local import LocalTransport
 from parley.umrf.action import ActionSpec, RunHandle
 from parley.umrf.catalogue import Catalogue
 from parley.umrf.discovery import ActionFolder, LiveActions, installed_actions
+from parley.umrf.model import GraphState
 from parley.world.object_map import MapObject, ObjectMap
 from parley.world.occupancy import OccupancyMap
 
 __all__ = ["System", "WorldView"]
+
+log = structlog.get_logger(__name__)
 
 
 @dataclass(frozen=True, slots=True)
@@ -78,7 +93,15 @@ class System:
         self.config = config
         self.clock = SimClock()
         self.transport: Transport = transport or LocalTransport()
-        self.language: Language = language or OfflineLanguage()
+        self.usage = Usage()
+        """What language models took, if any is asked."""
+        self.language: Language = language or build_language(
+            (config.language, *config.language_fallback),
+            config.model,
+            check=plan_problems,
+            usage=self.usage,
+            within_s=0.9 * config.language_timeout_s,
+        )
         self.simulator = Simulator(world, clock=self.clock, speed=config.speed, seed=config.seed)
         self.objects = objects or world.object_map()
         installed = installed_actions()
@@ -88,6 +111,8 @@ class System:
         self.robots: dict[str, Robot] = {}
         self.store: MemoryStore | None = None
         self._journal: Journal | None = None
+        self._notices: Notices | None = None
+        self._early: list[str] = []
         self._occupancy = occupancy
         self._stack = AsyncExitStack()
 
@@ -113,17 +138,23 @@ class System:
         enter = self._stack.enter_async_context
         config, transport, clock = self.config, self.transport, self.clock
         await enter(transport)
+        if isinstance(self.language, AbstractAsyncContextManager):
+            await enter(self.language)
         self.store = await enter(await MemoryStore.open(config.memory_file or ":memory:", clock))
         journal = self._journal = await enter(await Journal.open(config.journal_file or ":memory:", clock))
         await enter(self.simulator)
-        await enter(MemoryNode(transport, self.store, self.language))
+        await enter(MemoryNode(transport, self.store, self.language, meanings=self._meanings(self.store)))
         await enter(
             DisplayInterface(
-                transport, clock, quality=config.display_quality, min_interval_s=config.display_interval_s
+                transport,
+                clock,
+                quality=config.display_quality,
+                min_interval_s=config.display_interval_s,
+                feeds=config.display_feeds,
             )
         )
-        ask_first = self.robot_names if config.approval == "ask_first" else ()
-        planner = await enter(UmrfPlanner(transport, clock, ask_first=ask_first))
+        planner = await enter(UmrfPlanner(transport, clock, approval=config.approval))
+        incidents = await enter(await IncidentStore.open(config.incidents_file or ":memory:", clock))
         await enter(
             ErrorHandler(
                 transport,
@@ -132,6 +163,7 @@ class System:
                 objects=self._objects_of,
                 max_attempts=config.max_attempts,
                 language_timeout_s=config.language_timeout_s,
+                incidents=incidents,
             )
         )
         await enter(
@@ -144,20 +176,50 @@ class System:
                 language_timeout_s=config.language_timeout_s,
             )
         )
-        notices = await enter(Notices(transport))
-        self._tell_interrupted(journal, planner, notices)
+        notices = self._notices = await enter(Notices(transport))
+        for text in (self.store.notice, *self._early):
+            self._tell_all(text, "error")
         await self._open_actions(notices)
         views: Mapping[str, WorldView] = {name: self._view(name) for name in self.robot_names}
-        for name in self.robot_names:
-            await self._open_robot(name, views[name])
+        maps = {name: (view.occupancy, view.objects.objects) for name, view in views.items()}
+        await enter(MapService(transport, maps))
+        engines = {name: await self._open_robot(name, views[name]) for name in self.robot_names}
+        self._tell_interrupted(journal, planner, notices, engines)
 
-    def _tell_interrupted(self, journal: Journal, planner: UmrfPlanner, notices: Notices) -> None:
+    def _meanings(self, store: MemoryStore) -> Meanings | None:
+        settings = self.config.embeddings
+        if settings is None:
+            return None
+        embedder = configured_embedder(settings)
+        return Meanings(store, embedder, self.clock, tell=self._tell_all, min_alike=settings.min_alike)
+
+    def _tell_all(self, text: str, kind: Literal["info", "error"] = "info") -> None:
+        """Say something to every operator, on behalf of no robot in particular."""
+        if text and self._notices is not None:
+            self._notices.tell(text, self.robot_names, kind)
+        elif text:
+            self._early.append(text)
+
+    def _tell_interrupted(
+        self, journal: Journal, planner: UmrfPlanner, notices: Notices, engines: Mapping[str, ActionEngine]
+    ) -> None:
         """Hold what a killed process left of each robot's plan, and offer it to the operator."""
-        newest = {was.actor: was for was in journal.interrupted if was.actor in self.robot_names}
-        for robot, was in newest.items():
-            steps = restored_steps(was)
-            planner.restore(robot, steps)
-            notices.tell(interruption_text(was, steps), [robot])
+        left = [was for was in journal.interrupted if was.actor in engines]
+        newest = {was.actor: was for was in left}
+        for was in left:
+            robot, steps = was.actor, restored_steps(was) if newest[was.actor] is was else []
+            goes_on: Sequence[Step] | bool = steps
+            if steps:
+                planner.restore(robot, steps)
+            else:
+                goes_on = _held(engines[robot], was)
+            adopted = adopted_steps(was) if goes_on is True and newest[robot] is was else []
+            if adopted:
+                dry = was.graph.state is GraphState.HALTED
+                planner.adopt(robot, was.graph.name, adopted, dry=dry)
+            elif goes_on is True:
+                planner.hold_graph(robot, was.graph.name)
+            notices.tell(interruption_text(was, goes_on), [robot])
 
     async def _open_actions(self, notices: Notices) -> None:
         def tell(problem: str) -> None:
@@ -170,7 +232,7 @@ class System:
             live = LiveActions(self.catalogue, folder, self._actions, tell=tell)
             await self._stack.enter_async_context(live)
 
-    async def _open_robot(self, name: str, view: WorldView) -> None:
+    async def _open_robot(self, name: str, view: WorldView) -> ActionEngine:
         robot = SimulatedRobot(self.simulator, name, view.occupancy)
         self.robots[name] = robot
         services = await self._stack.enter_async_context(ContextServices(name, self.transport))
@@ -186,7 +248,7 @@ class System:
                 language=self.language,
             )
 
-        await self._stack.enter_async_context(
+        engine = await self._stack.enter_async_context(
             ActionEngine(
                 name,
                 transport=self.transport,
@@ -197,10 +259,25 @@ class System:
                 journal=self._journal,
             )
         )
-        await self._stack.enter_async_context(CameraFeed(self.transport, robot, self.config.camera_hz))
+        enter = self._stack.enter_async_context
+        if "camera" in robot.capabilities:
+            await enter(CameraFeed(self.transport, robot, self.config.camera_hz))
+        await enter(MapViews(self.transport, robot, view.occupancy.name, self.clock))
+        await enter(MapFeed(self.transport, robot, view.occupancy, view.objects.objects, self.clock))
+        return engine
 
     def _view(self, robot: str) -> WorldView:
         return WorldView(self.objects, self._occupancy or self.simulator.occupancy(robot))
 
     def _objects_of(self, _robot: str) -> Sequence[MapObject]:
         return self.objects.objects
+
+
+def _held(engine: ActionEngine, was: Interrupted) -> bool:
+    """Whether the engine could take up what was interrupted; it stands still there."""
+    try:
+        engine.restore(was)
+    except GraphRefusedError as error:
+        log.warning("cannot be gone on with", graph=was.graph.name, reason=str(error))
+        return False
+    return True

@@ -4,8 +4,8 @@ from __future__ import annotations
 
 import pytest
 
-from parley.bench.control import COMMANDS, measure_control
-from parley.bench.engine import chain, fan_out, run_graphs, share
+from parley.bench.control import COMMANDS, measure_control, measure_crowd
+from parley.bench.engine import chain, fan_out, run_graphs, run_journaled, share
 
 
 @pytest.mark.parametrize("threaded", [False, True])
@@ -27,6 +27,18 @@ async def test_every_command_is_timed(threaded: bool) -> None:
     found = await measure_control(3, threaded=threaded)
     assert {command: len(taken_ms) for command, taken_ms in found.items()} == dict.fromkeys(COMMANDS, 3)
     assert all(ms > 0 for taken_ms in found.values() for ms in taken_ms)
+
+
+async def test_commands_beside_other_graphs_are_timed() -> None:
+    crowd = await measure_crowd(lambda index: [chain(f"g{index}", 20)], 2)
+    for taken_ms in (crowd.pause_ms, crowd.stop_ms, crowd.longest_step_ms):
+        assert len(taken_ms) == 2
+        assert all(ms > 0 for ms in taken_ms)
+
+
+async def test_a_journal_makes_no_event_go_missing() -> None:
+    figures = await run_journaled(10, threaded=False)
+    assert (figures.events, figures.gaps) == (2 * 10 + 2, 0)
 
 
 def test_a_share_of_values() -> None:

@@ -16,7 +16,7 @@ from rich.console import Console as RichConsole
 
 from parley.messages import topics
 from parley.messages.chat import ChatInput
-from parley.messages.memory import MemoryBody, MemoryReply
+from parley.messages.memory import MemoryReply, StoredMemory
 from parley.messages.ros import ChatRequest, ChatResponse
 from parley.messages.status import PlanProposal
 from parley.messages.wire import encode
@@ -202,8 +202,8 @@ async def test_memory_is_shown() -> None:
     async def remember(request: ChatRequest) -> ChatResponse:
         assert "return all memories" in request.message
         bodies = {
-            "box place": MemoryBody(data="The box is by the door."),
-            "photo": MemoryBody(type="image", data="AAAA", info="the door"),
+            "box place": StoredMemory(data="The box is by the door."),
+            "photo": StoredMemory(type="image", data="AAAA", info="the door"),
         }
         return ChatResponse(encode(MemoryReply(bodies)))
 

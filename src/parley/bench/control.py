@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import asyncio
 import time
-from collections.abc import Callable
+from collections.abc import Callable, Sequence
 from dataclasses import dataclass, field
 from typing import Final
 
@@ -23,8 +23,9 @@ from parley.messages.wire import decode
 from parley.transport.local import LocalTransport
 from parley.umrf.action import ActionSpec, RunHandle
 from parley.umrf.io import write_graph
+from parley.umrf.model import Graph
 
-__all__ = ["COMMANDS", "measure_control"]
+__all__ = ["COMMANDS", "Crowd", "measure_control", "measure_crowd"]
 
 COMMANDS: Final = ("pause", "resume", "modify", "stop")
 _LOOK_S: Final = 0.0005
@@ -135,3 +136,104 @@ async def _one(
         sends[command]()
         found[command].append(1000 * (await noticed.until(command) - began_s))
     await noticed.until("STOPPED")
+
+
+@dataclass(frozen=True, slots=True)
+class Crowd:
+    """Commands to one graph while the engine is busy with others."""
+
+    pause_ms: list[float]
+    """From publishing to the action, one per round."""
+    stop_ms: list[float]
+    longest_step_ms: list[float]
+    """The longest time for which the loop did not turn, one per round."""
+
+
+@dataclass(eq=False)
+class _Turns:
+    """Notes the longest time between two turns of the loop."""
+
+    longest_s: float = 0.0
+    _last_s: float = field(default_factory=time.perf_counter)
+    _on: bool = True
+
+    def turn(self) -> None:
+        now_s = time.perf_counter()
+        self.longest_s = max(self.longest_s, now_s - self._last_s)
+        self._last_s = now_s
+        if self._on:
+            asyncio.get_running_loop().call_soon(self.turn)
+
+    def stop(self) -> float:
+        self._on = False
+        return 1000 * self.longest_s
+
+
+async def measure_crowd(others: Callable[[int], Sequence[Graph]], times: int) -> Crowd:
+    """Pause and stop one graph while the engine takes up and runs others.
+
+    Both commands are published right after the others' starts; what is measured is when the action notices.
+
+    Args:
+        others: The graphs of a round (from 0), made of actions `Work`, with names never used before.
+        times: How many rounds.
+
+    Raises:
+        TimeoutError: A command did not arrive within 30 s.
+    """
+    noticed = _Noticed(asyncio.get_running_loop())
+    found = Crowd([], [], [])
+    rest = asyncio.Event()
+
+    async def watched(run: RunHandle) -> None:
+        noticed.note("begun")
+        try:
+            while not run.paused:  # noqa: ASYNC110 - there is nothing to wait for
+                await asyncio.sleep(0)
+            noticed.note("pause")
+            await asyncio.sleep(60)
+        except asyncio.CancelledError:
+            noticed.note("stop")
+            raise
+
+    async def work(run: RunHandle) -> None:
+        return None
+
+    specs = ActionSpec("Work", {}, {}, run=work), ActionSpec("Watched", {}, {}, run=watched)
+    async with engine_with(*specs) as transport:
+        over: set[str] = set()
+        wanted: set[str] = set()
+
+        def on_event(message: String) -> None:
+            event = decode(GraphEvent, message.data)
+            if event.kind == "graph" and event.state in ("FINISHED", "STOPPED"):
+                over.add(event.graph_name)
+                if over >= wanted:
+                    rest.set()
+
+        await transport.subscribe(topics.GRAPH_EVENTS, on_event, depth=1_000_000)
+        start = transport.publisher(topics.GRAPH_START)
+        pause, stop = transport.publisher(topics.GRAPH_PAUSE), transport.publisher(topics.GRAPH_STOP)
+        for index in range(times):
+            name = f"watched{index}"
+            graph = chain(name, 1, action="Watched")
+            texts = [write_graph(item, faithful=True) for item in others(index)]
+            wanted = {name, *(item.name for item in others(index))}
+            noticed.at_s.clear()
+            rest.clear()
+            start.publish(UmrfGraphStart("", write_graph(graph, faithful=True), _TARGETS))
+            await noticed.until("begun")
+            turns = _Turns()
+            turns.turn()
+            for text in texts:
+                start.publish(UmrfGraphStart("", text, _TARGETS))
+            began_s = time.perf_counter()
+            pause.publish(UmrfGraphPause(name, _TARGETS))
+            found.pause_ms.append(1000 * (await noticed.until("pause") - began_s))
+            began_s = time.perf_counter()
+            stop.publish(UmrfGraphStop(name, _TARGETS))
+            found.stop_ms.append(1000 * (await noticed.until("stop") - began_s))
+            async with asyncio.timeout(30):
+                await rest.wait()
+            found.longest_step_ms.append(turns.stop())
+    return found

@@ -5,14 +5,17 @@ from __future__ import annotations
 import asyncio
 import json
 import resource
+import tempfile
 import time
 from collections.abc import AsyncIterator, Sequence
 from contextlib import asynccontextmanager
 from dataclasses import dataclass, field
+from pathlib import Path
 from typing import Final
 
 from parley.clock import WallClock
 from parley.engine.engine import ActionEngine
+from parley.engine.journal import Journal
 from parley.messages import topics
 from parley.messages.ros import String, UmrfGraphFeedback, UmrfGraphStart
 from parley.messages.status import GraphEvent
@@ -23,7 +26,17 @@ from parley.umrf.catalogue import Catalogue
 from parley.umrf.io import write_graph
 from parley.umrf.model import ChildRelation, Graph, Node, NodeRef, ParentRelation
 
-__all__ = ["Figures", "Listener", "chain", "engine_with", "fan_out", "run_chain", "run_graphs", "share"]
+__all__ = [
+    "Figures",
+    "Listener",
+    "chain",
+    "engine_with",
+    "fan_out",
+    "run_chain",
+    "run_graphs",
+    "run_journaled",
+    "share",
+]
 
 PATIENCE_S: Final = 300.0
 _OVER: Final = ("FINISHED", "HALTED", "STOPPED", "ERROR")
@@ -99,12 +112,12 @@ class Listener:
                     self.feedback_ms.append(1000 * (now_s - self.ended_s[name]))
 
 
-def chain(name: str, length: int) -> Graph:
+def chain(name: str, length: int, action: str = "Work") -> Graph:
     """One action after the other."""
-    refs = [NodeRef("Work", index) for index in range(length)]
+    refs = [NodeRef(action, index) for index in range(length)]
     nodes = tuple(
         Node(
-            name="Work",
+            name=action,
             instance_id=index,
             parents=(ParentRelation(refs[index - 1]),) if index else (),
             children=(ChildRelation(refs[index + 1]),) if index + 1 < length else (),
@@ -135,7 +148,7 @@ def fan_out(name: str, width: int) -> Graph:
 
 
 @asynccontextmanager
-async def engine_with(*specs: ActionSpec) -> AsyncIterator[LocalTransport]:
+async def engine_with(*specs: ActionSpec, journal: Journal | None = None) -> AsyncIterator[LocalTransport]:
     """A transport with an engine named `bench` that can do `specs`."""
     async with (
         LocalTransport() as transport,
@@ -145,13 +158,19 @@ async def engine_with(*specs: ActionSpec) -> AsyncIterator[LocalTransport]:
             catalogue=Catalogue(specs),
             clock=WallClock(),
             make_context=lambda run: run,
+            journal=journal,
         ),
     ):
         yield transport
 
 
 async def run_graphs(
-    graphs: Sequence[Graph], *, threaded: bool, seconds: float = 0.0, feedback: bool = False
+    graphs: Sequence[Graph],
+    *,
+    threaded: bool,
+    seconds: float = 0.0,
+    feedback: bool = False,
+    journal: Journal | None = None,
 ) -> Figures:
     """Run all graphs at once on an engine of its own.
 
@@ -160,6 +179,7 @@ async def run_graphs(
         threaded: Plain functions, which cross to threads, instead of async ones.
         seconds: What each action takes.
         feedback: Read the whole graphs too, and measure how late they are.
+        journal: Write down what runs, as a system does.
 
     Raises:
         TimeoutError: They did not end within 300 s.
@@ -181,7 +201,7 @@ async def run_graphs(
         ended(run)
 
     spec = ActionSpec("Work", {}, {}, run=work_in_a_thread if threaded else work)
-    async with engine_with(spec) as transport:
+    async with engine_with(spec, journal=journal) as transport:
         await transport.subscribe(topics.GRAPH_EVENTS, listener.on_event, depth=1_000_000)
         if feedback:
             await transport.subscribe(topics.GRAPH_FEEDBACK, listener.on_feedback)
@@ -210,6 +230,13 @@ async def run_graphs(
 async def run_chain(length: int, *, threaded: bool) -> Figures:
     """Run one chain of actions that do nothing; see `run_graphs`."""
     return await run_graphs([chain("chain", length)], threaded=threaded)
+
+
+async def run_journaled(length: int, *, threaded: bool) -> Figures:
+    """As `run_chain`, with a journal in a file of its own."""
+    with tempfile.TemporaryDirectory() as folder:
+        async with await Journal.open(Path(folder) / "journal.db", WallClock()) as journal:
+            return await run_graphs([chain("chain", length)], threaded=threaded, journal=journal)
 
 
 def share(values: Sequence[float], part: float) -> float:

@@ -10,7 +10,20 @@ import typer
 from typer.exceptions import TyperException
 
 from parley import __version__
-from parley.cli import actions, bench, demo, graph, interpret, memory, world
+from parley.cli import (
+    actions,
+    bench,
+    demo,
+    doctor,
+    graph,
+    incidents,
+    interpret,
+    memory,
+    prompt,
+    transcripts,
+    web,
+    world,
+)
 from parley.cli.output import fail
 from parley.errors import ParleyError
 
@@ -24,12 +37,17 @@ app = typer.Typer(
     add_completion=False,
 )
 demo.register(app)
+doctor.register(app)
 interpret.register(app)
+incidents.register(app)
+transcripts.register(app)
 app.add_typer(graph.app, name="graph")
 app.add_typer(actions.app, name="actions")
 app.add_typer(memory.app, name="memory")
 app.add_typer(world.app, name="world")
+app.add_typer(prompt.app, name="prompt")
 app.add_typer(bench.app, name="bench")
+app.add_typer(web.app, name="web")
 
 
 @app.callback(invoke_without_command=True)

@@ -3,17 +3,19 @@
 from __future__ import annotations
 
 import asyncio
-from collections.abc import Sequence
+from collections.abc import Callable, Sequence
 from typing import Annotated, Any
 
 import typer
 
-from parley.bench.control import measure_control
+from parley.bench.control import measure_control, measure_crowd
 from parley.bench.display import measure_display
-from parley.bench.engine import Figures, chain, fan_out, run_chain, run_graphs, share
+from parley.bench.engine import Figures, chain, fan_out, run_chain, run_graphs, run_journaled, share
+from parley.bench.language import measure_language
 from parley.bench.memory import measure_memory
 from parley.bench.story import measure_demo
 from parley.cli.output import emit_json, quiet_logs
+from parley.umrf.model import Graph
 
 __all__ = ["app"]
 
@@ -23,6 +25,7 @@ JsonOption = Annotated[bool, typer.Option("--json", help="One JSON object per fi
 LENGTHS = (10, 100, 1000)
 AT_ONCE = 100
 CONTROL_TIMES = 100
+CROWD_TIMES = 30
 
 
 @app.command("engine")
@@ -33,6 +36,8 @@ def engine(json: JsonOption = False) -> None:
         asyncio.run(run_chain(LENGTHS[0], threaded=threaded))  # so that first-time imports are not measured
         for length in LENGTHS:
             _show_run("chain", asyncio.run(run_chain(length, threaded=threaded)), json)
+        journaled = asyncio.run(run_journaled(LENGTHS[-1], threaded=threaded))
+        _show_run("chain_with_journal", journaled, json)
         _show_run("fan_out", asyncio.run(run_graphs([fan_out("fan", AT_ONCE)], threaded=threaded)), json)
         many = [chain(f"g{index}", 10) for index in range(AT_ONCE)]
         _show_run("graphs_at_once", asyncio.run(run_graphs(many, threaded=threaded)), json)
@@ -42,6 +47,14 @@ def engine(json: JsonOption = False) -> None:
         for command, taken_ms in control.items():
             kind = "threaded" if threaded else "async"
             _show({"case": f"{command}_to_action", "kind": kind, **_latency("", taken_ms)}, json)
+    crowds: dict[str, Callable[[int], list[Graph]]] = {
+        "a_thousand_actions": lambda index: [chain(f"c{index}", LENGTHS[-1])],
+        "a_hundred_graphs": lambda index: [chain(f"g{index}_{number}", 10) for number in range(AT_ONCE)],
+    }
+    for what, others in crowds.items():
+        crowd = asyncio.run(measure_crowd(others, CROWD_TIMES))
+        facts = _latency("pause_", crowd.pause_ms) | _latency("stop_", crowd.stop_ms)
+        _show({"case": f"beside_{what}", **facts, **_latency("longest_step_", crowd.longest_step_ms)}, json)
 
 
 def _show_run(case: str, figures: Figures, as_json: bool) -> None:
@@ -114,6 +127,18 @@ def display(
         _show(facts | _latency("", figures.latency_ms), json)
 
 
+@app.command("language")
+def language(
+    times: Annotated[int, typer.Option(min=1, help="How many messages of each kind.")] = 200,
+    json: JsonOption = False,
+) -> None:
+    """From message to plan: offline, and what is added to a language model's own time."""
+    quiet_logs()
+    for figures in asyncio.run(measure_language(times)):
+        facts = {"case": figures.case, "messages": times, "cpu_ms": round(figures.cpu_ms, 2)}
+        _show(facts | _latency("", figures.latency_ms), json)
+
+
 @app.command("demo")
 def demo(
     name: Annotated[str, typer.Argument(help="Which demonstration.")] = "nursing-home",
@@ -136,3 +161,17 @@ def demo(
     else:
         for fact, value in facts.items():
             typer.echo(f"{fact}: {value}")
+
+
+@app.command("web")
+def web(
+    json: JsonOption = False,
+    robots: Annotated[int, typer.Option(min=1, max=1000, help="How many robots give feedback.")] = 50,
+    feeds: Annotated[int, typer.Option(min=0, max=64, help="How many picture feeds.")] = 8,
+    seconds: Annotated[float, typer.Option(min=1, help="How long.")] = 10.0,
+) -> None:
+    """The page's server: feedback at 10 Hz of many robots and pictures at 10 a second, over real sockets."""
+    from parley.bench.web import measure_web
+
+    quiet_logs()
+    _show(asyncio.run(measure_web(robots=robots, feeds=feeds, seconds=seconds)).facts(), json)

@@ -1,4 +1,4 @@
-"""`parley demo`: everything in one process; chatting in the terminal, or playing a script."""
+"""`parley demo`: everything in one process; on a page, in the terminal, or playing a script."""
 
 from __future__ import annotations
 
@@ -10,7 +10,9 @@ from typing import Annotated, Any
 
 import typer
 
+from parley.cli.language import KeyFileOption, LanguageOption, language_settings
 from parley.cli.output import emit_json, fail, quiet_logs
+from parley.cli.web import PORT, page_settings, serve_until_interrupted
 from parley.config import SystemConfig
 from parley.demos.catalogue import DEMOS, Demo, load_demo
 from parley.demos.runner import StoryResult, play
@@ -19,7 +21,7 @@ from parley.errors import ConfigError
 from parley.system import System
 from parley.terminal import TerminalClient
 
-__all__ = ["register"]
+__all__ = ["data_folder", "register"]
 
 
 def register(app: typer.Typer) -> None:
@@ -37,7 +39,25 @@ def demo(
     ] = None,
     variant: Annotated[str, typer.Option(help="Play this variant of the story.")] = "",
     json: Annotated[bool, typer.Option("--json", help="One JSON object per event.")] = False,
-    terminal: Annotated[bool, typer.Option("--terminal", help="Chat in the terminal (the default).")] = False,
+    terminal: Annotated[bool, typer.Option("--terminal", help="Chat in the terminal instead.")] = False,
+    no_open: Annotated[bool, typer.Option("--no-open", help="Do not open the page in a browser.")] = False,
+    port: Annotated[
+        int | None, typer.Option(min=0, max=65535, help=f"Port of the page; default: {PORT}, or a free one.")
+    ] = None,
+    lan: Annotated[
+        bool, typer.Option("--lan", help="Let phones in this network in: HTTPS, with a code to sign in.")
+    ] = False,
+    password_file: Annotated[
+        Path | None, typer.Option(help="File with a password to sign in with, instead of a code.")
+    ] = None,
+    cert: Annotated[
+        Path | None, typer.Option(help="Certificate for HTTPS (PEM), instead of a made one.")
+    ] = None,
+    key: Annotated[Path | None, typer.Option(help="Its private key (PEM).")] = None,
+    origin: Annotated[
+        list[str] | None, typer.Option(help="Another origin whose pages may use this server; repeatable.")
+    ] = None,
+    without: Annotated[str, typer.Option(help="Parts of the page to leave out, e.g. memory,map.")] = "",
     speed: Annotated[
         float | None,
         typer.Option(help="Simulated seconds per second; default: 1 when chatting, full speed for scripts."),
@@ -52,6 +72,8 @@ def demo(
     ask_first: Annotated[
         bool, typer.Option("--ask-first", help="Show each plan and wait for your yes.")
     ] = False,
+    language: LanguageOption = "offline",
+    key_file: KeyFileOption = None,
     lang: Annotated[str, typer.Option(help="Language of the terminal: en or et.")] = "",
     verbose: Annotated[bool, typer.Option("--verbose", help="Show the log.")] = False,
 ) -> None:
@@ -62,12 +84,27 @@ def demo(
         raise ConfigError("--speed must be a positive number")
     settings: dict[str, Any] = {"seed": seed, "approval": "ask_first" if ask_first else "run_at_once"}
     settings["actions_dir"] = actions
+    settings |= language_settings(language, key_file)
     if script:
         raise typer.Exit(_script(loaded, story, variant, settings | {"speed": speed}, data, json))
     if story is not None or variant:
         raise ConfigError("a story file and --variant go with --script")
-    folder = data or _data_folder(name)
-    asyncio.run(_chat(loaded, SystemConfig(**settings, speed=speed or 1.0, data_dir=folder), lang))
+    folder = data or data_folder(name)
+    config = SystemConfig(**settings, speed=speed or 1.0, data_dir=folder)
+    if terminal:
+        asyncio.run(_chat(loaded, config, lang))
+        return
+    page = page_settings(
+        port=port,
+        lan=lan,
+        password_file=password_file,
+        certificate=cert,
+        key=key,
+        origins=origin or (),
+        without=without,
+    )
+    page |= {"examples": loaded.story.examples, "data_dir": folder, "fresh_robots": True}
+    asyncio.run(_serve(loaded, config, page, port_is_wish=port is None, opens=not no_open))
 
 
 def _script(
@@ -78,7 +115,7 @@ def _script(
         config = SystemConfig(**settings, data_dir=data or Path(fresh))
 
         def make_system(different: Variant) -> System:
-            return demo.system(config, different)
+            return demo.system_for(story, config, different)
 
         emit = emit_json if as_json else _tell
         result = asyncio.run(play(story, make_system, variant=variant, emit=emit))
@@ -108,17 +145,32 @@ def _tell(event: dict[str, Any]) -> None:
             typer.echo("— everything is shut down and started again —")
 
 
-def _data_folder(name: str) -> Path:
+def data_folder(name: str) -> Path:
+    """Where a demonstration keeps what is remembered (XDG base directories)."""
     base = os.environ.get("XDG_DATA_HOME")
     return (Path(base) if base else Path.home() / ".local" / "share") / "parley" / name
 
 
 async def _chat(demo: Demo, config: SystemConfig, lang: str) -> None:
     async with demo.system(config) as system:
-        if system.store is not None and system.store.notice:
-            typer.echo(system.store.notice)
         client = TerminalClient(system.transport, lang=lang or _language())
         await client.run(greeting=list(demo.story.examples))
+
+
+async def _serve(
+    demo: Demo, config: SystemConfig, page: dict[str, Any], *, port_is_wish: bool, opens: bool
+) -> None:
+    from parley.web.config import WebConfig
+    from parley.web.server import WebServer
+
+    settings = WebConfig.model_validate(page)
+    async with (
+        demo.system(config) as system,
+        WebServer(system.transport, settings, port_is_wish=port_is_wish) as server,
+    ):
+        if system.store is not None and system.store.notice:
+            typer.echo(system.store.notice)
+        await serve_until_interrupted(server, opens=opens)
 
 
 def _language() -> str:

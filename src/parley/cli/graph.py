@@ -55,12 +55,13 @@ def check(
         typer.echo(f"{file.name}: nothing wrong with it")
 
 
-def _tell_problems(problems: Sequence[Problem], *, as_json: bool) -> None:
+def _tell_problems(problems: Sequence[Problem], *, as_json: bool, err: bool = False) -> None:
+    """Print problems, on the error stream if what is asked for would stand on the other."""
     for problem in problems:
         if as_json:
             emit_json(asdict(problem))
         else:
-            typer.echo(str(problem))
+            typer.echo(str(problem), err=err)
 
 
 class ShowFormat(StrEnum):
@@ -85,7 +86,12 @@ def show(
     out: Annotated[Path | None, typer.Option(help="Write to this file instead.")] = None,
 ) -> None:
     """Show a graph: as text, as a Mermaid flowchart or as an SVG picture."""
-    _write(show_graph(read_graph_file(file), format.value), out)
+    try:
+        graph = read_graph_file(file)
+    except GraphRefusedError as error:
+        _tell_problems(error.problems, as_json=False, err=True)
+        raise typer.Exit(1) from error
+    _write(show_graph(graph, format.value), out)
 
 
 @app.command("convert")
@@ -102,7 +108,7 @@ def convert(
         else:
             text = write_graph(import_tree(_read(file)), faithful=True) + "\n"
     except GraphRefusedError as error:
-        _tell_problems(error.problems, as_json=json)
+        _tell_problems(error.problems, as_json=json, err=not json)
         raise typer.Exit(1) from error
     _write(text, out)
 
@@ -127,7 +133,13 @@ def run(
 ) -> None:
     """Run a graph on a simulated robot, at full speed, and follow it to its end."""
     quiet_logs()
-    raise typer.Exit(asyncio.run(_run(_read(file), demo, robot, json, timeout)))
+    text = _read(file)
+    try:
+        name = read_graph(text).name
+    except GraphRefusedError as error:
+        _tell_problems(error.problems, as_json=json, err=not json)
+        raise typer.Exit(1) from error
+    raise typer.Exit(asyncio.run(_run(text, name, demo, robot, json, timeout)))
 
 
 def _read(file: Path) -> str:
@@ -137,8 +149,7 @@ def _read(file: Path) -> str:
         raise ConfigError(f"{file.name} cannot be read: {error}") from error
 
 
-async def _run(text: str, demo: str, robot: str, as_json: bool, timeout_s: float) -> int:
-    name = read_graph(text).name
+async def _run(text: str, name: str, demo: str, robot: str, as_json: bool, timeout_s: float) -> int:
     async with (
         load_demo(demo).system(SystemConfig(speed=None)) as system,
         Observer(system.transport, system.clock, emit_json if as_json else _tell) as observer,

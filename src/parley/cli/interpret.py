@@ -11,9 +11,14 @@ from typing import Annotated, TextIO
 import typer
 
 from parley.actions.builtin import BUILTIN_ACTIONS
+from parley.cli.language import KeyFileOption, LanguageOption, language_settings
+from parley.cli.output import quiet_logs
+from parley.config import ModelSettings
 from parley.errors import ConfigError
-from parley.language.offline import OfflineLanguage
-from parley.language.situations import interpret_lines
+from parley.language.base import Language
+from parley.language.llm import build_language
+from parley.language.situations import Explains, interpret_lines
+from parley.nodes.plan_check import plan_problems
 from parley.umrf.catalogue import Catalogue
 
 __all__ = ["register"]
@@ -29,15 +34,23 @@ def interpret(
     out: Annotated[
         Path, typer.Option(help="Where the answers go, a JSON line each; - for standard output.")
     ] = Path("-"),
-    language: Annotated[str, typer.Option(help="Which language engine: offline.")] = "offline",
+    language: LanguageOption = "offline",
+    key_file: KeyFileOption = None,
+    explain: Annotated[
+        bool, typer.Option(help="Add to each answer how it came about (offline only).")
+    ] = False,
 ) -> None:
     """Say what each message asks for. A bad line gives an answer with an error and stops nothing."""
-    if language != "offline":
-        raise ConfigError(f"there is no language engine {language!r} yet; use offline")
+    quiet_logs()
+    chosen = language_settings(language, key_file)
+    settings = ModelSettings(**chosen["model"])
+    engine = build_language([language], settings, check=plan_problems)
+    if explain and not isinstance(engine, Explains):
+        raise ConfigError("only the offline language engine can explain its answers; use --language offline")
     with contextlib.ExitStack() as stack:
         source = _open(stack, situations, "r")
         target = _open(stack, out, "w")
-        asyncio.run(_interpret(source, target))
+        asyncio.run(_interpret(source, target, engine, explain))
 
 
 def _open(stack: contextlib.ExitStack, path: Path, mode: str) -> TextIO:
@@ -49,8 +62,11 @@ def _open(stack: contextlib.ExitStack, path: Path, mode: str) -> TextIO:
         raise ConfigError(f"{path.name} cannot be opened: {error.strerror}") from error
 
 
-async def _interpret(source: TextIO, target: TextIO) -> None:
+async def _interpret(source: TextIO, target: TextIO, engine: Language, explain: bool) -> None:
     infos = Catalogue(BUILTIN_ACTIONS).infos()
-    async for line in interpret_lines(source, OfflineLanguage(), infos):
-        target.write(line.rstrip("\n") + "\n")
-        target.flush()
+    async with contextlib.AsyncExitStack() as stack:
+        if isinstance(engine, contextlib.AbstractAsyncContextManager):
+            await stack.enter_async_context(engine)
+        async for line in interpret_lines(source, engine, infos, explain=explain):
+            target.write(line.rstrip("\n") + "\n")
+            target.flush()

@@ -91,7 +91,7 @@ class Link:
             TransportError: The memory does not answer.
             InvalidMessageError: Its answer cannot be read.
         """
-        request = ChatRequest(encode(GetMemory(request=RETURN_ALL)))
+        request = ChatRequest(encode(GetMemory(request=RETURN_ALL, pictures=False)))
         reply = await self._transport.call(topics.GET_MEMORY, request, timeout_s=_MEMORY_TIMEOUT_S)
         return decode(MemoryReply, reply.response).entries()
 

@@ -1,0 +1,120 @@
+"""Serving the page: its settings on the command line, what is printed, and how it ends; `parley web`."""
+
+from __future__ import annotations
+
+import asyncio
+import signal
+import sys
+from collections.abc import Sequence
+from pathlib import Path
+from typing import TYPE_CHECKING, Any, Final
+
+import typer
+
+from parley.errors import ConfigError
+
+if TYPE_CHECKING:
+    from parley.web.server import WebServer
+
+__all__ = ["PORT", "app", "page_settings", "serve_until_interrupted"]
+
+PORT: Final = 8400
+
+app = typer.Typer(help="The page for operators.", no_args_is_help=True)
+
+
+@app.callback()
+def _web() -> None:
+    """The page for operators."""
+
+
+@app.command("openapi")
+def openapi() -> None:
+    """Print the description of the page's interface (OpenAPI)."""
+    from parley.web.app import openapi_text
+
+    typer.echo(openapi_text(), nl=False)
+
+
+def page_settings(
+    *,
+    port: int | None,
+    lan: bool,
+    password_file: Path | None,
+    certificate: Path | None,
+    key: Path | None,
+    origins: Sequence[str],
+    without: str,
+) -> dict[str, Any]:
+    """The settings of the page as they were given on the command line.
+
+    Raises:
+        ConfigError: One of them is wrong.
+    """
+    from parley.web.config import MODULES
+
+    left_out = {part.strip() for part in without.split(",") if part.strip()}
+    if unknown := sorted(left_out - set(MODULES)):
+        raise ConfigError(f"--without: there is no part {unknown[0]!r}; there are: {', '.join(MODULES)}")
+    if (certificate is None) != (key is None):
+        raise ConfigError("--cert and --key go together")
+    return {
+        "port": PORT if port is None else port,
+        "lan": lan,
+        "password": _password(password_file),
+        "certificate": certificate,
+        "key": key,
+        "origins": tuple(origins),
+        "without": frozenset(left_out),
+    }
+
+
+def _password(file: Path | None) -> str:
+    if file is None:
+        return ""
+    try:
+        password = file.read_text(encoding="utf-8").strip()
+    except (OSError, UnicodeDecodeError) as error:
+        raise ConfigError(f"--password-file: {file} cannot be read: {error}") from error
+    if len(password) < 8:
+        raise ConfigError(f"--password-file: the password in {file} is shorter than 8 characters")
+    return password
+
+
+async def serve_until_interrupted(server: WebServer, *, opens: bool) -> None:
+    """Say where the page is, open it, and wait for Ctrl-C.
+
+    Args:
+        server: Open.
+        opens: Whether to open the page in a browser.
+    """
+    from parley.web.addresses import qr_text
+
+    typer.echo(f"The page is at {server.url}")
+    code = server.pairing_code
+    for address in server.backend.addresses:
+        typer.echo(f"From other devices: {address}")
+    if server.fingerprint:
+        typer.echo(f"Browsers warn once, because this machine made its own certificate: {server.fingerprint}")
+    if code:
+        typer.echo(f"Code to sign in: {code}")
+    if server.backend.addresses and sys.stdout.isatty():
+        # The code stands behind the #, so it is not sent to any server.
+        typer.echo(qr_text(f"{server.backend.addresses[0]}{f'#code={code}' if code else ''}"))
+    typer.echo("Ctrl-C ends it.")
+    sys.stdout.flush()
+    if opens:
+        await asyncio.to_thread(_open_page, server.url)
+    ended = asyncio.Event()
+    loop = asyncio.get_running_loop()
+    loop.add_signal_handler(signal.SIGTERM, ended.set)
+    try:
+        await ended.wait()
+    finally:
+        loop.remove_signal_handler(signal.SIGTERM)
+
+
+def _open_page(url: str) -> None:
+    import webbrowser
+
+    webbrowser.open(url)
