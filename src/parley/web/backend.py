@@ -1,0 +1,273 @@
+"""What the routes and the live stream share: state, store, topics, feeds of one server."""
+
+from __future__ import annotations
+
+import base64
+import binascii
+import uuid
+from collections.abc import Callable, Sequence
+from contextlib import AsyncExitStack
+from typing import Final, Self
+
+import structlog
+
+from parley import __version__
+from parley.clock import Clock, WallClock
+from parley.messages.chat import ChatImage
+from parley.messages.map import MapView
+from parley.messages.status import PlanDecision
+from parley.transport.base import Transport
+from parley.web.bodies import ChatPost, ImageUpload
+from parley.web.config import Module, WebConfig
+from parley.web.feed_state import Picture
+from parley.web.feeds import CAMERA_FEED, Feeds
+from parley.web.keeper import Keeper
+from parley.web.link import Link
+from parley.web.models import ChatEntry, Policy, RobotView, ServerInfo, Snapshot
+from parley.web.problems import WebProblem
+from parley.web.sessions import Sessions
+from parley.web.state import WebState
+from parley.web.store import KeptPicture, WebStore
+
+__all__ = ["Backend"]
+
+log = structlog.get_logger(__name__)
+
+RECENT: Final = 300
+"""Entries that are read from the store at the start."""
+_SIGNATURES: Final = ((b"\xff\xd8\xff", "image/jpeg"), (b"\x89PNG\r\n\x1a\n", "image/png"))
+
+
+class Backend:
+    """Use as ``async with``; what was opened is closed in reverse order.
+
+    Args:
+        transport: Opened by the caller.
+        config: The settings.
+        secret: What one signs in with; empty: nobody has to.
+        clock: Wall time.
+    """
+
+    state: WebState
+    store: WebStore
+    link: Link
+    feeds: Feeds
+
+    def __init__(
+        self, transport: Transport, config: WebConfig, *, secret: str = "", clock: Clock | None = None
+    ) -> None:
+        self.transport, self.config = transport, config
+        self.clock: Clock = clock or WallClock()
+        self.sessions = Sessions(self.clock, secret)
+        self.addresses: tuple[str, ...] = ()
+        """Where the page can be opened; set by the server."""
+        self.view_listeners: list[Callable[[MapView], None]] = []
+        self.picture_listeners: list[Callable[[tuple[str, str], Picture], None]] = []
+        self._sending: set[str] = set()
+        self._policies: dict[str, str] = {}
+        self._keeper: Keeper
+        self._stack = AsyncExitStack()
+
+    async def __aenter__(self) -> Self:
+        try:
+            await self._open()
+        except BaseException:
+            await self._stack.aclose()
+            raise
+        return self
+
+    async def __aexit__(self, *exc: object) -> None:
+        await self._stack.aclose()
+
+    async def _open(self) -> None:
+        enter = self._stack.enter_async_context
+        folder = self.config.data_dir
+        self.store = await enter(await WebStore.open(folder / "web.db" if folder else ":memory:", self.clock))
+        entries, complete = await self.store.page(limit=RECENT)
+        if self.config.fresh_robots:
+            entries = await self._close_questions(entries)
+        self.state = WebState(
+            uuid.uuid4().hex,
+            keep=lambda entry: self._keeper.put(entry),
+            new_id=lambda: uuid.uuid4().hex,
+            entries=entries,
+            has_older=not complete,
+        )
+        self._keeper = await enter(Keeper(self.store, self.state.show))
+        for name in await self.store.settings("robot"):
+            self.state.robots.add(name)
+        self._policies = await self.store.settings("policy")
+        self.link = await enter(
+            Link(
+                self.transport,
+                self.state,
+                self.clock,
+                on_view=self._on_view,
+                on_joined=self._on_joined,
+            )
+        )
+        self.feeds = await enter(
+            Feeds(self.transport, self.state.feeds, lambda: list(self.state.robots.views), self._on_picture)
+        )
+
+    async def _close_questions(self, entries: list[ChatEntry]) -> list[ChatEntry]:
+        """The robots start anew and do not remember what they asked."""
+        asked = await self.store.open_questions()
+        closed = {entry.id: entry.model_copy(update={"question": "closed"}) for entry in asked}
+        await self.store.keep(list(closed.values()))
+        return [closed.get(entry.id, entry) for entry in entries]
+
+    # -- what the page asks for ------------------------------------------------------------------------
+
+    @property
+    def info(self) -> ServerInfo:
+        """What the page should know about the system behind it."""
+        config = self.config
+        return ServerInfo(
+            version=__version__,
+            language=config.language,
+            offline_language=config.offline_language,
+            modules=config.modules,
+            examples=config.examples,
+            addresses=self.addresses,
+        )
+
+    def snapshot(self) -> Snapshot:
+        """Everything as it stands."""
+        return self.state.snapshot(self.info)
+
+    def need(self, module: Module) -> None:
+        """Refuse what belongs to a module that is switched off.
+
+        Raises:
+            WebProblem: It is.
+        """
+        if module in self.config.without:
+            raise WebProblem(404, "This part is switched off here.")
+
+    def robot(self, name: str) -> RobotView:
+        """The robot of that name.
+
+        Raises:
+            WebProblem: There is none.
+        """
+        known = self.state.robots.resolve(name)
+        if known is None:
+            names = ", ".join(self.state.robots.views) or "none at the moment"
+            raise WebProblem(404, f"There is no robot called {name}.", f"The robots are: {names}.")
+        return self.state.robots.views[known]
+
+    async def say(self, post: ChatPost, author: str) -> ChatEntry:
+        """Keep an operator's message and send it, once however often it is posted.
+
+        Raises:
+            WebProblem: A picture cannot be read, the question is settled, or it is being sent right now.
+            StoreError: It cannot be kept; then it is not sent either.
+        """
+        if post.id in self._sending:
+            raise WebProblem(409, "This message is just being sent.", "Wait a moment.", path="id")
+        self._sending.add(post.id)
+        try:
+            return await self._say(post, author)
+        finally:
+            self._sending.discard(post.id)
+
+    async def _say(self, post: ChatPost, author: str) -> ChatEntry:
+        known = await self.store.entry(post.id)
+        if known is not None and (known[1] or known[0].who == "robot"):
+            if known[0].message != post.text:
+                raise WebProblem(409, "Another message has this id.", "Send it under a new one.", path="id")
+            return known[0]
+        self._check_reply(post)
+        targets = tuple(dict.fromkeys(self.state.robots.resolve(name) or name for name in post.targets))
+        pictures = [_picture(f"{post.id}.{number}", image) for number, image in enumerate(post.images)]
+        composed = self.state.chat.compose(
+            post.id,
+            post.text,
+            targets,
+            reply_to=post.reply_to,
+            images=[ChatImage(name=image.name, data=image.data) for image in post.images],
+            image_urls=[f"/api/chat/images/{picture.id}" for picture in pictures],
+            author=author,
+            unix_ms=self.clock.unix_ms(),
+        )
+        await self._keeper.keep(composed.entry, pictures)
+        self.state.chat.said(composed)
+        for message in composed.messages:
+            self.link.send(message)
+        await self.store.mark_sent(post.id)
+        return composed.entry
+
+    def _check_reply(self, post: ChatPost) -> None:
+        question = self.state.chat.entries.get(post.reply_to)
+        if question is None or question.question in ("", "open"):
+            return
+        raise WebProblem(
+            409,
+            "This question is settled already.",
+            "Look at the conversation, and write anew if there is more to say.",
+            path="reply_to",
+        )
+
+    async def add_robot(self, name: str) -> RobotView:
+        """List a robot by name, for good."""
+        await self.store.set("robot", name, "")
+        return self.state.robots.add(name)
+
+    async def remove_robot(self, name: str) -> None:
+        """Take a robot off the list.
+
+        Raises:
+            WebProblem: There is none of that name, or it is there and would come back at once.
+        """
+        view = self.robot(name)
+        if view.connection == "here":
+            raise WebProblem(409, f"{view.name} is here; it would come back at once.", "Switch it off first.")
+        await self.store.unset("robot", view.name)
+        self.state.remove_robot(view.name)
+
+    async def set_policy(self, robot: str, policy: Policy) -> None:
+        """Decide whether new steps of a robot wait for a yes, also after a restart."""
+        await self.store.set("policy", robot, policy)
+        self._policies[robot] = policy
+        self.link.send(PlanDecision(target=robot, decision="policy", policy=policy))
+
+    # -- what comes in ---------------------------------------------------------------------------------
+
+    def _on_joined(self, robot: str) -> None:
+        view = self.state.robots.views[robot]
+        if any(CAMERA_FEED in item.capabilities for item in view.catalogue):
+            self.state.feeds.announce(robot, CAMERA_FEED, continuous=True)
+        policy = self._policies.get(robot)
+        if policy is not None:
+            decision = {"target": robot, "decision": "policy", "policy": policy}
+            self.link.send(PlanDecision.model_validate(decision))
+
+    def _on_view(self, view: MapView) -> None:
+        for listener in self.view_listeners:
+            listener(view)
+
+    def _on_picture(self, key: tuple[str, str], picture: Picture) -> None:
+        for listener in self.picture_listeners:
+            listener(key, picture)
+
+
+def _picture(key: str, image: ImageUpload) -> KeptPicture:
+    data, media_type = read_image(image.data)
+    return KeptPicture(key, media_type, data)
+
+
+def read_image(text: str) -> tuple[bytes, str]:
+    """The bytes and the media type of a picture in base64.
+
+    Raises:
+        WebProblem: It is neither a JPEG nor a PNG.
+    """
+    try:
+        data = base64.b64decode(text.partition(",")[2] if text.startswith("data:") else text, validate=True)
+    except (binascii.Error, ValueError):
+        data = b""
+    found: Sequence[str] = [kind for start, kind in _SIGNATURES if data.startswith(start)]
+    if not found:
+        raise WebProblem(422, "The picture cannot be read.", "Use a JPEG or PNG picture.", path="images")
+    return data, found[0]

@@ -1,0 +1,188 @@
+"""What the page sends, and answers that are no part of the live stream; bounded, closed, typed."""
+
+from __future__ import annotations
+
+from typing import Annotated, Literal
+
+from pydantic import Field, StringConstraints
+
+from parley.messages.chat import ActionCall
+from parley.web.models import ChatEntry, Policy, WebModel
+
+__all__ = [
+    "ChatPage",
+    "ChatPost",
+    "DecisionPost",
+    "Done",
+    "FeedKey",
+    "FrameMeta",
+    "Health",
+    "ImageUpload",
+    "MemoryPut",
+    "PlanCommandPost",
+    "PolicyPut",
+    "ProblemDetail",
+    "RobotPost",
+    "SessionInfo",
+    "SessionPost",
+    "StepsPut",
+    "StopPost",
+]
+
+Name = Annotated[str, StringConstraints(min_length=1, max_length=100, strip_whitespace=True)]
+Key = Annotated[str, StringConstraints(pattern=r"^[A-Za-z0-9_.-]{1,64}$")]
+
+MAX_IMAGE_CHARS = 4_000_000
+"""Of a picture in base64: about 3 MB."""
+
+
+class Done(WebModel):
+    """It was done, or sent on its way."""
+
+    ok: Literal[True] = True
+
+
+class Health(WebModel):
+    """Whether the server is well."""
+
+    ok: bool
+    version: str
+
+
+class ProblemDetail(WebModel):
+    """Why something was not done (RFC 9457), in words for people."""
+
+    type: str = "about:blank"
+    title: str
+    status: int
+    detail: str
+    """What is wrong, in plain words."""
+    remedy: str = ""
+    """What to do about it."""
+    path: str = ""
+    """Which field of the request, if it is one."""
+
+
+class SessionPost(WebModel):
+    """Sign in."""
+
+    secret: Annotated[str, StringConstraints(max_length=200)] = ""
+    """Password or pairing code; empty where none is asked for."""
+    name: Annotated[str, StringConstraints(max_length=60, strip_whitespace=True)] = ""
+    """How the person wants to be called."""
+
+
+class SessionInfo(WebModel):
+    """Who is signed in."""
+
+    required: bool
+    """Whether one has to sign in here."""
+    authenticated: bool
+    """Whether this visitor may use everything."""
+    name: str = ""
+
+
+class ImageUpload(WebModel):
+    """A picture that goes with a message."""
+
+    name: Annotated[str, StringConstraints(max_length=200)] = ""
+    data: Annotated[str, StringConstraints(min_length=1, max_length=MAX_IMAGE_CHARS)]
+    """Base64 of a JPEG or PNG."""
+
+
+class ChatPost(WebModel):
+    """Say something to robots."""
+
+    id: Key
+    """Chosen by the page; the same message sent again under the same id does nothing more."""
+    text: Annotated[str, StringConstraints(min_length=1, max_length=10_000)]
+    targets: Annotated[tuple[Name, ...], Field(min_length=1, max_length=100)]
+    reply_to: Annotated[str, StringConstraints(max_length=200)] = ""
+    """Key of the question that is answered, if a certain one is meant."""
+    images: Annotated[tuple[ImageUpload, ...], Field(max_length=4)] = ()
+
+
+class ChatPage(WebModel):
+    """A piece of the conversation."""
+
+    entries: tuple[ChatEntry, ...]
+    """Oldest first."""
+    complete: bool
+    """Whether nothing older is left."""
+
+
+class StopPost(WebModel):
+    """Emergency stop, or its reset."""
+
+    command: Literal["stop", "reset"] = "stop"
+    targets: Annotated[tuple[Name, ...], Field(max_length=100)] = ()
+    """Empty: all robots."""
+    id: Annotated[str, StringConstraints(pattern=r"^[A-Za-z0-9_.-]{0,64}$")] = ""
+
+
+class PlanCommandPost(WebModel):
+    """Control the plan of a robot."""
+
+    command: Literal["pause", "resume", "skip", "clear", "pop"]
+    index: Annotated[int, Field(ge=0, le=10_000)] | None = None
+    """For `pop`: which pending step, from 0."""
+
+
+class DecisionPost(WebModel):
+    """Decide about a proposal."""
+
+    id: Annotated[str, StringConstraints(min_length=1, max_length=100)]
+    """Key of the proposal."""
+    decision: Literal["approve", "reject", "edit"]
+    steps: Annotated[tuple[ActionCall, ...], Field(max_length=200)] = ()
+    """For `edit`: the steps to run instead, in Chat Action form."""
+
+
+class PolicyPut(WebModel):
+    """Whether new steps of a robot wait for a yes."""
+
+    policy: Policy
+
+
+class StepsPut(WebModel):
+    """Replace all steps of the plan in progress that have not begun."""
+
+    steps: Annotated[tuple[ActionCall, ...], Field(max_length=200)]
+    revision: Annotated[int, Field(ge=0)]
+    """`PlanView.revision` that the edit was made from."""
+
+
+class RobotPost(WebModel):
+    """Add a robot by name."""
+
+    name: Name
+
+
+class MemoryPut(WebModel):
+    """What is to be remembered."""
+
+    type: Literal["text", "image"] = "text"
+    data: Annotated[str, StringConstraints(min_length=1, max_length=MAX_IMAGE_CHARS)]
+    """The text, or the picture as base64 of a JPEG or PNG."""
+    info: Annotated[str, StringConstraints(max_length=1000)] = ""
+    scope: Annotated[str, StringConstraints(max_length=100)] = ""
+
+
+class FeedKey(WebModel):
+    """Names a feed, for the live event `watch`."""
+
+    robot: Name
+    name: Name
+
+
+class FrameMeta(WebModel):
+    """Goes before the bytes of a picture in the live event `frame`."""
+
+    robot: str
+    name: str
+    unix_ms: int
+    """When it was taken."""
+    number: int
+    """Counts the pictures of the feed; gaps are pictures that were left out."""
+    type: Literal["image/jpeg"] = "image/jpeg"
+    """Media type."""

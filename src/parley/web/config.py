@@ -1,0 +1,54 @@
+"""Settings of the page's server: typed, checked once."""
+
+from __future__ import annotations
+
+from pathlib import Path
+from typing import Literal
+
+from pydantic import BaseModel, ConfigDict, Field
+
+__all__ = ["MODULES", "Module", "WebConfig"]
+
+Module = Literal["chat", "plan", "display", "map", "memory", "robots", "incidents"]
+
+MODULES: tuple[Module, ...] = ("chat", "plan", "display", "map", "memory", "robots", "incidents")
+"""What can be switched off."""
+
+
+class WebConfig(BaseModel):
+    """How the page is served."""
+
+    model_config = ConfigDict(frozen=True, extra="forbid")
+
+    host: str = "127.0.0.1"
+    """Address to listen on."""
+    port: int = Field(default=8400, ge=0, le=65535)
+    """0 takes any that is free."""
+    lan: bool = False
+    """Open to other devices: with HTTPS, and only for those who sign in."""
+    password: str = Field(default="", repr=False)
+    """What one signs in with; empty, where signing in is required: a pairing code is made."""
+    certificate: Path | None = None
+    """PEM file; None, where HTTPS is needed: one is made."""
+    key: Path | None = None
+    """PEM file with the certificate's private key."""
+    origins: tuple[str, ...] = ()
+    """Other origins (``https://host:port``) whose pages may talk to this server."""
+    without: frozenset[Module] = frozenset()
+    """Modules that are switched off."""
+    examples: tuple[str, ...] = ()
+    """Sentences to begin with."""
+    language: str = "offline"
+    """Label of the language engine."""
+    offline_language: bool = True
+    data_dir: Path | None = None
+    """Where the conversation and a made certificate are kept; None: only while the server runs."""
+    static_dir: Path | None = None
+    """The built page; None: the one that comes with the package."""
+    fresh_robots: bool = False
+    """The robots start together with this server: what they asked before is void."""
+
+    @property
+    def modules(self) -> dict[str, bool]:
+        """What is switched on."""
+        return {name: name not in self.without for name in MODULES}

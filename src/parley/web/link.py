@@ -1,0 +1,237 @@
+"""The server's end of the topics: what it hears goes into the state, what operators decide goes out."""
+
+from __future__ import annotations
+
+import asyncio
+import contextlib
+from collections.abc import Callable
+from typing import Final, Self, TypeVar
+
+import structlog
+from pydantic import BaseModel
+
+from parley.clock import Clock
+from parley.errors import InvalidMessageError, TransportError, UnavailableError
+from parley.messages import topics
+from parley.messages.chat import ChatAction, ChatFeedback, ChatInput, ReplyDraft
+from parley.messages.incident import GetIncidents, Incident, IncidentList
+from parley.messages.map import MapView
+from parley.messages.memory import AddToMemory, MemoryEvent, RemoveMemory
+from parley.messages.ros import ChatRequest, ChatResponse, String
+from parley.messages.status import (
+    ActorStatus,
+    GraphEvent,
+    PlanDecision,
+    PlanProposal,
+    PlanUpdate,
+    Rejection,
+    StopCommand,
+    StopReport,
+)
+from parley.messages.topics import Service, Topic
+from parley.messages.wire import decode, encode, load_json, to_string
+from parley.transport.base import Publisher, Transport
+from parley.web.state import WebState
+
+__all__ = ["Link"]
+
+log = structlog.get_logger(__name__)
+
+P = TypeVar("P", bound=BaseModel)
+
+TICK_S: Final = 0.25
+"""Wall time between two looks at what is overdue."""
+CALL_TIMEOUT_S: Final = 10.0
+
+_SENT: Final[dict[type[BaseModel], Topic[String]]] = {
+    ChatInput: topics.CHAT_INPUT,
+    ChatAction: topics.CHAT_ACTION,
+    PlanDecision: topics.PLAN_DECISION,
+    StopCommand: topics.STOP,
+    AddToMemory: topics.ADD_TO_MEMORY,
+    RemoveMemory: topics.REMOVE_MEMORY,
+}
+
+
+class Link:
+    """Connects a `WebState` to a transport. Use as ``async with``.
+
+    Args:
+        transport: Opened by the caller; only what is opened here is closed here.
+        state: Gets every message.
+        clock: Wall time.
+        on_view: Told after a robot's place on the map changed.
+        on_joined: Told when a robot is heard of for the first time, or was started anew.
+    """
+
+    def __init__(
+        self,
+        transport: Transport,
+        state: WebState,
+        clock: Clock,
+        *,
+        on_view: Callable[[MapView], None] = lambda _: None,
+        on_joined: Callable[[str], None] = lambda _: None,
+    ) -> None:
+        self.transport, self._state, self._clock = transport, state, clock
+        self._on_view_heard, self._on_joined = on_view, on_joined
+        self._stack = contextlib.AsyncExitStack()
+        self._publishers: dict[type[BaseModel], Publisher[String]] = {}
+        self._memory_waits: dict[str, list[asyncio.Future[MemoryEvent]]] = {}
+
+    async def __aenter__(self) -> Self:
+        """Open the topics."""
+        try:
+            await self._open()
+        except BaseException:
+            await self._stack.aclose()
+            raise
+        return self
+
+    async def __aexit__(self, *exc: object) -> None:
+        """Close them."""
+        await self._stack.aclose()
+
+    async def _open(self) -> None:
+        for kind, topic in _SENT.items():
+            publisher = self.transport.publisher(topic)
+            self._stack.callback(publisher.close)
+            self._publishers[kind] = publisher
+        state, now_ms = self._state, self._clock.unix_ms
+        await self._listen(topics.ACTOR_STATUS, _reader(ActorStatus), self._on_status)
+        await self._listen(
+            topics.CHAT_INPUT, _reader(ChatInput), lambda m: state.chat.on_input(m, unix_ms=now_ms())
+        )
+        await self._listen(
+            topics.CHAT_FEEDBACK, _reader(ChatFeedback), lambda m: state.chat.on_feedback(m, unix_ms=now_ms())
+        )
+        await self._listen(
+            topics.REPLY_DRAFT, _reader(ReplyDraft), lambda m: state.chat.on_draft(m, unix_ms=now_ms())
+        )
+        await self._listen(topics.PLAN, _read_plan, state.on_plan)
+        await self._listen(topics.PLAN_DECISION, _reader(PlanDecision), state.plans.on_decision)
+        await self._listen(topics.GRAPH_EVENTS, _reader(GraphEvent), state.on_event)
+        await self._listen(topics.STOP, _reader(StopCommand), self._on_stop)
+        await self._listen(
+            topics.STOP_REPORT,
+            _reader(StopReport),
+            lambda m: state.robots.on_stop_report(m, unix_ms=now_ms()),
+        )
+        await self._listen(topics.REJECTION, _reader(Rejection), state.on_rejection)
+        await self._listen(topics.MEMORY_EVENT, _reader(MemoryEvent), self._on_memory)
+        await self._listen(topics.INCIDENT, _reader(Incident), state.on_incident)
+        await self._listen(topics.MAP_VIEW, _reader(MapView), self._on_view)
+        for work in (self._tick(), self._fetch_incidents()):
+            task = asyncio.create_task(work, name="web link")
+            self._stack.push_async_callback(_cancel, task)
+
+    def send(
+        self, message: ChatInput | ChatAction | PlanDecision | StopCommand | AddToMemory | RemoveMemory
+    ) -> None:
+        """Publish what an operator said or decided on the topic of its kind."""
+        self._publishers[type(message)].publish(to_string(message))
+
+    async def ask(self, service: Service[ChatRequest, ChatResponse], request: BaseModel, kind: type[P]) -> P:
+        """Call a service that speaks JSON.
+
+        Raises:
+            TransportError: It does not answer.
+            InvalidMessageError: Its answer cannot be read.
+        """
+        reply = await self.transport.call(service, ChatRequest(encode(request)), timeout_s=CALL_TIMEOUT_S)
+        return decode(kind, reply.response)
+
+    async def change_memory(self, message: AddToMemory | RemoveMemory) -> MemoryEvent:
+        """Have one memory added or removed and wait until that is durable.
+
+        Raises:
+            UnavailableError: There is no memory.
+            TimeoutError: Nobody confirmed it in time.
+        """
+        name_of_service = topics.GET_MEMORY.name.lstrip("/")
+        ends = self.transport.endpoints()
+        if not any(end.role == "server" and end.name.lstrip("/") == name_of_service for end in ends):
+            raise UnavailableError("nobody remembers anything; is the memory node running?")
+        (name,) = message.root
+        wait: asyncio.Future[MemoryEvent] = asyncio.get_running_loop().create_future()
+        self._memory_waits.setdefault(name, []).append(wait)
+        try:
+            self.send(message)
+            async with asyncio.timeout(CALL_TIMEOUT_S):
+                return await wait
+        finally:
+            waits = self._memory_waits[name]
+            waits.remove(wait)
+            if not waits:
+                del self._memory_waits[name]
+
+    # -- hearing ---------------------------------------------------------------------------------------
+
+    async def _listen(
+        self, topic: Topic[String], read: Callable[[str], P], handle: Callable[[P], None]
+    ) -> None:
+        def receive(message: String) -> None:
+            try:
+                payload = read(message.data)
+            except InvalidMessageError as error:
+                log.warning("unreadable message", topic=topic.name, error=str(error))
+                return
+            handle(payload)
+
+        subscription = await self.transport.subscribe(topic, receive, depth=max(topic.qos.depth, 1000))
+        self._stack.push_async_callback(subscription.close)
+
+    def _on_status(self, status: ActorStatus) -> None:
+        is_new = status.actor not in self._state.robots.views
+        restarted = self._state.robots.on_status(
+            status, now_s=self._clock.wall_s(), unix_ms=self._clock.unix_ms()
+        )
+        if restarted:
+            self._state.chat.on_restart(status.actor)
+        if is_new or restarted:
+            self._on_joined(status.actor)
+
+    def _on_stop(self, command: StopCommand) -> None:
+        self._state.robots.on_stop(command, now_s=self._clock.wall_s(), unix_ms=self._clock.unix_ms())
+
+    def _on_memory(self, event: MemoryEvent) -> None:
+        for wait in self._memory_waits.get(event.name, ()):
+            if not wait.done():
+                wait.set_result(event)
+        self._state.on_memory(event)
+
+    def _on_view(self, view: MapView) -> None:
+        self._state.on_view(view)
+        self._on_view_heard(view)
+
+    async def _tick(self) -> None:
+        while True:
+            await asyncio.sleep(TICK_S)
+            self._state.robots.tick(now_s=self._clock.wall_s())
+
+    async def _fetch_incidents(self) -> None:
+        """What happened before this server came; what happens from now on comes by itself."""
+        try:
+            found = await self.ask(topics.GET_INCIDENTS, GetIncidents(limit=100), IncidentList)
+        except (TransportError, InvalidMessageError) as error:
+            log.info("no incidents", reason=str(error))
+            return
+        for incident in reversed(found.incidents):
+            if incident.id not in self._state.incidents:
+                self._state.on_incident(incident)
+
+
+async def _cancel(task: asyncio.Task[None]) -> None:
+    task.cancel()
+    await asyncio.gather(task, return_exceptions=True)
+
+
+def _reader(kind: type[P]) -> Callable[[str], P]:
+    return lambda text: decode(kind, text)
+
+
+def _read_plan(text: str) -> PlanUpdate | PlanProposal:
+    """A message of the plan topic by its `kind`; any other kind is an update, whose check names the fault."""
+    value = load_json("Plan", text)
+    is_proposal = isinstance(value, dict) and value.get("kind") == "proposal"
+    return decode(PlanProposal, text) if is_proposal else decode(PlanUpdate, text)

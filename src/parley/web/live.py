@@ -1,0 +1,239 @@
+"""The live stream over Socket.IO: a snapshot or what was missed, then changes; places on the map; pictures.
+
+Nobody waits for a slow client. Each has its own place in the log and is sent what came since only when it
+has taken what was sent before; of map views and pictures it gets the newest.
+"""
+
+from __future__ import annotations
+
+import asyncio
+from collections.abc import Callable
+from dataclasses import dataclass, field
+from typing import Any, Final
+
+import socketio
+import structlog
+from pydantic import BaseModel, TypeAdapter, ValidationError
+
+from parley.messages.map import MapView
+from parley.web.backend import Backend
+from parley.web.bodies import FeedKey, FrameMeta
+from parley.web.feed_state import Picture
+
+__all__ = ["Live"]
+
+log = structlog.get_logger(__name__)
+
+PACE_S: Final = 0.015
+"""Wall time between two sendings to a client: what happens meanwhile goes together."""
+IN_FLIGHT: Final = 2
+"""Pictures of one feed that a client has not confirmed yet."""
+CONFIRM_WITHIN_S: Final = 2.0
+"""Wall time after which a picture counts as confirmed, or lost."""
+MAX_WATCHED: Final = 64
+MAX_CLIENTS: Final = 200
+MAX_MESSAGE_BYTES: Final = 64 * 1024
+
+_FEEDS: Final = TypeAdapter(tuple[FeedKey, ...])
+
+Key = tuple[str, str]
+
+
+@dataclass(slots=True)
+class _Client:
+    sid: str
+    seq: int
+    """Number of the newest change that was sent; -1: nothing yet."""
+    wake: asyncio.Event = field(default_factory=asyncio.Event)
+    views: dict[str, MapView] = field(default_factory=dict)
+    watched: set[Key] = field(default_factory=set)
+    frames: dict[Key, Picture] = field(default_factory=dict)
+    """The newest picture of each feed that was not sent yet."""
+    in_flight: dict[Key, list[float]] = field(default_factory=dict)
+    """When the pictures went that were not confirmed yet."""
+    task: asyncio.Task[None] | None = None
+
+
+class Live:
+    """The Socket.IO server of a backend. Use as ``async with``."""
+
+    def __init__(self, backend: Backend) -> None:
+        self._backend = backend
+        self._clients: dict[str, _Client] = {}
+        self._closed = False
+        self.server = socketio.AsyncServer(
+            async_mode="asgi",
+            cors_allowed_origins=[],  # the guard checks origins for all requests alike
+            max_http_buffer_size=MAX_MESSAGE_BYTES,
+            async_handlers=False,
+            ping_interval=10,
+            ping_timeout=10,
+            http_compression=False,
+        )
+        self.server.on("connect", self._on_connect)
+        self.server.on("disconnect", self._on_disconnect)
+        self.server.on("watch", self._on_watch)
+
+    async def __aenter__(self) -> Live:
+        self._backend.state.log.listen(self._wake_all)
+        self._backend.view_listeners.append(self._on_view)
+        self._backend.picture_listeners.append(self._on_picture)
+        return self
+
+    async def __aexit__(self, *exc: object) -> None:
+        await self.close()
+
+    async def close(self) -> None:
+        """Say goodbye to everybody. Idempotent."""
+        if self._closed:
+            return
+        self._closed = True
+        for client in list(self._clients.values()):
+            await self.server.disconnect(client.sid)
+            await self._drop(client)
+        await self.server.shutdown()
+
+    # -- clients ---------------------------------------------------------------------------------------
+
+    async def _on_connect(self, sid: str, environ: dict[str, Any], auth: object = None) -> bool:
+        if self._closed or len(self._clients) >= MAX_CLIENTS:
+            return False
+        log_of_changes = self._backend.state.log
+        since = auth.get("since") if isinstance(auth, dict) else None
+        is_same_run = isinstance(auth, dict) and auth.get("run") == log_of_changes.run
+        is_number = isinstance(since, int) and not isinstance(since, bool)
+        seq = since if isinstance(since, int) and is_same_run and is_number and since >= 0 else -1
+        client = self._clients[sid] = _Client(sid, seq)
+        client.views = dict(self._backend.state.views) if seq >= 0 else {}
+        client.wake.set()
+        client.task = asyncio.create_task(self._serve(client), name=f"web client {sid}")
+        return True
+
+    async def _on_disconnect(self, sid: str, *reason: object) -> None:
+        client = self._clients.get(sid)
+        if client is not None:
+            await self._drop(client)
+
+    async def _drop(self, client: _Client) -> None:
+        self._clients.pop(client.sid, None)
+        for key in client.watched:
+            self._backend.feeds.unwatch(key)
+        client.watched = set()
+        if client.task is not None and client.task is not asyncio.current_task():
+            client.task.cancel()
+            await asyncio.gather(client.task, return_exceptions=True)
+
+    async def _on_watch(self, sid: str, wanted: object = None) -> None:
+        """A client says which feeds it looks at: all of them, each time."""
+        client = self._clients.get(sid)
+        if client is None or "display" in self._backend.config.without:
+            return
+        try:
+            keys = {(feed.robot, feed.name) for feed in _FEEDS.validate_python(wanted)[:MAX_WATCHED]}
+        except ValidationError:
+            return
+        feeds, known = self._backend.feeds, self._backend.state.feeds
+        for key in keys - client.watched:
+            feeds.watch(key)
+            if key in known.pictures:
+                client.frames[key] = known.pictures[key]
+        for key in client.watched - keys:
+            feeds.unwatch(key)
+            client.frames.pop(key, None)
+        client.watched = keys
+        client.wake.set()
+
+    # -- what is new -----------------------------------------------------------------------------------
+
+    def _wake_all(self) -> None:
+        for client in self._clients.values():
+            client.wake.set()
+
+    def _on_view(self, view: MapView) -> None:
+        for client in self._clients.values():
+            client.views[view.actor] = view
+            client.wake.set()
+
+    def _on_picture(self, key: Key, picture: Picture) -> None:
+        for client in self._clients.values():
+            if key in client.watched:
+                client.frames[key] = picture
+                client.wake.set()
+
+    # -- sending ---------------------------------------------------------------------------------------
+
+    async def _serve(self, client: _Client) -> None:
+        """Send to one client, always the newest, never more than it takes."""
+        try:
+            while True:
+                await client.wake.wait()
+                client.wake.clear()
+                await asyncio.sleep(0)  # what else happens in this turn of the loop goes along
+                await self._taken(client)
+                await self._send_changes(client)
+                await self._send_views(client)
+                await self._send_frames(client)
+                await asyncio.sleep(PACE_S)
+        except asyncio.CancelledError:
+            raise
+        except Exception:
+            # One client's trouble is no other's; it connects anew and starts from a snapshot.
+            log.exception("client dropped", sid=client.sid)
+            await self.server.disconnect(client.sid)
+
+    async def _taken(self, client: _Client) -> None:
+        """Wait until what was sent before left for the network."""
+        eio_sid = self.server.manager.eio_sid_from_sid(client.sid, "/")
+        socket = self.server.eio.sockets.get(eio_sid) if eio_sid else None
+        if socket is not None:
+            await socket.queue.join()
+
+    async def _send_changes(self, client: _Client) -> None:
+        changes = self._backend.state.log.since(client.seq) if client.seq >= 0 else None
+        if changes is None:
+            snapshot = self._backend.snapshot()
+            client.seq = snapshot.seq
+            await self._emit(client, "snapshot", _plain(snapshot))
+        elif changes:
+            client.seq = changes[-1].seq
+            await self._emit(client, "changes", [_plain(change) for change in changes])
+
+    async def _send_views(self, client: _Client) -> None:
+        views, client.views = client.views, {}
+        for view in views.values():
+            await self._emit(client, "view", _plain(view))
+
+    async def _send_frames(self, client: _Client) -> None:
+        now_s = self._backend.clock.wall_s()
+        for key in list(client.frames):
+            flying = [at_s for at_s in client.in_flight.get(key, ()) if now_s - at_s < CONFIRM_WITHIN_S]
+            client.in_flight[key] = flying
+            if len(flying) >= IN_FLIGHT:
+                loop = asyncio.get_running_loop()
+                loop.call_later(CONFIRM_WITHIN_S, client.wake.set)  # should none of them be confirmed
+            else:
+                picture = client.frames.pop(key)
+                flying.append(now_s)
+                meta = FrameMeta(robot=key[0], name=key[1], unix_ms=picture.unix_ms, number=picture.number)
+                await self._emit(
+                    client, "frame", (_plain(meta), picture.data), self._confirm(client, key, now_s)
+                )
+
+    def _confirm(self, client: _Client, key: Key, sent_s: float) -> Callable[..., None]:
+        def confirmed(*_: object) -> None:
+            flying = client.in_flight.get(key, [])
+            if sent_s in flying:
+                flying.remove(sent_s)
+            if key in client.frames:
+                client.wake.set()
+
+        return confirmed
+
+    async def _emit(
+        self, client: _Client, event: str, data: Any, callback: Callable[..., None] | None = None
+    ) -> None:
+        await self.server.emit(event, data, to=client.sid, callback=callback)
+
+
+def _plain(model: BaseModel) -> dict[str, Any]:
+    return model.model_dump(mode="json")

@@ -1,0 +1,73 @@
+"""The page itself: the built front end, or a plain one that says how to build it."""
+
+from __future__ import annotations
+
+import html
+from importlib import resources
+from pathlib import Path
+from typing import Final
+
+from starlette.requests import Request
+from starlette.responses import FileResponse, HTMLResponse, Response
+
+from parley.web.problems import WebProblem, problem_response
+
+__all__ = ["Pages", "built_pages"]
+
+NONCE_MARK: Final = "__CSP_NONCE__"
+"""Where this stands in the page, the random word of the answer is put that its policy allows."""
+
+_PLAIN = """<!doctype html>
+<html lang="en"><head><meta charset="utf-8"><title>Parley</title></head>
+<body><h1>Parley</h1>
+<p>The system is running, but its page is not built yet. Run <code>make demo</code>, which builds it.</p>
+<p>Until then: <code>parley demo --terminal</code> talks to the robots in a terminal.</p>
+<p>Programs find the interface described at <a href="/api/openapi.json">/api/openapi.json</a>.</p>
+</body></html>
+"""
+
+
+def built_pages() -> Path:
+    """Where the built front end lies, if it was built."""
+    return Path(str(resources.files("parley.web") / "static"))
+
+
+class Pages:
+    """Serves files of a folder; every other address is the page, which finds its way itself.
+
+    Args:
+        folder: The built front end.
+    """
+
+    def __init__(self, folder: Path) -> None:
+        self._folder = folder.resolve()
+
+    async def answer(self, request: Request) -> Response:
+        """The file of a request."""
+        path = request.path_params.get("path", "")
+        file = self._file(path)
+        if file is not None:
+            # Names of built files hold a digest of what is in them.
+            is_fixed = path.startswith("assets/")
+            caching = "public, max-age=31536000, immutable" if is_fixed else "no-cache"
+            return FileResponse(file, headers={"Cache-Control": caching})
+        if path.startswith(("api/", "assets/")):
+            return problem_response(WebProblem(404, "There is nothing under this address."))
+        return self._page(request)
+
+    def _file(self, path: str) -> Path | None:
+        if path in ("", "index.html") or "\0" in path:
+            return None
+        try:
+            file = (self._folder / path).resolve()
+            return file if file.is_relative_to(self._folder) and file.is_file() else None
+        except OSError:
+            return None
+
+    def _page(self, request: Request) -> Response:
+        index = self._folder / "index.html"
+        text = index.read_text(encoding="utf-8") if index.is_file() else _PLAIN
+        nonce = request.scope.get("state", {}).get("nonce", "")
+        return HTMLResponse(
+            text.replace(NONCE_MARK, html.escape(nonce)), headers={"Cache-Control": "no-cache"}
+        )

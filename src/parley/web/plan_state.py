@@ -1,0 +1,291 @@
+"""Plans, proposals and other graphs of all robots, as people see them. No loop, no clock."""
+
+from __future__ import annotations
+
+import re
+from collections import deque
+from collections.abc import Callable, Mapping, Sequence
+from dataclasses import dataclass, field
+from typing import Final, Literal
+
+from parley.messages.chat import ActionCall
+from parley.messages.failure import FailureReport
+from parley.messages.pvf import Parameter, fits_type
+from parley.messages.status import GraphEvent, PlanDecision, PlanProposal, PlanUpdate, Rejection
+from parley.web.models import (
+    Change,
+    ParameterView,
+    PlanChange,
+    PlanGone,
+    PlanView,
+    ProposalChange,
+    ProposalGone,
+    ProposalView,
+    StepView,
+)
+
+__all__ = ["PlanBook"]
+
+Risk = Literal["none", "low", "high"]
+StepState = Literal[
+    "queued", "running", "finished", "failed", "stopped", "skipped", "paused", "stopping", "waiting"
+]
+
+OVER_KEPT: Final = 3
+"""How many other graphs of a robot stay listed after they ended."""
+
+_NODE_STATES: Final[Mapping[str, StepState]] = {
+    "RUNNING": "running",
+    "PAUSE_REQUESTED": "running",
+    "PAUSED": "paused",
+    "STOPPING": "stopping",
+    "FINISHED": "finished",
+    "BYPASSED": "skipped",
+    "ERROR": "failed",
+}
+_GRAPH_STATES: Final[Mapping[str, Literal["running", "paused", "held", "ended"]]] = {
+    "PAUSED": "paused",
+    "HALTED": "held",
+    "STOPPED": "ended",
+    "FINISHED": "ended",
+    "ERROR": "ended",
+}
+_OVER: Final = frozenset({"finished", "failed", "stopped", "skipped"})
+_WORD_STARTS = re.compile(r"(?<=[a-z0-9])(?=[A-Z])|[_\s]+")
+
+
+@dataclass(slots=True)
+class _Node:
+    """What the engine told of one node."""
+
+    state: StepState = "queued"
+    progress: float | None = None
+    progress_text: str = ""
+    message: str = ""
+    outputs: tuple[ParameterView, ...] = ()
+    started_unix_ms: int = 0
+    ended_unix_ms: int = 0
+
+
+@dataclass(slots=True)
+class _Graph:
+    """One graph: its nodes by full name, in the order in which they were heard of."""
+
+    nodes: dict[str, _Node] = field(default_factory=dict)
+    state: Literal["running", "paused", "held", "ended"] = "running"
+
+
+class PlanBook:
+    """Everything that robots do or are about to do.
+
+    Args:
+        emit: Gets each change.
+        risk_of: The risk of an action of a robot, by robot and action.
+    """
+
+    def __init__(self, emit: Callable[[Change], None], risk_of: Callable[[str, str], Risk]) -> None:
+        self._emit, self._risk_of = emit, risk_of
+        self.views: dict[tuple[str, str], PlanView] = {}
+        self.proposals: dict[str, ProposalView] = {}
+        self._updates: dict[str, PlanUpdate] = {}
+        self._graphs: dict[tuple[str, str], _Graph] = {}
+        self._past: deque[tuple[str, str]] = deque(maxlen=500)
+        """Graphs of plans that were replaced: what comes late about them is dropped."""
+        self.decided: set[str] = set()
+        """Proposals that were approved or edited, but may yet be refused and then go on waiting."""
+
+    # -- plans -----------------------------------------------------------------------------------------
+
+    def on_update(self, update: PlanUpdate) -> None:
+        """The planner tells a robot's plan."""
+        robot, before = update.target, self._updates.get(update.target)
+        self._updates[robot] = update
+        if before is not None and before.graph_name != update.graph_name:
+            self._drop(robot, before.graph_name)
+        for proposal in [p for p in self.proposals.values() if p.robot == robot]:
+            if update.state == "idle" or proposal.id in self.decided:
+                self._end_proposal(proposal.id)
+        self._show_plan(update, before)
+
+    def on_proposal(self, proposal: PlanProposal) -> None:
+        """Steps wait for a yes."""
+        steps = tuple(
+            self._step(proposal.target, f"step-{number}", call, "queued", _Node())
+            for number, call in enumerate(proposal.steps)
+        )
+        view = ProposalView(id=proposal.id, robot=proposal.target, message=proposal.message, steps=steps)
+        self.proposals[proposal.id] = view
+        self._emit(ProposalChange(seq=0, proposal=view))
+
+    def on_decision(self, decision: PlanDecision) -> None:
+        """Somebody decided; what was not rejected is gone when the plan takes the steps up."""
+        if decision.id not in self.proposals:
+            return
+        if decision.decision == "reject":
+            self._end_proposal(decision.id)
+        else:
+            self.decided.add(decision.id)
+
+    def on_rejection(self, rejection: Rejection) -> None:
+        """The steps of a proposal were refused."""
+        self.decided -= {p.id for p in self.proposals.values() if p.robot == rejection.target}
+
+    def forget(self, robot: str) -> None:
+        """A robot was taken off the list."""
+        for key in [key for key in self.views if key[0] == robot]:
+            self._drop(*key)
+        for proposal in [p for p in self.proposals.values() if p.robot == robot]:
+            self._end_proposal(proposal.id)
+        self._updates.pop(robot, None)
+
+    # -- what engines tell -----------------------------------------------------------------------------
+
+    def on_event(self, event: GraphEvent) -> None:
+        """A transition or progress of a graph."""
+        key = (event.actor, event.graph_name)
+        if key in self._past:
+            return
+        graph = self._graphs.setdefault(key, _Graph())
+        if event.kind == "graph":
+            graph.state = _GRAPH_STATES.get(event.state, "running")
+        elif event.node:
+            _take(graph.nodes.setdefault(event.node, _Node()), event)
+        update = self._updates.get(event.actor)
+        if update is not None and update.graph_name == event.graph_name:
+            self._show_plan(update, update)
+        else:
+            self._show_graph(*key, graph)
+
+    # -- showing ---------------------------------------------------------------------------------------
+
+    def _show_plan(self, update: PlanUpdate, before: PlanUpdate | None) -> None:
+        key = (update.target, update.graph_name)
+        nodes = self._graphs[key].nodes if key in self._graphs else {}
+        steps = tuple(
+            self._step(
+                update.target,
+                step.node or f"step-{number}",
+                step.action,
+                _state(step.state, nodes.get(step.node)),
+                nodes.get(step.node) or _Node(),
+            )
+            for number, step in enumerate(update.steps)
+        )
+        state: Literal["idle", "awaiting_approval", "running", "paused", "held", "ended"] = update.state
+        shown = self.views.get(key)
+        self._put(
+            PlanView(
+                robot=update.target,
+                graph_name=update.graph_name,
+                state="ended" if state == "idle" and steps else state,
+                revision=update.revision,
+                steps=steps,
+                changed=_changed(shown, steps) if before is not None and shown is not None else (),
+            )
+        )
+
+    def _show_graph(self, robot: str, name: str, graph: _Graph) -> None:
+        steps = tuple(
+            self._step(robot, node, ActionCall(name=_action_of(node)), told.state, told)
+            for node, told in graph.nodes.items()
+        )
+        self._put(PlanView(robot=robot, graph_name=name, kind="graph", state=graph.state, steps=steps))
+        if graph.state == "ended":
+            over = [
+                key
+                for key, view in self.views.items()
+                if key[0] == robot and view.kind == "graph" and view.state == "ended"
+            ]
+            for key in over[:-OVER_KEPT]:
+                self._drop(*key)
+
+    def _step(self, robot: str, key: str, call: ActionCall, state: StepState, node: _Node) -> StepView:
+        is_over = state in _OVER
+        return StepView(
+            id=key,
+            action=call.name,
+            label=_label(call),
+            reason=call.reason,
+            state=state,
+            inputs=parameter_views(call.input_parameters),
+            outputs=node.outputs or parameter_views(call.output_parameters),
+            progress=None if is_over else node.progress,
+            progress_text="" if is_over else node.progress_text,
+            message=node.message if state == "failed" else "",
+            risk=self._risk_of(robot, call.name),
+            call=call.model_dump(),
+            started_unix_ms=node.started_unix_ms,
+            ended_unix_ms=node.ended_unix_ms if is_over else 0,
+        )
+
+    def _put(self, view: PlanView) -> None:
+        key = (view.robot, view.graph_name)
+        if self.views.get(key) != view:
+            self.views[key] = view
+            self._emit(PlanChange(seq=0, plan=view))
+
+    def _drop(self, robot: str, graph_name: str) -> None:
+        if graph_name:
+            self._past.append((robot, graph_name))
+        self._graphs.pop((robot, graph_name), None)
+        if self.views.pop((robot, graph_name), None) is not None:
+            self._emit(PlanGone(seq=0, robot=robot, graph_name=graph_name))
+
+    def _end_proposal(self, proposal_id: str) -> None:
+        self.decided.discard(proposal_id)
+        del self.proposals[proposal_id]
+        self._emit(ProposalGone(seq=0, id=proposal_id))
+
+
+def parameter_views(parameters: Mapping[str, Parameter]) -> tuple[ParameterView, ...]:
+    """Flat parameters for the page; values that cannot be written in JSON are left out."""
+    return tuple(
+        ParameterView(
+            name=name, type=item.type, value=item.value if fits_type(item.type, item.value) else None
+        )
+        for name, item in parameters.items()
+    )
+
+
+def _take(node: _Node, event: GraphEvent) -> None:
+    if event.kind == "progress":
+        node.progress, node.progress_text = event.progress, event.progress_text
+        return
+    node.state = _NODE_STATES.get(event.state, "queued")
+    if event.result == "on_stopped" and node.state == "finished":
+        node.state = "stopped"
+    if node.state == "running" and not node.started_unix_ms:
+        node.started_unix_ms = event.unix_ms
+    if node.state in _OVER:
+        node.ended_unix_ms = event.unix_ms
+    if event.outputs:
+        node.outputs = parameter_views(event.outputs)
+    node.message = FailureReport.parse(event.message).message if event.message else ""
+
+
+def _state(planned: StepState, node: _Node | None) -> StepState:
+    """The planner's word counts; only that a step is just being stopped is known to the engine alone."""
+    return "stopping" if node is not None and node.state == "stopping" and planned not in _OVER else planned
+
+
+def _changed(before: PlanView, steps: Sequence[StepView]) -> tuple[str, ...]:
+    """Ids of steps that are new or have other parameters; kept until the plan is altered again."""
+    old = {step.id: step.call for step in before.steps}
+    new = [step.id for step in steps if old.get(step.id) != step.call]
+    is_same = not new and len(steps) == len(before.steps)
+    return before.changed if is_same else tuple(new)
+
+
+def _label(call: ActionCall) -> str:
+    """A step in words: its reason, or else what the action is called and given."""
+    if call.reason:
+        return call.reason
+    words = " ".join(part.lower() for part in _WORD_STARTS.split(call.name) if part)
+    given = [str(p.value) for p in call.input_parameters.values() if p.type == "string" and p.has_data]
+    return f"{words}: {', '.join(given)}" if given else words
+
+
+def _action_of(node: str) -> str:
+    """The action's name in a node's full name."""
+    name, _, number = node.rpartition("_")
+    return name if name and number.isdecimal() else node

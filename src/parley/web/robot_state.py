@@ -1,0 +1,161 @@
+"""Which robots there are, how they fare, and how far their emergency stops have come. No loop, no clock."""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Iterable
+from typing import Final
+
+from parley.messages.status import ActorStatus, PlanUpdate, StopCommand, StopReport
+from parley.web.models import Change, RobotChange, RobotGone, RobotView, StopView
+
+__all__ = ["LOST_AFTER_S", "STOP_DEADLINE_S", "RobotBook"]
+
+LOST_AFTER_S: Final = 5.0
+"""Wall time without a heartbeat after which a robot counts as out of contact."""
+STOP_DEADLINE_S: Final = 3.0
+"""Wall time from an emergency stop within which the robot must have confirmed that it stands."""
+
+
+class RobotBook:
+    """All robots by name.
+
+    Args:
+        emit: Gets each change.
+    """
+
+    def __init__(self, emit: Callable[[Change], None]) -> None:
+        self._emit = emit
+        self.views: dict[str, RobotView] = {}
+        self._seen_s: dict[str, float] = {}
+        self._sequence: dict[str, int] = {}
+        self._stop_s: dict[str, float] = {}
+        self._received: set[str] = set()
+        """Whose engine confirmed the stop that is on."""
+
+    def resolve(self, name: str) -> str | None:
+        """The robot that `name` means, whatever its capitals."""
+        wanted = name.strip().casefold()
+        return next((known for known in self.views if known.casefold() == wanted), None)
+
+    def add(self, name: str) -> RobotView:
+        """List a robot that was named by a person; one that is known already stays as it is."""
+        known = self.resolve(name)
+        if known is not None:
+            return self.views[known]
+        self._put(RobotView(name=name))
+        return self.views[name]
+
+    def remove(self, name: str) -> None:
+        """Take a robot off the list; it comes back with its next heartbeat."""
+        if self.views.pop(name, None) is not None:
+            for book in (self._seen_s, self._sequence, self._stop_s):
+                book.pop(name, None)
+            self._received.discard(name)
+            self._emit(RobotGone(seq=0, name=name))
+
+    def on_status(self, status: ActorStatus, *, now_s: float, unix_ms: int) -> bool:
+        """A heartbeat.
+
+        Args:
+            status: What the robot says of itself.
+            now_s: Wall time, monotonic.
+            unix_ms: Wall time for people.
+
+        Returns:
+            Whether the robot was started anew since its last heartbeat.
+        """
+        name = status.actor
+        view = self.views.get(name) or RobotView(name=name)
+        if status.state == "leaving":
+            self._seen_s.pop(name, None)
+            self._put(view.model_copy(update={"connection": "left", "state": "leaving"}))
+            return False
+        restarted = status.sequence < self._sequence.get(name, 0) or view.connection == "left"
+        self._seen_s[name], self._sequence[name] = now_s, status.sequence
+        self._put(
+            view.model_copy(
+                update={
+                    "state": status.state,
+                    "connection": "here",
+                    "last_seen_unix_ms": unix_ms,
+                    "pose": status.pose,
+                    "at_rest": status.at_rest,
+                    "map_name": status.map_name,
+                    "graphs": status.graphs,
+                    "catalogue": status.catalogue,
+                    "stop": self._stop_after(view.stop, status, restarted=restarted, unix_ms=unix_ms),
+                }
+            )
+        )
+        return restarted
+
+    def on_plan(self, update: PlanUpdate) -> None:
+        """Take over the policy that the planner tells with each plan."""
+        view = self.views.get(update.target)
+        if view is not None:
+            self._put(view.model_copy(update={"policy": update.policy}))
+
+    def on_stop(self, command: StopCommand, *, now_s: float, unix_ms: int) -> None:
+        """Somebody pressed stop, or reset it."""
+        for name in self._meant(command.targets):
+            view = self.views[name]
+            if command.command == "stop":
+                self._stop_s[name] = now_s
+                self._received.discard(name)
+                stop = StopView(state="sent", id=command.id, sent_unix_ms=unix_ms)
+                self._put(view.model_copy(update={"stop": stop}))
+            elif name not in self._received and view.stop.state in ("sent", "overdue"):
+                # Nobody ever took it, so nobody will confirm that it is taken back.
+                self._put(view.model_copy(update={"stop": StopView()}))
+
+    def on_stop_report(self, report: StopReport, *, unix_ms: int) -> None:
+        """A robot tells what became of a stop."""
+        view = self.views.get(report.actor)
+        if view is None:
+            return
+        stop = view.stop
+        if report.state == "reset":
+            self._received.discard(report.actor)
+            stop = StopView()
+        else:
+            self._received.add(report.actor)
+            stop = stop.model_copy(update={"id": stop.id or report.id})
+            if report.state == "at_rest":
+                stop = stop.model_copy(update={"state": "at_rest", "at_rest_unix_ms": unix_ms})
+            elif stop.state in ("none", "sent"):
+                stop = stop.model_copy(update={"state": "received"})
+        self._put(view.model_copy(update={"stop": stop}))
+
+    def tick(self, *, now_s: float) -> None:
+        """Time passes: notice who is silent and which stops are overdue. `now_s` is wall time."""
+        for name, view in list(self.views.items()):
+            if view.connection == "here" and now_s - self._seen_s.get(name, now_s) > LOST_AFTER_S:
+                view = view.model_copy(update={"connection": "lost"})
+            waits = view.stop.state in ("sent", "received")
+            if waits and now_s - self._stop_s.get(name, now_s) > STOP_DEADLINE_S:
+                view = view.model_copy(update={"stop": view.stop.model_copy(update={"state": "overdue"})})
+            self._put(view)
+
+    def _meant(self, targets: Iterable[str]) -> list[str]:
+        named = [name for target in targets if (name := self.resolve(target)) is not None]
+        return named if targets else [name for name, view in self.views.items() if view.connection != "left"]
+
+    def _stop_after(self, stop: StopView, status: ActorStatus, *, restarted: bool, unix_ms: int) -> StopView:
+        """A heartbeat says too whether a stop is on, for those who came later than the stop."""
+        name = status.actor
+        if status.state != "stopped":
+            if restarted:
+                self._received.discard(name)
+                return StopView()
+            return stop
+        self._received.add(name)
+        if status.at_rest and stop.state != "at_rest":
+            return stop.model_copy(update={"state": "at_rest", "at_rest_unix_ms": unix_ms})
+        return stop.model_copy(update={"state": "received"}) if stop.state == "none" else stop
+
+    def _put(self, view: RobotView) -> None:
+        """Keep `view`, and tell it if more changed than the time of the last heartbeat."""
+        before = self.views.get(view.name)
+        self.views[view.name] = view
+        if before is None or before.model_copy(update={"last_seen_unix_ms": view.last_seen_unix_ms}) != view:
+            self._emit(RobotChange(seq=0, robot=view))

@@ -1,0 +1,1 @@
+"""The REST side of the page: one file per resource; all below `/api`."""

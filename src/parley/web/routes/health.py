@@ -1,0 +1,37 @@
+"""Whether the server is well, and what it is."""
+
+from __future__ import annotations
+
+from fastapi import APIRouter, Request
+from starlette.concurrency import run_in_threadpool
+from starlette.responses import Response
+
+from parley import __version__
+from parley.web.bodies import Health
+from parley.web.models import ServerInfo
+from parley.web.routes.access import Web
+
+__all__ = ["router"]
+
+router = APIRouter(tags=["server"])
+
+
+@router.get("/health")
+async def get_health() -> Health:
+    """Whether the server is well."""
+    return Health(ok=True, version=__version__)
+
+
+@router.get("/info")
+async def get_info(web: Web) -> ServerInfo:
+    """What the page should know about the system behind it."""
+    return web.info
+
+
+@router.get("/qr.svg", response_class=Response, responses={200: {"content": {"image/svg+xml": {}}}})
+async def get_qr(request: Request, web: Web) -> Response:
+    """The address for phones, to be read with a camera."""
+    from parley.web.addresses import qr_svg
+
+    address = web.addresses[0] if web.addresses else str(request.base_url)
+    return Response(await run_in_threadpool(qr_svg, address), media_type="image/svg+xml")

@@ -1,0 +1,31 @@
+"""What went wrong, and how it ended."""
+
+from __future__ import annotations
+
+from typing import Annotated
+
+from fastapi import APIRouter, Query
+
+from parley.errors import UnavailableError
+from parley.messages import topics
+from parley.messages.incident import GetIncidents, Incident, IncidentList
+from parley.web.routes.access import Web, module
+
+__all__ = ["router"]
+
+router = APIRouter(prefix="/incidents", tags=["incidents"], dependencies=[module("incidents")])
+
+
+@router.get("")
+async def get_incidents(
+    web: Web,
+    robot: Annotated[str, Query(max_length=100)] = "",
+    limit: Annotated[int, Query(ge=1, le=1000)] = 100,
+) -> list[Incident]:
+    """Incidents, newest first; where nobody keeps them, those that this server heard of."""
+    try:
+        found = await web.link.ask(topics.GET_INCIDENTS, GetIncidents(robot=robot, limit=limit), IncidentList)
+    except UnavailableError:
+        heard = [item for item in web.state.incidents.values() if robot in ("", item.robot)]
+        return heard[::-1][:limit]
+    return list(found.incidents)

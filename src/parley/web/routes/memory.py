@@ -1,0 +1,143 @@
+"""What is remembered."""
+
+from __future__ import annotations
+
+from typing import Annotated, Final
+from urllib.parse import quote
+
+from fastapi import APIRouter, Path, Query
+from starlette.responses import Response
+
+from parley.messages import topics
+from parley.messages.memory import (
+    AddToMemory,
+    GetMemory,
+    MemoryBody,
+    MemoryEntry,
+    MemoryList,
+    RemoveMemory,
+)
+from parley.web.backend import Backend, read_image
+from parley.web.bodies import Done, MemoryPut
+from parley.web.models import MemoryItem
+from parley.web.problems import WebProblem
+from parley.web.routes.access import Author, Web, module
+
+__all__ = ["router"]
+
+router = APIRouter(prefix="/memory", tags=["memory"], dependencies=[module("memory")])
+
+MAX_ITEMS: Final = 1000
+MAX_FOUND: Final = 50
+
+Name = Annotated[str, Path(min_length=1, max_length=200)]
+Scope = Annotated[str, Query(max_length=100)]
+
+
+@router.get("")
+async def get_memories(
+    web: Web, q: Annotated[str, Query(max_length=500)] = "", scope: Scope = ""
+) -> list[MemoryItem]:
+    """All memories, the newest last, or those that `q` finds, the best first.
+
+    With `scope` only those of a robot and everybody's.
+    """
+    if q.strip():
+        found = await _ask(
+            web, GetMemory(request=q, kind="search", scope=scope, pictures=False, limit=MAX_FOUND)
+        )
+    else:
+        found = await _ask(web, GetMemory(request="", kind="list", scope=scope, pictures=False))
+    return [_item(entry) for entry in found[-MAX_ITEMS:]]
+
+
+@router.get("/{name}")
+async def get_memory(name: Name, web: Web, scope: Scope = "") -> MemoryItem:
+    """One memory by its name."""
+    return _item(await _get(web, name, scope, pictures=False))
+
+
+@router.get("/{name}/history")
+async def get_memory_history(name: Name, web: Web, scope: Scope = "") -> list[MemoryItem]:
+    """The versions of a memory that were replaced or forgotten, oldest first; pictures are left out."""
+    request = GetMemory(request=name, kind="history", scope=scope, pictures=False)
+    return [_item(entry) for entry in await _ask(web, request)]
+
+
+@router.get(
+    "/{name}/image",
+    response_class=Response,
+    responses={200: {"content": {"image/jpeg": {}, "image/png": {}}}},
+)
+async def get_memory_image(name: Name, web: Web, scope: Scope = "") -> Response:
+    """The picture of a memory."""
+    entry = await _get(web, name, scope, pictures=True)
+    if entry.type != "image":
+        raise WebProblem(404, "There is no picture with this memory.")
+    data, media_type = read_image(entry.data)
+    return Response(data, media_type=media_type)
+
+
+@router.put("/{name}")
+async def put_memory(name: Name, put: MemoryPut, web: Web, author: Author) -> Done:
+    """Remember something under a name; what stood there before goes to the history."""
+    if put.type == "image":
+        read_image(put.data)
+    body = MemoryBody(
+        type=put.type,
+        data=put.data,
+        info=put.info or (put.data[:200] if put.type == "text" else name),
+        scope=put.scope,
+        source=author or "operator",
+    )
+    await _change(web, AddToMemory({name: body}))
+    return Done()
+
+
+@router.delete("/{name}")
+async def delete_memory(
+    name: Name, web: Web, scope: Annotated[str | None, Query(max_length=100)] = None
+) -> Done:
+    """Forget a memory, everywhere or with `scope` only there; the history keeps it."""
+    await _change(web, RemoveMemory({name: {} if scope is None else {"scope": scope}}))
+    return Done()
+
+
+async def _ask(web: Backend, request: GetMemory) -> tuple[MemoryEntry, ...]:
+    return (await web.link.ask(topics.GET_MEMORY, request, MemoryList)).memories
+
+
+async def _get(web: Backend, name: str, scope: str, *, pictures: bool) -> MemoryEntry:
+    """The memory of that name: the robot's own, else everybody's, else any."""
+    found = await _ask(web, GetMemory(request=name, kind="named", scope=scope, pictures=pictures))
+    named = sorted(found, key=lambda entry: (entry.scope != scope, entry.scope != ""))
+    if not named:
+        raise WebProblem(404, f"Nothing is remembered under the name {name}.")
+    return named[0]
+
+
+async def _change(web: Backend, message: AddToMemory | RemoveMemory) -> None:
+    try:
+        event = await web.link.change_memory(message)
+    except TimeoutError as error:
+        raise WebProblem(504, "The memory does not answer.", "Try again.") from error
+    if event.kind == "failed":
+        is_unknown = isinstance(message, RemoveMemory)
+        raise WebProblem(404 if is_unknown else 507, event.message or "That could not be stored.")
+
+
+def _item(entry: MemoryEntry) -> MemoryItem:
+    is_image = entry.type == "image"
+    query = f"?scope={quote(entry.scope, safe='')}" if entry.scope else ""
+    return MemoryItem(
+        name=entry.name,
+        scope=entry.scope,
+        type=entry.type,
+        data=f"/api/memory/{quote(entry.name, safe='')}/image{query}" if is_image else entry.data,
+        info=entry.info,
+        source=entry.source,
+        created_unix_ms=entry.created_unix_ms,
+        updated_unix_ms=entry.updated_unix_ms,
+        used_unix_ms=entry.used_unix_ms,
+        used_count=entry.used_count,
+    )

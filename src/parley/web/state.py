@@ -1,0 +1,154 @@
+"""Everything the page sees, computed from messages alone: no transport, no loop, no clock of its own."""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Iterable
+from typing import Literal
+
+from parley.messages.incident import Incident
+from parley.messages.map import MapView
+from parley.messages.memory import MemoryEvent
+from parley.messages.status import GraphEvent, PlanProposal, PlanUpdate, Rejection
+from parley.web.changes import ChangeLog
+from parley.web.chat_state import ChatBook
+from parley.web.feed_state import FeedBook
+from parley.web.models import (
+    ChatChange,
+    ChatEntry,
+    IncidentChange,
+    MemoryChange,
+    RejectionChange,
+    ServerInfo,
+    Snapshot,
+)
+from parley.web.plan_state import PlanBook
+from parley.web.robot_state import RobotBook
+
+__all__ = ["SNAPSHOT_ENTRIES", "WebState"]
+
+SNAPSHOT_ENTRIES = 100
+"""How much of the conversation a snapshot holds, besides open questions."""
+INCIDENTS_KEPT = 200
+
+_STOP_CODES = frozenset({"stop_failed", "reset_failed", "still_moving"})
+
+
+class WebState:
+    """The books of robots, chat, plans, feeds and incidents, and the one log of what changes in them.
+
+    Args:
+        run: Names the log, see `Snapshot.run`.
+        keep: Gets each chat entry that is new or has changed and hands it to `show` when it is durable;
+            drafts are shown at once.
+        new_id: Makes keys.
+        entries: The end of the conversation so far, oldest first.
+        has_older: Whether the conversation began before those.
+    """
+
+    def __init__(
+        self,
+        run: str,
+        *,
+        keep: Callable[[ChatEntry], None],
+        new_id: Callable[[], str],
+        entries: Iterable[ChatEntry] = (),
+        has_older: bool = False,
+    ) -> None:
+        self.log = ChangeLog(run)
+        self._keep, self._has_older = keep, has_older
+        self.robots = RobotBook(self.log.add)
+        self.chat = ChatBook(self._on_entry, new_id, entries)
+        self.plans = PlanBook(self.log.add, self.risk_of)
+        self.feeds = FeedBook(self.log.add)
+        self.incidents: dict[str, Incident] = {}
+        self.views: dict[str, MapView] = {}
+
+    def show(self, entry: ChatEntry) -> None:
+        """Tell everybody of a chat entry."""
+        self.log.add(ChatChange(seq=0, entry=entry))
+
+    def on_plan(self, message: PlanUpdate | PlanProposal) -> None:
+        """The planner speaks."""
+        if isinstance(message, PlanProposal):
+            self.plans.on_proposal(message)
+            return
+        self.plans.on_update(message)
+        self.robots.on_plan(message)
+
+    def on_event(self, event: GraphEvent) -> None:
+        """An engine speaks."""
+        self.plans.on_event(event)
+
+    def on_incident(self, incident: Incident) -> None:
+        """A failure happened, or its record changed."""
+        self.incidents[incident.id] = incident
+        while len(self.incidents) > INCIDENTS_KEPT:
+            del self.incidents[next(iter(self.incidents))]
+        self.log.add(IncidentChange(seq=0, incident=incident))
+
+    def on_memory(self, event: MemoryEvent) -> None:
+        """Something was remembered or forgotten."""
+        self.log.add(MemoryChange(seq=0, event=event.kind, name=event.name, message=event.message))
+
+    def on_view(self, view: MapView) -> None:
+        """A robot moved."""
+        self.views[view.actor] = view
+
+    def on_rejection(self, rejection: Rejection) -> None:
+        """Something was refused; people hear it in plain words, unless a robot says it in the chat itself."""
+        self.plans.on_rejection(rejection)
+        text = self._plain(rejection)
+        if text:
+            self.log.add(RejectionChange(seq=0, robot=rejection.target or rejection.source, message=text))
+
+    def remove_robot(self, name: str) -> None:
+        """Take a robot off every list."""
+        self.plans.forget(name)
+        self.views.pop(name, None)
+        self.robots.remove(name)
+
+    def risk_of(self, robot: str, action: str) -> Literal["none", "low", "high"]:
+        """The risk of an action as the robot's catalogue says."""
+        view = self.robots.views.get(robot)
+        found = next((item for item in view.catalogue if item.name == action), None) if view else None
+        return found.risk if found is not None else "low"
+
+    def snapshot(self, info: ServerInfo) -> Snapshot:
+        """Everything as it stands."""
+        chat = self.chat.newest(SNAPSHOT_ENTRIES)
+        return Snapshot(
+            run=self.log.run,
+            seq=self.log.seq,
+            info=info,
+            robots=tuple(self.robots.views.values()),
+            chat=tuple(chat),
+            chat_complete=not self._has_older and len(self.chat.entries) <= len(chat),
+            plans=tuple(self.plans.views.values()),
+            proposals=tuple(self.plans.proposals.values()),
+            feeds=tuple(self.feeds.infos.values()),
+            incidents=tuple(self.incidents.values()),
+            views=tuple(self.views.values()),
+        )
+
+    def _on_entry(self, entry: ChatEntry) -> None:
+        if entry.draft:
+            self.show(entry)
+        else:
+            self._keep(entry)
+
+    def _plain(self, rejection: Rejection) -> str:
+        robot = rejection.target or rejection.source
+        codes = {problem.code for problem in rejection.problems}
+        if "stop_latched" in codes:
+            return f"{robot} does not move until its emergency stop is released."
+        stop = next((problem for problem in rejection.problems if problem.code in _STOP_CODES), None)
+        if stop is not None:
+            remedy = f" Please {stop.remedy}." if stop.remedy else ""
+            return f"{stop.message.rstrip('.')}.{remedy}"
+        if rejection.what.endswith("plan_decision"):
+            return f"{robot} could not take that change, so its plan is as it was."
+        plan = self.plans.views.get((rejection.source, rejection.graph_name))
+        is_told = rejection.source not in self.robots.views or (plan is not None and plan.kind == "plan")
+        if is_told and "invalid_message" not in codes:
+            return ""
+        return f"{robot} could not take that, so nothing was changed."

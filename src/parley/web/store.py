@@ -1,0 +1,199 @@
+"""What the page's server keeps over restarts: conversation, pictures in it, robots added by name, policies.
+
+What `keep` returned for survives `kill -9`.
+"""
+
+from __future__ import annotations
+
+import json
+import sqlite3
+from collections.abc import Iterable, Sequence
+from dataclasses import dataclass
+from pathlib import Path
+from types import TracebackType
+from typing import Self
+
+from parley.clock import Clock
+from parley.errors import StoreError
+from parley.memory.database import Database
+from parley.web.models import ChatEntry
+
+__all__ = ["KeptPicture", "WebStore"]
+
+_VERSION = 1
+MAX_PICTURES = 500
+"""The oldest pictures go when there are more."""
+
+
+@dataclass(frozen=True, slots=True)
+class KeptPicture:
+    """A picture that was attached to a message."""
+
+    id: str
+    media_type: str
+    data: bytes
+
+
+class WebStore:
+    """Made by `open`. All methods raise `parley.errors.StoreError` when the file cannot be used."""
+
+    def __init__(self, database: Database) -> None:
+        self._database = database
+
+    @classmethod
+    async def open(cls, path: Path | str, clock: Clock) -> Self:
+        """Open or create the file; use as ``async with await WebStore.open(...)``.
+
+        Args:
+            path: The file, or ``:memory:``.
+            clock: For the name of a damaged file, which is put aside.
+
+        Raises:
+            StoreError: It cannot be used, or a newer Parley wrote it.
+        """
+        return cls(await Database.open(path, prepare=_prepare, unix_ms=clock.unix_ms(), what="chat"))
+
+    async def __aenter__(self) -> Self:
+        return self
+
+    async def __aexit__(
+        self, kind: type[BaseException] | None, error: BaseException | None, trace: TracebackType | None
+    ) -> None:
+        await self._database.close()
+
+    async def keep(self, entries: Sequence[ChatEntry], pictures: Sequence[KeptPicture] = ()) -> None:
+        """Store entries as they stand, all or none; it is durable afterwards."""
+        rows = [(e.id, e.seq, _names(e.targets), e.message.casefold(), e.model_dump_json()) for e in entries]
+        images = [(picture.id, picture.media_type, picture.data) for picture in pictures]
+
+        def work(db: sqlite3.Connection) -> None:
+            db.execute("BEGIN IMMEDIATE")
+            try:
+                db.executemany(
+                    "INSERT INTO chat (id, seq, robots, folded, entry) VALUES (?, ?, ?, ?, ?)"
+                    " ON CONFLICT (id) DO UPDATE SET seq = excluded.seq, robots = excluded.robots,"
+                    " folded = excluded.folded, entry = excluded.entry",
+                    rows,
+                )
+                if images:
+                    db.executemany("INSERT OR IGNORE INTO picture VALUES (?, ?, ?)", images)
+                    db.execute(
+                        "DELETE FROM picture WHERE rowid <= (SELECT max(rowid) FROM picture) - ?",
+                        (MAX_PICTURES,),
+                    )
+                db.execute("COMMIT")
+            except BaseException:
+                if db.in_transaction:
+                    db.execute("ROLLBACK")
+                raise
+
+        await self._database.run(work)
+
+    async def mark_sent(self, key: str) -> None:
+        """Remember that an operator's message went out."""
+        await self._database.run(lambda db: db.execute("UPDATE chat SET sent = 1 WHERE id = ?", (key,)))
+
+    async def entry(self, key: str) -> tuple[ChatEntry, bool] | None:
+        """The entry of that key, and whether it went out; None if there is none."""
+        row = await self._database.run(
+            lambda db: db.execute("SELECT entry, sent FROM chat WHERE id = ?", (key,)).fetchone()
+        )
+        return (ChatEntry.model_validate_json(row[0]), bool(row[1])) if row else None
+
+    async def page(
+        self, *, before: int | None = None, limit: int = 50, words: str = "", robot: str = ""
+    ) -> tuple[list[ChatEntry], bool]:
+        """A piece of the conversation.
+
+        Args:
+            before: Only entries with a smaller `seq`.
+            limit: At most so many: the newest of those that fit.
+            words: Only entries whose text contains each of these words, whatever the capitals.
+            robot: Only what was said to or by this robot.
+
+        Returns:
+            The entries, oldest first, and whether nothing older is left.
+        """
+        conditions, values = ["seq < ?"], [before if before is not None else 2**62]
+        parameters: list[object] = [*values]
+        for word in words.casefold().split():
+            conditions.append("instr(folded, ?) > 0")
+            parameters.append(word)
+        if robot:
+            conditions.append("instr(robots, ?) > 0")
+            parameters.append(_names([robot]))
+        sql = f"SELECT entry FROM chat WHERE {' AND '.join(conditions)} ORDER BY seq DESC LIMIT ?"
+        parameters.append(limit + 1)
+        rows = await self._database.run(lambda db: db.execute(sql, parameters).fetchall())
+        found = [ChatEntry.model_validate_json(row[0]) for row in rows[:limit]]
+        return found[::-1], len(rows) <= limit
+
+    async def open_questions(self) -> list[ChatEntry]:
+        """Questions that were open when the server ended."""
+        rows = await self._database.run(
+            lambda db: db.execute("SELECT entry FROM chat WHERE entry ->> 'question' = 'open'").fetchall()
+        )
+        return [ChatEntry.model_validate_json(row[0]) for row in rows]
+
+    async def picture(self, key: str) -> KeptPicture | None:
+        """An attached picture, or None."""
+        row = await self._database.run(
+            lambda db: db.execute("SELECT id, media_type, data FROM picture WHERE id = ?", (key,)).fetchone()
+        )
+        return KeptPicture(*row) if row else None
+
+    async def settings(self, kind: str) -> dict[str, str]:
+        """All settings of a kind (`robot`, `policy`), name -> value."""
+        rows = await self._database.run(
+            lambda db: db.execute(
+                "SELECT name, value FROM setting WHERE kind = ? ORDER BY rowid", (kind,)
+            ).fetchall()
+        )
+        return dict(rows)
+
+    async def set(self, kind: str, name: str, value: str) -> None:
+        """Keep a setting."""
+        await self._database.run(
+            lambda db: db.execute(
+                "INSERT INTO setting VALUES (?, ?, ?) ON CONFLICT DO UPDATE SET value = excluded.value",
+                (kind, name, value),
+            )
+        )
+
+    async def unset(self, kind: str, name: str) -> None:
+        """Drop a setting."""
+        await self._database.run(
+            lambda db: db.execute("DELETE FROM setting WHERE kind = ? AND name = ?", (kind, name))
+        )
+
+
+def _prepare(db: sqlite3.Connection) -> None:
+    (version,) = db.execute("PRAGMA user_version").fetchone()
+    if version > _VERSION:
+        raise StoreError("a newer Parley wrote the chat file; use that one, or another folder")
+    if version == 0:
+        db.executescript(
+            f"""
+            BEGIN;
+            CREATE TABLE chat (
+                id TEXT PRIMARY KEY,
+                seq INTEGER NOT NULL,
+                robots TEXT NOT NULL,
+                folded TEXT NOT NULL,
+                entry TEXT NOT NULL,
+                sent INTEGER NOT NULL DEFAULT 0
+            ) STRICT;
+            CREATE INDEX chat_seq ON chat (seq);
+            CREATE TABLE picture (id TEXT PRIMARY KEY, media_type TEXT NOT NULL, data BLOB NOT NULL) STRICT;
+            CREATE TABLE setting (
+                kind TEXT NOT NULL, name TEXT NOT NULL, value TEXT NOT NULL, PRIMARY KEY (kind, name)
+            ) STRICT;
+            PRAGMA user_version = {_VERSION};
+            COMMIT;
+            """
+        )
+
+
+def _names(targets: Iterable[str]) -> str:
+    """Robots' names so that one of them can be looked for as a text."""
+    return json.dumps([name.casefold() for name in targets], ensure_ascii=False)[1:-1]

@@ -1,0 +1,152 @@
+"""The conversation over REST and the live stream."""
+
+from __future__ import annotations
+
+import asyncio
+import base64
+from typing import Any
+
+from parley.messages import topics
+from parley.messages.chat import ChatInput, ReplyDraft
+from tests.web.rig import JPEG, Page, served
+
+
+def message(key: str, text: str, *targets: str, **more: Any) -> dict[str, Any]:
+    return {"id": key, "text": text, "targets": list(targets), **more}
+
+
+async def until_it_heard(page: Page, entries: int) -> None:
+    await page.until(lambda: len(page.of("chat")) == entries)
+
+
+async def test_a_message_reaches_the_robot_and_every_page_once() -> None:
+    async with served("Ada") as rig:
+        one, two = await rig.page(), await rig.page()
+        answers = [await rig.http.post("/api/chat", json=message("m1", "go home", "Ada")) for _ in range(3)]
+        assert [answer.status_code for answer in answers] == [200, 200, 200]
+        assert answers[0].json() == answers[2].json()
+        rig.robots.say("I am going.", reply_to="m1")
+        for page in (one, two):
+            await until_it_heard(page, 2)
+            assert [change["entry"]["message"] for change in page.of("chat")] == ["go home", "I am going."]
+        assert [said.message for said in rig.robots.inputs] == ["go home"]
+        assert rig.robots.inputs[0].id == "m1"
+
+
+async def test_an_answer_is_split_from_an_order_where_only_some_robots_asked() -> None:
+    async with served("Ada", "Bob") as rig:
+        page = await rig.page()
+        rig.robots.ask("Which box?", "red", "blue", name="Ada")
+        await page.until(lambda: page.of("chat"))
+        assert page.of("chat")[0]["entry"]["question"] == "open"
+        await rig.http.post("/api/chat", json=message("m1", "the red one", "Ada", "Bob"))
+        await page.until(lambda: len(page.of("chat")) == 3)
+        await rig.heard()
+        assert {(s.type, s.targets, s.reply_to) for s in rig.robots.inputs} == {
+            ("request", ("Bob",), ""),
+            ("response", ("Ada",), "q1"),
+        }
+        chat = (await rig.http.get("/api/chat")).json()["entries"]
+        assert [(entry["message"], entry["question"]) for entry in chat] == [
+            ("Which box?", "answered"),
+            ("the red one", ""),
+        ]
+        assert chat[0]["answer_id"] == "m1"
+
+
+async def test_a_question_that_was_answered_elsewhere_takes_no_second_answer() -> None:
+    async with served("Ada") as rig:
+        page = await rig.page()
+        rig.robots.ask("Which box?", name="Ada")
+        await page.until(lambda: page.of("chat"))
+        key = page.of("chat")[0]["entry"]["id"]
+        first = await rig.http.post("/api/chat", json=message("m1", "red", "Ada", reply_to=key))
+        second = await rig.http.post("/api/chat", json=message("m2", "blue", "Ada", reply_to=key))
+        assert (first.status_code, second.status_code) == (200, 409)
+        assert second.json()["path"] == "reply_to"
+
+
+async def test_a_draft_grows_and_is_replaced_by_the_reply_under_the_same_key() -> None:
+    async with served("Ada") as rig:
+        page = await rig.page()
+        await rig.http.post("/api/chat", json=message("m1", "go home", "Ada"))
+        rig.robots.tell(topics.REPLY_DRAFT, ReplyDraft(reply_to="m1", targets=("Ada",), message="I will"))
+        await page.until(lambda: len(page.of("chat")) == 2)
+        rig.robots.say("I will go home.", reply_to="m1")
+        await page.until(lambda: len(page.of("chat")) == 3)
+        draft, final = page.of("chat")[1]["entry"], page.of("chat")[2]["entry"]
+        assert (draft["draft"], final["draft"]) == (True, False)
+        assert draft["id"] == final["id"]
+        stored = (await rig.http.get("/api/chat")).json()["entries"]
+        assert [entry["message"] for entry in stored] == ["go home", "I will go home."]
+
+
+async def test_what_others_say_to_robots_is_seen_too() -> None:
+    async with served("Ada") as rig:
+        page = await rig.page()
+        said = ChatInput(message="go home", targets=("Ada",), id="t1", author="Kim")
+        rig.robots.tell(topics.CHAT_INPUT, said)
+        await page.until(lambda: page.of("chat"))
+        entry = page.of("chat")[0]["entry"]
+        assert (entry["who"], entry["author"], entry["message"]) == ("operator", "Kim", "go home")
+
+
+async def test_history_is_read_in_pieces_and_searched() -> None:
+    async with served("Ada", "Bob") as rig:
+        for number in range(7):
+            name = "Ada" if number % 2 else "Bob"
+            await rig.http.post("/api/chat", json=message(f"m{number}", f"Go to Box {number}", name))
+        newest = (await rig.http.get("/api/chat", params={"limit": 3})).json()
+        assert [entry["id"] for entry in newest["entries"]] == ["m4", "m5", "m6"]
+        assert newest["complete"] is False
+        before = newest["entries"][0]["seq"]
+        rest = (await rig.http.get("/api/chat", params={"limit": 10, "before": before})).json()
+        assert [entry["id"] for entry in rest["entries"]] == ["m0", "m1", "m2", "m3"]
+        assert rest["complete"] is True
+        found = (await rig.http.get("/api/chat", params={"q": "box 5"})).json()
+        assert [entry["id"] for entry in found["entries"]] == ["m5"]
+        of_ada = (await rig.http.get("/api/chat", params={"robot": "ada"})).json()
+        assert [entry["id"] for entry in of_ada["entries"]] == ["m1", "m3", "m5"]
+
+
+async def test_a_photo_goes_to_the_robot_and_is_shown_in_the_chat() -> None:
+    async with served("Ada") as rig:
+        data = base64.b64encode(JPEG).decode()
+        photo = {"name": "box.jpg", "data": data}
+        answer = await rig.http.post("/api/chat", json=message("m1", "look", "Ada", images=[photo]))
+        (address,) = answer.json()["images"]
+        shown = await rig.http.get(address)
+        assert (shown.content, shown.headers["content-type"]) == (JPEG, "image/jpeg")
+        await rig.heard()
+        assert rig.robots.inputs[0].images[0].data == data
+
+
+async def test_what_is_no_picture_is_refused_before_anything_is_sent() -> None:
+    async with served("Ada") as rig:
+        text = {"name": "a.txt", "data": base64.b64encode(b"hello").decode()}
+        answer = await rig.http.post("/api/chat", json=message("m1", "look", "Ada", images=[text]))
+        assert answer.status_code == 422
+        assert answer.json()["path"] == "images"
+        await rig.heard()
+        assert rig.robots.inputs == []
+
+
+async def test_words_of_control_answer_no_question() -> None:
+    async with served("Ada") as rig:
+        page = await rig.page()
+        rig.robots.ask("Which box?")
+        await page.until(lambda: page.of("chat"))
+        await rig.http.post("/api/chat", json=message("m1", "stop", "Ada"))
+        await rig.heard()
+        assert [said.type for said in rig.robots.inputs] == ["request"]
+        (open_one,) = [e for e in (await rig.http.get("/api/snapshot")).json()["chat"] if e["question"]]
+        assert open_one["question"] == "open"
+
+
+async def test_the_same_message_posted_twice_at_once_is_sent_once() -> None:
+    async with served("Ada") as rig:
+        posts = [rig.http.post("/api/chat", json=message("m1", "go home", "Ada")) for _ in range(5)]
+        answers = await asyncio.gather(*posts)
+        assert {answer.status_code for answer in answers} <= {200, 409}
+        await rig.heard()
+        assert len(rig.robots.inputs) == 1

@@ -1,0 +1,193 @@
+"""The live stream: nothing lost, nothing twice, nobody waits for a slow client."""
+
+from __future__ import annotations
+
+import asyncio
+import socket
+from typing import Any
+
+from parley.messages import topics
+from parley.messages.map import MapView
+from parley.messages.status import PoseInfo
+from tests.web.rig import JPEG, Page, served
+
+
+def applied(page: Page) -> dict[str, Any]:
+    """The robots as a page knows them: snapshot, then changes."""
+    robots = {robot["name"]: robot for robot in page.snapshots[-1]["robots"]}
+    for change in page.changes:
+        if change["kind"] == "robot":
+            robots[change["robot"]["name"]] = change["robot"]
+        elif change["kind"] == "robot_gone":
+            robots.pop(change["name"], None)
+    return robots
+
+
+async def until_it_knows(page: Page, robots: int) -> None:
+    await page.until(lambda: len(applied(page)) == robots)
+
+
+async def until_it_is_at(page: Page, seq: int) -> None:
+    await page.until(lambda: page.seq == seq)
+
+
+async def until_it_heard(page: Page, entries: int) -> None:
+    await page.until(lambda: len(page.of("chat")) >= entries)
+
+
+async def until_it_shows(page: Page, number: int) -> None:
+    await page.until(lambda: page.frames and page.frames[-1][1][-1] == number)
+
+
+async def test_two_pages_know_the_same() -> None:
+    async with served("Ada") as rig:
+        one, two = await rig.page(), await rig.page()
+        for number in range(50):
+            rig.robots.appear("Ada", "running" if number % 2 else "idle", sequence=number)
+            rig.robots.appear(f"robot {number}")
+        for page in (one, two):
+            await until_it_knows(page, 51)
+        last = max(one.seq, two.seq)
+        for page in (one, two):
+            await until_it_is_at(page, last)
+        assert applied(one) == applied(two)
+
+
+async def test_after_a_break_a_page_gets_what_it_missed_and_only_that() -> None:
+    async with served("Ada") as rig:
+        page = await rig.page()
+        rig.robots.appear("Bob")
+        await page.until(lambda: page.of("robot"))
+        await page.io.disconnect()
+        rig.robots.appear("Cleo")
+        rig.robots.appear("Dora")
+        await rig.until(lambda: "Dora" in rig.server.backend.state.robots.views)
+        await page.open(rig.url, again=True)
+        await page.until(lambda: len(page.of("robot")) == 3)
+        assert [change["robot"]["name"] for change in page.of("robot")] == ["Bob", "Cleo", "Dora"]
+        numbers = [change["seq"] for change in page.changes]
+        assert numbers == sorted(set(numbers))
+        assert len(page.snapshots) == 1
+
+
+async def test_a_page_of_another_run_starts_anew() -> None:
+    async with served("Ada") as rig:
+        page = await rig.page()
+        await page.io.disconnect()
+        page.run, page.seq = "another", 3
+        await page.open(rig.url, again=True)
+        await page.until(lambda: len(page.snapshots) == 2)
+
+
+async def test_what_a_page_missed_for_too_long_comes_as_a_snapshot() -> None:
+    async with served("Ada") as rig:
+        page = await rig.page()
+        await page.io.disconnect()
+        log = rig.server.backend.state.log
+        for number in range(6000):
+            rig.server.backend.state.robots.add(f"robot {number % 3000}")
+            rig.server.backend.state.robots.remove(f"robot {number % 3000}")
+        assert log.since(page.seq) is None
+        await page.open(rig.url, again=True)
+        await page.until(lambda: len(page.snapshots) == 2)
+        assert page.seq == log.seq
+
+
+async def test_pictures_come_to_those_who_watch() -> None:
+    async with served("Ada") as rig:
+        watching, other = await rig.page(), await rig.page()
+        rig.robots.show("Ada", "inspection")
+        await watching.until(lambda: watching.of("feed"))
+        await watching.io.emit("watch", [{"robot": "Ada", "name": "inspection"}])
+        await watching.until(lambda: watching.frames)
+        meta, data = watching.frames[0]
+        assert data == JPEG
+        assert (meta["robot"], meta["name"], meta["unix_ms"]) == ("Ada", "inspection", 1_790_000_000_000)
+        assert other.frames == []
+
+
+async def test_a_page_that_confirms_nothing_gets_two_pictures_and_then_the_newest() -> None:
+    async with served("Ada") as rig:
+        slow, quick = await rig.page(), await rig.page()
+        slow.confirms = False
+        feed = [{"robot": "Ada", "name": "inspection"}]
+        rig.robots.show("Ada", "inspection")
+        await slow.until(lambda: slow.of("feed"))
+        for page in (slow, quick):
+            await page.io.emit("watch", feed)
+        for number in range(1, 20):
+            rig.robots.show("Ada", "inspection", JPEG + bytes([number]), 1_790_000_000_000 + number)
+            await until_it_shows(quick, number)
+        assert len(quick.frames) >= 19
+        assert len(slow.frames) <= 2
+        await until_it_shows(slow, 19)
+
+
+async def test_nonsense_from_a_page_does_no_harm() -> None:
+    async with served("Ada") as rig:
+        page = await rig.page()
+        pieces: list[Any] = [None, 5, "x", [1], [{"robot": "Ada"}], {"a": []}, [{"robot": "", "name": ""}]]
+        for nonsense in pieces:
+            await page.io.emit("watch", nonsense)
+        await page.io.emit("no such event", {"a": 1})
+        rig.robots.appear("Bob")
+        await page.until(lambda: page.of("robot"))
+
+
+async def test_places_on_the_map_come_with_the_snapshot_and_then_live() -> None:
+    async with served("Ada") as rig:
+        rig.robots.tell(topics.MAP_VIEW, MapView(actor="Ada", pose=PoseInfo(x=1, y=2)))
+        await rig.heard()
+        page = await rig.page()
+        assert page.snapshots[0]["views"][0]["pose"]["x"] == 1
+        rig.robots.tell(topics.MAP_VIEW, MapView(actor="Ada", pose=PoseInfo(x=3, y=2)))
+        await page.until(lambda: page.views)
+        assert page.views[-1]["pose"]["x"] == 3
+
+
+async def test_who_only_asks_gets_the_same_changes() -> None:
+    async with served("Ada") as rig:
+        before = (await rig.http.get("/api/snapshot")).json()
+        rig.robots.appear("Bob")
+        await rig.until(lambda: "Bob" in rig.server.backend.state.robots.views)
+        query = {"since": before["seq"], "run": before["run"]}
+        changes = (await rig.http.get("/api/changes", params=query)).json()
+        assert [change["robot"]["name"] for change in changes] == ["Bob"]
+        other = await rig.http.get("/api/changes", params=query | {"run": "another"})
+        assert other.status_code == 409
+
+
+async def test_a_client_that_stops_reading_holds_nobody_up() -> None:
+    async with served("Ada") as rig:
+        page = await rig.page()
+        _, writer = await stalled_client(rig.url)
+        for number in range(100):
+            rig.robots.say(f"{number} {'x' * 200_000}")
+            await until_it_heard(page, number + 1)
+        waiting = [client.queue.qsize() for client in rig.server.live.server.eio.sockets.values()]
+        assert len(waiting) == 2
+        assert max(waiting) <= 4, "what a slow client has not taken must not pile up"
+        writer.close()
+
+
+async def stalled_client(url: str) -> tuple[asyncio.StreamReader, asyncio.StreamWriter]:
+    """A client that opens the live stream and then never reads again."""
+    host, _, port = url.removeprefix("http://").rstrip("/").rpartition(":")
+    raw = socket.socket()
+    raw.setsockopt(socket.SOL_SOCKET, socket.SO_RCVBUF, 4096)
+    raw.setblocking(False)
+    await asyncio.get_running_loop().sock_connect(raw, (host, int(port)))
+    reader, writer = await asyncio.open_connection(sock=raw, limit=1024)
+    writer.write(
+        (
+            f"GET /socket.io/?EIO=4&transport=websocket HTTP/1.1\r\nHost: {host}:{port}\r\n"
+            "Upgrade: websocket\r\nConnection: Upgrade\r\nSec-WebSocket-Version: 13\r\n"
+            "Sec-WebSocket-Key: dGhlIHNhbXBsZSBub25jZQ==\r\n\r\n"
+        ).encode()
+    )
+    await reader.readuntil(b"\r\n\r\n")
+    text = b"40"  # Engine.IO message, Socket.IO connect
+    mask = b"\0\0\0\0"
+    writer.write(bytes([0x81, 0x80 | len(text)]) + mask + text)
+    await writer.drain()
+    return reader, writer
