@@ -8,22 +8,44 @@ PIP := $(BIN)/python -m pip --disable-pip-version-check --no-input
 
 .DEFAULT_GOAL := help
 .DELETE_ON_ERROR:
-.PHONY: help demo test check format bench soak clean
+.PHONY: help demo page types test test-page check format bench soak clean
+
+NPM := frontend/npm
+PAGE := src/parley/web/static/index.html
+PAGE_SOURCES := $(shell find frontend/src frontend/public -type f) frontend/index.html frontend/vite.config.ts
 
 help: ## Show what there is
-	@sed -n 's/^\([a-z]*\):.*## \(.*\)/  make \1	\2/p' $(firstword $(MAKEFILE_LIST)) | expand -t 18
+	@sed -n 's/^\([a-z-]*\):.*## \(.*\)/  make \1	\2/p' $(firstword $(MAKEFILE_LIST)) | expand -t 18
 
-demo: $(VENV)/.runtime ## Talk to a simulated robot, here in the terminal
+demo: $(VENV)/.runtime ## Talk to a simulated robot in the browser
+	@$(MAKE) --no-print-directory page || echo "The page could not be built (see above); going on with what there is."
 	@$(BIN)/parley demo nursing-home
+
+page: $(PAGE) ## Build the operator's page, if its sources changed
+
+types: $(VENV)/.runtime frontend/node_modules/.installed ## Renew the page's types from the server's
+	@$(BIN)/parley web openapi > frontend/openapi.json
+	@$(NPM) run --silent types
 
 test: $(VENV)/.dev ## All tests that take seconds
 	@$(BIN)/python -m pytest -q -m "not soak and not ros"
+	@$(MAKE) --no-print-directory test-page
 
-check: $(VENV)/.dev ## Format, lint, types and house rules
+test-page: $(VENV)/.runtime $(PAGE) ## Those of the page: lint, types, units, and stories in a real browser
+	@$(NPM) run --silent lint
+	@$(NPM) run --silent typecheck
+	@$(NPM) run --silent test
+	@PARLEY_COMMAND="$(abspath $(BIN)/parley)" $(NPM) run --silent e2e
+
+check: $(VENV)/.dev frontend/node_modules/.installed ## Format, lint, types and house rules
 	@$(BIN)/ruff format --check .
 	@$(BIN)/ruff check .
 	@$(BIN)/mypy
 	@$(BIN)/python -m pytest -q tests/test_house_rules.py tests/test_imports.py
+	@$(BIN)/parley web openapi | cmp -s - frontend/openapi.json || { echo "frontend/openapi.json is not what the server says: run make types" >&2; exit 1; }
+	@$(NPM) run --silent types:check
+	@$(NPM) run --silent lint
+	@$(NPM) run --silent typecheck
 
 format: $(VENV)/.dev ## Bring the code into the agreed form
 	@$(BIN)/ruff format .
@@ -37,7 +59,7 @@ soak: $(VENV)/.dev ## The long test: ten minutes, or PARLEY_SOAK_S seconds
 	@$(BIN)/python -m pytest -s -m soak tests/soak
 
 clean: ## Remove everything that was made
-	rm -rf $(VENV) dist build .mypy_cache .ruff_cache .pytest_cache .hypothesis
+	rm -rf $(VENV) frontend/node_modules src/parley/web/static dist build .mypy_cache .ruff_cache .pytest_cache .hypothesis
 
 $(VENV)/.python:
 	@for python in $(PYTHONS); do \
@@ -49,6 +71,21 @@ $(VENV)/.python:
 	echo "Parley needs Python 3.11 or newer with its venv module; tried: $(PYTHONS)." >&2; \
 	echo "On Debian and Ubuntu: apt install python3 python3-venv. Or name one: make PYTHONS=/path/to/python3" >&2; \
 	exit 1
+
+$(PAGE): frontend/node_modules/.installed $(PAGE_SOURCES)
+	@echo "Building the page"
+	@$(NPM) run --silent build -- --logLevel warn
+	@touch $@
+
+frontend/node_modules/.installed: $(VENV)/.node frontend/package.json frontend/package-lock.json
+	@echo "Installing what the page is made of"
+	@$(NPM) ci --silent --no-audit --no-fund
+	@touch $@
+
+# Node.js of the system if it is new enough, else the one of a Python package.
+$(VENV)/.node: $(VENV)/.pip
+	@$(NPM) --version >/dev/null 2>&1 || { echo "Installing Node.js"; $(PIP) install --quiet -c constraints.txt --group page; }
+	@touch $@
 
 # The dev group is read by pip itself, which learnt that in 25.1.
 $(VENV)/.pip: $(VENV)/.python

@@ -1,0 +1,36 @@
+import i18next from 'i18next';
+import { useEffect } from 'react';
+import { I18nProvider } from 'react-aria-components';
+import { Router } from 'wouter';
+import { useHashLocation } from 'wouter/use-hash-location';
+
+import { SignIn } from '@/features/session';
+import { connect } from '@/live/connection';
+import { applyLook, usePrefs } from '@/state/prefs';
+
+import { Shell } from './shell';
+import { useSession } from './use-session';
+
+const localeOf = { en: 'en-GB', et: 'et-EE' } as const;
+
+/** The whole page: signed in or not, in the chosen look and language. */
+export function App() {
+  const { theme, planColours, language } = usePrefs();
+  const session = useSession();
+  useEffect(() => {
+    applyLook({ theme, planColours, language });
+    if (i18next.language !== language) void i18next.changeLanguage(language);
+  }, [theme, planColours, language]);
+  useEffect(() => (session.state === 'open' ? connect() : undefined), [session.state]);
+  return (
+    <I18nProvider locale={localeOf[language]}>
+      <Router hook={useHashLocation}>
+        {session.state === 'locked' ? (
+          <SignIn onSignedIn={session.refresh} />
+        ) : (
+          <Shell canSignOut={session.required} onSignedOut={session.refresh} />
+        )}
+      </Router>
+    </I18nProvider>
+  );
+}

@@ -1,0 +1,51 @@
+import { useTranslation } from 'react-i18next';
+import { Link, Route, Switch } from 'wouter';
+
+import { DisplayPanel } from '@/features/display';
+import { IncidentsPage } from '@/features/incidents';
+import { MapPanel } from '@/features/map';
+import { MemoryPage } from '@/features/memory';
+import { offered, pathOf, SettingsPage, type Page } from '@/features/menu';
+import { PlanPanel } from '@/features/plan';
+import { RobotsPage } from '@/features/robots';
+import { useWorld } from '@/live/store';
+import { Empty } from '@/ui/panel';
+import type { Layout } from '@/ui/use-media';
+
+import { Workspace } from './workspace';
+
+interface Props {
+  layout: Layout;
+  canSignOut: boolean;
+  onSignedOut: () => void;
+}
+
+/** The table of pages. Parts that this server has switched off have none. */
+export function Pages({ layout, ...session }: Props) {
+  const { t } = useTranslation('menu');
+  const info = useWorld((world) => world.info);
+  const page: Record<Page, () => React.ReactNode> = {
+    chat: () => <Workspace layout={layout} />,
+    plan: () => <PlanPanel />,
+    display: () => <DisplayPanel />,
+    map: () => <MapPanel />,
+    memory: () => <MemoryPage />,
+    robots: () => <RobotsPage />,
+    incidents: () => <IncidentsPage />,
+    settings: () => <SettingsPage {...session} />,
+  };
+  return (
+    <Switch>
+      {offered(info).map((name) => (
+        <Route key={name} path={pathOf(name)}>
+          {page[name]}
+        </Route>
+      ))}
+      <Route>
+        <Empty title={t('notFound')}>
+          <Link href={pathOf('chat')}>{t('toChat')}</Link>
+        </Empty>
+      </Route>
+    </Switch>
+  );
+}

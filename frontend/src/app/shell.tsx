@@ -1,0 +1,88 @@
+import { useTranslation } from 'react-i18next';
+
+import { ConnectionBanner, Sidebar, TopBar } from '@/features/menu';
+import { AddRobot } from '@/features/robots';
+import { StopBanner } from '@/features/stop';
+import { useOverlays } from '@/state/overlays';
+import { useStopping } from '@/state/stopping';
+import { Boundary } from '@/ui/boundary';
+import { Button } from '@/ui/button';
+import { StopButton } from '@/ui/stop-button';
+import { useLayout } from '@/ui/use-media';
+import { useShortcut } from '@/ui/use-shortcut';
+
+import { CommandPalette } from './command-palette';
+import { Pages } from './pages';
+import css from './shell.module.css';
+import { ShortcutSheet } from './shortcut-sheet';
+import { Toasts } from './toasts';
+import { useEscapeTwice } from './use-escape-twice';
+import { useNotices } from './use-notices';
+import { useRobotShortcuts } from './use-robot-shortcuts';
+
+interface Props {
+  canSignOut: boolean;
+  onSignedOut: () => void;
+}
+
+/** What stands around every page: menu, stop button, banners, notes. */
+export function Shell(props: Props) {
+  const { t } = useTranslation('common');
+  const layout = useLayout();
+  const open = useOverlays((state) => state.set);
+  const stop = useStopping((state) => state.stop);
+  useShortcut('mod+k', () => open('commands'));
+  useShortcut('?', () => open('shortcuts'));
+  useEscapeTwice(() => void stop([]));
+  useRobotShortcuts();
+  useNotices();
+  const words = { message: t('crashed'), again: t('crashedAgain') };
+  return (
+    <div className={css.shell} data-layout={layout}>
+      <a className={css.skip} href="#content" onClick={focusContent}>
+        {t('skipToContent')}
+      </a>
+      {layout === 'desktop' ? (
+        <Sidebar />
+      ) : (
+        <TopBar>
+          <StopButton />
+        </TopBar>
+      )}
+      <div className={css.main}>
+        {layout === 'desktop' && (
+          <header className={css.bar}>
+            <CommandsButton />
+            <StopButton />
+          </header>
+        )}
+        <StopBanner />
+        <ConnectionBanner />
+        <main id="content" className={css.content} tabIndex={-1}>
+          <Boundary {...words}>
+            <Pages {...props} layout={layout} />
+          </Boundary>
+        </main>
+      </div>
+      <Toasts />
+      <CommandPalette />
+      <ShortcutSheet />
+      <AddRobot />
+    </div>
+  );
+}
+
+function CommandsButton() {
+  const { t } = useTranslation('menu');
+  const open = useOverlays((state) => state.set);
+  return (
+    <Button icon="search" onPress={() => open('commands')}>
+      {t('commandsShort')}
+    </Button>
+  );
+}
+
+function focusContent(event: React.MouseEvent) {
+  event.preventDefault(); // the address after # belongs to the pages
+  document.getElementById('content')?.focus();
+}

@@ -1,0 +1,23 @@
+import { useEffect, useRef } from 'react';
+
+const TWICE_WITHIN_MS = 700;
+
+/** Escape pressed twice in a row; heard before any open box takes the key to close itself. */
+export function useEscapeTwice(run: () => void): void {
+  const latest = useRef(run);
+  const before = useRef(Number.NEGATIVE_INFINITY);
+  useEffect(() => {
+    latest.current = run;
+  });
+  useEffect(() => {
+    const onKey = (event: KeyboardEvent) => {
+      if (event.key !== 'Escape' || event.repeat) return;
+      if (event.timeStamp - before.current < TWICE_WITHIN_MS) {
+        before.current = Number.NEGATIVE_INFINITY;
+        latest.current();
+      } else before.current = event.timeStamp;
+    };
+    window.addEventListener('keydown', onKey, { capture: true });
+    return () => window.removeEventListener('keydown', onKey, { capture: true });
+  }, []);
+}

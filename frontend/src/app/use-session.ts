@@ -1,0 +1,37 @@
+import { useCallback, useEffect, useState } from 'react';
+
+import { ApiError, getSession } from '@/live/api';
+
+interface SessionState {
+  state: 'asking' | 'locked' | 'open';
+  required: boolean;
+  refresh: () => void;
+}
+
+const RETRY_MS = 2000;
+
+/** Whether this visitor may use the page; asks until the server answers. */
+export function useSession(): SessionState {
+  const [session, setSession] = useState<Omit<SessionState, 'refresh'>>({ state: 'asking', required: false });
+  const [asked, setAsked] = useState(0);
+  useEffect(() => {
+    let current = true;
+    let timer: ReturnType<typeof setTimeout>;
+    getSession().then(
+      ({ required, authenticated }) => {
+        if (current) setSession({ state: authenticated || !required ? 'open' : 'locked', required });
+      },
+      (error: unknown) => {
+        if (!current) return;
+        if (error instanceof ApiError && error.status === 401) setSession({ state: 'locked', required: true });
+        else timer = setTimeout(() => setAsked((count) => count + 1), RETRY_MS);
+      },
+    );
+    return () => {
+      current = false;
+      clearTimeout(timer);
+    };
+  }, [asked]);
+  const refresh = useCallback(() => setAsked((count) => count + 1), []);
+  return { ...session, refresh };
+}

@@ -1,0 +1,122 @@
+import { render, screen, within } from '@testing-library/react';
+import userEvent from '@testing-library/user-event';
+import { beforeEach, describe, expect, it, vi } from 'vitest';
+
+import { entry, robot, snapshot } from '@/live/samples';
+import { useLive } from '@/live/store';
+import type { Snapshot } from '@/live/types';
+import { usePrefs } from '@/state/prefs';
+
+import { ChatPanel } from './chat-panel';
+import { useDrafts } from './drafts';
+import { useOutbox } from './outbox';
+
+type Sent = { text: string; targets: string[]; reply_to: string };
+
+/** The network: records what is sent and answers as told. */
+const sent: Sent[] = [];
+let answers: (() => Response)[] = [];
+
+beforeEach(() => {
+  sent.length = 0;
+  answers = [];
+  useOutbox.setState({ messages: [] });
+  useDrafts.setState({ drafts: {} });
+  usePrefs.setState({ debug: false });
+  vi.stubGlobal('fetch', (_path: string, options: RequestInit) => {
+    sent.push(JSON.parse(String(options.body)) as Sent);
+    return Promise.resolve((answers.shift() ?? (() => new Response('{}')))());
+  });
+});
+
+const show = (part: Partial<Snapshot>) => {
+  useLive.getState().takeSnapshot(snapshot({ robots: [robot({ name: 'Ada' }), robot({ name: 'Bob' })], ...part }));
+  render(<ChatPanel />);
+  return userEvent.setup();
+};
+
+const tab = (name: string) => within(screen.getByRole('group', { name: 'Robots you talk to' })).getByRole('button', { name: new RegExp(name) });
+
+describe('the chat', () => {
+  it('sends an example with one tap', async () => {
+    const user = show({});
+    await user.click(screen.getByRole('button', { name: 'Go to the door.' }));
+    expect(sent).toMatchObject([{ text: 'Go to the door.', targets: ['Ada'], reply_to: '' }]);
+  });
+
+  it('talks to one robot by a click and to several by a click with Shift', async () => {
+    const user = show({});
+    await user.click(tab('Bob'));
+    await user.keyboard('{Shift>}');
+    await user.click(tab('Ada'));
+    await user.keyboard('{/Shift}');
+    await user.type(screen.getByRole('textbox', { name: 'Write to Ada and Bob' }), 'come here{Enter}');
+    expect(sent).toMatchObject([{ text: 'come here', targets: ['Ada', 'Bob'] }]);
+  });
+
+  it('keeps a draft for each robot', async () => {
+    const user = show({});
+    await user.type(screen.getByRole('textbox', { name: 'Write to Ada' }), 'half a sen');
+    await user.click(tab('Bob'));
+    expect(screen.getByRole('textbox', { name: 'Write to Bob' })).toHaveProperty('value', '');
+    await user.click(tab('Ada'));
+    expect(screen.getByRole('textbox', { name: 'Write to Ada' })).toHaveProperty('value', 'half a sen');
+  });
+
+  it('marks the next message as the answer to an open question', async () => {
+    const question = entry({ id: 'q', seq: 1, type: 'request', message: 'Which door?', question: 'open', choices: ['red', 'blue'] });
+    const user = show({ chat: [question] });
+    expect(tab('Ada').textContent).toContain('waiting for your answer');
+    await user.type(screen.getByRole('textbox', { name: 'Write to Ada' }), 'the green one{Enter}');
+    await user.click(screen.getByRole('button', { name: 'blue' }));
+    expect(sent).toMatchObject([
+      { text: 'the green one', reply_to: 'q' },
+      { text: 'blue', reply_to: 'q', targets: ['Ada'] },
+    ]);
+  });
+
+  it('says which of several robots takes a message as an answer', async () => {
+    const question = entry({ id: 'q', seq: 1, type: 'request', message: 'Which door?', question: 'open' });
+    const user = show({ chat: [question] });
+    await user.keyboard('{Shift>}');
+    await user.click(tab('Bob'));
+    await user.keyboard('{/Shift}');
+    expect(screen.getByText('Ada gets this as the answer, Bob as a new request.')).toBeTruthy();
+  });
+
+  it('says when a message was not sent and sends the same one again', async () => {
+    answers = [() => new Response(JSON.stringify({ title: 'no', detail: 'Too many messages.', remedy: 'Wait.' }), { status: 429 })];
+    const user = show({ chat: [entry({ id: 'e', seq: 1 })] });
+    await user.type(screen.getByRole('textbox', { name: 'Write to Ada' }), 'hello{Enter}');
+    expect((await screen.findByRole('alert')).textContent).toContain('Not sent. Too many messages. Wait.');
+    await user.click(screen.getByRole('button', { name: 'Send again' }));
+    expect(sent).toHaveLength(2);
+    expect(sent[1]).toEqual(sent[0]);
+  });
+
+  it('begins a new line with Shift and takes the last message again with the arrow', async () => {
+    const user = show({ chat: [entry({ id: 'e', seq: 1, who: 'operator', message: 'go home' })] });
+    const box = screen.getByRole('textbox', { name: 'Write to Ada' });
+    await user.type(box, 'a{Shift>}{Enter}{/Shift}b');
+    expect(box).toHaveProperty('value', 'a\nb');
+    await user.clear(box);
+    await user.type(box, '{ArrowUp}');
+    expect(box).toHaveProperty('value', 'go home');
+  });
+
+  it('shows times and kinds only when asked to', async () => {
+    const user = show({ chat: [entry({ id: 'e', seq: 1, type: 'info', message: 'on my way' })] });
+    expect(screen.queryByText('INFO')).toBeNull();
+    await user.click(screen.getByRole('button', { name: 'Times and kinds' }));
+    expect(screen.getByText('INFO')).toBeTruthy();
+  });
+
+  it('draws the newest part of a long conversation and more when asked', async () => {
+    const chat = Array.from({ length: 100 }, (_, index) => entry({ id: `e${index}`, seq: index, message: `message ${index}` }));
+    const user = show({ chat });
+    expect(screen.queryByText('message 10')).toBeNull();
+    expect(screen.getByText('message 99')).toBeTruthy();
+    await user.click(screen.getByRole('button', { name: 'Show earlier messages' }));
+    expect(screen.getByText('message 10')).toBeTruthy();
+  });
+});

@@ -1,0 +1,91 @@
+import { useCallback, useMemo, useRef, useState } from 'react';
+import { ToggleButton } from 'react-aria-components';
+import { useTranslation } from 'react-i18next';
+
+import { useWorld } from '@/live/store';
+import type { ChatEntry } from '@/live/types';
+import { usePrefs } from '@/state/prefs';
+import { useSelection } from '@/state/selection';
+import { Icon, type IconName } from '@/ui/icon';
+import { Panel } from '@/ui/panel';
+import { useShortcut } from '@/ui/use-shortcut';
+
+import css from './chat-panel.module.css';
+import { Composer } from './composer';
+import { draftKey, useDrafts } from './drafts';
+import { History } from './history';
+import { useOutbox } from './outbox';
+import { answering, conversation, openQuestions } from './questions';
+import { RobotTabs } from './robot-tabs';
+import { SearchBox } from './search-box';
+import { Welcome } from './welcome';
+
+/** Talking to robots. */
+export function ChatPanel() {
+  const { t } = useTranslation('chat');
+  const chat = useWorld((world) => world.chat);
+  const chosen = useSelection();
+  const send = useOutbox((outbox) => outbox.send);
+  const { debug, set } = usePrefs();
+  const [searching, setSearching] = useState(false);
+  const input = useRef<HTMLTextAreaElement>(null);
+
+  const questions = useMemo(() => openQuestions(chat), [chat]);
+  const entries = useMemo(() => conversation(chat, chosen), [chat, chosen]);
+  const answer = useMemo(() => answering(questions, chosen), [questions, chosen]);
+  const lastSaid = useMemo(() => entries.findLast((entry) => entry.who === 'operator')?.message ?? '', [entries]);
+
+  const say = (text: string) => void send({ text, targets: chosen, reply_to: '', images: [] });
+  const choose = useCallback(
+    (question: ChatEntry, choice: string) =>
+      void send({ text: choice, targets: question.targets, reply_to: question.question === 'open' ? question.id : '', images: [] }),
+    [send],
+  );
+  const key = draftKey(chosen);
+  const edit = useCallback(
+    (text: string) => {
+      useDrafts.getState().set(key, { text });
+      input.current?.focus();
+    },
+    [key],
+  );
+
+  useShortcut('/', () => input.current?.focus());
+  useShortcut('mod+f', () => setSearching(true));
+
+  const tools = (
+    <>
+      <Switch icon="search" label={t('search')} isSelected={searching} onChange={setSearching} />
+      <Switch icon="clock" label={t('debug')} isSelected={debug} onChange={(value) => set({ debug: value })} />
+    </>
+  );
+  return (
+    <Panel title={t('title')} tools={tools} flush>
+      <RobotTabs questions={questions} />
+      {searching && <SearchBox />}
+      <History
+        key={key}
+        entries={entries}
+        onChoose={choose}
+        onEdit={edit}
+        empty={<Welcome chosen={chosen} onSay={say} />}
+      />
+      <Composer chosen={chosen} answering={answer} lastSaid={lastSaid} input={input} />
+    </Panel>
+  );
+}
+
+interface SwitchProps {
+  icon: IconName;
+  label: string;
+  isSelected: boolean;
+  onChange: (value: boolean) => void;
+}
+
+function Switch({ icon, label, isSelected, onChange }: SwitchProps) {
+  return (
+    <ToggleButton className={css.switch ?? ''} aria-label={label} isSelected={isSelected} onChange={onChange}>
+      <Icon name={icon} />
+    </ToggleButton>
+  );
+}

@@ -1,0 +1,138 @@
+import { useEffect } from 'react';
+import { FileTrigger } from 'react-aria-components';
+import { useTranslation } from 'react-i18next';
+
+import { useToasts } from '@/state/toasts';
+import { Button } from '@/ui/button';
+import { nameList } from '@/ui/words';
+
+import css from './composer.module.css';
+import { draftKey, emptyDraft, useDrafts } from './drafts';
+import { useOutbox } from './outbox';
+import { readPhoto } from './photo';
+import type { Answering } from './questions';
+
+interface Props {
+  chosen: readonly string[];
+  answering: Answering;
+  /** What was last written to these robots. */
+  lastSaid: string;
+  input: React.RefObject<HTMLTextAreaElement | null>;
+}
+
+/** Where one writes. */
+export function Composer({ chosen, answering, lastSaid, input }: Props) {
+  const { t, i18n } = useTranslation('chat');
+  const key = draftKey(chosen);
+  const draft = useDrafts((state) => state.drafts[key] ?? emptyDraft);
+  const setDraft = useDrafts((state) => state.set);
+  const send = useOutbox((outbox) => outbox.send);
+  const nobody = chosen.length === 0;
+  const ready = !nobody && draft.text.trim() !== '';
+
+  useGrowing(input, draft.text);
+
+  const submit = () => {
+    if (!ready) return;
+    const images = draft.photo ? [draft.photo] : [];
+    void send({ text: draft.text.trim(), targets: chosen, reply_to: answering.question?.id ?? '', images });
+    setDraft(key, emptyDraft);
+    input.current?.focus();
+  };
+
+  const onKeyDown = (event: React.KeyboardEvent) => {
+    if (event.nativeEvent.isComposing) return;
+    if (event.key === 'Enter' && !event.shiftKey) {
+      event.preventDefault();
+      submit();
+    } else if (event.key === 'ArrowUp' && draft.text === '' && lastSaid) {
+      event.preventDefault();
+      setDraft(key, { text: lastSaid });
+    }
+  };
+
+  const label = nobody ? t('writeNobody') : t('writeTo', { names: nameList(chosen, i18n.language) });
+  return (
+    <form
+      className={css.form}
+      data-answering={answering.question !== null}
+      onSubmit={(event) => {
+        event.preventDefault();
+        submit();
+      }}
+    >
+      <AnswerNote answering={answering} />
+      {draft.photo && (
+        <p className={css.photo}>
+          {t('attached', { name: draft.photo.name })}
+          <Button tone="quiet" icon="close" iconOnly aria-label={t('discard')} onPress={() => setDraft(key, { photo: null })} />
+        </p>
+      )}
+      <div className={css.row}>
+        <PhotoButton isDisabled={nobody} onPhoto={(photo) => setDraft(key, { photo })} />
+        <textarea
+          ref={input}
+          className={css.input}
+          rows={1}
+          value={draft.text}
+          disabled={nobody}
+          aria-label={label}
+          title={t('sendHelp')}
+          placeholder={label}
+          maxLength={4000}
+          enterKeyHint="send"
+          onChange={(event) => setDraft(key, { text: event.target.value })}
+          onKeyDown={onKeyDown}
+        />
+        <Button tone="main" icon="send" iconOnly aria-label={t('send')} type="submit" isDisabled={!ready} />
+      </div>
+    </form>
+  );
+}
+
+function AnswerNote({ answering }: { answering: Answering }) {
+  const { t, i18n } = useTranslation('chat');
+  const { question, robots, others } = answering;
+  if (!question) return null;
+  const name = nameList(robots, i18n.language);
+  return (
+    <p className={css.note}>
+      <span className={css.noteLine}>{t('answering', { name, question: question.message })}</span>
+      {others.length > 0 && (
+        <span>{t('split', { answering: name, others: nameList(others, i18n.language) })}</span>
+      )}
+    </p>
+  );
+}
+
+function PhotoButton({ isDisabled, onPhoto }: { isDisabled: boolean; onPhoto: (photo: { name: string; data: string }) => void }) {
+  const { t } = useTranslation('chat');
+  const show = useToasts((state) => state.show);
+  const read = async (file: File | undefined) => {
+    if (!file) return;
+    try {
+      onPhoto(await readPhoto(file));
+    } catch {
+      show({ tone: 'error', message: t('attachTooBig') });
+    }
+  };
+  return (
+    <FileTrigger acceptedFileTypes={['image/jpeg', 'image/png']} onSelect={(files) => void read(files?.[0])}>
+      <Button tone="quiet" icon="photo" iconOnly aria-label={t('attach')} isDisabled={isDisabled} />
+    </FileTrigger>
+  );
+}
+
+const TALLEST_PX = 160;
+
+/** Makes the box as tall as what is written in it. */
+function useGrowing(input: React.RefObject<HTMLTextAreaElement | null>, text: string) {
+  useEffect(() => {
+    if (input.current) fitHeight(input.current);
+  }, [input, text]);
+}
+
+function fitHeight(box: HTMLTextAreaElement) {
+  box.style.height = 'auto';
+  box.style.height = `${Math.min(box.scrollHeight + 2, TALLEST_PX)}px`;
+}

@@ -1,0 +1,105 @@
+import { memo } from 'react';
+import { useTranslation } from 'react-i18next';
+
+import type { ChatEntry } from '@/live/types';
+import { usePrefs } from '@/state/prefs';
+import { Button } from '@/ui/button';
+import { Icon } from '@/ui/icon';
+import { clockTime, inWords, nameList } from '@/ui/words';
+
+import css from './entry.module.css';
+
+interface Props {
+  entry: ChatEntry;
+  /** Whether to say from whom it is: not if the one before was from the same. */
+  showName: boolean;
+  /** Whether its answers can be tapped. */
+  offers: boolean;
+  onChoose: (entry: ChatEntry, choice: string) => void;
+  onEdit: (text: string) => void;
+}
+
+/** One thing said. */
+export const Entry = memo(function Entry({ entry, showName, offers, onChoose, onEdit }: Props) {
+  const { t } = useTranslation('chat');
+  const debug = usePrefs((prefs) => prefs.debug);
+  const mine = entry.who === 'operator';
+  return (
+    <li
+      className={css.entry}
+      data-mine={mine}
+      data-type={entry.type}
+      data-question={entry.question || undefined}
+      data-draft={entry.draft || undefined}
+      aria-live={entry.draft ? 'off' : undefined}
+    >
+      {(showName || debug || entry.question !== '') && <Head entry={entry} debug={debug} />}
+      <div className={css.said}>
+        <p className={css.text}>{entry.message}</p>
+        {entry.images.map((address) => (
+          <img key={address} className={css.image} src={address} alt={t('photo')} loading="lazy" />
+        ))}
+        {entry.draft && <span className={css.drafting}>{t('drafting')}</span>}
+      </div>
+      {offers && (
+        <div className={css.choices} role="group" aria-label={t('choices')}>
+          {entry.choices.map((choice) => (
+            <Button key={choice} onPress={() => onChoose(entry, choice)}>
+              {choice}
+            </Button>
+          ))}
+        </div>
+      )}
+      {entry.sources.length > 0 && <Sources names={entry.sources} />}
+      {mine && (
+        <button type="button" className={css.edit} aria-label={t('edit')} title={t('edit')} onClick={() => onEdit(entry.message)}>
+          <Icon name="edit" size={16} />
+        </button>
+      )}
+    </li>
+  );
+});
+
+function Head({ entry, debug }: { entry: ChatEntry; debug: boolean }) {
+  const { t, i18n } = useTranslation('chat');
+  const names = nameList(entry.targets, i18n.language);
+  return (
+    <p className={css.head}>
+      {entry.who === 'operator' ? (
+        <>
+          <strong>{entry.author || t('you')}</strong>
+          <span>{t('to', { names: names || t('everyone') })}</span>
+        </>
+      ) : (
+        <>
+          <strong>{names || t('everyone')}</strong>
+          {entry.question === 'open' && <span className={css.badge}>{t('asks')}</span>}
+          {entry.question === 'answered' && <span>{t('answered')}</span>}
+          {entry.question === 'closed' && <span>{t('closed')}</span>}
+        </>
+      )}
+      {debug && (
+        <>
+          <span className={css.kind} data-kind={entry.type}>
+            {t(`kind.${entry.type}`)}
+          </span>
+          <time dateTime={new Date(entry.unix_ms).toISOString()}>{clockTime(entry.unix_ms, i18n.language, true)}</time>
+        </>
+      )}
+    </p>
+  );
+}
+
+function Sources({ names }: { names: readonly string[] }) {
+  const { t } = useTranslation('chat');
+  return (
+    <p className={css.sources}>
+      <span>{t('because')}</span>
+      {names.map((name) => (
+        <a key={name} href={`#/memory?name=${encodeURIComponent(name)}`}>
+          {inWords(name)}
+        </a>
+      ))}
+    </p>
+  );
+}

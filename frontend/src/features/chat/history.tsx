@@ -1,0 +1,116 @@
+import { useMemo, useState } from 'react';
+import { useTranslation } from 'react-i18next';
+
+import { getChat } from '@/live/api';
+import { useLive, useWorld } from '@/live/store';
+import type { ChatEntry } from '@/live/types';
+import { attempt } from '@/state/do';
+import { Button } from '@/ui/button';
+import { dayName } from '@/ui/words';
+
+import { Entry } from './entry';
+import css from './history.module.css';
+import { undelivered, useOutbox } from './outbox';
+import { PendingEntry } from './pending-entry';
+import { offering } from './questions';
+import { useStickToEnd } from './use-stick-to-end';
+
+interface Props {
+  entries: readonly ChatEntry[];
+  onChoose: (entry: ChatEntry, choice: string) => void;
+  onEdit: (text: string) => void;
+  /** Shown instead, while nothing was said. */
+  empty: React.ReactNode;
+}
+
+const PAGE = 60;
+
+const sameSpeaker = (a: ChatEntry | undefined, b: ChatEntry) =>
+  a !== undefined && a.who === b.who && a.author === b.author && a.targets.join('\n') === b.targets.join('\n');
+
+const sameDay = (a: number, b: number) => new Date(a).toDateString() === new Date(b).toDateString();
+
+/** The conversation, newest at the end; only its newest part is drawn until more is asked for. */
+export function History({ entries, onChoose, onEdit, empty }: Props) {
+  const { t } = useTranslation('chat');
+  const complete = useWorld((world) => world.chatComplete);
+  const everything = useWorld((world) => world.chat);
+  const messages = useOutbox((outbox) => outbox.messages);
+  const waiting = useMemo(
+    () => undelivered(messages, new Set(everything.map((entry) => entry.id))),
+    [messages, everything],
+  );
+  const [shown, setShown] = useState(PAGE);
+  const { scroller, atEnd, unseen, toEnd, keepPlace } = useStickToEnd(entries, waiting.length, shown);
+  const offers = useMemo(() => offering(entries), [entries]);
+  const visible = entries.slice(-shown);
+  const more = shown < entries.length || !complete;
+
+  const showOlder = async () => {
+    keepPlace();
+    if (shown + PAGE > entries.length && !complete) await loadOlder();
+    setShown(shown + PAGE);
+  };
+
+  if (entries.length === 0 && waiting.length === 0 && complete) return <div className={css.scroller}>{empty}</div>;
+  return (
+    <div className={css.frame}>
+      {/* eslint-disable-next-line jsx-a11y/no-noninteractive-tabindex -- what scrolls must be reachable by keys */}
+      <div className={css.scroller} ref={scroller} tabIndex={0} role="region" aria-label={t('history')}>
+        <div className={css.top}>
+          {more ? (
+            <Button onPress={() => void showOlder()}>{t('older')}</Button>
+          ) : (
+            <p className={css.beginning}>{t('beginning')}</p>
+          )}
+        </div>
+        <ol className={css.list} aria-live="polite" aria-relevant="additions">
+          {visible.map((entry, index) => {
+            const before = visible[index - 1];
+            const newDay = !before || !sameDay(before.unix_ms, entry.unix_ms);
+            return [
+              newDay && <Day key={`day-${entry.id}`} unixMs={entry.unix_ms} />,
+              <Entry
+                key={entry.id}
+                entry={entry}
+                offers={offers.has(entry.id)}
+                showName={newDay || !sameSpeaker(before, entry)}
+                onChoose={onChoose}
+                onEdit={onEdit}
+              />,
+            ];
+          })}
+          {waiting.map((message) => (
+            <PendingEntry key={message.id} message={message} />
+          ))}
+        </ol>
+      </div>
+      {!atEnd && (
+        <div className={css.jump}>
+          <Button icon="down" onPress={toEnd}>
+            {unseen > 0 ? t('newestCount', { count: unseen }) : t('newest')}
+          </Button>
+        </div>
+      )}
+    </div>
+  );
+}
+
+async function loadOlder(): Promise<void> {
+  const live = useLive.getState();
+  const first = live.world.chat[0];
+  await attempt(async () => {
+    const page = await getChat({ ...(first ? { before: first.seq } : {}), limit: 200 });
+    live.takeOlderChat(page.entries, page.complete);
+  });
+}
+
+function Day({ unixMs }: { unixMs: number }) {
+  const { t, i18n } = useTranslation('chat');
+  const [now] = useState(() => Date.now());
+  const yesterday = now - 86_400_000;
+  let words = dayName(unixMs, now, i18n.language);
+  if (sameDay(unixMs, now)) words = t('today');
+  else if (sameDay(unixMs, yesterday)) words = t('yesterday');
+  return <li className={css.day}>{words}</li>;
+}

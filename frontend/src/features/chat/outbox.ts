@@ -1,0 +1,55 @@
+/** Messages on their way. One leaves as soon as the server tells of it under the same key. */
+import { create } from 'zustand';
+
+import { sendMessage, type OutgoingMessage } from '@/live/api';
+import { explain } from '@/state/do';
+
+export interface Outgoing extends OutgoingMessage {
+  unixMs: number;
+  state: 'sending' | 'sent' | 'failed';
+  /** Why it failed, for people. */
+  reason: string;
+}
+
+interface Outbox {
+  messages: readonly Outgoing[];
+  send: (message: Omit<OutgoingMessage, 'id'>) => Promise<void>;
+  retry: (id: string) => Promise<void>;
+  discard: (id: string) => void;
+}
+
+export const useOutbox = create<Outbox>()((set, get) => {
+  const change = (id: string, part: Partial<Outgoing>) =>
+    set((now) => ({ messages: now.messages.map((one) => (one.id === id ? { ...one, ...part } : one)) }));
+
+  const deliver = async ({ id, text, targets, reply_to, images }: OutgoingMessage) => {
+    change(id, { state: 'sending', reason: '' });
+    try {
+      await sendMessage({ id, text, targets, reply_to, images });
+      change(id, { state: 'sent' });
+    } catch (error) {
+      change(id, { state: 'failed', reason: explain(error) });
+    }
+  };
+
+  return {
+    messages: [],
+    send: async (message) => {
+      const outgoing = { ...message, id: crypto.randomUUID() };
+      set((now) => ({
+        messages: [...now.messages, { ...outgoing, unixMs: Date.now(), state: 'sending', reason: '' }],
+      }));
+      await deliver(outgoing);
+    },
+    retry: async (id) => {
+      const message = get().messages.find((one) => one.id === id);
+      if (message) await deliver(message);
+    },
+    discard: (id) => set((now) => ({ messages: now.messages.filter((one) => one.id !== id) })),
+  };
+});
+
+/** Those that the conversation does not hold yet. A message to several may come back in parts (`key`, `key/2`). */
+export function undelivered(messages: readonly Outgoing[], known: ReadonlySet<string>): readonly Outgoing[] {
+  return messages.filter((message) => !known.has(message.id));
+}

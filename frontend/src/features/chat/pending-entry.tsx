@@ -1,0 +1,31 @@
+import { useTranslation } from 'react-i18next';
+
+import { Button } from '@/ui/button';
+
+import css from './entry.module.css';
+import { useOutbox, type Outgoing } from './outbox';
+
+/** A message that is not yet part of the conversation. */
+export function PendingEntry({ message }: { message: Outgoing }) {
+  const { t } = useTranslation('chat');
+  const { retry, discard } = useOutbox();
+  const failed = message.state === 'failed';
+  return (
+    <li className={css.entry} data-mine="true">
+      <div className={css.said}>
+        <p className={css.text}>{message.text}</p>
+      </div>
+      <div className={css.waiting} data-failed={failed} role={failed ? 'alert' : undefined}>
+        <span>{failed ? `${t('failed')}. ${message.reason}` : t('sending')}</span>
+        {failed && (
+          <>
+            <Button onPress={() => void retry(message.id)}>{t('retry')}</Button>
+            <Button tone="quiet" onPress={() => discard(message.id)}>
+              {t('discard')}
+            </Button>
+          </>
+        )}
+      </div>
+    </li>
+  );
+}

@@ -1,0 +1,62 @@
+import { describe, expect, it } from 'vitest';
+
+import { entry } from '@/live/samples';
+
+import { answering, conversation, offering, openQuestions } from './questions';
+
+const question = (id: string, seq: number, target: string, state: 'open' | 'answered' = 'open') =>
+  entry({ id, seq, targets: [target], type: 'request', question: state });
+
+describe('open questions', () => {
+  it('are the newest that still await an answer, per robot', () => {
+    const open = openQuestions([
+      question('q1', 1, 'Ada'),
+      question('q2', 2, 'Ada'),
+      question('q3', 3, 'Bob', 'answered'),
+    ]);
+    expect([...open.keys()]).toEqual(['Ada']);
+    expect(open.get('Ada')?.id).toBe('q2');
+  });
+});
+
+describe('a message to several robots', () => {
+  it('answers those that asked and is a request to the others', () => {
+    const open = openQuestions([question('q1', 1, 'Ada')]);
+    const answer = answering(open, ['Ada', 'Bob']);
+    expect(answer.question?.id).toBe('q1');
+    expect(answer).toMatchObject({ robots: ['Ada'], others: ['Bob'] });
+  });
+
+  it('is a plain request when none of them asked', () => {
+    const open = openQuestions([question('q1', 1, 'Ada')]);
+    expect(answering(open, ['Bob']).question).toBeNull();
+  });
+});
+
+describe('the conversation with several robots', () => {
+  it('holds what was said to two of them once', () => {
+    const chat = [
+      entry({ id: 'both', targets: ['Ada', 'Bob'] }),
+      entry({ id: 'other', targets: ['Cleo'] }),
+      entry({ id: 'all', targets: [] }),
+    ];
+    expect(conversation(chat, ['Ada', 'Bob']).map((one) => one.id)).toEqual(['both', 'all']);
+  });
+});
+
+describe('offered answers', () => {
+  const offer = entry({ id: 'offer', choices: ['left', 'right'] });
+
+  it('of a plain reply can be tapped until the robot is told something', () => {
+    expect([...offering([offer])]).toEqual(['offer']);
+    expect([...offering([offer, entry({ id: 'said', who: 'operator', targets: ['Ada'] })])]).toEqual([]);
+    expect([...offering([offer, entry({ id: 'said', who: 'operator', targets: ['Bob'] })])]).toEqual(['offer']);
+  });
+
+  it('of a question can be tapped until it is answered', () => {
+    const asked = { ...question('q', 1, 'Ada'), choices: ['yes'] };
+    const said = entry({ id: 'said', who: 'operator' });
+    expect([...offering([asked, said])]).toEqual(['q']);
+    expect([...offering([{ ...asked, question: 'closed' }])]).toEqual([]);
+  });
+});

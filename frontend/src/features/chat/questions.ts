@@ -1,0 +1,58 @@
+/** Which questions are open, and what the next message answers. Plain functions. */
+import type { ChatEntry } from '@/live/types';
+
+export type Questions = ReadonlyMap<string, ChatEntry>;
+
+/** The newest open question of each robot. */
+export function openQuestions(chat: readonly ChatEntry[]): Questions {
+  const open = new Map<string, ChatEntry>();
+  for (const entry of chat) {
+    if (entry.question !== 'open') continue;
+    for (const robot of entry.targets) open.set(robot, entry);
+  }
+  return open;
+}
+
+export interface Answering {
+  /** The question that is answered; null: the message is a new request to all. */
+  question: ChatEntry | null;
+  /** Chosen robots that await an answer. */
+  robots: readonly string[];
+  /** Chosen robots for which the same message is a new request. */
+  others: readonly string[];
+}
+
+/** What a message to the chosen robots means. The newest question is the one that is answered. */
+export function answering(questions: Questions, chosen: readonly string[]): Answering {
+  const robots = chosen.filter((robot) => questions.has(robot));
+  const question = robots
+    .map((robot) => questions.get(robot))
+    .reduce<ChatEntry | null>((newest, one) => (one && (!newest || one.seq > newest.seq) ? one : newest), null);
+  return { question, robots, others: chosen.filter((robot) => !questions.has(robot)) };
+}
+
+/** What was said to or by any of the chosen robots, or to nobody in particular; each thing once. */
+export function conversation(chat: readonly ChatEntry[], chosen: readonly string[]): readonly ChatEntry[] {
+  return chat.filter(
+    (entry) => entry.targets.length === 0 || entry.targets.some((robot) => chosen.includes(robot)),
+  );
+}
+
+/**
+ * Keys of the messages whose offered answers can still be tapped: open questions, and replies that nobody
+ * has followed up since.
+ */
+export function offering(chat: readonly ChatEntry[]): ReadonlySet<string> {
+  const offers = new Set<string>();
+  const spokenTo = new Set<string>();
+  for (const entry of chat.toReversed()) {
+    if (entry.who === 'operator') entry.targets.forEach((robot) => spokenTo.add(robot));
+    else if (entry.choices.length > 0 && stillOffers(entry, spokenTo)) offers.add(entry.id);
+  }
+  return offers;
+}
+
+function stillOffers(entry: ChatEntry, spokenTo: ReadonlySet<string>): boolean {
+  if (entry.question === '') return !entry.targets.some((robot) => spokenTo.has(robot));
+  return entry.question === 'open';
+}

@@ -1,0 +1,88 @@
+import { useState } from 'react';
+import { useTranslation } from 'react-i18next';
+
+import { useWorld } from '@/live/store';
+import { useOverlays } from '@/state/overlays';
+import { useRobotNames, useSelection, useSelectionStore } from '@/state/selection';
+import { Button } from '@/ui/button';
+
+import type { Questions } from './questions';
+import css from './robot-tabs.module.css';
+import { useLongPress } from './use-long-press';
+
+interface TabProps {
+  name: string;
+  chosen: boolean;
+  awaitsAnswer: boolean;
+  onOnly: () => void;
+  onToggle: () => void;
+}
+
+function Tab({ name, chosen, awaitsAnswer, onOnly, onToggle }: TabProps) {
+  const { t } = useTranslation('chat');
+  const here = useWorld((world) => world.robots[name]?.connection === 'here');
+  const press = useLongPress(onToggle);
+  return (
+    <button
+      type="button"
+      className={css.tab}
+      aria-pressed={chosen}
+      data-asks={awaitsAnswer}
+      data-here={here}
+      {...press.handlers}
+      onClick={(event) => {
+        if (press.wasLong()) return;
+        if (event.shiftKey || event.ctrlKey || event.metaKey) onToggle();
+        else onOnly();
+      }}
+    >
+      <span className={css.dot} aria-hidden="true" />
+      <span>{name}</span>
+      {!here && <span className="hidden">{t('notHere', { name })}</span>}
+      {awaitsAnswer && (
+        <span className={css.asks}>
+          <span aria-hidden="true">?</span>
+          <span className="hidden">{t('awaitsAnswer', { name })}</span>
+        </span>
+      )}
+    </button>
+  );
+}
+
+/** The robots one can talk to: tap for one; shift-click, long touch or the switch for several. */
+export function RobotTabs({ questions }: { questions: Questions }) {
+  const { t } = useTranslation('chat');
+  const names = useRobotNames();
+  const chosen = useSelection();
+  const { only, toggle } = useSelectionStore();
+  const open = useOverlays((state) => state.set);
+  const [several, setSeveral] = useState(false);
+  return (
+    <div className={css.row}>
+      <Button tone="quiet" icon="plus" iconOnly aria-label={t('addRobot')} onPress={() => open('addRobot')} />
+      <div className={css.tabs} role="group" aria-label={t('robots')}>
+        {names.map((name) => (
+          <Tab
+            key={name}
+            name={name}
+            chosen={chosen.includes(name)}
+            awaitsAnswer={questions.has(name)}
+            onOnly={() => (several ? toggle(name, names) : only(name))}
+            onToggle={() => toggle(name, names)}
+          />
+        ))}
+      </div>
+      {names.length > 1 && (
+        <button
+          type="button"
+          className={css.several}
+          aria-pressed={several}
+          title={t('severalHelp')}
+          onClick={() => setSeveral(!several)}
+        >
+          {t('several')}
+        </button>
+      )}
+    </div>
+  );
+}

@@ -1,0 +1,41 @@
+import { useTranslation } from 'react-i18next';
+
+import { useWorld } from '@/live/store';
+import { Button } from '@/ui/button';
+import { Empty } from '@/ui/panel';
+import { nameList } from '@/ui/words';
+
+import css from './welcome.module.css';
+
+interface Props {
+  chosen: readonly string[];
+  onSay: (text: string) => void;
+}
+
+const NO_EXAMPLES: readonly string[] = [];
+const SHOWN = 3;
+
+/** What is there before anything was said: sentences to begin with, one tap each. */
+export function Welcome({ chosen, onSay }: Props) {
+  const { t, i18n } = useTranslation('chat');
+  const examples = useWorld((world) => world.info?.examples ?? NO_EXAMPLES);
+  if (chosen.length === 0) {
+    return (
+      <Empty title={t('emptyNobody')}>
+        <p>{t('emptyNobodyText')}</p>
+      </Empty>
+    );
+  }
+  return (
+    <Empty title={t('emptyTitle', { name: nameList(chosen, i18n.language) })}>
+      <p>{t('emptyText')}</p>
+      <ul className={css.examples}>
+        {examples.slice(0, SHOWN).map((example) => (
+          <li key={example}>
+            <Button onPress={() => onSay(example)}>{example}</Button>
+          </li>
+        ))}
+      </ul>
+    </Empty>
+  );
+}

@@ -1,0 +1,81 @@
+import { useTranslation } from 'react-i18next';
+
+import { closeSession } from '@/live/api';
+import { useWorld } from '@/live/store';
+import { attempt } from '@/state/do';
+import { usePrefs, type Language, type PlanColours, type Theme } from '@/state/prefs';
+import { Button } from '@/ui/button';
+import { Choice } from '@/ui/choice';
+import { Panel } from '@/ui/panel';
+
+import css from './settings-page.module.css';
+
+const themes: readonly Theme[] = ['system', 'light', 'dark', 'contrast'];
+const colours: readonly PlanColours[] = ['standard', 'traffic'];
+/** Each language is named in itself. */
+const languages: readonly { id: Language; label: string }[] = [
+  { id: 'en', label: 'English' },
+  { id: 'et', label: 'Eesti' },
+];
+const NO_ADDRESSES: readonly string[] = [];
+
+/** Choices of this person, and what there is to know of the system. */
+export function SettingsPage({ canSignOut, onSignedOut }: { canSignOut: boolean; onSignedOut: () => void }) {
+  const { t } = useTranslation(['menu', 'session']);
+  const prefs = usePrefs();
+  return (
+    <Panel title={t('settings')}>
+      <div className={css.settings}>
+        <Choice label={t('language')} value={prefs.language} options={languages} onChange={(language) => prefs.set({ language })} />
+        <Choice
+          label={t('theme')}
+          value={prefs.theme}
+          options={themes.map((id) => ({ id, label: t(`themes.${id}`) }))}
+          onChange={(theme) => prefs.set({ theme })}
+        />
+        <Choice
+          label={t('planColours')}
+          value={prefs.planColours}
+          options={colours.map((id) => ({ id, label: t(`colours.${id}`) }))}
+          onChange={(planColours) => prefs.set({ planColours })}
+        />
+        <About />
+        {canSignOut && (
+          <Button onPress={() => void attempt(closeSession).then((done) => done && onSignedOut())}>
+            {t('session:signOut')}
+          </Button>
+        )}
+      </div>
+    </Panel>
+  );
+}
+
+function About() {
+  const { t } = useTranslation('menu');
+  const info = useWorld((world) => world.info);
+  const addresses = info?.addresses ?? NO_ADDRESSES;
+  if (!info) return null;
+  return (
+    <>
+      <dl className={css.about}>
+        <dt>{t('understands')}</dt>
+        <dd>{info.language}</dd>
+        <dt>{t('version')}</dt>
+        <dd>{info.version}</dd>
+      </dl>
+      {info.offline_language && <p>{t('offlineLanguage')}</p>}
+      {addresses.length > 0 && (
+        <section className={css.devices}>
+          <h3>{t('otherDevices')}</h3>
+          <p>{t('otherDevicesText')}</p>
+          <img src="/api/qr.svg" alt={t('qrAlt')} width={180} height={180} />
+          <ul>
+            {addresses.map((address) => (
+              <li key={address}>{address}</li>
+            ))}
+          </ul>
+        </section>
+      )}
+    </>
+  );
+}

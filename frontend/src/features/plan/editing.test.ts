@@ -1,0 +1,59 @@
+import { describe, expect, it } from 'vitest';
+
+import { step } from '@/live/samples';
+
+import { editable, moved, newStep, nudged, pendingSteps, setInput, toDraft } from './editing';
+
+const drafts = ['a', 'b', 'c'].map((id) => toDraft(step({ id })));
+const ids = (steps: readonly { id: string }[]) => steps.map((one) => one.id).join('');
+
+describe('changing a plan', () => {
+  it('offers only steps that have not begun', () => {
+    const steps = [step({ id: 'a', state: 'finished' }), step({ id: 'b', state: 'running' }), step({ id: 'c' })];
+    expect(ids(pendingSteps(steps))).toBe('c');
+  });
+
+  it('moves steps before and behind others', () => {
+    expect(ids(moved(drafts, new Set(['c']), 'a', 'before'))).toBe('cab');
+    expect(ids(moved(drafts, new Set(['a']), 'b', 'after'))).toBe('bac');
+    expect(ids(moved(drafts, new Set(['a']), 'a', 'after'))).toBe('abc');
+  });
+
+  it('moves a step by one place and not past the ends', () => {
+    expect(ids(nudged(drafts, 'b', -1))).toBe('bac');
+    expect(ids(nudged(drafts, 'a', -1))).toBe('abc');
+    expect(ids(nudged(drafts, 'c', 1))).toBe('abc');
+  });
+
+  it('writes a new value where the wire expects it and leaves the rest alone', () => {
+    const call = {
+      Look: {
+        input_parameters: { what: { pvf_type: 'string', pvf_value: 'box' }, far: { pvf_type: 'bool' } },
+        reason: 'to see',
+      },
+    };
+    const draft = toDraft(step({ id: 'a', inputs: [{ name: 'what', type: 'string', value: 'box' }], call }));
+    expect(setInput(draft, 'what', 'chair').call).toEqual({
+      Look: {
+        input_parameters: { what: { pvf_type: 'string', pvf_value: 'chair' }, far: { pvf_type: 'bool' } },
+        reason: 'to see',
+      },
+    });
+  });
+
+  it('makes a new step with names in levels', () => {
+    const made = newStep(
+      { name: 'GoTo', inputs: { 'pose::position::x': 'number' }, outputs: {}, optional: [], description: '', phrases: [], effects: [], risk: 'low', capabilities: [], examples: [], duration_s: null, timeout_s: null },
+      'n1',
+    );
+    expect(made.call).toEqual({
+      GoTo: { input_parameters: { pose: { position: { x: { pvf_type: 'number' } } } }, output_parameters: {} },
+    });
+  });
+
+  it('lets people write words, not coordinates', () => {
+    expect(editable({ name: 'what', type: 'string', value: '' })).toBe(true);
+    expect(editable({ name: 'pose::position::x', type: 'number', value: 1 })).toBe(false);
+    expect(editable({ name: 'picture', type: 'image', value: null })).toBe(false);
+  });
+});

@@ -1,0 +1,71 @@
+/** A plan while it is being changed. Plain functions. */
+import type { ActionCall, ActionInfo, ParameterView, StepView } from '@/live/types';
+import { inWords } from '@/ui/words';
+
+import { emptyTree, withInput } from './parameters';
+
+export interface DraftStep {
+  id: string;
+  label: string;
+  action: string;
+  inputs: readonly ParameterView[];
+  call: ActionCall;
+}
+
+/** Steps that may still be changed: those that have not begun. */
+export const pendingSteps = (steps: readonly StepView[]) => steps.filter((step) => step.state === 'queued');
+
+export function toDraft(step: StepView): DraftStep {
+  return { id: step.id, label: step.label, action: step.action, inputs: step.inputs, call: step.call ?? {} };
+}
+
+/** A new step, its inputs still empty. */
+export function newStep(action: ActionInfo, id: string): DraftStep {
+  const inputs = Object.entries(action.inputs ?? {}).map(([name, type]) => ({ name, type, value: null }));
+  return {
+    id,
+    label: inWords(action.name),
+    action: action.name,
+    inputs,
+    call: {
+      [action.name]: {
+        input_parameters: emptyTree(action.inputs ?? {}),
+        output_parameters: emptyTree(action.outputs ?? {}),
+      },
+    },
+  };
+}
+
+export function setInput(step: DraftStep, name: string, value: string | number | boolean): DraftStep {
+  const input = step.inputs.find((one) => one.name === name);
+  if (!input) return step;
+  return {
+    ...step,
+    inputs: step.inputs.map((one) => (one.name === name ? { ...one, value } : one)),
+    call: withInput(step.call, name, input.type, value),
+  };
+}
+
+/** Move the steps `ids` in front of or behind `target`. */
+export function moved(
+  steps: readonly DraftStep[],
+  ids: ReadonlySet<string>,
+  target: string,
+  where: 'before' | 'after',
+): readonly DraftStep[] {
+  if (ids.has(target)) return steps;
+  const rest = steps.filter((step) => !ids.has(step.id));
+  const at = rest.findIndex((step) => step.id === target) + (where === 'after' ? 1 : 0);
+  return [...rest.slice(0, at), ...steps.filter((step) => ids.has(step.id)), ...rest.slice(at)];
+}
+
+/** Move one step by one place. */
+export function nudged(steps: readonly DraftStep[], id: string, by: -1 | 1): readonly DraftStep[] {
+  const at = steps.findIndex((step) => step.id === id);
+  const neighbour = steps[at + by];
+  return neighbour ? moved(steps, new Set([id]), neighbour.id, by < 0 ? 'before' : 'after') : steps;
+}
+
+/** Inputs a person can write down: words, numbers and yes or no; places come from other steps. */
+export const editable = (input: ParameterView) =>
+  ['string', 'number', 'bool'].includes(input.type) && !/(?:^|::)(?:position|orientation)::/.test(input.name);

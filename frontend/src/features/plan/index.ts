@@ -1,0 +1,2 @@
+export { PlanPanel } from './plan-panel';
+export { PlanStrip } from './plan-strip';

@@ -1,0 +1,26 @@
+import { describe, expect, it } from 'vitest';
+
+import { rowsOf } from './parameters';
+
+const number = (name: string, value: number | null) => ({ name, type: 'number', value });
+
+describe('values of a step', () => {
+  it('draws the coordinates of a place together', () => {
+    const rows = rowsOf([
+      number('pose::position::x', 1.5),
+      number('pose::position::y', 2),
+      number('pose::position::z', 0),
+      number('pose::orientation::y', Math.PI / 2),
+      { name: 'what_to_see', type: 'string', value: 'a box' },
+    ]);
+    expect(rows).toEqual([
+      { kind: 'value', name: 'what_to_see', label: 'What to see', value: 'a box' },
+      { kind: 'place', name: 'pose', label: '', x: 1.5, y: 2, degrees: 90 },
+    ]);
+  });
+
+  it('says when a place or value is not known yet', () => {
+    const rows = rowsOf([number('pose::position::x', null), { name: 'answer', type: 'string', value: null }]);
+    expect(rows.map((row) => (row.kind === 'value' ? row.value : 'place'))).toEqual([null, null]);
+  });
+});

@@ -1,0 +1,109 @@
+import { useState } from 'react';
+import { GridList, useDragAndDrop, type Key } from 'react-aria-components';
+import { useTranslation } from 'react-i18next';
+
+import { useWorld } from '@/live/store';
+import type { ActionCall, ActionInfo } from '@/live/types';
+import { useToasts } from '@/state/toasts';
+import { Button } from '@/ui/button';
+import { Choice } from '@/ui/choice';
+import { inWords } from '@/ui/words';
+
+import { moved, newStep, nudged, setInput, type DraftStep } from './editing';
+import { EditorRow } from './editor-row';
+import css from './plan-editor.module.css';
+
+interface Props {
+  robot: string;
+  steps: readonly DraftStep[];
+  saveLabel: string;
+  onSave: (calls: readonly ActionCall[]) => Promise<void>;
+  onCancel: () => void;
+}
+
+const NO_ACTIONS: readonly ActionInfo[] = [];
+
+/** Steps to be put in order, changed, removed and added. */
+export function PlanEditor({ robot, steps: initial, saveLabel, onSave, onCancel }: Props) {
+  const { t } = useTranslation(['plan', 'common']);
+  const [steps, setSteps] = useState(initial);
+  const [added, setAdded] = useState(0);
+  const [busy, setBusy] = useState(false);
+  const catalogue = useWorld((world) => world.robots[robot]?.catalogue ?? NO_ACTIONS);
+  const show = useToasts((state) => state.show);
+
+  const { dragAndDropHooks } = useDragAndDrop({
+    getItems: (keys) => [...keys].map((key) => ({ 'text/plain': steps.find((step) => step.id === key)?.label ?? '' })),
+    onReorder: ({ keys, target }) => {
+      const where = target.dropPosition === 'after' ? 'after' : 'before';
+      setSteps((now) => moved(now, new Set([...keys].map(String)), String(target.key), where));
+    },
+  });
+
+  const remove = (step: DraftStep) => {
+    const before = steps;
+    setSteps(steps.filter((one) => one.id !== step.id));
+    show({
+      tone: 'info',
+      message: t('removed', { step: step.label }),
+      action: { label: t('common:undo'), run: () => setSteps(before) },
+    });
+  };
+
+  const add = (name: string) => {
+    const action = catalogue.find((one) => one.name === name);
+    if (!action) return;
+    setSteps([...steps, newStep(action, `added-${added}`)]);
+    setAdded(added + 1);
+  };
+
+  const save = async () => {
+    setBusy(true);
+    await onSave(steps.map((step) => step.call));
+    setBusy(false);
+  };
+
+  const change = (id: Key, name: string, value: string | number | boolean) =>
+    setSteps(steps.map((step) => (step.id === id ? setInput(step, name, value) : step)));
+
+  return (
+    <div className={css.editor}>
+      <p className={css.help}>{t('editHelp')}</p>
+      <GridList
+        aria-label={t('editTitle')}
+        className={css.list ?? ''}
+        selectionMode="none"
+        keyboardNavigationBehavior="tab"
+        dragAndDropHooks={dragAndDropHooks}
+        renderEmptyState={() => <p className={css.help}>{t('editEmpty')}</p>}
+      >
+        {steps.map((step, index) => (
+          <EditorRow
+            key={step.id}
+            step={step}
+            isFirst={index === 0}
+            isLast={index === steps.length - 1}
+            onMove={(by) => setSteps(nudged(steps, step.id, by))}
+            onRemove={() => remove(step)}
+            onChange={(name, value) => change(step.id, name, value)}
+          />
+        ))}
+      </GridList>
+      {catalogue.length > 0 && (
+        <Choice
+          label={t('addStep')}
+          placeholder={t('addStepPlaceholder')}
+          value={null}
+          options={catalogue.map((action) => ({ id: action.name, label: inWords(action.name) }))}
+          onChange={add}
+        />
+      )}
+      <div className={css.buttons}>
+        <Button onPress={onCancel}>{t('common:cancel')}</Button>
+        <Button tone="main" isDisabled={busy} onPress={() => void save()}>
+          {saveLabel}
+        </Button>
+      </div>
+    </div>
+  );
+}

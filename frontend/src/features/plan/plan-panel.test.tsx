@@ -1,0 +1,112 @@
+import { act, render, screen, within } from '@testing-library/react';
+import userEvent from '@testing-library/user-event';
+import { beforeEach, describe, expect, it, vi } from 'vitest';
+
+import { plan, robot, snapshot, step } from '@/live/samples';
+import { useLive } from '@/live/store';
+import type { PlanView, StepState } from '@/live/types';
+import { useToasts } from '@/state/toasts';
+
+import { PlanPanel } from './plan-panel';
+
+const sent: { method: string; path: string; body: unknown }[] = [];
+let status = 200;
+
+beforeEach(() => {
+  sent.length = 0;
+  status = 200;
+  vi.stubGlobal('fetch', (path: string, options: RequestInit) => {
+    sent.push({ method: options.method ?? '', path, body: JSON.parse(String(options.body)) });
+    return Promise.resolve(new Response('{}', { status }));
+  });
+});
+
+const call = (name: string) => ({ [name]: { input_parameters: {}, output_parameters: {} } });
+const steps = [
+  step({ id: 'one', state: 'finished' }),
+  step({ id: 'two', state: 'running', progress: 0.25, progress_text: '3 m left' }),
+  step({ id: 'three', call: call('Three') }),
+  step({ id: 'four', call: call('Four') }),
+];
+
+const show = (part: Partial<PlanView> = {}) => {
+  useLive.getState().takeSnapshot(
+    snapshot({ robots: [robot({ name: 'Ada' })], plans: [plan({ robot: 'Ada', revision: 7, steps, ...part })] }),
+  );
+  render(<PlanPanel />);
+  return userEvent.setup();
+};
+
+describe('the plan', () => {
+  it('tells the state of each step in words', () => {
+    const states: StepState[] = ['queued', 'running', 'finished', 'failed', 'stopped', 'skipped', 'paused', 'stopping', 'waiting'];
+    show({ steps: states.map((state) => step({ id: `step ${state}`, state })) });
+    const words = ['Waiting its turn', 'Working on it', 'Done', 'Did not work', 'Stopped', 'Skipped', 'Paused', 'Stopping…', 'Waiting for your answer'];
+    expect(words.filter((word) => screen.queryByText(word) === null)).toEqual([]);
+  });
+
+  it('says how far a step has come', () => {
+    show();
+    expect(screen.getByRole('progressbar').getAttribute('aria-valuenow')).toBe('25');
+    expect(screen.getByText('3 m left')).toBeTruthy();
+  });
+
+  it('cancels everything only after a second yes', async () => {
+    const user = show();
+    await user.click(screen.getByRole('button', { name: 'Cancel all' }));
+    expect(sent).toEqual([]);
+    await user.click(screen.getByRole('button', { name: 'Cancel everything' }));
+    expect(sent).toEqual([{ method: 'POST', path: '/api/plans/Ada/command', body: { command: 'clear' } }]);
+  });
+
+  it('offers to continue what is paused', async () => {
+    const user = show({ state: 'paused' });
+    await user.click(screen.getByRole('button', { name: 'Continue' }));
+    expect(sent).toMatchObject([{ body: { command: 'resume' } }]);
+  });
+
+  it('offers no control over what was not planned in conversation', () => {
+    show({ kind: 'graph' });
+    expect(screen.queryByRole('button', { name: 'Pause' })).toBeNull();
+  });
+
+  it('sends the waiting steps in their new order with the revision they were taken from', async () => {
+    const user = show();
+    await user.click(screen.getByRole('button', { name: 'Change' }));
+    const list = screen.getByRole('grid', { name: 'Change the plan' });
+    expect(within(list).getAllByRole('row')).toHaveLength(2);
+    await user.click(screen.getByRole('button', { name: 'Move “four” up' }));
+    await user.click(screen.getByRole('button', { name: 'Save' }));
+    expect(sent).toEqual([
+      { method: 'PUT', path: '/api/plans/Ada/steps', body: { steps: [call('Four'), call('Three')], revision: 7 } },
+    ]);
+  });
+
+  it('says when the plan has moved on meanwhile', async () => {
+    const user = show();
+    status = 409;
+    await user.click(screen.getByRole('button', { name: 'Change' }));
+    await user.click(screen.getByRole('button', { name: 'Save' }));
+    expect(useToasts.getState().toasts.map((toast) => toast.message)).toEqual([
+      'The plan changed in the meantime. Here is the newest one; please change it again.',
+    ]);
+    expect(screen.queryByRole('grid')).toBeNull();
+  });
+
+  it('marks what a change of a running plan brought', () => {
+    show({ changed: ['four'] });
+    expect(screen.getAllByText('New')).toHaveLength(1);
+  });
+
+  it('lets a person say yes or no to steps that wait for it', async () => {
+    const user = show({ steps: [], state: 'awaiting_approval' });
+    act(() => {
+      const proposal = { id: 'p1', robot: 'Ada', message: 'I would go.', steps: [step({ id: 's' })] };
+      useLive.getState().takeChanges([{ kind: 'proposal', seq: 1, proposal }]);
+    });
+    await user.click(screen.getByRole('button', { name: 'Yes, begin' }));
+    expect(sent).toEqual([
+      { method: 'POST', path: '/api/plans/Ada/decision', body: { id: 'p1', decision: 'approve' } },
+    ]);
+  });
+});

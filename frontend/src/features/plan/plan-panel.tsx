@@ -1,0 +1,131 @@
+import { useEffect, useRef, useState } from 'react';
+import { useTranslation } from 'react-i18next';
+
+import { ApiError, putSteps } from '@/live/api';
+import { useWorld } from '@/live/store';
+import type { ActionCall, PlanView, StepState } from '@/live/types';
+import { planKey } from '@/live/world';
+import { explain } from '@/state/do';
+import { useSelection } from '@/state/selection';
+import { useToasts } from '@/state/toasts';
+import { Choice } from '@/ui/choice';
+import { Empty, Panel } from '@/ui/panel';
+
+import { pendingSteps, toDraft } from './editing';
+import { PlanControls } from './plan-controls';
+import { PlanEditor } from './plan-editor';
+import css from './plan-panel.module.css';
+import { PolicyChoice } from './policy-choice';
+import { ProposalCard } from './proposal-card';
+import { pickPlan, proposalsOf, shownPlans } from './shown-plans';
+import { StepCard } from './step-card';
+
+const BUSY: readonly StepState[] = ['running', 'waiting', 'failed', 'paused', 'stopping'];
+
+/** What a robot is doing and will do, step by step. */
+export function PlanPanel() {
+  const { t } = useTranslation(['plan', 'common']);
+  const plans = useWorld((world) => world.plans);
+  const robots = useWorld((world) => world.robots);
+  const chosen = useSelection();
+  const [picked, setPicked] = useState({ key: '', whileChosen: '' });
+  const shown = shownPlans(plans, robots);
+  // A pick holds until the person talks to another robot.
+  const plan = pickPlan(shown, picked.whileChosen === chosen.join('\n') ? picked.key : '', chosen);
+  const name = (one: PlanView) =>
+    one.kind === 'plan' ? t('planOf', { robot: one.robot }) : t('otherTask', { robot: one.robot, name: one.graph_name });
+  const choice = plan && (
+    <Choice
+      label={t('which')}
+      hideLabel
+      value={planKey(plan)}
+      options={shown.map((one) => ({ id: planKey(one), label: name(one) }))}
+      onChange={(key) => setPicked({ key, whileChosen: chosen.join('\n') })}
+    />
+  );
+  return (
+    <Panel title={t('title')} tools={choice} flush>
+      {plan ? <PlanOf key={planKey(plan)} plan={plan} /> : <Empty title={t('noRobot')} />}
+    </Panel>
+  );
+}
+
+function PlanOf({ plan }: { plan: PlanView }) {
+  const { t } = useTranslation(['plan', 'common']);
+  const proposals = useWorld((world) => world.proposals);
+  const [editing, setEditing] = useState<PlanView | null>(null);
+  const waiting = plan.kind === 'plan' ? proposalsOf(proposals, plan.robot) : [];
+  const pending = pendingSteps(plan.steps);
+  const save = useSaving(() => setEditing(null));
+  const steps = useCurrentInView(plan);
+  return (
+    <>
+      <div className={css.bar} data-state={plan.state}>
+        <p className={css.state}>{t(`state.${plan.state}`)}</p>
+        <PlanControls plan={plan} onEdit={pending.length > 0 && !editing ? () => setEditing(plan) : null} />
+      </div>
+      {/* eslint-disable-next-line jsx-a11y/no-noninteractive-tabindex -- what scrolls must be reachable by keys */}
+      <div className={css.scroller} tabIndex={0} role="region" aria-label={t('steps')}>
+        {waiting.map((proposal) => (
+          <ProposalCard key={proposal.id} proposal={proposal} />
+        ))}
+        {editing && (
+          <PlanEditor
+            key={editing.revision}
+            robot={plan.robot}
+            steps={pendingSteps(editing.steps).map(toDraft)}
+            saveLabel={t('common:save')}
+            onSave={(calls) => save(plan.robot, calls, editing.revision)}
+            onCancel={() => setEditing(null)}
+          />
+        )}
+        {plan.steps.length > 0 && (
+          <ol className={css.steps} ref={steps}>
+            {plan.steps
+              .filter((step) => !editing || step.state !== 'queued')
+              .map((step, index) => (
+                <StepCard key={step.id} step={step} number={index + 1} changed={plan.changed.includes(step.id)} />
+              ))}
+          </ol>
+        )}
+        {plan.steps.length === 0 && waiting.length === 0 && (
+          <Empty title={t('empty', { robot: plan.robot })}>
+            <p>{t('emptyHelp')}</p>
+          </Empty>
+        )}
+      </div>
+      {plan.kind === 'plan' && (
+        <footer className={css.foot}>
+          <PolicyChoice robot={plan.robot} />
+        </footer>
+      )}
+    </>
+  );
+}
+
+/** Brings the step that is being done into view when another one's turn has come. */
+function useCurrentInView(plan: PlanView) {
+  const list = useRef<HTMLOListElement>(null);
+  const current = plan.steps.findIndex((step) => BUSY.includes(step.state));
+  useEffect(() => {
+    if (current > 0) list.current?.children[current]?.scrollIntoView({ block: 'nearest' });
+  }, [current]);
+  return list;
+}
+
+/** Sends changed steps; when the plan has moved on meanwhile, says so and closes the editor. */
+function useSaving(close: () => void) {
+  const { t } = useTranslation(['plan', 'common']);
+  const show = useToasts((state) => state.show);
+  return async (robot: string, calls: readonly ActionCall[], revision: number) => {
+    try {
+      await putSteps(robot, calls, revision);
+      show({ tone: 'info', message: t('saved') });
+      close();
+    } catch (error) {
+      const conflict = error instanceof ApiError && error.status === 409;
+      show({ tone: 'error', message: conflict ? t('conflict') : explain(error) });
+      if (conflict) close();
+    }
+  };
+}

@@ -1,0 +1,59 @@
+import { useState } from 'react';
+import { useTranslation } from 'react-i18next';
+
+import { decidePlan, type Decision } from '@/live/api';
+import type { ProposalView } from '@/live/types';
+import { attempt } from '@/state/do';
+import { Button } from '@/ui/button';
+
+import { toDraft } from './editing';
+import { PlanEditor } from './plan-editor';
+import css from './proposal-card.module.css';
+import { StepCard } from './step-card';
+
+/** Steps that wait for a yes. */
+export function ProposalCard({ proposal }: { proposal: ProposalView }) {
+  const { t } = useTranslation('plan');
+  const [editing, setEditing] = useState(false);
+  const [busy, setBusy] = useState(false);
+  const decide = async (decision: Omit<Decision, 'id'>) => {
+    setBusy(true);
+    await attempt(() => decidePlan(proposal.robot, { id: proposal.id, ...decision }));
+    setBusy(false);
+  };
+  const title = t('proposalTitle', { robot: proposal.robot });
+  return (
+    <section className={css.card} aria-label={title}>
+      <h3>{title}</h3>
+      {proposal.message && <p>{proposal.message}</p>}
+      {editing ? (
+        <PlanEditor
+          robot={proposal.robot}
+          steps={proposal.steps.map(toDraft)}
+          saveLabel={t('approveChanged')}
+          onSave={(steps) => decide({ decision: 'edit', steps })}
+          onCancel={() => setEditing(false)}
+        />
+      ) : (
+        <>
+          <div className={css.buttons}>
+            <Button tone="main" icon="check" isDisabled={busy} onPress={() => void decide({ decision: 'approve' })}>
+              {t('approve')}
+            </Button>
+            <Button icon="edit" isDisabled={busy} onPress={() => setEditing(true)}>
+              {t('change')}
+            </Button>
+            <Button icon="cross" isDisabled={busy} onPress={() => void decide({ decision: 'reject' })}>
+              {t('reject')}
+            </Button>
+          </div>
+          <ol className={css.steps}>
+            {proposal.steps.map((step, index) => (
+              <StepCard key={step.id} step={step} number={index + 1} changed={false} />
+            ))}
+          </ol>
+        </>
+      )}
+    </section>
+  );
+}

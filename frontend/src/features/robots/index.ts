@@ -1,0 +1,2 @@
+export { AddRobot } from './add-robot';
+export { RobotsPage } from './robots-page';

@@ -1,0 +1,11 @@
+export { default as chat } from './chat.json';
+export { default as common } from './common.json';
+export { default as display } from './display.json';
+export { default as incidents } from './incidents.json';
+export { default as map } from './map.json';
+export { default as memory } from './memory.json';
+export { default as menu } from './menu.json';
+export { default as plan } from './plan.json';
+export { default as robots } from './robots.json';
+export { default as session } from './session.json';
+export { default as stop } from './stop.json';

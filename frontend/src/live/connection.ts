@@ -1,0 +1,88 @@
+/** The live connection: snapshot, then changes; after a break only what was missed. */
+import { io, type Socket } from 'socket.io-client';
+
+import { useLive } from './store';
+import type { Change, MapView, Snapshot } from './types';
+
+export interface FrameMeta {
+  robot: string;
+  name: string;
+  type?: string;
+  unix_ms?: number;
+}
+
+type FrameHandler = (picture: Blob, meta: FrameMeta) => void;
+
+let socket: Socket | null = null;
+const watchers = new Map<string, Set<FrameHandler>>();
+
+const keyOf = (feed: { robot: string; name: string }) => `${feed.robot}\n${feed.name}`;
+
+/** Connect, and stay connected. @returns How to hang up. */
+export function connect(): () => void {
+  const live = () => useLive.getState();
+  const opened = io({
+    path: '/socket.io',
+    transports: ['websocket', 'polling'],
+    auth: (send) => send({ run: live().world.run, since: live().world.seq }),
+    reconnectionDelay: 500,
+    reconnectionDelayMax: 4000,
+    timeout: 8000,
+  });
+  socket = opened;
+  opened.on('connect', () => {
+    live().setConnection('connected');
+    sendWatched();
+  });
+  opened.on('disconnect', (reason) => {
+    live().setConnection('lost', Date.now());
+    // A server that hangs up wants a new greeting; the library waits for us to give it.
+    if (reason === 'io server disconnect') opened.connect();
+  });
+  opened.on('connect_error', () => {
+    if (live().connection !== 'lost') live().setConnection('lost', Date.now());
+  });
+  opened.on('snapshot', (snapshot: Snapshot) => live().takeSnapshot(snapshot));
+  opened.on('changes', (changes: Change[]) => live().takeChanges(changes));
+  opened.on('view', (view: MapView) => live().takeView(view));
+  opened.on('frame', onFrame);
+  return () => {
+    opened.removeAllListeners();
+    opened.disconnect();
+    socket = null;
+  };
+}
+
+/** Try again at once instead of after the waiting time. */
+export function reconnectNow(): void {
+  socket?.disconnect().connect();
+}
+
+/** Receive the pictures of a feed. @returns How to end it. */
+export function watchFeed(feed: { robot: string; name: string }, handler: FrameHandler): () => void {
+  const key = keyOf(feed);
+  const handlers = watchers.get(key) ?? new Set();
+  handlers.add(handler);
+  watchers.set(key, handlers);
+  sendWatched();
+  return () => {
+    handlers.delete(handler);
+    if (handlers.size === 0) watchers.delete(key);
+    sendWatched();
+  };
+}
+
+function sendWatched(): void {
+  if (!socket?.connected) return;
+  const feeds = [...watchers.keys()].map((key) => {
+    const [robot = '', name = ''] = key.split('\n');
+    return { robot, name };
+  });
+  socket.emit('watch', feeds);
+}
+
+function onFrame(meta: FrameMeta, picture: ArrayBuffer, acknowledge?: () => void): void {
+  const blob = new Blob([picture], { type: meta.type ?? 'image/jpeg' });
+  for (const handler of watchers.get(keyOf(meta)) ?? []) handler(blob, meta);
+  acknowledge?.();
+}

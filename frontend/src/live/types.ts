@@ -1,0 +1,37 @@
+/** Names for the server's types; everything else imports them from here. */
+import type { components } from './api-types';
+
+type Schemas = components['schemas'];
+
+export type Snapshot = Schemas['Snapshot'];
+export type ServerInfo = Schemas['ServerInfo'];
+export type RobotView = Schemas['RobotView'];
+export type StopView = Schemas['StopView'];
+export type ChatEntry = Schemas['ChatEntry'];
+export type PlanView = Schemas['PlanView'];
+export type ProposalView = Schemas['ProposalView'];
+export type StepView = Schemas['StepView'];
+export type ParameterView = Schemas['ParameterView'];
+export type FeedInfo = Schemas['FeedInfo'];
+export type MemoryItem = Schemas['MemoryItem'];
+export type Incident = Schemas['Incident'];
+export type MapView = Schemas['MapView'];
+export type MapInfo = Schemas['MapInfo'];
+export type ActionInfo = Schemas['ActionInfo'];
+
+export type Policy = RobotView['policy'];
+export type StepState = StepView['state'];
+export type ActionCall = NonNullable<StepView['call']>;
+
+export type Change =
+  | Schemas['RobotChange']
+  | Schemas['RobotGone']
+  | Schemas['ChatChange']
+  | Schemas['PlanChange']
+  | Schemas['PlanGone']
+  | Schemas['ProposalChange']
+  | Schemas['ProposalGone']
+  | Schemas['FeedChange']
+  | Schemas['MemoryChange']
+  | Schemas['IncidentChange']
+  | Schemas['RejectionChange'];

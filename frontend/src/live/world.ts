@@ -1,0 +1,161 @@
+/** What is known of the system, as plain data: a snapshot, and changes applied to it. No timers, no network. */
+import type {
+  Change,
+  ChatEntry,
+  FeedInfo,
+  Incident,
+  MapView,
+  PlanView,
+  ProposalView,
+  RobotView,
+  ServerInfo,
+  Snapshot,
+} from './types';
+
+export interface Notice {
+  id: number;
+  robot: string;
+  message: string;
+}
+
+export interface World {
+  run: string;
+  seq: number;
+  info: ServerInfo | null;
+  robots: Readonly<Record<string, RobotView>>;
+  /** In the order of the conversation. */
+  chat: readonly ChatEntry[];
+  /** Whether `chat` holds the beginning of the conversation. */
+  chatComplete: boolean;
+  plans: Readonly<Record<string, PlanView>>;
+  proposals: Readonly<Record<string, ProposalView>>;
+  feeds: Readonly<Record<string, FeedInfo>>;
+  incidents: Readonly<Record<string, Incident>>;
+  views: Readonly<Record<string, MapView>>;
+  /** Counts changes of memories: who shows memories asks again when it grows. */
+  memoryChanges: number;
+  /** Refusals, newest last. */
+  notices: readonly Notice[];
+}
+
+const KEPT_NOTICES = 20;
+
+export const emptyWorld: World = {
+  run: '',
+  seq: 0,
+  info: null,
+  robots: {},
+  chat: [],
+  chatComplete: true,
+  plans: {},
+  proposals: {},
+  feeds: {},
+  incidents: {},
+  views: {},
+  memoryChanges: 0,
+  notices: [],
+};
+
+export const planKey = (plan: { robot: string; graph_name: string }): string =>
+  `${plan.robot}\n${plan.graph_name}`;
+
+export const feedKey = (feed: { robot: string; name: string }): string => `${feed.robot}\n${feed.name}`;
+
+/** The world as a snapshot tells it; earlier parts of the same conversation are kept. */
+export function fromSnapshot(snapshot: Snapshot, before: World = emptyWorld): World {
+  const sameRun = before.run === snapshot.run;
+  const older = sameRun ? olderThan(before.chat, snapshot.chat[0]) : [];
+  return {
+    run: snapshot.run,
+    seq: snapshot.seq,
+    info: snapshot.info,
+    robots: keyed(snapshot.robots, (robot) => robot.name),
+    chat: [...older, ...snapshot.chat],
+    chatComplete: older.length > 0 ? before.chatComplete : snapshot.chat_complete,
+    plans: keyed(snapshot.plans, planKey),
+    proposals: keyed(snapshot.proposals, (proposal) => proposal.id),
+    feeds: keyed(snapshot.feeds, feedKey),
+    incidents: keyed(snapshot.incidents, (incident) => incident.id),
+    views: keyed(snapshot.views, (view) => view.actor),
+    memoryChanges: before.memoryChanges + 1,
+    notices: before.notices,
+  };
+}
+
+/** Apply numbered changes in order; those already contained are passed over. */
+export function applyChanges(world: World, changes: readonly Change[]): World {
+  const fresh = changes.filter((change) => change.seq > world.seq);
+  const last = fresh.at(-1);
+  if (!last) return world;
+  const said = fresh.flatMap((change) => (change.kind === 'chat' ? [change.entry] : []));
+  const next = fresh.reduce(applyOne, world);
+  return { ...next, seq: last.seq, chat: mergeChat(world.chat, said) };
+}
+
+/** Put older or changed entries where they belong; each key stands once. */
+export function mergeChat(chat: readonly ChatEntry[], entries: readonly ChatEntry[]): readonly ChatEntry[] {
+  if (entries.length === 0) return chat;
+  const merged = [...chat];
+  for (const entry of entries) {
+    const known = merged.findLastIndex((other) => other.id === entry.id);
+    if (known >= 0) merged[known] = entry;
+    else if ((merged.at(-1)?.seq ?? -1) <= entry.seq) merged.push(entry);
+    else merged.splice(insertionPoint(merged, entry.seq), 0, entry);
+  }
+  return merged;
+}
+
+function applyOne(world: World, change: Change): World {
+  switch (change.kind) {
+    case 'robot':
+      return { ...world, robots: { ...world.robots, [change.robot.name]: change.robot } };
+    case 'robot_gone':
+      return { ...world, robots: without(world.robots, change.name) };
+    case 'plan':
+      return { ...world, plans: { ...world.plans, [planKey(change.plan)]: change.plan } };
+    case 'plan_gone':
+      return { ...world, plans: without(world.plans, planKey(change)) };
+    case 'proposal':
+      return { ...world, proposals: { ...world.proposals, [change.proposal.id]: change.proposal } };
+    case 'proposal_gone':
+      return { ...world, proposals: without(world.proposals, change.id) };
+    case 'feed':
+      return { ...world, feeds: { ...world.feeds, [feedKey(change.feed)]: change.feed } };
+    case 'incident':
+      return { ...world, incidents: { ...world.incidents, [change.incident.id]: change.incident } };
+    case 'memory':
+      return { ...world, memoryChanges: world.memoryChanges + 1 };
+    case 'rejection': {
+      const notice = { id: change.seq, robot: change.robot, message: change.message };
+      return { ...world, notices: [...world.notices, notice].slice(-KEPT_NOTICES) };
+    }
+    case 'chat':
+      return world; // merged in one go by applyChanges
+  }
+}
+
+function keyed<T>(items: readonly T[], key: (item: T) => string): Record<string, T> {
+  return Object.fromEntries(items.map((item) => [key(item), item]));
+}
+
+function without<T>(record: Readonly<Record<string, T>>, key: string): Record<string, T> {
+  return Object.fromEntries(Object.entries(record).filter(([name]) => name !== key));
+}
+
+function olderThan(chat: readonly ChatEntry[], first: ChatEntry | undefined): readonly ChatEntry[] {
+  if (!first) return [];
+  const end = chat.findIndex((entry) => entry.seq >= first.seq);
+  // Without an overlap there may be a gap between the two: begin anew.
+  return end < 0 ? [] : chat.slice(0, end);
+}
+
+function insertionPoint(chat: readonly ChatEntry[], seq: number): number {
+  let low = 0;
+  let high = chat.length;
+  while (low < high) {
+    const middle = (low + high) >>> 1;
+    if ((chat[middle]?.seq ?? 0) <= seq) low = middle + 1;
+    else high = middle;
+  }
+  return low;
+}

@@ -1,0 +1,19 @@
+import { StrictMode } from 'react';
+import { createRoot } from 'react-dom/client';
+
+import { App } from './app/app';
+import { startWords } from './i18n';
+import { applyLook, usePrefs } from './state/prefs';
+import './styles/tokens.css';
+import './styles/base.css';
+
+const root = document.getElementById('root');
+if (!root) throw new Error('the page has no element with the id "root"');
+
+applyLook(usePrefs.getState());
+await startWords(usePrefs.getState().language);
+createRoot(root).render(
+  <StrictMode>
+    <App />
+  </StrictMode>,
+);

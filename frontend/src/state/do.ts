@@ -1,0 +1,24 @@
+/** Ask the server for something and tell the person if it did not work. */
+import i18next from 'i18next';
+
+import { ApiError } from '@/live/api';
+
+import { useToasts } from './toasts';
+
+/** What a failed request says to people. */
+export function explain(error: unknown): string {
+  if (!(error instanceof ApiError)) throw error;
+  if (error.status === 0) return i18next.t('common:notReached');
+  return [error.message || i18next.t('common:refused'), error.remedy].filter(Boolean).join(' ');
+}
+
+/** @returns Whether it worked; if not, the reason was shown. */
+export async function attempt(deed: () => Promise<unknown>): Promise<boolean> {
+  try {
+    await deed();
+    return true;
+  } catch (error) {
+    useToasts.getState().show({ tone: 'error', message: explain(error) });
+    return false;
+  }
+}

@@ -1,0 +1,11 @@
+/** Which box over the page is open. */
+import { create } from 'zustand';
+
+export type Overlay = 'none' | 'commands' | 'shortcuts' | 'addRobot';
+
+interface Overlays {
+  open: Overlay;
+  set: (open: Overlay) => void;
+}
+
+export const useOverlays = create<Overlays>()((set) => ({ open: 'none', set: (open) => set({ open }) }));

@@ -1,0 +1,25 @@
+import { useSyncExternalStore } from 'react';
+
+export type Layout = 'phone' | 'tablet' | 'desktop';
+
+const TABLET = '(min-width: 700px)';
+const DESKTOP = '(min-width: 1180px)';
+
+function useMedia(query: string): boolean {
+  return useSyncExternalStore(
+    (changed) => {
+      const list = window.matchMedia(query);
+      list.addEventListener('change', changed);
+      return () => list.removeEventListener('change', changed);
+    },
+    () => window.matchMedia(query).matches,
+  );
+}
+
+/** How much room there is. */
+export function useLayout(): Layout {
+  const desktop = useMedia(DESKTOP);
+  const tablet = useMedia(TABLET);
+  if (desktop) return 'desktop';
+  return tablet ? 'tablet' : 'phone';
+}

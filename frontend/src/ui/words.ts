@@ -1,0 +1,40 @@
+/** Small helpers that turn values into words. */
+
+/** Names as a list in the page's language: "A", "A and B", "A, B and C". */
+export function nameList(names: readonly string[], language: string): string {
+  return new Intl.ListFormat(language, { style: 'long', type: 'conjunction' }).format(names);
+}
+
+/** Hours and minutes, with seconds where order matters. */
+export function clockTime(unixMs: number, language: string, seconds = false): string {
+  return new Intl.DateTimeFormat(language, {
+    hour: '2-digit',
+    minute: '2-digit',
+    ...(seconds ? { second: '2-digit' } : {}),
+    hourCycle: 'h23',
+  }).format(unixMs);
+}
+
+/** A day, without the year if it is this one. */
+export function dayName(unixMs: number, nowUnixMs: number, language: string): string {
+  const sameYear = new Date(unixMs).getFullYear() === new Date(nowUnixMs).getFullYear();
+  return new Intl.DateTimeFormat(language, {
+    day: 'numeric',
+    month: 'long',
+    ...(sameYear ? {} : { year: 'numeric' }),
+  }).format(unixMs);
+}
+
+/** A name made for programs (`GoToPlace`, `go_to_place`, `a::b`) as words. */
+export function inWords(name: string): string {
+  const words = name
+    .replaceAll('::', ' ')
+    .replaceAll(/[_-]+/g, ' ')
+    .replaceAll(/(?<=[a-z\d])(?=[A-Z])/g, ' ')
+    .trim()
+    .toLowerCase();
+  return words.charAt(0).toUpperCase() + words.slice(1);
+}
+
+/** With a capital letter in front. */
+export const sentence = (text: string): string => text.charAt(0).toUpperCase() + text.slice(1);
