@@ -101,8 +101,8 @@ class Case:
                 "error_message": body["error"],
                 "code": body["code"],
                 "details": body.get("details", {}),
-                "failed_action": _calls(body["failed"])[0],
-                "pending": _calls(body.get("pending", [])),
+                "failed_action": _calls(body["failed"], world)[0],
+                "pending": _calls(body.get("pending", []), world),
                 "reply": body.get("reply"),
             }
         return common | {
@@ -113,15 +113,15 @@ class Case:
                     itertools.cycle(("operator", "assistant")), body.get("history", []), strict=False
                 )
             ],
-            "queue": _calls(body.get("queue", [])),
+            "queue": _calls(body.get("queue", []), world),
             "status": body.get("status", "idle"),
             "robots": world["robots"],
         }
 
 
-def cases() -> list[Case]:
-    """All of both halves."""
-    read = _data()
+def cases(name: str = "second_set") -> list[Case]:
+    """All of a set."""
+    read = _data(name)
     worlds = read["worlds"]
     for world in worlds.values():
         world.update({**worlds.get(world.get("like"), {}), **world})
@@ -133,22 +133,25 @@ def cases() -> list[Case]:
 
 
 @cache
-def _data() -> dict[str, Any]:
-    read: dict[str, Any] = yaml.safe_load((DATA / "second_set.yaml").read_text(encoding="utf-8"))
+def _data(name: str) -> dict[str, Any]:
+    read: dict[str, Any] = yaml.safe_load((DATA / f"{name}.yaml").read_text(encoding="utf-8"))
     return read
 
 
 def _catalogue(world: dict[str, Any]) -> tuple[ActionInfo, ...]:
-    return TOOLS if world["catalogue"] == "tools" else CATALOGUES[world["catalogue"]]
+    named = world["catalogue"]
+    if isinstance(named, list):
+        return tuple(ActionInfo.model_validate(action) for action in named)
+    return TOOLS if named == "tools" else CATALOGUES[named]
 
 
-def _calls(short: Sequence[str]) -> list[dict[str, Any]]:
+def _calls(short: Sequence[str], world: dict[str, Any]) -> list[dict[str, Any]]:
     """The actions of a queue given in short."""
     calls: list[dict[str, Any]] = []
     for text in short:
         verb, _, rest = text.partition(" ")
         if verb in {"go", "locate"}:
-            target = _description(rest)
+            target = _description(rest, world)
             calls.append({"GetCoordinates": {"input_parameters": _text("target", target)}})
         if verb in {"go", "driving"}:
             unset = {name: {"pvf_type": kind} for name, kind in POSE.items()}
@@ -162,12 +165,8 @@ def _text(name: str, value: str) -> dict[str, Any]:
     return {name: {"pvf_type": "string", "pvf_value": value}}
 
 
-def _description(identifier: str) -> str:
-    for world in _data()["worlds"].values():
-        for listed in world.get("objects", ()):
-            if listed[0] == identifier:
-                return str(listed[1])
-    return identifier
+def _description(identifier: str, world: dict[str, Any]) -> str:
+    return next((str(listed[1]) for listed in world["objects"] if listed[0] == identifier), identifier)
 
 
 @dataclass(frozen=True)

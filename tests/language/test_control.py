@@ -101,3 +101,25 @@ def test_an_order_with_an_object_is_never_taken_for_the_order_alone(order: str, 
 @given(st.text(max_size=300))
 def test_any_text_can_be_asked_about(text: str) -> None:
     assert control_of(text) in {None, "stop", "start", "skip", "clear", "emergency_stop"}
+
+
+@pytest.mark.parametrize(
+    ("said", "meant"),
+    [
+        ("could you stop for a second?", "stop"),
+        ("stop what you are doing", "stop"),
+        ("stop following me", "stop"),
+        ("pare agora", "stop"),
+        ("pea kohe kinni", "stop"),
+        ("call the whole thing off", "clear"),
+        ("scrap the entire plan", "clear"),
+        ("cancel all of it", "clear"),
+        ("could you stop at the bench?", None),
+        ("stop talking", None),
+        ("drop the box", None),
+        ("drop the last step", None),
+        ("is there a stop?", None),
+    ],
+)
+def test_an_order_to_stop_is_told_from_what_only_sounds_like_one(said: str, meant: str | None) -> None:
+    assert control_of(said) == meant

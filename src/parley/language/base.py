@@ -25,6 +25,7 @@ __all__ = [
     "Grounding",
     "InspectionReport",
     "Language",
+    "Picture",
     "ReplyReading",
     "Situation",
     "Turn",
@@ -42,6 +43,17 @@ class Turn:
 
     role: Literal["operator", "assistant"]
     content: str
+
+
+@dataclass(frozen=True, slots=True)
+class Picture:
+    """A picture that belongs to what is to be understood."""
+
+    name: str
+    """What it is called; for one that was just sent, its file name, which may say nothing."""
+    jpeg: bytes
+    sent: bool = False
+    """Whether it came with the message; else it is the memory of that name."""
 
 
 @dataclass(frozen=True, slots=True)
@@ -64,6 +76,10 @@ class Situation:
     """All robots there are."""
     catalogue: tuple[ActionInfo, ...] = ()
     """What `robot` can do."""
+    failure: ErrorSituation | None = None
+    """The step that failed, while the robot waits for an answer to its question about it."""
+    pictures: tuple[Picture, ...] = ()
+    """Pictures sent with the message, and those among `memory`."""
 
 
 @dataclass(frozen=True, slots=True)
@@ -116,8 +132,10 @@ class InspectionReport:
 class ReplyReading:
     """How an answer to a question is meant."""
 
-    kind: Literal["yes", "no", "choice", "control", "unclear"]
-    """`yes` includes "done", "I did it"; `control` is a stop word and the like, handled elsewhere."""
+    kind: Literal["yes", "no", "choice", "answer", "aside", "control", "unclear"]
+    """`yes` includes "done", "I did it"; `answer` is what an open question asked for, in the person's words;
+    `aside` is a question of their own or another order instead of an answer; `control` is a stop word and the
+    like, handled elsewhere."""
     choice: str = ""
     """For `choice`: which of the offered ones, verbatim."""
 
@@ -131,6 +149,11 @@ class Language(Protocol):
     @property
     def label(self) -> str:
         """What operators are told about this engine, e.g. that it works without a model."""
+        ...
+
+    @property
+    def sees_pictures(self) -> bool:
+        """Whether it looks at the pictures of a situation; else nobody need fetch them."""
         ...
 
     async def interpret(self, situation: Situation, *, on_draft: DraftHandler | None = None) -> ChatAction:
@@ -150,6 +173,7 @@ class Language(Protocol):
         `success` True: the correction, done after `delay_s`; with the command `stop` alone the robot is held.
         False: asks with `message_response` and `choices`. None: `message_response` answers what the operator
         asked (and `queue` is what they want done afterwards), while the question to them remains open.
+        With any of them `afterwards` is what the operator wants done behind the rest of the plan.
         """
         ...
 

@@ -34,12 +34,20 @@ def control_of(text: str, names: tuple[str, ...] = ()) -> Control | None:
     """
     if len(text) > _LONGEST_CHARS:
         return None
-    if text.strip().endswith("?"):
+    words, asked = _unasked(_words(text))
+    if not words or (text.strip().endswith("?") and not asked):
         return None
-    words = _words(text)
-    if not words:
-        return None
+    if _stops_doing(words):
+        return "stop"
     called = {part for name in names for part in _words(name)}
+    bare = tuple(word for word in words if word not in _around())
+    if 0 < len(bare) < len(words) and (found := _table().get(bare)) is not None:
+        return found
+    plain = _strip(_without_span(words), called)
+    if _clears(plain):
+        return "clear"
+    if len(plain) < len(words) and _look_up(plain) == "stop":
+        return "stop"
     return _look_up(words) or _look_up(_strip(words, called)) or _repeated(_strip(words, called))
 
 
@@ -51,6 +59,92 @@ def _words(text: str) -> tuple[str, ...]:
     # Combining marks belong to the words of Indic scripts, so not everything outside \w is a separator.
     cleaned = "".join(c if c.isalnum() or unicodedata.category(c).startswith("M") else " " for c in low)
     return tuple(cleaned.split())
+
+
+_ASKING = (
+    ("can", "you"), ("could", "you"), ("would", "you"), ("will", "you"), ("i", "want", "you", "to"),
+    ("i", "need", "you", "to"), ("you", "should"), ("you", "must"), ("you", "need", "to"),
+    ("you", "have", "to"),
+    ("i", "would", "like", "you", "to"), ("i", "said"), ("i", "told", "you", "to"), ("please", "can", "you"),
+    ("please", "could", "you"),
+)  # fmt: skip
+
+
+def _unasked(words: tuple[str, ...]) -> tuple[tuple[str, ...], bool]:
+    """Without "could you" and the like before an order, and whether there was any."""
+    size = next((len(lead) for lead in _ASKING if words[: len(lead)] == lead), 0)
+    return (words[size:], bool(size)) if len(words) > size else (words, False)
+
+
+_SAYING = frozenset({"talking", "asking", "saying", "joking", "kidding", "bothering", "being", "apologizing"})
+
+
+def _stops_doing(words: tuple[str, ...]) -> bool:
+    """For "stop following me", "stop driving around"; not for "stop talking", nor "stop going to the box"."""
+    doing = words[1] if len(words) > 1 and words[0] == "stop" else ""
+    short = len(words) <= 3 or set(words[2:]) <= {
+        "me",
+        "him",
+        "her",
+        "it",
+        "them",
+        "us",
+        "around",
+        "please",
+        "now",
+    }
+    return doing.endswith("ing") and doing not in _SAYING and short
+
+
+_SPANS = tuple(
+    tuple(text.split())
+    for text in (
+        "for a second", "for a sec", "for a moment", "for a minute", "for a bit", "for a while",
+        "a second", "a sec",
+        "a moment", "a minute", "a bit", "for now", "right there", "where you are",
+        "until further notice",
+        "what you are doing", "whatever you are doing", "everything you are doing", "doing that",
+        "doing this",
+        "immediately", "at once", "this instant", "right now",
+    )
+)  # fmt: skip
+
+
+def _without_span(words: tuple[str, ...]) -> tuple[str, ...]:
+    """Without how long or where one should stop; that changes nothing."""
+    end = next((len(s) for s in _SPANS if len(words) > len(s) and words[-len(s) :] == s), 0)
+    return words[: len(words) - end]
+
+
+_CLEARING = frozenset({
+    "cancel", "abort", "scrap", "clear", "discard", "abandon", "drop", "delete", "erase", "remove", "kill",
+    "ditch",     "scratch", "forget", "dismiss", "terminate", "end", "empty", "wipe", "undo",
+})  # fmt: skip
+_PLANS = frozenset({
+    "plan", "mission", "queue", "task", "tasks", "job", "jobs", "list", "tour", "orders", "steps", "actions",
+    "thing",     "lot", "round", "route", "schedule", "instructions", "operation", "order",
+})  # fmt: skip
+_WHOLE = frozenset(
+    {"the", "whole", "entire", "current", "complete", "all", "of", "my", "your", "our", "this", "rest"}
+)
+_STRONG = frozenset({"cancel", "abort", "scrap", "discard", "abandon", "ditch", "terminate"})
+
+
+def _clears(words: tuple[str, ...]) -> bool:
+    """For "scrap the whole plan", "call it all off", "cancel all of it": the whole plan is given up."""
+    if words[:1] == ("call",) and words[-1:] == ("off",):
+        return (
+            set(words[1:-1]) <= {"it", "all", "everything", "the", "whole", "thing", "of"} and len(words) > 2
+        )
+    if words[:1] == ("call",) and words[1:2] == ("off",):
+        words = ("cancel", *words[2:])
+    if len(words) < 2 or words[0] not in _CLEARING:
+        return False
+    rest = words[1:]
+    if set(rest) <= {"it", "all", "everything", "of", "that", "this"}:
+        return words[0] in _STRONG and bool({"all", "everything"} & set(rest))
+    whole = bool({"all", "whole", "entire", "complete", "plan", "mission", "queue"} & set(rest))
+    return rest[-1] in _PLANS and set(rest[:-1]) <= _WHOLE and whole
 
 
 def _look_up(words: tuple[str, ...]) -> Control | None:
@@ -113,6 +207,11 @@ _SLIPS: dict[str, Control] = {
     "stop": "stop", "wait": "stop", "halt": "stop", "pause": "stop", "freeze": "stop", "continue": "start",
     "resume": "start", "cancel": "clear", "abort": "clear",
 }  # fmt: skip
+
+
+@cache
+def _around() -> frozenset[str]:
+    return frozenset(part for text in load_data("control")["around"] for part in text.split())
 
 
 @cache

@@ -9,7 +9,7 @@ from __future__ import annotations
 import json
 import time
 from collections.abc import AsyncIterator, Iterable, Sequence
-from typing import Any, Literal
+from typing import Any, Literal, Protocol, runtime_checkable
 
 from pydantic import BaseModel, ConfigDict, Field, ValidationError
 
@@ -21,7 +21,24 @@ from parley.messages.status import ActionInfo
 from parley.world.geometry import Pose2D
 from parley.world.object_map import MapObject
 
-__all__ = ["interpret_lines", "read_situation", "write_output"]
+__all__ = ["Explained", "Explains", "interpret_lines", "read_situation", "write_output"]
+
+
+class Explained(Protocol):
+    """One decision of an engine that can say why."""
+
+    def to_json(self) -> dict[str, Any]:
+        """For a line of JSON."""
+        ...
+
+
+@runtime_checkable
+class Explains(Protocol):
+    """A language engine that can say how it came to its answer."""
+
+    def explain(self, situation: Situation) -> tuple[ChatAction, Sequence[Explained]]:
+        """The answer, and what was decided on the way, in order."""
+        ...
 
 
 class _Line(BaseModel):
@@ -152,15 +169,26 @@ def _pose(pose: _Pose | None) -> Pose2D | None:
     return None if pose is None else Pose2D(pose.x, pose.y, pose.yaw)
 
 
-def write_output(output: ChatAction, latency_s: float, identifier: Any = None) -> str:
-    """One line of output, without the line end."""
+def write_output(
+    output: ChatAction,
+    latency_s: float,
+    identifier: Any = None,
+    explanation: Sequence[Explained] | None = None,
+) -> str:
+    """One line of output, without the line end; what was decided on the way is added if given."""
     line: dict[str, Any] = {} if identifier is None else {"id": identifier}
     line |= {"output": output.to_wire(), "latency_s": round(latency_s, 6)}
+    if explanation is not None:
+        line["explanation"] = [decision.to_json() for decision in explanation]
     return json.dumps(line, ensure_ascii=False)
 
 
 async def interpret_lines(
-    lines: Iterable[str], language: Language, default_catalogue: Sequence[ActionInfo] = ()
+    lines: Iterable[str],
+    language: Language,
+    default_catalogue: Sequence[ActionInfo] = (),
+    *,
+    explain: bool = False,
 ) -> AsyncIterator[str]:
     """Answer situations line by line; a bad line gives a line with an ``error`` and stops nothing.
 
@@ -168,13 +196,16 @@ async def interpret_lines(
         lines: JSON lines; empty ones are passed over.
         language: What understands.
         default_catalogue: For situations that name no catalogue of their own.
+        explain: Whether to add what was decided on the way, where the engine `Explains`.
     """
     for number, line in enumerate(lines, 1):
         if line.strip():
-            yield await _answer(line, number, language, default_catalogue)
+            yield await _answer(line, number, language, default_catalogue, explain=explain)
 
 
-async def _answer(line: str, number: int, language: Language, default_catalogue: Sequence[ActionInfo]) -> str:
+async def _answer(
+    line: str, number: int, language: Language, default_catalogue: Sequence[ActionInfo], *, explain: bool
+) -> str:
     identifier: Any = None
     try:
         try:
@@ -186,6 +217,9 @@ async def _answer(line: str, number: int, language: Language, default_catalogue:
         start_s = time.perf_counter()
         if isinstance(situation, ErrorSituation):
             output = await language.resolve(situation)
+        elif explain and isinstance(language, Explains):
+            output, decisions = language.explain(situation)
+            return write_output(output, time.perf_counter() - start_s, identifier, decisions)
         else:
             output = await language.interpret(situation)
         return write_output(output, time.perf_counter() - start_s, identifier)

@@ -6,7 +6,7 @@ from parley.language.base import Situation
 from parley.language.offline.lexicon import lexicon
 from parley.language.offline.text import Phrase, closest, keys, tokens
 
-__all__ = ["addressed", "own_part"]
+__all__ = ["addressed", "own_part", "stranger"]
 
 _CALLS = frozenset(
     {"hey", "hi", "hello", "ok", "okay", "dear", "tell", "have", "let", "ask", "make", "and", "please", "get"}
@@ -17,7 +17,9 @@ def addressed(words: Phrase, situation: Situation) -> tuple[Phrase, tuple[str, .
     """The message without the names it calls, and the robots it is for (empty: nobody was named)."""
     group = lexicon().everybody.match(keys(words))
     if group is not None and group[0] < len(words) and situation.robots:
-        return _except(_without_lead(words[group[0] :]), situation.robots)
+        rest = words[group[0] :]
+        gapped = keys(rest[:1]) in {("to",), ("into",)} and not (rest[1:] and _is_verb(rest[1].key))
+        return _except((*tokens("go"), *rest) if gapped else _without_lead(rest), situation.robots)
     sent = _sent(words, situation.robots)
     if sent is not None:
         return sent
@@ -35,8 +37,10 @@ def addressed(words: Phrase, situation: Situation) -> tuple[Phrase, tuple[str, .
     return rest, tuple(dict.fromkeys(named))
 
 
-def own_part(words: Phrase, situation: Situation) -> tuple[Phrase, tuple[str, ...]] | None:
-    """For "A, go to x and B, go to y": what the spoken-to robot is told, and who else is told something.
+def own_part(words: Phrase, situation: Situation) -> tuple[Phrase, tuple[str, ...], str] | None:
+    """For "A, go to x and B, go to y": one robot's part, who else is told something, and whose part it is.
+
+    The part is that of the robot that is spoken to, else of the one that is named first.
 
     None if the message does not give several robots orders of their own.
     """
@@ -48,7 +52,14 @@ def own_part(words: Phrase, situation: Situation) -> tuple[Phrase, tuple[str, ..
     lead: list[str] = []
     for number, (at, name) in enumerate(starts):
         end = starts[number + 1][0] if number + 1 < len(starts) else len(words)
-        part = _without_lead(words[at + len(tokens(name)) : end])
+        part = words[at + len(tokens(name)) : end]
+        while part and not part[0].is_word:
+            part = part[1:]
+        if keys(part[:1]) == ("you",):
+            part = part[1:]
+        gapped = keys(part[:1]) in {("to",), ("into",), ("at",)} and not (part[1:] and _is_verb(part[1].key))
+        # "A go to x and B to y": the verb is understood.
+        part = (*tokens("go"), *part) if gapped else _without_lead(part)
         lead.append(name)
         if any(word.is_word and word.key not in {"and", "while", "then", "but"} for word in part):
             # "A and B, go to x. C, go to y": names without order share the next one.
@@ -57,8 +68,8 @@ def own_part(words: Phrase, situation: Situation) -> tuple[Phrase, tuple[str, ..
             lead = []
     if len({keys(part) for part in parts.values()}) < 2:
         return None
-    mine = parts.get(situation.robot)
-    return None if mine is None else (mine, tuple(name for name in parts if name != situation.robot))
+    own = situation.robot if situation.robot in parts else next(iter(parts))
+    return parts[own], tuple(name for name in parts if name != own), own
 
 
 def _except(words: Phrase, robots: tuple[str, ...]) -> tuple[Phrase, tuple[str, ...]]:
@@ -90,15 +101,40 @@ def _sent(words: Phrase, robots: tuple[str, ...]) -> tuple[Phrase, tuple[str, ..
             if flat[index : index + len(called)] != called:
                 continue
             before, rest = flat[:index], words[index + len(called) :]
+            rest, others = _further_names(rest, robots)
             if _ends_with(before, _SENDING) and rest:
                 verb = () if rest[0].key == "to" and len(rest) > 1 and _is_verb(rest[1].key) else tokens("go")
                 rest = rest[1:] if not verb else rest
-                return (*verb, *rest), (name,)
+                return (*verb, *rest), (name, *others)
             if rest and (
                 (_ends_with(before, _WISHING) and rest[0].key == "to") or (before and before[-1] in _ASKING)
             ):
-                return _without_lead(rest), (name,)
+                return _without_lead(rest), (name, *others)
     return None
+
+
+def _further_names(rest: Phrase, robots: tuple[str, ...]) -> tuple[Phrase, tuple[str, ...]]:
+    """For "(send A) and B to the door": the other names, and the words behind them."""
+    others: list[str] = []
+    while keys(rest[:1]) in {("and",), (",",)}:
+        name = next((n for n in robots if keys(rest[1 : 1 + len(tokens(n))]) == keys(tokens(n))), "")
+        if not name:
+            break
+        others.append(name)
+        rest = rest[1 + len(tokens(name)) :]
+    return rest, tuple(others)
+
+
+def stranger(words: Phrase, situation: Situation) -> str:
+    """The name of a robot that is called ("X, go to the door") but that nobody knows; empty if none is."""
+    if len(words) < 4 or words[1].key not in {",", ":"} or not words[0].is_capital or not situation.robots:
+        return ""
+    name = words[0].key
+    known = lexicon().vocabulary | {part for robot in situation.robots for part in keys(tokens(robot))}
+    told = {word.key for entry in situation.memory for word in tokens(entry.data[:400])}
+    mapped = {word.key for item in situation.objects for word in tokens(item.description)}
+    orders = _is_verb(next((w.key for w in words[2:] if w.key not in {"please", "can", "you", "could"}), ""))
+    return words[0].raw if orders and name not in known | told | mapped and len(name) > 2 else ""
 
 
 _SENDING = (("send",), ("dispatch",), ("direct",), ("route",))

@@ -27,6 +27,7 @@ class Answering(Changing):
         """Questions, and what is only social."""
         answer = questions.answer(clause, self.scene)
         if answer is not None:
+            self.scene.trace.note("answer", f"a question: {answer.text}")
             if answer.look:
                 self._look_for_answer(answer)
             else:
@@ -40,6 +41,11 @@ class Answering(Changing):
         return False
 
     def _look_for_answer(self, answer: questions.Answer) -> None:
+        following = self._parts[self._at + 1 : self._at + 2]
+        if following and following[0].conditional and not following[0].condition:
+            # "Is it open? If so, ...": looking is what the rest depends on.
+            self._look_now(answer)
+            return
         if self._goes_to_look():
             self._look_now(answer)
             self._parts = self._parts[: self._at + 1]
@@ -59,9 +65,9 @@ class Answering(Changing):
         command = read_command(following[0].words, self.scene.is_person) if following else None
         return (
             command is not None
-            and command.kind in {"look", "whether"}
+            and command.kind in {"look", "whether", "count"}
             and not command.place
-            and keys(command.theme) in {(), ("it",), ("that",), ("this",)}
+            and keys(command.theme) in {(), ("it",), ("that",), ("this",), ("them",), ("him",), ("her",)}
         )
 
     def _look_now(self, answer: questions.Answer) -> None:

@@ -8,7 +8,7 @@ from parley.language.offline.commands import Command
 from parley.language.offline.going import UnableError
 from parley.language.offline.lexicon import lexicon
 from parley.language.offline.looking import ASKING, Looking
-from parley.language.offline.nouns import bare, noun_phrase
+from parley.language.offline.nouns import bare, coordinated, noun_phrase
 from parley.language.offline.remembering import find_fact
 from parley.language.offline.saying import the
 from parley.language.offline.scene import OPERATOR, Place, UnclearError
@@ -19,6 +19,36 @@ __all__ = ["Carrying"]
 _ANYTHING = frozenset((word,) for word in ("things", "objects", "something", "stuff", "people", "anything"))
 
 
+_ON_BOARD = frozenset({"you", "your tray", "your back", "robot", "the robot", "your basket", "your shelf"})
+_WAYS = frozenset(
+    [
+        "lift",
+        "elevator",
+        "stairs",
+        "staircase",
+        "ramp",
+        "exit",
+        "entrance",
+        "door",
+        "gate",
+        "aisle",
+        "corridor",
+        "hallway",
+        "route",
+        "road",
+        "path",
+        "bridge",
+        "tunnel",
+        "passage",
+        "escalator",
+        "way",
+        "lane",
+        "spot",
+        "place",
+    ]
+)
+
+
 @dataclass
 class Carrying(Looking):
     """How to bring things."""
@@ -26,6 +56,21 @@ class Carrying(Looking):
     def _fetch(self, command: Command) -> None:
         if not command.theme:
             raise UnclearError(f"What should I {command.verb}?")
+        members = coordinated(command.theme) if "and" in keys(command.theme) else []
+        if len(members) > 1 and not self._knows(command.theme) and all(self._knows(m) for m in members):
+            # "The pen and the paper": one after the other.
+            for member in members:
+                self._fetch_one(replace(command, theme=member))
+            return
+        self._fetch_one(command)
+
+    def _fetch_one(self, command: Command) -> None:
+        way = bool(_WAYS & set(keys(command.theme)))
+        leads = command.verb == "take" and way and not (command.recipient or command.place)
+        if leads and self._grounds(command.theme):
+            # "Take the left door": a way to go.
+            self._go(replace(command, kind="motion", verb="go", place=command.theme, theme=()))
+            return
         command = self._from_where_it_is(command)
         only = (
             not command.recipient
@@ -39,6 +84,9 @@ class Carrying(Looking):
         if self.scene.is_person(theme):
             self._guide(command, theme)
             return
+        if source is not None and source.value.lower() in _ON_BOARD:
+            # "I have put it on you": it is there already.
+            self.carried, source = theme, None
         recipient, goal = self._destination(command, theme)
         fetcher = self.catalogue.with_role("fetch")
         if fetcher is not None and self.catalogue.with_role("grasp") is None:
@@ -57,6 +105,11 @@ class Carrying(Looking):
         self.carried = ()
         self.scene.mention(recipient)
         self.scene.mention(theme)
+
+    def _knows(self, theme: Phrase) -> bool:
+        """Whether it is on the map or remembered to be somewhere."""
+        fact, several = find_fact(theme, self.scene.facts)
+        return self._grounds(theme) or fact is not None or bool(several)
 
     def _from_where_it_is(self, command: Command) -> Command:
         """For "the cup on the table": taken from the table, unless that is one object of the map."""

@@ -17,7 +17,7 @@ from parley.messages.chat import ActionCall
 from parley.messages.pvf import Parameter
 from parley.messages.status import ActionInfo
 
-__all__ = ["Catalogue", "call", "parameter_role", "roles_of", "text_inputs"]
+__all__ = ["Catalogue", "call", "parameter_role", "roles_of", "templates", "text_inputs"]
 
 _PARAMETER_ROLES = {
     "place": [
@@ -98,8 +98,16 @@ def roles_of(info: ActionInfo) -> frozenset[str]:
     if words[0] == "ask" or (text_inputs(info) == ["question"] and words[0] != "answer"):
         return frozenset({"ask_operator"})
     roles = _by_words(words) - (frozenset() if text_inputs(info) else _PHYSICAL)
+    typed = {word for name in info.inputs for word in split_name(name.replace("::", "_"))}
+    if roles & {"look", "search"} and not set(words[1:]) <= _ANY_SIGHT | typed:
+        # "CheckBattery" looks at one thing only: it is its own kind.
+        return frozenset()
     if roles:
         return roles
+    named = lex.verbs.match((lemma(words[0]), *words[1:]))
+    if named is not None and named[1].startswith("other:"):
+        # Its own name says what it does; a phrase such as "put on {song}" must not make it another thing.
+        return frozenset()
     phrase_words = [re.split(r"[^a-z]+", phrase.lower()) for phrase in info.phrases]
     described = re.findall(r"[a-z]+", info.description.lower())[:3]
     for candidate in (*phrase_words, described):
@@ -114,11 +122,69 @@ _PHYSICAL = frozenset({"place"})
 """Roles that need something named: without an input for it, "set" or "release" mean something else."""
 
 
+_ANY_SIGHT = frozenset(
+    [
+        "object",
+        "obj",
+        "item",
+        "thing",
+        "person",
+        "people",
+        "human",
+        "place",
+        "area",
+        "around",
+        "at",
+        "for",
+        "up",
+        "in",
+        "into",
+        "photo",
+        "picture",
+        "image",
+        "scene",
+        "environment",
+        "surroundings",
+        "room",
+        "view",
+        "camera",
+        "site",
+        "location",
+        "target",
+        "zone",
+        "spot",
+        "out",
+        "over",
+        "with",
+        "robot",
+        "a",
+        "the",
+        "of",
+        "on",
+        "inspection",
+        "look",
+        "visual",
+        "objects",
+        "things",
+        "persons",
+        "humans",
+        "places",
+        "point",
+        "position",
+        "something",
+    ]
+)
+_TAKING = frozenset({"take", "capture", "snap", "get", "make", "shoot", "grab", "send"})
+_PICTURES = frozenset({"photo", "picture", "image", "photograph", "snapshot", "pic"})
+
+
 def _by_words(words: tuple[str, ...]) -> frozenset[str]:
     lex = lexicon()
     if not words:
         return frozenset()
     base = (lemma(words[0]), *words[1:])
+    if base[0] in _TAKING and set(base[1:]) & _PICTURES:
+        return frozenset({"look"})
     found = lex.verbs.match(base)
     if found is not None and found[0] > 1 and not found[1].startswith("other:"):
         return frozenset({found[1].partition(":")[0]})
@@ -127,6 +193,37 @@ def _by_words(words: tuple[str, ...]) -> frozenset[str]:
     if found is not None and not found[1].startswith("other:"):
         return frozenset({found[1].partition(":")[0]})
     return frozenset()
+
+
+def templates(info: ActionInfo) -> tuple[str, ...]:
+    """The examples of an action as phrases: what is named in them stands for the action's inputs.
+
+    "Check in Anna" of an action with one input in words becomes "check in {member}".
+    """
+    texts, found = text_inputs(info), []
+    for example in info.examples:
+        words = [word for word in example.strip().rstrip(".!?").split() if word]
+        start = next((i for i, w in enumerate(words) if i and _names_something(w)), 0)
+        if not start:
+            found.append(example.strip().rstrip(".!?").lower())
+            continue
+        end = start + 1
+        if words[start].lower() in lexicon().determiners:
+            while end < len(words) and words[end].lower() not in lexicon().goals_and_places:
+                end += 1
+        else:
+            while end < len(words) and words[end][:1].isupper():
+                end += 1
+        if len(texts) != 1:
+            found.append(" ".join(words[:start]).lower())
+            continue
+        slot = "{" + texts[0] + "}"
+        found.append(" ".join((" ".join(words[:start]).lower(), slot, " ".join(words[end:]).lower())).strip())
+    return tuple(dict.fromkeys(found))
+
+
+def _names_something(word: str) -> bool:
+    return word[:1].isupper() or word.lower() in lexicon().determiners
 
 
 def call(info: ActionInfo, values: Mapping[str, Any], reason: str = "") -> ActionCall:
@@ -184,6 +281,39 @@ class Catalogue:
             and {singular(word) for word in split_name(info.name)[1:]} <= said
         ]
         return fitting[0] if len(fitting) == 1 else None
+
+    def by_phrase(self, words: Sequence[str]) -> ActionInfo | None:
+        """The one action of which a whole phrase or example is said, fixed words behind a value included."""
+        text = " ".join((lemma(words[0]), *words[1:])) if words else ""
+        fitting = {
+            info.name: info
+            for info in self.infos
+            for phrase in (*info.phrases, *templates(info))
+            if not self._roles[info.name] & _HELPERS and _says(phrase, text)
+        }
+        return next(iter(fitting.values())) if len(fitting) == 1 else None
+
+    def by_description(self, words: Sequence[str]) -> ActionInfo | None:
+        """The one action whose description shares most with what is said: its verb, or at least two words."""
+        if not words:
+            return None
+        said = {singular(lemma(word)) for word in words} | {singular(word) for word in words}
+        verb = lemma(words[0])
+        scored: list[tuple[int, ActionInfo]] = []
+        for info in self.infos:
+            text = [
+                *split_name(info.name),
+                *re.findall(r"[a-z]+", f"{info.description} {' '.join(info.examples)}".lower()),
+            ]
+            about = {singular(lemma(word)) for word in text} - _EMPTY
+            verbs = {other for word in (verb,) for other in (word, *lexicon().synonyms.get(word, ()))}
+            shared = len(about & said - _EMPTY - {verb})
+            same_verb = bool(verbs & about)
+            if (same_verb and shared) or shared > 1:
+                scored.append((shared + 2 * same_verb, info))
+        best = max((score for score, _ in scored), default=0)
+        fitting = [info for score, info in scored if score == best]
+        return fitting[0] if len(fitting) == 1 and not self._roles[fitting[0].name] & _HELPERS else None
 
     @property
     def mover(self) -> ActionInfo | None:
@@ -262,6 +392,59 @@ class Catalogue:
         return table
 
 
+_EMPTY = frozenset(
+    [
+        "the",
+        "a",
+        "an",
+        "of",
+        "to",
+        "in",
+        "on",
+        "at",
+        "for",
+        "from",
+        "with",
+        "and",
+        "or",
+        "it",
+        "is",
+        "are",
+        "be",
+        "one",
+        "some",
+        "any",
+        "by",
+        "into",
+        "onto",
+        "that",
+        "this",
+        "as",
+        "up",
+        "down",
+        "me",
+        "my",
+        "your",
+        "you",
+        "i",
+        "we",
+        "please",
+        "then",
+    ]
+)
+
+
+def _says(phrase: str, text: str) -> bool:
+    """Whether the whole text follows a phrase; a value between fixed words must be there."""
+    parts = re.split(r"\{\w+\}", phrase.lower())
+    if len(parts) < 2 or not parts[0].strip():
+        return False
+    # Phrases that end with their value are found by their verb.
+    if not parts[-1].strip():
+        return False
+    return re.fullmatch("(.+)".join(re.escape(part) for part in parts), text) is not None
+
+
 _HELPERS = frozenset({"locate", "ask_operator"})
 """What only serves other steps is not asked for by verb."""
 _COVERED = {
@@ -286,7 +469,7 @@ def _verbs_of(info: ActionInfo) -> list[tuple[str, ...]]:
             for end in range(len(base), 0, -1)
             if end in {1, len(base)} or base[end - 1] in {"for", "to", "at", "up"}
         ]
-    for phrase in info.phrases:
+    for phrase in (*info.phrases, *templates(info)):
         start = tuple(re.findall(r"[a-z']+", phrase.lower().partition("{")[0]))
         if start and start[0] not in lexicon().determiners:
             verbs.append((lemma(start[0]), *start[1:]))

@@ -10,7 +10,7 @@ from parley.language.offline.clauses import Clause, opens_command
 from parley.language.offline.commands import Command
 from parley.language.offline.facts import read_statement, strip_openers
 from parley.language.offline.lexicon import lexicon
-from parley.language.offline.nouns import bare
+from parley.language.offline.nouns import bare, coordinated
 from parley.language.offline.reading import Reading
 from parley.language.offline.replanning import visit_of, without
 from parley.language.offline.saying import whole_sentence
@@ -28,6 +28,11 @@ CONTROL_REPLIES: dict[str, tuple[CommandName, str]] = {
 }
 
 
+_NOTHING_ELSE = frozenset(
+    {("the", "rest"), ("the", "others"), ("everything", "else"), ("all", "others"), ("all", "the", "others")}
+)
+
+
 @dataclass
 class Changing(Reading):
     """How a message takes back or changes what was asked for."""
@@ -35,6 +40,10 @@ class Changing(Reading):
     def _corrected(self, clause: Clause) -> Clause:
         """For "... I mean the desk": what the clause before it asked for is taken back."""
         found = lexicon().corrections.match(keys(clause.words))
+        further = lexicon().corrections.match(keys(clause.words), found[0]) if found is not None else None
+        if found is not None and further is not None:
+            # "Actually, make it the box".
+            found = found[0] + further[0], further[1]
         if found is not None and self.last is None and self._previous is not None:
             return self._corrected_before(clause, found[0])
         if (
@@ -54,6 +63,9 @@ class Changing(Reading):
 
     def _corrected_before(self, clause: Clause, size: int) -> Clause:
         """For "I meant the desk", said of the message before: what is still pending of it is taken back."""
+        if clause.words[0].key == "wrong" and self._at < len(self._parts) - 1:
+            # "Wrong box, I meant ...": what is right follows.
+            return replace(clause, words=())
         rest = clause.words[size:]
         previous = self._previous
         if previous is None or not rest or read_statement(rest) is not None or opens_command(rest):
@@ -95,6 +107,13 @@ class Changing(Reading):
         if {"inspect", "inspection", "inspecting", "look", "looking", "check", "checking"} & set(keys(rest)):
             return None
         at = visit_of(rest, self.scene)
+        if at is None and "and" in keys(rest):
+            found = [visit_of(part, self.scene) for part in coordinated(rest)]
+            listed = [index for index in found if index is not None]
+            if len(listed) == len(found) > 1:
+                parts = [without(index, self.scene) for index in sorted(listed, reverse=True)]
+                pops = tuple(command for part in parts for command in part.commands)
+                return edits.Edit(pops, f"I leave out {plain(rest)}.")
         return None if at is None else without(at, self.scene)
 
     def _order(self, clause: Clause, alone: bool, index: int) -> bool:
@@ -102,7 +121,7 @@ class Changing(Reading):
         words = strip_openers(clause.words)
         control = None if clause.is_question else control_of(plain(words))
         if control is not None:
-            if control == "start" and not alone and index:
+            if control == "start" and not alone:
                 return True
             if control == "stop" and not alone:
                 # "Stop and go to the desk": the new order takes the place of the old ones. Elsewhere ("go to
@@ -113,8 +132,13 @@ class Changing(Reading):
             command, reply = CONTROL_REPLIES[control]
             self._command_once(SystemCommand(command=command), reply)
             return True
+        verb = edits.drop_verb(words)
+        if verb and self.tasks.steps and keys(words[verb:]) in _NOTHING_ELSE:
+            self.replies.append("I leave out the rest.")
+            return True
         edit = self._dropped(words) or edits.read_edit(words, self.scene)
         if edit is not None:
+            self.scene.trace.note("edit", edit.reply)
             self.commands.extend(edit.commands)
             self.replies.append(edit.reply)
             return True

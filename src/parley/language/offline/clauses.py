@@ -5,10 +5,11 @@ from __future__ import annotations
 from collections.abc import Callable, Sequence
 from dataclasses import dataclass, replace
 
+from parley.language.control import control_of
 from parley.language.offline.conditions import is_rule, split_condition
 from parley.language.offline.facts import read_statement, strip_openers
 from parley.language.offline.lexicon import lexicon
-from parley.language.offline.text import Phrase, Word, keys, lemma
+from parley.language.offline.text import Phrase, Word, keys, lemma, plain
 
 __all__ = ["Clause", "clauses", "opens_command"]
 
@@ -25,11 +26,28 @@ class Clause:
     condition: Phrase = ()
     """What must be so before it is done ("if ..."); empty with `conditional` for what was looked at last."""
     conditional: bool = False
+    late: bool = False
+    """Whether the condition was said behind the clause."""
     otherwise: bool = False
     """To be done if the condition of the clause before does not hold."""
     first: bool = False
     """To be done before everything else ("but first ...")."""
+    whole: bool = False
+    """With `first`: before all of its sentence, not only before what was said last."""
     sentence: int = 0
+
+    def said(self) -> str:
+        """The clause with what marks it, readable."""
+        return _said(self)
+
+
+def _said(clause: Clause) -> str:
+    marks = ["question"] if clause.is_question else []
+    marks += ["before the rest"] if clause.first else []
+    if clause.condition or clause.conditional:
+        what = f"“{plain(clause.condition)}”" if clause.condition else "what was looked at last"
+        marks.append(f"{'unless' if clause.otherwise else 'if'} {what}")
+    return f"“{plain(clause.words)}”" + (f" ({', '.join(marks)})" if marks else "")
 
 
 def clauses(message: Phrase, opens: Opens) -> list[Clause]:
@@ -41,6 +59,7 @@ def clauses(message: Phrase, opens: Opens) -> list[Clause]:
     """
     result: list[Clause] = []
     for number, (sentence, asked) in enumerate(_sentences(message)):
+        sentence = _without_reason(sentence, opens)
         parts = _conditional(sentence, opens)
         result.extend(
             replace(
@@ -53,7 +72,10 @@ def clauses(message: Phrase, opens: Opens) -> list[Clause]:
     ordered: list[Clause] = []
     for clause in result:
         if clause.first and ordered:
-            ordered.insert(len(ordered) - 1, clause)
+            # "..., but first V" comes before its whole sentence, "before that V" before the last clause.
+            same = [i for i, other in enumerate(ordered) if other.sentence == clause.sentence]
+            whole = clause.whole and same
+            ordered.insert(same[0] if whole else len(ordered) - 1, clause)
         else:
             ordered.append(clause)
     return ordered
@@ -89,6 +111,30 @@ def _inverted(words: Phrase) -> bool:
     return bool(first) and first[0] in lexicon().question_starts | lexicon().be | lexicon().auxiliaries
 
 
+def _without_reason(sentence: Phrase, opens: Opens) -> Phrase:
+    """Without why something is asked for ("because S", "so that S"): that is no order."""
+    flat = keys(sentence)
+    for index in range(len(flat) - 1):
+        if flat[index] != "because" and flat[index : index + 2] not in {("so", "that"), ("in", "case")}:
+            continue
+        if flat[index] == "in" and (index == 0 or flat[index - 1] != "just"):
+            continue
+        if index == 0:
+            end = next((i for i in range(2, len(flat)) if flat[i] == ","), 0)
+            end = end or next((i for i in range(3, len(flat)) if opens(sentence[i:])), 0)
+            return sentence[end:] if end else sentence
+        end = next(
+            (
+                i
+                for i in range(index + 2, len(flat))
+                if flat[i] in {",", "and", "then"} and opens(sentence[i + 1 :])
+            ),
+            len(flat),
+        )
+        return (*sentence[:index], *sentence[end:])
+    return sentence
+
+
 def _sentences(message: Phrase) -> list[tuple[Phrase, bool]]:
     result: list[tuple[Phrase, bool]] = []
     start = 0
@@ -117,7 +163,9 @@ def _conditional(sentence: Phrase, opens: Opens) -> list[Clause]:
             result.append(
                 clause
                 if clause.condition or clause.conditional
-                else replace(clause, condition=condition, conditional=True, otherwise=otherwise)
+                else replace(
+                    clause, condition=condition, conditional=True, otherwise=otherwise, late=parts.late
+                )
             )
     return result
 
@@ -140,9 +188,20 @@ _ON_THE_WAY = (("on", "your", "way", "to"), ("on", "the", "way", "to"), ("on", "
 
 def _on_the_way(sentence: Phrase) -> tuple[Phrase, Phrase] | None:
     """For "go to A via B" and "visit B on your way to A": B, then A."""
-    flat = keys(sentence)
+    flat = keys(strip_openers(sentence))
+    sentence = strip_openers(sentence)
+    for way in _ON_THE_WAY:
+        # "On your way to A (,) visit B": B first.
+        start = len(way)
+        if flat[:start] != way:
+            continue
+        cut = next((i for i in range(start + 1, len(flat)) if flat[i] == ","), 0)
+        cut = cut or next((i for i in range(start + 1, len(flat)) if _opens_verb(sentence[i:])), 0)
+        if cut:
+            return _trim(sentence[cut:]), (Word("visit", "visit"), *_trim(sentence[start:cut]))
+    markers: tuple[tuple[str, ...], ...] = (*_VIA, *_ON_THE_WAY)
     for index in range(1, len(flat) - 1):
-        for marker in (*_VIA, *_ON_THE_WAY):
+        for marker in markers:
             size = len(marker)
             if flat[index : index + size] != marker or index + size >= len(flat):
                 continue
@@ -154,6 +213,12 @@ def _on_the_way(sentence: Phrase) -> tuple[Phrase, Phrase] | None:
     return None
 
 
+def _opens_verb(words: Phrase) -> bool:
+    """Whether an order begins here that cannot be a noun ("stop at", "inspect", "go")."""
+    found = lexicon().verbs.match(keys(words))
+    return found is not None and opens_command(words) and (found[0] > 1 or not found[1].startswith("other:"))
+
+
 def _before_after(sentence: Phrase, opens: Opens) -> list[Clause]:
     passed = _on_the_way(sentence)
     if passed is not None and opens(passed[0]) and opens(passed[1]):
@@ -161,6 +226,10 @@ def _before_after(sentence: Phrase, opens: Opens) -> list[Clause]:
     flat = keys(sentence)
     lead = strip_openers(sentence)
     lead_flat = keys(lead)
+    event = _event(lead, opens)
+    if event[1]:
+        wait = (Word("wait", "wait"), Word("until", "until"), *_trim(lead[event[0] : event[1]]))
+        return [Clause(wait), *_cut(_trim(lead[event[1] :]), opens)]
     if _sets_order(lead_flat):
         cut = next((i for i in range(2, len(lead)) if lead_flat[i] == ","), 0) or next(
             (i for i in range(3, len(lead)) if opens(lead[i:]) and not _bare_verb_noun(lead_flat, i)), 0
@@ -172,6 +241,9 @@ def _before_after(sentence: Phrase, opens: Opens) -> list[Clause]:
             return [*main, *first] if lead_flat[0] == "before" else [*first, *main]
     for marker in ("before", "after"):
         for index in range(2, len(flat) - 1):
+            if flat[index - 1] == "one" and flat[index + 1] in {"another", "the"}:
+                # "One after another".
+                continue
             if flat[index] == marker and flat[index + 1] not in {"that", "this", "all", ","}:
                 main, other = (
                     _cut(_trim(sentence[:index]), opens),
@@ -179,6 +251,19 @@ def _before_after(sentence: Phrase, opens: Opens) -> list[Clause]:
                 )
                 return [*main, *other] if marker == "before" else [*other, *main]
     return _cut(sentence, opens)
+
+
+def _event(words: Phrase, opens: Opens) -> tuple[int, int]:
+    """For "when A leaves, V": where the event that is waited for begins and ends; (0, 0) if there is none."""
+    flat = keys(words)
+    start = next((len(m) for m in (("when",), ("once",), ("as", "soon", "as")) if flat[: len(m)] == m), 0)
+    if not start or flat[start : start + 1] in {("you",), ("that",), ("this",), ("it",), ("i",), ("we",), ()}:
+        return 0, 0
+    comma = next((i for i in range(start + 2, len(flat)) if flat[i] == ","), 0)
+    happens = any(word.key.endswith("s") and lemma(word.key) != word.key for word in words[start + 1 : comma])
+    calm = set(flat[start:comma]) & lexicon().be
+    told = happens and not calm and comma and not opens(words[start:comma])
+    return (start, comma) if told and opens(words[comma + 1 :]) else (0, 0)
 
 
 def _sets_order(flat: tuple[str, ...]) -> bool:
@@ -205,6 +290,8 @@ def _without_you(words: Phrase) -> Phrase:
     if flat[:1] in {("you",), ("i",), ("we",)}:
         skip = 2 if flat[1:2] and flat[1] in lexicon().auxiliaries | lexicon().be else 1
         words = words[skip:]
+        if keys(words[:2]) in {("been", "to"), ("been", "at"), ("been", "in")}:
+            return (Word("visit", "visit"), *words[2:])
         # "Once you have inspected it": what is done is meant.
         return (Word(lemma(words[0].key), lemma(words[0].key)), *words[1:]) if words else words
     return words
@@ -214,22 +301,31 @@ def _cut(sentence: Phrase, opens: Opens) -> list[Clause]:
     """Cut at sequence words, and at commas and conjunctions where a new clause begins."""
     lex = lexicon()
     flat = keys(sentence)
-    pieces: list[tuple[int, int, bool]] = []
-    start, index, first = 0, 0, False
+    pieces: list[tuple[int, int, str]] = []
+    start, index, first = 0, 0, ""
     while index < len(flat):
         found = lex.sequence.match(flat, index)
         if found is None and flat[index] == "next" and index and flat[index - 1] in {",", "and"}:
             found = 1, "next"
+        if (
+            found is None
+            and flat[index : index + 2] == ("from", "there")
+            and index
+            and flat[index - 1] == ","
+        ):
+            found = 2, "from there"
         if found and not (flat[index] == "next" and flat[index + 1 : index + 2] == ("to",)):
             if index > start:
                 pieces.append((start, index, first))
             before_that = found[1] == "before that"
-            start, first = index + found[0], before_that
+            start, first = index + found[0], "one" if before_that else ""
+            if flat[start : start + 1] == ("there",) and found[1].endswith(("done", "finished")):
+                start += 1
             index = start
             continue
         if index > start and flat[index] == "without" and opens(sentence[index + 1 :]):
             pieces.append((start, index, first))
-            start, first = index, False
+            start, first = index, ""
         if (
             index > start
             and flat[index] in {",", "and", "but", "&", ":"}
@@ -238,23 +334,24 @@ def _cut(sentence: Phrase, opens: Opens) -> list[Clause]:
             pieces.append((start, index, first))
             start = index + 1
             following = flat[index : index + 3] if flat[index] == "but" else flat[index + 1 : index + 3]
-            first = following[:2] == ("but", "first") or (
+            early = following[:2] == ("but", "first") or (
                 "but" in flat[index : index + 2]
                 and flat[-1] == "first"
-                and not {",", "then"} & set(flat[index + 1 :])
+                and not {",", "then"} & set(flat[index + 2 :])
             )
+            first = "all" if early else ""
         index += 1
     if len(flat) > start:
         pieces.append((start, len(flat), first))
     trimmed = ((_trim(sentence[a:b]), early) for a, b, early in pieces)
-    return [Clause(words, first=early) for words, early in trimmed if words]
+    return [Clause(words, first=bool(early), whole=early == "all") for words, early in trimmed if words]
 
 
 def _new_clause(sentence: Phrase, start: int, index: int, opens: Opens) -> bool:
-    rest = sentence[index + 1 :]
-    if not rest:
+    """Whether a clause of its own begins behind the comma or conjunction at `index`."""
+    before, rest = sentence[start:index], sentence[index + 1 :]
+    if not rest or (sentence[index].key in {"but", ","} and _leaves_out(sentence[:index], rest)):
         return False
-    before = sentence[start:index]
     found = lexicon().polite.match(keys(before))
     mistaken = lexicon().corrections.match(keys(before))
     if len(before) in {found[0] if found else 0, mistaken[0] if mistaken else 0}:
@@ -263,6 +360,13 @@ def _new_clause(sentence: Phrase, start: int, index: int, opens: Opens) -> bool:
         return False
     if opens(rest) and any(word.is_word for word in before):
         return keys(rest[:1])[0] not in lexicon().person_words
+    if _corrects(before, rest, opens) or _is_control_or_count(sentence, index, rest):
+        return True
+    return _tells_or_asks(sentence[index].key, before, rest)
+
+
+def _corrects(before: Phrase, rest: Phrase, opens: Opens) -> bool:
+    """Whether what follows takes back or narrows down what came before."""
     if lexicon().corrections.match(keys(rest)) and keys(rest)[0] in {"i", "or", "no", "wait", "rather"}:
         return True
     if rest[0].key in {"just", "only", "but"} and lexicon().prohibitions.match(keys(before)):
@@ -270,23 +374,47 @@ def _new_clause(sentence: Phrase, start: int, index: int, opens: Opens) -> bool:
         return True
     head = strip_openers(before, requests=True)
     drops = bool(head) and lemma(head[0].key) in {v.split()[0] for v in lexicon().verb_classes["drop_step"]}
-    if keys(rest[:2]) in _THE_REST and (drops or opens(before)):
+    return keys(rest[:2]) in _THE_REST and (drops or opens(before))
+
+
+def _is_control_or_count(sentence: Phrase, index: int, rest: Phrase) -> bool:
+    """Whether "stop there" and the like follow, or the next of "first A, second B"."""
+    if keys(rest[:1]) not in {("go",), ("start",)} and control_of(" ".join(keys(rest))) is not None:
         return True
-    rest_flat = keys(strip_openers(rest))
-    if rest_flat[:1] == ("not",) or rest_flat[:2] == ("do", "not"):
+    counts = keys(rest[:1])[0] in _COUNTING and keys(sentence[:1])[0] in {"first", "firstly"}
+    return sentence[index].key == "," and counts
+
+
+def _tells_or_asks(mark: str, before: Phrase, rest: Phrase) -> bool:
+    """Whether a refusal, a question, a wish or a statement follows that stands for itself."""
+    flat = keys(strip_openers(rest))
+    if flat[:4] == ("i", "do", "not", "mean"):
+        return True
+    if mark == "," and flat[:2] in {("i", "am"), ("we", "are")} and read_statement(rest) is not None:
+        return True
+    if flat[:1] == ("not",) or flat[:2] == ("do", "not"):
         return not set(keys(before)) & lexicon().quantifiers
-    if (
-        rest_flat
-        and rest_flat[0] in lexicon().question_starts
-        and rest_flat[1:2]
-        and rest_flat[1] in lexicon().be
-    ):
+    if flat and flat[0] in lexicon().question_starts and flat[1:2] and flat[1] in lexicon().be:
         return True
-    if sentence[index].key in {",", "and", "but"} and read_statement(before) is not None:
-        return read_statement(rest) is not None
-    return bool(sentence[index].key == "," and len(before) <= 3 and read_statement(rest) is not None)
+    if read_statement(before) is not None:
+        wanted = lexicon().wants.match(flat) or lexicon().requests.match(keys(rest))
+        return read_statement(rest) is not None or wanted is not None
+    wishes = lexicon().wants.match(flat)
+    if wishes is not None and wishes[0] < len(flat) and len(before) > 3 and flat[0] in {"i", "we"}:
+        return True
+    return mark == "," and len(before) <= 3 and read_statement(rest) is not None
 
 
+def _leaves_out(before: Phrase, rest: Phrase) -> bool:
+    """For "all boxes, but skip the red one": an exception and no order of its own."""
+    flat = keys(rest[1:] if keys(rest[:1]) == ("but",) else rest)
+    return flat[:1] in _SKIPPING and bool(set(keys(before)) & lexicon().quantifiers)
+
+
+_COUNTING = frozenset(
+    {"second", "secondly", "third", "thirdly", "fourth", "fifth", "finally", "lastly", "last"}
+)
+_SKIPPING = frozenset({("skip",), ("omit",), ("exclude",), ("ignore",)})
 _THE_REST = frozenset(
     {("the", "rest"), ("the", "others"), ("everything", "else"), ("nothing", "else"), ("all", "else")}
 )

@@ -8,7 +8,7 @@ from dataclasses import dataclass, replace
 from parley.language.offline.facts import strip_openers
 from parley.language.offline.lexicon import lexicon
 from parley.language.offline.nouns import bare, noun_phrase
-from parley.language.offline.text import Phrase, Word, keys, lemma
+from parley.language.offline.text import Phrase, Word, keys, lemma, plain
 
 __all__ = ["Command", "read_command"]
 
@@ -36,6 +36,15 @@ class Command:
     """Verb and all."""
     asked_politely: bool = False
 
+    def said(self) -> str:
+        """The command with its parts, readable."""
+        parts = {
+            "what": self.theme, "where": self.place, "from": self.source, "for": self.recipient,
+        }  # fmt: skip
+        named = [f"{name} “{plain(phrase)}”" for name, phrase in parts.items() if phrase]
+        verb = f"{'do not ' if self.negated else ''}{self.verb} ({self.kind})"
+        return ": ".join([verb, ", ".join(named)]) if named else verb
+
 
 IsPerson = Callable[[Phrase], bool]
 
@@ -60,12 +69,7 @@ def read_command(
     if not words:
         return None
     words = strip_openers(words, requests=True)
-    while (
-        words
-        and words[0].key in {"you"} | (lex.auxiliaries & {"can", "could"})
-        and len(words) > 1
-        and negated
-    ):
+    while negated and len(words) > 1 and words[0].key in {"you", "can", "could"}:
         words = words[1:]
     flat = _base(words)
     extra = max((verb for verb in extra_verbs if flat[: len(verb)] == verb), key=len, default=())
@@ -83,10 +87,7 @@ def read_command(
             is_person,
         )
     if found is None:
-        avoided = negated and clause[0].key in {"avoid", "without"} and len(words) < 6
-        return (
-            Command("motion", "go", True, place=bare(words), words=words, clause=words) if avoided else None
-        )
+        return _refused(clause, words) if negated else None
     kind, _, verb = found[1].partition(":")
     if flat[0] != words[0].key and words[0].key.endswith("ed") and not requested:
         return None
@@ -100,9 +101,18 @@ def read_command(
     serial = _serial(flat[0], rest, kind)
     if serial is not None:
         inner = read_command(serial, is_person, extra_verbs)
-        if inner is not None and inner.kind != "other":
+        if inner is not None and (inner.kind != "other" or _acts(serial)):
             return replace(inner, negated=negated or inner.negated, asked_politely=requested)
     return _fill(Command(kind, verb, negated, words=rest, clause=words, asked_politely=requested), is_person)
+
+
+def _refused(clause: Phrase, words: Phrase) -> Command | None:
+    """What is forbidden in words that no list of verbs knows: "do not <verb> X", "avoid X"."""
+    if clause[0].key == "do" and len(words) > 1 and words[0].key not in lexicon().determiners | {"mean"}:
+        return Command("other", words[0].key, True, theme=bare(words[1:]), words=words[1:], clause=words)
+    if clause[0].key in {"avoid", "without"} and len(words) < 6:
+        return Command("motion", "go", True, place=bare(words), words=words, clause=words)
+    return None
 
 
 def _moves_something(flat: tuple[str, ...]) -> bool:
@@ -126,6 +136,14 @@ def _negation(words: Phrase) -> tuple[Phrase, bool]:
     return words, False
 
 
+def _acts(words: Phrase) -> bool:
+    """For "(go) open the door": a verb with what it acts on, as against "(go) home"."""
+    found = lexicon().verbs.match(_base(words)) if words else None
+    if found is None or not found[1].startswith("other:"):
+        return False
+    return keys(words[found[0] : found[0] + 1])[:1] in {(w,) for w in lexicon().determiners | {"it", "them"}}
+
+
 def _serial(verb: str, rest: Phrase, kind: str) -> Phrase | None:
     """For "Go (and) inspect X", "go to check X": the second verb is the one that counts."""
     if kind not in {"motion", "back"} or verb not in _SERIAL:
@@ -135,6 +153,8 @@ def _serial(verb: str, rest: Phrase, kind: str) -> Phrase | None:
             return None
         rest = rest[1:]
     found = lexicon().verbs.match(_base(rest)) if rest else None
+    if _acts(rest):
+        return rest
     if (
         found is None
         or found[1].partition(":")[0] in {"motion", "other", "wait", "back"}
@@ -218,6 +238,8 @@ def _look(command: Command) -> Command:
         return replace(command, theme=anchors[0])
     if flat and (flat[0] in _HERE or words == ()):
         return replace(command, theme=())
+    if command.verb in _VERIFYING and (link := _finite(flat)):
+        return _whether(replace(command, kind="whether")) if link else command
     if flat[:1] and flat[0] in {"for"} and command.kind == "look":
         return _search(replace(command, kind="search", words=words[1:]))
     for index in range(1, len(flat) - 1):
@@ -239,6 +261,19 @@ def _look(command: Command) -> Command:
                 place=bare(words[:index]),
             )
     return replace(command, theme=bare(words))
+
+
+_VERIFYING = frozenset({"verify", "check", "double check", "assess", "see", "test"})
+_FINITE = frozenset(
+    {"works", "functions", "runs", "opens", "closes", "needs", "looks", "smells", "leaks", "work", "has"}
+)
+
+
+def _finite(flat: tuple[str, ...]) -> int:
+    """Where the verb of a whole statement stands ("(check) the door is shut"); 0 if it is none."""
+    at = next((i for i in range(1, len(flat)) if flat[i] in lexicon().be | _FINITE), 0)
+    relative = {"that", "which", "who", "where", "what", "if", "whether", "how", "for", "to"} & set(flat[:at])
+    return 0 if relative or (at == len(flat) - 1 and flat[at] in lexicon().be) else at
 
 
 def _whether(command: Command) -> Command:
@@ -323,7 +358,7 @@ def _transfer(command: Command, is_person: IsPerson) -> Command:
             result = replace(result, recipient=bare(person), place=place or result.place)
         elif marker != "for":
             result = replace(result, place=goal)
-    if len(theme) > 1 and theme[-1].key in {"back", "over", "along"}:
+    if len(theme) > 1 and theme[-1].key in {"back", "over", "along", "up", "down", "out", "across"}:
         theme = theme[:-1]
     noun = noun_phrase(theme)
     if command.kind in {"grasp", "place"} and len(theme) > 1 and theme[-1].key in {"up", "down"}:

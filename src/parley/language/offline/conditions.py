@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Callable
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 
 from parley.language.offline.facts import strip_openers
 from parley.language.offline.lexicon import lexicon
@@ -86,22 +86,63 @@ class Conditional:
     """What has to be looked at; `LAST` if it has been."""
     then: Phrase
     otherwise: Phrase
+    late: bool = False
+    """Whether the condition was said behind what depends on it."""
 
 
 def is_rule(condition: Phrase) -> bool:
     """Whether it is about whatever may happen later ("you see smoke"): such a rule is kept, not done."""
-    return bool(condition) and condition[0].key in _WHOEVER
+    if not condition or condition[0].key not in _WHOEVER:
+        return False
+    # "Somebody is at the desk" can be looked at now; "you see smoke" is about whatever comes.
+    flat = keys(condition)
+    placed = len(flat) > 3 and flat[1] in lexicon().be and lexicon().places.match(flat, 2) is not None
+    return flat[0] in {"you", "i", "we"} or not placed
 
 
 def split_condition(sentence: Phrase, opens: Opens) -> Conditional | None:
     """The parts of a sentence with a condition; None if it has none."""
     words = strip_openers(sentence)
-    return _further(words) or _leading(words, opens) or _inside(words, opens)
+    return _further(words, opens) or _leading(words, opens) or _inside(words, opens)
 
 
-def _further(words: Phrase) -> Conditional | None:
+_ABOUT_LAST = frozenset({"it", "he", "she", "they", "there", "that", "this"})
+_HOLDS = frozenset({"is", "are", "does", "do", "has", "have", "was", "were", "can"})
+
+
+def _echo(flat: tuple[str, ...], words: Phrase, opens: Opens) -> tuple[int, bool] | None:
+    """For "if there are(n't any), V", "if it does, V": how long the echo is, and what it says."""
+    if len(flat) < 4 or flat[0] not in {"if", "unless"} or flat[1] not in _ABOUT_LAST:
+        return None
+    if flat[2] not in _HOLDS:
+        return None
+    end, holds = 3, flat[0] != "unless"
+    while end < len(flat) and flat[end] in {
+        "not",
+        "none",
+        "no",
+        "any",
+        "one",
+        "some",
+        "indeed",
+        "so",
+        "nothing",
+    }:
+        holds = holds != (flat[end] in {"not", "none", "no", "nothing"})
+        end += 1
+    if end >= len(flat):
+        return None
+    ends = flat[end] in {",", "then"} or (opens(words[end:]) and not flat[end].endswith(("ing", "ed")))
+    return (end, holds) if ends else None
+
+
+def _further(words: Phrase, opens: Opens) -> Conditional | None:
     """A sentence that begins with "if not" and the like."""
     flat = keys(words)
+    echo = _echo(flat, words, opens)
+    if echo is not None:
+        rest = words[echo[0] :]
+        return Conditional((), LAST, rest, ()) if echo[1] else Conditional((), LAST, (), rest)
     for marker, holds in _FURTHER:
         end = len(marker)
         if flat[:end] == marker and len(flat) > end and (len(marker) < 3 or flat[end] in {",", "then"}):
@@ -126,14 +167,20 @@ def _leading(words: Phrase, opens: Opens) -> Conditional | None:
         (
             i
             for i in range(start + 3, comma)
-            if opens(words[i:]) and not _is_noun(flat, i) and flat[i - 1] not in lexicon().be
+            if opens(words[i:])
+            and not _is_noun(flat, i)
+            and flat[i - 1] not in lexicon().be | {"still", "already", "not"}
+            and not (comma < len(flat) and flat[i].endswith("ing"))
         ),
         0,
     )
     cut = verb or (comma if comma < len(flat) else 0)
     if not cut or (marker == ("should",) and not opens(words[cut:])):
         return None
-    return _parts((), words[start:cut], words[cut:], holds)
+    condition = words[start:cut]
+    if marker == ("should",):
+        condition = tuple(replace(w, key="is", raw="is") if w.key == "be" else w for w in condition)
+    return _parts((), condition, words[cut:], holds)
 
 
 def _polite(flat: tuple[str, ...]) -> bool:
@@ -159,10 +206,10 @@ def _inside(words: Phrase, opens: Opens) -> Conditional | None:
     for index in range(2, len(flat) - 1):
         if flat[index - 1] in {"and", ",", "but", "then"}:
             start = index
-            further = _further(words[start:])
+            further = _further(words[start:], opens)
             if further is not None:
                 return _with_before(words[: start - 1], further)
-            leading = _leading(words[start:], opens) if flat[index] in {"if", "unless"} else None
+            leading = _leading(words[start:], opens) if flat[index] in {"if", "unless", "should"} else None
             if leading is not None:
                 return _with_before(words[: start - 1], leading)
         for marker, holds in _TRAILING:
@@ -170,7 +217,10 @@ def _inside(words: Phrase, opens: Opens) -> Conditional | None:
                 continue
             if not _may_follow(flat, index, marker):
                 continue
-            return _parts((), words[index + len(marker) :], words[:index], holds)
+            start = next((i for i in range(index - 1, 0, -1) if flat[i] == "then"), 0)
+            before = words[:start] if start and opens(words[start + 1 : index]) else ()
+            main = words[start + 1 : index] if before else words[:index]
+            return replace(_parts(before, words[index + len(marker) :], main, holds), late=True)
     return None
 
 

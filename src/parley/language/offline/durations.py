@@ -7,7 +7,7 @@ import re
 from parley.language.offline.lexicon import lexicon
 from parley.language.offline.text import Phrase, keys
 
-__all__ = ["duration_s"]
+__all__ = ["duration_s", "without_duration"]
 
 _UNITS_S = {
     "second": 1.0, "seconds": 1.0, "sec": 1.0, "secs": 1.0, "s": 1.0, "minute": 60.0, "minutes": 60.0,
@@ -34,6 +34,15 @@ def duration_s(phrase: Phrase) -> float | None:
             count = _VAGUE[word] if word != "a" or count == 1.0 else count
     half = flat[at + 1 : at + 4] == ("and", "a", "half")
     return (count + 0.5 * half) * _UNITS_S[flat[at]]
+
+
+def without_duration(phrase: Phrase) -> Phrase:
+    """Without a span of time at the end ("the box for ten seconds" is "the box")."""
+    flat = keys(phrase)
+    if not flat or flat[-1] not in _UNITS_S:
+        return phrase
+    at = next((i for i in range(len(flat) - 2, 0, -1) if flat[i] in {"for", "in"}), 0)
+    return phrase[:at] if at and len(flat) - at <= 5 else phrase
 
 
 _TENS = {

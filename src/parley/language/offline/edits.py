@@ -10,12 +10,12 @@ from parley.language.offline.facts import strip_openers
 from parley.language.offline.lexicon import lexicon
 from parley.language.offline.nouns import bare
 from parley.language.offline.remembering import find_fact
-from parley.language.offline.saying import the, whole_sentence
+from parley.language.offline.saying import listing, the, whole_sentence
 from parley.language.offline.scene import Scene, UnclearError
-from parley.language.offline.text import Phrase, keys, lemma, plain, singular, split_name, tokens
+from parley.language.offline.text import Phrase, Word, keys, lemma, plain, singular, split_name, tokens
 from parley.messages.chat import ActionCall, SystemCommand
 
-__all__ = ["Edit", "drop_verb", "of_plan", "read_edit", "steps_of"]
+__all__ = ["Edit", "drop_verb", "of_plan", "read_edit", "several_steps", "steps_of"]
 
 _STEP_WORDS = frozenset(
     {"step", "action", "task", "item", "stop", "one", "order", "command", "part", "thing", "waypoint"}
@@ -55,6 +55,9 @@ def _drop(words: Phrase, scene: Scene) -> Edit | None:
         return None
     first = lemma(words[0].key)
     rest = keys(of_plan(bare(words[size:])))
+    several = _last_ones(rest, scene)
+    if several is not None:
+        return several
     index = _step_index(rest, len(scene.situation.queue))
     if index is None:
         index = _named_step(rest, scene.situation.queue, first)
@@ -71,6 +74,38 @@ def _drop(words: Phrase, scene: Scene) -> Edit | None:
         (SystemCommand(command="pop", arguments={"parameters": index}),),
         f"I leave out step {index + 1}: {dropped}.",
     )
+
+
+def several_steps(words: Phrase, scene: Scene) -> Edit | None:
+    """For "skip the second and third step", said as a whole message."""
+    words = tuple(word for word in strip_openers(words, requests=True) if word.is_word)
+    size = drop_verb(words)
+    return _last_ones(keys(of_plan(bare(words[size:]))), scene) if size and size < len(words) else None
+
+
+def _last_ones(rest: tuple[str, ...], scene: Scene) -> Edit | None:
+    """For "drop the last two (steps)", "drop the first three", "drop steps 2 and 3"."""
+    lex, count = lexicon(), len(scene.situation.queue)
+    numbers = [int(w) if w.isdigit() else lex.numbers.get(w, lex.ordinals.get(w, 0)) for w in rest]
+    if len(rest) in {2, 3} and rest[0] in {"last", "final", "first", "next"} and numbers[1] > 1:
+        if rest[2:] and singular(rest[2]) not in _STEP_WORDS:
+            return None
+        size = min(numbers[1], count)
+        start = {"first": 0, "next": min(1, count)}.get(rest[0], count - size)
+        indices = list(range(start, min(start + size, count)))
+    elif (rest and singular(rest[0]) in _STEP_WORDS and "and" in rest) or (
+        rest[-1:] in {("steps",), ("step",)} and "and" in rest
+    ):
+        indices = sorted({number - 1 for number in numbers if 0 < number <= count})
+        if len(indices) < 2:
+            return None
+    else:
+        return None
+    if not indices:
+        return Edit((), "There is nothing planned that I could leave out.")
+    pops = tuple(SystemCommand(command="pop", arguments={"parameters": i}) for i in reversed(indices))
+    said = [_said(scene.situation.queue[i]) for i in indices]
+    return Edit(pops, f"I leave out {listing(said)}.")
 
 
 def drop_verb(words: Phrase) -> int:
@@ -186,6 +221,7 @@ def _forget(words: Phrase, scene: Scene) -> Edit | None:
         "memories",
         "remember",
         "told",
+        "know",
     } & set(flat)
     if not strong:
         return None
@@ -213,6 +249,8 @@ def _forget(words: Phrase, scene: Scene) -> Edit | None:
             "told",
             "you",
             "said",
+            "know",
+            "ever",
             "where",
             "that",
             "everything",
@@ -241,6 +279,8 @@ def _forget(words: Phrase, scene: Scene) -> Edit | None:
     drop_tail = {"is", "are", "was", "anymore", "memory", "please", "said"}
     while about and about[-1].key in drop_tail and len(about) > 1:
         about = about[:-1]
+    if keys(words[len(start) :]) in {("your", "memory"), ("your", "whole", "memory"), ("the", "memory")}:
+        about = (Word("memories", "memories"),)
     everything = {"everything", "all"} & set(keys(words[len(start) : len(start) + 2]))
     said_only = set(keys(words[len(start) :])) <= lexicon().told
     if (everything and said_only) or keys(about)[-1:] == ("memories",):
@@ -250,6 +290,9 @@ def _forget(words: Phrase, scene: Scene) -> Edit | None:
             "I have forgotten everything you told me." if names else "There is nothing to forget.",
         )
     if not about or keys(about)[0] in {"that", "it", "this", "said", "told"}:
+        if flat[1:] in {("it",), ("that",)} and not _just_remembered(scene):
+            # "Forget it" gives up what was talked about; nothing that is known is lost.
+            return Edit((), "All right, I leave it.")
         return _forget_last(scene)
     return _forget_about(about, scene)
 
@@ -285,6 +328,15 @@ def _forget_last(scene: Scene) -> Edit:
         return Edit((), "There is nothing to forget.")
     entry = max(enumerate(scene.situation.memory), key=lambda item: (item[1].updated_unix_ms, item[0]))[1]
     return Edit((_remove(entry.name),), f"I have forgotten: {whole_sentence(entry.data[:200])}")
+
+
+def _just_remembered(scene: Scene) -> bool:
+    """Whether what was said last was a fact."""
+    history = scene.situation.history
+    if not history:
+        return True
+    last = history[-1].content.lower()
+    return "remember" in last or "noted" in last
 
 
 def _forget_about(about: Phrase, scene: Scene) -> Edit:

@@ -4,8 +4,17 @@ from __future__ import annotations
 
 from collections.abc import Sequence
 
-from parley.language.base import ErrorSituation, Grounding, InspectionReport, ReplyReading, Situation
+from parley.language.base import (
+    DraftHandler,
+    ErrorSituation,
+    Grounding,
+    InspectionReport,
+    ReplyReading,
+    Situation,
+)
 from parley.language.offline import grounding, interpreter, pictures, recall, recovery, replies
+from parley.language.offline.asides import about_failure
+from parley.language.offline.explaining import Decision, Trace
 from parley.messages.chat import ChatAction
 from parley.messages.memory import MemoryEntry
 from parley.robots.base import CameraImage
@@ -26,9 +35,21 @@ class OfflineLanguage:
         """See `Language.label`."""
         return "built-in language engine (offline, no model: plain English only)"
 
-    async def interpret(self, situation: Situation) -> ChatAction:
+    @property
+    def sees_pictures(self) -> bool:
+        """See `Language.sees_pictures`."""
+        return False
+
+    async def interpret(self, situation: Situation, *, on_draft: DraftHandler | None = None) -> ChatAction:
         """See `Language.interpret`."""
-        return interpreter.interpret(situation)
+        return self.explain(situation)[0]
+
+    def explain(self, situation: Situation) -> tuple[ChatAction, tuple[Decision, ...]]:
+        """As `interpret`, with what was decided on the way, in order."""
+        trace = Trace()
+        failure = situation.failure
+        aside = about_failure(failure, situation.message) if failure is not None else None
+        return aside or interpreter.interpret(situation, trace), tuple(trace.decisions)
 
     async def select_memories(self, query: str, index: Sequence[MemoryEntry]) -> list[str]:
         """See `Language.select_memories`."""
@@ -54,4 +75,4 @@ class OfflineLanguage:
 
     async def read_reply(self, question: str, reply: str, choices: Sequence[str] = ()) -> ReplyReading:
         """See `Language.read_reply`."""
-        return replies.read_reply(reply, choices)
+        return replies.read_reply(reply, choices, question)

@@ -143,6 +143,8 @@ def _left(phrase: Phrase) -> Fact | None:
         size = next((len(verb) for verb in _LEAVING if flat[index : index + len(verb)] == verb), 0)
         if not size or flat[0] in {"i", "we", "they", "he", "she"} | _NOT_SUBJECTS:
             continue
+        if flat[index - 1] in lexicon().determiners | lexicon().be or lexicon().places.match(flat, index - 1):
+            continue
         place, subject = bare(phrase[index + size :]), bare(phrase[:index])
         if not place or noun_phrase(place).anchors or any(not word.is_word for word in phrase[:index]):
             return None
@@ -292,6 +294,20 @@ def _said_of(phrase: Phrase) -> Fact | None:
         return None
     subject = _operator(subject)
     at, negated = _after_link(flat, link)
+    if keys(subject[-2:]) == ("used", "to") and len(subject) > 2:
+        # What used to be so is so no more.
+        subject, negated = subject[:-2], True
+    but = flat.index("but", at) if negated and "but" in flat[at:-1] else 0
+    if but:
+        # "Not on the desk but on the shelf".
+        at, negated = but + 1, False
+    if flat[at : at + 1] == ("from",) and "to" in flat[at + 1 : -1] and link < at + 1:
+        # "Went from the desk to the shelf".
+        goal = flat.index("to", at)
+        if set(flat[link : at + 1]) & lex.transition_verbs:
+            return Fact(subject, bare(phrase[goal + 1 :]), "at", negated=negated)
+    if flat[at : at + 1] == ("with",) and at + 1 < len(flat) and phrase[at + 1].is_capital:
+        return Fact(subject, bare(phrase[at + 1 :]), "with", negated=negated)
     found = lex.places.match(flat, at)
     moved = bool(set(flat[link:at]) & lex.transition_verbs) or flat[at - 1] in lex.transition_verbs
     if found is None and moved and flat[at : at + 1] in {("to",), ("into",), ("onto",)}:

@@ -10,7 +10,7 @@ from parley.language.base import ErrorSituation
 from parley.language.offline.catalogue import roles_of, text_inputs
 from parley.language.offline.grounding import describe
 from parley.language.offline.saying import listing, the, whole_sentence
-from parley.messages.chat import ActionCall, ChatAction
+from parley.messages.chat import ActionCall, ChatAction, SystemCommand
 from parley.messages.status import ActionInfo
 from parley.world.object_map import MapObject
 
@@ -22,7 +22,10 @@ __all__ = [
     "ask_what",
     "ask_which",
     "candidates_of",
+    "in_words",
+    "is_plain",
     "perceives",
+    "solved",
     "with_words",
     "words_of",
 ]
@@ -111,12 +114,22 @@ def ask_what(situation: ErrorSituation) -> ChatAction:
             if looking
             else "Where is it? Or should I go on without it, or stop?"
         )
-    elif _is_plain(situation.error_message):
+    elif is_plain(situation.error_message):
         said = whole_sentence(situation.error_message)
+    if situation.tried:
+        # The same way once more is the last thing to offer.
+        return _question(f"That did not help. {said} {question}", (WITHOUT, STOP, AGAIN))
     return _question(f"{said} {question}", (AGAIN, WITHOUT, STOP))
 
 
-def _is_plain(message: str) -> bool:
+def in_words(situation: ErrorSituation) -> str:
+    """What went wrong, as a sentence for people."""
+    if is_plain(situation.error_message):
+        return whole_sentence(situation.error_message)
+    return _ASKING.get(situation.code, _ASKING[FailureCode.INTERNAL])[0]
+
+
+def is_plain(message: str) -> bool:
     """Whether a failure's own sentence can be shown to people."""
     technical = any(
         mark in message
@@ -145,6 +158,19 @@ def ask_again(situation: ErrorSituation, candidates: Sequence[MapObject]) -> Cha
 
 def _question(text: str, choices: Sequence[str]) -> ChatAction:
     return ChatAction(message_response=text, success=False, choices=tuple(choices))
+
+
+def solved(
+    situation: ErrorSituation, text: str, steps: Sequence[ActionCall], commands: Sequence[SystemCommand] = ()
+) -> ChatAction:
+    """A correction: `steps` in place of the failed one."""
+    return ChatAction(
+        message_response=text,
+        queue=tuple(steps),
+        system_cmd=tuple(commands),
+        success=True,
+        targets=(situation.robot,) if situation.robot else (),
+    )
 
 
 def words_of(step: ActionCall) -> str:

@@ -3,11 +3,12 @@
 from __future__ import annotations
 
 import re
+from dataclasses import replace
 from typing import Any
 
-from parley.language.offline.catalogue import parameter_role, text_inputs
+from parley.language.offline.catalogue import parameter_role, templates, text_inputs
 from parley.language.offline.commands import Command
-from parley.language.offline.durations import duration_s
+from parley.language.offline.durations import duration_s, without_duration
 from parley.language.offline.grounding import describe, ground_phrase
 from parley.language.offline.lexicon import lexicon
 from parley.language.offline.nouns import bare
@@ -23,6 +24,10 @@ _OF_TIME = frozenset({"duration", "time", "seconds", "second", "s", "sec", "secs
 
 def arguments(info: ActionInfo, command: Command, scene: Scene) -> dict[str, Any]:
     """What the command says for the inputs of `info`; inputs that nothing is said for are left out."""
+    spans = any(set(split_name(name)) & _OF_TIME for name in info.inputs)
+    if spans:
+        theme, place = without_duration(command.theme), without_duration(command.place)
+        command = replace(command, theme=theme, place=place, clause=without_duration(command.clause))
     values: dict[str, Any] = {
         name: _named(words, scene)
         for name, words in _by_phrase(info, command).items()
@@ -51,7 +56,8 @@ def arguments(info: ActionInfo, command: Command, scene: Scene) -> dict[str, Any
     spare = [
         w
         for w in spare
-        if not {singular(k) for k in keys(bare(w))} <= {singular(n) for n in split_name(info.name)}
+        if scene.ground(w).outcome != "none"
+        or not {singular(k) for k in keys(bare(w))} <= {singular(n) for n in split_name(info.name)}
     ]
     if not values and left and spare:
         values[left[0]] = _named(spare[0], scene)
@@ -60,6 +66,15 @@ def arguments(info: ActionInfo, command: Command, scene: Scene) -> dict[str, Any
         for word in command.words
         if word.key in lexicon().numbers or re.fullmatch(r"-?\d+(?:\.\d+)?", word.key)
     ]
+    for hint in list(scene.hints) if not numbers else ():
+        # "How many?" was asked about this before.
+        said = [
+            w.key for w in tokens(hint) if w.key in lexicon().numbers or re.fullmatch(r"\d+(?:\.\d+)?", w.key)
+        ]
+        if len(said) == 1:
+            numbers.append(float(lexicon().numbers.get(said[0], said[0])))
+            scene.hints.remove(hint)
+            break
     for name, kind in info.inputs.items():
         if kind != "number" or "::" in name:
             continue
@@ -88,7 +103,7 @@ def _by_phrase(info: ActionInfo, command: Command) -> dict[str, Phrase]:
     """Values where one of the action's own phrases fits the whole clause."""
     clause = [word for word in bare(command.clause) if word.is_word]
     text = " ".join([lemma(clause[0].key), *(word.key for word in clause[1:])]) if clause else ""
-    for phrase in info.phrases:
+    for phrase in (*info.phrases, *templates(info)):
         names = re.findall(r"\{(\w+)\}", phrase)
         pattern = re.sub(r"\\\{\w+\\\}", "(.+)", re.escape(phrase.lower()))
         match = re.fullmatch(pattern, text)

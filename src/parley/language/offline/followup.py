@@ -7,13 +7,13 @@ from dataclasses import dataclass
 
 from parley.language.base import Situation, Turn
 from parley.language.offline import social
-from parley.language.offline.clauses import opens_command
+from parley.language.offline.clauses import clauses, opens_command
 from parley.language.offline.facts import read_statement, strip_openers
 from parley.language.offline.lexicon import lexicon
 from parley.language.offline.replies import agrees
 from parley.language.offline.text import Phrase, keys, plain, tokens
 
-__all__ = ["Request", "pending_request"]
+__all__ = ["Request", "declines", "pending_request"]
 
 _ASKING_BACK = (
     "which one do you mean",
@@ -64,6 +64,12 @@ def pending_request(words: Phrase, situation: Situation) -> Request | None:
     return None
 
 
+def declines(message: str, situation: Situation) -> bool:
+    """Whether a message says no to a question that was just asked."""
+    asked = bool(situation.history) and _asks(situation.history[-1])
+    return asked and agrees(message) is False
+
+
 def _unchained(hints: Sequence[str]) -> tuple[str, ...]:
     return tuple(hints)
 
@@ -79,6 +85,15 @@ def _asks(turn: Turn) -> bool:
 
 def _is_answer(words: Phrase, question: Turn) -> bool:
     """A fragment, a yes or no, or a place; a new order or question is none."""
+    parts = clauses(words, opens_command)
+    if (
+        len(parts) > 1
+        and agrees(plain(words)) is not True
+        and opens_command(parts[-1].words)
+        and "one" not in keys(parts[-1].words)
+    ):
+        # "Forget it, go to the box": a new order.
+        return False
     words = tuple(word for word in words if word.is_word)
     if not words or len(words) > _LONGEST_ANSWER:
         return False

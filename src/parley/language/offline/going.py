@@ -191,7 +191,8 @@ class Going:
         words = plain(command.place or command.theme or command.words)
         missing = [name for name in text_inputs(info) if name not in values]
         topic = {singular(word) for word in split_name(info.name)}
-        if words and {singular(word.key) for word in bare(tokens(words))} <= topic:
+        about = {singular(word.key) for word in bare(tokens(words))}
+        if words and about <= topic and not self._grounds(tokens(words)):
             words = ""
         if missing and not words and self.here and parameter_role(missing[0]) in {"place", "object"}:
             values[missing[0]] = words = self.here
@@ -199,6 +200,11 @@ class Going:
         if missing and not words:
             raise UnclearError(f"What should I {command.verb}?")
         steps = self.catalogue.chain(info, values, words, plain(command.clause))
+        numbers = [n for n, k in info.inputs.items() if k == "number" and n not in values and "::" not in n]
+        unsaid = [name for name in numbers if name not in info.optional]
+        if steps is None and unsaid:
+            name = " ".join(split_name(unsaid[0]))
+            raise UnclearError(f"What should the {name} be for “{plain(command.clause)}”? Please name it.")
         if steps is None:
             raise UnableError(plain(command.clause))
         self.steps += steps

@@ -9,7 +9,7 @@ every step. Then what is said about the place, the size and the distance chooses
 from __future__ import annotations
 
 from collections.abc import Iterable, Sequence
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from functools import lru_cache
 
 from rapidfuzz import fuzz
@@ -19,7 +19,7 @@ from parley.language.base import Grounding
 from parley.language.offline import spatial
 from parley.language.offline.lexicon import lexicon
 from parley.language.offline.nouns import NounPhrase, bare, noun_phrase, number_of
-from parley.language.offline.text import Phrase, closest, plain, singular, split_name, tokens
+from parley.language.offline.text import Phrase, closest, keys, plain, singular, split_name, tokens
 from parley.world.geometry import Pose2D
 from parley.world.object_map import MapObject
 
@@ -62,6 +62,7 @@ def ground_phrase(
     if exact:
         return _grounding(exact)
     noun = noun_phrase(phrase)
+    noun = _side(noun)
     if not noun.core and noun.anchors:
         # "in front of the door", "next to the box": the object named is what is meant (thesis 5.1.1).
         return ground_phrase(noun.anchors[0], eligible, pose, strict=strict)
@@ -195,6 +196,24 @@ _SIZES = {
     "smallest": -1.0,
     "smaller": -1.0,
 }
+_SIDES = {
+    ("left",): "left", ("right",): "right", ("left", "side"): "left", ("right", "side"): "right",
+    ("left", "hand", "side"): "left", ("right", "hand", "side"): "right", ("your", "left"): "left",
+    ("far", "left"): "leftmost", ("far", "right"): "rightmost",
+}  # fmt: skip
+
+
+def _side(noun: NounPhrase) -> NounPhrase:
+    """For "the door on the right": the right door."""
+    near = noun.relation in {"closest to", "nearest to", "nearest", "closest", "next to", "near", "close to"}
+    if near and len(noun.anchors) == 1 and noun.core and keys(noun.anchors[0]) == ("you",):
+        return replace(noun, core=("nearest", *noun.core), relation="", anchors=())
+    if noun.relation not in {"on", "at", "to"} or len(noun.anchors) != 1 or not noun.core:
+        return noun
+    side = _SIDES.get(keys(bare(noun.anchors[0])))
+    return noun if side is None else replace(noun, core=(side, *noun.core), relation="", anchors=())
+
+
 _SETTLED_LATER = frozenset(_SIZES) | {
     "nearest",
     "closest",
@@ -292,7 +311,9 @@ def _narrow(
         if len(items) < 2:
             break
         if word in _SIZES:
-            items = spatial.by_size(items, _SIZES[word])
+            sized = spatial.by_size(items, _SIZES[word])
+            said = [i for i in items if any(set(o) <= _profile(i).words for o in variants((word,)))]
+            items = said if len(sized) > 1 and said else sized
         elif pose is not None:
             items = spatial.by_view(items, word, pose)
     return items
@@ -305,12 +326,12 @@ def _by_relation(
     anchors: list[MapObject] = []
     for anchor in noun.anchors:
         where = ground_phrase(anchor, [o for o in objects if o not in items] or objects, pose)
-        if where.outcome != "match":
+        if where.outcome != "match" or not _is_called(where.candidates[0], anchor):
             where = ground_phrase(anchor, objects, pose)
         if where.outcome == "match" and _is_called(where.candidates[0], anchor):
             anchors.append(where.candidates[0])
     wanted = tuple(sorted({word for anchor in noun.anchors for word in _comparable(anchor)}))
-    compares = "between" in noun.relation or noun.relation.startswith(("far", "away"))
+    compares = "between" in noun.relation or noun.relation.startswith(("far", "fur", "away"))
     told = (
         []
         if compares and len(anchors) == len(noun.anchors)

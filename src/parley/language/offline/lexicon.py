@@ -64,12 +64,16 @@ class Lexicon:
     question_starts: frozenset[str]
     insults: frozenset[str]
     jokes: frozenset[str]
+    incidents: frozenset[str]
+    """What people report for somebody to look at."""
     ordinals: Mapping[str, int]
     numbers: Mapping[str, int]
     places: PhraseTable
     """Prepositions of place."""
     goals: PhraseTable
     """Prepositions before where something goes."""
+    goals_and_places: frozenset[str]
+    """First words of the prepositions of place."""
     adverbs: PhraseTable
     polite: PhraseTable
     requests: PhraseTable
@@ -149,6 +153,7 @@ def lexicon() -> Lexicon:
             "question_starts",
             "insults",
             "jokes",
+            "incidents",
             "told",
             "often_mistyped",
             "meaningful",
@@ -160,6 +165,11 @@ def lexicon() -> Lexicon:
         numbers={word: int(number) for word, number in words["numbers"].items()},
         places=PhraseTable.of(words["place_prepositions"]),
         goals=PhraseTable.of(words["goal_prepositions"]),
+        goals_and_places=frozenset(
+            text.split()[0]
+            for text in (*words["goal_prepositions"], *words["place_prepositions"])
+            if text != "of"
+        ),
         adverbs=PhraseTable.of(words["adverbs"]),
         polite=PhraseTable.of(openers["polite"]),
         requests=PhraseTable.of(openers["request"]),

@@ -10,7 +10,7 @@ from parley.language.offline.going import FORWARD, Going, UnableError
 from parley.language.offline.nouns import bare, noun_phrase
 from parley.language.offline.saying import the
 from parley.language.offline.scene import Place, UnclearError
-from parley.language.offline.text import Phrase, keys, plain, tokens
+from parley.language.offline.text import Phrase, Word, keys, plain, tokens
 from parley.messages.status import ActionInfo
 
 __all__ = ["ASKING", "Looking"]
@@ -22,6 +22,16 @@ ASKING = frozenset({"it", "that", "this", "them", "there", "here", "those", "the
 def _start_of(flat: tuple[str, ...], relation: str) -> int:
     wanted = tuple(relation.split())
     return next((i for i in range(len(flat)) if flat[i : i + len(wanted)] == wanted), len(flat))
+
+
+def _of_one(member: Phrase, command: Command) -> Command:
+    """For one of several of which something is to be checked ("whether all boxes are shut")."""
+    link = next((i for i, word in enumerate(command.words) if word.key in {"are", "is", "were", "was"}), 0)
+    if command.kind != "whether" or not link:
+        return command
+    verb = {"are": "is", "were": "was"}.get(command.words[link].key, command.words[link].key)
+    named = tokens(the(plain(member)))
+    return replace(command, theme=member, words=(*named, Word(verb, verb), *command.words[link + 1 :]))
 
 
 @dataclass
@@ -42,6 +52,10 @@ class Looking(Going):
             and len(command.theme) < 3
         ):
             raise UnableError("turn my camera")
+        looked = bool(self.steps) and self.steps[-1].name == looker.name and command.verb != "look around"
+        if not command.theme and command.kind == "look" and looked:
+            # "Something fell off the shelf, please have a look": that is planned already.
+            return
         if not command.theme and not self.here and self.scene.places:
             self._stand_at(self.scene.place(self.scene.places[-1]))
             place = self.scene.places[-1]
@@ -55,8 +69,9 @@ class Looking(Going):
         if inner is not None:
             self._look_there(inner, looker)
             return
-        for member in self.scene.several(command.theme):
-            self._look_at(member, command, looker)
+        members = self.scene.several(command.theme)
+        for member in members:
+            self._look_at(member, _of_one(member, command) if len(members) > 1 else command, looker)
 
     def _inside(self, command: Command) -> Command | None:
         """For "count the cups on the table": at the table, look for the cups."""
@@ -98,7 +113,8 @@ class Looking(Going):
             return
         place = self._place_or_here(member)
         name = plain(bare(self.scene.referent(member)))
-        part = " of " in f" {name.lower()} " and self.scene.whole(tokens(name)) is not None
+        owned = " of " in f" {name.lower()} " or "'s " in name
+        part = owned and self.scene.whole(tokens(name)) is not None
         exact = place is not None and place.item is not None and place.via is None and not part
         request = place.value if place is not None and exact else name
         self._stand_at(place)
@@ -113,8 +129,11 @@ class Looking(Going):
         return f"{asking} {plain(words)}"
 
     def _add_look(self, looker: ActionInfo, request: str, saying: str) -> None:
-        self.steps += self._said(looker, request, saying)
-        self.will.append(saying)
+        added = self._said(looker, request, saying)
+        same = [step.input_parameters for step in self.steps[-len(added) :]]
+        if same != [step.input_parameters for step in added] or self.steps[-1].name != looker.name:
+            self.steps += added
+            self.will.append(saying)
 
     def _search(self, command: Command) -> None:
         theme = self._wanted(command.theme)
@@ -124,6 +143,9 @@ class Looking(Going):
         words = plain(theme)
         if command.place:
             self._stand_at(self._place_or_here(command.place))
+            if keys(theme) == ("operator",) and self.catalogue.with_role("meet") is None:
+                # "Meet me at the desk": being there is all.
+                return
         else:
             own = "search" in self.catalogue.roles(searcher)
             known = self._known_place(theme)

@@ -2,11 +2,12 @@
 
 from __future__ import annotations
 
+import re
 from functools import cache
 
 from parley.language.base import Situation
 from parley.language.offline.lexicon import lexicon
-from parley.language.offline.text import Phrase, mend, split_name, tokens
+from parley.language.offline.text import Phrase, Word, mend, split_name, tokens
 
 __all__ = ["mended"]
 
@@ -14,6 +15,7 @@ __all__ = ["mended"]
 def mended(words: Phrase, situation: Situation) -> Phrase:
     """Typing errors in small words and verbs put right; nouns are compared loosely later."""
     known = set(lexicon().vocabulary)
+    words = _apart(words, situation)
     for item in situation.objects:
         known.update(
             word.key
@@ -28,6 +30,50 @@ def mended(words: Phrase, situation: Situation) -> Phrase:
     return _without_haste(mend(words, frozenset(known), lexicon().often_mistyped, _verbs()))
 
 
+_ARTICLES = frozenset({"the", "a", "an", "my", "your", "this", "that"})
+_LABEL = re.compile(r"([a-z]{2,})-?(\d{1,3})")
+
+
+def _apart(words: Phrase, situation: Situation) -> Phrase:
+    """Words written together or cut in the wrong place ("box1", "tot he box"), and "2" for "to"."""
+    texts = (f"{item.description} {item.class_name}" for item in situation.objects)
+    named = {word.key for text in texts for word in tokens(text)}
+    result: list[Word] = []
+    words = tuple(_unstretched(word) for word in words)
+    for at in range(len(words) - 1):
+        if words[at].key == "no" and words[at + 1].key == "one":
+            words = (*words[:at], Word("nobody", "nobody"), *words[at + 2 :])
+            break
+    flat = tuple(word.key for word in words)
+    index = 0
+    while index < len(words):
+        word, following = words[index], flat[index + 1] if index + 1 < len(flat) else ""
+        label = _LABEL.fullmatch(word.key)
+        if word.key[-1:] == "t" and following == "he" and word.key[:-1] in _BEFORE_THE:
+            result += [Word(word.key[:-1], word.raw[:-1]), Word("the", "the")]
+            index += 2
+            continue
+        if label and word.key not in named and label[1] in named and label[2] in named:
+            result += [Word(label[1], label[1]), Word(label[2], label[2])]
+        elif word.key == "2" and index and (following in _ARTICLES or flat[index - 1] in _GOING):
+            result.append(Word("to", "to"))
+        else:
+            result.append(word)
+        index += 1
+    return tuple(result)
+
+
+def _unstretched(word: Word) -> Word:
+    """For "gooo" "go"."""
+    for kept in (r"\1", r"\1\1"):
+        shorter = re.sub(r"([a-z])\1{2,}", kept, word.key)
+        if shorter != word.key and shorter in lexicon().vocabulary:
+            return Word(shorter, shorter)
+    return word
+
+
+_GOING = frozenset({"go", "drive", "come", "move", "head", "walk", "navigate", "return", "back", "over"})
+_BEFORE_THE = frozenset({"to", "in", "on", "at", "a", "for", "of", "by", "from", "into", "near", "and"})
 _HASTE = frozenset(
     ["quick", "brief", "short", "close", "closer", "good", "proper", "careful", "thorough", "little", "nice"]
 )

@@ -72,6 +72,7 @@ class Noting:
     def remember(self, fact: Fact) -> None:
         """Keep a fact, use it at once, and say so."""
         name = memory_name(fact, self.scene.facts)
+        self.scene.trace.note("memory", f"kept as {name}: {fact.sentence}")
         where = (
             f"where {the(plain(fact.subject))} is"
             if fact.is_location

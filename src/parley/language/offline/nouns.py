@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 
 from parley.language.offline.lexicon import lexicon
 from parley.language.offline.text import Phrase, keys, plain, singular
@@ -33,6 +33,15 @@ class NounPhrase:
 
 
 _EXCEPT = (
+    "but skip",
+    "but omit",
+    "but exclude",
+    "but ignore",
+    "skip",
+    "and skip",
+    "excepting",
+    "with the exception of",
+    "minus",
     "except for",
     "except",
     "but not",
@@ -43,6 +52,7 @@ _EXCEPT = (
     "aside from",
     "but",
 )
+_THAT_ARE_NOT = ("that is not", "that are not", "which is not", "which are not", "who are not")
 _SUPERLATIVES = frozenset({"nearest", "closest", "farthest", "furthest"})
 _RELATIVE = frozenset({"that", "which", "who", "where"})
 
@@ -56,6 +66,9 @@ def bare(phrase: Phrase) -> Phrase:
             words.pop()
         size = lex.adverbs.match_end(keys(words))
         if not size or size >= len(words):
+            break
+        if size == 1 and words[-1].key == "right" and words[-2].key in lex.determiners:
+            # "The door on the right": a side, no manner.
             break
         words = words[:-size]
     while words and (not words[0].is_word or words[0].key in lex.determiners):
@@ -71,27 +84,93 @@ def noun_phrase(phrase: Phrase) -> NounPhrase:
     lex = lexicon()
     excluded: Phrase = ()
     flat = keys(phrase)
-    for marker in _EXCEPT:
+    quantified = bool(set(flat[:2]) & lex.quantifiers)
+    for marker in (*_EXCEPT, *(_THAT_ARE_NOT if quantified else ())):
         at = _find(flat, tuple(marker.split()))
         if at > 0:
             phrase, excluded = phrase[:at], bare(phrase[at + len(marker.split()) :])
             break
-    phrase = bare(phrase)
+    phrase = _partitive(bare(phrase))
     quantifier = ""
-    while phrase and (phrase[0].key in lex.quantifiers | lex.free_choice or keys(phrase[:1]) == ("rest",)):
-        quantifier = quantifier or phrase[0].key
-        phrase = bare(_without_of(phrase[1:]))
+    while phrase and (phrase[0].key in lex.quantifiers | lex.free_choice or _is_rest(phrase)):
+        quantifier = quantifier or ("rest" if _is_rest(phrase) else phrase[0].key)
+        counted = _is_rest(phrase) and keys(phrase[1:2])[:1] and phrase[1].key in lex.numbers
+        phrase = bare(_without_of(phrase[2 if counted else 1 :]))
     cut, size = _first_relation(phrase)
     core_words = phrase[:cut]
     core = tuple(number_of(singular(word.key)) for word in core_words if word.is_word)
     if cut == len(phrase):
         return NounPhrase(phrase, core, quantifier=quantifier, excluded=excluded)
     relation = " ".join(keys(phrase[cut : cut + size]))
+    relation = "with" if relation.endswith((" has", " have", " had")) else relation
     rest = bare(phrase[cut + size :])
     anchors = tuple(coordinated(rest)) if "between" in relation else (rest,)
     if relation.startswith("halfway"):
         relation = "between"
     return NounPhrase(phrase, core, relation, anchors, quantifier, excluded)
+
+
+def _is_rest(phrase: Phrase) -> bool:
+    """Whether it begins like "rest of ...", "remaining boxes", "other boxes"."""
+    if phrase[0].key in {"rest", "remaining", "others"}:
+        return True
+    head = next((w.key for w in reversed(phrase) if w.is_word), "")
+    if (
+        phrase[0].key == "other"
+        and len(phrase) > 1
+        and (phrase[1].key in lexicon().numbers and phrase[1].key != "one")
+    ):
+        return True
+    return phrase[0].key == "other" and len(phrase) > 1 and singular(head) != head and head != "ones"
+
+
+_COMPARING = frozenset(
+    [
+        "bigger",
+        "biggest",
+        "larger",
+        "largest",
+        "smaller",
+        "smallest",
+        "nearer",
+        "nearest",
+        "closer",
+        "closest",
+        "farther",
+        "farthest",
+        "furthest",
+        "taller",
+        "tallest",
+        "newer",
+        "older",
+        "left",
+        "right",
+        "leftmost",
+        "rightmost",
+    ]
+)
+_AS_SUPERLATIVE = {"nearer": "nearest", "closer": "closest", "farther": "farthest"}
+
+
+def _partitive(phrase: Phrase) -> Phrase:
+    """For "the bigger of the two boxes" "bigger box", for "one of the boxes" "any box"."""
+    flat = keys(phrase)
+    if len(flat) < 3 or flat[1] != "of" or flat[0] not in _COMPARING | {"one"}:
+        return phrase
+    rest = phrase[2:]
+    while len(rest) > 1 and (rest[0].key in lexicon().determiners or rest[0].key in lexicon().numbers):
+        rest = rest[1:]
+    if flat[0] == "one":
+        if singular(rest[-1].key) == rest[-1].key:
+            return phrase
+        return (replace(phrase[0], key="any", raw="any"), *_as_singular(rest))
+    word = _AS_SUPERLATIVE.get(flat[0], flat[0])
+    return (replace(phrase[0], key=word, raw=word), *_as_singular(rest))
+
+
+def _as_singular(phrase: Phrase) -> Phrase:
+    last = phrase[-1]
+    return (*phrase[:-1], replace(last, key=singular(last.key), raw=singular(last.raw)))
 
 
 def number_of(word: str) -> str:
@@ -128,6 +207,9 @@ def _first_relation(phrase: Phrase) -> tuple[int, int]:
         if flat[index] in _RELATIVE and index > 0:
             # "the one that is by the window" reads like "the one by the window".
             skip = index + 1
+            if flat[skip : skip + 1] in {("has",), ("have",), ("had",)} and skip + 1 < len(flat):
+                # "The one that has a lid" reads like "the one with a lid".
+                return index, 2
             while skip < len(flat) and flat[skip] in lex.be | lex.location_verbs:
                 skip += 1
             found = lex.places.match(flat, skip)

@@ -2,10 +2,11 @@
 
 from __future__ import annotations
 
-from dataclasses import dataclass
 from functools import cache
 
+from parley.language.offline import about_map
 from parley.language.offline.abilities import abilities, cannot
+from parley.language.offline.about_map import Answer
 from parley.language.offline.clauses import Clause, opens_command
 from parley.language.offline.facts import strip_openers
 from parley.language.offline.grounding import describe, ground_phrase
@@ -18,18 +19,9 @@ from parley.language.offline.saying import a, capital, listing, the, whole_sente
 from parley.language.offline.scene import Scene
 from parley.language.offline.text import Phrase, Word, keys, lemma, plain, singular, tokens
 from parley.language.word_lists import load_data
+from parley.messages.chat import ActionCall
 
 __all__ = ["Answer", "answer", "is_yes"]
-
-
-@dataclass(frozen=True, slots=True)
-class Answer:
-    """What is said; `look` are the words of a yes-or-no question that only looking can answer."""
-
-    text: str
-    look: Phrase = ()
-    counts: bool = False
-    """Whether `look` names what is to be counted instead."""
 
 
 @cache
@@ -80,18 +72,43 @@ def answer(clause: Clause, scene: Scene) -> Answer | None:
     )
     if not question:
         return None
-    able = _able(words, flat, scene) if clause.is_question else None
-    if able is not None:
-        return able
+    asked = clause.is_question
+    ready = (_planned(flat, scene) or _able(words, flat, scene)) if asked else None
+    if ready is not None:
+        return ready
     for kind, reply in ABOUT_ITSELF.items():
         for start in _starts(kind):
             if _begins(flat, start):
                 return Answer(reply(scene, words[len(start) :]))
-    for reader in (_where, _what_in, _how_many, _who, _whether):
-        found = reader(words, flat, scene, clause.is_question or wrapped)
+    for reader in (_does, about_map.which, about_map.how_far, _where, _what_in, _how_many, _who, _whether):
+        found = reader(words, flat, scene, asked or wrapped)
         if found is not None:
             return found
-    return _open_question(words, clause.is_question)
+    return about_map.told(words, flat, scene, asked or wrapped) or _open_question(words, clause.is_question)
+
+
+def _planned(flat: tuple[str, ...], scene: Scene) -> Answer | None:
+    """For "will you go to the box?", "are you going to inspect it?": about the plan, if it says so."""
+    start = next((s for s in _WILL if flat[: len(s)] == s), ())
+    if not start or not scene.situation.queue or "please" in flat:
+        return None
+    names = [item.lower() for step in scene.situation.queue for item in _values(step)]
+    said = f" {' '.join(flat[len(start) :])} "
+    if any(f" {name} " in said for name in names):
+        return Answer(f"Yes, {said.strip()} is part of the plan.")
+    return None
+
+
+_WILL = (
+    ("will", "you"),
+    ("are", "you", "going", "to"),
+    ("do", "you", "still", "plan", "to"),
+    ("do", "you", "plan", "to"),
+)
+
+
+def _values(step: ActionCall) -> list[str]:
+    return [p.value for p in step.input_parameters.values() if isinstance(p.value, str)]
 
 
 _ABLE = (
@@ -127,7 +144,13 @@ def _able(words: Phrase, flat: tuple[str, ...], scene: Scene) -> Answer | None:
     base = (lemma(flat[size]), *flat[size + 1 :])
     found = lexicon().verbs.match(base)
     rest = flat[size + found[0] :] if found is not None else ()
-    if found is None or any(singular(word) not in _GENERIC for word in rest):
+    if found is None:
+        return None
+    asks = flat[:size] not in {("can", "you"), ("could", "you")}
+    own = scene.catalogue.for_verb(base[0]) or scene.catalogue.by_description(base)
+    if asks and found[1].startswith("other:") and own is None:
+        return Answer(cannot(plain((Word(base[0], base[0]), *words[size + 1 :])), scene))
+    if any(singular(word) not in _GENERIC for word in rest):
         return None
     kind = found[1].partition(":")[0]
     said = plain((Word(base[0], base[0]), *words[size + 1 :]))
@@ -158,6 +181,9 @@ def _unwrapped(words: Phrase) -> tuple[Phrase, bool]:
 
 
 def _begins(flat: tuple[str, ...], start: tuple[str, ...]) -> bool:
+    if start[-1] == "next" and flat[len(start) : len(start) + 1] == ("to",):
+        # "What is next to the door?" is about the door.
+        return False
     if (len(start) == 2 and start[0] in {"the", "your"}) or start[0] in {
         "all",
         "next",
@@ -230,6 +256,7 @@ def _where(words: Phrase, flat: tuple[str, ...], scene: Scene, _: bool) -> Answe
     hits = [fact] if fact is not None else several
     for item in hits:
         scene.use(item)
+    scene.mention(bare(about))
     if hits:
         return Answer(" ".join(whole_sentence(item.fact.sentence) for item in hits))
     named = len(about) == 1 and about[0].is_capital
@@ -274,6 +301,13 @@ def _what_in(words: Phrase, flat: tuple[str, ...], scene: Scene, _: bool) -> Ans
 
 def _how_many(words: Phrase, flat: tuple[str, ...], scene: Scene, _: bool) -> Answer | None:
     start = 2 if flat[:2] == ("how", "many") else 1
+    owned = next(
+        (i for i in range(2, len(flat)) if flat[i].endswith("'s") and flat[i - 1] in lexicon().be), 0
+    )
+    if start == 1 and owned and flat[0] in {"which", "what"}:
+        item = scene.told_apart((words[owned], *words[1 : owned - 1]))
+        if item is not None:
+            return Answer(f"It is {the(describe(item, scene.objects))}.")
     if len(flat) < 3 or (
         start == 1 and (flat[0] not in {"which", "what"} or flat[1] in lexicon().be | lexicon().auxiliaries)
     ):
@@ -317,6 +351,12 @@ def _whether(words: Phrase, flat: tuple[str, ...], scene: Scene, asked: bool) ->
     flat = keys(words)
     if len(flat) < 3:
         return None
+    if flat[1] in lexicon().thing_pronouns | lexicon().person_pronouns and (scene.things or scene.persons):
+        words = (words[0], *bare(scene.referent(words[1:2])), *words[2:])
+        flat = keys(words)
+    while len(words) > 3 and words[-1].key in {"somewhere", "anywhere", "here", "around", "left"}:
+        words = words[:-1]
+        flat = keys(words)
     there = flat[1] == "there"
     rest = words[2:] if there else words[1:]
     noun = noun_phrase(rest)
@@ -349,6 +389,19 @@ def _whether(words: Phrase, flat: tuple[str, ...], scene: Scene, asked: bool) ->
 def _state(rest: Phrase, scene: Scene, words: Phrase) -> Answer:
     """For "Is the X open?"."""
     size = _grounded_prefix(rest, scene)
+    for cut in (size, len(rest) - 1):
+        known, _ = find_fact(bare(rest[:cut]), scene.facts, locations=False) if cut > 0 else (None, [])
+        if known is None or known.fact.is_location or not keys(known.fact.state):
+            continue
+        if keys(known.fact.subject) != keys(bare(rest[:cut])):
+            continue
+        asked, told = set(keys(rest[cut:])), set(keys(known.fact.state))
+        if asked & told:
+            scene.use(known)
+            agrees_ = (asked <= told) and not known.fact.negated
+            return Answer(
+                ("Yes: " if agrees_ else "As far as I know, no: ") + whole_sentence(known.fact.sentence)
+            )
     if size:
         turned = (*rest[:size], words[0], *rest[size:])
         return Answer(
@@ -359,6 +412,23 @@ def _state(rest: Phrase, scene: Scene, words: Phrase) -> Answer:
         scene.use(fact)
         return Answer("I remember: " + whole_sentence(fact.fact.sentence))
     return Answer("I do not know that. Tell me, and I will remember it.")
+
+
+def _does(words: Phrase, flat: tuple[str, ...], scene: Scene, asked: bool) -> Answer | None:
+    """For "does the box need paint?", "do the lamps work?": only looking can tell."""
+    if flat[0] not in {"does", "do", "did", "has", "have"} or not asked or len(flat) < 3:
+        return None
+    rest = words[1:]
+    size = _grounded_prefix(rest, scene)
+    if not size or lexicon().places.match(keys(rest), size) is not None:
+        return None
+    verb = rest[size]
+    third = f"{verb.key}es" if verb.key.endswith(("s", "sh", "ch", "x")) else f"{verb.key}s"
+    said = (words[0], *rest[size:]) if flat[0] in {"has", "have"} else (Word(third, third), *rest[size + 1 :])
+    return Answer(
+        f"I do not know. Shall I go to {the(plain(bare(rest[:size])))} and have a look?",
+        (*rest[:size], *said),
+    )
 
 
 def _grounded_prefix(rest: Phrase, scene: Scene) -> int:

@@ -40,7 +40,7 @@ from parley.language.offline.interpreter import interpret
 from parley.language.offline.lexicon import lexicon
 from parley.language.offline.protocols import first_act
 from parley.language.offline.remembering import memory_name, remembered
-from parley.language.offline.reordering import new_order
+from parley.language.offline.reordering import new_order, with_order_behind
 from parley.language.offline.replies import agrees
 from parley.language.offline.saying import capital, the
 from parley.language.offline.scene import place_said
@@ -56,6 +56,10 @@ _SUGGESTION = re.compile(r"^why (?:don['’]?t|do not|not) (?:you )?(?:just )?(?
 
 def resolve(situation: ErrorSituation) -> ChatAction:
     """Repair a failure, or ask."""
+    return with_order_behind(situation, _resolve, interpret) or _resolve(situation)
+
+
+def _resolve(situation: ErrorSituation) -> ChatAction:
     candidates = candidates_of(situation)
     fact, places = ("", []) if candidates else remembered_places(situation)
     candidates = candidates or places

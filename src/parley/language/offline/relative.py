@@ -24,14 +24,50 @@ def described_by_facts(
     """The one object that a relative clause or a remembered thing in it singles out, and the facts used."""
     words = tuple(word for word in phrase if word.is_word)
     if not 2 < len(words) <= 14:
-        return None
+        return _the_same(words, objects, facts)
     return (
-        _with_adjective(words, objects)
+        _the_same(words, objects, facts)
+        or _with_adjective(words, objects)
         or _excluded(words, objects)
         or _where_something_is(words, objects, facts)
         or _holding(words, objects, facts)
         or _beside(words, objects, facts)
     )
+
+
+def _the_same(
+    words: Phrase, objects: Sequence[MapObject], facts: Sequence[Remembered]
+) -> tuple[MapObject, tuple[Remembered, ...]] | None:
+    """For "A's car", where it is remembered that A's car is the green one; or that the green one is A's."""
+    about = keys(bare(words))
+    if not about or any(item.description.lower() == " ".join(about) for item in objects):
+        return None
+    for known in facts:
+        fact = known.fact
+        if (
+            fact.is_location
+            or fact.negated
+            or fact.relation not in lexicon().be | {"belongs"}
+            or not fact.state
+        ):
+            continue
+        for name, other in ((fact.subject, fact.state), (fact.state, fact.subject)):
+            if not _names_same(about, keys(bare(name)), belongs=fact.relation == "belongs"):
+                continue
+            found = ground_phrase(other, objects, strict=True)
+            if found.outcome == "match":
+                return found.candidates[0], (known,)
+    return None
+
+
+def _names_same(about: tuple[str, ...], name: tuple[str, ...], *, belongs: bool) -> bool:
+    """Whether two names mean the same: word by word, or as owner ("Ben's" and "to Ben" for "Ben's car")."""
+    if about == name:
+        return True
+    owner = next((word.removesuffix("'s") for word in about if word.endswith("'s")), "")
+    if not owner:
+        return False
+    return name == (f"{owner}'s",) or (belongs and name == ("to", owner))
 
 
 def _where_something_is(
@@ -165,9 +201,14 @@ def _excluded(words: Phrase, objects: Sequence[MapObject]) -> tuple[MapObject, t
         if not size or index + size >= len(flat):
             continue
         head, refused = bare(words[:index]), bare(words[index + size :])
-        if not head or not refused or lexicon().places.match(keys(refused)):
+        if not head or not refused:
             return None
         candidates = matching(head, objects)
+        if lexicon().places.match(keys(refused)):
+            there = ground_phrase((*head, *words[index + size :]), objects)
+            rest = [item for item in candidates if item not in there.candidates]
+            told = there.outcome == "match" and len(rest) == 1
+            return (rest[0], ()) if told else None
         wanted = {word for word in noun_phrase(refused).core if word not in {"one"}}
         left = [item for item in candidates if not wanted & set(item.description.lower().split())]
         return (left[0], ()) if wanted and len(left) == 1 and len(candidates) > 1 else None

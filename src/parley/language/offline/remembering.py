@@ -10,8 +10,8 @@ from functools import lru_cache
 from parley.language.offline.facts import Fact, read_statement
 from parley.language.offline.grounding import ground_phrase
 from parley.language.offline.lexicon import lexicon
-from parley.language.offline.nouns import noun_phrase
-from parley.language.offline.text import Phrase, keys, plain, tokens
+from parley.language.offline.nouns import bare, noun_phrase
+from parley.language.offline.text import Phrase, Word, keys, plain, tokens
 from parley.messages.memory import MemoryEntry
 from parley.world.object_map import MapObject
 
@@ -79,10 +79,28 @@ def find_fact(
         for i, f in enumerate(listed)
     ]
     found = ground_phrase(about, stand_ins)
+    for other in _compounds(about) if found.outcome == "none" else ():
+        found = ground_phrase(other, stand_ins, strict=True)
+        if found.outcome != "none":
+            break
     if found.outcome == "none":
         return None, []
     hits = [listed[stand_ins.index(item)] for item in found.candidates]
     return (hits[0], []) if len(hits) == 1 else (None, hits)
+
+
+def _compounds(about: Phrase) -> list[Phrase]:
+    """Other ways to say "pot of tea": "tea pot", "teapot", and the tea itself."""
+    words = bare(about)
+    flat = keys(words)
+    if "of" not in flat[1:-1]:
+        return []
+    at = flat.index("of", 1)
+    head, content = words[:at], bare(words[at + 1 :])
+    if not content or len(head) > 2 or flat[at + 1] in {"the", "my", "your"}:
+        return []
+    joined = content[-1].key + head[-1].key
+    return [(*content, *head), (Word(joined, joined),), content]
 
 
 def memory_name(fact: Fact, facts: Sequence[Remembered]) -> str:

@@ -2,12 +2,15 @@
 
 from __future__ import annotations
 
+import re
 from collections.abc import Sequence
 from functools import cache
 
 from parley.language.base import ReplyReading
 from parley.language.control import control_of
+from parley.language.offline.asides import asks
 from parley.language.offline.choosing import choose
+from parley.language.offline.reordering import orders_otherwise
 from parley.language.offline.text import closest, keys, tokens
 from parley.language.word_lists import load_data
 
@@ -60,7 +63,10 @@ _FILLERS = frozenset(
 )
 
 
-def read_reply(reply: str, choices: Sequence[str] = ()) -> ReplyReading:
+_OPENING = frozenset({"what", "which", "where", "who", "whom", "whose", "when", "how"})
+
+
+def read_reply(reply: str, choices: Sequence[str] = (), question: str = "") -> ReplyReading:
     """Read an answer; the choices are looked at first."""
     if choices:
         index = choose(choices, reply)
@@ -69,13 +75,23 @@ def read_reply(reply: str, choices: Sequence[str] = ()) -> ReplyReading:
     order = control_of(reply)
     if order in {"stop", "skip", "clear", "emergency_stop"}:
         return ReplyReading("control")
+    if asks(reply) or orders_otherwise(reply, dropping=True):
+        return ReplyReading("aside")
     answer = agrees(reply)
+    if _is_open(question) and order is None and not (answer is False and len(reply.split()) < 3):
+        return ReplyReading("answer")
     if answer is not None:
         return ReplyReading("yes" if answer else "no")
     if order == "start":
         again = {"again", "retry", "more", "another"} & set(keys(tokens(reply)))
         return ReplyReading("control" if again else "yes")
-    return ReplyReading("unclear")
+    return ReplyReading("aside" if orders_otherwise(reply) else "unclear")
+
+
+def _is_open(question: str) -> bool:
+    """Whether a question asks for something other than yes, no or that something is done."""
+    sentences = [keys(tokens(part)) for part in re.split(r"(?<=[.!?])\s+", question.strip())]
+    return any(words and words[0] in _OPENING for words in sentences)
 
 
 def agrees(reply: str) -> bool | None:

@@ -75,7 +75,7 @@ def by_anchor(
     elif relation == "behind" and pose is not None:
         beyond = pose.distance_to(Pose2D(first.x_m, first.y_m))
         items = [i for i in items if pose.distance_to(Pose2D(i.x_m, i.y_m)) > beyond] or list(items)
-    if relation.startswith(("far", "away")):
+    if relation.startswith(("far", "fur", "away")):
         return _smallest(items, lambda item: -_gap(item, first.x_m, first.y_m), absolute=True)
     near = nearest_to(items, first.x_m, first.y_m)
     # "The closest to" is a comparison: the nearest is meant even if others are not much farther.

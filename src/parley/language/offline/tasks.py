@@ -12,7 +12,7 @@ from dataclasses import dataclass, replace
 from parley.language.offline.carrying import Carrying
 from parley.language.offline.catalogue import call, parameter_role, text_inputs
 from parley.language.offline.commands import Command
-from parley.language.offline.durations import duration_s
+from parley.language.offline.durations import duration_s, without_duration
 from parley.language.offline.going import UnableError
 from parley.language.offline.lexicon import lexicon
 from parley.language.offline.nouns import bare, noun_phrase
@@ -21,6 +21,11 @@ from parley.language.offline.text import Phrase, Word, keys, plain
 from parley.messages.status import ActionInfo
 
 __all__ = ["Tasks", "UnableError"]
+
+
+_HANDING = frozenset(
+    {"bring", "bring over", "fetch", "give", "hand", "hand over", "deliver", "carry", "serve"}
+)
 
 
 @dataclass
@@ -34,15 +39,33 @@ class Tasks(Carrying):
             UnclearError: Something has to be asked first.
             UnableError: Nothing in the catalogue does it.
         """
+        start = len(self.steps)
+        why = self._add(command)
+        names = [step.name for step in self.steps[start:]]
+        if names:
+            self.scene.trace.note("action", f"{', '.join(names)}: {why}")
+
+    def _add(self, command: Command) -> str:
+        """Add the steps for a command; why just these is returned."""
+        whole = self.catalogue.by_phrase(keys(command.clause))
+        if whole is not None:
+            self._invoke_each(whole, command)
+            return "one of its phrases is what was said"
         own = self.catalogue.for_verb(command.verb)
         special = own is not None and command.kind in {"catalogue", "other"}
         topical = command.kind in {"other", "transfer", "place", "count", "look", "catalogue", "motion"}
-        if not special and topical:
+        handing = command.verb in _HANDING or bool(command.recipient)
+        named = any(self._grounds(phrase) for phrase in (command.theme, command.place) if phrase)
+        if not special and topical and not handing and not (named and command.kind != "other"):
             about = self.catalogue.by_topic(keys(command.clause))
             special, own = about is not None, about or own
         if special and own is not None:
             self._invoke_each(own, command)
-            return
+            return f"its name, a phrase or an example knows “{command.verb}”"
+        self._by_kind(command)
+        return f"the catalogue's way to do what “{command.verb}” asks for ({command.kind})"
+
+    def _by_kind(self, command: Command) -> None:
         match command.kind:
             case "motion":
                 self._go(command)
@@ -67,14 +90,17 @@ class Tasks(Carrying):
 
     def _invoke_each(self, info: ActionInfo, command: Command) -> None:
         """An action of its own kind, once for everything that is named."""
+        command = replace(command, theme=without_duration(command.theme))
         quantified = bool({"and"} & set(keys(command.theme))) or noun_phrase(command.theme).quantifier
         members = self.scene.several(command.theme) if command.theme and quantified else []
         if len(members) < 2 or ("and" in keys(command.theme) and any(not self._grounds(m) for m in members)):
             self._invoke(info, command)
             return
         verb = command.clause[: len(command.clause) - len(command.words)]
+        tail = _amount(command.words)
         for member in members:
-            self._invoke(info, replace(command, theme=member, words=member, clause=(*verb, *member)))
+            words = (*member, *tail)
+            self._invoke(info, replace(command, theme=member, words=words, clause=(*verb, *words)))
 
     def _other(self, command: Command) -> None:
         info = self.catalogue.for_verb(command.verb) or self.catalogue.for_verb(command.verb.split()[0])
@@ -85,9 +111,10 @@ class Tasks(Carrying):
         if info is None and command.kind == "wait":
             self._wait(command)
             return
+        info = info or self.catalogue.by_description(keys(command.clause))
         if info is None:
             raise UnableError(plain(command.clause))
-        self._invoke(info, command)
+        self._invoke_each(info, command)
 
     def _with_somebody(self, command: Command) -> None:
         if command.kind == "guide":
@@ -130,7 +157,9 @@ class Tasks(Carrying):
         if asker is None:
             self.notes.append("I cannot wait for a set time, so I go on at once.")
             return
-        rest = plain(command.words).removeprefix("for ")
+        flat = keys(command.words)
+        start = flat.index("for") if "for" in flat and not until else 0
+        rest = plain(command.words[start:]).removeprefix("for ")
         over = f"Please tell me when I may go on: I am to wait {rest if until else f'for {rest}'}."
         self.steps += self._said(asker, over, f"ask you when to go on, after waiting {rest}")
         self.will.append(f"wait {rest if until else f'for {rest}'} (please tell me when I may go on)")
@@ -144,6 +173,8 @@ class Tasks(Carrying):
         said, listener = spoken(command, self.scene.is_person)
         if not said:
             raise UnclearError("What should I say?")
+        if keys(bare(listener)) in {("me",), ("us",)}:
+            said, listener = self._find_out(bare(said)), ()
         if listener:
             self._go_to_person(listener)
         elif keys(command.words[:1]) == ("me",):
@@ -190,6 +221,14 @@ class Tasks(Carrying):
             person = self.scene.referent(bare(listener))
             self._stand_at(self.scene.remembered_place(person))
         self.scene.mention(bare(listener[: len(noun.core)] if noun.anchors else listener))
+
+
+def _amount(words: Phrase) -> Phrase:
+    """How much is said behind what is acted on: "(every box) with 3 litres", "for ten seconds"."""
+    flat = keys(words)
+    counted = (i for i in range(1, len(flat)) if flat[i].isdigit() or flat[i] in lexicon().numbers)
+    at = next((i for i in counted if flat[i - 1] in {"with", "for", "to", "by", "at"}), 0)
+    return words[at - 1 :] if at > 1 else ()
 
 
 def _place_size(flat: tuple[str, ...], index: int) -> int:

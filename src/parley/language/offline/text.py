@@ -50,7 +50,7 @@ def tokens(text: str) -> Phrase:
     A possessive keeps its ``'s``; ``X's`` before something that can be said of X is read as "X is".
     """
     text = unicodedata.normalize("NFC", text).replace("’", "'").replace("‘", "'").replace("`", "'")
-    text = _DASH.sub(" , ", text)
+    text = _DASH.sub(" , ", text).replace(" & ", " and ")
     raw = [match.group() for match in _TOKEN.finditer(text)]
     result: list[Word] = []
     for index, piece in enumerate(raw):
@@ -72,7 +72,8 @@ def _expand(piece: str, following: str) -> list[Word]:
         stem = piece[:-2]
         if stem.lower() in lexicon().is_subjects or following in lexicon().after_is:
             return [Word(stem.lower(), stem), Word("is", "is")]
-    return [Word(low.rstrip("'"), piece.rstrip("'"))]
+    # "The boxes' lids" keeps its mark where it is repeated to people.
+    return [Word(low.rstrip("'"), piece if low.endswith("s'") else piece.rstrip("'"))]
 
 
 def keys(phrase: Iterable[Word]) -> tuple[str, ...]:
@@ -170,6 +171,21 @@ def closest(word: str, vocabulary: Iterable[str]) -> str | None:
     return nearest.pop() if len(nearest) == 1 else None
 
 
+_COMMON = (
+    "look",
+    "find",
+    "take",
+    "move",
+    "drive",
+    "bring",
+    "check",
+    "visit",
+    "stop",
+    "tell",
+    "inspect",
+    "go",
+)
+"""What a short misspelt word at the start of an order most likely was."""
 _BEFORE_VERBS = frozenset(
     [
         ",",
@@ -212,6 +228,9 @@ def mend(phrase: Phrase, known: frozenset[str], small: frozenset[str], verbs: fr
             continue
         opens = not result or result[-1].key in _BEFORE_VERBS
         better = closest(word.key, small | verbs if opens else small)
+        if better is None and opens and len(word.key) > 2:
+            near = [verb for verb in _COMMON if OSA.distance(verb, word.key) == 1 and verb[0] == word.key[0]]
+            better = near[0] if len(near) == 1 else None
         result.append(replace(word, key=better, raw=better) if better else word)
     return tuple(result)
 

@@ -23,7 +23,7 @@ def wish(words: Phrase, scene: Scene) -> Command | None:
             return read_command((Word("go", "go"), Word("to", "to"), *theme[1:]), scene.is_person)
         if keys(theme)[:2] in {("to", "see"), ("to", "know"), ("to", "look"), ("to", "check")}:
             return read_command(theme[1:], scene.is_person)
-        if keys(theme)[0] in {"to", "you"}:
+        if keys(theme)[0] in {"to", "you"} or _to_do(theme):
             return None
         command = read_command((Word("bring", "bring"), Word("me", "me"), *theme), scene.is_person)
         noun = noun_phrase(theme)
@@ -55,6 +55,14 @@ def wish(words: Phrase, scene: Scene) -> Command | None:
     return None
 
 
+def _to_do(theme: Phrase) -> bool:
+    """For "everything to look nice": how things should be, nothing to be brought."""
+    flat = keys(theme)
+    at = flat.index("to") if "to" in flat[1:-1] else 0
+    return bool(at) and lexicon().verbs.match(flat, at + 1) is not None and flat[:at] not in _SOMETHING
+
+
+_SOMETHING = frozenset({("something",), ("anything",)})
 _DUE = (
     ("needs", "to", "be"), ("need", "to", "be"), ("has", "to", "be"), ("have", "to", "be"), ("should", "be"),
     ("must", "be"), ("ought", "to", "be"), ("is", "to", "be"), ("are", "to", "be"), ("wants",),

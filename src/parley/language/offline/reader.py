@@ -1,0 +1,322 @@
+"""Reads one message: its clauses in order, each understood against what came before."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass, replace
+
+from parley.language.offline import social
+from parley.language.offline.abilities import abilities, cannot
+from parley.language.offline.clauses import Clause, clauses, opens_command
+from parley.language.offline.commands import Command, read_command
+from parley.language.offline.constructions import recast
+from parley.language.offline.durations import duration_s
+from parley.language.offline.edits import several_steps
+from parley.language.offline.facts import read_statement, strip_openers
+from parley.language.offline.keeping import kept_part, restarts
+from parley.language.offline.lexicon import lexicon
+from parley.language.offline.nouns import noun_phrase
+from parley.language.offline.recalling import Recalling
+from parley.language.offline.repeating import repetition
+from parley.language.offline.replanning import inserted, read_replanning
+from parley.language.offline.saying import the, whole_sentence
+from parley.language.offline.scene import UnclearError
+from parley.language.offline.stories import mentioned, told_around
+from parley.language.offline.tasks import UnableError
+from parley.language.offline.text import Phrase, Word, keys, plain, tokens
+from parley.messages.chat import ActionCall, ChatAction, SystemCommand
+
+__all__ = ["Reader"]
+
+_REPORTS = frozenset(
+    tuple(text.split())
+    for text in (
+        "tell me",
+        "let me know",
+        "report back",
+        "report to me",
+        "report",
+        "inform me",
+        "tell us",
+        "tell me about it",
+    )
+)
+"""What every look does anyway."""
+
+_NOTHING_MORE = frozenset(
+    tuple(text.split())
+    for text in (
+        "nothing else",
+        "nothing more",
+        "that is all",
+        "that is it",
+        "only that",
+        "just that",
+        "no more",
+    )
+)
+
+
+@dataclass
+class Reader(Recalling):
+    """Reads the clauses of one message in order."""
+
+    def read(self, words: Phrase) -> ChatAction:
+        """Understand a whole message."""
+        self._mention_history()
+        words = _as_visit(words)
+        order = recast(words, self.scene) if self.scene.situation.queue else None
+        words = order[0] if order is not None else words
+        if restarts(words) and self._restart():
+            return self._result(self._reply(), self.tasks.steps)
+        edit = (
+            kept_part(words, self.scene)
+            or several_steps(words, self.scene)
+            or read_replanning(words, self.scene)
+        )
+        if edit is not None:
+            self.scene.trace.note("edit", edit.reply)
+            self.commands.extend(edit.commands)
+            return self._result(edit.reply, edit.queue)
+        before: tuple[ActionCall, ...] = ()
+        place = inserted(words, self.scene)
+        if place is not None:
+            words, at = place
+            before = self.scene.situation.queue[at:]
+            if any(step.flow is not None for step in before):
+                before = ()
+            count = len(self.scene.situation.queue)
+            taken = range(count - 1, count - 1 - len(before), -1)
+            self.commands.extend(SystemCommand(command="pop", arguments={"parameters": i}) for i in taken)
+        parts = clauses(words, lambda phrase: opens_command(phrase, self.scene.catalogue.verbs))
+        # Where the operator is counts from the start, wherever it is said ("get it, I am at the door").
+        parts = sorted(parts, key=lambda part: not _says_where_i_am(part))
+        try:
+            self._parts = parts
+            self._leads_on = bool(words) and words[0].key in {"and", "now", "then", "next", "also"}
+            for clause in parts:
+                self.scene.trace.note("clause", clause.said())
+            for index, clause in enumerate(parts):
+                if index >= len(self._parts):
+                    break
+                self._at = index
+                self._clause(clause, alone=len(parts) == 1, index=index)
+            self._complain()
+        except UnclearError as unclear:
+            self.scene.trace.note("question", unclear.question)
+            self.commands = [c for c in self.commands if c.command != "pop"]
+            return self._result(unclear.question, (), choices=unclear.choices)
+        except UnableError as unable:
+            self.scene.trace.note("action", f"nothing in the catalogue can {unable.what}")
+            self.commands = [c for c in self.commands if c.command != "pop"]
+            return self._result(cannot(unable.what, self.scene), ())
+        self.learn()
+        return self._result(self._reply(), (*self.tasks.steps, *before))
+
+    def _clause(self, clause: Clause, *, alone: bool, index: int) -> None:
+        start = len(self.tasks.steps)
+        if clause.condition or clause.conditional:
+            self._condition(clause)
+            return
+        clause = self._corrected(self._instead(clause))
+        clause = replace(clause, words=_without_frame(clause.words))
+        if keys(strip_openers(clause.words)) in _NOTHING_MORE and (self.tasks.steps or self.replies):
+            return
+        order = recast(clause.words, self.scene)
+        if order is not None:
+            self.scene.trace.note("recast", f"“{plain(order[0])}”, after the pattern: {order[1]}")
+            clause = replace(clause, words=order[0], is_question=False)
+        if self._again(clause) or self._delayed(clause):
+            return
+        if self.tasks.steps and keys(strip_openers(clause.words)) in _REPORTS:
+            return
+        called = {part for name in self.scene.situation.robots for part in keys(tokens(name))} | {"robot"}
+        if set(keys(strip_openers(clause.words))) <= called | {"dear", "my", "hi", "hello"}:
+            return
+        if not clause.words or lexicon().adverbs.match(keys(clause.words)) == (
+            len(clause.words),
+            plain(clause.words).lower(),
+        ):
+            return
+        if self._order(clause, alone, index) or self._spoken(clause):
+            return
+        if self._named(clause):
+            return
+        command = self._command(clause)
+        if command is not None:
+            self._do(command)
+        elif len(self.tasks.steps) == start and not self.state(clause):
+            self._fallback(clause, alone=alone)
+
+    def _again(self, clause: Clause) -> bool:
+        """For "do that again", "repeat the last step"."""
+        found = None if clause.is_question else repetition(clause.words, self.scene)
+        if found is None:
+            return False
+        if found.steps and not self.tasks.steps:
+            self.tasks.steps += [step.model_copy(update={"flow": None}) for step in found.steps]
+            self.tasks.will.append("do that once more")
+        elif self.tasks.steps:
+            self.tasks.steps += [step for step in self.tasks.steps if step.flow is None]
+            self.tasks.will.append("do all of that once more")
+        else:
+            self._last_order_again()
+        return True
+
+    def _restart(self) -> bool:
+        """Begin again: what was asked for last, or else what is still pending; False if there is neither."""
+        situation = self.scene.situation
+        asked = any(turn.role == "operator" for turn in situation.history)
+        if not asked and not situation.queue:
+            return False
+        if situation.queue:
+            self.commands.append(SystemCommand(command="clear"))
+        self.replies.append("I start over.")
+        try:
+            self._last_order_again()
+        except UnclearError:
+            self.tasks.steps += situation.queue
+        return True
+
+    def _is_place(self, words: Phrase) -> bool:
+        """Whether words name one object of the map and say nothing else."""
+        return 0 < len(words) <= 6 and self.scene.ground(strip_openers(words)).outcome == "match"
+
+    def _delayed(self, clause: Clause) -> bool:
+        """For "in five minutes(, go to the desk)": waiting comes first."""
+        words = strip_openers(clause.words)
+        if clause.is_question:
+            return False
+        at = next(
+            (i for i in range(2, len(words) - 1) if words[i].key == "in" and _is_span(words[i + 1 :])), 0
+        )
+        if at and opens_command(words):
+            words = (*words[at:], *words[:at])
+        if keys(words[:1]) not in {("in",), ("after",)}:
+            return False
+        end = next((i + 1 for i, w in enumerate(words) if duration_s(words[: i + 1]) is not None), 0)
+        end += 2 if keys(words[end : end + 2]) in {("from", "now"), ("or", "so")} else 0
+        if not end or end > 6:
+            return False
+        span = words[1:end]
+        wait = read_command((Word("wait", "wait"), Word("for", "for"), *span), self.scene.is_person)
+        later = self._at < len(self._parts) - 1 or end < len(words)
+        if wait is None or not later:
+            return False
+        self._do(wait)
+        if end < len(words):
+            self._clause(replace(clause, words=words[end:]), alone=False, index=1)
+        return True
+
+    def _last_order_again(self) -> None:
+        """What the operator's last message that asked for something asked for.
+
+        Raises:
+            UnclearError: No message asked for anything.
+        """
+        for turn in reversed(self.scene.situation.history):
+            words = tokens(turn.content)
+            listed = clauses(words, lambda phrase: opens_command(phrase, self.scene.catalogue.verbs))
+            if turn.role != "operator" or not any(
+                read_command(c.words, self.scene.is_person, self.scene.catalogue.verbs) for c in listed
+            ):
+                continue
+            if any(repetition(c.words, self.scene) for c in listed):
+                continue
+            for part in listed:
+                self._clause(part, alone=False, index=1)
+            return
+        raise UnclearError("What should I do again? Please name it.")
+
+    def _only_named(self, clause: Clause, phrase: Phrase, found: str) -> None:
+        """An object is named and nothing said of it: a place to go, or what the next clause is about.
+
+        Raises:
+            UnclearError: Nothing tells what to do with it.
+        """
+        sets_out = {"start", "begin", "first", "finish", "end"} & set(keys(clause.words[:2]))
+        hurries = {"please", "now", "immediately", "asap", "quickly", "next"} & set(keys(clause.words))
+        more = self._at < len(self._parts) - 1
+        # "The desk, then the door": places and nothing else are a way to go.
+        a_way = len(self._parts) > 1 and all(self._is_place(part.words) for part in self._parts)
+        if sets_out or a_way or (hurries and not more):
+            self._do(Command("motion", "go", place=phrase, words=phrase, clause=clause.words))
+        elif more:
+            # "The desk by the door, go there": named first, asked for after.
+            self.scene.mention(phrase)
+            self.scene.places.append(phrase)
+        else:
+            raise UnclearError(f"What should I do with {the(found)}? I can go there or have a look at it.")
+
+    def _fallback(self, clause: Clause, *, alone: bool) -> None:
+        words = strip_openers(clause.words)
+        if not words or (words[0].key == "not" and self.replies):
+            return
+        if lexicon().insults & set(keys(words)):
+            self.replies.append("I am sorry if I did something wrong. Tell me what I should do.")
+            return
+        noun = noun_phrase(words)
+        found = self._grounded(noun.phrase) if noun.core and len(words) <= 6 else ""
+        if found:
+            self._only_named(clause, noun.phrase, found)
+            return
+        if not alone and (told_around(words) or self._at < len(self._parts) - 1):
+            # Stories around an order are no orders, but what they name may be meant by what follows.
+            self.unread.append(words)
+            for phrase in mentioned(words, self.scene):
+                self.scene.mention(phrase)
+                self.scene.places.append(phrase)
+            for known in self.scene.facts:
+                if f" {' '.join(keys(known.fact.subject))} " in f" {' '.join(keys(words))} ":
+                    self.scene.mention(known.fact.subject)
+            return
+        if not alone and (self.tasks.steps or self.commands or self.replies):
+            self.replies.append(whole_sentence(f"I did not understand “{plain(words)[:80]}”"))
+            return
+        raise UnclearError(f"{social.not_understood(words)} {abilities(self.scene)}")
+
+
+def _says_where_i_am(clause: Clause) -> bool:
+    if clause.condition or clause.conditional or keys(clause.words[:2]) not in {("i", "am"), ("we", "are")}:
+        return False
+    fact = read_statement(clause.words)
+    return fact is not None and fact.is_location
+
+
+def _without_frame(words: Phrase) -> Phrase:
+    """Without "either" before an order, and without "could you" before "remember that"."""
+    rest = strip_openers(words)
+    if keys(rest[:1]) == ("either",) and opens_command(rest[1:]):
+        return rest[1:]
+    asked = strip_openers(rest, requests=True)
+    told = lexicon().reporting.match(keys(asked))
+    noted = told is not None and told[0] > 1 and len(asked) < len(rest) and len(asked) > told[0] + 1
+    return asked if noted else words
+
+
+def _is_span(words: Phrase) -> bool:
+    """Whether words are nothing but a counted span of time ("ten minutes")."""
+    return (
+        len(words) in {2, 3}
+        and words[0].key not in {"a", "the"}
+        and duration_s((Word("in", "in"), *words)) is not None
+    )
+
+
+def _as_visit(words: Phrase) -> Phrase:
+    """For "add (a stop at) the desk to the plan": a visit."""
+    rest = strip_openers(words, requests=True)
+    if keys(rest[:1]) not in {("add",), ("include",), ("insert",)} or len(rest) < 2:
+        return words
+    rest = rest[1:]
+    flat = keys(rest)
+    if flat[:2] in {("a", "stop"), ("a", "visit"), ("another", "stop"), ("a", "trip")} and len(flat) > 3:
+        rest = rest[3:]
+    plans = {"plan", "queue", "list", "route", "mission", "tour", "schedule"}
+    for index in range(1, len(rest) - 2):
+        if keys(rest[index : index + 3]) == ("to", "the", "end"):
+            rest = rest[:index]
+            break
+        if rest[index].key in {"to", "in", "into"} and rest[index + 2].key in plans:
+            rest = (*rest[:index], *rest[index + 3 :])
+            break
+    return (Word("visit", "visit"), *rest) if rest else words

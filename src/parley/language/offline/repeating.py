@@ -1,0 +1,64 @@
+"""Doing something once more: the whole plan, one of its steps, or what the message before asked for."""
+
+from __future__ import annotations
+
+import re
+from dataclasses import dataclass
+
+from parley.language.offline.facts import strip_openers
+from parley.language.offline.lexicon import lexicon
+from parley.language.offline.scene import Scene
+from parley.language.offline.text import Phrase, keys
+from parley.messages.chat import ActionCall
+
+__all__ = ["Repetition", "repetition"]
+
+_ONCE_MORE = r"(?:again|once more|one more time|another time|once again|a second time|over again|over)"
+_ALL = re.compile(
+    rf"(?:(?:do|repeat|redo|run)(?: all)?"
+    rf"(?: (?:of )?(?:it|that|this|them|everything|the (?:whole |entire )?"
+    rf"(?:plan|thing|same|same thing|queue|list|tour|mission|round)))?(?: all)?(?: {_ONCE_MORE})?"
+    rf"|(?:{_ONCE_MORE}|same again|the same again|once more from the (?:top|start|beginning)))"
+    r"(?: (?:afterwards|at the end|when you are done|please|then))*"
+)
+_STEP = re.compile(
+    rf"(?:do|repeat|redo|run) (?:the |your |that )?(\w+)(?: (?:step|action|one|task|order|command|stop))"
+    rf"(?: {_ONCE_MORE})?(?: please)?"
+)
+_NEEDS_AGAIN = frozenset({"do", "run"})
+
+
+@dataclass(frozen=True, slots=True)
+class Repetition:
+    """What is to be done once more: these steps, or what was asked for last if there are none."""
+
+    steps: tuple[ActionCall, ...] = ()
+
+
+def repetition(words: Phrase, scene: Scene) -> Repetition | None:
+    """What a clause asks to be repeated, or None if it asks for nothing of the kind."""
+    flat = keys(word for word in strip_openers(words, requests=True) if word.is_word)
+    text = " ".join(flat)
+    queue = scene.situation.queue
+    step = _STEP.fullmatch(text)
+    if step is not None and flat[0] == "do" and re.search(_ONCE_MORE, text) is None:
+        return None
+    if step is not None:
+        index = _index(step.group(1), len(queue))
+        if index is None:
+            return None
+        return Repetition((queue[index],) if -len(queue) <= index < len(queue) else ())
+    if not flat or _ALL.fullmatch(text) is None:
+        return None
+    if flat[0] in _NEEDS_AGAIN and re.search(_ONCE_MORE, text) is None:
+        return None
+    return Repetition(queue)
+
+
+def _index(word: str, count: int) -> int | None:
+    if word in {"last", "final"}:
+        return count - 1
+    if word in {"current", "previous", "this", "same"}:
+        return 0
+    ordinal = lexicon().ordinals.get(word)
+    return None if ordinal is None else ordinal - 1
