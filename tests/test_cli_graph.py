@@ -9,7 +9,7 @@ import pytest
 from typer.testing import CliRunner, Result
 
 from parley.cli import app
-from parley.errors import ParleyError
+from parley.errors import ConfigError, ParleyError
 
 GRAPH = {
     "graph_name": "two",
@@ -77,7 +77,21 @@ def test_a_tree_that_cannot_be_imported_is_refused_with_its_line(file: Path) -> 
     )
     refused = parley("convert", tree, "--to", "umrf")
     assert refused.exit_code == 1
-    assert refused.stdout.startswith("line 2, <Switch2>: ")
+    assert refused.stderr.startswith("line 2, <Switch2>: ")
+    assert refused.stdout == "", "where the converted graph would stand"
+
+
+@pytest.mark.parametrize("command", [("run",), ("show",), ("check",), ("convert", "--to", "btcpp")])
+def test_what_is_no_graph_is_refused_and_what_is_not_there_is_another_matter(
+    file: Path, command: tuple[str, ...]
+) -> None:
+    broken = file.parent / "broken.json"
+    broken.write_text("{", encoding="utf-8")
+    refused = parley(command[0], broken, *command[1:])
+    assert refused.exit_code == 1
+    assert "not valid JSON" in refused.output
+    missing = parley(command[0], file.parent / "missing.json", *command[1:])
+    assert isinstance(missing.exception, ConfigError), "which ends the process with 2"
 
 
 def test_a_file_that_is_not_there_is_an_error_of_the_command(tmp_path: Path) -> None:

@@ -10,8 +10,9 @@ import pytest
 from parley.clock import WallClock
 from parley.engine.feedback import Feedback
 from parley.messages.ros import UmrfGraphFeedback
+from parley.umrf.io import write_graph
 from tests.umrf.spec_actions import chain, node
-from tests.umrf.watched import Watched
+from tests.umrf.watched import Watched, until
 
 
 async def settle() -> None:
@@ -47,6 +48,21 @@ async def test_graphs_do_not_wait_for_each_other() -> None:
     feedback = Feedback("A", WallClock(), sent.append, interval_s=3600)
     for name in ("g", "h"):
         feedback.changed(Watched(chain(name, [node("NoOp")])).run)
-    await settle()
+    await until(lambda: len(sent) == 2)
     assert [json.loads(item.history[0])["graph_name"] for item in sent] == ["g", "h"]
+    feedback.close()
+
+
+@pytest.mark.spec("D18")
+async def test_a_large_graph_is_written_in_slices_between_which_the_loop_is_free() -> None:
+    sent: list[UmrfGraphFeedback] = []
+    feedback = Feedback("A", WallClock(), sent.append, interval_s=3600)
+    watched = Watched(chain("g", [node("NoOp", index) for index in range(500)]))
+    feedback.changed(watched.run)
+    turns = 0
+    while not sent:
+        await asyncio.sleep(0)
+        turns += 1
+    assert turns >= 5
+    assert sent[0].history == (write_graph(watched.run.snapshot()),)
     feedback.close()

@@ -11,7 +11,7 @@ from pathlib import Path
 from typing import Any
 
 from parley.clock import WallClock
-from parley.engine import journal as room
+from parley.engine import journal_file as room
 from parley.engine.journal import Interrupted, Journal
 from parley.umrf.executor import GraphRun
 from parley.umrf.io import read_graph
@@ -113,8 +113,8 @@ async def test_everything_that_ran_is_written_down_in_order(tmp_path: Path) -> N
     ((started, now),) = rows(file, "SELECT graph_started, graph_now FROM run")
     assert [item.full_name for item in read_graph(started).nodes] == ["JoinText_0", "Fail_1"]
     assert [item.full_name for item in read_graph(now).nodes] == ["JoinText_0", "NoOp_2"]
-    ((outputs,),) = rows(file, "SELECT outputs FROM node WHERE node = 'JoinText_0'")
-    assert json.loads(outputs) == {"text": "a-b"}
+    ((outputs,),) = rows(file, "SELECT saved FROM node WHERE node = 'JoinText_0'")
+    assert json.loads(outputs)["outputs"] == {"text": "a-b"}
     ((message,),) = rows(file, "SELECT message FROM transition WHERE node = 'Fail_1' AND state = 'ERROR'")
     assert "door" in message
 
@@ -145,9 +145,9 @@ async def test_old_runs_and_endless_ones_are_cut(tmp_path: Path, monkeypatch: An
             await run_to_its_end(journal, f"g{index}", 1)
         await run_to_its_end(journal, "long", 500)
     ((runs,),) = rows(file, "SELECT count(*) FROM run")
-    assert runs <= 20 + room._TIDY_EVERY
+    assert runs <= 20 + room.TIDY_EVERY
     ((transitions,),) = rows(file, "SELECT count(*) FROM transition WHERE run = 202")
-    assert transitions <= 200 + room._TIDY_EVERY
+    assert transitions <= 200 + room.TIDY_EVERY
     ((orphans,),) = rows(file, "SELECT count(*) FROM transition WHERE run NOT IN (SELECT id FROM run)")
     assert orphans == 0
 

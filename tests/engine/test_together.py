@@ -310,7 +310,7 @@ async def test_pause_and_resume_given_to_one_reach_all() -> None:
 @pytest.mark.spec("13", "11.5")
 async def test_a_modify_given_to_one_reaches_all() -> None:
     async with crew() as rig:
-        first = of("A", node("WaitFor", 0, seconds=0.05))
+        first = of("A", node("WaitFor", 0, seconds=0.3))
         rig.start(planner_chain("g", [first, of("B", node("NoOp", 1))]), BOTH)
         await ended(rig, "g", "RUNNING")
         rig.modify(planner_chain("g", [first, of("B", node("JoinText", 1, left="a", right="b"))]))
@@ -318,6 +318,40 @@ async def test_a_modify_given_to_one_reaches_all() -> None:
         for actor in BOTH:
             assert rig.node_states("g", "JoinText_1", actor) == ["RUNNING", "FINISHED"]
             assert not rig.node_states("g", "NoOp_1", actor)
+
+
+@pytest.mark.spec("13", "11.5")
+async def test_a_modify_that_one_of_them_refuses_changes_nothing_anywhere() -> None:
+    poorer = Catalogue([spec for spec in SPECS if spec.name != "JoinText"])
+    async with rigged(**QUICK) as rig, engine_of("B", rig, **QUICK, catalogue=poorer):
+        first, last = of("A", node("WaitFor", 0, seconds=60)), of("B", node("NoOp", 1))
+        rig.start(planner_chain("g", [first, last]), BOTH)
+        await ended(rig, "g", "RUNNING")
+        everybody = node("JoinText", 2, left="a", right="b")
+        rig.modify(planner_chain("g", [first, everybody, last]))
+        await rig.until(lambda: rig.rejections)
+        (refusal,) = rig.rejections
+        assert (refusal.target, refusal.what) == ("A", "umrf_graph_modify")
+        assert [item.code for item in refusal.problems] == ["peer_refused"]
+        assert "B has no action 'JoinText'" in refusal.problems[0].message
+        assert not [item for item in rig.events if item.cause == "modify"]
+        rig.modify(planner_chain("g", [first, node("NoOp", 3), last]))
+        await rig.until(lambda: {item.actor for item in rig.events if item.cause == "modify"} == {*BOTH})
+        rig.stop("g")
+        await ended(rig, "g", "STOPPED")
+
+
+@pytest.mark.spec("13", "11.5")
+async def test_a_modify_is_refused_when_one_of_them_is_gone() -> None:
+    first, last = of("A", node("WaitFor", 0, seconds=60)), of("B", node("NoOp", 1))
+    async with rigged(**QUICK) as rig:
+        async with engine_of("B", rig, **QUICK):
+            rig.start(planner_chain("g", [first, last]), BOTH)
+            await ended(rig, "g", "RUNNING")
+        rig.modify(planner_chain("g", [first, of("B", node("NoOp", 2))]))
+        await rig.until(lambda: rig.rejections)
+        assert [item.problems[0].message for item in rig.rejections] == ["B is not there"]
+        assert not [item for item in rig.events if item.cause == "modify"]
 
 
 async def test_a_modify_with_a_new_actor_is_refused() -> None:

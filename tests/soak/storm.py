@@ -26,6 +26,8 @@ from parley.transport.local import LocalTransport
 from tests.umrf.spec_actions import CATALOGUE, chain, node, planner_chain
 
 ACTORS: Final = 20
+SETTLED_S: Final = 5.0
+"""A command that waits in an engine for so long would be a fault of its own."""
 GOING_ON: Final = 4
 """Graphs of one actor that go on at once."""
 OVER: Final = {"FINISHED", "STOPPED", "ERROR", "HALTED"}
@@ -43,6 +45,13 @@ class Account:
     refused: bool = False
     active: set[str] = field(default_factory=set)
     """Nodes that are going on, which they may be beyond the end of their graph."""
+    commanded_s: float = 0.0
+    """When a command was sent for it last."""
+
+    @property
+    def settled(self) -> bool:
+        """Whether every command for it was carried out long ago."""
+        return time.monotonic() - self.commanded_s > SETTLED_S
 
     @property
     def at_rest(self) -> bool:
@@ -145,7 +154,11 @@ class Storm:
 
     def _any(self, actor: str) -> str:
         names = list(self._open[actor])
-        return self._rng.choice(names) if names else "unknown"
+        if not names:
+            return "unknown"
+        name = self._rng.choice(names)
+        self._open[actor][name].commanded_s = time.monotonic()
+        return name
 
     async def _start(self, actor: str) -> None:
         name = f"{actor}_{self._count}"
@@ -257,8 +270,12 @@ class Storm:
             await asyncio.sleep(min(5.0, self.seconds / 20))
             self.samples.append(sample())
             for accounts in self._open.values():
-                over = [name for name, item in accounts.items() if item.silent]
-                dry = [name for name, item in accounts.items() if item.at_rest and not item.silent]
+                over = [name for name, item in accounts.items() if item.silent and item.settled]
+                dry = [
+                    name
+                    for name, item in accounts.items()
+                    if item.at_rest and not item.silent and item.settled
+                ]
                 for name in over[:-5] + dry[: -runs.KEPT_HALTED]:
                     account = accounts.pop(name)
                     self.ends["refused" if account.refused else account.state] += 1

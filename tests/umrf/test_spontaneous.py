@@ -7,10 +7,15 @@ from typing import Any
 
 import pytest
 
+from parley.clock import SimClock
 from parley.errors import GraphRefusedError
+from parley.umrf.executor import GraphRun
+from parley.umrf.io import read_graph
 from parley.umrf.model import GraphState, NodeState, Result
+from parley.umrf.node_run import ROUND_S
+from parley.umrf.transition import Transition
 
-from .spec_actions import node
+from .spec_actions import CATALOGUE, node
 from .watched import Watched, until
 
 LONG = 60.0
@@ -173,3 +178,30 @@ async def test_inputs_that_came_along_an_edge_serve_every_round() -> None:
     with pytest.raises(GraphRefusedError):
         watched.run.resume()
     await watched.run.close()
+
+
+async def test_one_that_returns_at_once_is_held_to_a_hundred_rounds_a_second_of_robot_time() -> None:
+    clock = SimClock()
+    told: list[Transition] = []
+    run = GraphRun(
+        read_graph(monitor(node("NoOp", 0), node("NoOp", 1))),
+        CATALOGUE,
+        actor="A",
+        clock=clock,
+        make_context=lambda handle: handle,
+        observer=told.append,
+    )
+
+    def rounds() -> int:
+        return sum(item.node == "NoOp_0" and item.state == "FINISHED" for item in told)
+
+    run.start()
+    for _ in range(50):
+        await asyncio.sleep(0)
+    assert rounds() == 1, "the robot's time stands still"
+    for number in (2, 3):
+        clock.advance(ROUND_S)
+        for _ in range(50):
+            await asyncio.sleep(0)
+        assert rounds() == number
+    await run.close()

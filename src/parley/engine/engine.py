@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable, Mapping, Sequence
+from collections.abc import Callable, Generator, Mapping, Sequence
 from contextlib import AsyncExitStack
 from types import TracebackType
 from typing import Any, Self, TypeVar
@@ -12,6 +12,9 @@ from pydantic import BaseModel
 
 from parley.clock import Clock
 from parley.engine.feedback import Feedback
+from parley.engine.heap import settle_heap
+from parley.engine.inbox import Inbox
+from parley.engine.interrupted import Interrupted
 from parley.engine.journal import Journal
 from parley.engine.presence import Presence
 from parley.engine.runs import GraphRuns
@@ -35,9 +38,11 @@ from parley.robots.base import Robot
 from parley.transport.base import Publisher, Transport
 from parley.umrf.action import RunHandle
 from parley.umrf.catalogue import Catalogue
+from parley.umrf.check import vouch_steps
 from parley.umrf.executor import STOP_TIMEOUT_S, GraphRun
-from parley.umrf.io import read_graph, write_descriptor, write_graph
+from parley.umrf.io import read_steps, write_descriptor, write_graph
 from parley.umrf.model import Graph, Result
+from parley.umrf.reading import load_object
 from parley.umrf.transition import NO_FACTS, Transition
 
 __all__ = ["ActionEngine"]
@@ -54,6 +59,9 @@ M = TypeVar(
 )
 
 P = TypeVar("P", bound=BaseModel)
+Raw = Mapping[str, Any]
+Steps = Generator[None, None, None]
+"""Work that yields where something else may have a turn."""
 
 SOURCE = "action_engine"
 COMMAND_DEPTH = 1000
@@ -98,6 +106,7 @@ class ActionEngine:
         self._journal = journal
         self._robot, self._heartbeat_s = robot, heartbeat_s
         self._names = {actor, *wake_words}
+        self._inbox = Inbox()
         self._stack = AsyncExitStack()
         self._publishers: dict[str, Publisher[Any]] = {}
         self.runs = GraphRuns(
@@ -166,7 +175,9 @@ class ActionEngine:
         stack.push_async_callback(self.runs.close)
         stack.push_async_callback(self._emergency.close)
         stack.push_async_callback(self._together.close)
+        stack.callback(self._inbox.close)
         await self._serve(stack)
+        settle_heap()
         await self._listen(stack)
 
     async def _serve(self, stack: AsyncExitStack) -> None:
@@ -195,8 +206,22 @@ class ActionEngine:
             topics.SYNC, lambda message: self._payload(topics.SYNC, SyncNotice, message, self._together.take)
         )
         stack.push_async_callback(sync.close)
-        await on(topics.GRAPH_START, self._start)
-        await on(topics.GRAPH_MODIFY, self._modify)
+        start = await self._transport.subscribe(
+            topics.GRAPH_START,
+            lambda message: self._heavy_command(
+                topics.GRAPH_START.name, message, message.umrf_graph_json, self._start
+            ),
+            depth=COMMAND_DEPTH,
+        )
+        stack.push_async_callback(start.close)
+        modify = await self._transport.subscribe(
+            topics.GRAPH_MODIFY,
+            lambda message: self._heavy_command(
+                topics.GRAPH_MODIFY.name, message, message.modified_graph, self._modify
+            ),
+            depth=COMMAND_DEPTH,
+        )
+        stack.push_async_callback(modify.close)
         await on(topics.GRAPH_PAUSE, self._pause)
         await on(topics.GRAPH_PAUSE_TEMOTO, self._pause)
         await on(topics.GRAPH_RESUME, self._resume)
@@ -216,10 +241,32 @@ class ActionEngine:
         """Carry out one command for us, or say why not."""
         if self._names.isdisjoint(message.targets):
             return
-        try:
+        name = message.umrf_graph_name
+
+        def work() -> Steps:
             command(message)
+            yield from ()
+
+        self._inbox.put(name, lambda: self._told(what, name, work()), light=True)
+
+    def _heavy_command(self, what: str, message: M, text: str, command: Callable[[M, Raw], Steps]) -> None:
+        """As `_command`, for one that brings a graph, which may be large."""
+        if self._names.isdisjoint(message.targets):
+            return
+        try:
+            raw: Raw = load_object(text, "graph") if text else {}
         except GraphRefusedError as error:
-            self._reject(what, error.graph_name or message.umrf_graph_name, error.problems)
+            self._reject(what, message.umrf_graph_name, error.problems)
+            return
+        name = str(raw.get("graph_name") or message.umrf_graph_name)
+        self._inbox.put(name, lambda: self._told(what, message.umrf_graph_name, command(message, raw)))
+
+    def _told(self, what: str, name: str, steps: Steps) -> Steps:
+        """Do all `steps`, and say so if the command is refused."""
+        try:
+            yield from steps
+        except GraphRefusedError as error:
+            self._reject(what, error.graph_name or name, error.problems)
 
     def start(
         self,
@@ -239,22 +286,37 @@ class ActionEngine:
         """
         return self._together.start(graph, parameters, result)
 
-    def _start(self, message: ros.UmrfGraphStart) -> None:
-        text = message.umrf_graph_json
-        self.start(read_graph(text) if text else message.umrf_graph_name)
+    def restore(self, left: Interrupted) -> None:
+        """Take up what a killed process left of a graph: it is PAUSED until it is resumed or stopped.
 
-    def _modify(self, message: ros.UmrfGraphModify) -> None:
-        graph = read_graph(message.modified_graph)
+        Raises:
+            GraphRefusedError: It cannot be gone on with; with every reason.
+        """
+        if left.saved is None:
+            problem = Problem("", "others took part, and have gone on without it", "start it anew", "shared")
+            raise GraphRefusedError(left.graph.name, [problem])
+        self.runs.restore(left.saved)
+
+    def _start(self, message: ros.UmrfGraphStart, raw: Raw) -> Steps:
+        if not message.umrf_graph_json:
+            self.start(message.umrf_graph_name)
+            return
+        graph = yield from read_steps(raw)
+        catalogue = self.runs.catalogue
+        revision = catalogue.revision
+        fit = yield from vouch_steps(graph, catalogue, actor=self.actor)
+        if fit and catalogue.revision == revision:
+            catalogue.vouched_for = graph
+        try:
+            self.start(graph)
+        finally:
+            catalogue.vouched_for = None
+
+    def _modify(self, message: ros.UmrfGraphModify, raw: Raw) -> Steps:
+        graph = yield from read_steps(raw)
         if message.continue_from:
             self._together.check(graph.name)
-        self.runs.modify(graph, message.continue_from)
-        self._together.pass_on(
-            "modify",
-            graph.name,
-            message.targets,
-            graph_json=message.modified_graph,
-            continue_from=message.continue_from,
-        )
+        self._together.modify(graph, message.modified_graph, message.continue_from, message.targets)
 
     def _pause(self, message: ros.UmrfGraphPause) -> None:
         self.runs.pause(message.umrf_graph_name)

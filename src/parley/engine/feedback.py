@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import asyncio
+from collections import deque
 from collections.abc import Callable
 from dataclasses import dataclass, field
 from typing import Final
@@ -11,12 +12,21 @@ from parley.clock import Clock
 from parley.messages.ros import UmrfGraphFeedback
 from parley.umrf.executor import GraphRun
 from parley.umrf.io import GraphWriter
+from parley.umrf.model import Graph
 
 __all__ = ["Feedback"]
 
-INTERVAL_S: Final = 0.02
+INTERVAL_S: Final = 0.008
+"""What changes within it is told at its end, so that a free loop tells everything within 10 ms."""
+
 _COST_FACTOR: Final = 10
 """Writing a graph of thousands of nodes takes a while; it may take a tenth of the time at most."""
+
+_REST_FACTOR: Final = 4
+"""All graphs together may take a fifth of the time, so that a hundred of them leave time for actions."""
+
+_SLICE: Final = 50
+"""So many nodes are written in one turn of the loop, about a millisecond; a stop must not wait longer."""
 
 _REMEMBERED: Final = 100
 """More graphs than this are not spaced exactly, so that names of old ones do not pile up."""
@@ -27,6 +37,9 @@ class _Due:
     run: GraphRun
     writer: GraphWriter = field(default_factory=GraphWriter)
     timer: asyncio.Handle | None = None
+    """Set while its interval is not over."""
+    waits: bool = False
+    """Whether it stands in the queue, or its timer will put it there."""
     not_before_s: float = 0.0
     """Wall time from which the next message may be sent."""
 
@@ -51,33 +64,77 @@ class Feedback:
     ) -> None:
         self._actor, self._clock, self._publish, self._interval_s = actor, clock, publish, interval_s
         self._due: dict[str, _Due] = {}
+        self._queue: deque[_Due] = deque()
+        self._next: asyncio.Handle | None = None
+        self._free_s = 0.0
+        """Wall time from which any message may be written."""
 
     def changed(self, run: GraphRun) -> None:
         """Something about `run` is different now."""
         due = self._due.get(run.name)
         if due is None or due.run is not run:
-            if due is not None and due.timer is not None:
-                due.timer.cancel()
+            if due is not None:
+                self._withdraw(due)
             due = self._due[run.name] = _Due(run)
-        if due.timer is None:
-            loop = asyncio.get_running_loop()
-            wait_s = due.not_before_s - self._clock.wall_s()
-            due.timer = loop.call_later(max(0.0, wait_s), self._send, due)
+        if due.waits:
+            return
+        due.waits = True
+        wait_s = due.not_before_s - self._clock.wall_s()
+        if wait_s > 0:
+            due.timer = asyncio.get_running_loop().call_later(wait_s, self._enqueue, due)
+        else:
+            self._enqueue(due)
 
     def close(self) -> None:
         """Send what is still due, and nothing more."""
+        if self._next is not None:
+            self._next.cancel()
+            self._next = None
+        self._queue.clear()
         for due in list(self._due.values()):
-            if due.timer is not None:
-                due.timer.cancel()
-                self._send(due)
+            if due.waits:
+                self._withdraw(due)
+                self._send(due, due.run.snapshot())
         self._due.clear()
 
-    def _send(self, due: _Due) -> None:
+    def _withdraw(self, due: _Due) -> None:
+        if due.timer is not None:
+            due.timer.cancel()
+            due.timer = None
+        if due in self._queue:
+            self._queue.remove(due)
+        due.waits = False
+
+    def _enqueue(self, due: _Due) -> None:
         due.timer = None
-        began_s = self._clock.wall_s()
-        text = due.writer.write(due.run.snapshot())
-        now_s = self._clock.wall_s()
-        due.not_before_s = now_s + max(self._interval_s, _COST_FACTOR * (now_s - began_s))
-        self._publish(UmrfGraphFeedback(actor=self._actor, history=(text,)))
+        self._queue.append(due)
+        self._go_on()
+
+    def _go_on(self) -> None:
+        if self._queue and self._next is None:
+            wait_s = max(0.0, self._free_s - self._clock.wall_s())
+            self._next = asyncio.get_running_loop().call_later(wait_s, self._work)
+
+    def _work(self) -> None:
+        """Write a slice of the first in the queue, and send it if that was the last slice."""
+        self._next = None
+        if not self._queue:
+            return
+        due, began_s = self._queue[0], self._clock.wall_s()
+        graph = due.run.snapshot()
+        if due.writer.prepare(graph, _SLICE):
+            self._queue.popleft()
+            due.waits = False
+            self._send(due, graph)
+            now_s = self._clock.wall_s()
+            due.not_before_s = now_s + max(self._interval_s, _COST_FACTOR * (now_s - began_s))
+            self._free_s = now_s + _REST_FACTOR * (now_s - began_s)
+            self._forget()
+        self._go_on()
+
+    def _send(self, due: _Due, graph: Graph) -> None:
+        self._publish(UmrfGraphFeedback(actor=self._actor, history=(due.writer.write(graph),)))
+
+    def _forget(self) -> None:
         if len(self._due) > _REMEMBERED:
-            self._due = {name: item for name, item in self._due.items() if item.timer is not None}
+            self._due = {name: item for name, item in self._due.items() if item.waits}

@@ -99,6 +99,7 @@ class Presence:
                 sequence=self._sequence,
                 pose=pose,
                 at_rest=at_rest,
+                battery=self._robot.battery() if self._robot is not None else None,
                 graphs={run.name: run.state.value for run in self._runs.all},
                 catalogue=tuple(self._catalogue()),
             )

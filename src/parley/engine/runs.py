@@ -17,6 +17,7 @@ from parley.umrf.catalogue import Catalogue
 from parley.umrf.executor import STOP_TIMEOUT_S, GraphRun
 from parley.umrf.model import Graph, GraphState, Result
 from parley.umrf.remote import Peers
+from parley.umrf.saved import SavedRun
 from parley.umrf.transition import NO_FACTS, Transition
 
 __all__ = ["GraphRuns", "RunObserver"]
@@ -133,6 +134,22 @@ class GraphRuns:
         self._forget_ended()
         return run
 
+    def restore(self, saved: SavedRun) -> GraphRun:
+        """Take up what a killed process left of a graph; it stands still until it is resumed or stopped.
+
+        Raises:
+            GraphRefusedError: It can no longer run here, something that is still needed could not be kept, or
+                there is a graph of that name.
+        """
+        self.refuse_if_busy(saved.graph.name)
+        run = self._hold(saved.graph, NO_FACTS, None)
+        try:
+            run.restore(saved)
+        except GraphRefusedError:
+            del self._runs[run.name]
+            raise
+        return run
+
     def refuse_if_busy(self, name: str) -> None:
         """A graph that still runs is left alone.
 
@@ -174,6 +191,17 @@ class GraphRuns:
         if continue_from:
             self._refuse_if_latched(graph.name)
         run.modify(graph, continue_from)
+
+    def check_modify(self, graph: Graph, continue_from: str = "") -> None:
+        """Whether `modify` could be done now, without doing it.
+
+        Raises:
+            GraphRefusedError: As that does.
+        """
+        run = self._get(graph.name)
+        if continue_from:
+            self._refuse_if_latched(graph.name)
+        run.modified(graph, continue_from)
 
     def end_node(self, name: str, node: str) -> None:
         """See `GraphRun.end_node`.

@@ -4,9 +4,10 @@ from __future__ import annotations
 
 import asyncio
 import base64
+import contextlib
 import io
 import uuid
-from collections import deque
+from collections import OrderedDict
 from collections.abc import Mapping, Sequence
 from types import TracebackType
 from typing import Any, Final, Self
@@ -27,6 +28,9 @@ from parley.transport.base import Publisher, Subscription, Transport
 __all__ = ["JPEG_QUALITY", "ContextServices"]
 
 JPEG_QUALITY: Final = 85
+_KEPT_ANSWERS: Final = 8
+_REPLY_WITHIN_S: Final = 40.0
+"""Wall time; the chat interface itself gives up before."""
 
 
 class ContextServices:
@@ -34,12 +38,14 @@ class ContextServices:
 
     def __init__(self, actor: str, transport: Transport) -> None:
         self._actor, self._transport = actor, transport
-        self._questions: deque[tuple[str, asyncio.Future[str]]] = deque()
+        self._questions: OrderedDict[str, asyncio.Future[ChatInput]] = OrderedDict()
+        self._answers: OrderedDict[str, ChatInput] = OrderedDict()
+        """The last answers by their words, in case they turn out to be something else."""
         self._publishers: dict[str, Publisher[String]] = {}
         self._subscription: Subscription | None = None
 
     async def __aenter__(self) -> Self:
-        for topic in (topics.CHAT_FEEDBACK, topics.DISPLAY_FEED, topics.ADD_TO_MEMORY):
+        for topic in (topics.CHAT_FEEDBACK, topics.CHAT_INPUT, topics.DISPLAY_FEED, topics.ADD_TO_MEMORY):
             self._publishers[topic.name] = self._transport.publisher(topic)
         self._subscription = await self._transport.subscribe(topics.CHAT_INPUT, self._on_chat_input)
         return self
@@ -49,7 +55,7 @@ class ContextServices:
     ) -> None:
         if self._subscription is not None:
             await self._subscription.close()
-        for _, answer in self._questions:
+        for answer in self._questions.values():
             answer.cancel()
         for publisher in self._publishers.values():
             publisher.close()
@@ -63,8 +69,8 @@ class ContextServices:
     async def ask(self, question: str, choices: Sequence[str] = ()) -> str:
         """See `Operator.ask`."""
         question_id = uuid.uuid4().hex
-        answer: asyncio.Future[str] = asyncio.get_running_loop().create_future()
-        self._questions.append((question_id, answer))
+        answer: asyncio.Future[ChatInput] = asyncio.get_running_loop().create_future()
+        self._questions[question_id] = answer
         self._feedback(
             ChatFeedback(
                 message=question,
@@ -75,7 +81,7 @@ class ContextServices:
             )
         )
         try:
-            return await answer
+            said = await answer
         except asyncio.CancelledError:
             self._feedback(
                 ChatFeedback(
@@ -87,7 +93,35 @@ class ContextServices:
             )
             raise
         finally:
-            self._questions.remove((question_id, answer))
+            del self._questions[question_id]
+        self._answers[said.message] = said
+        while len(self._answers) > _KEPT_ANSWERS:
+            self._answers.popitem(last=False)
+        return said.message
+
+    async def refer(self, reply: str) -> None:
+        """See `Operator.refer`."""
+        said = self._answers.get(reply) or ChatInput(message=reply, targets=(self._actor,))
+        message_id = f"{said.id or uuid.uuid4().hex}~aside"
+        changes = {"type": "request", "targets": (self._actor,), "reply_to": "", "id": message_id}
+        replied = asyncio.Event()
+
+        def hear(message: String) -> None:
+            try:
+                feedback = decode(ChatFeedback, message.data)
+            except InvalidMessageError:
+                return  # whoever shows it to people refuses it
+            if feedback.reply_to == message_id and feedback.type in ("response", "error"):
+                replied.set()
+
+        subscription = await self._transport.subscribe(topics.CHAT_FEEDBACK, hear)
+        try:
+            self._publishers[topics.CHAT_INPUT.name].publish(to_string(said.model_copy(update=changes)))
+            with contextlib.suppress(TimeoutError):
+                async with asyncio.timeout(_REPLY_WITHIN_S):
+                    await replied.wait()
+        finally:
+            await subscription.close()
 
     def _on_chat_input(self, message: String) -> None:
         """Hand an answer to the question it answers: the named one, or the one that waits longest."""
@@ -98,9 +132,9 @@ class ContextServices:
         names = {name.strip().casefold() for name in said.targets}
         if said.type != "response" or self._actor.casefold() not in names:
             return
-        for question_id, answer in self._questions:
+        for question_id, answer in self._questions.items():
             if not answer.done() and said.reply_to in ("", question_id):
-                answer.set_result(said.message)
+                answer.set_result(said)
                 return
 
     def _feedback(self, feedback: ChatFeedback) -> None:
@@ -120,7 +154,7 @@ class ContextServices:
 
     async def find(self, request: str) -> list[MemoryEntry]:
         """See `MemoryAccess.find`; empty when the memory does not answer."""
-        return list(await recall(self._transport, request))
+        return list(await recall(self._transport, request, scope=self._actor, pictures=True))
 
     def add(self, entry: MemoryEntry) -> None:
         """See `MemoryAccess.add`."""

@@ -59,6 +59,11 @@ class Session:
         self._arrived = asyncio.Event()
         self._taken: set[str] = set()
         self._sent: deque[SyncNotice] = deque(maxlen=_REPLAYED)
+        self.changing = asyncio.Lock()
+        self._asked = ""
+        """Id of the change that the others are asked about."""
+        self._answers: dict[str, str] = {}
+        self._answer_came = asyncio.Event()
         self._count = 0
         self._opened_s = sync.clock.wall_s()
         self._unconfirmed: dict[str, _Unconfirmed] = {}
@@ -122,6 +127,53 @@ class Session:
             self._silent.discard(notice.actor)
             if not self._silent:
                 self._answered.set()
+
+    # -- changes --------------------------------------------------------------------------------------------
+
+    async def ask(self, graph_json: str, continue_from: str) -> dict[str, str]:
+        """Ask all others whether the graph could be changed so; who cannot, and why (empty: no answer came).
+
+        One question at a time: hold `changing` meanwhile.
+
+        Args:
+            graph_json: The new form.
+            continue_from: Where it is to go on.
+        """
+        clock, self._asked, self._answers = self._sync.clock, uuid.uuid4().hex, {}
+        until_s = clock.wall_s() + self._sync.timeout_s
+        while missing := self.others - self._answers.keys():
+            if clock.wall_s() >= until_s:
+                return self._answers_with_no() | dict.fromkeys(missing, "")
+            self._say(
+                SyncNotice(
+                    kind="ask",
+                    actor=self._sync.actor,
+                    graph_name=self.graph_name,
+                    id=self._asked,
+                    command="modify",
+                    graph_json=graph_json,
+                    continue_from=continue_from,
+                )
+            )
+            self._answer_came.clear()
+            try:
+                async with asyncio.timeout(min(RETRY_S, self._sync.timeout_s)):
+                    while self.others - self._answers.keys():
+                        await self._answer_came.wait()
+                        self._answer_came.clear()
+            except TimeoutError:
+                continue
+        return self._answers_with_no()
+
+    def _answers_with_no(self) -> dict[str, str]:
+        return {name: reason for name, reason in self._answers.items() if reason}
+
+    def take_answer(self, notice: SyncNotice) -> None:
+        """Another actor says whether the graph could be changed."""
+        if notice.answers == self._asked:
+            refused = notice.result != "yes"
+            self._answers[notice.actor] = (notice.message or "refused") if refused else ""
+            self._answer_came.set()
 
     # -- ends of nodes --------------------------------------------------------------------------------------
 
@@ -276,6 +328,8 @@ class Sync:
                 session.greeted(notice)
             case "ready" if session is not None:
                 session.answered(notice)
+            case "answer" if session is not None:
+                session.take_answer(notice)
             case "ended":
                 run_id = notice.id.partition("/")[0]
                 for item in self._sessions.values():  # a sub-graph's name is not that of its session
@@ -308,6 +362,12 @@ class Sync:
         if status.state == "stopped":
             return f"{actor} was stopped by the emergency stop"
         return f"{actor} is there, but did not take up the graph"
+
+    def silence(self, actor: str) -> str:
+        """Why `actor` may not have answered a question, in words."""
+        status = self._statuses.get(actor)
+        gone = status is None or status.state == "leaving"
+        return f"{actor} is not there" if gone else f"{actor} is there, but did not answer"
 
     def lost(self, actor: str, graph_name: str, since_s: float) -> str:
         """Why nothing can be expected of `actor` any more, in words; empty if that is not known.

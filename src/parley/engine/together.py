@@ -132,6 +132,65 @@ class Together:
                 ],
             )
 
+    def modify(self, graph: Graph, text: str, continue_from: str, targets: Sequence[str]) -> None:
+        """See `GraphRuns.modify`; of a graph of several actors only if all of them can do it.
+
+        They are asked first, and nobody changes anything before all have said yes. What an actor does between
+        its yes and the change may still make it impossible there; that actor then says so itself.
+
+        Args:
+            graph: The new form.
+            text: The same as JSON, for the others.
+            continue_from: See there.
+            targets: Who was told so directly.
+
+        Raises:
+            GraphRefusedError: See there. That others cannot do it, or do not answer, is told later.
+        """
+        run = self._runs.get(graph.name)
+        session = run.peers if run is not None and isinstance(run.peers, Session) else None
+        if session is None or not session.others:
+            self._runs.modify(graph, continue_from)
+            return
+        self._runs.check_modify(graph, continue_from)
+        self._spawn(self._modify_all(session, graph, text, continue_from, targets))
+
+    async def _modify_all(
+        self, session: Session, graph: Graph, text: str, continue_from: str, targets: Sequence[str]
+    ) -> None:
+        async with session.changing:
+            refusals = await session.ask(text, continue_from)
+            problems = [
+                Problem("", f"{name}: {reason}" if reason else self._sync.silence(name), "", "peer_refused")
+                for name, reason in refusals.items()
+            ]
+            try:
+                if problems:
+                    raise GraphRefusedError(graph.name, problems)
+                self._runs.modify(graph, continue_from)
+            except GraphRefusedError as error:
+                self._refuse("umrf_graph_modify", graph.name, error.problems)
+                return
+            self.pass_on("modify", graph.name, targets, graph_json=text, continue_from=continue_from)
+
+    def _answer(self, notice: SyncNotice) -> None:
+        """Say whether a change could be made here."""
+        try:
+            self._runs.check_modify(read_graph(notice.graph_json), notice.continue_from)
+            reason = ""
+        except GraphRefusedError as error:
+            reason = "; ".join(map(str, error.problems))
+        self._publish(
+            SyncNotice(
+                kind="answer",
+                actor=self._actor,
+                graph_name=notice.graph_name,
+                answers=notice.id,
+                result="no" if reason else "yes",
+                message=reason,
+            )
+        )
+
     def pass_on(self, command: Command, name: str, targets: Sequence[str] = (), **more: str) -> None:
         """Tell the other actors of a graph what was done with it here.
 
@@ -162,10 +221,14 @@ class Together:
 
     def take(self, notice: SyncNotice) -> None:
         """Something came from another engine."""
-        if notice.kind != "command":
+        if notice.kind not in ("command", "ask"):
             self._sync.take(notice)
             return
         run = self._runs.get(notice.graph_name)
+        if notice.kind == "ask":
+            if notice.actor != self._actor and run is not None and run.peers is not None:
+                self._answer(notice)
+            return
         told = not self._names.isdisjoint(notice.targets)
         if notice.actor == self._actor or told or run is None or run.peers is None:
             return

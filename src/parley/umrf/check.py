@@ -7,7 +7,7 @@ runs without waiting for something that nobody will give.
 from __future__ import annotations
 
 from collections import Counter
-from collections.abc import Collection, Iterator, Sequence
+from collections.abc import Collection, Generator, Iterator, Sequence
 from dataclasses import replace
 
 from parley.errors import Problem
@@ -16,8 +16,9 @@ from parley.umrf.action import ActionSpec
 from parley.umrf.catalogue import Catalogue
 from parley.umrf.graph_index import GraphSpec, given_name
 from parley.umrf.model import ENTRY, EXIT, ChildRelation, Graph, Node, NodeRef, ParentRelation
+from parley.umrf.reading import SLICE
 
-__all__ = ["check"]
+__all__ = ["check", "vouch_steps"]
 
 
 def check(
@@ -38,7 +39,20 @@ def check(
             need is known to their own engines alone.
         given: Names of the parameters that the start brings.
     """
-    return list(_Checker(graph, catalogue, actor, known_actors, given).problems())
+    steps = _Checker(graph, catalogue, actor, known_actors, given).problems()
+    return [problem for problem in steps if problem is not None]
+
+
+def vouch_steps(graph: Graph, catalogue: Catalogue, *, actor: str) -> Generator[None, None, bool]:
+    """Check a graph as `check` does, yielding now and then; whether it can run.
+
+    It no longer counts if the catalogue has changed since: see `Catalogue.revision`.
+    """
+    for problem in _Checker(graph, catalogue, actor, (), ()).problems():
+        if problem is not None:
+            return False
+        yield
+    return True
 
 
 class _Checker:
@@ -60,9 +74,12 @@ class _Checker:
         self.children = {ref: {c.node: c for c in node.children} for ref, node in self.nodes.items()}
         self.parents = {ref: {p.node for p in node.parents} for ref, node in self.nodes.items()}
 
-    def problems(self) -> Iterator[Problem]:
+    def problems(self) -> Iterator[Problem | None]:
+        """Each problem, and now and then None for those who do something else in between."""
         yield from self._names()
         for index, node in enumerate(self.graph.nodes):
+            if index % SLICE == SLICE - 1:
+                yield None
             path = f"actions[{index}]"
             yield from self._relations(node, path)
             yield from self._action(node, path)
@@ -169,7 +186,7 @@ class _Checker:
         inner = _Checker(
             spec.graph, self.catalogue, self.actor, self.known_actors, spec.inputs.keys(), self.inside
         )
-        for problem in inner.problems():
+        for problem in filter(None, inner.problems()):
             yield replace(problem, path=f"{path}.{spec.name}.{problem.path}")
 
     def _other_actor(self, node: Node, path: str) -> Iterator[Problem]:

@@ -22,14 +22,14 @@ from parley.umrf.action import RunHandle
 from parley.umrf.admission import check_entry, check_removed, values_to_continue
 from parley.umrf.catalogue import Catalogue
 from parley.umrf.flow import Effect, Flow, FlowNode
-from parley.umrf.graph_index import GraphSpec
 from parley.umrf.model import Graph, GraphState, NodeState, Result
 from parley.umrf.node_run import Ended, NodeRun
-from parley.umrf.other_runs import InnerRuns, RemoteRun, SubgraphRun
-from parley.umrf.remote import Peers, RemoteEnd, RemoteSpec
+from parley.umrf.other_runs import InnerRuns, RemoteRun, run_of
+from parley.umrf.remote import Peers, RemoteEnd
 from parley.umrf.reports import failure_lines, stop_timed_out_text
-from parley.umrf.resolve import Resolved, resolve
+from parley.umrf.resolve import resolve
 from parley.umrf.rounds import Rounds
+from parley.umrf.saved import Later, SavedRun, load, save_frame, save_node
 from parley.umrf.transition import NO_FACTS, Announcer, Observer
 
 __all__ = ["STOP_TIMEOUT_S", "GraphRun"]
@@ -89,7 +89,11 @@ class GraphRun:
         self.peers = peers
         self.on_state: Callable[[GraphState], None] | None = None
         """Told each change of `state`; for whoever waits for this run."""
-        self._catalogue, self._clock, self._given = catalogue, clock, parameters
+        self._clock = clock
+        known = peers.actors if peers is not None else ()
+        self._resolve = functools.partial(
+            resolve, catalogue=catalogue, actor=actor, known_actors=known, given=parameters.keys()
+        )
         resolved = self._resolve(graph)
         self._graph, self._flow = resolved.graph, Flow(resolved.graph, resolved.specs)
         self._flow.give(parameters)
@@ -99,20 +103,14 @@ class GraphRun:
         self._announce = Announcer(graph.name, clock, observer)
         self._stop_timeout_s = stop_timeout_s
         self._runs: dict[str, NodeRun] = {}
-        self._inner = InnerRuns(
-            make_inner
-            or functools.partial(
-                GraphRun,
-                catalogue=catalogue,
-                actor=actor,
-                clock=clock,
-                make_context=make_context,
-                stop_timeout_s=stop_timeout_s,
-                peers=peers,
-            )
+        like_this = functools.partial(
+            GraphRun, catalogue=catalogue, actor=actor, clock=clock, make_context=make_context
         )
-        self._rounds = Rounds()
-        self._held: list[tuple[str, Result]] = []
+        self._inner = InnerRuns(
+            make_inner or functools.partial(like_this, stop_timeout_s=stop_timeout_s, peers=peers)
+        )
+        self._rounds = Rounds(self._next_round)
+        self._later = Later()
         self._holding = False
         self._stop_failed = False
         self._rested = asyncio.Event()
@@ -161,7 +159,7 @@ class GraphRun:
         """
         if self.state in (GraphState.RUNNING, GraphState.PAUSED, GraphState.HALTED, GraphState.INITIALIZED):
             self._holding = self._stop_failed = False
-            self._held.clear()
+            self._later.clear()
             self._set_graph(GraphState.STOPPING, "stop")
         for item in self._active():
             self._stop_node(item, "stop")
@@ -177,7 +175,8 @@ class GraphRun:
         item = self._flow.nodes.get(name)
         if item is None:
             raise self._refusal("unknown_node", f"{self.name} has no node {name!r}", path="node")
-        self._stop_node(item, "end")
+        if not self._later.end(name):
+            self._stop_node(item, "end")
         self._settle()
 
     def modify(self, graph: Graph, continue_from: str = "") -> None:
@@ -188,21 +187,47 @@ class GraphRun:
         Raises:
             GraphRefusedError: With every reason; then nothing has changed.
         """
-        if self.state in _ENDED or self.state is GraphState.STOPPING:
-            raise self._refusal(
-                "graph_ended", f"{self.name} is {self.state} and cannot be changed", "start a new graph"
-            )
-        resolved = self._resolve(replace(graph, name=self.name))
-        kept = {node.full_name for node in graph.nodes}
-        check_removed(self.name, self._active(), kept)
-        flow = self._flow.replaced(resolved.graph, resolved.specs)
-        past = values_to_continue(self.name, flow, continue_from, self._runs)
+        changed, flow, past = self.modified(graph, continue_from)
         self._flow = flow
-        self._graph = replace(resolved.graph, description=self._graph.description)
-        self._held = [(name, result) for name, result in self._held if name in kept]
+        self._graph = replace(changed, description=self._graph.description)
+        self._later.keep(flow.nodes)
         self._announce.graph(self.state, "modify", self.result)
         if continue_from:
             self._go_on(continue_from, past, "modify")
+
+    def save(self, *, everything: bool) -> tuple[dict[str, Any], list[tuple[str, dict[str, Any]]]]:
+        """What `restore` needs besides the graph: the frame, and the nodes (that changed since last time)."""
+        changed = (item for item in self._flow.nodes.values() if everything or item.unsaved)
+        nodes = [(item.name, save_node(item)) for item in changed]
+        frame = save_frame(self.state, self.result, self._flow, self._later, self._rounds)
+        frame["restart"] = [name for name, run in self._runs.items() if run.restart_wanted]
+        frame["inner"] = [run.inner_name for run in self._runs.values() if run.inner_name]
+        return frame, nodes
+
+    def restore(self, saved: SavedRun) -> None:
+        """Instead of `start`: stand where another process was interrupted, until `resume` (or `stop`).
+
+        What was going on is run again then; what had ended keeps its outputs and its seen edges.
+
+        Raises:
+            GraphRefusedError: Something that is still needed could not be kept.
+        """
+        load(saved, self._flow, self._later)
+        self._inner.saved = saved
+        self._set_graph(saved.state, "restore", saved.result)
+        for item in self._flow.nodes.values():
+            if item.state is not NodeState.UNINITIALIZED:
+                self._announce.node(item, "restore")
+
+    def modified(self, graph: Graph, continue_from: str = "") -> tuple[Graph, Flow, Mapping[str, Any]]:
+        """What `modify` would make of it, without doing so; raises as that does."""
+        if self.state in _ENDED or self.state is GraphState.STOPPING:
+            text = f"{self.name} is {self.state} and cannot be changed"
+            raise self._refusal("graph_ended", text, "start a new graph")
+        resolved = self._resolve(replace(graph, name=self.name))
+        check_removed(self.name, self._active(), {node.full_name for node in graph.nodes})
+        flow = self._flow.replaced(resolved.graph, resolved.specs)
+        return resolved.graph, flow, values_to_continue(self.name, flow, continue_from, self._runs)
 
     async def wait(self) -> Result:
         """Wait until the graph has ended or halted; how it ended."""
@@ -229,28 +254,25 @@ class GraphRun:
 
     @property
     def holding(self) -> bool:
-        """Whether a pause is in force, even if an action still has to come to its end."""
+        """Whether a pause is in force, even if an action still has to end."""
         return self._holding or self.state is GraphState.PAUSED
 
     def snapshot(self) -> Graph:
         """The graph as it is now, with states, logs and the data that is there (4.3)."""
-        nodes = tuple(item.snapshot() for item in self._flow.nodes.values())
-        return replace(self._graph, nodes=nodes, state=self.state)
+        nodes = [item.snapshot() for item in self._flow.nodes.values()]
+        return replace(self._graph, nodes=tuple(nodes), state=self.state)
 
     def outputs(self, node: str) -> Mapping[str, Any]:
         """What the node of that full name gave in its last run, by flat name."""
-        item = self._flow.nodes.get(node)
-        return dict(item.outputs) if item is not None else {}
+        return dict(self._flow.nodes[node].outputs) if node in self._flow.nodes else {}
 
     def exit_values(self) -> Mapping[str, Any]:
         """What the graph as a whole has given, by flat name."""
         return dict(self._flow.exit_values)
 
-    # -- nodes ----------------------------------------------------------------------------------------------
-
     def _active(self) -> list[FlowNode]:
-        found = (self._flow.nodes.get(name) for name in self._runs)
-        return [item for item in found if item is not None and item.active]
+        nodes = self._flow.nodes
+        return [nodes[name] for name in self._runs if name in nodes and nodes[name].active]
 
     def _run_node(self, item: FlowNode, cause: str) -> None:
         """Start a run, unless one is going on: then the trigger is ignored (10.4)."""
@@ -260,23 +282,17 @@ class GraphRun:
             return
         item.last_values = dict(item.values)
         self._set_node(item, NodeState.RUNNING, cause)
-        run = self._runs[item.name] = self._new_run(item)
+        run = self._runs[item.name] = run_of(
+            item,
+            self._inner,
+            self.peers,
+            on_state=lambda state: self._inner_changed(item, state),
+            actor=self.actor,
+            graph_name=self.name,
+            clock=self._clock,
+            on_progress=lambda fraction, text: self._announce.progress(item.node, fraction, text),
+        )
         run.begin(self._make_context, self._run_ended)
-
-    def _new_run(self, item: FlowNode) -> NodeRun:
-        common: dict[str, Any] = {
-            "item": item,
-            "actor": self.actor,
-            "graph_name": self.name,
-            "clock": self._clock,
-            "on_progress": lambda fraction, text: self._announce.progress(item.node, fraction, text),
-        }
-        if isinstance(item.spec, GraphSpec):
-            start = functools.partial(self._inner.start, self.name, item)
-            return SubgraphRun(start=start, on_state=lambda state: self._inner_changed(item, state), **common)
-        if isinstance(item.spec, RemoteSpec) and self.peers is not None:
-            return RemoteRun(peers=self.peers, **common)
-        return NodeRun(**common)
 
     def _inner_changed(self, item: FlowNode, state: GraphState) -> None:
         """A sub-graph came to stand still, or goes on."""
@@ -363,21 +379,20 @@ class GraphRun:
     def _follow(self, name: str, result: Result) -> None:
         """Propagate the end of a node, or hold it back while a pause is in force."""
         if self._holding or self.state is GraphState.PAUSED:
-            self._held.append((name, result))
+            self._later.held.append((name, result))
         elif self.state is GraphState.RUNNING and self._flow.nodes[name].spontaneous:
             # What the last round set off is stopped before this one sets off anything (10.7).
             others = [item for item in self._flow.reachable(name) if item.active]
             for item in others:
                 self._stop_node(item, "round")
-            names = [item.name for item in others]
-            self._rounds.wait(name, names, lambda: self._next_round(name, result))
+            self._rounds.wait(name, [item.name for item in others], result)
         elif self.state is GraphState.RUNNING:
             self._apply(self._flow.propagate(name, result), "edge", source=name)
 
     def _next_round(self, name: str, result: Result) -> None:
         """Propagate the end of a spontaneous node and run it again, unless it was stopped or failed."""
         if self._holding or self.state is GraphState.PAUSED:
-            self._held.append((name, result))
+            self._later.held.append((name, result))
         elif self.state is GraphState.RUNNING and name in self._flow.nodes:
             self._apply(self._flow.propagate(name, result), "edge", source=name)
             if self.state is GraphState.RUNNING and result in (Result.ON_TRUE, Result.ON_FALSE):
@@ -401,8 +416,11 @@ class GraphRun:
                     self._stop_node(item, cause)
                 case "pause":
                     self._pause_node(item, cause)
+                case "restart" if item.active:
+                    self._runs[item.name].restart_wanted = True
+                    self._stop_node(item, cause)
                 case "restart":
-                    self._restart_node(item, cause)
+                    self._run_node(item, cause)
                 case "bypassed":
                     self._set_node(item, item.state, "bypass", effect.result)
                 case "fail" if not item.active:
@@ -411,13 +429,6 @@ class GraphRun:
                     self._set_node(item, NodeState.ERROR, cause, Result.ON_ERROR)
                     self._hand_over(item, Result.ON_ERROR)
                     waiting.extend(self._flow.propagate(item.name, Result.ON_ERROR))
-
-    def _restart_node(self, item: FlowNode, cause: str) -> None:
-        if not item.active:
-            self._run_node(item, cause)
-            return
-        self._runs[item.name].restart_wanted = True
-        self._stop_node(item, cause)
 
     def _go_on(self, continue_from: str, past: Mapping[str, Any], cause: str) -> None:
         """Lift the pause, run what was held back, then `continue_from`; checked before."""
@@ -430,14 +441,15 @@ class GraphRun:
                 if item.state in _STILL:  # a sub-graph has said already that it goes on
                     self._set_node(item, NodeState.RUNNING, cause)
         self._inner.resume()
-        held, self._held = self._held, []
+        again, held = self._later.take()
+        for name in again:
+            self._run_node(self._flow.nodes[name], "restore")
         for name, result in held:
             self._follow(name, result)
         if continue_from and self.state is GraphState.RUNNING:
             item = self._flow.nodes[continue_from]
             if not item.active:
-                item.values |= past
-                item.transferred |= past.keys()
+                item.take(past)
             self._run_node(item, "continue")
         self._settle()
 
@@ -459,8 +471,6 @@ class GraphRun:
                 log.warning("graph halted", graph=self.name, reason=reason)
             self._set_graph(GraphState.HALTED, "dry", Result.ON_HALTED, reason)
 
-    # -- telling --------------------------------------------------------------------------------------------
-
     def _set_node(
         self,
         item: FlowNode,
@@ -470,6 +480,7 @@ class GraphRun:
         facts: Mapping[str, Any] = NO_FACTS,
     ) -> None:
         item.state = state
+        item.touch()
         self._announce.node(item, cause, result, facts)
 
     def _set_graph(
@@ -483,12 +494,6 @@ class GraphRun:
         self._announce.graph(state, cause, result, message)
         if self.on_state is not None:
             self.on_state(state)
-
-    def _resolve(self, graph: Graph) -> Resolved:
-        actors = self.peers.actors if self.peers is not None else ()
-        return resolve(
-            graph, self._catalogue, actor=self.actor, known_actors=actors, given=self._given.keys()
-        )
 
     def _refusal(self, code: str, message: str, remedy: str = "", path: str = "") -> GraphRefusedError:
         return GraphRefusedError(self.name, [Problem(path, message, remedy, code)])

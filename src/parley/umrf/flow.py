@@ -6,6 +6,7 @@ A plain object without a loop: `Flow` holds the topology, which edges were seen 
 
 from __future__ import annotations
 
+import math
 from collections import deque
 from collections.abc import Callable, Mapping
 from dataclasses import dataclass, field, replace
@@ -90,16 +91,25 @@ class FlowNode:
     """The inputs of the last run, for a run that repeats it."""
     outputs: dict[str, Any] = field(default_factory=dict)
     """Of the last run."""
+    began_s: float = -math.inf
+    """Robot time at which the last round of a spontaneous node began."""
     received: set[str] = field(default_factory=set)
     """Parents whose edge was seen at least once."""
     log: deque[LogMessage] = field(default_factory=lambda: deque(maxlen=MAX_LOG_MESSAGES))
     runner: Runner = field(kw_only=True)
     """What runs it, the same object for all runs."""
+    unsaved: bool = True
+    """Whether something changed since it was last saved; whoever saves it takes the mark away."""
+    name: str = field(init=False)
+    """The full name."""
+    _shown: Node | None = field(default=None, init=False, repr=False)
 
-    @property
-    def name(self) -> str:
-        """The full name."""
-        return self.node.full_name
+    def __post_init__(self) -> None:
+        self.name = self.node.full_name
+
+    def touch(self) -> None:
+        """Something about the node is different now; to be called after each change."""
+        self._shown, self.unsaved = None, True
 
     @property
     def spontaneous(self) -> bool:
@@ -125,19 +135,36 @@ class FlowNode:
         return _valued(self.node.output_parameters, self.outputs)
 
     def snapshot(self) -> Node:
-        """The node as it is now, with the data that is there (4.3)."""
-        inputs = _valued(self.node.input_parameters, self.values)
-        return replace(self.node, state=self.state, input_parameters=inputs, messages=tuple(self.log))
+        """The node as it is now, with the data that is there (4.3); the same object until it changes."""
+        if self._shown is None:
+            inputs = _valued(self.node.input_parameters, self.values)
+            self._shown = replace(
+                self.node, state=self.state, input_parameters=inputs, messages=tuple(self.log)
+            )
+        return self._shown
+
+    def take(self, given: Mapping[str, Any]) -> None:
+        """Take over inputs that came along an edge."""
+        self.values |= given
+        self.transferred |= given.keys()
+        self.touch()
+
+    def see(self, parent: str) -> None:
+        """The edge from the parent of that full name was seen."""
+        self.received.add(parent)
+        self.unsaved = True
 
     def note(self, text: str, unix_ms: int) -> None:
         """Add a log line."""
         self.log.append(LogMessage(unix_ms, text))
+        self.touch()
 
     def drop_transferred(self) -> None:
         """Forget what came along edges, after a run."""
         for name in self.transferred:
             self.values.pop(name, None)
         self.transferred.clear()
+        self.touch()
 
 
 def _valued(declared: Mapping[str, Parameter], values: Mapping[str, Any]) -> dict[str, Parameter]:
@@ -171,20 +198,20 @@ class Flow:
             item = self.nodes[relation.node.full_name]
             item.parents[ENTRY.full_name] = ParentRelation(ENTRY)
             if self.started:
-                item.received.add(ENTRY.full_name)
+                item.see(ENTRY.full_name)
         for name in self.exit:
             self.nodes[name].children += (ChildRelation(EXIT),)
-        self._exit_received: set[str] = set()
-        self._exit_given: set[str] = set()
+        self.exit_received: set[str] = set()
+        self.exit_given: set[str] = set()
         if previous is not None:
-            self._exit_received |= previous._exit_received & self.exit.keys()
-            self._exit_given |= previous._exit_given
+            self.exit_received |= previous.exit_received & self.exit.keys()
+            self.exit_given |= previous.exit_given
         self.exit_values: dict[str, Any] = {}
         """What the exit was given: the outputs of the graph as a whole (6)."""
         if previous is not None:
             self.exit_values |= previous.exit_values
         outputs = [self.nodes[name].node.output_parameters for name in self.exit]
-        self._exit_needs: Mapping[str, Parameter] = next((item for item in reversed(outputs) if item), {})
+        self.exit_needs: Mapping[str, Parameter] = next((item for item in reversed(outputs) if item), {})
 
     def replaced(self, graph: Graph, specs: Mapping[str, ActionSpec]) -> Flow:
         """Another form of this graph (11.5) in which nodes that stay keep state, data and seen edges."""
@@ -201,6 +228,7 @@ class Flow:
                     continue
                 if own.type not in NATIVE_TYPES or fits_type(own.type, value):
                     item.values[name] = value
+                    item.touch()
 
     def start(self, result: Result = Result.ON_TRUE) -> list[Effect]:
         """The entry has ended with `result`: what follows."""
@@ -209,7 +237,7 @@ class Flow:
         response = DEFAULT_CONDITIONS[result]
         for relation in self.entry:
             item = self.nodes[relation.node.full_name]
-            item.received.add(ENTRY.full_name)
+            item.see(ENTRY.full_name)
             if response is Response.RUN:
                 effects += self._respond(item, response, "")
             elif response is Response.BYPASS:
@@ -238,15 +266,15 @@ class Flow:
                         return [*effects, Effect("finish", result=result)]
                     continue
                 child = self.nodes[edge[1]]
-                child.received.add(parent.name)
+                child.see(parent.name)
                 response = child.parents[parent.name].response(result)
                 if response is Response.BYPASS:
                     effects.append(Effect("bypassed", child.name, result))
                     waiting.append(child.name)
                 elif response is not Response.IGNORE:
                     given, refused = _carried(parent, outputs, child, relation)
-                    child.values |= given
-                    child.transferred |= given.keys()
+                    if given:
+                        child.take(given)
                     effects += self._respond(child, response, refused)
         return effects
 
@@ -313,7 +341,7 @@ class Flow:
     def _reaches_exit(self, parent: FlowNode, result: Result, outputs: Mapping[str, Any]) -> bool:
         """Whether this end of an exit action ends the graph (5.3, 6)."""
         relation = self.exit[parent.name]
-        self._exit_received.add(parent.name)
+        self.exit_received.add(parent.name)
         response = relation.response(result)
         if response is Response.BYPASS:
             return True
@@ -321,13 +349,13 @@ class Flow:
             return False
         # The reference reads outputs that were not given as zero values: they are no reason to wait for ever.
         declared = parent.node.output_parameters
-        self._exit_given |= declared.keys()
-        for name, needed in self._exit_needs.items():
+        self.exit_given |= declared.keys()
+        for name, needed in self.exit_needs.items():
             if name in outputs and name in declared and declared[name].type == needed.type:
                 self.exit_values[name] = outputs[name]
-        if not self._exit_needs.keys() <= self._exit_given:
+        if not self.exit_needs.keys() <= self.exit_given:
             return False
-        return all(name in self._exit_received for name, edge in self.exit.items() if edge.required)
+        return all(name in self.exit_received for name, edge in self.exit.items() if edge.required)
 
 
 def _new(node: Node, spec: ActionSpec) -> FlowNode:
@@ -363,6 +391,7 @@ def _carry(kept: FlowNode, node: Node) -> FlowNode:
         if own is not None and given.has_data and _accepts(own, given.type, given.value):
             carried.values[name] = given.value
             carried.transferred.discard(name)
+    carried.touch()
     return carried
 
 

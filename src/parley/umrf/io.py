@@ -8,7 +8,7 @@ use the `faithful` one, which reads back to the same graph.
 from __future__ import annotations
 
 import json
-from collections.abc import Mapping
+from collections.abc import Generator, Mapping
 from dataclasses import replace
 from json.encoder import encode_basestring
 from typing import Any, Final
@@ -26,7 +26,7 @@ from parley.umrf.model import (
     Response,
     Result,
 )
-from parley.umrf.reading import Reader, load_object
+from parley.umrf.reading import Reader, in_one_go, load_object
 
 __all__ = [
     "GraphWriter",
@@ -35,6 +35,7 @@ __all__ = [
     "node_to_json",
     "read_descriptor",
     "read_graph",
+    "read_steps",
     "write_descriptor",
     "write_graph",
 ]
@@ -51,9 +52,17 @@ def read_graph(source: str | Mapping[str, Any]) -> Graph:
     Raises:
         GraphRefusedError: With every problem and where it is.
     """
-    raw = load_object(source, "graph")
+    return in_one_go(read_steps(load_object(source, "graph")))
+
+
+def read_steps(raw: Mapping[str, Any]) -> Generator[None, None, Graph]:
+    """Read a graph from an object that `load_object` gave, yielding now and then.
+
+    Raises:
+        GraphRefusedError: With every problem and where it is.
+    """
     reader = Reader()
-    graph = reader.graph(raw)
+    graph = yield from reader.graph(raw)
     if graph is None or reader.problems:
         name = raw.get("graph_name")
         raise GraphRefusedError(name if isinstance(name, str) else "", reader.problems)
@@ -122,30 +131,115 @@ class GraphWriter:
     """Writes one graph again and again as `write_graph` does, but only what has changed is written anew.
 
     Feedback needs the whole graph after each change of one node, so its cost would grow with the graph.
+    A node counts as unchanged if it is the same object as before, which is what running graphs hand out.
     """
 
     def __init__(self) -> None:
         self._texts: dict[str, tuple[Node, str]] = {}
+        self._nodes: tuple[Node, ...] = ()
+        """Those of the last graph that was wholly written."""
+        self._order: list[str] = []
+        self._head: tuple[object, ...] = ()
+        self._frame = ""
+
+    def prepare(self, graph: Graph, most: int) -> bool:
+        """Write at most so many nodes that have changed; whether that was all, so that `write` is quick."""
+        texts, left, before = self._texts, most, self._nodes
+        same = len(before) == len(graph.nodes)
+        for index, node in enumerate(graph.nodes):
+            if same and before[index] is node:
+                continue
+            name = node.full_name
+            known = texts.get(name)
+            if known is not None and known[0] is node:
+                continue
+            if left == 0:
+                return False
+            left -= 1
+            texts[name] = (node, _node_text(node, known))
+        self._nodes = graph.nodes
+        return True
 
     def write(self, graph: Graph) -> str:
         """The published text of the graph as it is now."""
-        frame = dump(graph_to_json(replace(graph, nodes=())))
+        self.prepare(graph, -1)
+        head = (graph.name, graph.description, graph.state, graph.entry, graph.exit)
+        if head != self._head:
+            self._head, self._frame = head, dump(graph_to_json(replace(graph, nodes=())))
         if not graph.nodes:
-            return frame
-        texts = {node.full_name: (node, self._text(node)) for node in graph.nodes}
-        self._texts = texts
-        actions = ",\n".join(texts[name][1] for name in sorted(texts))
-        return frame.replace('"actions": []', f'"actions": [\n{actions}\n    ]', 1)
+            return self._frame
+        if len(self._texts) != len(graph.nodes):  # some were taken out
+            names = {node.full_name for node in graph.nodes}
+            self._texts = {name: item for name, item in self._texts.items() if name in names}
+        if len(self._order) != len(self._texts) or any(name not in self._texts for name in self._order):
+            self._order = sorted(self._texts)
+        actions = ",\n".join([self._texts[name][1] for name in self._order])
+        return self._frame.replace('"actions": []', f'"actions": [\n{actions}\n    ]', 1)
 
-    def _text(self, node: Node) -> str:
-        known = self._texts.get(node.full_name)
-        if known is not None:
-            old, text = known
-            if old == node:
-                return text
-            if replace(old, state=node.state) == node:
-                return text.replace(_state_line(old), _state_line(node), 1)
-        return "        " + _lay_out(node_to_json(node), "\n        ")
+
+def _node_text(node: Node, known: tuple[Node, str] | None) -> str:
+    """The text of a node inside a graph, made from the last one if only its state is another."""
+    if known is not None:
+        old, text = known
+        if replace(old, state=node.state) == node:
+            return text.replace(_state_line(old), _state_line(node), 1)
+    return _lay_out_node(node)
+
+
+_LINE: Final = "\n            "
+"""What begins a line of a node's own keys in a published graph."""
+
+
+def _lay_out_node(node: Node) -> str:
+    """What `_lay_out` of `node_to_json` gives inside of a graph; most of a node has always the same form."""
+    parts: list[str] = []
+    if node.actor:
+        parts.append(f'"actor": {encode_basestring(node.actor)}')
+    if node.children:
+        parts.append(f'"children": [{",".join(map(_lay_out_child, node.children))}{_LINE}]')
+    parts.append(f'"description": {encode_basestring(node.description)}')
+    if node.gui_attributes is not None:
+        parts.append(f'"gui_attributes": {_lay_out(node.gui_attributes, _LINE)}')
+    if node.input_parameters:
+        inputs = _parameters(node.input_parameters, with_required=False)
+        parts.append(f'"input_parameters": {_lay_out(inputs, _LINE)}')
+    parts.append(f'"instance_id": {node.instance_id}')
+    parts.append(f'"name": {encode_basestring(node.name)}')
+    if node.output_parameters:
+        outputs = _parameters(node.output_parameters, with_required=False)
+        parts.append(f'"output_parameters": {_lay_out(outputs, _LINE)}')
+    if node.parents:
+        parts.append(f'"parents": [{",".join(map(_lay_out_parent, node.parents))}{_LINE}]')
+    if node.messages:
+        parts.append(f'"runtime": {_lay_out(_runtime(node), _LINE)}')
+    parts.append(f'"state": "{node.state.value}"')
+    parts.append(f'"type": {encode_basestring(node.type)}')
+    return f"        {{{_LINE}{f',{_LINE}'.join(parts)}\n        }}"
+
+
+def _lay_out_child(relation: ChildRelation) -> str:
+    if relation.remap:
+        return f"{_LINE}    {_lay_out(_child(relation), f'{_LINE}    ')}"
+    name = encode_basestring(relation.node.name)
+    return f"""{_LINE}    {{
+                    "instance_id": {relation.node.instance_id},
+                    "name": {name}
+                }}"""
+
+
+def _lay_out_parent(relation: ParentRelation) -> str:
+    name = encode_basestring(relation.node.name)
+    said = f",{_LINE}            ".join(
+        _CONDITION_TEXTS[result, relation.response(result)] for result in DEFAULT_CONDITIONS
+    )
+    return f"""{_LINE}    {{
+                    "conditions": [
+                        {said}
+                    ],
+                    "instance_id": {relation.node.instance_id},
+                    "name": {name},
+                    "required": {_LITERALS[relation.required]}
+                }}"""
 
 
 def _state_line(node: Node) -> str:
@@ -173,11 +267,13 @@ def node_to_json(node: Node, *, faithful: bool = False) -> dict[str, Any]:
     if node.gui_attributes is not None:
         written["gui_attributes"] = node.gui_attributes
     if node.messages:
-        written["runtime"] = {
-            "messages": [{"message": item.message, "timestamp": item.timestamp} for item in node.messages]
-        }
+        written["runtime"] = _runtime(node)
     optional = ("actor", "input_parameters", "output_parameters", "parents", "children")
     return {key: value for key, value in written.items() if value or key not in optional}
+
+
+def _runtime(node: Node) -> dict[str, Any]:
+    return {"messages": [{"message": item.message, "timestamp": item.timestamp} for item in node.messages]}
 
 
 def write_descriptor(spec: ActionSpec) -> str:
@@ -197,6 +293,9 @@ def write_descriptor(spec: ActionSpec) -> str:
 
 
 _LITERALS: Final = {True: "true", False: "false"}
+_CONDITION_TEXTS: Final = {
+    (result, response): f'"{result.value} -> {response.value}"' for result in Result for response in Response
+}
 
 
 def dump(value: Any) -> str:

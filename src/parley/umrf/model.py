@@ -164,7 +164,7 @@ class Node:
     @property
     def full_name(self) -> str:
         """``<name>_<instance_id>``."""
-        return self.ref.full_name
+        return f"{self.name}_{self.instance_id}"
 
 
 @dataclass(frozen=True, slots=True)

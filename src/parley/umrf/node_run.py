@@ -20,6 +20,9 @@ from parley.umrf.time_limit import PausableTime, within
 __all__ = ["Ended", "NodeRun"]
 
 PROGRESS_INTERVAL_S: Final = 0.1
+ROUND_S: Final = 0.01
+"""Robot time between the beginnings of two rounds of a spontaneous node: one that returns at once must not
+keep everything else from running."""
 ABANDON_S: Final = 0.1
 THREAD_GRACE_S: Final = 2.0
 """Wall time that a plain action has to notice that its time is over, before its thread is abandoned."""
@@ -77,8 +80,16 @@ class NodeRun:
 
     def begin(self, make_context: Callable[[RunHandle], Any], ended: Callable[[NodeRun], None]) -> None:
         """Start; `ended` is called on the loop once it is over, however it ends."""
-        self._task = asyncio.create_task(self._call(make_context), name=f"{self.graph_name}/{self.node}")
+        work = self._next_round if self._item.spontaneous else self._call
+        self._task = asyncio.create_task(work(make_context), name=f"{self.graph_name}/{self.node}")
         self._task.add_done_callback(lambda _: self._end(ended))
+
+    async def _next_round(self, make_context: Callable[[RunHandle], Any]) -> Ended:
+        early_s = self._item.began_s + ROUND_S - self.clock.now_s()
+        if early_s > 0:
+            await self.clock.sleep(early_s)
+        self._item.began_s = self.clock.now_s()
+        return await self._call(make_context)
 
     async def _call(self, make_context: Callable[[RunHandle], Any]) -> Ended:
         item = self._item
@@ -128,6 +139,11 @@ class NodeRun:
         if self.task.cancelled():
             return asyncio.CancelledError()
         return self.task.exception() or self.task.result()
+
+    @property
+    def inner_name(self) -> str:
+        """Name of the graph that runs inside; empty if there is none."""
+        return ""
 
     @property
     def stands_still(self) -> bool:

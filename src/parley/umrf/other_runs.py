@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import asyncio
+import functools
 from collections.abc import Callable, Mapping
 from dataclasses import replace
 from typing import TYPE_CHECKING, Any, Final
@@ -14,12 +15,13 @@ from parley.umrf.flow import FlowNode
 from parley.umrf.graph_index import GraphSpec
 from parley.umrf.model import GraphState, Result
 from parley.umrf.node_run import Ended, NodeRun
-from parley.umrf.remote import Peers
+from parley.umrf.remote import Peers, RemoteSpec
+from parley.umrf.saved import SavedRun
 
 if TYPE_CHECKING:
     from parley.umrf.executor import GraphRun
 
-__all__ = ["InnerRuns", "RemoteRun", "SubgraphRun"]
+__all__ = ["InnerRuns", "RemoteRun", "SubgraphRun", "run_of"]
 
 _MARGIN_S: Final = 0.1
 """A sub-graph has so much longer to stop than its own nodes, so that it can say itself what did not."""
@@ -35,14 +37,31 @@ class InnerRuns:
     def __init__(self, make: Callable[..., GraphRun]) -> None:
         self._make = make
         self._runs: dict[str, GraphRun] = {}
+        self.saved: SavedRun | None = None
+        """What an earlier process left of the graph whose sub-graphs these are."""
 
     def start(self, outer: str, item: FlowNode, values: Mapping[str, Any]) -> GraphRun:
         """Run the graph that stands behind `item` under the name of section 1."""
         assert isinstance(item.spec, GraphSpec)
         name = f"{outer}__{item.node.name}__{item.node.instance_id}"
-        run = self._runs[item.name] = self._make(replace(item.spec.graph, name=name), parameters=values)
-        run.start()
+        left = self._left(name)
+        if left is None:
+            run = self._runs[item.name] = self._make(replace(item.spec.graph, name=name), parameters=values)
+            run.start()
+        else:
+            run = self._runs[item.name] = self._make(left.graph, parameters={})
+            run.restore(left)
+            if run.holding:
+                run.resume()
         return run
+
+    def _left(self, name: str) -> SavedRun | None:
+        """What is to be gone on with instead of begun; once, as the next run of the node is another one."""
+        saved = self.saved
+        found = saved.begun(name) if saved is not None else None
+        if saved is not None and found is not None:
+            self.saved = replace(saved, inner={key: item for key, item in saved.inner.items() if key != name})
+        return found
 
     def pause(self) -> None:
         """Pause all."""
@@ -100,6 +119,11 @@ class SubgraphRun(NodeRun):
         # An inner graph that ran dry will not come to its exit: the outer one must hear of it.
         failed = result is Result.ON_HALTED
         return Ended(Result.ON_ERROR if failed else result, inner.exit_values())
+
+    @property
+    def inner_name(self) -> str:
+        """See `NodeRun.inner_name`."""
+        return self._inner.name if self._inner is not None else ""
 
     @property
     def stands_still(self) -> bool:
@@ -167,3 +191,30 @@ class RemoteRun(NodeRun):
         self.task.cancel()
         await asyncio.wait([self.task])
         return True
+
+
+def run_of(
+    item: FlowNode,
+    inner: InnerRuns,
+    peers: Peers | None,
+    *,
+    on_state: Callable[[GraphState], None],
+    graph_name: str,
+    **rest: Any,
+) -> NodeRun:
+    """What carries out `item`: an action of this actor, a sub-graph, or another actor.
+
+    Args:
+        item: The node.
+        inner: The runs of the sub-graphs of its graph.
+        peers: The other actors, if there are any.
+        on_state: See `SubgraphRun`.
+        graph_name: See `NodeRun`.
+        **rest: See `NodeRun`.
+    """
+    if isinstance(item.spec, GraphSpec):
+        start = functools.partial(inner.start, graph_name, item)
+        return SubgraphRun(start=start, on_state=on_state, item=item, graph_name=graph_name, **rest)
+    if isinstance(item.spec, RemoteSpec) and peers is not None:
+        return RemoteRun(peers=peers, item=item, graph_name=graph_name, **rest)
+    return NodeRun(item, graph_name=graph_name, **rest)

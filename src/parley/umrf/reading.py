@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import json
-from collections.abc import Callable, Mapping
+from collections.abc import Callable, Generator, Mapping
 from typing import Any, Final, TypeVar
 
 from parley.errors import GraphRefusedError, InvalidMessageError, Problem
@@ -23,10 +23,12 @@ from parley.umrf.model import (
     Result,
 )
 
-__all__ = ["MAX_INSTANCE_ID", "Reader", "load_object"]
+__all__ = ["MAX_INSTANCE_ID", "SLICE", "Reader", "in_one_go", "load_object"]
 
 MAX_INSTANCE_ID: Final = 65535
 MAX_MESSAGES: Final = 10
+SLICE: Final = 50
+"""So many nodes of a graph are read, checked or written in one go, which takes about a millisecond."""
 
 T = TypeVar("T")
 
@@ -52,17 +54,34 @@ def _refused(message: str, remedy: str = "") -> GraphRefusedError:
     return GraphRefusedError("", [Problem("", message, remedy, "malformed")])
 
 
+def in_one_go(steps: Generator[None, None, T]) -> T:
+    """The result of something that can also be done in slices."""
+    while True:
+        try:
+            next(steps)
+        except StopIteration as end:
+            found: T = end.value
+            return found
+
+
 class Reader:
     """Collects `problems` while it reads; whatever a problem hides is read as its default."""
 
     def __init__(self) -> None:
         self.problems: list[Problem] = []
 
-    def graph(self, raw: Mapping[str, Any]) -> Graph | None:
-        """A graph (2), short form included; None or wrong in parts if there are problems."""
+    def graph(self, raw: Mapping[str, Any]) -> Generator[None, None, Graph | None]:
+        """A graph (2), short form included; None or wrong in parts if there are problems.
+
+        Yields now and then, so that a large one need not be read in one go.
+        """
         name = self._text(raw, "graph_name", "", needed=True)
         actions = self._list(raw, "actions", "", needed=True)
-        nodes = [self.node(item, f"actions[{index}]") for index, item in enumerate(actions)]
+        nodes: list[Node | None] = []
+        for index, item in enumerate(actions):
+            if index % SLICE == SLICE - 1:
+                yield
+            nodes.append(self.node(item, f"actions[{index}]"))
         complete = tuple(node for node in nodes if node is not None)
         if len(actions) == 1 and complete and "graph_entry" not in raw and "graph_exit" not in raw:
             entry: tuple[ChildRelation, ...] = (ChildRelation(complete[0].ref),)

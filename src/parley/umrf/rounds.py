@@ -2,20 +2,32 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable, Iterable
+from collections.abc import Callable, Iterable, Mapping
+
+from parley.umrf.model import Result
 
 __all__ = ["Rounds"]
 
 
 class Rounds:
-    """Which ends wait for which nodes, by full name."""
+    """Which ends wait for which nodes, by full name.
 
-    def __init__(self) -> None:
-        self._waiting: dict[str, tuple[set[str], Callable[[], None]]] = {}
+    Args:
+        ready: Told the node and how it ended once a round is over.
+    """
 
-    def wait(self, name: str, others: Iterable[str], then: Callable[[], None]) -> None:
-        """Call `then` once all `others` are over; at once if there are none."""
-        self._waiting[name] = (set(others), then)
+    def __init__(self, ready: Callable[[str, Result], None]) -> None:
+        self._ready = ready
+        self._waiting: dict[str, tuple[set[str], Result]] = {}
+
+    @property
+    def pending(self) -> Mapping[str, Result]:
+        """The rounds that are not over yet."""
+        return {name: result for name, (_, result) in self._waiting.items()}
+
+    def wait(self, name: str, others: Iterable[str], result: Result) -> None:
+        """The round of `name` is over once all `others` are; at once if there are none."""
+        self._waiting[name] = (set(others), result)
         self._call_ready()
 
     def over(self, name: str) -> None:
@@ -30,4 +42,4 @@ class Rounds:
     def _call_ready(self) -> None:
         for name in [name for name, (others, _) in self._waiting.items() if not others]:
             if (found := self._waiting.pop(name, None)) is not None:
-                found[1]()
+                self._ready(name, found[1])

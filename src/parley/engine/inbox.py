@@ -1,0 +1,69 @@
+"""Commands in the order in which they came, without keeping the loop for long."""
+
+from __future__ import annotations
+
+import asyncio
+from collections import Counter, deque
+from collections.abc import Callable, Generator
+
+import structlog
+
+__all__ = ["Inbox", "Work"]
+
+log = structlog.get_logger(__name__)
+
+Work = Callable[[], Generator[None, None, None]]
+"""Carries out one command; yields where others may have a turn."""
+
+
+class Inbox:
+    """One slice of work per turn of the loop, the first one at once.
+
+    Commands for the same graph keep their order. A light one for a graph that nothing waits for is carried
+    out at once, so it overtakes heavy ones for other graphs.
+    """
+
+    def __init__(self) -> None:
+        self._waiting: deque[tuple[str, Generator[None, None, None]]] = deque()
+        self._names: Counter[str] = Counter()
+        self._turn: asyncio.Handle | None = None
+
+    def put(self, name: str, work: Work, *, light: bool = False) -> None:
+        """Carry out `work` on the graph of that name, now or later; it tells its own errors."""
+        if light and not self._names[name]:
+            for _ in work():
+                pass
+            return
+        self._waiting.append((name, work()))
+        self._names[name] += 1
+        if self._turn is None:
+            self._slice()
+
+    def close(self) -> None:
+        """Drop what waits."""
+        if self._turn is not None:
+            self._turn.cancel()
+        self._waiting.clear()
+        self._names.clear()
+
+    def _slice(self) -> None:
+        """Do one slice; the turn is used up even if nothing is left, as more may come in it."""
+        self._turn = None
+        if not self._waiting:
+            return
+        name, work = self._waiting[0]
+        self._turn = asyncio.get_running_loop().call_soon(self._slice)
+        try:
+            next(work)
+        except StopIteration:
+            self._done(name)
+        except Exception:
+            # The border of the engine: a defect in one command must not silence the others, but must be seen.
+            log.exception("command failed", graph=name)
+            self._done(name)
+
+    def _done(self, name: str) -> None:
+        self._waiting.popleft()
+        self._names[name] -= 1
+        if not self._names[name]:
+            del self._names[name]

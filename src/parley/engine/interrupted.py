@@ -1,0 +1,87 @@
+"""What a killed process was doing, as it is offered to whoever may go on with it."""
+
+from __future__ import annotations
+
+from collections.abc import Mapping
+from dataclasses import dataclass, field, replace
+from typing import Any, Final
+
+from parley.umrf.model import Graph, GraphState, Node, NodeState
+from parley.umrf.saved import SavedRun
+
+__all__ = ["Interrupted"]
+
+_ACTIVE: Final = frozenset(
+    {NodeState.RUNNING, NodeState.PAUSE_REQUESTED, NodeState.PAUSED, NodeState.STOPPING}
+)
+
+
+@dataclass(frozen=True, slots=True)
+class Interrupted:
+    """A graph that was under way when its engine's process ended without a goodbye."""
+
+    actor: str
+    graph: Graph
+    """As it was last, with the states its nodes had."""
+    unix_ms: int
+    """When something was last heard of it."""
+    outputs: Mapping[str, Mapping[str, Any]] = field(default_factory=dict)
+    """What finished nodes gave: full name -> flat name -> value."""
+    saved: SavedRun | None = None
+    """To be gone on with by `ActionEngine.restore`; None if that is not possible."""
+    shared: bool = False
+    """Other actors took part. They noticed that this one was gone and went on without it, so nobody can say
+    any more where all of them stand: such a graph is not gone on with."""
+
+    @classmethod
+    def of(cls, actor: str, saved: SavedRun, unix_ms: int, *, shared: bool) -> Interrupted:
+        """What was saved, as it is told to people."""
+        states = {name: NodeState(kept["state"]) for name, kept in saved.nodes.items()}
+        nodes = tuple(
+            replace(node, state=states.get(node.full_name, NodeState.UNINITIALIZED))
+            for node in saved.graph.nodes
+        )
+        outputs = {
+            node.full_name: dict(given)
+            for node in nodes
+            if (given := saved.nodes.get(node.full_name, {}).get("outputs"))
+        }
+        graph = replace(saved.graph, nodes=nodes, state=GraphState(saved.frame["state"]))
+        return cls(actor, graph, unix_ms, outputs, None if shared else saved, shared)
+
+    @property
+    def going_on(self) -> tuple[Node, ...]:
+        """The nodes that were being carried out."""
+        return tuple(node for node in self.graph.nodes if node.state in _ACTIVE)
+
+    @property
+    def remaining(self) -> tuple[Node, ...]:
+        """What was not finished, that which was going on included, in the order of the graph."""
+        return tuple(node for node in self.graph.nodes if node.state is not NodeState.FINISHED)
+
+    @property
+    def is_linear(self) -> bool:
+        """Whether it is one step after the other, so that the rest of it is again a graph."""
+        nodes = self.graph.nodes
+        edges = [(node.ref, [child.node for child in node.children]) for node in nodes]
+        return len(self.graph.entry) == 1 and all(
+            children == ([nodes[index + 1].ref] if index + 1 < len(nodes) else [])
+            for index, (_, children) in enumerate(edges)
+        )
+
+    @property
+    def is_open(self) -> bool:
+        """Whether something was still to come.
+
+        A graph that ran dry is over unless it was being repaired; one that was being stopped is over.
+        """
+        saved = self.saved
+        if self.graph.state is GraphState.STOPPING:
+            return False
+        if self.graph.state is GraphState.HALTED:
+            return any(node.state is NodeState.ERROR for node in self.graph.nodes)
+        if self.going_on or (
+            saved is not None and any(saved.frame[key] for key in ("held", "again", "rounds"))
+        ):
+            return True
+        return any(node.state is not NodeState.FINISHED for node in self.graph.nodes)
