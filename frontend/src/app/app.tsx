@@ -2,11 +2,11 @@ import i18next from 'i18next';
 import { useEffect } from 'react';
 import { I18nProvider } from 'react-aria-components';
 import { Router } from 'wouter';
-import { useHashLocation } from 'wouter/use-hash-location';
 
 import { SignIn } from '@/features/session';
 import { connect } from '@/live/connection';
 import { applyLook, usePrefs } from '@/state/prefs';
+import { useHashPath } from '@/ui/use-hash';
 
 import { Shell } from './shell';
 import { useSession } from './use-session';
@@ -24,7 +24,7 @@ export function App() {
   useEffect(() => (session.state === 'open' ? connect() : undefined), [session.state]);
   return (
     <I18nProvider locale={localeOf[language]}>
-      <Router hook={useHashLocation}>
+      <Router hook={useHashPath}>
         {session.state === 'locked' ? (
           <SignIn onSignedIn={session.refresh} />
         ) : (

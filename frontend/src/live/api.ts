@@ -1,5 +1,6 @@
 /** One function per request. Failures are `ApiError`s whose message can be shown to people. */
-import type { ActionCall, ChatEntry, MapInfo, MemoryItem, Policy } from './types';
+import { noteServerDate } from './server-time';
+import type { ActionCall, ChatEntry, Incident, MapInfo, MemoryItem, Policy } from './types';
 
 export class ApiError extends Error {
   constructor(
@@ -46,6 +47,7 @@ export async function request<T>(method: string, path: string, body?: unknown): 
   } catch {
     throw new ApiError(0, '');
   }
+  noteServerDate(response.headers.get('date'), Date.now());
   if (!response.ok) throw await failure(response);
   if (response.status === 204) return undefined as T;
   const answer = await response.text();
@@ -111,9 +113,27 @@ export const putSteps = (robot: string, steps: readonly ActionCall[], revision: 
 export const addRobot = (name: string) => request<unknown>('POST', 'robots', { name });
 export const removeRobot = (name: string) => request<unknown>('DELETE', `robots/${part(name)}`);
 
-export const searchMemories = (q: string) => request<MemoryItem[]>('GET', `memory?q=${part(q)}`);
-export const putMemory = (name: string, body: { data: string; info?: string }) =>
-  request<unknown>('PUT', `memory/${part(name)}`, body);
-export const deleteMemory = (name: string) => request<unknown>('DELETE', `memory/${part(name)}`);
+export interface MemoryBody {
+  type?: 'text' | 'image';
+  /** The text, or the picture as base64. */
+  data: string;
+  info?: string;
+  /** A robot's name; empty: for all. */
+  scope?: string;
+}
+
+const scoped = (scope: string | undefined) => (scope === undefined ? '' : `?scope=${part(scope)}`);
+
+export const searchMemories = (q: string, scope = '') =>
+  request<MemoryItem[]>('GET', `memory?q=${part(q)}&scope=${part(scope)}`);
+export const getMemoryHistory = (name: string, scope: string) =>
+  request<MemoryItem[]>('GET', `memory/${part(name)}/history${scoped(scope)}`);
+export const putMemory = (name: string, body: MemoryBody) => request<unknown>('PUT', `memory/${part(name)}`, body);
+/** Without a scope it is forgotten everywhere. */
+export const deleteMemory = (name: string, scope?: string) =>
+  request<unknown>('DELETE', `memory/${part(name)}${scoped(scope)}`);
+
+/** Newest first. */
+export const getIncidents = (robot: string) => request<Incident[]>('GET', `incidents?robot=${part(robot)}`);
 
 export const getMap = (robot: string) => request<MapInfo>('GET', `map/${part(robot)}`);

@@ -11,10 +11,13 @@ export interface FrameMeta {
   unix_ms?: number;
 }
 
-type FrameHandler = (picture: Blob, meta: FrameMeta) => void;
+/** Shows a picture; what it returns is waited for before the next one is asked for. */
+type FrameHandler = (picture: Blob, meta: FrameMeta) => void | Promise<void>;
 
 let socket: Socket | null = null;
 const watchers = new Map<string, Set<FrameHandler>>();
+/** The last picture of each feed that is looked at, for who looks at it as well. */
+const newest = new Map<string, { picture: Blob; meta: FrameMeta }>();
 
 const keyOf = (feed: { robot: string; name: string }) => `${feed.robot}\n${feed.name}`;
 
@@ -46,7 +49,9 @@ export function connect(): () => void {
   opened.on('changes', (changes: Change[]) => live().takeChanges(changes));
   opened.on('view', (view: MapView) => live().takeView(view));
   opened.on('frame', onFrame);
+  document.addEventListener('visibilitychange', sendWatched);
   return () => {
+    document.removeEventListener('visibilitychange', sendWatched);
     opened.removeAllListeners();
     opened.disconnect();
     socket = null;
@@ -64,25 +69,34 @@ export function watchFeed(feed: { robot: string; name: string }, handler: FrameH
   const handlers = watchers.get(key) ?? new Set();
   handlers.add(handler);
   watchers.set(key, handlers);
+  const last = newest.get(key);
+  if (last) void handler(last.picture, last.meta);
   sendWatched();
   return () => {
     handlers.delete(handler);
-    if (handlers.size === 0) watchers.delete(key);
+    if (handlers.size === 0) {
+      watchers.delete(key);
+      newest.delete(key);
+    }
     sendWatched();
   };
 }
 
+/** Tell what is looked at: nothing while the page is hidden, so that cameras can rest. */
 function sendWatched(): void {
   if (!socket?.connected) return;
-  const feeds = [...watchers.keys()].map((key) => {
+  const feeds = document.hidden ? [] : [...watchers.keys()].map((key) => {
     const [robot = '', name = ''] = key.split('\n');
     return { robot, name };
   });
   socket.emit('watch', feeds);
 }
 
-function onFrame(meta: FrameMeta, picture: ArrayBuffer, acknowledge?: () => void): void {
+async function onFrame(meta: FrameMeta, picture: ArrayBuffer, acknowledge?: () => void): Promise<void> {
   const blob = new Blob([picture], { type: meta.type ?? 'image/jpeg' });
-  for (const handler of watchers.get(keyOf(meta)) ?? []) handler(blob, meta);
+  const key = keyOf(meta);
+  const handlers = [...(watchers.get(key) ?? [])];
+  if (handlers.length > 0) newest.set(key, { picture: blob, meta });
+  await Promise.allSettled(handlers.map((handler) => handler(blob, meta)));
   acknowledge?.();
 }

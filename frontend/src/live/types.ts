@@ -17,6 +17,7 @@ export type MemoryItem = Schemas['MemoryItem'];
 export type Incident = Schemas['Incident'];
 export type MapView = Schemas['MapView'];
 export type MapInfo = Schemas['MapInfo'];
+export type MapThing = Schemas['MapThing'];
 export type ActionInfo = Schemas['ActionInfo'];
 
 export type Policy = RobotView['policy'];

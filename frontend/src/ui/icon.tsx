@@ -29,6 +29,14 @@ const paths = {
   dots: 'M6 12h.01M12 12h.01M18 12h.01',
   square: 'M7 7h10v10H7z',
   bang: 'M12 6v7M12 17h.01',
+  enlarge: 'M14 4h6v6M20 4l-7 7M10 20H4v-6M4 20l7-7',
+  left: 'M15 6l-6 6 6 6',
+  right: 'M9 6l6 6-6 6',
+  minus: 'M5 12h14',
+  target: 'M12 19a7 7 0 1 0 0-14 7 7 0 0 0 0 14zM12 3v4M12 17v4M3 12h4M17 12h4',
+  fit: 'M4 9V4h5M20 9V4h-5M4 15v5h5M20 15v5h-5',
+  rays: 'M5 19a1 1 0 1 0 0-.01M9 19a4 4 0 0 0-4-4M13.5 19A8.5 8.5 0 0 0 5 10.5M18 19A13 13 0 0 0 5 6',
+  undo: 'M8 5 4 9l4 4M4 9h10a5 5 0 0 1 0 10h-4',
   octagon: 'M8.3 3h7.4L21 8.3v7.4L15.7 21H8.3L3 15.7V8.3z',
 } as const;
 

@@ -38,3 +38,20 @@ export function inWords(name: string): string {
 
 /** With a capital letter in front. */
 export const sentence = (text: string): string => text.charAt(0).toUpperCase() + text.slice(1);
+
+const steps = [
+  ['second', 60],
+  ['minute', 60],
+  ['hour', 24],
+] as const;
+
+/** How long ago something was: "12 seconds ago", "3 days ago". */
+export function ago(ageMs: number, language: string): string {
+  const words = new Intl.RelativeTimeFormat(language, { numeric: 'auto' });
+  let count = Math.max(0, Math.round(ageMs / 1000));
+  for (const [unit, upTo] of steps) {
+    if (count < upTo) return words.format(-count, unit);
+    count = Math.floor(count / upTo);
+  }
+  return words.format(-count, 'day');
+}

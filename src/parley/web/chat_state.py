@@ -125,6 +125,10 @@ class ChatBook:
         """A message on the wire: of another client, or the echo of our own."""
         if said.id in self.entries or said.id in self._said_as:
             return
+        origin = said.id.partition("~")[0]
+        if origin in self.entries:  # an answer that turned out to be something else, taken up as a request
+            self._said_as[said.id] = origin
+            return
         key = said.id or self._new_id()
         questions = [self._question_of(name, self._key_of_question(said.reply_to)) for name in said.targets]
         answered = [q for q in questions if q is not None] if said.type == "response" else []

@@ -1,29 +1,48 @@
+import { useMemo, useState } from 'react';
 import { useTranslation } from 'react-i18next';
 
-import { useWorld } from '@/live/store';
+import { useLive, useWorld } from '@/live/store';
 import { feedKey } from '@/live/world';
 import { Empty, Panel } from '@/ui/panel';
 
 import css from './display.module.css';
+import { FeedMenu } from './feed-menu';
 import { FeedPicture } from './feed-picture';
+import { FullScreen } from './full-screen';
+import { byRobot, isShown, useFeedChoice } from './shown-feeds';
 
 /** What robots see, and pictures they keep for people. */
 export function DisplayPanel() {
-  const { t } = useTranslation('display');
+  const { t } = useTranslation(['display', 'common']);
   const feeds = useWorld((world) => world.feeds);
-  const shown = Object.values(feeds).sort((a, b) => feedKey(a).localeCompare(feedKey(b)));
+  const known = useLive((live) => live.world.run !== '');
+  const choice = useFeedChoice((state) => state.choice);
+  const [large, setLarge] = useState('');
+  const groups = useMemo(() => byRobot(feeds), [feeds]);
+  const shown = groups.flatMap(([, some]) => some.filter((feed) => isShown(feed, choice)));
+  const enlarged = shown.find((feed) => feedKey(feed) === large);
   return (
-    <Panel title={t('title')}>
-      {shown.length === 0 ? (
+    <Panel title={t('title')} tools={<FeedMenu groups={groups} />}>
+      {!known && <p role="status">{t('common:loading')}</p>}
+      {known && groups.length === 0 && (
         <Empty title={t('empty')}>
           <p>{t('emptyText')}</p>
         </Empty>
-      ) : (
-        <ul className={css.grid}>
-          {shown.map((feed) => (
-            <FeedPicture key={feedKey(feed)} feed={feed} />
-          ))}
-        </ul>
+      )}
+      {groups.length > 0 && shown.length === 0 && (
+        <Empty title={t('noneChosen')}>
+          <p>{t('noneChosenText')}</p>
+        </Empty>
+      )}
+      <ul className={css.grid}>
+        {shown.map((feed) => (
+          <li key={feedKey(feed)}>
+            <FeedPicture feed={feed} onEnlarge={() => setLarge(feedKey(feed))} />
+          </li>
+        ))}
+      </ul>
+      {enlarged && (
+        <FullScreen feeds={shown} feed={enlarged} onShow={(feed) => setLarge(feedKey(feed))} onClose={() => setLarge('')} />
       )}
     </Panel>
   );

@@ -1,45 +1,74 @@
-import { useEffect, useState } from 'react';
 import { useTranslation } from 'react-i18next';
 
-import { watchFeed } from '@/live/connection';
+import { onServerClock } from '@/live/server-time';
 import type { FeedInfo } from '@/live/types';
-import { inWords } from '@/ui/words';
+import { Icon } from '@/ui/icon';
+import { useNow } from '@/ui/use-now';
+import { ago } from '@/ui/words';
 
 import css from './display.module.css';
+import { isStale } from './shown-feeds';
+import { useFeedName } from './use-feed-name';
+import { useNewestPicture } from './use-newest-picture';
 
-/** The newest picture of one feed. */
-export function FeedPicture({ feed }: { feed: FeedInfo }) {
-  const { t } = useTranslation('display');
-  const { robot, name } = feed;
-  const address = useNewestPicture(robot, name);
+interface Props {
+  feed: FeedInfo;
+  /** Show it as large as the screen; without it the picture fills its place. */
+  onEnlarge?: () => void;
+}
+
+const AGE_STEP_MS = 1000;
+
+/** The newest picture of one feed, and how old it is. */
+export function FeedPicture({ feed, onEnlarge }: Props) {
+  const { t, i18n } = useTranslation('display');
+  const name = useFeedName(feed.name);
+  const now = useNow(AGE_STEP_MS);
+  const picture = useNewestPicture(feed.robot, feed.name);
+  const taken = picture?.unixMs || feed.last_unix_ms;
+  const ageMs = taken > 0 ? Math.max(0, onServerClock(now) - taken) : 0;
+  const stale = picture !== null && isStale(feed, ageMs);
+  const shown = picture ? (
+    <img
+      key={feed.name}
+      src={picture.address}
+      alt={t('alt', { name, robot: feed.robot })}
+      onLoad={picture.onShown}
+      onError={picture.onShown}
+    />
+  ) : (
+    <span className={css.waiting}>{t('waiting')}</span>
+  );
   return (
-    <li className={css.feed}>
-      <figure>
-        {address ? (
-          <img src={address} alt={t('alt', { name: inWords(name), robot })} />
+    <figure className={css.feed} data-stale={stale}>
+      <div className={css.frame}>
+        {onEnlarge && picture ? (
+          <button type="button" className={css.enlarge} onClick={onEnlarge} aria-label={t('enlarge', { name, robot: feed.robot })}>
+            {shown}
+            <span className={css.corner}>
+              <Icon name="enlarge" size={18} />
+            </span>
+          </button>
         ) : (
-          <p className={css.waiting}>{t('waiting')}</p>
+          shown
         )}
-        <figcaption>{t('label', { robot, name: inWords(name) })}</figcaption>
-      </figure>
-    </li>
+        {stale && <span className={css.stale}>{t('stale', { ago: ago(ageMs, i18n.language) })}</span>}
+      </div>
+      <figcaption>
+        <strong>{feed.robot}</strong> <span>{name}</span>
+        {picture && taken > 0 && !stale && <Freshness live={feed.continuous} ageMs={ageMs} />}
+      </figcaption>
+    </figure>
   );
 }
 
-function useNewestPicture(robot: string, name: string): string {
-  const [address, setAddress] = useState('');
-  useEffect(() => {
-    let shown = '';
-    const stop = watchFeed({ robot, name }, (picture) => {
-      const next = URL.createObjectURL(picture);
-      setAddress(next);
-      if (shown) URL.revokeObjectURL(shown);
-      shown = next;
-    });
-    return () => {
-      stop();
-      if (shown) URL.revokeObjectURL(shown);
-    };
-  }, [robot, name]);
-  return address;
+function Freshness({ live, ageMs }: { live: boolean; ageMs: number }) {
+  const { t, i18n } = useTranslation('display');
+  if (!live) return <span className={css.age}>{ago(ageMs, i18n.language)}</span>;
+  return (
+    <span className={css.live}>
+      <span aria-hidden="true" />
+      {t('live')}
+    </span>
+  );
 }

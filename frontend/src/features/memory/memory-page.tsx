@@ -5,6 +5,7 @@ import { searchMemories } from '@/live/api';
 import { useWorld } from '@/live/store';
 import { Empty, Panel } from '@/ui/panel';
 import { TextField } from '@/ui/text-field';
+import { useHashValue } from '@/ui/use-hash';
 import { useRequest } from '@/ui/use-request';
 
 import css from './memory.module.css';
@@ -12,7 +13,7 @@ import css from './memory.module.css';
 /** What is remembered. */
 export function MemoryPage() {
   const { t } = useTranslation(['memory', 'common']);
-  const [words, setWords] = useState('');
+  const [words, setWords] = useState(useHashValue('name'));
   const changes = useWorld((world) => world.memoryChanges);
   const found = useRequest(`${changes}\n${words}`, () => searchMemories(words));
   return (
