@@ -37,6 +37,8 @@ class ModelSettings(BaseModel):
     max_memory_tokens: int = Field(default=1024, ge=64)
     output: Literal["tool", "native", "prompted"] = "tool"
     """How answers get their form: a tool call (plain JSON is accepted too), a JSON schema, or by asking."""
+    pictures: bool = True
+    """Whether the model is shown pictures that operators send or that are remembered."""
     timeout_s: float = Field(default=20.0, gt=0)
     """Time for one answer of one model, with all tries."""
     memory_timeout_s: float = Field(default=4.0, gt=0)

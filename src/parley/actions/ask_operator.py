@@ -38,8 +38,11 @@ async def ask_operator(ctx: ActionContext, question: str) -> Answer:
             continue
         reading = await ctx.language.read_reply(question, reply)
         match reading.kind:
-            case "yes" | "choice":
+            case "yes" | "choice" | "answer":
                 return Answer(reply)
+            case "aside":
+                await ctx.operator.refer(reply)
+                asked = question
             case "no":
                 raise ActionFailure(
                     FailureCode.DECLINED,

@@ -34,6 +34,10 @@ class Operator(Protocol):
         """Ask and wait for the answer, however long it takes; cancelling withdraws the question."""
         ...
 
+    async def refer(self, reply: str) -> None:
+        """Let what was said instead of an answer be understood like any message; wait for the reply to it."""
+        ...
+
 
 class Display(Protocol):
     """The operator's screen."""

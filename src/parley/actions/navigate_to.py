@@ -35,7 +35,7 @@ async def navigate_to(ctx: ActionContext, pose: Pose) -> Outcome:
     def on_progress(remaining_m: float) -> None:
         nonlocal total_m
         total_m = max(total_m, remaining_m)
-        ctx.run.progress(1.0 - remaining_m / total_m, f"{remaining_m:.1f} m")
+        ctx.run.progress(1.0 - remaining_m / total_m, f"{remaining_m:.1f} m to go")
 
     control = NavigationControl(on_progress=on_progress, paused=lambda: ctx.run.paused)
     try:

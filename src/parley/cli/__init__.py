@@ -15,6 +15,7 @@ from parley.cli import (
     bench,
     demo,
     doctor,
+    eval,
     graph,
     incidents,
     interpret,
@@ -39,6 +40,7 @@ app = typer.Typer(
 demo.register(app)
 doctor.register(app)
 interpret.register(app)
+eval.register(app)
 incidents.register(app)
 transcripts.register(app)
 app.add_typer(graph.app, name="graph")

@@ -12,7 +12,7 @@ from parley.clock import Clock
 from parley.messages.ros import UmrfGraphFeedback
 from parley.umrf.executor import GraphRun
 from parley.umrf.io import GraphWriter
-from parley.umrf.model import Graph
+from parley.umrf.model import Graph, GraphState
 
 __all__ = ["Feedback"]
 
@@ -28,8 +28,7 @@ _REST_FACTOR: Final = 4
 _SLICE: Final = 50
 """So many nodes are written in one turn of the loop, about a millisecond; a stop must not wait longer."""
 
-_REMEMBERED: Final = 100
-"""More graphs than this are not spaced exactly, so that names of old ones do not pile up."""
+_OVER: Final = frozenset({GraphState.FINISHED, GraphState.STOPPED, GraphState.ERROR, GraphState.HALTED})
 
 
 @dataclass(slots=True, eq=False)
@@ -129,12 +128,13 @@ class Feedback:
             now_s = self._clock.wall_s()
             due.not_before_s = now_s + max(self._interval_s, _COST_FACTOR * (now_s - began_s))
             self._free_s = now_s + _REST_FACTOR * (now_s - began_s)
-            self._forget()
+            if graph.state in _OVER and due.run.idle:  # its text would be kept for as long as it is not needed
+                self._forget(due)
         self._go_on()
 
     def _send(self, due: _Due, graph: Graph) -> None:
         self._publish(UmrfGraphFeedback(actor=self._actor, history=(due.writer.write(graph),)))
 
-    def _forget(self) -> None:
-        if len(self._due) > _REMEMBERED:
-            self._due = {name: item for name, item in self._due.items() if item.waits}
+    def _forget(self, due: _Due) -> None:
+        if self._due.get(due.run.name) is due:
+            del self._due[due.run.name]

@@ -7,6 +7,7 @@ order in which they come and none waits for another.
 from __future__ import annotations
 
 import asyncio
+import weakref
 from collections.abc import Callable, Mapping
 from typing import Any, Final
 
@@ -247,19 +248,29 @@ class GraphRuns:
         await asyncio.gather(*(run.close() for run in (*self._runs.values(), *self._replaced)))
 
     def _hold(self, graph: Graph, parameters: Mapping[str, Any], peers: Peers | None) -> GraphRun:
-        """Make a run and hold it in place of an older one of its name."""
+        """Make a run and hold it in place of an older one of its name.
+
+        A run does not know itself by way of its observer: as a circle it would outlive its time until the
+        garbage collector looks at everything.
+        """
+
+        def observe(transition: Transition) -> None:
+            if (known := made()) is not None and self._runs.get(known.name) is known:
+                self._observer(known, transition)
+
         run = GraphRun(
             graph,
             self.catalogue,
             actor=self._actor,
             clock=self._clock,
             make_context=self._make_context,
-            observer=lambda transition: self._observed(run, transition),
+            observer=observe,
             stop_timeout_s=self._stop_timeout_s,
             parameters=parameters,
             peers=peers,
             make_inner=lambda graph, parameters: self._hold_inner(graph, parameters, peers),
         )
+        made = weakref.ref(run)
         old = self._runs.pop(graph.name, None)
         if old is not None:
             old.stop()
@@ -276,10 +287,6 @@ class GraphRuns:
         run = self._hold(graph, parameters, peers)
         self._inner.add(run)
         return run
-
-    def _observed(self, run: GraphRun, transition: Transition) -> None:
-        if self._runs.get(run.name) is run:
-            self._observer(run, transition)
 
     def _get(self, name: str) -> GraphRun:
         run = self._runs.get(name)

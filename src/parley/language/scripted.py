@@ -49,6 +49,11 @@ class ScriptedLanguage:
         """See `Language.label`."""
         return "scripted"
 
+    @property
+    def sees_pictures(self) -> bool:
+        """See `Language.sees_pictures`."""
+        return True
+
     def will(self, question: Question, *answers: Any) -> None:
         """Prepare answers: values, exceptions to raise, or an `asyncio.Event` to wait for before the next."""
         self._script[question].extend(answers)

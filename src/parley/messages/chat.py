@@ -196,12 +196,14 @@ class ChatAction(Payload):
     system_cmd: tuple[SystemCommand, ...] = ()
     targets: tuple[str, ...] = ()
     success: bool | None = None
-    """Only for error resolutions: True, the correction is complete; False, `message_response` asks; None, it is
-    said aside (an answer to a question, an order kept for afterwards), and what was asked remains open."""
+    """Only for error resolutions: True, the correction is complete; False, `message_response` asks; None, it
+    is said aside (an answer to a question, an order kept for afterwards), and what was asked remains open."""
     choices: tuple[str, ...] = ()
     sources: tuple[str, ...] = ()
     delay_s: float = Field(default=0.0, ge=0.0, le=3600.0)
     """Ours, only for error resolutions: robot time to wait before the correction is carried out."""
+    afterwards: tuple[ActionCall, ...] = ()
+    """Ours, only for error resolutions: what was ordered besides, for when the rest of the plan is done."""
 
     @model_validator(mode="before")
     @classmethod
@@ -216,7 +218,7 @@ class ChatAction(Payload):
             value["targets"] = [value["target"]]
         return value
 
-    @field_validator("queue", mode="before")
+    @field_validator("queue", "afterwards", mode="before")
     @classmethod
     def _split_items(cls, value: Any) -> Any:
         """A queue item may hold several actions; each becomes one of its own, in order."""
@@ -253,4 +255,6 @@ class ChatAction(Payload):
             wire["sources"] = list(self.sources)
         if self.delay_s:
             wire["delay_s"] = self.delay_s
+        if self.afterwards:
+            wire["afterwards"] = [call.model_dump() for call in self.afterwards]
         return wire

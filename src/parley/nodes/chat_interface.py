@@ -21,6 +21,7 @@ from parley.memory.client import recall, recall_newest
 from parley.memory.sayings import asks_for_all, for_oneself, keeping_action
 from parley.messages import topics
 from parley.messages.chat import ActionCall, ChatAction, ChatFeedback, ChatInput, SystemCommand
+from parley.messages.failure import ErrorHandlingMessage
 from parley.messages.memory import AddToMemory, MemoryBody, MemoryEntry, MemoryEvent
 from parley.messages.ros import String
 from parley.messages.status import ActorStatus, PlanUpdate, Rejection, RejectionProblem, StopCommand
@@ -33,6 +34,9 @@ from parley.nodes.plan_steps import LATCHED
 from parley.nodes.presence import Presence
 from parley.nodes.questions import OpenQuestions
 from parley.nodes.recollections import Recollections
+from parley.nodes.repair import failed_situation
+from parley.nodes.shown_pictures import remembered_pictures, sent_pictures
+from parley.nodes.thinking import Thinking
 from parley.transport.base import Transport
 from parley.world.geometry import Pose2D
 from parley.world.object_map import MapObject
@@ -41,6 +45,8 @@ __all__ = ["MAX_CHARS", "ChatInterface"]
 
 MAX_CHARS: Final = 10_000
 """A longer message is not a request that a person wrote."""
+PATIENCE_S: Final = 5.0
+"""Wall time after which the operator is told that understanding a message takes long."""
 MEMORY_WITHIN_S: Final = 5.0
 """Wall time in which the memory must have confirmed what the reply promises."""
 AFTERWARDS: Final = "I will do that afterwards; first I need your answer to my question."
@@ -91,6 +97,7 @@ class ChatInterface(Node):
         language_timeout_s: Wall time an answer of the language engine may take.
         history_exchanges: How many exchanges are remembered as context.
         known_robots: Robots that send no heartbeat of ours.
+        patience_s: Wall time after which the operator is told that an answer takes long.
     """
 
     name: ClassVar[str] = "chat_interface"
@@ -105,15 +112,19 @@ class ChatInterface(Node):
         language_timeout_s: float = 30.0,
         history_exchanges: int = 10,
         known_robots: Sequence[str] = (),
+        patience_s: float = PATIENCE_S,
     ) -> None:
         super().__init__(transport)
         self._language, self._objects, self._clock = language, objects, clock
-        self._language_timeout_s, self._history_exchanges = language_timeout_s, history_exchanges
+        self._history_exchanges = history_exchanges
+        self._thinking = Thinking(language_timeout_s, patience_s)
         self._presence = Presence(clock, tuple(known_robots))
         self._questions = OpenQuestions()
         self._mailboxes: Mailboxes[str] = Mailboxes(self._on_defect)
         self._conversations: dict[str, Conversation] = {}
         self._plans: dict[str, PlanUpdate] = {}
+        self._failures: dict[str, ErrorHandlingMessage] = {}
+        """The last failed step of each robot, for questions about it."""
         self._seen_ids: deque[str] = deque(maxlen=1000)
         self._memory_waits: dict[str, asyncio.Future[MemoryEvent]] = {}
         self._recollections = Recollections(self, clock, self._remember, self._presence.names)
@@ -127,6 +138,7 @@ class ChatInterface(Node):
         await self.subscribe(topics.CHAT_FEEDBACK, ChatFeedback, self._questions.on_feedback)
         await self.subscribe(topics.MEMORY_EVENT, MemoryEvent, self._on_memory_event)
         await self.subscribe(topics.STOP, StopCommand, self._on_emergency)
+        await self.subscribe(topics.ERROR_HANDLING, ErrorHandlingMessage, self._on_failure)
         await self.subscribe_raw(topics.PLAN, self._on_plan)
         await self.subscribe(topics.CHAT_INPUT, ChatInput, self._on_input)
 
@@ -207,6 +219,9 @@ class ChatInterface(Node):
             update = PlanUpdate.model_validate_json(message.data)
             self._plans[update.target] = update
 
+    def _on_failure(self, failure: ErrorHandlingMessage) -> None:
+        self._failures[failure.target] = failure
+
     def _on_memory_event(self, event: MemoryEvent) -> None:
         wait = self._memory_waits.get(event.name)
         if wait is not None and not wait.done():
@@ -216,14 +231,18 @@ class ChatInterface(Node):
         """The stop button: what was asked for before it is dropped, as if it had been said."""
         if command.command == "stop":
             for target in command.targets or self._presence.names():
-                self._halts[target] = self._halts.get(target, 0) + 1
+                self._halt(target)
+
+    def _halt(self, target: str) -> None:
+        self._halts[target] = self._halts.get(target, 0) + 1
+        self._thinking.give_up(target)
 
     # -- control ---------------------------------------------------------------------------------------
 
     def _control(self, target: str, control: Control, said: ChatInput) -> None:
         """Act at once, ahead of anything that is still being understood."""
         if control in _HALTING:
-            self._halts[target] = self._halts.get(target, 0) + 1
+            self._halt(target)
         plan, status = self._plans.get(target), self._presence.get(target)
         state = plan.state if plan is not None else "idle"
         # A plan that waits for approval has no step yet: only approving or dropping it does anything.
@@ -256,21 +275,22 @@ class ChatInterface(Node):
     async def _answer(self, target: str, said: ChatInput, halts: int) -> None:
         message = said.message
         own = for_oneself(message)
-        situation = await self._situation(target, own or message)
         drafts = Drafts(said.id, target, lambda draft: self.publish(topics.REPLY_DRAFT, draft), self._clock)
         try:
-            async with asyncio.timeout(self._language_timeout_s):
-                understood = _kept(situation) or await self._language.interpret(
-                    situation, on_draft=drafts
-                )
+            async with self._thinking.about(target, lambda: self._say((target,), _thinking(message), "info")):
+                situation = await self._situation(target, own or message, said)
+                understood = _kept(situation) or await self._language.interpret(situation, on_draft=drafts)
         except (LanguageError, TimeoutError) as error:
+            if isinstance(error, TimeoutError) and halts != self._halts.get(target, 0):
+                self._say((target,), _left(message), "response", said.id)
+                return
             self.log.warning("not understood", target=target, error=repr(error))
             plain = error.plain if isinstance(error, LanguageError) else ""
             text = f"{plain or 'I could not work that out just now.'} Nothing was started; please try again."
             self._say((target,), text, "error", said.id)
             return
         if halts != self._halts.get(target, 0) and (understood.queue or understood.system_cmd):
-            self._say((target,), f"You told me to stop, so I leave this: “{message}”", "response", said.id)
+            self._say((target,), _left(message), "response", said.id)
             return
         order = self._trusted(target, understood)
         if order is None:
@@ -312,7 +332,7 @@ class ChatInterface(Node):
         held = plan is not None and plan.state == "held" and self._questions.first(target) is not None
         return held and bool(order.queue) and not control
 
-    async def _situation(self, target: str, message: str) -> Situation:
+    async def _situation(self, target: str, message: str, said: ChatInput) -> Situation:
         turns = self._conversation(target).turns
         if asks_for_all(message):
             memory = await recall_newest(self.transport, scope=target)
@@ -321,19 +341,29 @@ class ChatInterface(Node):
         status, plan = self._presence.get(target), self._plans.get(target)
         pending = pending_calls(plan) if plan else []
         state = plan.state if plan else "idle"
+        pictures = await sent_pictures(said.images)
+        if self._language.sees_pictures:
+            known = await remembered_pictures(self.transport, memory, target)
+            pictures += tuple(each for each in known if each.jpeg not in [sent.jpeg for sent in pictures])
+        objects, failure = tuple(self._objects(target)), self._failures.get(target)
+        asked = failure is not None and state == "held" and self._questions.first(target) is not None
         return Situation(
             message=message,
             memory=memory,
             history=turns,
             queue=tuple(pending),
             status="paused" if state in ("paused", "held") else "running" if state == "running" else "idle",
-            objects=tuple(self._objects(target)),
+            objects=objects,
             robot_pose=Pose2D(status.pose.x, status.pose.y, status.pose.yaw)
             if status and status.pose
             else None,
             robot=target,
             robots=self._presence.names(),
             catalogue=status.catalogue if status else (),
+            failure=failed_situation(failure, memory=memory, objects=objects, status=status)
+            if failure is not None and asked
+            else None,
+            pictures=pictures,
         )
 
     def _trusted(self, target: str, understood: ChatAction) -> ChatAction | None:
@@ -410,6 +440,18 @@ class ChatInterface(Node):
         self._say(
             (target,), "Something went wrong on my side. Nothing was started; please try again.", "error"
         )
+
+
+def _thinking(message: str) -> str:
+    return f"I am still thinking about “{_short(message)}”. If I should leave it, say “stop”."
+
+
+def _left(message: str) -> str:
+    return f"You told me to stop, so I leave this: “{_short(message)}”"
+
+
+def _short(message: str) -> str:
+    return message if len(message) <= 200 else f"{message[:200]} …"
 
 
 def _kept(situation: Situation) -> ChatAction | None:

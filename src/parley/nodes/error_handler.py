@@ -5,6 +5,7 @@ from __future__ import annotations
 import asyncio
 import uuid
 from collections.abc import Callable, Sequence
+from dataclasses import replace
 from typing import ClassVar, Literal
 
 from parley.clock import Clock
@@ -18,16 +19,23 @@ from parley.messages.chat import ActionCall, ChatAction, ChatFeedback, ChatInput
 from parley.messages.failure import ErrorHandlingMessage
 from parley.messages.incident import GetIncidents
 from parley.messages.ros import ChatRequest, ChatResponse, String
-from parley.messages.status import ActorStatus, PlanUpdate, StopCommand
+from parley.messages.status import ActorStatus, PlanUpdate, StopCommand, StopReport
 from parley.messages.wire import decode, encode
 from parley.nodes.base import Mailboxes, Node
 from parley.nodes.incident_log import IncidentLog
 from parley.nodes.presence import Presence
 from parley.nodes.questions import OpenQuestions
-from parley.nodes.repair import MAX_ALONE, Ending, Repair, ending_of, memory_query, steps_left
+from parley.nodes.repair import (
+    MAX_ALONE,
+    Ending,
+    Repair,
+    ending_of,
+    failed_situation,
+    memory_query,
+    steps_left,
+)
 from parley.nodes.which_robot import WhichRobot
 from parley.transport.base import Transport
-from parley.world.geometry import Pose2D
 from parley.world.object_map import MapObject
 
 __all__ = ["ErrorHandler"]
@@ -35,6 +43,9 @@ __all__ = ["ErrorHandler"]
 _ENDED_BY: dict[Control, Ending] = {
     "stop": "held", "emergency_stop": "held", "clear": "cancelled", "skip": "skipped",
 }  # fmt: skip
+
+
+_STOPPED = "I was stopped for safety. Release the stop first; then I ask you again."
 
 
 class ErrorHandler(Node):
@@ -77,6 +88,8 @@ class ErrorHandler(Node):
         """What is being worked out, by robot."""
         self._trying: dict[str, Repair] = {}
         """Corrections under way, to see whether they help."""
+        self._latched: set[str] = set()
+        """Robots that were stopped for safety and may not move before a person releases that."""
 
     async def open(self) -> None:
         """See `Node.open`."""
@@ -93,6 +106,7 @@ class ErrorHandler(Node):
         await self.subscribe(topics.ERROR_HANDLING, ErrorHandlingMessage, self._on_failure)
         await self.subscribe(topics.CHAT_INPUT, ChatInput, self._on_input)
         await self.subscribe(topics.STOP, StopCommand, self._on_stop)
+        await self.subscribe(topics.STOP_REPORT, StopReport, self._on_stop_report)
         await self.subscribe_raw(topics.PLAN, self._on_plan)
         server = await self.transport.serve(topics.GET_INCIDENTS, self._on_get)
         self.opened.push_async_callback(server.close)
@@ -134,7 +148,11 @@ class ErrorHandler(Node):
         self._questions.on_input(said)
         for target, question in answered:
             repair = self._repairs.get(target)
-            if repair is not None and repair.question_id == question.id:
+            if repair is None or repair.question_id != question.id:
+                continue
+            if target in self._latched:
+                self._say(target, _STOPPED, "response")
+            else:
                 repair.question_id = ""
                 self._mailboxes.post(target, lambda r=repair: self._attempt(r, said.message))  # type: ignore[misc]
         if not answered and self._which.needed(said, self._questions.robots()):
@@ -142,6 +160,8 @@ class ErrorHandler(Node):
 
     def _controlled(self, target: str, control: Control, words: str) -> None:
         """The chat interface acts on it and closes the question; what is still worked out moves nobody."""
+        if control == "start" and target in self._latched:
+            return  # it cannot go on; the question about the failed step stays as it is
         repair = self._repairs.pop(target, None)
         if repair is None:
             return  # what becomes of a correction under way, the plan will tell
@@ -163,6 +183,18 @@ class ErrorHandler(Node):
             repair = self._repairs.get(self._presence.resolve(target) or target)
             if repair is not None and not repair.question_id:
                 self._controlled(repair.failure.target, "emergency_stop", "")
+
+    def _on_stop_report(self, report: StopReport) -> None:
+        """Ask again what was open while the robot was stopped for safety: it may move again."""
+        target = self._presence.resolve(report.actor) or report.actor
+        if report.state != "reset":
+            self._latched.add(target)
+            return
+        was_latched = target in self._latched
+        self._latched.discard(target)
+        repair = self._repairs.get(target)
+        if was_latched and repair is not None and repair.question_id and repair.question is not None:
+            self._put(repair, repair.question, instead_of=repair.question_id)
 
     def _ask_which(self, said: ChatInput) -> None:
         robots = self._questions.robots()
@@ -226,8 +258,9 @@ class ErrorHandler(Node):
         return self._repairs.get(repair.failure.target) is repair
 
     def _is_used_up(self, repair: Repair, correction: ChatAction) -> bool:
-        """Nothing is tried the same way twice without asking, nor for ever."""
-        return repair.alone >= MAX_ALONE or repair.is_known(correction)
+        """Nothing is tried the same way twice without asking, nor for ever, nor while it must not move."""
+        latched = repair.failure.target in self._latched
+        return latched or repair.alone >= MAX_ALONE or repair.is_known(correction)
 
     async def _resolve(self, repair: Repair, reply: str | None) -> ChatAction:
         """Ask the language engine; when it cannot answer, fall back to the failure's own sentence."""
@@ -242,24 +275,9 @@ class ErrorHandler(Node):
         failure = repair.failure
         status = self._presence.get(failure.target)
         memory = await recall(self.transport, memory_query(failure, reply), scope=failure.target)
-        return ErrorSituation(
-            error_message=failure.error_message,
-            failed_action=failure.action_called,
-            code=failure.code,
-            details=failure.details,
-            completed=failure.completed,
-            pending=failure.umrf_queue,
-            memory=memory,
-            objects=tuple(self._objects(failure.target)),
-            dialogue=tuple(repair.dialogue),
-            reply=reply,
-            tried=tuple(repair.tried),
-            robot=failure.target,
-            robot_pose=Pose2D(status.pose.x, status.pose.y, status.pose.yaw)
-            if status and status.pose
-            else None,
-            catalogue=status.catalogue if status else (),
-        )
+        objects = self._objects(failure.target)
+        known = failed_situation(failure, memory=memory, objects=objects, status=status)
+        return replace(known, dialogue=tuple(repair.dialogue), reply=reply, tried=tuple(repair.tried))
 
     def _solve(self, repair: Repair, resolution: ChatAction, *, alone: bool) -> None:
         target = repair.failure.target
@@ -282,13 +300,20 @@ class ErrorHandler(Node):
     def _correct(self, repair: Repair, resolution: ChatAction) -> None:
         target = repair.failure.target
         del self._repairs[target]
-        correction = resolution.model_copy(update={"targets": (target,), "success": True})
+        correction = resolution.model_copy(update={"targets": (target,), "success": True, "afterwards": ()})
         ending = ending_of(resolution)
         if ending == "open":
             self._watch(repair, resolution.queue)
         else:
             self._end(repair, ending)
         self.publish(topics.UMRF_CORRECTION, correction)
+        self._keep_for_later(repair, resolution)
+
+    def _keep_for_later(self, repair: Repair, resolution: ChatAction) -> None:
+        """The planner keeps an order while the robot is held, and appends it to the plan afterwards."""
+        if resolution.afterwards:
+            order = ChatAction(queue=resolution.afterwards, targets=(repair.failure.target,))
+            self.publish(topics.CHAT_ACTION, order)
 
     def _watch(self, repair: Repair, correction: Sequence[ActionCall]) -> None:
         """See whether the correction helps (none: the step as it was)."""
@@ -299,18 +324,20 @@ class ErrorHandler(Node):
         """Answer what the operator asked, keep what they ordered for later, and ask again: no attempt."""
         target = repair.failure.target
         repair.dialogue.append(Turn("assistant", resolution.message_response))
-        if resolution.queue or resolution.system_cmd:
-            order = resolution.model_copy(update={"targets": (target,), "success": None, "choices": ()})
+        later = (*resolution.queue, *resolution.afterwards)
+        if later or resolution.system_cmd:
+            order = ChatAction(queue=later, system_cmd=resolution.system_cmd, targets=(target,))
             self.publish(topics.CHAT_ACTION, order)
         self._say(target, resolution.message_response, "response", sources=resolution.sources)
         self._put(repair, question)
 
     def _ask(self, repair: Repair, resolution: ChatAction) -> None:
         repair.attempts += 1
+        self._keep_for_later(repair, resolution)
         repair.dialogue.append(Turn("assistant", resolution.message_response))
         self._put(repair, resolution)
 
-    def _put(self, repair: Repair, question: ChatAction) -> None:
+    def _put(self, repair: Repair, question: ChatAction, *, instead_of: str = "") -> None:
         repair.question, repair.question_id = question, uuid.uuid4().hex
         repair.note_asked(question.message_response, self._clock.unix_ms())
         self._record(repair)
@@ -320,6 +347,7 @@ class ErrorHandler(Node):
             "request",
             choices=question.choices,
             question_id=repair.question_id,
+            closes=instead_of,
         )
 
     def _give_up(self, repair: Repair) -> None:

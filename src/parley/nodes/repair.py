@@ -7,13 +7,16 @@ from dataclasses import dataclass, field
 from typing import Final, Literal
 
 from parley.errors import FailureCode
-from parley.language.base import Turn
+from parley.language.base import ErrorSituation, Turn
 from parley.messages.chat import ActionCall, ChatAction
 from parley.messages.failure import ErrorHandlingMessage
 from parley.messages.incident import Incident, IncidentAttempt
-from parley.messages.status import PlanUpdate
+from parley.messages.memory import MemoryEntry
+from parley.messages.status import ActorStatus, PlanUpdate
+from parley.world.geometry import Pose2D
+from parley.world.object_map import MapObject
 
-__all__ = ["MAX_ALONE", "Ending", "Repair", "ending_of", "memory_query", "steps_left"]
+__all__ = ["MAX_ALONE", "Ending", "Repair", "ending_of", "failed_situation", "memory_query", "steps_left"]
 
 MAX_ALONE: Final = 3
 """Corrections of one step that are tried without asking; then the operator is asked."""
@@ -142,6 +145,30 @@ def ending_of(correction: ChatAction) -> Ending:
     if correction.queue or "start" in commands:
         return "open"
     return "held" if commands & {"stop", "pause"} else "skipped"
+
+
+def failed_situation(
+    failure: ErrorHandlingMessage,
+    *,
+    memory: Sequence[MemoryEntry],
+    objects: Sequence[MapObject],
+    status: ActorStatus | None,
+) -> ErrorSituation:
+    """What is known about a failed step before anything was said about it."""
+    pose = status.pose if status is not None else None
+    return ErrorSituation(
+        error_message=failure.error_message,
+        failed_action=failure.action_called,
+        code=failure.code,
+        details=failure.details,
+        completed=failure.completed,
+        pending=failure.umrf_queue,
+        memory=tuple(memory),
+        objects=tuple(objects),
+        robot=failure.target,
+        robot_pose=Pose2D(pose.x, pose.y, pose.yaw) if pose is not None else None,
+        catalogue=status.catalogue if status is not None else (),
+    )
 
 
 def memory_query(failure: ErrorHandlingMessage, reply: str | None) -> str:

@@ -109,7 +109,7 @@ class GraphRun:
         self._inner = InnerRuns(
             make_inner or functools.partial(like_this, stop_timeout_s=stop_timeout_s, peers=peers)
         )
-        self._rounds = Rounds(self._next_round)
+        self._rounds = Rounds()
         self._later = Later()
         self._holding = False
         self._stop_failed = False
@@ -343,6 +343,7 @@ class GraphRun:
         self._set_node(item, state, cause, result, facts)
         self._hand_over(item, result)
         self._rounds.over(item.name)
+        self._next_rounds()
         self._follow(item.name, result)
         self._settle()
 
@@ -386,17 +387,19 @@ class GraphRun:
             for item in others:
                 self._stop_node(item, "round")
             self._rounds.wait(name, [item.name for item in others], result)
+            self._next_rounds()
         elif self.state is GraphState.RUNNING:
             self._apply(self._flow.propagate(name, result), "edge", source=name)
 
-    def _next_round(self, name: str, result: Result) -> None:
-        """Propagate the end of a spontaneous node and run it again, unless it was stopped or failed."""
-        if self._holding or self.state is GraphState.PAUSED:
-            self._later.held.append((name, result))
-        elif self.state is GraphState.RUNNING and name in self._flow.nodes:
-            self._apply(self._flow.propagate(name, result), "edge", source=name)
-            if self.state is GraphState.RUNNING and result in (Result.ON_TRUE, Result.ON_FALSE):
-                self._run_node(self._flow.nodes[name], "round")
+    def _next_rounds(self) -> None:
+        """Propagate ends of spontaneous nodes and run these again, unless they were stopped or failed."""
+        for name, result in self._rounds.take_ready():
+            if self._holding or self.state is GraphState.PAUSED:
+                self._later.held.append((name, result))
+            elif self.state is GraphState.RUNNING and name in self._flow.nodes:
+                self._apply(self._flow.propagate(name, result), "edge", source=name)
+                if self.state is GraphState.RUNNING and result in (Result.ON_TRUE, Result.ON_FALSE):
+                    self._run_node(self._flow.nodes[name], "round")
 
     def _apply(self, effects: Iterable[Effect], cause: str, source: str = "") -> None:
         waiting = deque(effects)

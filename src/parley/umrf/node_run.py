@@ -133,6 +133,7 @@ class NodeRun:
             if timer is not None:
                 timer.cancel()
         ended(self)
+        self._task = None  # what it raised knows its frames, and they know this run: a circle
 
     def ending(self) -> Ended | BaseException:
         """How it ended or what was raised, once it is over."""
@@ -174,15 +175,16 @@ class NodeRun:
 
     @property
     def task(self) -> asyncio.Task[Ended]:
-        """What runs it, once begun."""
+        """What runs it, from its beginning to its end."""
         assert self._task is not None
         return self._task
 
     async def abandon(self) -> bool:
         """Cancel whatever still waits, also for a thread; False if the action does not let that happen."""
-        self.task.cancel()
-        await asyncio.wait([self.task], timeout=ABANDON_S)
-        return self.task.done()
+        task = self.task
+        task.cancel()
+        await asyncio.wait([task], timeout=ABANDON_S)
+        return task.done()
 
     def log(self, text: str) -> None:
         """See `RunHandle.log`."""

@@ -188,8 +188,9 @@ class RemoteRun(NodeRun):
 
     async def abandon(self) -> bool:
         """See `NodeRun.abandon`; nothing is lost by not waiting for others."""
-        self.task.cancel()
-        await asyncio.wait([self.task])
+        task = self.task
+        task.cancel()
+        await asyncio.wait([task])
         return True
 
 

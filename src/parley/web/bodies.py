@@ -2,9 +2,9 @@
 
 from __future__ import annotations
 
-from typing import Annotated, Literal
+from typing import Annotated, Literal, Self
 
-from pydantic import Field, StringConstraints
+from pydantic import Field, StringConstraints, model_validator
 
 from parley.messages.chat import ActionCall
 from parley.web.models import ChatEntry, Policy, WebModel
@@ -95,11 +95,18 @@ class ChatPost(WebModel):
 
     id: Key
     """Chosen by the page; the same message sent again under the same id does nothing more."""
-    text: Annotated[str, StringConstraints(min_length=1, max_length=10_000)]
+    text: Annotated[str, StringConstraints(max_length=10_000)] = ""
+    """May be empty where a picture says it all."""
     targets: Annotated[tuple[Name, ...], Field(min_length=1, max_length=100)]
     reply_to: Annotated[str, StringConstraints(max_length=200)] = ""
     """Key of the question that is answered, if a certain one is meant."""
     images: Annotated[tuple[ImageUpload, ...], Field(max_length=4)] = ()
+
+    @model_validator(mode="after")
+    def _says_something(self) -> Self:
+        if not self.text and not self.images:
+            raise ValueError("there are neither words nor a picture")
+        return self
 
 
 class ChatPage(WebModel):

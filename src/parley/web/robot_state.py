@@ -80,6 +80,7 @@ class RobotBook:
                     "last_seen_unix_ms": unix_ms,
                     "pose": status.pose,
                     "at_rest": status.at_rest,
+                    "battery": status.battery,
                     "map_name": status.map_name,
                     "graphs": status.graphs,
                     "catalogue": status.catalogue,

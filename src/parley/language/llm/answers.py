@@ -145,6 +145,9 @@ class ResolveAnswer(PlanAnswer):
         description="true: the plan goes on with this; false: the message asks; null: said aside."
     )
     delay_s: float = Field(default=0.0, ge=0, le=3600, description="Seconds to wait before it goes on.")
+    afterwards: list[StepAnswer] = Field(
+        default_factory=list, max_length=MAX_STEPS, description="Ordered besides, for behind the rest."
+    )
 
 
 class SelectAnswer(_Answer):
@@ -172,7 +175,7 @@ class InspectAnswer(_Answer):
 class ReplyAnswer(_Answer):
     """How the answer is meant."""
 
-    kind: Literal["yes", "no", "choice", "control", "unclear"]
+    kind: Literal["yes", "no", "choice", "answer", "aside", "control", "unclear"]
     choice: str = Field(default="", max_length=500)
 
 

@@ -65,6 +65,11 @@ class ChainLanguage:
         first, *others = [engine.label for engine in self.engines]
         return f"{first}; if it gives no answer: {', then '.join(others)}" if others else first
 
+    @property
+    def sees_pictures(self) -> bool:
+        """See `Language.sees_pictures`."""
+        return any(engine.sees_pictures for engine in self.engines)
+
     async def _first(self, ask: Callable[[Language], Awaitable[R]]) -> tuple[R, bool]:
         """The first answer, and whether it is the first engine's."""
         failures: list[LanguageError] = []

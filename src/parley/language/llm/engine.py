@@ -100,6 +100,7 @@ class LlmLanguage:
     ) -> None:
         self._model, self._name, self._settings = model, name, settings
         self._clock, self._check, self._streams = clock, check, streams
+        self._blind = False
         self.usage = usage or Usage()
         self._budget = budget or Budget(clock)
         self._redactor, self._recorder = redactor or Redactor(), recorder
@@ -124,6 +125,11 @@ class LlmLanguage:
         return f"language model {self._name}"
 
     @property
+    def sees_pictures(self) -> bool:
+        """See `Language.sees_pictures`; a model that refused a question for its pictures gets no more."""
+        return self._settings.pictures and not self._blind
+
+    @property
     def timeout_s(self) -> float:
         """How long it may take over an answer, picking memories apart."""
         return self._settings.timeout_s
@@ -132,9 +138,24 @@ class LlmLanguage:
 
     async def interpret(self, situation: Situation, *, on_draft: DraftHandler | None = None) -> ChatAction:
         """See `Language.interpret`."""
-        prompt = compose_interpret(situation)
+        shown = [each.jpeg for each in situation.pictures] if self.sees_pictures else []
+        try:
+            return await self._interpret(situation, shown, on_draft)
+        except ModelFailedError as error:
+            if not shown or not error.rejected:
+                raise
+            log.warning("model takes no pictures", model=self._name, error=str(error))
+            self._blind = True
+            return await self._interpret(situation, [], on_draft)
+
+    async def _interpret(
+        self, situation: Situation, shown: Sequence[bytes], on_draft: DraftHandler | None
+    ) -> ChatAction:
         return await self._ask(
-            prompt, lambda answer: reading.read_plan(answer, situation, self._check), on_draft=on_draft
+            compose_interpret(situation, sees=bool(shown)),
+            lambda answer: reading.read_plan(answer, situation, self._check),
+            pictures=shown,
+            on_draft=on_draft,
         )
 
     async def resolve(self, situation: ErrorSituation) -> ChatAction:
@@ -165,7 +186,7 @@ class LlmLanguage:
         return await self._ask(
             prompt,
             lambda a: InspectionReport(a.text, a.found, a.wanted, a.attention),
-            picture=_jpeg(image),
+            pictures=[_jpeg(image)],
         )
 
     async def read_reply(self, question: str, reply: str, choices: Sequence[str] = ()) -> ReplyReading:
@@ -180,7 +201,7 @@ class LlmLanguage:
         prompt: Prompt,
         read: Callable[[Any], R],
         *,
-        picture: bytes | None = None,
+        pictures: Sequence[bytes] = (),
         on_draft: DraftHandler | None = None,
     ) -> R:
         """Ask, within time, budget and breaker.
@@ -194,7 +215,7 @@ class LlmLanguage:
         limit_s = self._settings.memory_timeout_s if short else self._settings.timeout_s
         try:
             async with self._clock.timeout(limit_s):
-                answer = await self._tries(prompt, read, picture, on_draft)
+                answer = await self._tries(prompt, read, pictures, on_draft)
         except TimeoutError:
             self.breaker.failed()
             text = f"{self._name} gave no answer within {limit_s:g} s"
@@ -212,12 +233,16 @@ class LlmLanguage:
         return answer
 
     async def _tries(
-        self, prompt: Prompt, read: Callable[[Any], R], picture: bytes | None, on_draft: DraftHandler | None
+        self,
+        prompt: Prompt,
+        read: Callable[[Any], R],
+        pictures: Sequence[bytes],
+        on_draft: DraftHandler | None,
     ) -> R:
         wait_s = self._settings.backoff_s
         for left in reversed(range(self._settings.retries + 1)):
             try:
-                return await self._once(prompt, read, picture, on_draft)
+                return await self._once(prompt, read, pictures, on_draft)
             except ModelFailedError as error:
                 if not error.may_help or not left:
                     raise
@@ -228,7 +253,11 @@ class LlmLanguage:
         raise AssertionError("the last try returns or raises")
 
     async def _once(
-        self, prompt: Prompt, read: Callable[[Any], R], picture: bytes | None, on_draft: DraftHandler | None
+        self,
+        prompt: Prompt,
+        read: Callable[[Any], R],
+        pictures: Sequence[bytes],
+        on_draft: DraftHandler | None,
     ) -> R:
         start_s, usage = self._clock.wall_s(), RunUsage()
         failure = LanguageError("nobody waits for the answer any more")  # unless something else happens
@@ -237,7 +266,7 @@ class LlmLanguage:
         with capture_run_messages() as messages:
             try:
                 result = await self._agents[prompt.kind].run(
-                    _content(prompt, picture),
+                    _content(prompt, pictures),
                     model=self._model,
                     deps=refused,
                     instructions=prompt.instructions,
@@ -338,10 +367,10 @@ class _Refusals:
             raise
 
 
-def _content(prompt: Prompt, picture: bytes | None) -> str | list[UserContent]:
-    if picture is None:
+def _content(prompt: Prompt, pictures: Sequence[bytes]) -> str | list[UserContent]:
+    if not pictures:
         return prompt.content
-    return [prompt.content, BinaryContent(picture, media_type="image/jpeg")]
+    return [prompt.content, *(BinaryContent(each, media_type="image/jpeg") for each in pictures)]
 
 
 def _jpeg(image: CameraImage) -> bytes:

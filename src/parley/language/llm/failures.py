@@ -31,12 +31,19 @@ class ModelFailedError(LanguageError):
     Attributes:
         may_help: Whether trying again may help.
         wait_s: How long the provider asks to wait first, if it says.
+        rejected: Whether the question itself was refused, e.g. for what it holds.
     """
 
     def __init__(
-        self, message: str, *, plain: str, may_help: bool = True, wait_s: float | None = None
+        self,
+        message: str,
+        *,
+        plain: str,
+        may_help: bool = True,
+        wait_s: float | None = None,
+        rejected: bool = False,
     ) -> None:
-        self.may_help, self.wait_s = may_help, wait_s
+        self.may_help, self.wait_s, self.rejected = may_help, wait_s, rejected
         super().__init__(message, plain=plain)
 
 
@@ -81,4 +88,6 @@ def _failed(error: ModelAPIError, text: str) -> ModelFailedError:
         return ModelFailedError(text, plain=plain, may_help=patient, wait_s=wait_s)
     rejected = isinstance(error, ModelRequestRejectedError)
     plain = "My language service does not answer at the moment."
-    return ModelFailedError(text, plain=plain, may_help=not rejected, wait_s=error.retry_after)
+    return ModelFailedError(
+        text, plain=plain, may_help=not rejected, wait_s=error.retry_after, rejected=rejected
+    )

@@ -87,10 +87,15 @@ def read_resolution(answer: ResolveAnswer, situation: ErrorSituation, check: Pla
     calls = _calls(answer.queue, situation.catalogue, problems)
     names = {entry.name for entry in situation.memory}
     commands = _commands(answer.system_cmd, len(situation.pending), names, problems)
+    later = _calls(answer.afterwards, situation.catalogue, problems, "afterwards")
+    if calls and answer.success is None:  # nothing takes the failed step's place: it can only be for later
+        calls, later = [], [*calls, *later]
     if calls and not answer.success:
-        problems.append("without success true nothing is carried out: leave the queue empty")
+        problems.append("without success true nothing takes the failed step's place: leave the queue empty")
     if calls and not problems:
         problems += [str(problem) for problem in check(calls, situation.catalogue, situation.completed)]
+    if later and not problems:
+        problems += [f"afterwards: {problem}" for problem in check(later, situation.catalogue, ())]
     if problems:
         raise AnswerRefusedError(problems)
     return ChatAction(
@@ -99,6 +104,7 @@ def read_resolution(answer: ResolveAnswer, situation: ErrorSituation, check: Pla
         system_cmd=tuple(commands),
         success=answer.success,
         delay_s=answer.delay_s if answer.success else 0.0,
+        afterwards=tuple(later),
         choices=() if answer.success else _choices(answer),
         sources=tuple(name for name in answer.sources if name in names),
     )
@@ -158,7 +164,7 @@ def _targets(named: Sequence[str], robots: Sequence[str], problems: list[str]) -
 
 
 def _calls(
-    steps: Sequence[StepAnswer], catalogue: Sequence[ActionInfo], problems: list[str]
+    steps: Sequence[StepAnswer], catalogue: Sequence[ActionInfo], problems: list[str], place: str = "queue"
 ) -> list[ActionCall]:
     known = {info.name: info for info in catalogue}
     calls: list[ActionCall] = []
@@ -166,12 +172,12 @@ def _calls(
         info = known.get(step.action)
         if info is None:
             names = ", ".join(known) or "none"
-            problems.append(f"queue[{index}]: there is no action {step.action!r}; there are: {names}")
+            problems.append(f"{place}[{index}]: there is no action {step.action!r}; there are: {names}")
             continue
         calls.append(
             ActionCall(
                 name=info.name,
-                input_parameters=_values(f"queue[{index}]", step.parameters, info, problems),
+                input_parameters=_values(f"{place}[{index}]", step.parameters, info, problems),
                 reason=step.reason,
                 flow=_flow(step),
             )

@@ -11,6 +11,7 @@ from parley.language.offline.changing import Changing
 from parley.language.offline.clauses import Clause
 from parley.language.offline.commands import Command, read_command
 from parley.language.offline.saying import listing, whole_sentence
+from parley.language.offline.replies import agrees
 from parley.language.offline.scene import UnclearError
 from parley.language.offline.stories import told_around
 from parley.language.offline.text import Word, keys, plain
@@ -53,7 +54,7 @@ class Answering(Changing):
         if answer.counts and self.scene.catalogue.with_role("search") is not None:
             self._look_now(answer)
             return
-        if self.scene.hints and questions.is_yes(self.scene.hints[0]):
+        if self.scene.hints and agrees(self.scene.hints[0]) is True:
             self.scene.hints.pop(0)
             self._look_now(answer)
             return

@@ -24,6 +24,9 @@ from parley.world.object_map import MapObject
 __all__ = ["OfflineLanguage"]
 
 
+_BLIND = "I cannot see what is in a picture that you send; I only keep it."
+
+
 class OfflineLanguage:
     """Understands operators' English without model and network; deterministic, stateless, quick.
 
@@ -49,7 +52,10 @@ class OfflineLanguage:
         trace = Trace()
         failure = situation.failure
         aside = about_failure(failure, situation.message) if failure is not None else None
-        return aside or interpreter.interpret(situation, trace), tuple(trace.decisions)
+        answer = aside or interpreter.interpret(situation, trace)
+        if any(picture.sent for picture in situation.pictures):
+            answer = answer.model_copy(update={"message_response": f"{answer.message_response} {_BLIND}"})
+        return answer, tuple(trace.decisions)
 
     async def select_memories(self, query: str, index: Sequence[MemoryEntry]) -> list[str]:
         """See `Language.select_memories`."""

@@ -14,14 +14,13 @@ from parley.language.offline.lexicon import lexicon
 from parley.language.offline.nouns import bare, noun_phrase
 from parley.language.offline.own_state import ABOUT_ITSELF, told_about
 from parley.language.offline.remembering import find_fact
-from parley.language.offline.replies import agrees
 from parley.language.offline.saying import a, capital, listing, the, whole_sentence
 from parley.language.offline.scene import Scene
 from parley.language.offline.text import Phrase, Word, keys, lemma, plain, singular, tokens
 from parley.language.word_lists import load_data
 from parley.messages.chat import ActionCall
 
-__all__ = ["Answer", "answer", "is_yes"]
+__all__ = ["Answer", "answer"]
 
 
 @cache
@@ -37,11 +36,6 @@ _ALSO_WRAPPED = ("left", "memory", "status", "objects")
 
 
 _ASKED_ABOUT = frozenset({"you", "i", "we", "they", "he", "she", "it"})
-
-
-def is_yes(text: str) -> bool:
-    """Whether an answer agrees."""
-    return agrees(text) is True
 
 
 def answer(clause: Clause, scene: Scene) -> Answer | None:

@@ -51,8 +51,17 @@ class Prompt:
     """Changes whenever the standing text of this kind does."""
 
 
-def compose_interpret(situation: Situation) -> Prompt:
-    """For understanding a message; the message itself stands in it once, last."""
+def compose_interpret(situation: Situation, *, sees: bool = True) -> Prompt:
+    """For understanding a message; the message itself stands in it once, last.
+
+    Args:
+        situation: What is known.
+        sees: Whether the pictures of the situation go along with it.
+    """
+    about = [
+        *([data.block("failure", _failure(situation.failure))] if situation.failure is not None else []),
+        *([data.block("pictures", data.pictures(situation.pictures, sees))] if situation.pictures else []),
+    ]
     parts = [
         data.block("robot", {"name": situation.robot, "status": situation.status}),
         data.block("robots", list(situation.robots)),
@@ -60,6 +69,7 @@ def compose_interpret(situation: Situation) -> Prompt:
         data.block("map", data.objects(situation.objects)),
         data.block("robot_place", data.place(situation.robot_pose)),
         data.block("memory", data.memories(situation.memory)),
+        *about,
         data.block("conversation", data.turns(situation.history)),
         data.tagged("operator_message", situation.message),
     ]
@@ -68,15 +78,10 @@ def compose_interpret(situation: Situation) -> Prompt:
 
 def compose_resolve(situation: ErrorSituation) -> Prompt:
     """For getting over a failed step."""
-    failure = {
-        "message": situation.error_message,
-        "code": situation.code.value,
-        "details": dict(situation.details),
-        "failed_step": data.called(situation.failed_action),
-    }
     parts = [
         data.block("robot", {"name": situation.robot}),
-        data.block("failure", failure),
+        data.block("failure", _failure(situation)),
+        data.block("tried", data.attempts(situation.tried)),
         data.block("completed", data.queue(situation.completed[-10:])),
         data.block("pending", data.queue(situation.pending)),
         data.block("map", data.objects(situation.objects)),
@@ -87,6 +92,15 @@ def compose_resolve(situation: ErrorSituation) -> Prompt:
     if situation.reply is not None:
         parts.append(data.tagged("operator_message", situation.reply))
     return _prompt("resolve", parts, situation.catalogue)
+
+
+def _failure(situation: ErrorSituation) -> dict[str, object]:
+    return {
+        "message": situation.error_message,
+        "code": situation.code.value,
+        "details": dict(situation.details),
+        "failed_step": data.called(situation.failed_action),
+    }
 
 
 def compose_selection(query: str, index: Sequence[MemoryEntry]) -> Prompt:

@@ -10,7 +10,7 @@ import json
 from collections.abc import Iterable, Mapping, Sequence
 from typing import Any, Final
 
-from parley.language.base import Turn
+from parley.language.base import Picture, Turn
 from parley.messages.chat import ActionCall
 from parley.messages.memory import MemoryEntry
 from parley.messages.status import ActionInfo
@@ -20,10 +20,12 @@ from parley.world.object_map import MapObject
 __all__ = [
     "QUEUE_CHARS",
     "actions",
+    "attempts",
     "block",
     "called",
     "memories",
     "objects",
+    "pictures",
     "place",
     "queue",
     "tagged",
@@ -38,6 +40,7 @@ MAX_OBJECTS: Final = 400
 MAX_MEMORIES: Final = 50
 MAX_TURNS: Final = 40
 MAX_PHRASES: Final = 6
+MAX_ATTEMPTS: Final = 10
 
 
 def tagged(tag: str, value: Any, attributes: str = "") -> str:
@@ -106,6 +109,24 @@ def memories(entries: Sequence[MemoryEntry], *, whole: bool = True) -> list[dict
             item["source"] = entry.source
         shown.append(item)
     return _capped(shown, MAX_MEMORIES, newest=True)
+
+
+def pictures(shown: Sequence[Picture], sees: bool) -> list[dict[str, Any]]:
+    """What the pictures are that go along, in their order; or that they cannot be seen."""
+    return [
+        {
+            "picture": number,
+            "name": _cut(picture.name, 200),
+            "from": "the operator's message" if picture.sent else "memory",
+            **({} if sees else {"shown": False}),
+        }
+        for number, picture in enumerate(shown, 1)
+    ]
+
+
+def attempts(tried: Sequence[Sequence[ActionCall]]) -> list[list[dict[str, Any]]]:
+    """What was carried out in place of a failed step, in vain; the newest last."""
+    return [queue(calls) for calls in tried[-MAX_ATTEMPTS:]]
 
 
 def objects(things: Iterable[MapObject]) -> list[dict[str, Any]]:

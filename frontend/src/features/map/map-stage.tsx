@@ -1,0 +1,89 @@
+import { useMemo, useState } from 'react';
+import { ToggleButton } from 'react-aria-components';
+import { useTranslation } from 'react-i18next';
+
+import type { MapInfo, MapThing } from '@/live/types';
+import { Button } from '@/ui/button';
+import { Icon, type IconName } from '@/ui/icon';
+
+import { MapDrawing, type Rover } from './map-drawing';
+import css from './map.module.css';
+import { useViewport } from './use-viewport';
+import { thingAt, type Place } from './viewport';
+
+interface Props {
+  map: MapInfo;
+  rovers: readonly Rover[];
+  marked: Place | MapThing | null;
+  onMark: (marked: Place | MapThing) => void;
+}
+
+const ZOOM_STEP = 1.4;
+const FINGER_PX = 14;
+
+/** The map to look at, move, zoom and point at. */
+export function MapStage({ map, rovers, marked, onMark }: Props) {
+  const { t } = useTranslation('map');
+  const [follow, setFollow] = useState(false);
+  const [showScan, setShowScan] = useState(false);
+  const chosen = rovers.find((rover) => rover.chosen) ?? null;
+  const { x, y } = chosen?.pose ?? { x: 0, y: 0 };
+  const followed = useMemo(() => (follow && chosen ? { x, y } : null), [follow, chosen, x, y]);
+  const onPick = (place: Place) => onMark(thingAt(map.objects, place, FINGER_PX / view.scale) ?? place);
+  const { box, size, view, zoomBy, fitAll, handlers } = useViewport({
+    map,
+    followed,
+    onMoved: () => setFollow(false),
+    onPick,
+  });
+  const senses = rovers.some((rover) => (rover.view?.scan.length ?? 0) > 0);
+  return (
+    <div
+      ref={box}
+      className={css.stage}
+      role="application"
+      aria-label={t('help', { robot: chosen?.name ?? map.robot })}
+      // eslint-disable-next-line jsx-a11y/no-noninteractive-tabindex -- it is moved, zoomed and pointed at by keys
+      tabIndex={0}
+      {...handlers}
+    >
+      <MapDrawing map={map} view={view} size={size} rovers={rovers} marked={marked} showScan={showScan} />
+      <span className={css.cross}>
+        <Icon name="target" size={28} />
+      </span>
+      {/* eslint-disable-next-line jsx-a11y/no-static-element-interactions -- keeps taps on buttons off the map */}
+      <div className={css.tools} onPointerDown={stay} onKeyDown={stay}>
+        <Button icon="plus" iconOnly aria-label={t('larger')} onPress={() => zoomBy(ZOOM_STEP)} />
+        <Button icon="minus" iconOnly aria-label={t('smaller')} onPress={() => zoomBy(1 / ZOOM_STEP)} />
+        <Button
+          icon="fit"
+          iconOnly
+          aria-label={t('whole')}
+          onPress={() => {
+            setFollow(false);
+            fitAll();
+          }}
+        />
+        {chosen && <Switch icon="target" label={t('follow', { robot: chosen.name })} value={follow} onChange={setFollow} />}
+        {senses && <Switch icon="rays" label={t('senses')} value={showScan} onChange={setShowScan} />}
+      </div>
+    </div>
+  );
+}
+
+const stay = (event: React.SyntheticEvent) => event.stopPropagation();
+
+interface SwitchProps {
+  icon: IconName;
+  label: string;
+  value: boolean;
+  onChange: (value: boolean) => void;
+}
+
+function Switch({ icon, label, value, onChange }: SwitchProps) {
+  return (
+    <ToggleButton className={css.switch ?? ''} aria-label={label} isSelected={value} onChange={onChange}>
+      <Icon name={icon} />
+    </ToggleButton>
+  );
+}

@@ -1,0 +1,102 @@
+"""`parley eval`: how well language engines understand, side by side."""
+
+from __future__ import annotations
+
+import asyncio
+import contextlib
+import json
+from collections.abc import Sequence
+from pathlib import Path
+from typing import Annotated, Any
+
+import typer
+
+from parley.cli.language import KeyFileOption, language_settings
+from parley.cli.output import emit_json, quiet_logs
+from parley.clock import WallClock
+from parley.config import ModelSettings
+from parley.errors import ConfigError
+from parley.evaluation.cases import Case
+from parley.evaluation.gpsr import GPSR_SEED
+from parley.evaluation.report import json_report, markdown_report
+from parley.evaluation.running import Outcome, evaluate
+from parley.evaluation.scores import BackendScore, score
+from parley.evaluation.sets import load_set
+from parley.language.llm import build_language
+from parley.language.llm.usage import Usage
+from parley.nodes.plan_check import plan_problems
+
+__all__ = ["register"]
+
+Run = tuple[BackendScore, list[Outcome]]
+
+
+def register(app: typer.Typer) -> None:
+    """Add the command."""
+    app.command("eval")(evaluate_languages)
+
+
+def evaluate_languages(
+    language: Annotated[
+        list[str] | None,
+        typer.Option(help="offline, or provider:model; again for each further one. Default: offline."),
+    ] = None,
+    set_name: Annotated[
+        str, typer.Option("--set", help="development, held-out, blind, gpsr, all, or a file.")
+    ] = "development",
+    out: Annotated[
+        Path | None, typer.Option(help="Folder for report.md and report.json; made if it is not there.")
+    ] = None,
+    as_json: Annotated[bool, typer.Option("--json", help="One line of JSON instead of the report.")] = False,
+    reveal: Annotated[
+        bool, typer.Option(help="Also show what fails of sets of which only the score is to be looked at.")
+    ] = False,
+    seed: Annotated[int, typer.Option(help="Of the commands that are made by a grammar.")] = GPSR_SEED,
+    at_once: Annotated[int, typer.Option(min=1, help="Questions that may be open at a time.")] = 1,
+    key_file: KeyFileOption = None,
+) -> None:
+    """Say how much of a set each engine understands, what its plans are worth, and what it takes."""
+    quiet_logs()
+    names = language or ["offline"]
+    for name in names:
+        language_settings(name, key_file)
+    cases = load_set(set_name, seed)
+    if not cases:
+        raise ConfigError(f"the set {set_name!r} is empty")
+    runs = asyncio.run(_run_all(names, cases, key_file, at_once))
+    scores, outcomes = [run[0] for run in runs], [run[1] for run in runs]
+    report = json_report(set_name, scores, outcomes, reveal=reveal)
+    text = markdown_report(set_name, scores, outcomes, reveal=reveal)
+    if out is not None:
+        _write(out, report, text)
+    if as_json:
+        emit_json(report)
+    else:
+        typer.echo(text, nl=False)
+
+
+async def _run_all(
+    names: Sequence[str], cases: Sequence[Case], key_file: Path | None, at_once: int
+) -> list[Run]:
+    return [await _run(name, cases, key_file, at_once) for name in names]
+
+
+async def _run(name: str, cases: Sequence[Case], key_file: Path | None, at_once: int) -> Run:
+    usage = Usage()
+    engine = build_language([name], ModelSettings(key_file=key_file), check=plan_problems, usage=usage)
+    async with contextlib.AsyncExitStack() as stack:
+        if isinstance(engine, contextlib.AbstractAsyncContextManager):
+            await stack.enter_async_context(engine)
+        outcomes = await evaluate(cases, engine, WallClock(), at_once=at_once)
+    return score(name, outcomes, usage.totals() if usage.asked else None), outcomes
+
+
+def _write(folder: Path, report: dict[str, Any], text: str) -> None:
+    try:
+        folder.mkdir(parents=True, exist_ok=True)
+        (folder / "report.json").write_text(
+            json.dumps(report, ensure_ascii=False, indent=1), encoding="utf-8"
+        )
+        (folder / "report.md").write_text(text, encoding="utf-8")
+    except OSError as error:
+        raise ConfigError(f"{folder.name} cannot be written: {error.strerror}") from error

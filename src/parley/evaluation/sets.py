@@ -1,0 +1,57 @@
+"""Which sets there are, by name."""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from pathlib import Path
+from typing import Final
+
+from parley.errors import ConfigError
+from parley.evaluation.cases import Case, CaseSet
+from parley.evaluation.gpsr import GPSR_SEED, gpsr_cases
+
+__all__ = ["SET_NAMES", "load_set", "own_set"]
+
+_DATA: Final = Path(__file__).parent / "data"
+_DEVELOPED: Final = ("development", "second_set", "third_set")
+_BLIND: Final = ("blind_people", "blind_scenes")
+
+SET_NAMES: Final = ("development", "held-out", "blind", "gpsr", "all")
+"""`held-out`: the half of the second set that nobody developed on; `blind` holds `gpsr`."""
+
+
+def own_set(name: str) -> CaseSet:
+    """One of the files that come with Parley, by its name without ending.
+
+    Raises:
+        FileFormatError: It is broken.
+    """
+    return CaseSet.load(_DATA / f"{name}.yaml")
+
+
+def load_set(name: str, seed: int = GPSR_SEED) -> list[Case]:
+    """The cases of a set.
+
+    Args:
+        name: One of `SET_NAMES`, or a file.
+        seed: Of the commands that are made by a grammar.
+
+    Raises:
+        ConfigError: There is no such set.
+        FileFormatError: A file is broken.
+    """
+    if name == "gpsr":
+        return gpsr_cases(seed)
+    if name in SET_NAMES:
+        files = {"blind": _BLIND, "all": (*_DEVELOPED, *_BLIND)}.get(name, _DEVELOPED)
+        cases = _of(files)
+        if name in {"development", "held-out"}:
+            return [case for case in cases if case.blind is (name == "held-out")]
+        return [*cases, *gpsr_cases(seed)]
+    if not Path(name).is_file():
+        raise ConfigError(f"there is no set {name!r}; use {', '.join(SET_NAMES)} or a file")
+    return list(CaseSet.load(Path(name)).cases)
+
+
+def _of(files: Sequence[str]) -> list[Case]:
+    return [case for name in files for case in own_set(name).cases]
