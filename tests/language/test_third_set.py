@@ -2,9 +2,10 @@
 
 from __future__ import annotations
 
+from parley.evaluation.judge import wrong
+from parley.evaluation.sets import own_set
 from parley.language.base import Situation
 from parley.language.offline import OfflineLanguage
-from tests.language.second_set import cases, wrong
 
 RIGHT = 0.97
 """The share that must be right."""
@@ -12,7 +13,7 @@ RIGHT = 0.97
 
 async def test_the_third_set_is_understood_but_for_a_few_sentences() -> None:
     engine, failed, count = OfflineLanguage(), [], 0
-    for case in cases("third_set"):
+    for case in own_set("third_set").cases:
         situation = case.situation
         assert isinstance(situation, Situation)
         count += 1
@@ -23,7 +24,7 @@ async def test_the_third_set_is_understood_but_for_a_few_sentences() -> None:
 
 
 async def test_a_message_is_answered_alike_each_time_it_is_said() -> None:
-    for case in cases("third_set")[::7]:
+    for case in own_set("third_set").cases[::7]:
         situation = case.situation
         assert isinstance(situation, Situation)
         first = await OfflineLanguage().interpret(situation)
@@ -32,7 +33,7 @@ async def test_a_message_is_answered_alike_each_time_it_is_said() -> None:
 
 def test_explaining_changes_no_answer() -> None:
     engine = OfflineLanguage()
-    for case in cases("third_set")[::5]:
+    for case in own_set("third_set").cases[::5]:
         situation = case.situation
         assert isinstance(situation, Situation)
         plainly, again = engine.explain(situation), engine.explain(situation)

@@ -79,6 +79,8 @@ class Expected(_Strict):
     """Whether commands are left open, but for those named under `remember` and `forget`."""
     remember: list[list[str]] = Field(default_factory=list)
     """Words of each new memory; `|` between alternatives."""
+    may_remember: bool = False
+    """Whether more may be remembered, say where something is told besides."""
     forget: list[str] = Field(default_factory=list)
     may_forget: list[str] = Field(default_factory=list)
     """Memories that may be forgotten or kept, say because they are overwritten."""
@@ -86,7 +88,9 @@ class Expected(_Strict):
     """Parts of the reply; `|` between alternatives."""
     says_not: list[str] = Field(default_factory=list)
     asks: bool = False
-    """Whether the reply has to ask."""
+    """Whether the reply has to ask; that it has not understood is no such question."""
+    understands: bool = False
+    """Whether the reply must not say that the message was not understood."""
     declines: bool = False
     """Whether the reply has to say that it cannot be done; a step that asks a person is right too."""
     choices: list[str] | None = None

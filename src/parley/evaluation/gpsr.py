@@ -53,6 +53,8 @@ class _Kind(_Strict):
     """Right plans; those with slots that the sentence does not have do not count."""
     declines: bool = False
     """Whether it is fair as well to say that it cannot be done."""
+    asks: list[str] = Field(default_factory=list)
+    """Parts of a question that it is fair as well to ask."""
 
 
 class Grammar(_Strict):
@@ -85,7 +87,9 @@ class Grammar(_Strict):
             for plan in chosen.do
             if {slot for step in plan for slot in _SLOT.findall(step)} <= named.keys()
         ]
-        expected = [Expected(do_any=plans), *([Expected(declines=True)] if chosen.declines else [])]
+        right = Expected(do_any=plans, may_remember=sentence.startswith("{name}"))
+        others = [Expected(declines=True)] if chosen.declines else []
+        others += [Expected(asks=True, says=chosen.asks)] if chosen.asks else []
         world = World(
             robot=arena.robot,
             robots=[arena.robot],
@@ -93,7 +97,7 @@ class Grammar(_Strict):
             catalogue=self.catalogues[name].actions,
             objects=[list(item) for item in arena.objects],
         )
-        body = CaseBody(in_=arena.robot, say=sentence.format(**said), either=expected)
+        body = CaseBody(in_=arena.robot, say=sentence.format(**said), either=[right, *others])
         return Case(kind, body, world, part="gpsr", blind=True)
 
     def _wording(self, template: str, chance: random.Random) -> str:

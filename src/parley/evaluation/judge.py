@@ -33,6 +33,12 @@ _DECLINES = re.compile(
 )
 
 
+_LOST = re.compile(
+    r"not sure what you mean|(?:did|do|could) not understand|n't understand|what do you mean by that",
+    re.IGNORECASE,
+)
+
+
 def wrong(case: Case, situation: Situation | ErrorSituation, action: ChatAction) -> list[str]:
     """What is not as it should be; empty if all is. Of several fair readings the nearest counts."""
     return min((_wrong(e, situation, action) for e in case.expectations), key=len)
@@ -172,7 +178,7 @@ def _memory_problems(expected: Expected, action: ChatAction) -> list[str]:
     gone = [str(c.arguments.get("name", "")) for c in action.system_cmd if c.command == "remove_memory"]
     texts = [str(one.get("data", "")) for one in new]
     named = [command.removeprefix("add ") for command in expected.commands if command.startswith("add ")]
-    free = expected.any_commands and not expected.remember
+    free = expected.may_remember or (expected.any_commands and not expected.remember)
     for words in expected.remember:
         if not any(contains_all(" ".join(words), text) for text in texts):
             problems.append(f"remember: expected {words}, got {texts}")
@@ -192,8 +198,11 @@ def _reply_problems(expected: Expected, action: ChatAction) -> list[str]:
     said = action.message_response
     lowered = said.casefold()
     problems = []
-    if expected.asks and not ("?" in said or "tell me" in lowered):
-        problems.append("asks: no question")
+    lost = bool(_LOST.search(said))
+    if expected.asks and (lost or not ("?" in said or "tell me" in lowered)):
+        problems.append("asks: no question about what was said")
+    if expected.understands and lost:
+        problems.append("understands: says that it does not")
     if expected.declines and not _DECLINES.search(said):
         problems.append("declines: does not say that it cannot be done")
     for part in expected.says:

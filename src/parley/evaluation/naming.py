@@ -54,10 +54,4 @@ def _names_object(item: MapObject, mine: set[str], objects: Sequence[MapObject])
     exact = [o for o in objects if mine == words_of(o.description)]
     if exact:
         return item in exact
-    fitting = [o for o in objects if mine <= words_of(f"{o.description} {o.class_name}")]
-    if fitting:
-        return fitting == [item]
-    # More words than the description has: the one that is described most fully.
-    covered = [o for o in objects if words_of(o.description) <= mine]
-    most = max((len(words_of(o.description)) for o in covered), default=0)
-    return [o for o in covered if len(words_of(o.description)) == most] == [item]
+    return [o for o in objects if mine <= words_of(f"{o.id} {o.description} {o.class_name}")] == [item]

@@ -82,5 +82,9 @@ def executable(situation: Situation | ErrorSituation, action: ChatAction) -> boo
         return None
     calls, before = list(action.queue), list[ActionCall]()
     if isinstance(situation, ErrorSituation):
-        before = list(situation.completed)
-    return not plan_problems(calls, situation.catalogue, before)
+        before, failed = list(situation.completed), situation.failed_action
+        if calls[0].name == failed.name and calls[0].input_parameters == failed.input_parameters:
+            # Tried again as it was: what fed it in its graph still does, and steps behind it follow it.
+            before.append(failed)
+            del calls[0]
+    return not calls or not plan_problems(calls, situation.catalogue, before)

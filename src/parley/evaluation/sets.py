@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Sequence
+from functools import cache
 from pathlib import Path
 from typing import Final
 
@@ -20,6 +21,7 @@ SET_NAMES: Final = ("development", "held-out", "blind", "gpsr", "all")
 """`held-out`: the half of the second set that nobody developed on; `blind` holds `gpsr`."""
 
 
+@cache
 def own_set(name: str) -> CaseSet:
     """One of the files that come with Parley, by its name without ending.
 

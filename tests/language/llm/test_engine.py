@@ -2,15 +2,17 @@
 
 from __future__ import annotations
 
+import base64
 import subprocess
 import sys
+from collections.abc import Mapping
 from typing import Any
 
 import numpy as np
 import pytest
 
 from parley.errors import FailureCode, LanguageError
-from parley.language.base import ErrorSituation, InspectionReport, ReplyReading
+from parley.language.base import ErrorSituation, InspectionReport, Picture, ReplyReading
 from parley.language.llm.scripted_server import Say
 from parley.messages.memory import MemoryEntry
 from parley.robots.base import CameraImage, Detection
@@ -58,6 +60,39 @@ async def test_picture_goes_along_with_what_the_robot_recognised() -> None:
         parts: list[dict[str, Any]] = asked.server.requests[0].body["messages"][-1]["content"]
         assert parts[1]["image_url"]["url"].startswith("data:image/jpeg;base64,")
         assert '"box"' in parts[0]["text"]
+
+
+def urls(body: Mapping[str, Any]) -> list[str]:
+    content = body["messages"][-1]["content"]
+    return [] if isinstance(content, str) else [p["image_url"]["url"] for p in content if "image_url" in p]
+
+
+async def test_pictures_of_a_message_and_of_memory_go_along_in_their_order() -> None:
+    pictures = (Picture("a.jpg", b"first", sent=True), Picture("desk", b"second"))
+    async with model() as asked:
+        asked.will(LOOKS)
+        await asked.language.interpret(situation(pictures=pictures))
+        data = [url.partition(",")[2] for url in urls(asked.server.requests[0].body)]
+        assert data == [base64.b64encode(each.jpeg).decode() for each in pictures]
+
+
+async def test_model_that_takes_no_pictures_is_asked_without_them_from_then_on() -> None:
+    pictures = (Picture("a.jpg", b"first", sent=True),)
+    async with model() as asked:
+        asked.will(Say(status=400, body='{"error": {"message": "no pictures"}}'), LOOKS, LOOKS)
+        for _ in range(2):
+            assert (await asked.language.interpret(situation(pictures=pictures))).queue[0].name == "Look"
+        bodies = [request.body for request in asked.server.requests]
+        assert [len(urls(body)) for body in bodies] == [1, 0, 0]
+        assert all('"shown": false' in body["messages"][-1]["content"] for body in bodies[1:])
+        assert not asked.language.sees_pictures
+
+
+async def test_pictures_may_be_kept_from_a_model() -> None:
+    async with model(pictures=False) as asked:
+        asked.will(LOOKS)
+        await asked.language.interpret(situation(pictures=(Picture("a.jpg", b"first"),)))
+        assert urls(asked.server.requests[0].body) == []
 
 
 async def test_description_is_grounded_on_the_map() -> None:

@@ -144,6 +144,27 @@ def test_question_carries_no_steps() -> None:
     assert read_resolution(asked, failure(), plan_problems).choices == ("red", "blue")
 
 
+def test_order_for_later_is_read_wherever_the_model_puts_it() -> None:
+    aside = read_resolution(resolution(success=None), failure(), plan_problems)
+    assert (aside.queue, [call.name for call in aside.afterwards]) == ((), ["Look"])
+    steps = [{"action": "Look", "parameters": {"what": "door"}}]
+    cases: tuple[dict[str, object], ...] = (
+        {"success": True},
+        {"success": False, "queue": []},
+        {"success": None, "queue": []},
+    )
+    for changes in cases:
+        answer = read_resolution(resolution(afterwards=steps, **changes), failure(), plan_problems)
+        assert [call.name for call in answer.afterwards] == ["Look"]
+
+
+def test_order_for_later_is_checked_like_any_other() -> None:
+    with pytest.raises(AnswerRefusedError, match=r"afterwards\[0\]"):
+        read_resolution(resolution(afterwards=[{"action": "Fly"}]), failure(), plan_problems)
+    with pytest.raises(AnswerRefusedError, match="afterwards"):
+        read_resolution(resolution(afterwards=[{"action": "Drive"}]), failure(), plan_problems)
+
+
 def test_only_a_correction_waits() -> None:
     assert read_resolution(resolution(delay_s=5), failure(), plan_problems).delay_s == 5.0
     aside = resolution(success=None, queue=[], delay_s=5)

@@ -6,6 +6,7 @@ from typing import Any
 
 import pytest
 
+from parley.evaluation.steps import pending
 from parley.language.base import Situation
 from parley.language.offline import OfflineLanguage
 from parley.language.offline.clauses import opens_command
@@ -15,7 +16,6 @@ from parley.language.offline.text import plain, tokens
 from parley.messages.chat import ActionCall, ChatAction, Flow, FlowIf
 from parley.messages.pvf import Parameter
 from tests.language.dev_set import plan, situation
-from tests.language.second_set import pending
 
 
 def visit(place: str, **more: Any) -> tuple[ActionCall, ...]:

@@ -14,10 +14,10 @@ from parley.language.offline import OfflineLanguage
 from parley.messages.chat import ActionCall, ChatAction
 from parley.messages.memory import MemoryEntry
 from parley.world.object_map import MapObject
-from tests.language.dev_set import CATALOGUES, cases, commands, plan, situation
+from tests.language.dev_set import CATALOGUES, commands, development_set, plan, situation
 
 ENGINE = OfflineLanguage()
-WORDS = sorted({word for case in cases() for word in case.body["say"].split()})
+WORDS = sorted({word for case in development_set().cases for word in case.body.say.split()})
 SENTENCES = st.lists(st.sampled_from(WORDS), max_size=14).map(" ".join)
 WORLDS = st.sampled_from(["home", "warehouse", "nonsense", "primitives", "bare"])
 
@@ -36,12 +36,12 @@ def test_any_message_gets_a_plain_answer_and_only_actions_of_the_catalogue(world
 
 @settings(max_examples=60, deadline=None)
 @given(SENTENCES, st.sampled_from(list(FailureCode)))
-def test_any_answer_to_a_failure_is_a_repair_or_a_question(reply: str, code: FailureCode) -> None:
+def test_any_answer_to_a_failure_is_a_repair_a_question_or_an_answer(reply: str, code: FailureCode) -> None:
     failed = ActionCall(name="NavigateTo")
     asked = ErrorSituation("x", failed, code, reply=reply, catalogue=CATALOGUES["thesis"])
     action: ChatAction = asyncio.run(ENGINE.resolve(asked))
-    assert action.success is not None and action.message_response.strip()
-    assert action.success or action.message_response.rstrip().endswith("?")
+    assert action.message_response.strip()
+    assert action.success is not False or action.message_response.rstrip().endswith("?")
 
 
 NAMES = st.text("bdfgklmnprstvz", min_size=2, max_size=3).map(

@@ -9,7 +9,7 @@ from typing import Any
 import pytest
 
 from parley.errors import FailureCode
-from parley.language.base import ErrorSituation, Turn
+from parley.language.base import ErrorSituation, Picture, Turn
 from parley.language.prompts import (
     Prompt,
     compose_ground,
@@ -153,13 +153,14 @@ def test_recovery_is_told_what_failed_what_waits_and_what_was_said() -> None:
     failure = ErrorSituation(
         "There is a crate in the way.", find("box"), FailureCode.BLOCKED, {"by": "crate"},
         completed=(look("door"),), pending=(look("box"),), reply="go round it",
-        dialogue=(Turn("assistant", "What now?"),), catalogue=(LOOK, FIND, DRIVE),
+        dialogue=(Turn("assistant", "What now?"),), catalogue=(LOOK, FIND, DRIVE), tried=((find("crate"),),),
     )  # fmt: skip
     prompt = compose_resolve(failure)
     told = blocks(prompt.content)
     assert told["failure"]["failed_step"]["action"] == "Find"
     assert told["failure"]["details"] == {"by": "crate"}
     assert told["pending"][0]["action"] == "Look"
+    assert [[step["parameters"] for step in steps] for steps in told["tried"]] == [[{"target": "crate"}]]
     assert told["conversation"] == [{"assistant": "What now?"}]
     assert order(prompt) == ['"go round it"']
 
@@ -168,3 +169,21 @@ def test_version_goes_with_the_standing_text_and_not_with_the_situation() -> Non
     first, second = compose_interpret(situation("one")), compose_interpret(situation("two", objects=(BOX,)))
     assert first.version == second.version
     assert first.version != compose_reply("q", "a", ()).version
+
+
+def test_failure_and_question_that_wait_for_an_answer_are_told_with_the_message() -> None:
+    failure = ErrorSituation("There is a crate in the way.", find("box"), FailureCode.BLOCKED)
+    told = blocks(compose_interpret(situation("why?", failure=failure, question="What now?")).content)
+    assert told["failure"]["message"] == "There is a crate in the way."
+    assert told["open_question"] == "What now?"
+    assert (
+        not {"failure", "open_question", "pictures"} & blocks(compose_interpret(situation()).content).keys()
+    )
+
+
+def test_pictures_are_named_in_their_order_and_those_not_shown_are_said_to_be() -> None:
+    pictures = (Picture("IMG_1.jpg", b"1", sent=True), Picture(INJECTION, b"2"))
+    shown = blocks(compose_interpret(situation(pictures=pictures)).content)["pictures"]
+    assert [(item["picture"], item["name"]) for item in shown] == [(1, "IMG_1.jpg"), (2, INJECTION)]
+    hidden = blocks(compose_interpret(situation(pictures=pictures), sees=False).content)["pictures"]
+    assert [item["shown"] for item in hidden] == [False, False]
