@@ -7,10 +7,18 @@ from collections.abc import Iterator
 from pathlib import Path
 
 import pytest
+import structlog
 
 from tests.conformance_ids import IDS
 
 HERE = Path(__file__).parent
+
+
+@pytest.fixture(autouse=True)
+def _no_test_leaves_logging_changed() -> Iterator[None]:
+    """Commands that run inside a test configure logging for the whole process."""
+    yield
+    structlog.reset_defaults()
 
 
 def pytest_addoption(parser: pytest.Parser) -> None:

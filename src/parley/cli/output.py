@@ -30,5 +30,6 @@ def quiet_logs(verbose: bool = False) -> None:
     level = logging.INFO if verbose else logging.ERROR
     structlog.configure(
         wrapper_class=structlog.make_filtering_bound_logger(level),
-        logger_factory=structlog.PrintLoggerFactory(file=sys.stderr),
+        # The stream as it is when something is logged: whoever runs commands in one process may exchange it.
+        logger_factory=lambda *_: structlog.PrintLogger(sys.stderr),
     )
