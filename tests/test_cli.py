@@ -12,6 +12,8 @@ from pathlib import Path
 
 import pytest
 
+from parley.memory.embedding_server import EmbeddingServer
+
 DEMO = Path(__file__).parents[1] / "src" / "parley" / "demos" / "nursing_home"
 
 
@@ -42,6 +44,26 @@ def test_script_that_breaks_exits_1_and_says_why() -> None:
     done = parley("demo", "nursing-home", "--script", "--variant", "dead_camera")
     assert done.returncode == 1
     assert "hardware" in done.stderr
+
+
+def test_memories_of_a_demonstration_are_found_by_meaning_where_a_server_is_named(tmp_path: Path) -> None:
+    key = tmp_path / "key"
+    key.write_text("sesame")
+    with EmbeddingServer(key="sesame") as server:
+        named = f"small@{server.address}"
+        done = parley(
+            "demo", "nursing-home", "--script", "--embeddings", named, "--embeddings-key-file", str(key)
+        )  # fmt: skip
+    assert done.returncode == 0, done.stderr
+    assert any("sofa" in text for texts in server.asked for text in texts)
+    assert "sesame" not in done.stdout + done.stderr
+
+
+@pytest.mark.parametrize("named", ["small", "@http://localhost", "small@localhost:1"])
+def test_server_for_embeddings_is_named_by_model_and_address(named: str) -> None:
+    done = parley("demo", "nursing-home", "--script", "--embeddings", named)
+    assert done.returncode == 2
+    assert "model@address" in done.stderr
 
 
 def test_unknown_variant_is_named_with_those_that_exist() -> None:
@@ -91,7 +113,7 @@ def test_memories_of_a_chat_are_listed_afterwards(tmp_path: Path) -> None:
 def test_actions_are_listed_with_the_names_of_the_thesis() -> None:
     listed = parley("actions", "list", "--json")
     actions = {item["name"]: item for item in map(json.loads, listed.stdout.splitlines())}
-    assert set(actions) == {"GetCoordinates", "NavigateTo", "Inspect", "AskOperator"}
+    assert set(actions) == {"GetCoordinates", "NavigateTo", "Inspect", "AskOperator", "KeepPicture"}
     pose = {
         f"pose::{part}::{axis}"
         for part, axes in (("position", "xyz"), ("orientation", "rpy"))

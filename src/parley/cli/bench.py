@@ -12,7 +12,7 @@ from parley.bench.control import measure_control, measure_crowd
 from parley.bench.display import measure_display
 from parley.bench.engine import Figures, chain, fan_out, run_chain, run_graphs, run_journaled, share
 from parley.bench.language import measure_language
-from parley.bench.memory import measure_memory
+from parley.bench.memory import VECTOR_LENGTH, measure_memory
 from parley.bench.story import measure_demo
 from parley.cli.output import emit_json, quiet_logs
 from parley.umrf.model import Graph
@@ -54,7 +54,9 @@ def engine(json: JsonOption = False) -> None:
     for what, others in crowds.items():
         crowd = asyncio.run(measure_crowd(others, CROWD_TIMES))
         facts = _latency("pause_", crowd.pause_ms) | _latency("stop_", crowd.stop_ms)
-        _show({"case": f"beside_{what}", **facts, **_latency("longest_step_", crowd.longest_step_ms)}, json)
+        facts |= _latency("longest_step_", crowd.longest_step_ms)
+        facts |= _latency("longest_collection_", crowd.longest_collection_ms)
+        _show({"case": f"beside_{what}", **facts}, json)
 
 
 def _show_run(case: str, figures: Figures, as_json: bool) -> None:
@@ -64,6 +66,7 @@ def _show_run(case: str, figures: Figures, as_json: bool) -> None:
         "actions": figures.actions,
         "wall_ms": round(1000 * figures.wall_s, 1),
         "actions_per_s": round(figures.actions_per_s),
+        "cpu_us_per_action": round(figures.cpu_us_per_action),
         "events": figures.events,
         "gaps": figures.gaps,
         "peak_rss_mb": round(figures.rss_mb, 1),
@@ -106,7 +109,20 @@ def memory(
         },
         json,
     )
-    for case, taken_ms in {**figures.search_ms, "through_the_node": figures.service_ms}.items():
+    vectors = {
+        "case": "vectors",
+        "length": VECTOR_LENGTH,
+        "fill_ms": round(figures.meaning_fill_ms),
+        "open_ms": round(figures.meaning_open_ms),
+    }
+    _show(vectors, json)
+    searches = {
+        **figures.search_ms,
+        "through_the_node": figures.service_ms,
+        "by_meaning": figures.meaning_ms,
+        "by_words_and_meaning_through_the_node": figures.both_ms,
+    }
+    for case, taken_ms in searches.items():
         _show({"case": f"search_{case}", "searches": len(taken_ms), **_latency("", taken_ms)}, json)
     _show({"case": "add", "times": len(figures.add_ms), **_latency("", figures.add_ms)}, json)
 

@@ -10,9 +10,16 @@ from typing import Annotated, Any
 
 import typer
 
-from parley.cli.language import KeyFileOption, LanguageOption, language_settings
+from parley.cli.language import (
+    EmbeddingsKeyOption,
+    EmbeddingsOption,
+    KeyFileOption,
+    LanguageOption,
+    embedding_settings,
+    language_settings,
+)
 from parley.cli.output import emit_json, fail, quiet_logs
-from parley.cli.web import PORT, page_settings, serve_until_interrupted
+from parley.cli.web import PORT, language_label, page_settings, serve_until_interrupted
 from parley.config import SystemConfig
 from parley.demos.catalogue import DEMOS, Demo, load_demo
 from parley.demos.runner import StoryResult, play
@@ -74,6 +81,8 @@ def demo(
     ] = False,
     language: LanguageOption = "offline",
     key_file: KeyFileOption = None,
+    embeddings: EmbeddingsOption = "",
+    embeddings_key_file: EmbeddingsKeyOption = None,
     lang: Annotated[str, typer.Option(help="Language of the terminal: en or et.")] = "",
     verbose: Annotated[bool, typer.Option("--verbose", help="Show the log.")] = False,
 ) -> None:
@@ -85,6 +94,7 @@ def demo(
     settings: dict[str, Any] = {"seed": seed, "approval": "ask_first" if ask_first else "run_at_once"}
     settings["actions_dir"] = actions
     settings |= language_settings(language, key_file)
+    settings |= embedding_settings(embeddings, embeddings_key_file)
     if script:
         raise typer.Exit(_script(loaded, story, variant, settings | {"speed": speed}, data, json))
     if story is not None or variant:
@@ -104,6 +114,7 @@ def demo(
         without=without,
     )
     page |= {"examples": loaded.story.examples, "data_dir": folder, "fresh_robots": True}
+    page |= language_label(language)
     asyncio.run(_serve(loaded, config, page, port_is_wish=port is None, opens=not no_open))
 
 
@@ -154,7 +165,7 @@ def data_folder(name: str) -> Path:
 async def _chat(demo: Demo, config: SystemConfig, lang: str) -> None:
     async with demo.system(config) as system:
         client = TerminalClient(system.transport, lang=lang or _language())
-        await client.run(greeting=list(demo.story.examples))
+        await client.run(greeting=list(demo.story.examples), engine=system.language.label)
 
 
 async def _serve(

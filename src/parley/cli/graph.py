@@ -23,7 +23,7 @@ from parley.messages.ros import UmrfGraphStart
 from parley.umrf.bt import export_tree, import_tree
 from parley.umrf.catalogue import Catalogue
 from parley.umrf.io import read_graph, write_graph
-from parley.umrf.model import GraphState
+from parley.umrf.model import Graph, GraphState, NodeState, Response, Result
 from parley.umrf.show import show as show_graph
 
 __all__ = ["app"]
@@ -135,11 +135,11 @@ def run(
     quiet_logs()
     text = _read(file)
     try:
-        name = read_graph(text).name
+        graph = read_graph(text)
     except GraphRefusedError as error:
         _tell_problems(error.problems, as_json=json, err=not json)
         raise typer.Exit(1) from error
-    raise typer.Exit(asyncio.run(_run(text, name, demo, robot, json, timeout)))
+    raise typer.Exit(asyncio.run(_run(text, graph, demo, robot, json, timeout)))
 
 
 def _read(file: Path) -> str:
@@ -149,7 +149,8 @@ def _read(file: Path) -> str:
         raise ConfigError(f"{file.name} cannot be read: {error}") from error
 
 
-async def _run(text: str, name: str, demo: str, robot: str, as_json: bool, timeout_s: float) -> int:
+async def _run(text: str, graph: Graph, demo: str, robot: str, as_json: bool, timeout_s: float) -> int:
+    name = graph.name
     async with (
         load_demo(demo).system(SystemConfig(speed=None)) as system,
         Observer(system.transport, system.clock, emit_json if as_json else _tell) as observer,
@@ -170,7 +171,19 @@ async def _run(text: str, name: str, demo: str, robot: str, as_json: bool, timeo
         if observer.refusals:
             problems = [str(problem.message) for problem in observer.refusals[0].problems]
             return fail(f"{name} was refused: {'; '.join(problems)}", code=1)
-        return 0 if observer.graph_states[name] == GraphState.FINISHED.value else 1
+        failed = {event.node for event in observer.events if event.state == NodeState.ERROR.value}
+        finished = observer.graph_states[name] == GraphState.FINISHED.value
+        return 0 if finished and failed <= _expected_failures(graph) else 1
+
+
+def _expected_failures(graph: Graph) -> set[str]:
+    """The actions whose failure the graph has an answer to: another one that runs then."""
+    return {
+        relation.node.full_name
+        for node in graph.nodes
+        for relation in node.parents
+        if relation.response(Result.ON_ERROR) is Response.RUN
+    }
 
 
 def _tell(event: dict[str, Any]) -> None:

@@ -8,8 +8,16 @@ from typing import Annotated, Any
 import typer
 
 from parley.errors import ConfigError
+from parley.memory.embedder import KEY_VARIABLE
 
-__all__ = ["KeyFileOption", "LanguageOption", "language_settings"]
+__all__ = [
+    "EmbeddingsKeyOption",
+    "EmbeddingsOption",
+    "KeyFileOption",
+    "LanguageOption",
+    "embedding_settings",
+    "language_settings",
+]
 
 LanguageOption = Annotated[
     str, typer.Option(help="What understands you: offline, provider:model, or provider:model@address.")
@@ -17,6 +25,26 @@ LanguageOption = Annotated[
 KeyFileOption = Annotated[
     Path | None, typer.Option(help="File with the model's key; default: the provider's environment variable.")
 ]
+EmbeddingsOption = Annotated[
+    str, typer.Option(help="Find memories by what they mean, too: model@address of a server for embeddings.")
+]
+EmbeddingsKeyOption = Annotated[
+    Path | None, typer.Option(help=f"File with that server's key; default: {KEY_VARIABLE}, or none.")
+]
+
+
+def embedding_settings(embeddings: str, key_file: Path | None) -> dict[str, Any]:
+    """The settings of `parley.config.SystemConfig` that the options stand for; none if there are none.
+
+    Raises:
+        ConfigError: The address cannot be used.
+    """
+    if not embeddings:
+        return {}
+    model, _, url = embeddings.partition("@")
+    if not model or not url.startswith(("http://", "https://")):
+        raise ConfigError(f"--embeddings: {embeddings!r} is no model@address, such as name@http://host/v1")
+    return {"embeddings": {"url": url, "model": model, "key_file": key_file}}
 
 
 def language_settings(language: str, key_file: Path | None) -> dict[str, Any]:

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import asyncio
+import gc
 import signal
 import sys
 from collections.abc import Sequence
@@ -16,7 +17,7 @@ from parley.errors import ConfigError
 if TYPE_CHECKING:
     from parley.web.server import WebServer
 
-__all__ = ["PORT", "app", "page_settings", "serve_until_interrupted"]
+__all__ = ["PORT", "app", "language_label", "page_settings", "serve_until_interrupted"]
 
 PORT: Final = 8400
 
@@ -69,6 +70,18 @@ def page_settings(
     }
 
 
+def language_label(language: str) -> dict[str, Any]:
+    """What the page tells of the language engine.
+
+    Args:
+        language: ``offline`` or ``provider:model``, perhaps with ``@address``.
+    """
+    if language == "offline":
+        return {"language": "built in, works without a model", "offline_language": True}
+    provider, _, model = language.partition("@")[0].partition(":")
+    return {"language": f"{model} ({provider})", "offline_language": False}
+
+
 def _password(file: Path | None) -> str:
     if file is None:
         return ""
@@ -88,8 +101,6 @@ async def serve_until_interrupted(server: WebServer, *, opens: bool) -> None:
         server: Open.
         opens: Whether to open the page in a browser.
     """
-    from parley.web.addresses import qr_text
-
     typer.echo(f"The page is at {server.url}")
     code = server.pairing_code
     for address in server.backend.addresses:
@@ -97,14 +108,16 @@ async def serve_until_interrupted(server: WebServer, *, opens: bool) -> None:
     if server.fingerprint:
         typer.echo(f"Browsers warn once, because this machine made its own certificate: {server.fingerprint}")
     if code:
-        typer.echo(f"Code to sign in: {code}")
-    if server.backend.addresses and sys.stdout.isatty():
-        # The code stands behind the #, so it is not sent to any server.
-        typer.echo(qr_text(f"{server.backend.addresses[0]}{f'#code={code}' if code else ''}"))
+        _show_code(server, code)
+        server.backend.sessions.on_code = lambda new: _show_code(server, new)
+    elif server.backend.addresses:
+        _show_qr(server.backend.addresses[0])
     typer.echo("Ctrl-C ends it.")
     sys.stdout.flush()
     if opens:
         await asyncio.to_thread(_open_page, server.url)
+    # What was loaded stays to the end; looking through it for garbage again and again held everything up.
+    gc.freeze()
     ended = asyncio.Event()
     loop = asyncio.get_running_loop()
     loop.add_signal_handler(signal.SIGTERM, ended.set)
@@ -112,6 +125,22 @@ async def serve_until_interrupted(server: WebServer, *, opens: bool) -> None:
         await ended.wait()
     finally:
         loop.remove_signal_handler(signal.SIGTERM)
+
+
+def _show_code(server: WebServer, code: str) -> None:
+    from parley.web.addresses import paired
+
+    typer.echo(f"Code to sign in, for one device: {code}")
+    if server.backend.addresses:
+        _show_qr(paired(server.backend.addresses[0], code))
+    sys.stdout.flush()
+
+
+def _show_qr(text: str) -> None:
+    from parley.web.addresses import qr_text
+
+    if sys.stdout.isatty():
+        typer.echo(qr_text(text))
 
 
 def _open_page(url: str) -> None:
