@@ -38,7 +38,7 @@ async def test_progress_rises_from_nothing_to_nearly_all_and_names_the_metres() 
         assert fractions[0] < 0.2
         assert fractions[-1] > 0.8
         assert all(0.0 <= fraction <= 1.0 for fraction in fractions)
-        assert here.run.steps[-1][1].endswith(" m")
+        assert here.run.steps[-1][1].endswith(" m to go")
 
 
 async def test_it_stands_still_while_paused_and_then_goes_on() -> None:

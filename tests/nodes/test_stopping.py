@@ -67,7 +67,7 @@ async def test_stop_pauses_stands_still_keeps_the_plan_and_carry_on_resumes(part
     await party.hears("I have stopped")
     await party.state("paused")
     assert party.wire.commands() == ["pause"]
-    assert graph_state(party) == "PAUSED"
+    await party.until(lambda: graph_state(party) == "PAUSED")
     assert await party.body.stands_still()
     assert dropped(party) == []
     party.observer.say("carry on", "A")
