@@ -8,7 +8,7 @@ PIP := $(BIN)/python -m pip --disable-pip-version-check --no-input
 
 .DEFAULT_GOAL := help
 .DELETE_ON_ERROR:
-.PHONY: help demo page types test test-page check format bench soak clean
+.PHONY: help demo page types screenshots test test-page check format bench soak clean
 
 NPM := frontend/npm
 PAGE := src/parley/web/static/index.html
@@ -37,6 +37,9 @@ test-page: $(VENV)/.runtime $(PAGE) ## Those of the page: lint, types, units, an
 	@$(NPM) run --silent test
 	@PARLEY_COMMAND="$(abspath $(BIN)/parley)" $(NPM) run --silent e2e
 
+screenshots: $(VENV)/.runtime $(PAGE) ## Pictures of every page in each size and look, into frontend/screenshots
+	@PARLEY_COMMAND="$(abspath $(BIN)/parley)" $(NPM) run --silent screenshots
+
 check: $(VENV)/.dev frontend/node_modules/.installed ## Format, lint, types and house rules
 	@$(BIN)/ruff format --check .
 	@$(BIN)/ruff check .
@@ -54,9 +57,13 @@ format: $(VENV)/.dev ## Bring the code into the agreed form
 bench: $(VENV)/.runtime ## Measure
 	@$(BIN)/parley bench engine
 	@$(BIN)/parley bench demo
+	@$(MAKE) --no-print-directory page
+	@PARLEY_COMMAND="$(abspath $(BIN)/parley)" $(NPM) run --silent measure
 
-soak: $(VENV)/.dev ## The long test: ten minutes, or PARLEY_SOAK_S seconds
+soak: $(VENV)/.dev ## The long tests: ten minutes, or PARLEY_SOAK_S seconds, and a server killed twenty times
 	@$(BIN)/python -m pytest -s -m soak tests/soak
+	@$(MAKE) --no-print-directory page
+	@PARLEY_KILLS=20 PARLEY_COMMAND="$(abspath $(BIN)/parley)" $(NPM) run --silent e2e -- e2e/connection
 
 clean: ## Remove everything that was made
 	rm -rf $(VENV) frontend/node_modules src/parley/web/static dist build .mypy_cache .ruff_cache .pytest_cache .hypothesis

@@ -49,5 +49,6 @@ export default ts.config(
       'i18next/no-literal-string': ['error', { mode: 'jsx-only', 'jsx-attributes': { include: ['aria-label', 'title', 'placeholder', 'alt', 'label'] } }],
     },
   },
-  { files: ['scripts/**', 'e2e/**', '*.ts', '*.js'], languageOptions: { globals: { process: 'readonly', console: 'readonly', setTimeout: 'readonly', URL: 'readonly', fetch: 'readonly', document: 'readonly', window: 'readonly' } }, rules: { 'no-console': 'off' } },
+  { files: ['src/worker/**'], languageOptions: { globals: { self: 'readonly', caches: 'readonly', fetch: 'readonly', URL: 'readonly' } } },
+  { files: ['scripts/**', 'e2e/**', '*.ts', '*.js'], languageOptions: { globals: { process: 'readonly', console: 'readonly', setTimeout: 'readonly', URL: 'readonly', fetch: 'readonly', document: 'readonly', window: 'readonly', performance: 'readonly', requestAnimationFrame: 'readonly' } }, rules: { 'no-console': 'off' } },
 );

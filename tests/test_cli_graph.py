@@ -94,6 +94,25 @@ def test_what_is_no_graph_is_refused_and_what_is_not_there_is_another_matter(
     assert isinstance(missing.exception, ConfigError), "which ends the process with 2"
 
 
+def test_a_folder_of_actions_that_is_not_there_is_an_error_and_not_an_empty_one(file: Path) -> None:
+    checked = parley("check", file, "--actions", file.parent / "none")
+    assert isinstance(checked.exception, ConfigError)
+
+
+def test_python_actions_of_a_folder_count_and_broken_ones_are_told(file: Path) -> None:
+    folder = file.parent / "actions"
+    folder.mkdir()
+    code = "from parley.umrf.action import action\n\n@action\nasync def {}(ctx):\n    pass\n"
+    (folder / "a.py").write_text(code.format("a"), encoding="utf-8")
+    (folder / "b.py").write_text(code.format("b"), encoding="utf-8")
+    assert parley("check", file, "--actions", folder).exit_code == 0
+    (folder / "b.py").write_text("import nothing_of_that_name\n", encoding="utf-8")
+    refused = parley("check", file, "--actions", folder)
+    assert refused.exit_code == 1
+    assert "b.py skipped" in refused.stderr
+    assert "actions[1].name" in refused.stdout
+
+
 def test_a_file_that_is_not_there_is_an_error_of_the_command(tmp_path: Path) -> None:
     for command in (("show",), ("convert", "--to", "umrf"), ("convert", "--to", "btcpp")):
         failed = parley(command[0], tmp_path / "none.json", *command[1:])

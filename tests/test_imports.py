@@ -20,7 +20,7 @@ LAYERS: tuple[frozenset[str], ...] = (
     frozenset({"sim"}),
     frozenset({"language", "robots", "engine", "actions"}),
     frozenset({"nodes", "web"}),
-    frozenset({"terminal", "system", "demos", "bench", "doctor", "cli"}),
+    frozenset({"terminal", "system", "demos", "bench", "evaluation", "doctor", "cli"}),
 )
 """Rooms by height, lowest first; rooms of one height may know each other."""
 

@@ -7,7 +7,7 @@ describe.skipIf(!hasBrowser)('an operator whose robot needs help', () => {
   let stage: Stage;
 
   beforeAll(async () => {
-    stage = await startStage('--speed', '6');
+    stage = await startStage(['--speed', '6']);
   });
 
   afterAll(async () => {
@@ -30,7 +30,6 @@ describe.skipIf(!hasBrowser)('an operator whose robot needs help', () => {
 
     await page.getByRole('group', { name: 'Possible answers' }).getByRole('button', { name: /small/ }).tap({ timeout: 60_000 });
     await page.locator('li[data-question="answered"]').nth(1).waitFor();
-    await page.context().close();
   });
 
   it('is asked before a plan begins, takes a step out of it, and begins', async () => {
@@ -52,6 +51,5 @@ describe.skipIf(!hasBrowser)('an operator whose robot needs help', () => {
     await proposal.getByRole('button', { name: 'Begin the changed plan' }).click();
     await proposal.waitFor({ state: 'detached' });
     await page.getByRole('region', { name: 'Steps' }).locator('li[data-state]').nth(before - 2).waitFor();
-    await page.context().close();
   });
 });

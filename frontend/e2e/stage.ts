@@ -1,14 +1,13 @@
 /** Starts what the stories need: a real system with a real page, and a real browser. */
-import { spawn, type ChildProcess } from 'node:child_process';
-import { existsSync } from 'node:fs';
-import { mkdtemp, rm } from 'node:fs/promises';
-import { tmpdir } from 'node:os';
-import { join } from 'node:path';
+import { mkdirSync, existsSync, readFileSync } from 'node:fs';
+import { createRequire } from 'node:module';
 
-import { chromium, type Browser, type Page } from 'playwright-core';
+import { chromium, type Browser, type BrowserContext, type Page } from 'playwright-core';
+import { expect, onTestFinished } from 'vitest';
+
+import { startSystem, type Program, type System } from './system';
 
 export const CHROMIUM = process.env.PARLEY_CHROMIUM ?? '/usr/bin/chromium';
-const PARLEY = process.env.PARLEY_COMMAND ?? '../.venv/bin/parley';
 const ARGUMENTS = [
   '--headless',
   '--no-sandbox',
@@ -19,8 +18,10 @@ const ARGUMENTS = [
   '--disable-component-update',
   '--disable-sync',
 ];
-const START_MS = 40_000;
-const END_MS = 8_000;
+/** Git ignores it. */
+const FAILURES = 'screenshots/failures';
+/** What the page waits for at most; the machine may be busy with other things. */
+export const PATIENCE_MS = 40_000;
 
 export const hasBrowser = existsSync(CHROMIUM);
 
@@ -28,11 +29,18 @@ if (!hasBrowser && process.env.PARLEY_REQUIRE_BROWSER === '1') {
   throw new Error(`there is no Chromium at ${CHROMIUM}, and the browser tests are required here`);
 }
 
+export interface Size {
+  width: number;
+  height: number;
+}
+
 export interface Stage {
   browser: Browser;
-  address: string;
-  /** A new page of a size, opened at a path such as `#/plan`. */
-  open: (size: { width: number; height: number }, path?: string, dark?: boolean) => Promise<Page>;
+  system: System;
+  /** A new page of a size, opened at a path such as `#/plan`; closed when the test ends. */
+  open: (size: Size, path?: string, dark?: boolean) => Promise<Page>;
+  /** What the server says under `/api/`. */
+  get: <T>(path: string) => Promise<T>;
   close: () => Promise<void>;
 }
 
@@ -40,18 +48,14 @@ export interface Stage {
  * Start the system and the browser.
  * @throws Error The system did not serve its page in time; its output is in the message.
  */
-export async function startStage(...options: string[]): Promise<Stage> {
-  const data = await mkdtemp(join(tmpdir(), 'parley-e2e-'));
-  const system = spawn(PARLEY, ['demo', 'nursing-home', '--no-open', '--port', '0', '--data', data, ...options], {
-    stdio: ['ignore', 'pipe', 'pipe'],
-  });
-  const [address, browser] = await Promise.all([
-    servedAddress(system),
+export async function startStage(options: readonly string[] = [], program: Program = 'demo'): Promise<Stage> {
+  const [system, browser] = await Promise.all([
+    startSystem(program, options),
     chromium.launch({ executablePath: CHROMIUM, args: ARGUMENTS }),
   ]);
   return {
     browser,
-    address,
+    system,
     open: async (viewport, path = '', dark = false) => {
       const context = await browser.newContext({
         viewport,
@@ -59,51 +63,44 @@ export async function startStage(...options: string[]): Promise<Stage> {
         locale: 'en-GB',
         reducedMotion: 'reduce',
         hasTouch: viewport.width < 1000,
+        ignoreHTTPSErrors: true, // the machine made its own certificate
+        serviceWorkers: 'block',
       });
+      context.setDefaultTimeout(PATIENCE_MS);
       const page = await context.newPage();
-      await page.goto(address + path);
+      watch(page, context);
+      await page.goto(system.address + path);
       return page;
+    },
+    get: async <T>(path: string) => {
+      const response = await fetch(`${system.address}api/${path}`);
+      return (await response.json()) as T;
     },
     close: async () => {
       await browser.close();
-      await ended(system);
-      await rm(data, { recursive: true, force: true });
+      await system.close();
     },
   };
 }
 
-function servedAddress(system: ChildProcess): Promise<string> {
-  return new Promise((resolve, reject) => {
-    let output = '';
-    const timer = setTimeout(() => reject(new Error(`no page after ${START_MS} ms:\n${output}`)), START_MS);
-    const listen = (data: Buffer) => {
-      output += data.toString();
-      const found = /https?:\/\/127\.0\.0\.1:\d+\//.exec(output)?.[0];
-      if (found) {
-        clearTimeout(timer);
-        resolve(found);
-      }
-    };
-    system.stdout?.on('data', listen);
-    system.stderr?.on('data', listen);
-    system.once('error', reject);
-    system.once('exit', (code) => reject(new Error(`the system ended with ${code}:\n${output}`)));
+/** Keeps a picture of a page whose story failed, and fails the story in which the page broke. */
+function watch(page: Page, context: BrowserContext): void {
+  const broken: string[] = [];
+  page.on('pageerror', (error) => broken.push(error.message));
+  page.on('console', (message) => {
+    if (/Content Security Policy/.test(message.text())) broken.push(message.text());
+  });
+  onTestFinished(async ({ task }) => {
+    if (task.result?.state === 'fail') await keepPicture(page, task.name);
+    await context.close();
+    expect(broken).toEqual([]);
   });
 }
 
-function ended(system: ChildProcess): Promise<void> {
-  return new Promise((resolve) => {
-    if (system.exitCode !== null) {
-      resolve();
-      return;
-    }
-    const timer = setTimeout(() => system.kill('SIGKILL'), END_MS);
-    system.once('exit', () => {
-      clearTimeout(timer);
-      resolve();
-    });
-    system.kill('SIGINT');
-  });
+async function keepPicture(page: Page, story: string): Promise<void> {
+  mkdirSync(FAILURES, { recursive: true });
+  const name = `${story.replaceAll(/[^a-z0-9]+/gi, '-').slice(0, 80)}-${page.viewportSize()?.width}`;
+  await page.screenshot({ path: `${FAILURES}/${name}.png`, timeout: 5000 }).catch(() => undefined);
 }
 
 export const sizes = {
@@ -117,4 +114,46 @@ export async function say(page: Page, text: string): Promise<void> {
   const box = page.getByRole('textbox', { name: /^Write to/ });
   await box.fill(text);
   await box.press('Enter');
+}
+
+export const steps = (page: Page) => page.getByRole('region', { name: 'Steps' });
+
+interface Robot {
+  name: string;
+  state: string;
+  connection: string;
+  pose: { x: number; y: number } | null;
+}
+
+export async function robotNamed(stage: Stage, name = 'David'): Promise<Robot | undefined> {
+  return (await stage.get<Robot[]>('robots')).find((robot) => robot.name === name);
+}
+
+/** Metres between two places of a robot; infinite where one of them is not known. */
+export function distance(one: Robot | undefined, other: Robot | undefined): number {
+  if (!one?.pose || !other?.pose) return Number.POSITIVE_INFINITY;
+  return Math.hypot(one.pose.x - other.pose.x, one.pose.y - other.pose.y);
+}
+
+/** Wait until a robot has driven some metres from where it is now, or was. */
+export async function untilItMoved(stage: Stage, from: Robot | undefined, metres = 0.3): Promise<void> {
+  const start = from ?? (await robotNamed(stage));
+  const moved = async () => distance(await robotNamed(stage, start?.name), start);
+  await expect.poll(moved, { timeout: PATIENCE_MS, interval: 250 }).toBeGreaterThan(metres);
+}
+
+const axe = readFileSync(createRequire(import.meta.url).resolve('axe-core/axe.min.js'), 'utf8');
+
+interface Axe {
+  run: (where: Document, options: object) => Promise<{ violations: { id: string; nodes: { html: string }[] }[] }>;
+}
+
+/** What keeps people from using the page as it is now, by the rules of WCAG 2.2 AA. */
+export async function barriers(page: Page): Promise<string[]> {
+  await page.evaluate(axe);
+  return page.evaluate(async () => {
+    const runner = (window as unknown as { axe: Axe }).axe;
+    const result = await runner.run(document, { runOnly: ['wcag2a', 'wcag2aa', 'wcag21a', 'wcag21aa', 'wcag22aa'] });
+    return result.violations.map(({ id, nodes }) => `${id}: ${nodes.map((node) => node.html).join(' | ')}`);
+  });
 }

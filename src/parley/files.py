@@ -48,7 +48,7 @@ def read_text(path: Path) -> str:
     try:
         return path.read_text(encoding="utf-8")
     except OSError as error:
-        raise FileFormatError(path.name, "", f"cannot be read: {error.strerror}") from error
+        raise FileFormatError(path.name or str(path), "", f"cannot be read: {error.strerror}") from error
     except UnicodeDecodeError as error:
         raise FileFormatError(path.name, "", f"is not UTF-8 text: {error.reason}") from error
 

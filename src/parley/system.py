@@ -37,6 +37,7 @@ from parley.nodes.notices import Notices
 from parley.nodes.plan_check import plan_problems
 from parley.nodes.plan_restore import adopted_steps, interruption_text, restored_steps
 from parley.nodes.plan_steps import Step
+from parley.nodes.repair import left_over_text
 from parley.nodes.umrf_planner import UmrfPlanner
 from parley.robots.base import Robot
 from parley.robots.simulated import SimulatedRobot
@@ -155,7 +156,7 @@ class System:
         )
         planner = await enter(UmrfPlanner(transport, clock, approval=config.approval))
         incidents = await enter(await IncidentStore.open(config.incidents_file or ":memory:", clock))
-        await enter(
+        recovery = await enter(
             ErrorHandler(
                 transport,
                 self.language,
@@ -185,6 +186,10 @@ class System:
         await enter(MapService(transport, maps))
         engines = {name: await self._open_robot(name, views[name]) for name in self.robot_names}
         self._tell_interrupted(journal, planner, notices, engines)
+        told = {was.actor for was in journal.interrupted}
+        for incident in recovery.left_over:
+            if incident.robot in engines and incident.robot not in told:
+                notices.tell(left_over_text(incident), [incident.robot])
 
     def _meanings(self, store: MemoryStore) -> Meanings | None:
         settings = self.config.embeddings

@@ -36,6 +36,7 @@ class Run:
     """Every progress that was told."""
     paused: bool = False
     stop_requested: bool = False
+    result_asked: bool = False
 
     def log(self, text: str) -> None:
         self.logged.append(text)
@@ -55,6 +56,7 @@ class Person:
     answers: deque[str] = field(default_factory=deque)
     told: list[str] = field(default_factory=list)
     asked: list[str] = field(default_factory=list)
+    referred: list[str] = field(default_factory=list)
     shown: list[tuple[str, CameraImage, dict[str, Any]]] = field(default_factory=list)
     memories: list[MemoryEntry] = field(default_factory=list)
 
@@ -64,6 +66,9 @@ class Person:
     async def ask(self, question: str, choices: Sequence[str] = ()) -> str:
         self.asked.append(question)
         return self.answers.popleft()
+
+    async def refer(self, reply: str) -> None:
+        self.referred.append(reply)
 
     def show(self, feed: str, image: CameraImage, info: Mapping[str, Any] | None = None) -> None:
         self.shown.append((feed, image, dict(info or {})))

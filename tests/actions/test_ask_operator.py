@@ -71,3 +71,22 @@ async def test_going_on_is_an_answer_where_nothing_is_paused() -> None:
         here.script.will("read_reply", ReplyReading("yes"))
         here.person.answers.append("carry on")
         assert (await ask_operator(here.context, QUESTION)).answer == "carry on"
+
+
+@pytest.mark.parametrize(
+    "reply", ["where should I put it?", "forget it and go to the box", "go to the box", "are you all right?"]
+)
+async def test_question_or_other_order_is_no_answer_but_passed_on_and_asked_again(reply: str) -> None:
+    async with room(language=OfflineLanguage()) as here:
+        here.person.answers.extend([reply] * ATTEMPTS + ["done"])
+        assert (await ask_operator(here.context, QUESTION)).answer == "done"
+        assert here.person.referred == [reply] * ATTEMPTS
+        assert here.person.asked == [QUESTION] * (ATTEMPTS + 1)
+
+
+@pytest.mark.parametrize("reply", ["tea with milk", "the red one", "in the hall", "put it by the door"])
+async def test_open_question_takes_whatever_answers_it(reply: str) -> None:
+    async with room(language=OfflineLanguage()) as here:
+        here.person.answers.append(reply)
+        assert (await ask_operator(here.context, "What shall I bring you?")).answer == reply
+        assert here.person.referred == []

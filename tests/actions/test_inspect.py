@@ -8,11 +8,13 @@ from dataclasses import replace
 import numpy as np
 import pytest
 
-from parley.actions.inspect import FEED, inspect
+from parley.actions.inspect import FEED, Inspection, inspect
 from parley.errors import ActionFailure, FailureCode, LanguageError
 from parley.language.base import InspectionReport
 from parley.robots.base import CameraImage, Detection
+from parley.umrf.action import Outcome
 from tests.actions.room import Room, room
+from tests.memory.photos import opened
 
 SEEN = InspectionReport("I can see a green crate.", found=True, wanted="green crate")
 MISSING = InspectionReport("I cannot see a cup.", found=False, wanted="cup")
@@ -37,7 +39,7 @@ async def test_picture_is_shown_with_the_request_and_the_report_is_told_and_give
     async with room() as here:
         here.script.will("inspect", SEEN)
         result = await inspect(here.context, "the crate")
-        assert result.inspection_result == "I can see a green crate."
+        assert result == Inspection("I can see a green crate.")
         assert here.person.told == ["I can see a green crate."]
         ((feed, image, info),) = here.person.shown
         assert (feed, info) == (FEED, {"request": "the crate"})
@@ -49,12 +51,24 @@ async def test_what_was_found_is_remembered_for_all_with_where_the_robot_stood()
         here.run.node = "Inspect_0"
         here.script.will("inspect", SEEN)
         await inspect(here.context, "the crate")
-        (entry,) = here.person.memories
+        entry, _ = here.person.memories
         assert (entry.name, entry.source, entry.scope) == ("green_crate_sighting", "A/Inspect", "")
         assert entry.info == "Where A saw the green crate"
         pose = here.robot.pose()
         assert entry.data.startswith("I saw the green crate from where I stood, ")
         assert f"x {pose.x_m:.1f} m, y {pose.y_m:.1f} m" in entry.data
+
+
+async def test_picture_of_what_was_found_is_kept_under_its_name() -> None:
+    async with room() as here:
+        here.run.node = "Inspect_0"
+        here.script.will("inspect", SEEN)
+        await inspect(here.context, "the crate")
+        _, entry = here.person.memories
+        assert (entry.name, entry.type, entry.source) == ("picture of the green crate", "image", "A/Inspect")
+        assert entry.info == "The green crate, as A saw it"
+        ((_, image, _),) = here.person.shown
+        assert opened(entry.data).size == (image.width, image.height)
 
 
 @pytest.mark.parametrize("report", [MISSING, InspectionReport("I can see a wall.")])
@@ -74,6 +88,25 @@ async def test_what_is_not_there_is_no_match_with_what_was_seen() -> None:
             await inspect(context, "the cup")
         assert caught.value.code is FailureCode.NO_MATCH
         assert caught.value.details == {"wanted": "cup", "seen": ["green crate"]}
+
+
+async def test_what_is_not_there_is_an_answer_where_the_plan_asks_for_it() -> None:
+    async with room() as here:
+        here.run.result_asked = True
+        here.script.will("inspect", MISSING)
+        answer = await inspect(here.context, "the cup")
+        assert answer == Outcome(False, {"inspection_result": "I cannot see a cup."})
+        assert here.person.told == ["I cannot see a cup."]
+
+
+async def test_what_may_be_hidden_is_no_answer_even_where_the_plan_asks_for_it() -> None:
+    async with room() as here:
+        here.run.result_asked = True
+        here.script.will("inspect", MISSING)
+        context = replace(here.context, robot=Eyes(here, Detection("carton", 500, (0, 0, 9, 9), 0.5)))  # type: ignore[arg-type]
+        with pytest.raises(ActionFailure) as caught:
+            await inspect(context, "the cup")
+        assert caught.value.code is FailureCode.BLOCKED
 
 
 async def test_large_stranger_in_the_picture_may_hide_what_is_looked_for() -> None:
@@ -110,7 +143,7 @@ async def test_what_a_person_should_decide_is_a_failure_of_its_own() -> None:
 async def test_looking_at_nothing_in_particular_never_misses_anything() -> None:
     async with room() as here:
         here.script.will("inspect", InspectionReport("I can see a wall."))
-        assert (await inspect(here.context, "around")).inspection_result == "I can see a wall."
+        assert await inspect(here.context, "around") == Inspection("I can see a wall.")
 
 
 async def test_broken_camera_is_a_hardware_failure_and_nothing_is_shown() -> None:

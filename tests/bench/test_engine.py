@@ -12,6 +12,7 @@ from parley.bench.engine import chain, fan_out, run_graphs, run_journaled, share
 async def test_every_event_of_every_graph_is_seen_once(threaded: bool) -> None:
     figures = await run_graphs([chain("a", 5), fan_out("b", 4)], threaded=threaded)
     assert (figures.actions, figures.gaps) == (11, 0)
+    assert figures.cpu_us_per_action > 0
     assert figures.events == 2 * 11 + 2 * 2  # each node runs and finishes, each graph too
 
 
@@ -34,6 +35,8 @@ async def test_commands_beside_other_graphs_are_timed() -> None:
     for taken_ms in (crowd.pause_ms, crowd.stop_ms, crowd.longest_step_ms):
         assert len(taken_ms) == 2
         assert all(ms > 0 for ms in taken_ms)
+    for step_ms, collection_ms in zip(crowd.longest_step_ms, crowd.longest_collection_ms, strict=True):
+        assert 0 <= collection_ms <= step_ms
 
 
 async def test_a_journal_makes_no_event_go_missing() -> None:

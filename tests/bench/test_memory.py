@@ -12,5 +12,6 @@ async def test_every_search_and_addition_is_timed() -> None:
         ("rare", "common", "all_common", "mixed", "none"), 3
     )
     assert (len(figures.service_ms), len(figures.add_ms)) == (15, 3)
+    assert (len(figures.meaning_ms), len(figures.both_ms)) == (3, 15)
     assert figures.file_mb > 0
     assert all(ms > 0 for ms in (figures.fill_ms, figures.open_ms, *figures.service_ms, *figures.add_ms))

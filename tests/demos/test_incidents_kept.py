@@ -11,6 +11,10 @@ from typing import Any
 
 import pytest
 
+from parley.config import SystemConfig
+from parley.demos.catalogue import load_demo
+from tests.demos.house import running
+
 STORY = """
 robot: David
 faults: {NavigateTo: [{code: blocked, message: Somebody stands in the way.}]}
@@ -101,3 +105,19 @@ def test_record_that_kill_9_left_open_is_closed_by_the_next_start(tmp_path: Path
     play(tmp_path, QUIET)
     (incident,) = incidents(tmp_path)
     assert (incident["ending"], "ended before" in incident["note"]) == ("cancelled", True)
+
+
+async def test_operator_is_told_after_a_restart_in_the_middle_of_a_repair(tmp_path: Path) -> None:
+    demo, config = load_demo("nursing-home"), SystemConfig(speed=None, data_dir=tmp_path)
+    async with running(demo.system(config)) as house:
+        await house.say("John is on the sofa")
+        await house.say("go to John")
+        assert "sofa" in (await house.question()).message
+    async with running(demo.system(config)) as house:
+        await house.observer.until(
+            lambda: any("before this was settled" in said.message for said in house.observer.said),
+            timeout_s=10,
+        )
+        assert house.observer.questions.first(house.robot) is None
+        await house.say("go to the small sofa")
+        assert set(await house.done()) == {"finished"}

@@ -50,6 +50,14 @@ async def leave_mark(ctx: RunHandle, text: str, waits_at: float, given: str = ""
 
 
 @action
+async def pace(ctx: RunHandle, text: str, given: str = "") -> Given:
+    """Mark the beginning, and take a moment."""
+    leave(text)
+    await asyncio.sleep(0.005)
+    return Given(text)
+
+
+@action
 async def third(ctx: RunHandle) -> bool:
     """Mark a check; true once there were three."""
     leave("check")
@@ -117,6 +125,27 @@ def branching() -> dict[str, Any]:
     return _graph("g", first, quick, slow, join, otherwise, never, last)
 
 
+def ladder(rungs: int) -> dict[str, Any]:
+    """Again and again two at once that meet in one, which takes what one of them gave."""
+
+    def step(instance_id: int) -> dict[str, Any]:
+        inputs = {
+            "text": {"pvf_type": "string", "pvf_value": f"n{instance_id}"},
+            "given": {"pvf_type": "string"},
+        }
+        return _node("Pace", instance_id, input_parameters=inputs, output_parameters=_GAVE)
+
+    nodes = [step(0)]
+    for rung in range(rungs):
+        left, right, meeting = (step(3 * rung + place) for place in (1, 2, 3))
+        for side in (left, right):
+            _link(nodes[-1], side)
+        _link(left, meeting, gives="given")
+        _link(right, meeting)
+        nodes += [left, right, meeting]
+    return _graph("g", *nodes)
+
+
 def looping() -> dict[str, Any]:
     """Work and check until there were three checks; the third work waits."""
     work, check = mark(0, "work", waits_at=3), _node("Third")
@@ -166,4 +195,4 @@ def _inner() -> dict[str, Any]:
     return _graph("Inner", *nodes)
 
 
-CATALOGUE = Catalogue([leave_mark.spec, third.spec, give.spec, take.spec], [read_graph(_inner())])
+CATALOGUE = Catalogue([leave_mark.spec, pace.spec, third.spec, give.spec, take.spec], [read_graph(_inner())])

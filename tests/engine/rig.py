@@ -129,7 +129,8 @@ class Rig:
 
     def last_feedback(self, name: str) -> dict[str, Any]:
         graphs = [json.loads(text) for message in self.feedback for text in message.history]
-        found: dict[str, Any] = [graph for graph in graphs if graph["graph_name"] == name][-1]
+        told = [graph for graph in graphs if graph["graph_name"] == name]
+        found: dict[str, Any] = told[-1] if told else {"graph_state": "not told yet"}
         return found
 
     def start(self, graph: dict[str, Any] | str, targets: Sequence[str] = ("A",)) -> None:

@@ -4,11 +4,13 @@ from __future__ import annotations
 
 import asyncio
 import json
+from pathlib import Path
 
 import pytest
 
 from parley.clock import WallClock
 from parley.engine.engine import ActionEngine
+from parley.engine.journal import Journal
 from parley.messages import ros, topics
 from parley.messages.failure import FailureReport
 from parley.messages.status import StepCommand
@@ -317,3 +319,48 @@ async def test_two_engines_share_a_transport() -> None:
         await rig.until(lambda: rig.graph_states("g").count("FINISHED") == 2)
         await asyncio.sleep(0)
         assert {item.actor for item in rig.events} == {"A", "B"}
+
+
+@pytest.mark.parametrize(
+    "name",
+    [
+        "a b",
+        "ö/ü",
+        "a__b__0",
+        "..",
+        "x" * 5000,
+        "two\nlines",
+        "'; DROP TABLE run;--",
+        "%s {0}",
+        "\u202e",
+        "💡",
+    ],
+    ids=lambda name: ascii(name)[:20],
+)
+async def test_a_graph_may_have_any_name(name: str, tmp_path: Path) -> None:
+    async with (
+        await Journal.open(tmp_path / "journal.db", WallClock()) as journal,
+        rigged(journal=journal) as rig,
+    ):
+        rig.start(chain(name, [node("NoOp", 0), node("WaitFor", 1, seconds=60.0)]))
+        await rig.until_node(name, "WaitFor_1", ["RUNNING"])
+        rig.pause(name)
+        await rig.until_graph(name, "PAUSED")
+        rig.stop(name)
+        await rig.until_graph(name, "STOPPED")
+        assert rig.rejections == []
+        await journal.flush()
+
+
+async def test_a_graph_of_five_thousand_actions_runs_and_is_stopped_on_its_way() -> None:
+    async with rigged() as rig:
+        last = node("WaitFor", 5000, seconds=60.0)
+        rig.start(chain("big", [*(node("NoOp", index) for index in range(5000)), last]))
+        async with asyncio.timeout(60):
+            while rig.node_states("big", "WaitFor_5000") != ["RUNNING"]:  # noqa: ASYNC110 - 10,000 events
+                await asyncio.sleep(0.1)
+        rig.stop("big")
+        await rig.until_graph("big", "STOPPED")
+        sequences = [event.sequence for event in rig.events if event.graph_name == "big"]
+        assert sequences == list(range(len(sequences)))
+        assert len(sequences) == 2 * 5000 + 6  # each begins and ends; the last stops in between; the graph

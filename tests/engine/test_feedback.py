@@ -4,10 +4,12 @@ from __future__ import annotations
 
 import asyncio
 import json
+import weakref
 
 import pytest
 
 from parley.clock import WallClock
+from parley.engine import feedback as feedback_room
 from parley.engine.feedback import Feedback
 from parley.messages.ros import UmrfGraphFeedback
 from parley.umrf.io import write_graph
@@ -65,4 +67,40 @@ async def test_a_large_graph_is_written_in_slices_between_which_the_loop_is_free
         turns += 1
     assert turns >= 5
     assert sent[0].history == (write_graph(watched.run.snapshot()),)
+    feedback.close()
+
+
+class SlowClock(WallClock):
+    """Everything takes seconds, as it seems."""
+
+    def __init__(self) -> None:
+        self.asked = 0
+
+    def wall_s(self) -> float:
+        self.asked += 1
+        return super().wall_s() + 5 * self.asked
+
+
+async def test_a_long_queue_is_worked_off_without_rests(monkeypatch: pytest.MonkeyPatch) -> None:
+    monkeypatch.setattr(feedback_room, "_MANY", 20)
+    sent: list[UmrfGraphFeedback] = []
+    feedback = Feedback("A", SlowClock(), sent.append)
+    for index in range(50):
+        feedback.changed(Watched(chain(f"g{index}", [node("NoOp")])).run)
+    await until(lambda: len(sent) >= 30)
+    feedback.close()
+    assert len(sent) == 50
+
+
+async def test_a_graph_that_is_over_is_let_go_of_once_it_was_told() -> None:
+    sent: list[UmrfGraphFeedback] = []
+    feedback = Feedback("A", WallClock(), sent.append)
+    watched = Watched(chain("g", [node("NoOp")]))
+    watched.run.start()
+    await watched.run.wait()
+    feedback.changed(watched.run)
+    await until(lambda: sent)
+    left = weakref.ref(watched.run)
+    del watched
+    assert left() is None
     feedback.close()

@@ -156,7 +156,7 @@ async def test_a_journal_that_cannot_be_written_stops_nobody(tmp_path: Path) -> 
     file = tmp_path / "journal.db"
     async with await Journal.open(file, WallClock()) as journal:
         with sqlite3.connect(file) as connection:
-            connection.execute("DROP TABLE transition")
+            connection.execute("DROP TABLE told")
         connection.close()
         await run_to_its_end(journal, "g", 3)
         await journal.flush()

@@ -169,3 +169,38 @@ async def test_what_is_remembered_is_found_again_and_says_who_said_it(desk: Desk
 
 async def test_memory_that_is_not_there_finds_nothing(desk: Desk) -> None:
     assert await desk.services.find("box") == []
+
+
+async def test_what_was_no_answer_is_said_as_a_request_and_its_reply_waited_for(desk: Desk) -> None:
+    inputs: list[ChatInput] = []
+    await desk.transport.subscribe(
+        topics.CHAT_INPUT, lambda message: inputs.append(decode(ChatInput, message.data))
+    )
+    asking = await desk.asking("Is it done?")
+    desk.say("where should I put it?")
+    assert await asking == "where should I put it?"
+    referring = asyncio.create_task(desk.services.refer("where should I put it?"))
+    async with asyncio.timeout(5):
+        while len(inputs) < 2:  # noqa: ASYNC110 - short, and ends with the message
+            await asyncio.sleep(0)
+    passed_on = inputs[1]
+    assert (passed_on.type, passed_on.targets) == ("request", ("A",))
+    assert passed_on.reply_to == desk.heard[0].id
+    await soon()
+    assert not referring.done()
+    reply = ChatFeedback(message="On me.", targets=("A",), reply_to=passed_on.id)
+    desk.transport.publisher(topics.CHAT_FEEDBACK).publish(to_string(reply))
+    async with asyncio.timeout(5):
+        await referring
+
+
+async def test_answer_sent_twice_does_not_answer_the_next_question(desk: Desk) -> None:
+    said = ChatInput(message="yes", targets=("A",), type="response", id="x1")
+    publisher = desk.transport.publisher(topics.CHAT_INPUT)
+    first = await desk.asking("Is it done?")
+    publisher.publish(to_string(said))
+    assert await first == "yes"
+    second = await desk.asking("And the other one?", count=2)
+    publisher.publish(to_string(said))
+    desk.say("no")
+    assert await second == "no"

@@ -2,13 +2,20 @@
 
 from __future__ import annotations
 
+import asyncio
+
+import pytest
+
 from parley.clock import WallClock
 from parley.engine.runs import GraphRuns
 from parley.engine.stop import EmergencyStop
 from parley.errors import Problem
 from parley.messages import ros, topics
 from parley.messages.status import StopReport
-from tests.umrf.spec_actions import CATALOGUE, chain, node, planner_chain
+from parley.umrf.action import RunHandle, action
+from parley.umrf.catalogue import Catalogue
+from parley.umrf.io import read_graph
+from tests.umrf.spec_actions import CATALOGUE, chain, node, planner_chain, wait_for
 
 from .rig import DummyRobot, rigged
 
@@ -89,6 +96,39 @@ async def test_a_robot_that_goes_on_moving_is_complained_about() -> None:
     assert problems[0].code == "still_moving"
     assert [item.state for item in reports] == ["received"]
     await stop.close()
+
+
+@action(effects=("moves",), pausable=False)
+async def roll_on(ctx: RunHandle) -> None:
+    """Take no notice of any pause."""
+    await asyncio.Event().wait()
+
+
+@pytest.mark.parametrize(("name", "told"), [("RollOn", ["ignores_stop"]), ("WaitFor", [])])
+async def test_an_action_that_moves_and_ignores_the_stop_is_named_while_the_drive_is_held(
+    name: str, told: list[str]
+) -> None:
+    robot, problems = DummyRobot(), list[Problem]()
+    runs = GraphRuns(
+        "A",
+        Catalogue([roll_on.spec, wait_for.spec]),
+        clock=WallClock(),
+        make_context=lambda handle: handle,
+        observer=lambda *_: None,
+    )
+    raw = {"name": name, "type": "sync"} if name == "RollOn" else node(name, seconds=60.0)
+    run = runs.start(read_graph(chain("g", [raw | {"instance_id": 0}])))
+    stop = EmergencyStop(
+        "A", robot, runs, report=lambda _: None, complain=problems.append, rest_timeout_s=0.01
+    )
+    await stop.stop("7")
+    await asyncio.gather(*stop._tasks)
+    assert [problem.code for problem in problems] == told
+    assert all("RollOn_0 goes on" in problem.message for problem in problems)
+    assert robot.told == ["stop"]
+    assert run.holding
+    await stop.close()
+    await runs.close()
 
 
 async def test_a_stop_during_a_reset_wins() -> None:

@@ -5,6 +5,7 @@ from __future__ import annotations
 import asyncio
 import random
 from collections.abc import Callable
+from dataclasses import dataclass
 
 import pytest
 from hypothesis import given, settings
@@ -20,12 +21,19 @@ from parley.umrf.remote import RemoteEnd
 from tests.umrf.watched import until
 
 
+@dataclass
+class _Ears:
+    """One who is given what comes."""
+
+    take: Callable[[SyncNotice], None]
+
+
 class Network:
     """Delivers every notice to everybody, unless chance has it otherwise."""
 
     def __init__(self, seed: int, loss: float) -> None:
         self.random, self.loss = random.Random(seed), loss
-        self.members: list[Sync] = []
+        self.members: list[_Ears | Sync] = []
         self.complaints: list[Problem] = []
 
     def join(self, actor: str, timeout_s: float = 5.0) -> Sync:
@@ -61,24 +69,104 @@ def ends(count: int) -> list[RemoteEnd]:
 @pytest.mark.spec("13", "D25")
 @given(seed=st.integers(0, 10_000), loss=st.sampled_from([0.0, 0.2, 0.5]), count=st.integers(1, 4))
 @settings(max_examples=12, deadline=None)
-def test_every_end_arrives_once_whatever_the_network_does(seed: int, loss: float, count: int) -> None:
+def test_every_end_arrives_once_and_in_order_whatever_the_network_does(
+    seed: int, loss: float, count: int
+) -> None:
     async def play() -> None:
         network = Network(seed, loss)
         first, second = network.join("A"), network.join("B")
         await started(network, first, second)
         given_ends, node = ends(count), Node("Work", 0, actor="A")
         first._sessions["g"].ended("g", node, given_ends[0])
-        waiting = asyncio.gather(*(second._sessions["g"].end_of("g", node) for _ in range(count)))
+
+        async def all_ends() -> list[RemoteEnd]:
+            return [await second._sessions["g"].end_of("g", node) for _ in range(count)]
+
+        waiting = asyncio.create_task(all_ends())
         for end in given_ends[1:]:
             first._sessions["g"].ended("g", node, end)
         found = await waiting
-        assert sorted(end.outputs["n"].value for end in found) == [float(index) for index in range(count)]
+        assert [end.outputs["n"].value for end in found] == [float(index) for index in range(count)]
         await until(lambda: not first._sessions["g"]._unconfirmed)
         assert not network.complaints
         first.close()
         second.close()
 
     asyncio.run(play())
+
+
+@pytest.mark.spec("13", "D34")
+@given(
+    seed=st.integers(0, 10_000),
+    loss=st.sampled_from([0.0, 0.2, 0.5]),
+    commands=st.lists(st.sampled_from(["pause", "resume", "end", "stop"]), min_size=1, max_size=6),
+)
+@settings(max_examples=15, deadline=None)
+def test_every_command_arrives_once_and_the_last_word_is_the_last(
+    seed: int, loss: float, commands: list[str]
+) -> None:
+    async def play() -> None:
+        network = Network(seed, loss)
+        first, second = network.join("A"), network.join("B")
+        await started(network, first, second)
+        obeyed: list[SyncNotice] = []
+
+        def listen(notice: SyncNotice) -> None:
+            if notice.kind != "command":
+                second.take(notice)
+            elif notice.actor != "B" and second._sessions["g"].takes(notice):
+                obeyed.append(notice)
+
+        network.members[1] = _Ears(listen)  # the part that `Together` plays
+        for command in commands:
+            first._sessions["g"].pass_on(
+                SyncNotice.model_validate(
+                    {"kind": "command", "actor": "A", "graph_name": "g", "command": command}
+                )
+            )
+        await until(lambda: not first._sessions["g"]._unconfirmed)
+        numbers = [notice.number for notice in obeyed]
+        assert len(set(numbers)) == len(numbers), "none was carried out twice"
+        must = {index for index, command in enumerate(commands) if command in ("end", "stop")}
+        assert must <= set(numbers)
+        moving = [notice.number for notice in obeyed if notice.command in ("pause", "resume")]
+        said = [index for index, command in enumerate(commands) if command in ("pause", "resume")]
+        assert moving == sorted(moving)
+        newer_stop = said and "stop" in commands[said[-1] :]
+        assert not said or newer_stop or moving[-1] == said[-1], "the last word counts"
+        assert not network.complaints
+        first.close()
+        second.close()
+
+    asyncio.run(play())
+
+
+async def test_a_command_of_an_earlier_run_does_not_count() -> None:
+    network = Network(1, 0.0)
+    first, second = network.join("A"), network.join("B")
+    await started(network, first, second)
+    old = first._sessions["g"]
+    await started(network, first, second)
+    late = SyncNotice(kind="command", actor="A", graph_name="g", command="stop", id=f"{old.id}/1")
+    assert not second._sessions["g"].takes(late)
+
+
+async def test_an_end_that_never_comes_does_not_hold_back_the_later_ones() -> None:
+    network = Network(1, 0.0)
+    first, second = network.join("A"), network.join("B", timeout_s=0.05)
+    await started(network, first, second)
+    run = f"{first._sessions['g'].id}/"
+    for number in (2, 1):
+        second.take(
+            SyncNotice(
+                kind="ended", actor="A", graph_name="g", id=f"{run}{number}", number=number,
+                node="Work_0", result="on_true", outputs={"n": Parameter("number", float(number))},
+            )
+        )  # fmt: skip
+    second.note(ActorStatus(actor="A", state="running", graphs={"g": "RUNNING"}))
+    node = Node("Work", 0, actor="A")
+    found = [await second._sessions["g"].end_of("g", node) for _ in range(2)]
+    assert [end.outputs["n"].value for end in found] == [1.0, 2.0]
 
 
 async def test_an_end_of_an_earlier_run_does_not_count() -> None:
@@ -93,7 +181,7 @@ async def test_an_end_of_an_earlier_run_does_not_count() -> None:
     found = await second._sessions["g"].end_of("g", node)
     assert found.outputs["n"].value == 1.0
     await asyncio.sleep(0.02)
-    assert not second._sessions["g"]._inbox("g", "Work_0")
+    assert not second._sessions["g"]._inbox("g", "Work_0").came
     old.close()
     first.close()
 

@@ -4,21 +4,32 @@ from __future__ import annotations
 
 import asyncio
 from collections.abc import AsyncIterator
+from contextlib import asynccontextmanager
 from dataclasses import dataclass
+from typing import Any
 
 import pytest
 
 from parley.clock import WallClock
 from parley.demos.observer import Observer
-from parley.errors import LanguageError
+from parley.errors import FailureCode, LanguageError
 from parley.language.scripted import ScriptedLanguage
 from parley.messages import topics
-from parley.messages.chat import ActionCall, ChatAction, ChatInput, ReplyDraft, SystemCommand
+from parley.messages.chat import (
+    ActionCall,
+    ChatAction,
+    ChatFeedback,
+    ChatInput,
+    ReplyDraft,
+    SystemCommand,
+)
+from parley.messages.failure import ErrorHandlingMessage
 from parley.messages.memory import MemoryEvent
 from parley.messages.pvf import Parameter
 from parley.messages.status import ActionInfo, ActorStatus, PlanStep, PlanUpdate, StopCommand
 from parley.nodes.base import Node
-from parley.nodes.chat_interface import MAX_CHARS, ChatInterface
+from parley.nodes.chat_interface import ChatInterface
+from parley.nodes.chat_texts import MAX_CHARS
 from parley.transport.local import LocalTransport
 
 LOOK = ActionInfo(name="Look", inputs={"what": "string"}, description="Look at something.")
@@ -72,9 +83,16 @@ class Room:
 
 @pytest.fixture
 async def room() -> AsyncIterator[Room]:
+    async with opened() as found:
+        yield found
+
+
+@asynccontextmanager
+async def opened(**settings: Any) -> AsyncIterator[Room]:
     language = ScriptedLanguage()
     async with LocalTransport() as transport, Observer(transport, WallClock()) as observer:
-        async with ChatInterface(transport, language, WallClock()), Listener(transport) as planner:
+        chat = ChatInterface(transport, language, WallClock(), **settings)
+        async with chat, Listener(transport) as planner:
             room = Room(language, observer, planner, transport)
             room.robot("A")
             room.robot("B")
@@ -198,6 +216,23 @@ async def test_robot_named_in_a_stop_wins_over_the_selected_one(room: Room) -> N
     assert order.targets == ("B",)
 
 
+async def test_what_is_said_to_two_robots_for_both_moves_each_of_them_once(room: Room) -> None:
+    both = ChatAction(message_response="I will look.", queue=(look(),), targets=("A", "B"))
+    room.language.will("interpret", both, both)
+    room.observer.publish(topics.CHAT_INPUT, ChatInput(message="both, look at the box", targets=("A", "B")))
+    await room.reply(2)
+    assert sorted(order.targets for order in room.planner.orders) == [("A",), ("B",)]
+
+
+async def test_what_is_said_to_two_robots_for_one_moves_only_that_one(room: Room) -> None:
+    one = ChatAction(message_response="I will look.", queue=(look(),), targets=("B",))
+    room.language.will("interpret", one, one)
+    room.observer.publish(topics.CHAT_INPUT, ChatInput(message="B, look at the box", targets=("A", "B")))
+    await room.reply(2)
+    assert sorted(said.message for said in room.observer.said) == ["I will look.", "That is for B."]
+    assert [order.targets for order in room.planner.orders] == [("B",)]
+
+
 async def test_emergency_stop_goes_straight_to_the_engines(room: Room) -> None:
     room.observer.say("emergency stop", "A")
     await room.orders()
@@ -313,3 +348,72 @@ async def test_reason_of_the_language_engine_is_told_in_its_plain_words(room: Ro
     room.language.will("interpret", LanguageError("HTTP 500", plain="My helper is asleep."))
     room.observer.publish(topics.CHAT_INPUT, ChatInput(message="look", targets=("A",)))
     assert await room.reply() == "My helper is asleep. Nothing was started; please try again."
+
+
+async def test_operator_is_told_when_understanding_takes_long() -> None:
+    async with opened(patience_s=0.0) as room:
+        gate = asyncio.Event()
+        room.language.will("interpret", gate, ChatAction(message_response="At last."))
+        room.observer.say("look at the box", "A")
+        assert "I am still thinking about “look at the box”" in await room.reply()
+        assert room.observer.said[0].type == "info"
+        gate.set()
+        assert await room.reply(2) == "At last."
+
+
+async def test_stop_lets_go_of_a_message_that_takes_long_and_the_next_one_is_heard() -> None:
+    async with opened(patience_s=0.0) as room:
+        never = asyncio.Event()
+        room.language.will("interpret", never, ChatAction(message_response="Here I am."))
+        room.observer.say("look at the box", "A")
+        await room.reply()
+        room.observer.say("stop", "A")
+        assert "so I leave this: “look at the box”" in await room.reply(3)
+        room.observer.say("hello", "A")
+        assert await room.reply(4) == "Here I am."
+        assert [order.queue for order in room.planner.orders] == [()]
+
+
+async def test_question_during_a_repair_is_understood_with_the_failure(room: Room) -> None:
+    failure = ErrorHandlingMessage(
+        error_message="There are two boxes.", action_called=look(), target="A", code=FailureCode.AMBIGUOUS
+    )
+    room.observer.publish(topics.ERROR_HANDLING, failure)
+    room.observer.publish(topics.PLAN, PlanUpdate(target="A", state="held"))
+    ask = ChatFeedback(message="Which box?", targets=("A",), type="request", id="q1")
+    room.observer.publish(topics.CHAT_FEEDBACK, ask)
+    await room.reply()
+    room.language.will("interpret", ChatAction(message_response="Because there are two."))
+    room.observer.say("why?", "A")
+    assert await room.reply(2) == "Because there are two."
+    situation = room.language.asked[-1][1]
+    assert situation.failure.error_message == "There are two boxes."
+    assert situation.question == "Which box?"
+    room.observer.publish(topics.PLAN, PlanUpdate(target="A", state="running"))
+    room.language.will("interpret", ChatAction(message_response="Fine."))
+    room.observer.say("hello", "A")
+    await room.reply(3)
+    assert room.language.asked[-1][1].failure is None
+
+
+@pytest.mark.parametrize("words", ["the red one", "skip it", "try again"])
+async def test_answer_to_a_settled_question_is_neither_an_order_nor_a_control(room: Room, words: str) -> None:
+    ask = ChatFeedback(message="Which box?", targets=("A",), type="request", id="q1")
+    room.observer.publish(topics.CHAT_FEEDBACK, ask)
+    room.observer.publish(topics.CHAT_FEEDBACK, ChatFeedback(message="Ok.", targets=("A",), closes="q1"))
+    await room.reply(2)
+    answer = ChatInput(message=words, targets=("A",), type="response", reply_to="q1")
+    room.observer.publish(topics.CHAT_INPUT, answer)
+    assert await room.reply(3) == f"My question is settled already, so I leave this: “{words}”"
+    assert (room.language.asked, room.planner.orders) == ([], [])
+
+
+async def test_stop_stops_whatever_it_answers(room: Room) -> None:
+    ask = ChatFeedback(message="Which box?", targets=("A",), type="request", id="q1")
+    room.observer.publish(topics.CHAT_FEEDBACK, ask)
+    room.observer.publish(topics.CHAT_FEEDBACK, ChatFeedback(message="Ok.", targets=("A",), closes="q1"))
+    await room.reply(2)
+    answer = ChatInput(message="stop", targets=("A",), type="response", reply_to="q1")
+    room.observer.publish(topics.CHAT_INPUT, answer)
+    (order,) = await room.orders()
+    assert [command.command for command in order.system_cmd] == ["stop"]

@@ -174,3 +174,18 @@ async def test_one_robots_hanging_repair_does_not_delay_another(room: Room) -> N
     room.fail("B")
     await room.said()
     assert [said.targets for said in room.observer.said] == [("B",)]
+
+
+async def test_operator_is_told_when_a_repair_takes_long_and_stop_lets_go_of_it() -> None:
+    language = ScriptedLanguage()
+    async with LocalTransport() as transport, Observer(transport, WallClock()) as observer:
+        handler = ErrorHandler(transport, language, WallClock(), patience_s=0.0)
+        async with handler, Corrections(transport) as corrections:
+            room = Room(language, observer, corrections)
+            language.will("resolve", asyncio.Event(), ASK)
+            room.fail()
+            assert "still working out" in (await room.said())[0]
+            observer.say("stop", "A")
+            room.fail()
+            await observer.until(lambda: observer.questions.first("A") is not None, timeout_s=5)
+        assert transport.handler_failures == 0

@@ -13,6 +13,7 @@ import pytest
 from parley.clock import WallClock
 from parley.errors import LanguageError, TransportError
 from parley.language.scripted import ScriptedLanguage
+from parley.memory.answer_size import LEFT_OUT
 from parley.memory.client import ask_memory
 from parley.memory.embedder import Embedder
 from parley.memory.embedding_server import EmbeddingServer
@@ -20,10 +21,10 @@ from parley.memory.meanings import Meanings
 from parley.memory.store import MemoryStore
 from parley.messages import topics
 from parley.messages.chat import ChatFeedback
-from parley.messages.memory import RETURN_ALL, GetMemory, MemoryEntry, MemoryEvent, MemoryReply
+from parley.messages.memory import RETURN_ALL, GetMemory, MemoryEntry, MemoryEvent, MemoryList, MemoryReply
 from parley.messages.ros import ChatRequest, String
 from parley.messages.status import Rejection
-from parley.messages.wire import decode, to_string
+from parley.messages.wire import MAX_MESSAGE_CHARS, decode, to_string
 from parley.nodes.memory import MemoryNode
 from parley.transport.local import LocalTransport
 from tests.transport.backends import until
@@ -155,6 +156,32 @@ async def test_all_memories_are_returned_oldest_first_without_asking_anybody(hou
     for request in ({"request": "return all memories"}, "return all memories", "Return all memories."):
         assert list((await house.ask(request)).items()) == expected
     assert house.language.asked == []
+
+
+async def test_more_pictures_than_one_answer_holds_are_named_without_their_data(house: House) -> None:
+    picture = "A" * (MAX_MESSAGE_CHARS // 5)
+    for name in "abcde":
+        await house.store.add(MemoryEntry(name=name, type="image", data=picture, info=f"the {name}"))
+    await house.store.add(MemoryEntry(name="fact", data="The box is red."))
+    whole = await house.whole()
+    assert {name: entry.data for name, entry in whole.items()} == dict.fromkeys("abcde", "") | {
+        "fact": "The box is red."
+    }
+    assert whole["a"].info == f"the a {LEFT_OUT}"
+    listed = await house.listed(kind="list")
+    assert [entry.data for entry in listed if entry.type == "image"] == [""] * 5
+    assert [entry.data for entry in await house.listed("a", kind="named")] == [picture]
+
+
+async def test_of_more_texts_than_one_answer_holds_the_newest_are_given_and_the_rest_counted(
+    house: House,
+) -> None:
+    for number in range(9):
+        await house.store.add(MemoryEntry(name=str(number), data="A" * (MAX_MESSAGE_CHARS // 10)))
+    assert list(await house.whole()) == ["5", "6", "7", "8"]
+    request = ChatRequest(GetMemory(request="", kind="list").model_dump_json())
+    answer = await house.transport.call(topics.GET_MEMORY, request, timeout_s=10.0)
+    assert decode(MemoryList, answer.response).left_out == 5
 
 
 async def test_the_language_engine_picks_what_matters_and_time_orders_it(house: House) -> None:

@@ -297,6 +297,35 @@ def test_skip_without_the_command_for_steps_restarts_the_rest(engine: Engine) ->
     assert [n.input_parameters["what"].value for n in start.graph.nodes] == ["door"]
 
 
+def test_second_skip_while_the_graph_is_stopping_leaves_out_the_next_step_too() -> None:
+    numbers = itertools.count()
+    plan = TargetPlan("A", new_graph_name=lambda: f"graph_{next(numbers)}", can_end_step=lambda: False)
+    other = Engine(plan)
+    other.take(list(plan.append([look(), look("door"), look("lid")])))
+    other.report()
+    assert plan.skip() == [StopGraph("graph_0")]
+    assert plan.skip() == []
+    other.graph_state = GraphState.STOPPED
+    (start,) = other.report()
+    assert isinstance(start, StartGraph)
+    assert [n.input_parameters["what"].value for n in start.graph.nodes] == ["lid"]
+
+
+def test_what_ended_before_a_stop_took_hold_is_not_done_again() -> None:
+    numbers = itertools.count()
+    plan = TargetPlan("A", new_graph_name=lambda: f"graph_{next(numbers)}", can_end_step=lambda: False)
+    other = Engine(plan)
+    other.take(list(plan.append([look(), look("door"), look("lid")])))
+    other.report()
+    assert plan.skip() == [StopGraph("graph_0")]
+    other.states = {"Look_0": NodeState.FINISHED, "Look_1": NodeState.FINISHED, "Look_2": NodeState.RUNNING}
+    other.report()
+    other.graph_state, other.states["Look_2"] = GraphState.STOPPED, NodeState.FINISHED
+    (start,) = other.report()
+    assert isinstance(start, StartGraph)
+    assert [n.input_parameters["what"].value for n in start.graph.nodes] == ["lid"]
+
+
 def test_pause_keeps_the_plan_and_changes_wait_for_going_on(plan: TargetPlan, engine: Engine) -> None:
     engine.take(list(plan.append([look(), look("door")])))
     engine.report()

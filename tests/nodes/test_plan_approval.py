@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import json
 from typing import Any
 
 import pytest
@@ -50,6 +51,28 @@ async def test_policy_from_the_start_is_told_when_the_robot_comes() -> None:
     async with crew("A", ask_first=["A"]) as party:
         await party.until(lambda: "A" in party.observer.plans)
         assert party.observer.plans["A"].policy == "ask_first"
+
+
+async def test_who_listens_later_is_told_the_plans_and_proposals_as_they_are() -> None:
+    async with crew("A", "B", ask_first=["A"]) as party:
+        party.order(look("box"))
+        party.order(look("door"), target="B")
+        await party.until(lambda: proposals(party) and "look door" in party.bodies["B"].did)
+        await party.state("idle", "B")
+        told: list[dict[str, Any]] = []
+        late = await party.transport.subscribe(topics.PLAN, lambda said: told.append(json.loads(said.data)))
+        await party.until(lambda: len(told) >= 3)
+        now = party.wire.objects(topics.PLAN)
+        for robot in ("A", "B"):
+            updates = [item for item in now if item["kind"] == "update" and item["target"] == robot]
+            assert [item for item in told if item["kind"] == "update" and item["target"] == robot] == [
+                updates[-1]
+            ]
+        assert [item for item in told if item["kind"] == "proposal"] == proposals(party)[-1:]
+        before = len(party.wire.objects(topics.PLAN))
+        await late.close()
+        await party.settled()
+        assert len(party.wire.objects(topics.PLAN)) == before, "who leaves is no reason to tell anything"
 
 
 # -- repairs -------------------------------------------------------------------------------------------

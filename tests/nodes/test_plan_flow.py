@@ -10,6 +10,7 @@ from parley.errors import FailureCode
 from parley.messages import topics
 from parley.messages.chat import ActionCall, Flow, FlowIf
 from parley.messages.pvf import Parameter
+from parley.messages.status import StepCommand
 from parley.umrf.io import read_graph
 from parley.umrf.model import Response, Result
 from tests.nodes.crew import Body, ThesisEngine, ask, crew, drive, find, look
@@ -410,3 +411,46 @@ async def test_such_an_engine_runs_steps_at_the_same_time() -> None:
             body.gate("box").set()
             await party.until(lambda: party.steps("Z") == ["finished"] * 3)
             assert sorted(body.did[:2]) == ["look box", "look lid"]
+
+
+@pytest.mark.parametrize("command", ["skip", "pop"])
+async def test_one_of_several_steps_cannot_be_left_out_there_and_that_is_said(command: str) -> None:
+    async with crew(heartless=["Z"]) as party:
+        body = Body()
+        body.gate("box")
+        body.gate("lid")
+        async with ThesisEngine(party.transport, "Z", body):
+            party.order(look("box"), beside(look("lid"), 0), look("door"), target="Z")
+            await party.until(lambda: party.steps("Z") == ["running", "running", "queued"])
+            party.command(command, "Z", parameters=1)
+            await party.hears("I can only stop all that I am doing at the same time")
+            body.gate("lid").set()
+            body.gate("box").set()
+            await party.until(lambda: party.steps("Z") == ["finished"] * 3)
+            assert sorted(body.did) == ["look box", "look door", "look lid"], "nothing was done twice"
+
+
+async def test_step_that_somebody_else_ended_is_shown_as_stopped_and_what_asks_for_it_is_left_out() -> None:
+    async with crew("A") as party:
+        party.body.far.add(1)
+        party.order(drive(1), when(look("lid"), 0), look("door"))
+        await party.doing("drive 1")
+        graph = party.observer.plans["A"].graph_name
+        end = StepCommand(target="A", graph_name=graph, node="Drive_0")
+        party.observer.publish(topics.STEP, end)
+        await party.until(lambda: party.steps() == ["stopped", "skipped", "finished"])
+        shown = [update["steps"][0]["state"] for update in party.wire.objects(topics.PLAN) if update["steps"]]
+        assert "finished" not in shown
+        assert party.body.did == ["drive 1", "look door"]
+
+
+async def test_what_ran_beside_a_step_that_somebody_else_ended_still_hands_on_what_it_gave() -> None:
+    async with crew("A") as party:
+        party.body.gate("box")
+        party.order(look("box"), beside(find("lid"), 0), drive(), look("door"))
+        await party.until(lambda: party.steps()[:2] == ["running", "finished"])
+        graph = party.observer.plans["A"].graph_name
+        party.observer.publish(topics.STEP, StepCommand(target="A", graph_name=graph, node="Look_0"))
+        await party.state("idle")
+        assert party.steps() == ["stopped", "finished", "finished", "finished"]
+        assert party.body.did[-2:] == ["drive 3", "look door"]

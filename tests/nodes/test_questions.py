@@ -5,7 +5,7 @@ from __future__ import annotations
 import pytest
 
 from parley.messages.chat import ChatFeedback, ChatInput
-from parley.nodes.questions import OpenQuestions
+from parley.nodes.questions import OpenQuestions, SeenIds
 
 
 def ask(text: str, *targets: str) -> ChatFeedback:
@@ -119,3 +119,21 @@ def test_answer_for_nobody_is_only_clear_while_one_robot_waits() -> None:
     questions.on_feedback(ask("two", "Bob"))
     assert questions.answered(said) == []
     assert questions.robots() == ["Ada", "Bob"]
+
+
+def test_answer_is_late_once_its_question_is_settled_by_whatever_means(questions: OpenQuestions) -> None:
+    questions.on_feedback(ChatFeedback(message="Which?", targets=("A",), type="request", id="q7"))
+    answer = ChatInput(message="red", targets=("A",), type="response", reply_to="q7")
+    assert not questions.is_late(answer)
+    questions.on_input(answer)
+    assert questions.is_late(answer)
+    assert not questions.is_late(answer.model_copy(update={"reply_to": ""}))
+    assert not questions.is_late(answer.model_copy(update={"reply_to": "nobody asked"}))
+    assert not questions.is_late(answer.model_copy(update={"type": "request"}))
+
+
+def test_only_so_many_ids_are_kept() -> None:
+    seen = SeenIds(kept=2)
+    assert [seen.is_new(name) for name in ("a", "b", "a", "c", "a", "", "")] == [
+        True, True, False, True, True, True, True,
+    ]  # fmt: skip

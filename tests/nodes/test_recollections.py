@@ -3,14 +3,18 @@
 from __future__ import annotations
 
 import asyncio
+import base64
 import re
 from collections.abc import AsyncIterator, Sequence
+from contextlib import asynccontextmanager
 from dataclasses import dataclass, field
 
 import pytest
 
 from parley.clock import WallClock
 from parley.demos.observer import Observer
+from parley.language.base import Language, Picture, Situation
+from parley.language.offline import OfflineLanguage
 from parley.language.scripted import ScriptedLanguage
 from parley.memory.store import MemoryStore
 from parley.messages import topics
@@ -75,14 +79,20 @@ class House:
 
 @pytest.fixture
 async def house() -> AsyncIterator[House]:
-    language, clock = ScriptedLanguage(), WallClock()
+    async with opened_house() as found:
+        yield found
+
+
+@asynccontextmanager
+async def opened_house(engine: Language | None = None) -> AsyncIterator[House]:
+    language, clock = ScriptedLanguage(engine), WallClock()
     async with (
         LocalTransport() as transport,
         await MemoryStore.open(":memory:") as store,
         MemoryNode(transport, store, language),
         DisplayInterface(transport, clock, min_interval_s=0.0),
         UmrfPlanner(transport, clock),
-        ChatInterface(transport, language, clock),
+        ChatInterface(transport, engine or language, clock),
         Observer(transport, clock, lambda _: None) as observer,
     ):
         house = House(transport, store, language, observer)
@@ -290,12 +300,47 @@ async def test_correcting_and_forgetting_concern_the_memory_that_the_robot_has(h
     assert [e.scope for e in await house.store.all()] == ["B"]
 
 
-async def test_pictures_reach_the_language_engine_without_their_data(house: House) -> None:
+def situations(house: House) -> list[Situation]:
+    return [asked for question, asked in house.language.asked if question == "interpret"]
+
+
+async def test_remembered_pictures_reach_the_language_engine_as_pictures(house: House) -> None:
     await house.say("this is the dock", photo())
     house.language.will("interpret", ChatAction(message_response="Fine."))
     await house.say("hello")
-    (situation,) = [asked for question, asked in house.language.asked if question == "interpret"]
+    (situation,) = situations(house)
     assert [(entry.name, entry.data) for entry in situation.memory] == [("dock", "")]
+    (kept,) = await house.store.all(kind="image")
+    assert situation.pictures == (Picture("dock", base64.b64decode(kept.data)),)
+
+
+async def test_picture_sent_with_a_question_reaches_the_language_engine_once(house: House) -> None:
+    house.language.will("interpret", ChatAction(message_response="A desk."))
+    await house.say("what do you make of it?", photo(), file="IMG_1234.jpg")
+    await house.observer.until(lambda: bool(situations(house)), timeout_s=5)
+    (situation,) = situations(house)
+    assert [(each.name, each.sent) for each in situation.pictures] == [("IMG_1234.jpg", True)]
+
+
+async def test_picture_that_goes_with_an_answer_is_kept(house: House) -> None:
+    ask = ChatFeedback(message="Where is it?", targets=("A",), type="request", id="q1")
+    house.observer.publish(topics.CHAT_FEEDBACK, ask)
+    await house.observer.until(lambda: bool(house.observer.said), timeout_s=5)
+    await house.say("this is the dock", photo(), answers="q1")
+    assert await house.names() == ["dock"]
+    assert situations(house) == []
+
+
+async def test_engine_that_sees_no_pictures_gets_no_remembered_ones_and_says_so_of_sent_ones() -> None:
+    offline = OfflineLanguage()
+    async with opened_house(offline) as house:
+        await house.say("this is the dock", photo())
+        said = await house.say("what can you do?")
+        assert "picture" not in said.message
+        await house.say("what can you do?", photo(colour="blue"))
+        await house.observer.until(
+            lambda: "I cannot see what is in a picture" in house.observer.said[-1].message, timeout_s=5
+        )
 
 
 async def test_asking_for_everything_shows_the_language_engine_all_the_robot_knows(house: House) -> None:

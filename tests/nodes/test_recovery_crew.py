@@ -8,7 +8,7 @@ import pytest
 
 from parley.messages import topics
 from parley.messages.chat import ActionCall, ChatAction, ChatInput, SystemCommand
-from parley.nodes.chat_interface import AFTERWARDS
+from parley.nodes.chat_texts import AFTERWARDS
 from tests.nodes.crew import Crew, crew, look
 
 ASK = ChatAction(success=False, message_response="What should I do?")

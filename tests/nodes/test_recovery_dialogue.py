@@ -18,11 +18,12 @@ from parley.messages import topics
 from parley.messages.chat import ChatAction, ChatInput, SystemCommand
 from parley.messages.incident import GetIncidents, Incident, IncidentList
 from parley.messages.ros import ChatRequest
-from parley.messages.status import PlanStep, PlanUpdate, StopCommand
+from parley.messages.status import PlanStep, PlanUpdate, StopCommand, StopReport
 from parley.messages.wire import decode, encode
 from parley.nodes.base import Node
 from parley.nodes.error_handler import ErrorHandler
 from parley.nodes.incident_log import UNSETTLED
+from parley.nodes.repair import MAX_NOTED
 from parley.transport.local import LocalTransport
 from tests.nodes.test_error_handler import ASK, SOLVED, Corrections, Room, look
 
@@ -71,6 +72,13 @@ class Place(Room):
         async with asyncio.timeout(5):
             while len(self.corrections.seen) < count:  # noqa: ASYNC110 - another node's list, not one event
                 await asyncio.sleep(0.002)
+
+    async def stopped(self, robot: str = "A") -> None:
+        """The stop button, and its arrival everywhere."""
+        self.observer.publish(topics.STOP, StopCommand(targets=(robot,)))
+        self.observer.publish(topics.STOP_REPORT, StopReport(actor=robot, state="received"))
+        for _ in range(20):
+            await asyncio.sleep(0)
 
     def plan(self, state: str, *states: str, robot: str = "A") -> None:
         steps = tuple(PlanStep.model_validate({"action": look(), "state": item}) for item in states)
@@ -140,6 +148,17 @@ async def test_order_for_afterwards_goes_to_the_plan_and_the_question_stays_open
     assert (order.queue, order.targets) == ((look("door"),), ("A",))
     assert place.corrections.seen == []
     assert place.observer.questions.first("A") is not None
+
+
+async def test_order_behind_an_answer_is_handed_on_with_the_correction(place: Place) -> None:
+    place.language.will("resolve", ASK, SOLVED.model_copy(update={"afterwards": (look("door"),)}))
+    place.fail()
+    await place.said()
+    place.answer("the red one, then look at the door", "A")
+    await place.corrected()
+    await place.observer.until(lambda: bool(place.orders.seen), timeout_s=5)
+    assert place.corrections.seen[0].afterwards == ()
+    assert [(order.queue, order.targets) for order in place.orders.seen] == [((look("door"),), ("A",))]
 
 
 async def test_other_order_instead_of_everything_is_recorded_as_that(place: Place) -> None:
@@ -217,14 +236,46 @@ async def test_stop_button_drops_a_repair_that_waits(place: Place) -> None:
     assert await place.endings() == ["held"]
 
 
-async def test_stop_button_leaves_an_open_question_open(place: Place) -> None:
+async def test_open_question_is_asked_again_when_the_stop_is_released(place: Place) -> None:
     place.language.will("resolve", ASK, SOLVED)
     place.fail()
     await place.said()
-    place.observer.publish(topics.STOP, StopCommand(targets=("A",)))
+    first = place.observer.said[0].id
+    await place.stopped()
     place.answer("the red one", "A")
+    await place.until("I was stopped for safety")
+    assert place.corrections.seen == []
+    place.observer.publish(topics.STOP_REPORT, StopReport(actor="A", state="reset"))
+    await place.said(3)
+    again = place.observer.said[2]
+    assert (again.message, again.choices, again.closes) == (ASK.message_response, ASK.choices, first)
+    place.answer("the red one", "A", reply_to=again.id)
     await place.corrected()
     assert place.corrections.seen[0].success is True
+
+
+async def test_going_on_while_stopped_leaves_the_question_as_it_is(place: Place) -> None:
+    place.language.will("resolve", ASK, SOLVED)
+    place.fail()
+    await place.said()
+    await place.stopped()
+    place.observer.say("carry on", "A")
+    for _ in range(20):
+        await asyncio.sleep(0)
+    place.observer.publish(topics.STOP_REPORT, StopReport(actor="A", state="reset"))
+    await place.said(2)
+    place.answer("the red one", "A")
+    await place.corrected()
+    assert await place.endings() == ["open"]
+
+
+async def test_nothing_is_tried_alone_while_stopped(place: Place) -> None:
+    await place.stopped()
+    place.language.will("resolve", AGAIN)
+    place.fail()
+    await place.said()
+    assert place.observer.said[0].type == "request"
+    assert place.corrections.seen == []
 
 
 async def test_try_again_as_an_order_counts_on(place: Place) -> None:
@@ -424,3 +475,65 @@ async def test_everything_is_written_when_the_node_closes(tmp_path: Path) -> Non
                 lambda: [i.ending for i in place.observer.incidents.values()] == ["cancelled"], timeout_s=5
             )
         assert [incident.ending for incident in await store.newest()] == ["cancelled"]
+
+
+# -- the same thing at once, twice, too late --
+
+
+async def test_of_two_answers_to_one_question_the_first_counts(place: Place) -> None:
+    place.language.will("resolve", ASK, ASK, SOLVED)
+    place.fail()
+    await place.said()
+    first = place.observer.said[0].id
+    place.answer("the second one", "A", reply_to=first)
+    place.answer("skip it", "A", reply_to=first)
+    await place.said(2)
+    assert [incident.ending for incident in await place.incidents()] == ["open"]
+    place.answer("the red one", "A", reply_to=first)
+    place.answer("the blue one", "A", reply_to=place.observer.said[1].id)
+    await place.corrected()
+    replies = [asked.reply for question, asked in place.language.asked if question == "resolve"]
+    assert replies == [None, "the second one", "the blue one"]
+
+
+async def test_answer_sent_twice_is_no_answer_to_the_next_question(place: Place) -> None:
+    place.language.will("resolve", ASK, ASK, SOLVED)
+    place.fail()
+    await place.said()
+    said = ChatInput(message="the second one", targets=("A",), type="response", id="x1")
+    place.observer.publish(topics.CHAT_INPUT, said)
+    await place.said(2)
+    place.observer.publish(topics.CHAT_INPUT, said)
+    place.answer("the red one", "A")
+    await place.corrected()
+    replies = [asked.reply for question, asked in place.language.asked if question == "resolve"]
+    assert replies == [None, "the second one", "the red one"]
+
+
+async def test_question_of_a_handler_that_was_started_anew_is_closed(tmp_path: Path) -> None:
+    path = tmp_path / "incidents.db"
+    async with await IncidentStore.open(path, WallClock()) as store, opened(store) as place:
+        place.language.will("resolve", ASK)
+        place.fail()
+        await place.said()
+        asked = place.observer.said[0].id
+    async with (
+        await IncidentStore.open(path, WallClock()) as store,
+        LocalTransport() as transport,
+        Observer(transport, WallClock()) as observer,
+        ErrorHandler(transport, ScriptedLanguage(), WallClock(), incidents=store),
+    ):
+        await observer.until(lambda: bool(observer.said), timeout_s=5)
+        assert (observer.said[0].closes, observer.said[0].targets) == (asked, ("A",))
+        assert "started anew" in observer.said[0].message
+
+
+async def test_record_of_an_endless_talk_stays_bounded(place: Place) -> None:
+    place.language.will("resolve", ASK, *[ASIDE] * MAX_NOTED)
+    place.fail()
+    await place.said()
+    for count in range(MAX_NOTED):
+        place.answer("why?", "A")
+        await place.said(3 + 2 * count)
+    (incident,) = await place.incidents()
+    assert (len(incident.attempts), incident.questions) == (MAX_NOTED, MAX_NOTED + 1)

@@ -78,7 +78,7 @@ async def opened(*, is_keyboard: bool = True, lang: str = "en") -> AsyncIterator
             robots = PlayedRobots(transport)
             await robots.listen()
             client = TerminalClient(transport, lang=lang, console=console)
-            task = asyncio.create_task(client.run(greeting=("go to the box",)))
+            task = asyncio.create_task(client.run(greeting=("go to the box",), engine="clockwork"))
             session = Session(robots, client, task, screen, keyboard, transport)
             await session.shows("Ctrl-D")
             robots.appear("Ada")
@@ -89,8 +89,9 @@ async def opened(*, is_keyboard: bool = True, lang: str = "en") -> AsyncIterator
             assert transport.handler_failures == 0
 
 
-async def test_the_operator_is_greeted_with_examples() -> None:
+async def test_the_operator_is_greeted_with_examples_and_told_what_understands_them() -> None:
     async with opened() as session:
+        assert "What understands you: clockwork." in session.shown
         assert "“go to the box”" in session.shown
 
 

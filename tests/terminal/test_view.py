@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import pytest
 
-from parley.messages.chat import ChatFeedback
+from parley.messages.chat import ChatFeedback, ReplyDraft
 from parley.messages.status import (
     ActorStatus,
     GraphEvent,
@@ -268,3 +268,15 @@ def test_a_stop_makes_sense_only_for_a_robot_that_may_move(
     view.on_status(ActorStatus.model_validate({"actor": "Ada", "state": state}), 101.0)
     view.on_plan(plan(step("go"), state=plan_state))
     assert view.robots["Ada"].may_move is may_move
+
+
+def test_reply_that_is_being_written_stands_in_the_live_view_until_it_is_whole(view: OperatorView) -> None:
+    assert view.on_draft(ReplyDraft(reply_to="m1", targets=("Ada",), message="I will\ngo")) == []
+    assert toolbar(view) == [" Ada: ready", " … I will go"]
+    view.on_draft(ReplyDraft(reply_to="m1", targets=("Ada",), message=f"begin{'x' * 200} end"))
+    assert toolbar(view)[1].endswith("xxx end")
+    assert "begin" not in toolbar(view)[1]
+    view.on_feedback(ChatFeedback(message="Still thinking.", targets=("Ada",), type="info"))
+    assert len(toolbar(view)) == 2
+    view.on_feedback(ChatFeedback(message="I will go.", targets=("Ada",), reply_to="m1"))
+    assert toolbar(view) == [" Ada: ready"]

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from dataclasses import replace
+from dataclasses import fields, replace
 from typing import Any
 
 import pytest
@@ -239,3 +239,25 @@ def test_a_bypassed_node_hands_nothing_on() -> None:
     flow.nodes["JoinText_1"].outputs = {"text": "of an earlier run"}
     assert effects(flow, "NoOp_0", "on_true") == [("bypassed", "JoinText_1"), ("run", "SameText_2")]
     assert flow.nodes["SameText_2"].values["text"] == "own"
+
+
+def test_all_of_a_node_is_shown_and_only_what_changed_is_shown_anew() -> None:
+    raw = chain("g", [node("JoinText", 0, left="a", right="b"), node("NoOp", 1)])
+    raw["actions"][0] |= {
+        "actor": "A",
+        "description": "joins",
+        "gui_attributes": {"x": 1},
+        "runtime": {"messages": [{"timestamp": 1, "message": "old"}]},
+    }
+    graph = resolve(read_graph(raw), CATALOGUE, actor="A").graph
+    flow = Flow(graph, resolve(graph, CATALOGUE, actor="A").specs)
+    first = flow.snapshot()
+    shown = {item.name: getattr(first[0], item.name) for item in fields(first[0])}
+    assert shown == {item.name: getattr(graph.nodes[0], item.name) for item in fields(first[0])} | {
+        "messages": ()
+    }
+    flow.nodes["JoinText_0"].note("new", 2)
+    second = flow.snapshot()
+    assert [item.message for item in second[0].messages] == ["new"]
+    assert second[1] is first[1]
+    assert flow.snapshot() == second

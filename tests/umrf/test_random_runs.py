@@ -130,3 +130,62 @@ def test_runs_end_tell_each_change_once_and_leave_nothing_behind(
     raw: dict[str, Any], orders: list[Any]
 ) -> None:
     asyncio.run(play(raw, orders))
+
+
+@st.composite
+def webs(draw: st.DrawFn) -> dict[str, Any]:
+    """Graphs without cycles: fan-outs, joins that need all, and any responses that do not run twice."""
+    count = draw(st.integers(2, 7))
+    nodes = [dict(draw(steps(index))) for index in range(count)]
+    refs = [{"name": item["name"], "instance_id": item["instance_id"]} for item in nodes]
+    for index in range(1, count):
+        for parent in sorted(draw(st.sets(st.integers(0, index - 1), min_size=1, max_size=3))):
+            answers = [draw(st.sampled_from(["run", "run", "ignore", "stop"])) for _ in RESULTS]
+            said = [f"{result} -> {answer}" for result, answer in zip(RESULTS, answers, strict=True)]
+            nodes[index].setdefault("parents", []).append(refs[parent] | {"conditions": said})
+            nodes[parent].setdefault("children", []).append(refs[index])
+    ends = [ref for ref, item in zip(refs, nodes, strict=True) if "children" not in item]
+    outputs = [item for item in nodes if "children" not in item and item.get("output_parameters")]
+    required = not outputs and draw(st.booleans())
+    exits = [ref | {"required": required} for ref in ends]
+    return {"graph_name": "g", "graph_entry": refs[:1], "graph_exit": exits, "actions": nodes}
+
+
+quiet_commands = st.lists(
+    st.one_of(
+        st.sampled_from(["pause", "resume", "stop", "yield", "wait"]),
+        st.tuples(st.just("end"), st.integers(0, 6)),
+    ),
+    max_size=8,
+)
+
+
+async def play_web(raw: dict[str, Any], orders: list[Any]) -> list[str]:
+    tasks = asyncio.all_tasks()
+    watched = Watched(raw, stop_timeout_s=2.0)
+    watched.run.start()
+    for command in orders:
+        try:
+            await obey(watched, command)
+        except GraphRefusedError as error:
+            assert error.problems
+    async with asyncio.timeout(5):
+        while watched.run.state not in AT_REST or watched.run.state is GraphState.PAUSED:
+            if watched.run.holding:
+                watched.run.resume()
+            await asyncio.sleep(0.001)
+        await watched.run.close()
+    assert watched.run.idle
+    assert [item.sequence for item in watched.told] == list(range(len(watched.told)))
+    assert asyncio.all_tasks() == tasks
+    return watched.runs()
+
+
+@given(raw=webs(), orders=quiet_commands)
+@settings(max_examples=150, deadline=None)
+@pytest.mark.spec("10.4", "D2", "D14")
+def test_without_cycles_nothing_runs_twice_whatever_is_commanded(
+    raw: dict[str, Any], orders: list[Any]
+) -> None:
+    began = asyncio.run(play_web(raw, orders))
+    assert len(set(began)) == len(began)

@@ -3,14 +3,17 @@
 from __future__ import annotations
 
 import asyncio
+import io
 from collections.abc import AsyncIterator, Callable
 from contextlib import asynccontextmanager
 from typing import Any, TypeVar
 
 import httpx
 import socketio
+from PIL import Image
 from pydantic import BaseModel
 
+from parley.clock import Clock, WallClock
 from parley.messages import topics
 from parley.messages.chat import ChatAction, ChatFeedback, ChatInput
 from parley.messages.ros import CompressedImage, Header, String, Time
@@ -23,8 +26,29 @@ from parley.web.server import WebServer
 
 P = TypeVar("P", bound=BaseModel)
 
-JPEG = bytes.fromhex("ffd8ffe000104a46494600010100000100010000ffd9")
-"""Begins and ends like a JPEG; nobody here looks inside."""
+
+def picture(kind: str = "JPEG", width_px: int = 2, height_px: int = 1) -> bytes:
+    """A small picture."""
+    out = io.BytesIO()
+    Image.new("RGB", (width_px, height_px)).save(out, kind)
+    return out.getvalue()
+
+
+JPEG = picture()
+
+
+class HandClock(WallClock):
+    """Wall time that goes on only when a test says so."""
+
+    def __init__(self) -> None:
+        self._began_s, self._began_ms = super().wall_s(), super().unix_ms()
+        self.ahead_s = 0.0
+
+    def wall_s(self) -> float:
+        return self._began_s + self.ahead_s
+
+    def unix_ms(self) -> int:
+        return self._began_ms + int(self.ahead_s * 1000)
 
 
 class Robots:
@@ -184,18 +208,19 @@ class Rig:
 
 
 @asynccontextmanager
-async def served(*names: str, **settings: Any) -> AsyncIterator[Rig]:
+async def served(*names: str, clock: Clock | None = None, **settings: Any) -> AsyncIterator[Rig]:
     """A server on a free port, with robots of these names.
 
     Args:
         names: Robots that are there.
+        clock: The server's.
         settings: Of `WebConfig`.
     """
     async with LocalTransport() as transport:
         robots = Robots(transport)
         await robots.listen()
         async with (
-            WebServer(transport, WebConfig(port=0, **settings)) as server,
+            WebServer(transport, WebConfig(port=0, **settings), clock=clock) as server,
             httpx.AsyncClient(base_url=server.url, verify=False, timeout=20) as http,
         ):
             rig = Rig(server, robots, http)

@@ -150,3 +150,13 @@ async def test_the_same_message_posted_twice_at_once_is_sent_once() -> None:
         assert {answer.status_code for answer in answers} <= {200, 409}
         await rig.heard()
         assert len(rig.robots.inputs) == 1
+
+
+async def test_a_picture_needs_no_words_but_something_must_be_there() -> None:
+    async with served("Ada") as rig:
+        photo = {"name": "box.jpg", "data": base64.b64encode(JPEG).decode()}
+        answer = await rig.http.post("/api/chat", json=message("m1", "", "Ada", images=[photo]))
+        assert answer.status_code == 200
+        await rig.heard()
+        assert (rig.robots.inputs[0].message, len(rig.robots.inputs[0].images)) == ("", 1)
+        assert (await rig.http.post("/api/chat", json=message("m2", "", "Ada"))).status_code == 422

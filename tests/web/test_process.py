@@ -16,6 +16,10 @@ from typing import Any
 import httpx
 import pytest
 
+from parley.cli.web import language_label, page_settings
+from parley.errors import ConfigError
+from parley.web.app import openapi_text
+
 ENDS_WITHIN_S = 15
 """How long a test waits for an end; how quick it is, is not a test's business."""
 
@@ -90,6 +94,7 @@ def test_it_ends_in_order_while_pages_are_open(tmp_path: Path, sent: signal.Sign
         assert errors == ""
 
 
+@pytest.mark.soak
 @pytest.mark.timeout(300)
 def test_what_was_acknowledged_is_there_after_kill_9(tmp_path: Path) -> None:
     rng = random.Random(5)
@@ -122,18 +127,27 @@ def test_a_password_file_that_is_missing_or_too_short_is_named(tmp_path: Path) -
     short = tmp_path / "short"
     short.write_text("abc")
     for file, word in ((tmp_path / "none", "cannot be read"), (short, "shorter")):
-        done = subprocess.run(
-            [sys.executable, "-m", "parley", "demo", "--password-file", str(file)],
-            capture_output=True, text=True, timeout=60, check=False,
-        )  # fmt: skip
-        assert done.returncode == 2
-        assert word in done.stderr
+        with pytest.raises(ConfigError, match=word):
+            page_settings(
+                port=None, lan=True, password_file=file, certificate=None, key=None, origins=(), without=""
+            )
+
+
+@pytest.mark.parametrize(
+    ("language", "label", "offline"),
+    [
+        ("offline", "built in, works without a model", True),
+        ("ollama:small-one:8b@http://192.0.2.7:11434", "small-one:8b (ollama)", False),
+    ],
+)
+def test_people_are_told_which_language_engine_there_is(language: str, label: str, offline: bool) -> None:
+    assert language_label(language) == {"language": label, "offline_language": offline}
 
 
 def test_the_interface_is_described_always_the_same() -> None:
     command = [sys.executable, "-m", "parley", "web", "openapi"]
-    one, two = (subprocess.run(command, capture_output=True, text=True, check=True).stdout for _ in range(2))
-    assert one == two
+    one = subprocess.run(command, capture_output=True, text=True, check=True).stdout
+    assert one == openapi_text()
     assert all(
         f'"{name}"' in one for name in ("Snapshot", "ChatChange", "FrameMeta", "ProblemDetail", "MapView")
     )

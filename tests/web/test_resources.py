@@ -27,7 +27,8 @@ from parley.messages.status import (
 from parley.messages.wire import encode
 from parley.nodes.memory import MemoryNode
 from parley.web.config import MODULES
-from tests.web.rig import JPEG, Page, served
+from parley.web.robot_state import STOP_DEADLINE_S
+from tests.web.rig import JPEG, HandClock, Page, served
 
 GO = ActionCall(name="NavigateTo", reason="go there")
 
@@ -68,9 +69,12 @@ async def test_a_stop_without_targets_is_for_all() -> None:
 
 
 async def test_a_stop_that_nobody_confirms_is_overdue() -> None:
-    async with served("Ada") as rig:
+    clock = HandClock()
+    async with served("Ada", clock=clock) as rig:
         page = await rig.page()
         await rig.http.post("/api/stop", json={"targets": ["Ada"]})
+        await page.until(lambda: stop_of(page) == "sent")
+        clock.ahead_s = STOP_DEADLINE_S + 0.1
         await page.until(lambda: stop_of(page) == "overdue")
 
 
@@ -148,6 +152,11 @@ async def test_pending_steps_are_edited_if_the_plan_is_still_the_one_that_was_se
         await rig.heard()
         (decision,) = rig.robots.decisions
         assert (decision.id, decision.revision, decision.steps) == ("", 4, (GO,))
+        later = update.model_copy(update={"revision": 5, "state": "paused"})
+        rig.robots.tell(topics.PLAN, later)
+        await page.until(lambda: page.of("plan")[-1]["plan"]["revision"] == 5)
+        same = await rig.http.put("/api/plans/Ada/steps", json={"steps": steps, "revision": 4})
+        assert same.status_code == 200, "what has not begun is as it was"
 
 
 async def test_a_policy_is_sent_and_told_again_to_a_robot_that_comes_later(tmp_path: Path) -> None:

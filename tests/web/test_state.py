@@ -8,8 +8,16 @@ import pytest
 
 from parley.messages.chat import ActionCall, ChatFeedback, ChatInput, ReplyDraft
 from parley.messages.pvf import Parameter
-from parley.messages.status import ActorStatus, GraphEvent, PlanUpdate, StopCommand, StopReport
-from parley.web.changes import ChangeLog, newest_only
+from parley.messages.status import (
+    ActorStatus,
+    GraphEvent,
+    PlanProposal,
+    PlanUpdate,
+    StopCommand,
+    StopReport,
+)
+from parley.umrf.model import Graph, GraphState, Node, NodeState
+from parley.web.changes import ChangeLog
 from parley.web.chat_state import KEPT_ENTRIES, ChatBook
 from parley.web.limits import Attempts, Rate
 from parley.web.models import Change, ChatEntry, PlanView, RobotChange, RobotGone, RobotView
@@ -53,11 +61,6 @@ def test_what_is_too_old_is_not_known_any_more() -> None:
         log.add(robot_change(str(number)))
     assert log.since(1) is None
     assert [change.seq for change in log.since(2) or ()] == [3, 4, 5]
-
-
-def test_only_the_newest_of_one_thing_stays() -> None:
-    changes: list[Change] = [robot_change("a"), robot_change("b"), robot_change("a")]
-    assert newest_only(changes) == [changes[1], changes[2]]
 
 
 # -- robots --------------------------------------------------------------------------------------------
@@ -361,6 +364,64 @@ def test_graphs_that_others_started_are_watched() -> None:
 
 
 # -- limits --------------------------------------------------------------------------------------------
+
+
+def test_a_graph_of_others_is_shown_whole_before_anything_of_it_ran() -> None:
+    book, _ = plans()
+    whole = Graph("g9", (Node("Look", description="see"), Node("Move", 1)), state=GraphState.RUNNING)
+    book.on_graph("Ada", whole)
+    shown = plan_of(book, "g9")
+    assert (shown.kind, shown.state) == ("graph", "running")
+    assert [(s.id, s.action, s.label, s.state) for s in shown.steps] == [
+        ("Look_0", "Look", "see", "queued"),
+        ("Move_1", "Move", "move", "queued"),
+    ]
+    book.on_event(event("Move_1", "RUNNING", graph="g9"))
+    book.on_graph("Ada", whole)  # tells later what the event told already
+    assert [s.state for s in plan_of(book, "g9").steps] == ["queued", "running"]
+
+
+def test_of_an_engine_without_events_whole_graphs_tell_how_far_it_is() -> None:
+    book, _ = plans()
+    node = Node("Look", state=NodeState.FINISHED)
+    over = Graph("g9", (node,), state=GraphState.FINISHED)
+    book.on_graph("Ada", over)
+    assert book.views == {}, "what was over before is no news"
+    book.on_graph("Ada", Graph("g9", (Node("Look", state=NodeState.RUNNING),), state=GraphState.RUNNING))
+    assert plan_of(book, "g9").steps[0].state == "running"
+    book.on_graph("Ada", over)
+    shown = plan_of(book, "g9")
+    assert (shown.state, shown.steps[0].state) == ("ended", "finished")
+
+
+def test_whole_graphs_of_plans_change_nothing() -> None:
+    book, changes = plans()
+    book.on_update(update(step("Look", "running", "Look_0")))
+    before = list(changes)
+    book.on_graph("Ada", Graph("g1", (Node("Move"),)))
+    assert changes == before
+
+
+def test_progress_of_one_step_leaves_the_others_as_they_are() -> None:
+    book, changes = plans()
+    book.on_update(update(step("Look", "running", "Look_0"), step("Move", node="Move_0")))
+    before = plan_of(book).steps
+    book.on_event(event("Look_0", kind="progress", progress=0.5))
+    after = plan_of(book).steps
+    assert after[0].progress == 0.5
+    assert after[1] is before[1]
+    count = len(changes)
+    book.on_event(event("Look_0", kind="progress", progress=0.5))
+    assert len(changes) == count, "the same again is no news"
+
+
+def test_a_proposal_told_again_is_no_news() -> None:
+    book, changes = plans()
+    proposal = PlanProposal(id="p1", target="Ada", steps=(ActionCall(name="Look"),))
+    book.on_proposal(proposal)
+    count = len(changes)
+    book.on_proposal(proposal)
+    assert len(changes) == count
 
 
 def test_a_rate_grants_a_burst_and_then_an_average() -> None:

@@ -26,22 +26,25 @@ function Commands({ onDone }: { onDone: () => void }) {
   return (
     <Autocomplete filter={contains}>
       <TextField label={t('commandsPlaceholder')} autoFocus />
-      <Menu
-        className={css.list ?? ''}
-        aria-label={t('commands')}
-        items={commands}
-        renderEmptyState={() => <p>{t('commandsNone')}</p>}
-        onAction={(id) => {
-          onDone();
-          commands.find((command) => command.id === id)?.run();
-        }}
-      >
-        {(command) => (
-          <MenuItem id={command.id} textValue={command.label} className={css.item ?? ''}>
-            {command.label}
-          </MenuItem>
-        )}
-      </Menu>
+      {/* eslint-disable-next-line jsx-a11y/no-noninteractive-tabindex -- what scrolls must be reachable by keys */}
+      <div className={css.scroller} tabIndex={0} role="group" aria-label={t('commands')}>
+        <Menu
+          className={css.list ?? ''}
+          aria-label={t('commands')}
+          items={commands}
+          renderEmptyState={() => <p>{t('commandsNone')}</p>}
+          onAction={(id) => {
+            onDone();
+            commands.find((command) => command.id === id)?.run();
+          }}
+        >
+          {(command) => (
+            <MenuItem id={command.id} textValue={command.label} className={css.item ?? ''}>
+              {command.label}
+            </MenuItem>
+          )}
+        </Menu>
+      </div>
     </Autocomplete>
   );
 }

@@ -1,6 +1,7 @@
 import { useCallback, useEffect, useState } from 'react';
 
 import { ApiError, getSession } from '@/live/api';
+import { useLive } from '@/live/store';
 
 interface SessionState {
   state: 'asking' | 'locked' | 'open';
@@ -24,7 +25,11 @@ export function useSession(): SessionState {
       (error: unknown) => {
         if (!current) return;
         if (error instanceof ApiError && error.status === 401) setSession({ state: 'locked', required: true });
-        else timer = setTimeout(() => setAsked((count) => count + 1), RETRY_MS);
+        else {
+          const live = useLive.getState();
+          if (live.connection !== 'lost') live.setConnection('lost', Date.now());
+          timer = setTimeout(() => setAsked((count) => count + 1), RETRY_MS);
+        }
       },
     );
     return () => {

@@ -387,7 +387,7 @@ export interface paths {
         };
         /**
          * Get Qr
-         * @description The address for phones, to be read with a camera.
+         * @description The address for phones, to be read with a camera; where devices are paired, with the code for one.
          */
         get: operations["get_qr"];
         put?: never;
@@ -694,7 +694,10 @@ export interface components {
             reply_to: string;
             /** Targets */
             targets: string[];
-            /** Text */
+            /**
+             * Text
+             * @default
+             */
             text: string;
         };
         /**
@@ -888,6 +891,11 @@ export interface components {
              * @default 0
              */
             opened_unix_ms: number;
+            /**
+             * Questions
+             * @default 0
+             */
+            questions: number;
             /** Robot */
             robot: string;
             step: components["schemas"]["ActionCall"];

@@ -1,5 +1,16 @@
 /** Entities for tests, complete and unremarkable; a test says only what matters to it. */
-import type { ChatEntry, PlanView, RobotView, ServerInfo, Snapshot, StepView } from './types';
+import type {
+  ChatEntry,
+  Incident,
+  MapInfo,
+  MapView,
+  MemoryItem,
+  PlanView,
+  RobotView,
+  ServerInfo,
+  Snapshot,
+  StepView,
+} from './types';
 
 export const robot = (part: Partial<RobotView> & { name: string }): RobotView => ({
   state: 'idle',
@@ -84,3 +95,56 @@ export const snapshot = (part: Partial<Snapshot> = {}): Snapshot => ({
   views: [],
   ...part,
 });
+
+export const memory = (part: Partial<MemoryItem> & { name: string }): MemoryItem => ({
+  scope: '',
+  type: 'text',
+  data: 'The box is by the door.',
+  info: '',
+  source: 'operator',
+  created_unix_ms: Date.UTC(2026, 0, 2, 10),
+  updated_unix_ms: Date.UTC(2026, 0, 2, 10),
+  used_unix_ms: 0,
+  used_count: 0,
+  ...part,
+});
+
+export const incident = (part: Partial<Incident> & { id: string }): Incident => ({
+  robot: 'Ada',
+  graph_name: 'plan_1',
+  step: { GoTo: { input_parameters: {}, output_parameters: {}, reason: 'go to the box' } } as unknown as Incident['step'],
+  code: 'ambiguous',
+  message: 'Two places fit “box”.',
+  attempts: [{ kind: 'asked', asked: 'Which box?', answered: 'the red one', tried: 'I take the red box.', unix_ms: 1000 }],
+  questions: 1,
+  ending: 'open',
+  opened_unix_ms: 1000,
+  closed_unix_ms: 0,
+  note: '',
+  ...part,
+});
+
+/** Ten metres by five, half a metre to a pixel, its corner at (-2, -1). */
+export const mapInfo: MapInfo = {
+  robot: 'Ada',
+  name: 'hall',
+  resolution: 0.5,
+  width: 20,
+  height: 10,
+  origin: { x: -2, y: -1, yaw: 0 },
+  image: 'iVBORw0KGgoAAAANSUhEUgAAAAEAAAABCAAAAAA6fptVAAAACklEQVR4nGP4DwABAQEAsTPyiAAAAABJRU5ErkJggg==',
+  objects: [
+    { id: 'box_1', kind: 'box', description: 'red box', x: 3, y: 1, width: 1, height: 1 },
+    { id: 'door_1', kind: 'door', description: 'front door', x: 0, y: 3, width: 1, height: 0.2 },
+  ],
+};
+
+export const mapView: MapView = {
+  actor: 'Ada',
+  map_name: 'hall',
+  pose: { x: 1, y: 2, yaw: 0 },
+  path: [[3, 1]],
+  goal: { x: 3, y: 1, yaw: 0 },
+  scan: [[2, 2]],
+  unix_ms: 1000,
+};

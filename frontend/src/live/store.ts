@@ -30,7 +30,12 @@ export const useLive = create<Live>()((set) => ({
     set((live) => ({ world: { ...live.world, views: { ...live.world.views, [view.actor]: view } } })),
   takeOlderChat: (entries, complete) =>
     set((live) => ({
-      world: { ...live.world, chat: mergeChat(live.world.chat, entries), chatComplete: complete },
+      world: {
+        ...live.world,
+        chat: mergeChat(live.world.chat, entries),
+        chatComplete: complete,
+        chatFrom: complete ? 0 : Math.min(live.world.chatFrom, entries[0]?.seq ?? live.world.chatFrom),
+      },
     })),
 }));
 

@@ -56,11 +56,22 @@ describe('the world', () => {
   it('keeps earlier messages when the same run is told anew, but not across a gap', () => {
     const chat = [1, 2, 3].map((seq) => entry({ id: `e${seq}`, seq }));
     const before = fromSnapshot(snapshot({ chat }));
-    const overlapping = fromSnapshot(snapshot({ chat: [entry({ id: 'e3', seq: 3 }), entry({ id: 'e4', seq: 4 })] }), before);
+    const overlapping = fromSnapshot(
+      snapshot({ chat: [entry({ id: 'e3', seq: 3 }), entry({ id: 'e4', seq: 4 })], chat_complete: false }),
+      before,
+    );
     expect(ids(overlapping.chat)).toEqual(['e1', 'e2', 'e3', 'e4']);
     const apart = fromSnapshot(snapshot({ chat: [entry({ id: 'e9', seq: 9 })], chat_complete: false }), before);
     expect(ids(apart.chat)).toEqual(['e9']);
     expect(apart.chatComplete).toBe(false);
+  });
+
+  it('knows that there is a gap behind an old question that is still open', () => {
+    const chat = [entry({ id: 'q', seq: 2, question: 'open' }), entry({ id: 'e8', seq: 8 }), entry({ id: 'e9', seq: 9 })];
+    const world = fromSnapshot(snapshot({ chat, chat_complete: false }));
+    expect(world.chatFrom).toBe(8);
+    const answered: Change = { kind: 'chat', seq: 1, entry: entry({ id: 'q', seq: 2, question: 'answered' }) };
+    expect(applyChanges(world, [answered]).chatFrom).toBe(8);
   });
 
   it('begins anew when another run answers', () => {

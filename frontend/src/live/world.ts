@@ -27,6 +27,8 @@ export interface World {
   chat: readonly ChatEntry[];
   /** Whether `chat` holds the beginning of the conversation. */
   chatComplete: boolean;
+  /** From this `seq` on nothing is missing in `chat`; before it there may be open questions that stand alone. */
+  chatFrom: number;
   plans: Readonly<Record<string, PlanView>>;
   proposals: Readonly<Record<string, ProposalView>>;
   feeds: Readonly<Record<string, FeedInfo>>;
@@ -47,6 +49,7 @@ export const emptyWorld: World = {
   robots: {},
   chat: [],
   chatComplete: true,
+  chatFrom: 0,
   plans: {},
   proposals: {},
   feeds: {},
@@ -64,14 +67,16 @@ export const feedKey = (feed: { robot: string; name: string }): string => `${fee
 /** The world as a snapshot tells it; earlier parts of the same conversation are kept. */
 export function fromSnapshot(snapshot: Snapshot, before: World = emptyWorld): World {
   const sameRun = before.run === snapshot.run;
-  const older = sameRun ? olderThan(before.chat, snapshot.chat[0]) : [];
+  const from = snapshot.chat_complete ? 0 : unbrokenFrom(snapshot.chat);
+  const older = sameRun ? olderThan(before, from) : [];
   return {
     run: snapshot.run,
     seq: snapshot.seq,
     info: snapshot.info,
     robots: keyed(snapshot.robots, (robot) => robot.name),
-    chat: [...older, ...snapshot.chat],
+    chat: mergeChat(older, snapshot.chat),
     chatComplete: older.length > 0 ? before.chatComplete : snapshot.chat_complete,
+    chatFrom: older.length > 0 ? before.chatFrom : from,
     plans: keyed(snapshot.plans, planKey),
     proposals: keyed(snapshot.proposals, (proposal) => proposal.id),
     feeds: keyed(snapshot.feeds, feedKey),
@@ -142,11 +147,15 @@ function without<T>(record: Readonly<Record<string, T>>, key: string): Record<st
   return Object.fromEntries(Object.entries(record).filter(([name]) => name !== key));
 }
 
-function olderThan(chat: readonly ChatEntry[], first: ChatEntry | undefined): readonly ChatEntry[] {
-  if (!first) return [];
-  const end = chat.findIndex((entry) => entry.seq >= first.seq);
-  // Without an overlap there may be a gap between the two: begin anew.
-  return end < 0 ? [] : chat.slice(0, end);
+/** What was known of the conversation before `from`, if it reaches up to there without a gap. */
+function olderThan(before: World, from: number): readonly ChatEntry[] {
+  const reaches = before.chat.some((entry) => entry.seq >= from);
+  return reaches && before.chatFrom < from ? before.chat.filter((entry) => entry.seq < from) : [];
+}
+
+/** A snapshot begins with older questions that are still open, if there are any. */
+function unbrokenFrom(chat: readonly ChatEntry[]): number {
+  return chat.find((entry) => entry.question !== 'open')?.seq ?? chat.at(-1)?.seq ?? 0;
 }
 
 function insertionPoint(chat: readonly ChatEntry[], seq: number): number {

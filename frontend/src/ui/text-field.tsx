@@ -1,4 +1,4 @@
-import { Input, Label, Text, TextField as AriaTextField, type TextFieldProps } from 'react-aria-components';
+import { Input, Label, Text, TextArea, TextField as AriaTextField, type TextFieldProps } from 'react-aria-components';
 
 import css from './text-field.module.css';
 
@@ -8,14 +8,20 @@ interface Props extends Omit<TextFieldProps, 'children' | 'className'> {
   help?: string;
   placeholder?: string;
   list?: string;
+  /** So many lines to write in, rather than one. */
+  rows?: number;
 }
 
-/** One line to write in. */
-export function TextField({ label, hideLabel, help, placeholder, list, ...rest }: Props) {
+/** One line to write in, or several. */
+export function TextField({ label, hideLabel, help, placeholder, list, rows, ...rest }: Props) {
   return (
     <AriaTextField {...rest} className={css.field ?? ''}>
       <Label className={hideLabel ? 'hidden' : (css.label ?? '')}>{label}</Label>
-      <Input className={css.input ?? ''} placeholder={placeholder ?? ''} list={list} />
+      {rows ? (
+        <TextArea className={css.input ?? ''} placeholder={placeholder ?? ''} rows={rows} />
+      ) : (
+        <Input className={css.input ?? ''} placeholder={placeholder ?? ''} list={list} />
+      )}
       {help && (
         <Text slot="description" className={css.help ?? ''}>
           {help}

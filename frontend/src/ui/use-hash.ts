@@ -23,3 +23,8 @@ export function useHashValue(name: string): string {
   const hash = useSyncExternalStore(subscribe, () => window.location.hash);
   return new URLSearchParams(split(hash)[1]).get(name) ?? '';
 }
+
+/** Go to another page, as a link would. */
+export function goTo(path: string): void {
+  window.location.hash = path;
+}

@@ -39,6 +39,11 @@ export function inWords(name: string): string {
 /** With a capital letter in front. */
 export const sentence = (text: string): string => text.charAt(0).toUpperCase() + text.slice(1);
 
+/** Day and time. */
+export function dayAndTime(unixMs: number, nowUnixMs: number, language: string): string {
+  return `${dayName(unixMs, nowUnixMs, language)} ${clockTime(unixMs, language)}`;
+}
+
 const steps = [
   ['second', 60],
   ['minute', 60],

@@ -9,7 +9,7 @@ from typing import Final
 from parley.actions.context import ActionContext
 from parley.errors import ActionFailure, FailureCode, LanguageError
 from parley.robots.base import CameraImage
-from parley.umrf.action import action
+from parley.umrf.action import Outcome, action
 from parley.world.object_map import ObjectMap
 
 __all__ = ["FEED", "Inspection", "inspect"]
@@ -36,7 +36,7 @@ class Inspection:
     capabilities=("camera",),
     pausable=False,
 )
-async def inspect(ctx: ActionContext, inspect: str) -> Inspection:
+async def inspect(ctx: ActionContext, inspect: str) -> Inspection | Outcome:
     """Take a picture of what is in front, show it, and say what can be seen.
 
     Args:
@@ -52,19 +52,23 @@ async def inspect(ctx: ActionContext, inspect: str) -> Inspection:
         ) from error
     ctx.operator.tell(report.text)
     if report.found is False:
-        raise _not_seen(image, report.wanted or inspect, report.text, ctx.world.objects)
+        failure = _not_seen(image, report.wanted or inspect, report.text, ctx.world.objects)
+        if failure.code is FailureCode.NO_MATCH and ctx.run.result_asked:  # then it is an answer
+            return Outcome(False, {"inspection_result": report.text})
+        raise failure
     if report.attention:
         raise ActionFailure(FailureCode.ATTENTION, report.text, {"wanted": report.wanted})
     if report.found and report.wanted:
-        _note_sighting(ctx, report.wanted)
+        _note_sighting(ctx, report.wanted, image)
     return Inspection(report.text)
 
 
-def _note_sighting(ctx: ActionContext, wanted: str) -> None:
-    """For all robots: what was found, and where this robot stood; the newest time replaces the one before."""
+def _note_sighting(ctx: ActionContext, wanted: str, image: CameraImage) -> None:
+    """For all robots: what was found, how it looks, where this robot stood; the newest replaces the rest."""
     name = "_".join(re.findall(r"\w+", wanted.lower()))[:150]
     sentence = f"I saw the {wanted} from where I stood, {ctx.whereabouts()}."
     ctx.remember(f"{name}_sighting", sentence, info=f"Where {ctx.actor} saw the {wanted}")
+    ctx.remember_picture(f"picture of the {wanted[:150]}", image, info=f"The {wanted}, as {ctx.actor} saw it")
 
 
 def _not_seen(image: CameraImage, wanted: str, text: str, known: ObjectMap) -> ActionFailure:

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import asyncio
+import gc
 import time
 from collections.abc import Callable, Sequence
 from dataclasses import dataclass, field
@@ -147,13 +148,17 @@ class Crowd:
     stop_ms: list[float]
     longest_step_ms: list[float]
     """The longest time for which the loop did not turn, one per round."""
+    longest_collection_ms: list[float]
+    """The longest look of the garbage collector, one per round, part of some step; 0 if there was none."""
 
 
 @dataclass(eq=False)
 class _Turns:
-    """Notes the longest time between two turns of the loop."""
+    """Notes the longest time between two turns of the loop, and the garbage collector's longest look."""
 
     longest_s: float = 0.0
+    longest_collection_s: float = 0.0
+    _collection_began_s: float = 0.0
     _last_s: float = field(default_factory=time.perf_counter)
     _on: bool = True
 
@@ -164,9 +169,20 @@ class _Turns:
         if self._on:
             asyncio.get_running_loop().call_soon(self.turn)
 
-    def stop(self) -> float:
+    def start(self) -> None:
+        gc.callbacks.append(self._collecting)
+        self.turn()
+
+    def stop(self) -> None:
         self._on = False
-        return 1000 * self.longest_s
+        gc.callbacks.remove(self._collecting)
+
+    def _collecting(self, phase: str, _: dict[str, int]) -> None:
+        now_s = time.perf_counter()
+        if phase == "start":
+            self._collection_began_s = now_s
+        else:
+            self.longest_collection_s = max(self.longest_collection_s, now_s - self._collection_began_s)
 
 
 async def measure_crowd(others: Callable[[int], Sequence[Graph]], times: int) -> Crowd:
@@ -182,7 +198,7 @@ async def measure_crowd(others: Callable[[int], Sequence[Graph]], times: int) ->
         TimeoutError: A command did not arrive within 30 s.
     """
     noticed = _Noticed(asyncio.get_running_loop())
-    found = Crowd([], [], [])
+    found = Crowd([], [], [], [])
     rest = asyncio.Event()
 
     async def watched(run: RunHandle) -> None:
@@ -224,7 +240,7 @@ async def measure_crowd(others: Callable[[int], Sequence[Graph]], times: int) ->
             start.publish(UmrfGraphStart("", write_graph(graph, faithful=True), _TARGETS))
             await noticed.until("begun")
             turns = _Turns()
-            turns.turn()
+            turns.start()
             for text in texts:
                 start.publish(UmrfGraphStart("", text, _TARGETS))
             began_s = time.perf_counter()
@@ -235,5 +251,7 @@ async def measure_crowd(others: Callable[[int], Sequence[Graph]], times: int) ->
             found.stop_ms.append(1000 * (await noticed.until("stop") - began_s))
             async with asyncio.timeout(30):
                 await rest.wait()
-            found.longest_step_ms.append(turns.stop())
+            turns.stop()
+            found.longest_step_ms.append(1000 * turns.longest_s)
+            found.longest_collection_ms.append(1000 * turns.longest_collection_s)
     return found

@@ -51,6 +51,8 @@ class Figures:
     """`async` or `threaded`."""
     wall_s: float
     """From publishing the first start to the last event."""
+    cpu_s: float
+    """Of the whole process in that time; other work on the machine changes it less than `wall_s`."""
     events: int
     gaps: int
     """Events that were missing or out of order; must be 0."""
@@ -65,6 +67,11 @@ class Figures:
     def actions_per_s(self) -> float:
         """Throughput."""
         return self.actions / self.wall_s
+
+    @property
+    def cpu_us_per_action(self) -> float:
+        """What an action costs, the reading of its events included."""
+        return 1e6 * self.cpu_s / self.actions
 
 
 @dataclass(eq=False)
@@ -207,18 +214,19 @@ async def run_graphs(
             await transport.subscribe(topics.GRAPH_FEEDBACK, listener.on_feedback)
         start = transport.publisher(topics.GRAPH_START)
         texts = [write_graph(graph, faithful=True) for graph in graphs]
-        began_s = time.perf_counter()
+        began_s, began_cpu_s = time.perf_counter(), time.process_time()
         for text in texts:
             start.publish(UmrfGraphStart(umrf_graph_json=text, targets=("bench",)))
         async with asyncio.timeout(PATIENCE_S):
             await listener.done.wait()
-        wall_s = time.perf_counter() - began_s
+        wall_s, cpu_s = time.perf_counter() - began_s, time.process_time() - began_cpu_s
         if feedback:
             await asyncio.sleep(0.1)  # the last whole graph may come an interval later
     return Figures(
         actions=sum(len(graph.nodes) for graph in graphs),
         kind="threaded" if threaded else "async",
         wall_s=wall_s,
+        cpu_s=cpu_s,
         events=listener.events,
         gaps=listener.gaps,
         event_ms=tuple(listener.event_ms),

@@ -4,14 +4,19 @@ from __future__ import annotations
 
 import random
 import tempfile
+import zlib
 from collections.abc import Sequence
-from dataclasses import dataclass, field
+from dataclasses import dataclass, field, replace
 from pathlib import Path
-from typing import Final
+from typing import Any, Final
+
+import numpy as np
 
 from parley.clock import WallClock
 from parley.language.scripted import ScriptedLanguage
 from parley.memory.client import ask_memory
+from parley.memory.embedder import Embedder, Vectors
+from parley.memory.meanings import Meanings
 from parley.memory.store import MemoryStore
 from parley.messages.memory import GetMemory, MemoryEntry
 from parley.nodes.memory import MemoryNode
@@ -21,6 +26,8 @@ __all__ = ["MemoryFigures", "measure_memory"]
 
 COMMON: Final = ("box", "door", "hall", "red", "blue", "shelf", "key", "room")
 """Words that a tenth to nearly all of the memories hold."""
+
+VECTOR_LENGTH: Final = 768
 
 
 @dataclass(frozen=True, slots=True)
@@ -37,6 +44,14 @@ class MemoryFigures:
     """Searches in the store, by how common the words asked for are."""
     service_ms: Sequence[float] = field(default_factory=list)
     """The same through the memory node and its service."""
+    meaning_fill_ms: float = 0.0
+    """Vectors for all, kept in the file; without the time that a model takes to make them."""
+    meaning_open_ms: float = 0.0
+    """Reading the vectors when the program starts."""
+    meaning_ms: Sequence[float] = field(default_factory=list)
+    """Searches by meaning; without the time that a model takes for the vector of the request."""
+    both_ms: Sequence[float] = field(default_factory=list)
+    """Searches by words and by meaning, through the memory node and its service."""
 
 
 async def measure_memory(count: int = 100_000, searches: int = 100, seed: int = 1) -> MemoryFigures:
@@ -68,7 +83,50 @@ async def measure_memory(count: int = 100_000, searches: int = 100, seed: int = 
                 },
                 service_ms=await _service(store, clock, count, searches, chance),
             )
-    return figures
+            by_meaning = await _meaning(store, clock, count, searches, chance)
+    return replace(figures, **by_meaning)
+
+
+class _MadeUp(Embedder):
+    """Vectors by chance, of the length that common models have, without a model."""
+
+    def __init__(self) -> None:
+        super().__init__("http://127.0.0.1", "made up")
+
+    async def embed(self, texts: Sequence[str]) -> Vectors:
+        rows = np.stack([self._vector(text) for text in texts])
+        return np.asarray(rows / np.linalg.norm(rows, axis=1, keepdims=True), np.float32)
+
+    @staticmethod
+    def _vector(text: str) -> Vectors:
+        seed = zlib.crc32(text.encode())
+        return np.random.default_rng(seed).standard_normal(VECTOR_LENGTH, np.float32)
+
+
+async def _meaning(
+    store: MemoryStore, clock: WallClock, count: int, searches: int, chance: random.Random
+) -> dict[str, Any]:
+    texts = _questions(count, searches, chance)["mixed"]
+    begun = clock.wall_s()
+    async with Meanings(store, _MadeUp(), clock, min_alike=-1.0) as meanings:
+        await meanings.settled.wait()
+    filled = clock.wall_s()
+    async with Meanings(store, _MadeUp(), clock, min_alike=-1.0) as meanings:
+        opened = clock.wall_s()
+        taken: list[float] = []
+        for text in texts:
+            asked = clock.wall_s()
+            await meanings.alike(text, 20)
+            taken.append(1000 * (clock.wall_s() - asked))
+    both = await _service(
+        store, clock, count, searches, chance, Meanings(store, _MadeUp(), clock, min_alike=-1.0)
+    )
+    return {
+        "meaning_fill_ms": 1000 * (filled - begun),
+        "meaning_open_ms": 1000 * (opened - filled),
+        "meaning_ms": taken,
+        "both_ms": both,
+    }
 
 
 async def _add(store: MemoryStore, clock: WallClock, number: int) -> float:
@@ -84,10 +142,16 @@ async def _search(store: MemoryStore, clock: WallClock, text: str) -> float:
 
 
 async def _service(
-    store: MemoryStore, clock: WallClock, count: int, searches: int, chance: random.Random
+    store: MemoryStore,
+    clock: WallClock,
+    count: int,
+    searches: int,
+    chance: random.Random,
+    meanings: Meanings | None = None,
 ) -> list[float]:
     taken: list[float] = []
-    async with LocalTransport() as transport, MemoryNode(transport, store, ScriptedLanguage()):
+    language = ScriptedLanguage()
+    async with LocalTransport() as transport, MemoryNode(transport, store, language, meanings=meanings):
         for text in [text for texts in _questions(count, searches, chance).values() for text in texts]:
             begun = clock.wall_s()
             await ask_memory(transport, GetMemory(request=text, scope="A", kind="search"))

@@ -1,57 +1,78 @@
-"""The page's server under load, over real sockets: feedback of many robots and many pictures at once."""
+"""The page's server under load, over real sockets: feedback of many robots and many pictures at once.
+
+Three processes: robots that only send (`web_load`), the server with the display interface (this one), and a
+page that only listens (`web_page`). Each picture carries the time of its taking, so that it can be said where
+it waited.
+"""
 
 from __future__ import annotations
 
 import asyncio
 import base64
-import io
+import contextlib
+import gc
 import json
+import os
 import resource
 import sys
 import time
+from collections.abc import AsyncIterator, Mapping
 from dataclasses import dataclass
+from pathlib import Path
 from typing import Any, Final
 
-import numpy as np
-from PIL import Image
+from starlette.types import ASGIApp, Message, Receive, Scope, Send
 
 from parley.bench.engine import share
+from parley.bench.web_load import TOPICS, feed_name, robot_name
 from parley.clock import WallClock
 from parley.errors import ParleyError
 from parley.messages import topics
-from parley.messages.chat import ActionCall
-from parley.messages.display import DisplayFeed
 from parley.messages.ros import String
-from parley.messages.status import ActorStatus, GraphEvent, PlanStep, PlanUpdate
-from parley.messages.wire import to_string
 from parley.nodes.display_interface import DisplayInterface
-from parley.transport.base import Publisher
 from parley.transport.local import LocalTransport
+from parley.web.feed_state import Picture
 
 __all__ = ["WebFigures", "measure_web"]
 
-STEPS: Final = 6
 WARM_UP_S: Final = 1.0
+_STAGES: Final = ("heard", "at_web", "queued", "written")
+"""Of a picture in the server: read from the robots; made ready by the display interface; given to the page's
+socket; taken by the network."""
+
+_IMAGE: Final = '"image":"'
 
 
 @dataclass(frozen=True, slots=True)
 class WebFigures:
-    """What one load did; the page is a process of its own on the same machine."""
+    """What one load did; robots, server and page are processes on the same machine."""
 
     robots: int
     feeds: int
     seconds: float
     change_ms: tuple[float, ...]
-    """Wall time from an engine's progress to the page's socket, for each that was shown."""
+    """Wall time from an engine's progress to the page, for each that was shown."""
     frame_ms: tuple[float, ...]
-    """Wall time from a picture's taking to the page's socket, for each that was shown."""
-    frames_sent: int
+    """Wall time from a picture's taking to the page, for each that was shown."""
+    stage_ms: Mapping[str, tuple[float, ...]]
+    """Wall time from a picture's taking to each of the stages in the server, for those that were shown."""
+    server_ms: tuple[float, ...]
+    """Of each picture, the wall time between the first stage and the last."""
+    frames_taken: int
     server_cpu_share: float
-    """Processor time of the server's process per wall time; load generator and display interface included."""
+    """Processor time of the server's process per wall time; the display interface is in it."""
+    page_cpu_share: float
+    starved_share: float
+    """Time in which the server's loop could have run, but others had the processor; 0 if unknown."""
+    load_average: float
+    """Of the machine in the last minute: with more than its cores, all waits are longer."""
     rss_mb: float
 
     def facts(self) -> dict[str, Any]:
         """For printing."""
+        stages = {
+            f"frame_{stage}_p95_ms": round(share(ages, 0.95), 1) for stage, ages in self.stage_ms.items()
+        }
         return {
             "robots": self.robots,
             "feeds": self.feeds,
@@ -59,13 +80,51 @@ class WebFigures:
             "changes": len(self.change_ms),
             "change_p50_ms": round(share(self.change_ms, 0.5), 1),
             "change_p95_ms": round(share(self.change_ms, 0.95), 1),
-            "frames_taken": self.frames_sent,
+            "frames_taken": self.frames_taken,
             "frames_shown": len(self.frame_ms),
+            **stages,
+            "frame_in_server_p50_ms": round(share(self.server_ms, 0.5), 1),
+            "frame_in_server_p95_ms": round(share(self.server_ms, 0.95), 1),
             "frame_p50_ms": round(share(self.frame_ms, 0.5), 1),
             "frame_p95_ms": round(share(self.frame_ms, 0.95), 1),
             "server_cpu_share": round(self.server_cpu_share, 2),
+            "page_cpu_share": round(self.page_cpu_share, 2),
+            "server_starved_share": round(self.starved_share, 2),
+            "load_average": round(self.load_average, 1),
+            "cores": os.cpu_count(),
             "peak_rss_mb": round(self.rss_mb),
         }
+
+
+class _Probe:
+    """Notes when each picture reached each stage in the server, by the stamp at its end."""
+
+    def __init__(self) -> None:
+        self.at_ns: dict[str, dict[int, int]] = {stage: {} for stage in _STAGES}
+
+    def note(self, stage: str, data: bytes) -> None:
+        """A picture is there."""
+        self.at_ns[stage].setdefault(int.from_bytes(data[-8:]), time.time_ns())
+
+    def on_picture(self, _: tuple[str, str], picture: Picture) -> None:
+        """The page's server has a picture."""
+        self.note("at_web", picture.data)
+
+    def around(self, app: ASGIApp) -> ASGIApp:
+        """Watch what is written to the sockets of pages."""
+
+        async def watched(scope: Scope, receive: Receive, send: Send) -> None:
+            async def noting(message: Message) -> None:
+                data = message.get("bytes") if message["type"] == "websocket.send" else None
+                if data:
+                    self.note("queued", data)
+                await send(message)
+                if data:
+                    self.note("written", data)
+
+            await app(scope, receive, noting)
+
+        return watched
 
 
 async def measure_web(
@@ -84,95 +143,94 @@ async def measure_web(
     from parley.web.config import WebConfig
     from parley.web.server import WebServer
 
+    probe = _Probe()
     async with (
         LocalTransport() as transport,
         DisplayInterface(transport, WallClock(), min_interval_s=0.0),
-        WebServer(transport, WebConfig(port=0)) as server,
+        WebServer(transport, WebConfig(port=0), around=probe.around) as server,
+        _load(transport, probe, robots, feedback_hz, feeds, feed_hz),
     ):
-        names = [f"robot_{number}" for number in range(robots)]
-        _begin(transport, names)
-        keys = [{"robot": names[number % robots], "name": f"camera_{number}"} for number in range(feeds)]
-        page = await asyncio.create_subprocess_exec(
-            sys.executable, "-m", "parley.bench.web_page", server.url, str(seconds + WARM_UP_S),
-            json.dumps(keys), stdout=asyncio.subprocess.PIPE,
-        )  # fmt: skip
-        before_s, began_s = time.process_time(), time.perf_counter()
-        load = [asyncio.create_task(_feedback(transport.publisher(topics.GRAPH_EVENTS), names, feedback_hz))]
-        taken = [0]
-        picture = _picture()
-        feed = transport.publisher(topics.DISPLAY_FEED)
-        load += [asyncio.create_task(_film(feed, key, picture, feed_hz, taken)) for key in keys]
+        server.backend.picture_listeners.append(probe.on_picture)
+        keys = [{"robot": robot_name(n % robots), "name": feed_name(n)} for n in range(feeds)]
+        gc.freeze()  # as `parley demo` does
+        before_s, began_s, starved_s = time.process_time(), time.perf_counter(), -_starved_s()
+        page = await _process("web_page", server.url, str(seconds + WARM_UP_S), json.dumps(keys))
         out, _ = await page.communicate()
+        starved_s += _starved_s()
         wall_s, cpu_s = time.perf_counter() - began_s, time.process_time() - before_s
-        for task in load:
-            task.cancel()
-        await asyncio.gather(*load, return_exceptions=True)
     heard = json.loads(out)
-    if not heard["change_ms"] or (feeds and not heard["frame_ms"]):
+    if not heard["changes"] or (feeds and not heard["frames"]):
         raise ParleyError("the page heard nothing, so nothing was measured")
+    frames = [stamp for stamp, _ in heard["frames"]]
     return WebFigures(
         robots=robots,
         feeds=feeds,
         seconds=wall_s,
-        change_ms=tuple(heard["change_ms"]),
-        frame_ms=tuple(heard["frame_ms"]) or (0.0,),
-        frames_sent=taken[0],
+        change_ms=_ages(heard["changes"]),
+        frame_ms=_ages(heard["frames"]),
+        stage_ms={
+            stage: _ages([(stamp, at_ns[stamp]) for stamp in frames if stamp in at_ns])
+            for stage, at_ns in probe.at_ns.items()
+        },
+        server_ms=_ages(
+            [
+                (at_ns, probe.at_ns["written"][stamp])
+                for stamp, at_ns in probe.at_ns["heard"].items()
+                if stamp in probe.at_ns["written"]
+            ]
+        ),
+        frames_taken=len(probe.at_ns["heard"]),
         server_cpu_share=cpu_s / wall_s,
+        page_cpu_share=heard["cpu_s"] / wall_s,
+        starved_share=starved_s / wall_s,
+        load_average=os.getloadavg()[0],
         rss_mb=resource.getrusage(resource.RUSAGE_SELF).ru_maxrss / 1024,
     )
 
 
-def _begin(transport: LocalTransport, names: list[str]) -> None:
-    """Let the robots appear, each with a plan."""
-    status, plans = transport.publisher(topics.ACTOR_STATUS), transport.publisher(topics.PLAN)
-    steps = tuple(
-        PlanStep(action=ActionCall(name="Move"), node=f"Move_{n}", state="queued" if n else "running")
-        for n in range(STEPS)
-    )
-    for name in names:
-        status.publish(to_string(ActorStatus(actor=name, state="running")))
-        plans.publish(
-            to_string(PlanUpdate(target=name, graph_name=f"{name}_g", state="running", steps=steps))
-        )
+def _starved_s() -> float:
+    """How long this thread has waited for a processor until now, where the system says so (Linux)."""
+    try:
+        return int(Path("/proc/thread-self/schedstat").read_text().split()[1]) / 1e9
+    except (OSError, IndexError, ValueError):
+        return 0.0
 
 
-async def _feedback(publisher: Publisher[String], names: list[str], rate_hz: float) -> None:
-    """Progress of all robots, spread evenly over time."""
-    sequence = 0
-    due_s = time.perf_counter()
-    while True:
-        for name in names:
-            event = GraphEvent(
-                actor=name,
-                graph_name=f"{name}_g",
-                sequence=sequence,
-                kind="progress",
-                node="Move_0",
-                progress=0.5,
-                progress_text=str(time.time_ns()),
-            )
-            publisher.publish(to_string(event))
-            due_s += 1 / (rate_hz * len(names))
-            await asyncio.sleep(max(0.0, due_s - time.perf_counter()))
-        sequence += 1
+def _ages(pairs: list[tuple[int, int]]) -> tuple[float, ...]:
+    """Milliseconds between the two times of each pair; one zero where there is none."""
+    return tuple((came_ns - made_ns) / 1e6 for made_ns, came_ns in pairs) or (0.0,)
 
 
-async def _film(
-    publisher: Publisher[String], key: dict[str, str], picture: bytes, rate_hz: float, taken: list[int]
-) -> None:
-    due_s = time.perf_counter()
-    while True:
-        data = base64.b64encode(picture + time.time_ns().to_bytes(8)).decode()
-        publisher.publish(to_string(DisplayFeed(target=key["robot"], name=key["name"], image=data)))
-        taken[0] += 1
-        due_s += 1 / rate_hz
-        await asyncio.sleep(max(0.0, due_s - time.perf_counter()))
+async def _process(module: str, *arguments: str) -> asyncio.subprocess.Process:
+    return await asyncio.create_subprocess_exec(
+        sys.executable, "-m", f"parley.bench.{module}", *arguments,
+        stdout=asyncio.subprocess.PIPE, limit=8 * 1024 * 1024,
+    )  # fmt: skip
 
 
-def _picture() -> bytes:
-    """A JPEG of 640x480 with as much in it as a camera's."""
-    rng = np.random.default_rng(1)
-    coarse = rng.integers(0, 255, (60, 80, 3), dtype=np.uint8)
-    out = io.BytesIO()
-    Image.fromarray(coarse).resize((640, 480)).save(out, "JPEG", quality=85)
-    return out.getvalue()
+@contextlib.asynccontextmanager
+async def _load(
+    transport: LocalTransport, probe: _Probe, robots: int, feedback_hz: float, feeds: int, feed_hz: float
+) -> AsyncIterator[None]:
+    """Publish what the robots' process sends."""
+    process = await _process("web_load", str(robots), str(feedback_hz), str(feeds), str(feed_hz))
+    assert process.stdout is not None
+    hearing = asyncio.create_task(_hear(process.stdout, transport, probe), name="robots of the bench")
+    try:
+        yield
+    finally:
+        process.kill()
+        await process.wait()
+        hearing.cancel()
+        await asyncio.gather(hearing, return_exceptions=True)
+
+
+async def _hear(lines: asyncio.StreamReader, transport: LocalTransport, probe: _Probe) -> None:
+    publishers = {name: transport.publisher(topic) for name, topic in TOPICS.items()}
+    while line := await lines.readline():
+        name, _, text = line.decode().rstrip("\n").partition(" ")
+        publishers[name].publish(String(text))
+        if name == topics.DISPLAY_FEED.name:
+            began = text.index(_IMAGE) + len(_IMAGE)
+            end = text.index('"', began)
+            probe.note("heard", base64.b64decode(text[end - 16 : end]))

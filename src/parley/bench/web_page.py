@@ -20,10 +20,10 @@ class Page:
     """Speaks as much of Socket.IO as the page needs."""
 
     def __init__(self) -> None:
-        self.change_ms: list[float] = []
-        """Age of each step's progress when it came."""
-        self.frame_ms: list[float] = []
-        self.frames = 0
+        self.changes: list[tuple[int, int]] = []
+        """When each step's progress was made and when it came, in nanoseconds of wall time."""
+        self.frames: list[tuple[int, int]] = []
+        """The same for pictures."""
         self.last_seq = 0
         self._meta: tuple[str, Any] | None = None
 
@@ -58,22 +58,21 @@ class Page:
         elif message.startswith("42"):
             event, *values = json.loads(message[2:])
             if event == "changes":
-                self._changes(values[0])
+                self._take_changes(values[0])
 
     async def _picture(self, socket: ClientConnection, data: bytes) -> None:
         """The time of taking stands in the last eight bytes."""
         if self._meta is not None:
-            self.frames += 1
-            self.frame_ms.append((time.time_ns() - int.from_bytes(data[-8:])) / 1e6)
+            self.frames.append((int.from_bytes(data[-8:]), time.time_ns()))
             await socket.send(f"43{self._meta[0]}[]")
 
-    def _changes(self, changes: list[dict[str, Any]]) -> None:
+    def _take_changes(self, changes: list[dict[str, Any]]) -> None:
         now_ns = time.time_ns()
         for change in changes:
             self.last_seq = change["seq"]
             if change["kind"] == "plan":
                 texts = [step["progress_text"] for step in change["plan"]["steps"]]
-                self.change_ms += [(now_ns - int(text)) / 1e6 for text in texts if text]
+                self.changes += [(int(text), now_ns) for text in texts if text]
 
 
 def main(arguments: list[str]) -> None:
@@ -81,7 +80,12 @@ def main(arguments: list[str]) -> None:
     url, seconds, feeds = arguments
     page = Page()
     asyncio.run(page.listen(url, float(seconds), json.loads(feeds)))
-    found = {"change_ms": page.change_ms, "frame_ms": page.frame_ms, "last_seq": page.last_seq}
+    found = {
+        "changes": page.changes,
+        "frames": page.frames,
+        "last_seq": page.last_seq,
+        "cpu_s": time.process_time(),
+    }
     sys.stdout.write(json.dumps(found) + "\n")
 
 

@@ -18,10 +18,12 @@ from parley.demos.catalogue import DEMOS, load_demo
 from parley.demos.observer import Observer
 from parley.engine.run_file import check_file, read_graph_file
 from parley.errors import ConfigError, GraphRefusedError, Problem
+from parley.files import read_text
 from parley.messages import topics
 from parley.messages.ros import UmrfGraphStart
 from parley.umrf.bt import export_tree, import_tree
 from parley.umrf.catalogue import Catalogue
+from parley.umrf.discovery import ActionFolder
 from parley.umrf.io import read_graph, write_graph
 from parley.umrf.model import Graph, GraphState, NodeState, Response, Result
 from parley.umrf.show import show as show_graph
@@ -40,19 +42,30 @@ START_WITHIN_S = 30.0
 def check(
     file: Annotated[Path, typer.Argument(help="A graph file (JSON).")],
     actions: Annotated[
-        Path | None, typer.Option(help="Folder with *.umrf.json descriptors; default: the built-in actions.")
+        Path | None, typer.Option(help="Folder with actions and descriptors; default: the built-in actions.")
     ] = None,
     actor: Annotated[str, typer.Option(help="Name of the engine that would run it.")] = "",
     json: Annotated[bool, typer.Option("--json", help="One JSON object per problem.")] = False,
 ) -> None:
     """Say everything that would keep the graph from running."""
-    catalogue = Catalogue.load_folder(actions) if actions is not None else Catalogue(BUILTIN_ACTIONS)
+    catalogue = _catalogue(actions)
     problems = check_file(file, catalogue, actor)
     if problems:
         _tell_problems(problems, as_json=json)
         raise typer.Exit(1)
     if not json:
         typer.echo(f"{file.name}: nothing wrong with it")
+
+
+def _catalogue(folder: Path | None) -> Catalogue:
+    """What is to be checked against; what of the folder cannot be used is told."""
+    if folder is None:
+        return Catalogue(BUILTIN_ACTIONS)
+    index = ActionFolder(folder)
+    index.scan()
+    for problem in index.found.problems:
+        typer.echo(problem, err=True)
+    return Catalogue(index.found.specs, index.found.graphs)
 
 
 def _tell_problems(problems: Sequence[Problem], *, as_json: bool, err: bool = False) -> None:
@@ -104,9 +117,9 @@ def convert(
     """Convert a graph to a BehaviorTree.CPP 4 tree, or a tree to a graph: all of it, or nothing and why."""
     try:
         if to is ConvertTo.BTCPP:
-            text = export_tree(read_graph(_read(file)))
+            text = export_tree(read_graph(read_text(file)))
         else:
-            text = write_graph(import_tree(_read(file)), faithful=True) + "\n"
+            text = write_graph(import_tree(read_text(file)), faithful=True) + "\n"
     except GraphRefusedError as error:
         _tell_problems(error.problems, as_json=json, err=not json)
         raise typer.Exit(1) from error
@@ -133,20 +146,13 @@ def run(
 ) -> None:
     """Run a graph on a simulated robot, at full speed, and follow it to its end."""
     quiet_logs()
-    text = _read(file)
+    text = read_text(file)
     try:
         graph = read_graph(text)
     except GraphRefusedError as error:
         _tell_problems(error.problems, as_json=json, err=not json)
         raise typer.Exit(1) from error
     raise typer.Exit(asyncio.run(_run(text, graph, demo, robot, json, timeout)))
-
-
-def _read(file: Path) -> str:
-    try:
-        return file.read_text(encoding="utf-8")
-    except (OSError, UnicodeDecodeError) as error:
-        raise ConfigError(f"{file.name} cannot be read: {error}") from error
 
 
 async def _run(text: str, graph: Graph, demo: str, robot: str, as_json: bool, timeout_s: float) -> int:
@@ -173,7 +179,9 @@ async def _run(text: str, graph: Graph, demo: str, robot: str, as_json: bool, ti
             return fail(f"{name} was refused: {'; '.join(problems)}", code=1)
         failed = {event.node for event in observer.events if event.state == NodeState.ERROR.value}
         finished = observer.graph_states[name] == GraphState.FINISHED.value
-        return 0 if finished and failed <= _expected_failures(graph) else 1
+        if not finished:
+            return fail(f"{name} did not come to its exit: it is {observer.graph_states[name]}", code=1)
+        return 0 if failed <= _expected_failures(graph) else 1
 
 
 def _expected_failures(graph: Graph) -> set[str]:

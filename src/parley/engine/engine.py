@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Callable, Generator, Mapping, Sequence
-from contextlib import AsyncExitStack
+from contextlib import AsyncExitStack, nullcontext
 from types import TracebackType
 from typing import Any, Self, TypeVar
 
@@ -11,6 +11,7 @@ import structlog
 from pydantic import BaseModel
 
 from parley.clock import Clock
+from parley.engine.events import event_fields
 from parley.engine.feedback import Feedback
 from parley.engine.heap import settle_heap
 from parley.engine.inbox import Inbox
@@ -25,7 +26,6 @@ from parley.errors import GraphRefusedError, InvalidMessageError, Problem, Unava
 from parley.messages import ros, topics
 from parley.messages.status import (
     ActorStatus,
-    GraphEvent,
     Rejection,
     RejectionProblem,
     StepCommand,
@@ -33,7 +33,7 @@ from parley.messages.status import (
     SyncNotice,
 )
 from parley.messages.topics import Topic
-from parley.messages.wire import decode, to_string
+from parley.messages.wire import decode, to_string, to_string_unchecked
 from parley.robots.base import Robot
 from parley.transport.base import Publisher, Transport
 from parley.umrf.action import RunHandle
@@ -150,6 +150,7 @@ class ActionEngine:
 
     async def _open(self, stack: AsyncExitStack) -> None:
         """Open publishers, then what publishes, then what listens; closed in the opposite order."""
+        stack.callback(self.runs.clear)
         for topic in (
             topics.GRAPH_FEEDBACK,
             topics.GRAPH_EVENTS,
@@ -307,8 +308,10 @@ class ActionEngine:
         fit = yield from vouch_steps(graph, catalogue, actor=self.actor)
         if fit and catalogue.revision == revision:
             catalogue.vouched_for = graph
+        journal = self._journal
         try:
-            self.start(graph)
+            with journal.read_from(graph.name, message.umrf_graph_json) if journal else nullcontext():
+                self.start(graph)
         finally:
             catalogue.vouched_for = None
 
@@ -374,24 +377,8 @@ class ActionEngine:
     def _observed(self, run: GraphRun, transition: Transition) -> None:
         if self._journal is not None:
             self._journal.record(run, transition)
-        event = GraphEvent(
-            actor=self.actor,
-            graph_name=run.name,
-            sequence=transition.sequence,
-            kind=transition.kind,
-            state=transition.state,
-            node=transition.node,
-            instance_id=transition.instance_id,
-            cause=transition.cause,
-            result=transition.result.value if transition.result is not None else "",
-            outputs=dict(transition.outputs),
-            message=transition.message,
-            progress=transition.progress,
-            progress_text=transition.progress_text,
-            robot_time_s=transition.robot_time_s,
-            unix_ms=transition.unix_ms,
-        )
-        self._publish_payload(topics.GRAPH_EVENTS, event)
+        event = event_fields(self.actor, run.name, transition)
+        self._publish(topics.GRAPH_EVENTS, to_string_unchecked(event))
         if transition.kind != "progress":
             self._feedback.changed(run)
         if transition.kind == "graph":

@@ -12,7 +12,7 @@ from parley.clock import Clock
 from parley.messages.ros import UmrfGraphFeedback
 from parley.umrf.executor import GraphRun
 from parley.umrf.io import GraphWriter
-from parley.umrf.model import Graph, GraphState
+from parley.umrf.model import ENDED, Graph, GraphState
 
 __all__ = ["Feedback"]
 
@@ -25,10 +25,13 @@ _COST_FACTOR: Final = 10
 _REST_FACTOR: Final = 4
 """All graphs together may take a fifth of the time, so that a hundred of them leave time for actions."""
 
+_MANY: Final = 200
+"""If more graphs than this wait, there is no rest, as all that wait are kept for so long."""
+
 _SLICE: Final = 50
 """So many nodes are written in one turn of the loop, about a millisecond; a stop must not wait longer."""
 
-_OVER: Final = frozenset({GraphState.FINISHED, GraphState.STOPPED, GraphState.ERROR, GraphState.HALTED})
+_RESTING: Final = ENDED | {GraphState.HALTED}
 
 
 @dataclass(slots=True, eq=False)
@@ -127,8 +130,9 @@ class Feedback:
             self._send(due, graph)
             now_s = self._clock.wall_s()
             due.not_before_s = now_s + max(self._interval_s, _COST_FACTOR * (now_s - began_s))
-            self._free_s = now_s + _REST_FACTOR * (now_s - began_s)
-            if graph.state in _OVER and due.run.idle:  # its text would be kept for as long as it is not needed
+            rest = _REST_FACTOR if len(self._queue) < _MANY else 0
+            self._free_s = now_s + rest * (now_s - began_s)
+            if graph.state in _RESTING and due.run.idle:
                 self._forget(due)
         self._go_on()
 
@@ -136,5 +140,6 @@ class Feedback:
         self._publish(UmrfGraphFeedback(actor=self._actor, history=(due.writer.write(graph),)))
 
     def _forget(self, due: _Due) -> None:
+        """A graph at rest may never change again: neither it nor its text is kept for that."""
         if self._due.get(due.run.name) is due:
             del self._due[due.run.name]

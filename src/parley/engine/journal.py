@@ -11,7 +11,8 @@ from __future__ import annotations
 import asyncio
 import functools
 import weakref
-from collections.abc import Iterable, Sequence
+from collections.abc import Iterable, Iterator, Sequence
+from contextlib import contextmanager
 from pathlib import Path
 from types import TracebackType
 from typing import Final, Self
@@ -20,7 +21,17 @@ import structlog
 
 from parley.clock import Clock
 from parley.engine.interrupted import Interrupted
-from parley.engine.journal_file import KEPT_RUNS, Batch, prepare, read_left, settle_all, write
+from parley.engine.journal_file import (
+    KEPT_RUNS,
+    VERSION,
+    Batch,
+    GraphText,
+    prepare,
+    read_left,
+    settle_all,
+    write,
+)
+from parley.engine.journal_older import put_aside_other_form
 from parley.errors import StoreError
 from parley.memory.database import Database
 from parley.umrf.executor import GraphRun
@@ -30,7 +41,7 @@ __all__ = ["BATCH_S", "Interrupted", "Journal"]
 
 log = structlog.get_logger(__name__)
 
-BATCH_S: Final = 0.02
+BATCH_S: Final = 0.05
 """Wall time between two batches: how much a crash loses, besides what it takes to write one."""
 
 
@@ -46,6 +57,7 @@ class Journal:
         self._first = self._next = last + 1
         self._ids: weakref.WeakKeyDictionary[GraphRun, int] = weakref.WeakKeyDictionary()
         self._batch = Batch()
+        self._text: GraphText | None = None
         self._changed: dict[GraphRun, int] = {}
         self._unsaved: weakref.WeakSet[GraphRun] = weakref.WeakSet()
         """Runs of a batch that could not be written."""
@@ -64,6 +76,7 @@ class Journal:
         Raises:
             StoreError: The file cannot be created, read or written.
         """
+        await asyncio.to_thread(put_aside_other_form, Path(path), VERSION)
         database = await Database.open(path, prepare=prepare, unix_ms=clock.unix_ms(), what="journal")
         try:
             interrupted, last = await database.run(read_left)
@@ -89,13 +102,31 @@ class Journal:
             number = self._ids[run] = self._next
             self._next += 1
             shared = run.peers is not None and bool(run.peers.actors)
-            self._batch.begun.append((number, run.actor, shared, run.snapshot(), transition.unix_ms))
+            known = self._text is not None and self._text.name == run.name
+            graph = self._text if known and self._text is not None else run.snapshot()
+            self._batch.begun.append((number, run.actor, shared, graph, transition.unix_ms))
         elif transition.kind == "graph" and transition.cause == "modify":
             self._batch.modified.append((number, run.snapshot()))
-        self._batch.told.append((number, transition))
+        told = self._batch.told.get(number)
+        if told is not None:
+            told.append(transition)
+            return
+        self._batch.told[number] = [transition]
         self._changed[run] = number
         if self._writer is None:
             self._writer = asyncio.get_running_loop().create_task(self._write(), name="journal")
+
+    @contextmanager
+    def read_from(self, name: str, text: str) -> Iterator[None]:
+        """If the graph of that name begins in here, it is the one that was read from `text`.
+
+        That text is then what is kept, as writing a large graph takes longer than all that happens in it.
+        """
+        self._text = GraphText(name, text)
+        try:
+            yield
+        finally:
+            self._text = None
 
     async def flush(self) -> None:
         """Wait until everything recorded so far is durable."""

@@ -1,17 +1,20 @@
 """The journal's file: tables, writing one batch, reading what was left. Runs in the file's own thread.
 
-The interpreter is shared with the loop, so as much as possible is left to SQLite: a batch becomes one JSON
-text per table, and one statement puts all its rows in.
+The interpreter is shared with the loop, so as little as possible is done in it: transitions of a run become
+one JSON text per hundred, which the view `transition` takes apart for whoever reads them; the nodes of a
+batch become one JSON text that SQLite takes apart itself.
 """
 
 from __future__ import annotations
 
 import json
 import sqlite3
+from collections.abc import Iterator
 from dataclasses import dataclass, field
 from typing import Any, Final
 
 import structlog
+from pydantic_core import to_json
 
 from parley.engine.interrupted import Interrupted
 from parley.errors import GraphRefusedError
@@ -25,7 +28,9 @@ __all__ = [
     "KEPT_RUNS",
     "KEPT_TRANSITIONS",
     "TIDY_EVERY",
+    "VERSION",
     "Batch",
+    "GraphText",
     "prepare",
     "read_left",
     "settle_all",
@@ -39,9 +44,10 @@ KEPT_RUNS: Final = 1000
 KEPT_TRANSITIONS: Final = 10_000
 """Of one run; a graph that goes in circles for days must not fill the disk."""
 TIDY_EVERY: Final = 100
-"""Runs, and transitions of a run, between two looks for what is too old."""
+"""Runs, and transitions of a run, between two looks for what is too old; and so many transitions to a row."""
 
-_VERSION: Final = 2
+VERSION: Final = 3
+"""Of the form of the file; one of another form is put aside, see `journal_older`."""
 _ENDED: Final = (GraphState.FINISHED.value, GraphState.STOPPED.value, GraphState.ERROR.value)
 
 _Newest = dict[tuple[str, str], tuple[int, str]]
@@ -52,38 +58,51 @@ _SCHEMA: Final = """
         id INTEGER PRIMARY KEY, actor TEXT NOT NULL, graph_name TEXT NOT NULL, state TEXT NOT NULL,
         started_unix_ms INTEGER NOT NULL, changed_unix_ms INTEGER NOT NULL,
         settled INTEGER NOT NULL DEFAULT 0, shared INTEGER NOT NULL DEFAULT 0,
-        graph_started TEXT NOT NULL, graph_now TEXT NOT NULL, frame TEXT NOT NULL DEFAULT '{}'
+        graph_started TEXT NOT NULL, graph_now TEXT, frame TEXT NOT NULL DEFAULT '{}'
     );
     CREATE INDEX IF NOT EXISTS run_open ON run (actor) WHERE settled = 0;
     CREATE TABLE IF NOT EXISTS node (
         run INTEGER NOT NULL, node TEXT NOT NULL, state TEXT NOT NULL, saved TEXT NOT NULL,
         PRIMARY KEY (run, node)
     ) WITHOUT ROWID;
-    CREATE TABLE IF NOT EXISTS transition (
-        run INTEGER NOT NULL, sequence INTEGER NOT NULL, kind TEXT NOT NULL, state TEXT NOT NULL,
-        node TEXT NOT NULL, cause TEXT NOT NULL, result TEXT NOT NULL, outputs TEXT NOT NULL,
-        message TEXT NOT NULL, robot_time_s REAL NOT NULL, unix_ms INTEGER NOT NULL,
-        PRIMARY KEY (run, sequence)
-    ) WITHOUT ROWID;
+    CREATE TABLE IF NOT EXISTS told (
+        id INTEGER PRIMARY KEY, run INTEGER NOT NULL, last_sequence INTEGER NOT NULL, rows TEXT NOT NULL
+    );
+    CREATE INDEX IF NOT EXISTS told_of_run ON told (run, last_sequence);
+    CREATE VIEW IF NOT EXISTS transition AS SELECT
+        run, json_extract(row.value, '$[0]') AS sequence, json_extract(row.value, '$[1]') AS kind,
+        json_extract(row.value, '$[2]') AS state, json_extract(row.value, '$[3]') AS node,
+        json_extract(row.value, '$[4]') AS cause, json_extract(row.value, '$[5]') AS result,
+        json_extract(row.value, '$[6]') AS outputs, json_extract(row.value, '$[7]') AS message,
+        json_extract(row.value, '$[8]') AS robot_time_s, json_extract(row.value, '$[9]') AS unix_ms
+    FROM told, json_each(told.rows) AS row;
+"""
+
+_ADD_TOLD: Final = "INSERT INTO told (run, last_sequence, rows) VALUES (?, ?, ?)"
+_ADD_NODES: Final = """
+    INSERT OR REPLACE INTO node
+    SELECT json_extract(value, '$[0]'), json_extract(value, '$[1]'), json_extract(value, '$[2].state'),
+        json_extract(value, '$[2]')
+    FROM json_each(?)
 """
 
 
-def _columns(count: int) -> str:
-    return ", ".join(f"json_extract(value, '$[{index}]')" for index in range(count))
+@dataclass(frozen=True, slots=True)
+class GraphText:
+    """A graph that need not be written, as there is the text that it was read from."""
 
-
-_ADD_TRANSITIONS: Final = f"INSERT INTO transition SELECT {_columns(11)} FROM json_each(?)"
-_ADD_NODES: Final = f"INSERT OR REPLACE INTO node SELECT {_columns(4)} FROM json_each(?)"
+    name: str
+    text: str
 
 
 @dataclass(slots=True)
 class Batch:
     """What is still to be written, by the number of the run."""
 
-    begun: list[tuple[int, str, bool, Graph, int]] = field(default_factory=list)
+    begun: list[tuple[int, str, bool, Graph | GraphText, int]] = field(default_factory=list)
     """Number, actor, whether others take part, graph, time."""
     modified: list[tuple[int, Graph]] = field(default_factory=list)
-    told: list[tuple[int, Transition]] = field(default_factory=list)
+    told: dict[int, list[Transition]] = field(default_factory=dict)
     saved: list[tuple[int, dict[str, Any], list[tuple[str, dict[str, Any]]]]] = field(default_factory=list)
     """See `GraphRun.save`."""
 
@@ -91,11 +110,14 @@ class Batch:
 def prepare(connection: sqlite3.Connection) -> None:
     """Bring the file to the form that is wanted; an older form could not be gone on with and is dropped."""
     (version,) = connection.execute("PRAGMA user_version").fetchone()
-    if version != _VERSION:
-        for table in ("run", "node", "transition"):
-            connection.execute(f"DROP TABLE IF EXISTS {table}")
+    if version != VERSION:
+        old = connection.execute(
+            "SELECT type, name FROM sqlite_master WHERE name IN ('run', 'node', 'told', 'transition')"
+        )
+        for kind, name in old.fetchall():
+            connection.execute(f"DROP {kind} {name}")
     connection.executescript(_SCHEMA)
-    connection.execute(f"PRAGMA user_version = {_VERSION}")
+    connection.execute(f"PRAGMA user_version = {VERSION}")
 
 
 def write(connection: sqlite3.Connection, *, batch: Batch, first: int) -> None:
@@ -112,7 +134,7 @@ def write(connection: sqlite3.Connection, *, batch: Batch, first: int) -> None:
             _write_begun(connection, *begun, first=first)
         for number, graph in batch.modified:
             connection.execute("UPDATE run SET graph_now = ? WHERE id = ?", (_text(graph), number))
-        connection.execute(_ADD_TRANSITIONS, (json.dumps([_row(*told) for told in batch.told]),))
+        connection.executemany(_ADD_TOLD, _told(batch))
         _write_saved(connection, batch)
         _tidy(connection, batch)
         connection.execute("COMMIT")
@@ -121,8 +143,15 @@ def write(connection: sqlite3.Connection, *, batch: Batch, first: int) -> None:
         raise
 
 
-def _text(graph: Graph) -> str:
-    return json.dumps(graph_to_json(graph, faithful=True))
+def _text(graph: Graph | GraphText) -> str:
+    return graph.text if isinstance(graph, GraphText) else _json(graph_to_json(graph, faithful=True))
+
+
+def _json(value: Any) -> str:
+    try:
+        return to_json(value).decode()
+    except ValueError:  # half a character in it, which can only be written as an escape
+        return json.dumps(value)
 
 
 def _write_begun(
@@ -130,7 +159,7 @@ def _write_begun(
     number: int,
     actor: str,
     shared: bool,
-    graph: Graph,
+    graph: Graph | GraphText,
     unix_ms: int,
     *,
     first: int,
@@ -139,49 +168,52 @@ def _write_begun(
     connection.execute(
         "UPDATE run SET settled = 1 WHERE settled = 0 AND actor = ? AND id < ?", (actor, first)
     )
-    text = _text(graph)
     connection.execute(
         "INSERT INTO run (id, actor, graph_name, state, started_unix_ms, changed_unix_ms, shared,"
-        " graph_started, graph_now) VALUES (?, ?, ?, ?, ?, ?, ?, ?, ?)",
-        (number, actor, graph.name, graph.state.value, unix_ms, unix_ms, shared, text, text),
+        " graph_started) VALUES (?, ?, ?, ?, ?, ?, ?, ?)",
+        (number, actor, graph.name, GraphState.RUNNING.value, unix_ms, unix_ms, shared, _text(graph)),
     )
 
 
-def _row(number: int, told: Transition) -> tuple[Any, ...]:
-    outputs = told.outputs.items()
-    values = {name: item.value for name, item in outputs if fits_type(item.type, item.value)}
+def _told(batch: Batch) -> Iterator[tuple[int, int, str]]:
+    for number, items in batch.told.items():
+        for begin in range(0, len(items), TIDY_EVERY):
+            part = items[begin : begin + TIDY_EVERY]
+            yield number, part[-1].sequence, _json(list(map(_row, part)))
+
+
+def _row(told: Transition) -> tuple[Any, ...]:
+    values = {}
+    if told.outputs:
+        outputs = told.outputs.items()
+        values = {name: item.value for name, item in outputs if fits_type(item.type, item.value)}
     return (
-        number, told.sequence, told.kind, told.state, told.node, told.cause, told.result or "",
-        json.dumps(values) if values else "{}",
+        told.sequence, told.kind, told.state, told.node, told.cause, told.result or "", values,
         told.message, told.robot_time_s, told.unix_ms,
     )  # fmt: skip
 
 
 def _write_saved(connection: sqlite3.Connection, batch: Batch) -> None:
-    changed = {number: told.unix_ms for number, told in batch.told}
     frames = [
-        (frame["state"], json.dumps(frame), changed[number], number) for number, frame, _ in batch.saved
+        (frame["state"], _json(frame), batch.told[number][-1].unix_ms, number)
+        for number, frame, _ in batch.saved
     ]
     connection.executemany("UPDATE run SET state = ?, frame = ?, changed_unix_ms = ? WHERE id = ?", frames)
-    rows = [
-        (number, name, kept["state"], json.dumps(kept))
-        for number, _, nodes in batch.saved
-        for name, kept in nodes
-    ]
-    connection.execute(_ADD_NODES, (json.dumps(rows),))
+    rows = [(number, name, kept) for number, _, nodes in batch.saved for name, kept in nodes]
+    connection.execute(_ADD_NODES, (_json(rows),))
 
 
 def _tidy(connection: sqlite3.Connection, batch: Batch) -> None:
     if newest := [number for number, *_ in batch.begun if number % TIDY_EVERY == 0]:
         oldest = newest[-1] - KEPT_RUNS
         connection.execute("DELETE FROM run WHERE id <= ?", (oldest,))
-        for table in ("node", "transition"):
+        for table in ("node", "told"):
             connection.execute(f"DELETE FROM {table} WHERE run <= ?", (oldest,))
-    for number, told in batch.told:
-        if told.sequence % TIDY_EVERY == 0 and told.sequence > KEPT_TRANSITIONS:
+    for number, told in batch.told.items():
+        last = told[-1].sequence
+        if last > KEPT_TRANSITIONS and last // TIDY_EVERY != (told[0].sequence - 1) // TIDY_EVERY:
             connection.execute(
-                "DELETE FROM transition WHERE run = ? AND sequence <= ?",
-                (number, told.sequence - KEPT_TRANSITIONS),
+                "DELETE FROM told WHERE run = ? AND last_sequence <= ?", (number, last - KEPT_TRANSITIONS)
             )
 
 
@@ -225,7 +257,9 @@ def _saved(connection: sqlite3.Connection, actor: str, number: int, newest: _New
     Raises:
         GraphRefusedError: Its graph cannot be read.
     """
-    text, framed = connection.execute("SELECT graph_now, frame FROM run WHERE id = ?", (number,)).fetchone()
+    text, framed = connection.execute(
+        "SELECT coalesce(graph_now, graph_started), frame FROM run WHERE id = ?", (number,)
+    ).fetchone()
     nodes = connection.execute("SELECT node, saved FROM node WHERE run = ?", (number,)).fetchall()
     frame = json.loads(framed)
     inner = {

@@ -7,8 +7,9 @@ order in which they come and none waits for another.
 from __future__ import annotations
 
 import asyncio
+import itertools
 import weakref
-from collections.abc import Callable, Mapping
+from collections.abc import Callable, Mapping, Sequence
 from typing import Any, Final
 
 from parley.clock import Clock
@@ -16,7 +17,7 @@ from parley.errors import GraphRefusedError, Problem
 from parley.umrf.action import RunHandle
 from parley.umrf.catalogue import Catalogue
 from parley.umrf.executor import STOP_TIMEOUT_S, GraphRun
-from parley.umrf.model import Graph, GraphState, Result
+from parley.umrf.model import ENDED, Graph, GraphState, Result
 from parley.umrf.remote import Peers
 from parley.umrf.saved import SavedRun
 from parley.umrf.transition import NO_FACTS, Transition
@@ -26,11 +27,13 @@ __all__ = ["GraphRuns", "RunObserver"]
 KEPT_ENDED: Final = 20
 """How many graphs that have ended are kept for queries."""
 
+KEPT_NODES: Final = 5000
+"""Fewer of them are kept if they have more nodes than this together: the garbage collector looks at each."""
+
 KEPT_HALTED: Final = 100
 """How many graphs that have run dry are kept, to be gone on with; each order to a robot leaves one."""
 
 _BUSY: Final = frozenset({GraphState.INITIALIZED, GraphState.RUNNING, GraphState.PAUSED, GraphState.STOPPING})
-_ENDED: Final = frozenset({GraphState.FINISHED, GraphState.STOPPED, GraphState.ERROR})
 
 RunObserver = Callable[[GraphRun, Transition], None]
 """Told every transition of every graph."""
@@ -247,6 +250,12 @@ class GraphRuns:
         """Stop everything and wait for it, each run at most its time-out."""
         await asyncio.gather(*(run.close() for run in (*self._runs.values(), *self._replaced)))
 
+    def clear(self) -> None:
+        """Forget all runs, once they are closed and nobody asks for them any more."""
+        self._runs.clear()
+        self._inner.clear()
+        self._replaced.clear()
+
     def _hold(self, graph: Graph, parameters: Mapping[str, Any], peers: Peers | None) -> GraphRun:
         """Make a run and hold it in place of an older one of its name.
 
@@ -308,11 +317,17 @@ class GraphRuns:
         ended = [
             name
             for name, run in self._runs.items()
-            if run.idle and (run.state in _ENDED or (run in self._inner and run.state is GraphState.HALTED))
+            if run.idle and (run.state in ENDED or (run in self._inner and run.state is GraphState.HALTED))
         ]
         halted = [name for name, run in self._runs.items() if run.idle and run.state is GraphState.HALTED]
-        for name in {*ended[:-KEPT_ENDED], *halted[:-KEPT_HALTED]}:
+        for name in {*ended[: -self._kept(ended)], *halted[:-KEPT_HALTED]}:
             self._inner.discard(self._runs.pop(name))
+
+    def _kept(self, ended: Sequence[str]) -> int:
+        """How many of the newest of `ended` are kept; at least one."""
+        newest = reversed(ended[-KEPT_ENDED:])
+        nodes = itertools.accumulate(len(self._runs[name].snapshot().nodes) for name in newest)
+        return max(1, sum(count <= KEPT_NODES for count in nodes))
 
 
 def _refused(name: str, code: str, message: str, remedy: str) -> GraphRefusedError:

@@ -40,7 +40,7 @@ class ContextServices:
         self._actor, self._transport = actor, transport
         self._questions: OrderedDict[str, asyncio.Future[ChatInput]] = OrderedDict()
         self._answers: OrderedDict[str, ChatInput] = OrderedDict()
-        """The last answers by their words, in case they turn out to be something else."""
+        """The last answers by their words, each naming its question, in case it turns out to be none."""
         self._publishers: dict[str, Publisher[String]] = {}
         self._subscription: Subscription | None = None
 
@@ -94,7 +94,7 @@ class ContextServices:
             raise
         finally:
             del self._questions[question_id]
-        self._answers[said.message] = said
+        self._answers[said.message] = said.model_copy(update={"reply_to": question_id})
         while len(self._answers) > _KEPT_ANSWERS:
             self._answers.popitem(last=False)
         return said.message
@@ -103,7 +103,7 @@ class ContextServices:
         """See `Operator.refer`."""
         said = self._answers.get(reply) or ChatInput(message=reply, targets=(self._actor,))
         message_id = f"{said.id or uuid.uuid4().hex}~aside"
-        changes = {"type": "request", "targets": (self._actor,), "reply_to": "", "id": message_id}
+        changes = {"type": "request", "targets": (self._actor,), "id": message_id}
         replied = asyncio.Event()
 
         def hear(message: String) -> None:
@@ -132,6 +132,8 @@ class ContextServices:
         names = {name.strip().casefold() for name in said.targets}
         if said.type != "response" or self._actor.casefold() not in names:
             return
+        if said.id and any(said.id == answer.id for answer in self._answers.values()):
+            return  # sent twice: it was for the question before
         for question_id, answer in self._questions.items():
             if not answer.done() and said.reply_to in ("", question_id):
                 answer.set_result(said)

@@ -13,6 +13,7 @@ from parley.engine.runs import GraphRuns
 from parley.errors import ActionFailure, Problem
 from parley.messages.status import StopReport
 from parley.robots.base import Robot
+from parley.umrf.model import NodeState
 
 __all__ = ["EmergencyStop"]
 
@@ -21,6 +22,9 @@ log = structlog.get_logger(__name__)
 REST_CHECK_S: Final = 0.02
 REST_TIMEOUT_S: Final = 3.0
 """Wall time within which a stopped robot must have come to rest."""
+
+
+_GOING: Final = (NodeState.RUNNING, NodeState.PAUSE_REQUESTED)
 
 
 class EmergencyStop:
@@ -32,7 +36,7 @@ class EmergencyStop:
         runs: Its graphs; their `latched` is kept here.
         report: Told `received`, `at_rest` and `reset`.
         complain: Told what went wrong with a stop.
-        rest_timeout_s: Wall time after which a robot that still moves is complained about.
+        rest_timeout_s: Wall time after which is said what still moves or goes on.
     """
 
     def __init__(
@@ -62,6 +66,7 @@ class EmergencyStop:
             await asyncio.sleep(0)  # the drive is told before anything else happens, and may take its time
         self._runs.pause_all()
         self._spawn(self._watch_rest(command_id))
+        self._spawn(self._watch_actions())
 
     def reset(self, command_id: str = "") -> None:
         """Allow motion again; the graphs stay paused until somebody resumes them."""
@@ -116,6 +121,21 @@ class EmergencyStop:
                 )
                 return
         self._say("at_rest", command_id)
+
+    async def _watch_actions(self) -> None:
+        """Say which actions that move the robot do not stand still, although its drive does."""
+        await asyncio.sleep(self._rest_timeout_s)
+        if not self._runs.latched:
+            return
+        for run in self._runs.all:
+            for node in run.snapshot().nodes:
+                spec = self._runs.catalogue.get(node.name)
+                if node.state in _GOING and spec is not None and "moves" in spec.effects:
+                    log.error(
+                        "action ignores the stop", actor=self._actor, graph=run.name, node=node.full_name
+                    )
+                    text = f"{node.full_name} goes on in spite of the stop; the drive is held still"
+                    self._complain(Problem(node.full_name, text, "end it before the reset", "ignores_stop"))
 
     def _say(self, state: Literal["received", "at_rest", "reset"], command_id: str) -> None:
         self._report(StopReport(actor=self._actor, id=command_id, state=state))

@@ -8,9 +8,9 @@ from __future__ import annotations
 
 import asyncio
 import uuid
-from collections import deque
+from collections import Counter, deque
 from collections.abc import Callable, Iterable
-from dataclasses import dataclass
+from dataclasses import dataclass, field
 from typing import Final
 
 from parley.clock import Clock
@@ -38,6 +38,30 @@ _AT_WORK: Final = frozenset(
 
 
 @dataclass(slots=True)
+class _Ends:
+    """Ends of one node that came from its actor, in whichever order."""
+
+    came: dict[int, SyncNotice] = field(default_factory=dict)
+    """How often the node had ended before -> what came."""
+    following: int = 0
+    gap_since_s: float | None = None
+    """Wall time since when only later ends than `following` are there."""
+
+    def take(self, now_s: float, patience_s: float) -> SyncNotice | None:
+        """The one that follows the last; if that does not come for so long, the first of the others."""
+        if self.following not in self.came:
+            if not self.came:
+                return None
+            self.gap_since_s = now_s if self.gap_since_s is None else self.gap_since_s
+            if now_s < self.gap_since_s + patience_s:
+                return None
+            self.following = min(self.came)
+        self.gap_since_s = None
+        self.following += 1
+        return self.came.pop(self.following - 1)
+
+
+@dataclass(slots=True)
 class _Unconfirmed:
     notice: SyncNotice
     missing: set[str]
@@ -55,7 +79,11 @@ class Session:
         self._sync, self._actors = sync, frozenset(actors)
         self._silent = set(self._actors)
         self._answered = asyncio.Event()
-        self._inboxes: dict[tuple[str, str], deque[SyncNotice]] = {}
+        self._inboxes: dict[tuple[str, str], _Ends] = {}
+        self._ended: Counter[tuple[str, str]] = Counter()
+        self._commands = 0
+        self._newest: dict[str, int] = {}
+        """Actor -> number of the newest command of its that says whether to go on."""
         self._arrived = asyncio.Event()
         self._taken: set[str] = set()
         self._sent: deque[SyncNotice] = deque(maxlen=_REPLAYED)
@@ -183,16 +211,62 @@ class Session:
             kind="ended",
             actor=self._sync.actor,
             graph_name=graph_name,
-            id=f"{self.id}/{self._count}",
+            id=self._next_id(),
+            number=self._ended[graph_name, node.full_name],
             node=node.full_name,
             result=end.result.value,
             outputs=dict(end.outputs),
             message=end.message,
         )
-        self._count += 1
+        self._ended[graph_name, node.full_name] += 1
         self._sent.append(notice)
         if self.others:
             self._hand_over(notice, set(self.others))
+
+    def _next_id(self) -> str:
+        self._count += 1
+        return f"{self.id}/{self._count}"
+
+    def pass_on(self, notice: SyncNotice) -> None:
+        """Tell the others what was done here, until those who carry out the graph too have confirmed it."""
+        numbered = notice.model_copy(update={"id": self._next_id(), "number": self._commands})
+        self._commands += 1
+        if others := self.known.keys() - set(notice.targets):
+            self._hand_over(numbered, others)
+        else:
+            self._say(numbered)
+
+    def takes(self, notice: SyncNotice) -> bool:
+        """Confirm a command of another actor; whether it is to be carried out.
+
+        It is not if it came before, is of another run, or (unless it changes or ends something) if a later
+        one of that actor came already.
+        """
+        run = notice.id.partition("/")[0]
+        if not run:  # from who does not wait for an answer
+            return True
+        if self.known.get(notice.actor, run) != run:
+            return False
+        self._confirm(notice)
+        if notice.id in self._taken:
+            return False
+        self._taken.add(notice.id)
+        if notice.command in ("modify", "end"):
+            return True
+        late = notice.number < self._newest.get(notice.actor, 0)
+        if not late:
+            self._newest[notice.actor] = notice.number
+        return not late or notice.command == "stop"
+
+    def _confirm(self, notice: SyncNotice) -> None:
+        self._say(
+            SyncNotice(
+                kind="received",
+                actor=self._sync.actor,
+                graph_name=notice.graph_name,
+                answers=notice.id,
+            )
+        )
 
     def _hand_over(self, notice: SyncNotice, to: set[str]) -> None:
         until_s = self._sync.clock.wall_s() + self._sync.timeout_s
@@ -212,23 +286,17 @@ class Session:
 
     def take_end(self, notice: SyncNotice) -> None:
         """A node of another actor has ended: confirm it, and keep it for who waits or will wait for it."""
-        self._say(
-            SyncNotice(
-                kind="received",
-                actor=self._sync.actor,
-                graph_name=notice.graph_name,
-                answers=notice.id,
-            )
-        )
-        if notice.id not in self._taken:
-            self._taken.add(notice.id)
-            self._inbox(notice.graph_name, notice.node).append(notice)
+        self._confirm(notice)
+        inbox = self._inbox(notice.graph_name, notice.node)
+        if notice.number >= inbox.following:
+            inbox.came[notice.number] = notice
             self._arrived.set()
 
     async def end_of(self, graph_name: str, node: Node) -> RemoteEnd:
-        """See `Peers.end_of`."""
-        inbox, since_s = self._inbox(graph_name, node.full_name), self._sync.clock.wall_s()
-        while not inbox:
+        """See `Peers.end_of`; ends of one node are given in the order in which they happened."""
+        clock, patience_s = self._sync.clock, self._sync.timeout_s
+        inbox, since_s = self._inbox(graph_name, node.full_name), clock.wall_s()
+        while (notice := inbox.take(clock.wall_s(), patience_s)) is None:
             if reason := self._sync.lost(node.actor, self.graph_name, since_s):
                 raise ActionFailure(
                     FailureCode.UNAVAILABLE, f"{node.full_name} is for {node.actor}, which {reason}."
@@ -239,7 +307,6 @@ class Session:
                     await self._arrived.wait()
             except TimeoutError:
                 continue
-        notice = inbox.popleft()
         return RemoteEnd(Result(notice.result), notice.outputs, notice.message)
 
     def close(self) -> None:
@@ -248,8 +315,8 @@ class Session:
         if self._retry is not None:
             self._retry.cancel()
 
-    def _inbox(self, graph_name: str, node: str) -> deque[SyncNotice]:
-        return self._inboxes.setdefault((graph_name, node), deque())
+    def _inbox(self, graph_name: str, node: str) -> _Ends:
+        return self._inboxes.setdefault((graph_name, node), _Ends())
 
     def _say_again(self) -> None:
         self._retry = None
@@ -264,7 +331,7 @@ class Session:
                 self.graph_name,
                 Problem(
                     "",
-                    f"{names} did not confirm that {waiting.notice.node} has ended",
+                    f"{names} did not confirm {_said(waiting.notice)}",
                     "see whether they still run",
                     "peer_lost",
                 ),
@@ -274,6 +341,12 @@ class Session:
 
     def _say(self, notice: SyncNotice) -> None:
         self._sync.publish(notice)
+
+
+def _said(notice: SyncNotice) -> str:
+    if notice.kind == "ended":
+        return f"that {notice.node} has ended"
+    return f"the command to {notice.command} {notice.node or notice.graph_name}"
 
 
 class Sync:

@@ -201,8 +201,8 @@ class Together:
             **more: Fields of the notice.
         """
         run = self._runs.get(name)
-        if run is not None and run.peers is not None:
-            self._publish(
+        if run is not None and isinstance(run.peers, Session):
+            run.peers.pass_on(
                 SyncNotice(
                     kind="command",
                     actor=self._actor,
@@ -230,7 +230,10 @@ class Together:
                 self._answer(notice)
             return
         told = not self._names.isdisjoint(notice.targets)
-        if notice.actor == self._actor or told or run is None or run.peers is None:
+        session = run.peers if run is not None else None
+        if notice.actor == self._actor or not isinstance(session, Session):
+            return
+        if not session.takes(notice) or told:
             return
         try:
             self._obey(notice)

@@ -14,7 +14,7 @@ from parley.evaluation.gpsr import GPSR_SEED, gpsr_cases
 __all__ = ["SET_NAMES", "load_set", "own_set"]
 
 _DATA: Final = Path(__file__).parent / "data"
-_DEVELOPED: Final = ("development", "second_set", "third_set")
+_DEVELOPED: Final = ("development", "second_set", "third_set", "fourth_set")
 _BLIND: Final = ("blind_people", "blind_scenes")
 
 SET_NAMES: Final = ("development", "held-out", "blind", "gpsr", "all")

@@ -78,6 +78,8 @@ class Situation:
     """What `robot` can do."""
     failure: ErrorSituation | None = None
     """The step that failed, while the robot waits for an answer to its question about it."""
+    question: str = ""
+    """What the robot asked, if its question is open or `message` was said instead of an answer to it."""
     pictures: tuple[Picture, ...] = ()
     """Pictures sent with the message, and those among `memory`."""
 

@@ -55,7 +55,7 @@ class Embedder:
 
     def __init__(self, base_url: str, model: str, *, key: str = "", timeout_s: float = 5.0) -> None:
         if not base_url.startswith(("http://", "https://")):
-            raise ConfigError(f"embeddings_url: {base_url!r} is no http or https address")
+            raise ConfigError(f"embeddings.url: {base_url!r} is no http or https address")
         if not key.isascii() or any(char.isspace() for char in key):
             raise ConfigError("the key for embeddings holds characters that no key has")
         self.model = model

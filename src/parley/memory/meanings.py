@@ -33,9 +33,13 @@ GONE: Final = (
 )
 """What people are told once, each time the server is lost."""
 
+Ids = np.ndarray[tuple[int], np.dtype[np.int64]]
+
 _BATCH: Final = 64
 _MAX_CHARS: Final = 2000
 """Of one memory: what it is about stands at its beginning."""
+_GROWTH: Final = 1.25
+"""So that many small additions do not copy everything each time."""
 _SPARE: Final = 1000
 """So many forgotten vectors may stay in working memory."""
 
@@ -66,7 +70,11 @@ class Meanings:
         self._retry_s, self._min_alike = retry_s, min_alike
         self._ids = np.zeros(0, np.int64)
         self._vectors: Vectors = np.zeros((0, 1), np.float32)
+        self._room: Vectors = self._vectors
+        """Where `_vectors` stand, with room for more behind them; what stands is never written again."""
         self._seen_id = 0
+        self._most = 0
+        """So many may stand in working memory before what was forgotten is cleared out."""
         self._retry_at_s = 0.0
         self._gone = False
         self._wanted = asyncio.Event()
@@ -95,7 +103,7 @@ class Meanings:
     async def alike(self, request: str, limit: int, scope: str | None = None) -> list[MemoryEntry]:
         """The memories whose meaning is nearest to a request, nearest first.
 
-        None while the server is gone, and as long as no memory has a vector.
+        Nothing while the server is gone, and as long as no memory has a vector.
         """
         if self._clock.wall_s() < self._retry_at_s or not request.strip():
             return []
@@ -113,10 +121,9 @@ class Meanings:
         if vector.shape[0] != vectors.shape[1]:
             log.warning("vectors of another length", model=self._embedder.model)
             return []
-        least = self._min_alike
-        return await self._store.database.run(
-            lambda db: _nearest(db, vector, ids, vectors, least=least, limit=limit, scope=scope)
-        )
+        # Not on the file's thread: the product over many takes a while; words are looked up meanwhile.
+        ranked = await asyncio.to_thread(_ranked, vector, ids, vectors, self._min_alike, 8 * limit)
+        return await self._store.database.run(lambda db: _holding(db, ranked, limit, scope))
 
     # -- in the background -----------------------------------------------------------------------------
 
@@ -145,12 +152,12 @@ class Meanings:
             done, vectors = await self._embed(batch)
             self._gone = False
             if done:
-                current = await self._store.database.run(
+                await self._store.database.run(
                     lambda db, d=done, v=vectors: _keep(db, model, d, v)  # type: ignore[misc]
                 )
                 self._extend(done, vectors)
-                if len(self._ids) > 2 * current + _SPARE:
-                    await self._load()
+                if len(self._ids) > self._most:
+                    await self._load()  # what was forgotten goes
             self._seen_id = batch[-1][0]
 
     async def _embed(self, batch: Sequence[tuple[int, str]]) -> tuple[list[int], Vectors]:
@@ -178,18 +185,25 @@ class Meanings:
             ).fetchall()
         )
         self._ids, self._vectors = np.zeros(0, np.int64), np.zeros((0, 1), np.float32)
+        self._room = self._vectors
         length = len(rows[0][1]) if rows else 0
         fitting = [(identity, vector) for identity, vector in rows if len(vector) == length]
         if fitting:
             joined = np.frombuffer(b"".join(vector for _, vector in fitting), np.float32)
             self._extend([identity for identity, _ in fitting], joined.reshape(len(fitting), -1))
+        self._most = 2 * len(self._ids) + _SPARE
 
     def _extend(self, ids: Sequence[int], vectors: Vectors) -> None:
-        if len(self._ids) and self._vectors.shape[1] != vectors.shape[1]:
-            self._ids, self._vectors = np.zeros(0, np.int64), np.zeros((0, 1), np.float32)
-        same = bool(len(self._ids))
+        known = self._vectors
+        if known.shape[1] != vectors.shape[1]:
+            self._ids, known = np.zeros(0, np.int64), vectors[:0]
+        begun, ended = len(known), len(known) + len(vectors)
+        if ended > len(self._room) or self._room.shape[1] != vectors.shape[1]:
+            self._room = np.empty((max(ended, int(_GROWTH * begun)), vectors.shape[1]), np.float32)
+            self._room[:begun] = known
+        self._room[begun:ended] = vectors
         self._ids = np.concatenate([self._ids, np.asarray(ids, np.int64)])
-        self._vectors = np.concatenate([self._vectors, vectors]) if same else vectors
+        self._vectors = self._room[:ended]
 
     def _lost(self, error: LanguageError) -> None:
         log.warning("memories found by words alone", problem=str(error))
@@ -233,8 +247,8 @@ def _missing(db: sqlite3.Connection, model: str, after: int) -> list[tuple[int, 
     return [(row[0], ". ".join(part for part in row[1:] if part)[:_MAX_CHARS]) for row in rows]
 
 
-def _keep(db: sqlite3.Connection, model: str, ids: Sequence[int], vectors: Vectors) -> int:
-    """Write vectors of memories that still hold; returns how many there are in all."""
+def _keep(db: sqlite3.Connection, model: str, ids: Sequence[int], vectors: Vectors) -> None:
+    """Write vectors of memories that still hold."""
     rows = [
         (identity, model, vector.tobytes(), identity) for identity, vector in zip(ids, vectors, strict=True)
     ]
@@ -249,31 +263,26 @@ def _keep(db: sqlite3.Connection, model: str, ids: Sequence[int], vectors: Vecto
         db.execute("ROLLBACK")
         raise
     db.execute("COMMIT")
-    (count,) = db.execute("SELECT count(*) FROM memory_vector").fetchone()
-    return int(count)
 
 
-def _nearest(
-    db: sqlite3.Connection,
-    vector: Vectors,
-    ids: np.ndarray[tuple[int], np.dtype[np.int64]],
-    vectors: Vectors,
-    *,
-    least: float,
-    limit: int,
-    scope: str | None,
-) -> list[MemoryEntry]:
-    """On the file's thread: the product over many memories takes a while and leaves the loop alone."""
+def _ranked(vector: Vectors, ids: Ids, vectors: Vectors, least: float, most: int) -> list[int]:
+    """The memories whose vectors are nearest, nearest first; some may not hold any more."""
     cosine = vectors @ vector
-    wanted = min(len(cosine), 8 * limit)
+    wanted = min(len(cosine), most)
     top = np.argpartition(cosine, -wanted)[-wanted:]
     ranked = sorted((int(n) for n in top if cosine[n] >= least), key=lambda n: float(cosine[n]), reverse=True)
+    return [int(ids[number]) for number in ranked]
+
+
+def _holding(
+    db: sqlite3.Connection, ranked: Sequence[int], limit: int, scope: str | None
+) -> list[MemoryEntry]:
     found: list[MemoryEntry] = []
-    for number in ranked:
+    for identity in ranked:
         row = db.execute(
             f"SELECT {COLUMNS} FROM memory WHERE id = ? AND ended_unix_ms IS NULL"
             " AND (? IS NULL OR scope IN ('', ?))",
-            (int(ids[number]), scope, scope),
+            (identity, scope, scope),
         ).fetchone()
         if row is not None:
             found.append(read_entry(row))

@@ -7,13 +7,16 @@ from typing import Any, Final
 
 from parley.messages.memory import MemoryEntry
 
-__all__ = ["COLUMNS", "read_entry"]
+__all__ = ["COLUMNS", "COLUMNS_WITHOUT_PICTURES", "read_entry"]
 
 COLUMNS: Final = (
     "name, scope, type, data, info, source, created_unix_ms, updated_unix_ms, ended_unix_ms, used_unix_ms,"
     " used_count"
 )
 """What `read_entry` wants selected, in this order."""
+
+COLUMNS_WITHOUT_PICTURES: Final = COLUMNS.replace(" data,", " CASE type WHEN 'image' THEN '' ELSE data END,")
+"""The same with nothing for the data of pictures, which is long to read."""
 
 _NAMES: Final = tuple(COLUMNS.replace(",", "").split())
 

@@ -11,7 +11,7 @@ from parley.clock import Clock, WallClock
 from parley.memory.database import Database
 from parley.memory.migrations import migrate
 from parley.memory.retrieval import name_key
-from parley.memory.rows import COLUMNS, read_entry
+from parley.memory.rows import COLUMNS, COLUMNS_WITHOUT_PICTURES, read_entry
 from parley.memory.search import search_words
 from parley.memory.transfer import MergeCounts, merge
 from parley.messages.memory import MemoryEntry
@@ -170,17 +170,37 @@ class MemoryStore:
         """The memories of exactly this name, oldest first."""
         return await self._current("AND name = :name ORDER BY updated_unix_ms", scope, name=name)
 
-    async def all(self, scope: str | None = None, kind: str = "") -> list[MemoryEntry]:
-        """Everything that is remembered now, oldest first; with `kind` only texts or only images."""
+    async def all(
+        self, scope: str | None = None, kind: str = "", *, pictures: bool = True
+    ) -> list[MemoryEntry]:
+        """Everything that is remembered now, oldest first.
+
+        Args:
+            scope: A robot's name: its own memories and everybody's; None: all.
+            kind: `text` or `image`: only those.
+            pictures: Whether pictures come with their data.
+        """
         return await self._current(
-            "AND (:kind = '' OR type = :kind) ORDER BY updated_unix_ms", scope, kind=kind
+            "AND (:kind = '' OR type = :kind) ORDER BY updated_unix_ms", scope, pictures, kind=kind
         )
 
-    async def newest(self, limit: int, scope: str | None = None, kind: str = "") -> list[MemoryEntry]:
-        """The `limit` memories that were added or changed last, newest first; `kind` as in `all`."""
+    async def picture_chars(self, scope: str | None = None) -> int:
+        """How long the data of all pictures is together; `scope` as in `all`."""
+        rows = await self._rows(
+            "SELECT coalesce(sum(length(data)), 0) FROM memory WHERE ended_unix_ms IS NULL"
+            " AND type = 'image' AND (:scope IS NULL OR scope IN ('', :scope))",
+            {"scope": scope},
+        )
+        return int(rows[0][0])
+
+    async def newest(
+        self, limit: int, scope: str | None = None, kind: str = "", *, pictures: bool = True
+    ) -> list[MemoryEntry]:
+        """The `limit` memories that were added or changed last, newest first; the rest as in `all`."""
         return await self._current(
             "AND (:kind = '' OR type = :kind) ORDER BY updated_unix_ms DESC LIMIT :limit",
             scope,
+            pictures,
             limit=limit,
             kind=kind,
         )
@@ -209,9 +229,12 @@ class MemoryStore:
         unique = {(entry.name, entry.scope): entry for entry in [*named, *worded]}
         return list(unique.values())[:limit]
 
-    async def _current(self, rest: str, scope: str | None, **values: Any) -> list[MemoryEntry]:
+    async def _current(
+        self, rest: str, scope: str | None, pictures: bool = True, **values: Any
+    ) -> list[MemoryEntry]:
+        columns = COLUMNS if pictures else COLUMNS_WITHOUT_PICTURES
         rows = await self._rows(
-            f"SELECT {COLUMNS} FROM memory WHERE ended_unix_ms IS NULL"
+            f"SELECT {columns} FROM memory WHERE ended_unix_ms IS NULL"
             f" AND (:scope IS NULL OR scope IN ('', :scope)) {rest}",
             {"scope": scope, **values},
         )

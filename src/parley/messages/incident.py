@@ -39,6 +39,9 @@ class Incident(Payload):
     message: str = ""
     """What went wrong, in plain words."""
     attempts: tuple[IncidentAttempt, ...] = ()
+    """Oldest first; of very many the first and the newest."""
+    questions: int = 0
+    """How often the operator was asked, repetitions after their own questions included."""
     ending: Literal["open", "solved", "skipped", "cancelled", "replaced", "held"] = "open"
     """`held`: the last attempt failed, the robot waits; `replaced`: the operator ordered something else."""
     opened_unix_ms: int = 0

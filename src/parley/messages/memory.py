@@ -125,6 +125,8 @@ class MemoryList(Payload):
     """Response of `get_memory` to the kinds of requests that are ours: a name may stand in several scopes."""
 
     memories: tuple[MemoryEntry, ...] = ()
+    left_out: int = 0
+    """How many older ones did not fit into one message."""
 
 
 class MemoryEvent(Payload):

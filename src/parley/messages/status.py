@@ -224,8 +224,11 @@ class SyncNotice(Payload):
     """Who speaks."""
     graph_name: str
     id: str = ""
-    """Of `hello` and `ready`: the speaker's run of the graph. Of `ended`: that, a slash and a number, so that
-    it can be confirmed and is taken once."""
+    """Of `hello` and `ready`: the speaker's run of the graph. Of `ended` and `command`: that, a slash and a
+    number, so that it can be confirmed and is taken once."""
+    number: int = 0
+    """Of `ended`: how often that node had ended before, so that ends are taken in their order. Of `command`:
+    how many commands the speaker had passed on before."""
     answers: str = ""
     """Of `ready`, `received` and `answer`: the id of what is answered."""
     node: str = ""

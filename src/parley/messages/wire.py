@@ -7,15 +7,25 @@ from __future__ import annotations
 
 import json
 import math
-from typing import Any, TypeVar
+from collections.abc import Mapping
+from typing import Any, Final, TypeVar
 
 from pydantic import BaseModel, ValidationError
+from pydantic_core import to_json
 
 from parley.errors import InvalidMessageError
 from parley.messages.chat import ChatAction
 from parley.messages.ros import String
 
-__all__ = ["MAX_MESSAGE_CHARS", "MAX_NESTING", "decode", "encode", "load_json", "to_string"]
+__all__ = [
+    "MAX_MESSAGE_CHARS",
+    "MAX_NESTING",
+    "decode",
+    "encode",
+    "load_json",
+    "to_string",
+    "to_string_unchecked",
+]
 
 P = TypeVar("P", bound=BaseModel)
 
@@ -36,6 +46,18 @@ def encode(payload: BaseModel) -> str:
 def to_string(payload: BaseModel) -> String:
     """The payload as a std_msgs/String."""
     return String(encode(payload))
+
+
+def to_string_unchecked(fields: Mapping[str, Any]) -> String:
+    """As `to_string`, for a payload of which very many are sent, given as what its JSON is to hold.
+
+    Args:
+        fields: Its fields by name, as JSON can hold them; whoever calls this vouches for their types.
+
+    Raises:
+        ValueError: Something in it cannot be written.
+    """
+    return String(to_json(fields).decode())
 
 
 def decode(kind: type[P], text: str) -> P:
@@ -67,7 +89,7 @@ def load_json(what: str, text: str) -> Any:
             what, "", f"{len(text)} characters is more than the {MAX_MESSAGE_CHARS} allowed"
         )
     try:
-        value = json.loads(text, parse_constant=_refuse_constant, parse_float=_finite)
+        value = _parse(text)
         _check_nesting(text, value)
         _check_characters(text, value)
     except RecursionError as error:
@@ -86,6 +108,10 @@ def _finite(text: str) -> float:
     if not math.isfinite(number):
         raise ValueError(f"{text} is too large a number")
     return number
+
+
+_parse: Final = json.JSONDecoder(parse_constant=_refuse_constant, parse_float=_finite).decode
+"""Made once, as making it takes as long as reading a short message."""
 
 
 def _check_nesting(text: str, value: Any) -> None:

@@ -7,7 +7,7 @@ from __future__ import annotations
 
 import asyncio
 import uuid
-from collections import deque
+from collections import OrderedDict
 from collections.abc import Awaitable, Callable, Sequence
 from dataclasses import dataclass
 from typing import ClassVar, Final
@@ -26,45 +26,35 @@ from parley.messages.memory import AddToMemory, MemoryBody, MemoryEntry, MemoryE
 from parley.messages.ros import String
 from parley.messages.status import ActorStatus, PlanUpdate, Rejection, RejectionProblem, StopCommand
 from parley.nodes.base import Mailboxes, Node
+from parley.nodes.chat_texts import (
+    AFTERWARDS,
+    CONTROL_REPLIES,
+    NOTHING_TO_DO,
+    left,
+    settled,
+    still_thinking,
+    unreadable,
+)
 from parley.nodes.conversation import Conversation
 from parley.nodes.drafts import Drafts
 from parley.nodes.plan_check import check_calls, complete_calls
 from parley.nodes.plan_flow import pending_calls
 from parley.nodes.plan_steps import LATCHED
 from parley.nodes.presence import Presence
-from parley.nodes.questions import OpenQuestions
+from parley.nodes.questions import OpenQuestions, SeenIds
 from parley.nodes.recollections import Recollections
 from parley.nodes.repair import failed_situation
 from parley.nodes.shown_pictures import remembered_pictures, sent_pictures
-from parley.nodes.thinking import Thinking
+from parley.nodes.thinking import PATIENCE_S, Thinking
 from parley.transport.base import Transport
 from parley.world.geometry import Pose2D
 from parley.world.object_map import MapObject
 
-__all__ = ["MAX_CHARS", "ChatInterface"]
+__all__ = ["ChatInterface"]
 
-MAX_CHARS: Final = 10_000
-"""A longer message is not a request that a person wrote."""
-PATIENCE_S: Final = 5.0
-"""Wall time after which the operator is told that understanding a message takes long."""
 MEMORY_WITHIN_S: Final = 5.0
 """Wall time in which the memory must have confirmed what the reply promises."""
-AFTERWARDS: Final = "I will do that afterwards; first I need your answer to my question."
-"""Added to the reply to an order that has to wait until a failed step is settled."""
-
-_CONTROL_REPLIES: Final[dict[Control, str]] = {
-    "stop": "I have stopped. Say “carry on” when I should go on.",
-    "start": "I am going on.",
-    "skip": "I will leave that step out.",
-    "clear": "I have dropped everything.",
-    "emergency_stop": "Emergency stop! I will not move until the stop is released.",
-}
-_NOTHING_TO_DO: Final[dict[Control, str]] = {
-    "stop": "I am standing still.",
-    "start": "There is nothing left to go on with.",
-    "skip": "There is no step to skip.",
-    "clear": "There was nothing to drop.",
-}
+_KEPT_QUESTIONS: Final = 100
 _HALTING: Final = ("stop", "clear", "emergency_stop")
 """Controls after which nothing that was said before may still set a robot in motion."""
 
@@ -125,7 +115,9 @@ class ChatInterface(Node):
         self._plans: dict[str, PlanUpdate] = {}
         self._failures: dict[str, ErrorHandlingMessage] = {}
         """The last failed step of each robot, for questions about it."""
-        self._seen_ids: deque[str] = deque(maxlen=1000)
+        self._asked: OrderedDict[str, str] = OrderedDict()
+        """The words of the last questions of robots, by id."""
+        self._seen_ids = SeenIds()
         self._memory_waits: dict[str, asyncio.Future[MemoryEvent]] = {}
         self._recollections = Recollections(self, clock, self._remember, self._presence.names)
         self._halts: dict[str, int] = {}
@@ -135,7 +127,7 @@ class ChatInterface(Node):
         """See `Node.open`."""
         await self.opened.enter_async_context(self._mailboxes)
         await self.subscribe(topics.ACTOR_STATUS, ActorStatus, self._presence.on_status)
-        await self.subscribe(topics.CHAT_FEEDBACK, ChatFeedback, self._questions.on_feedback)
+        await self.subscribe(topics.CHAT_FEEDBACK, ChatFeedback, self._on_feedback)
         await self.subscribe(topics.MEMORY_EVENT, MemoryEvent, self._on_memory_event)
         await self.subscribe(topics.STOP, StopCommand, self._on_emergency)
         await self.subscribe(topics.ERROR_HANDLING, ErrorHandlingMessage, self._on_failure)
@@ -145,14 +137,15 @@ class ChatInterface(Node):
     # -- from the wire ---------------------------------------------------------------------------------
 
     def _on_input(self, said: ChatInput) -> None:
-        if said.id:
-            if said.id in self._seen_ids:
-                return  # sent twice, e.g. after a reconnect
-            self._seen_ids.append(said.id)
-        if problem := _unreadable(said.message, bare=bool(said.images)):
+        if not self._seen_ids.is_new(said.id):
+            return
+        if problem := unreadable(said.message, bare=bool(said.images)):
             self._say(said.targets, problem, "error", said.id)
             return
         control = control_of(said.message, self._presence.names())
+        if control not in _HALTING and self._questions.is_late(said):
+            self._say(said.targets, settled(said.message), "response", said.id)
+            return
         if control is None and said.type == "response" and not said.targets and self._questions.robots():
             self._questions.on_input(said)
             return  # an answer; where several robots wait, the error handler asks which is meant
@@ -171,6 +164,8 @@ class ChatInterface(Node):
                 ours = about if said.type == "response" and self._recollections.asked(about) else ""
                 if question is None or ours:
                     self._mailboxes.post(target, self._work(target, said, ours))
+                elif said.images:
+                    self._mailboxes.post(target, self._keep_pictures(target, said))
         self._questions.on_input(said)
 
     def _answers(self, target: str, question: ChatFeedback | None, control: Control) -> bool:
@@ -184,6 +179,14 @@ class ChatInterface(Node):
         async def work() -> None:
             if not await self._recollections.handles(target, said, ours):
                 await self._answer(target, said, halts)
+
+        return work
+
+    def _keep_pictures(self, target: str, said: ChatInput) -> Callable[[], Awaitable[None]]:
+        """Of an answer with pictures: whoever asked gets the words."""
+
+        async def work() -> None:
+            await self._recollections.handles(target, said)
 
         return work
 
@@ -219,6 +222,13 @@ class ChatInterface(Node):
             update = PlanUpdate.model_validate_json(message.data)
             self._plans[update.target] = update
 
+    def _on_feedback(self, feedback: ChatFeedback) -> None:
+        self._questions.on_feedback(feedback)
+        if feedback.type == "request" and feedback.id:
+            self._asked[feedback.id] = feedback.message
+            while len(self._asked) > _KEPT_QUESTIONS:
+                self._asked.popitem(last=False)
+
     def _on_failure(self, failure: ErrorHandlingMessage) -> None:
         self._failures[failure.target] = failure
 
@@ -249,7 +259,7 @@ class ChatInterface(Node):
         nothing = state == "idle" or (state == "awaiting_approval" and control in ("stop", "skip"))
         if state == "idle" and status is not None and status.state == "paused":
             nothing = False  # its engine holds a graph that is no plan of ours
-        reply = _NOTHING_TO_DO.get(control, "") if nothing else ""
+        reply = NOTHING_TO_DO.get(control, "") if nothing else ""
         if control == "start" and status is not None and status.state == "stopped":
             reply = LATCHED
         elif control == "emergency_stop":
@@ -259,7 +269,7 @@ class ChatInterface(Node):
         ):  # stopping is sent in any case: the plan may be newer than known
             command = SystemCommand(command=control)
             self.publish(topics.CHAT_ACTION, ChatAction(system_cmd=(command,), targets=(target,)))
-        reply = reply or _CONTROL_REPLIES[control]
+        reply = reply or CONTROL_REPLIES[control]
         self._conversation(target).operator(said.message)
         self._conversation(target).assistant(reply)
         asked = self._questions.first(target) if state == "held" else None
@@ -277,12 +287,14 @@ class ChatInterface(Node):
         own = for_oneself(message)
         drafts = Drafts(said.id, target, lambda draft: self.publish(topics.REPLY_DRAFT, draft), self._clock)
         try:
-            async with self._thinking.about(target, lambda: self._say((target,), _thinking(message), "info")):
+            async with self._thinking.about(
+                target, lambda: self._say((target,), still_thinking(message), "info")
+            ):
                 situation = await self._situation(target, own or message, said)
                 understood = _kept(situation) or await self._language.interpret(situation, on_draft=drafts)
         except (LanguageError, TimeoutError) as error:
             if isinstance(error, TimeoutError) and halts != self._halts.get(target, 0):
-                self._say((target,), _left(message), "response", said.id)
+                self._say((target,), left(message), "response", said.id)
                 return
             self.log.warning("not understood", target=target, error=repr(error))
             plain = error.plain if isinstance(error, LanguageError) else ""
@@ -290,12 +302,16 @@ class ChatInterface(Node):
             self._say((target,), text, "error", said.id)
             return
         if halts != self._halts.get(target, 0) and (understood.queue or understood.system_cmd):
-            self._say((target,), _left(message), "response", said.id)
+            self._say((target,), left(message), "response", said.id)
             return
         order = self._trusted(target, understood)
         if order is None:
             text = "I worked out a plan that I cannot carry out, so I did nothing. Please say it another way."
             self._say((target,), text, "error", said.id)
+            return
+        order = self._own_share(order, target, said)
+        if not order.targets:
+            self._say((target,), f"That is for {' and '.join(understood.targets)}.", "response", said.id)
             return
         kept = _Keeping(target if own else "", said.author or OPERATOR, situation.memory)
         order, confirmations = self._name_memories(order, kept)
@@ -346,7 +362,8 @@ class ChatInterface(Node):
             known = await remembered_pictures(self.transport, memory, target)
             pictures += tuple(each for each in known if each.jpeg not in [sent.jpeg for sent in pictures])
         objects, failure = tuple(self._objects(target)), self._failures.get(target)
-        asked = failure is not None and state == "held" and self._questions.first(target) is not None
+        asked = self._questions.first(target)
+        question = asked.message if asked is not None else self._asked.get(said.reply_to, "")
         return Situation(
             message=message,
             memory=memory,
@@ -361,8 +378,9 @@ class ChatInterface(Node):
             robots=self._presence.names(),
             catalogue=status.catalogue if status else (),
             failure=failed_situation(failure, memory=memory, objects=objects, status=status)
-            if failure is not None and asked
+            if failure is not None and asked is not None and state == "held"
             else None,
+            question=question,
             pictures=pictures,
         )
 
@@ -381,6 +399,12 @@ class ChatInterface(Node):
                 self.log.warning("plan refused", target=name, problems=[str(problem) for problem in problems])
                 return None
         return understood.model_copy(update={"targets": targets})
+
+    def _own_share(self, order: ChatAction, target: str, said: ChatInput) -> ChatAction:
+        """The order without the other robots that got the same message: each of them reads it for itself."""
+        others = {self._presence.resolve(name) for name in said.targets} - {target}
+        left = tuple(name for name in order.targets if name not in others)
+        return order.model_copy(update={"targets": left})
 
     # -- memory ----------------------------------------------------------------------------------------
 
@@ -442,18 +466,6 @@ class ChatInterface(Node):
         )
 
 
-def _thinking(message: str) -> str:
-    return f"I am still thinking about “{_short(message)}”. If I should leave it, say “stop”."
-
-
-def _left(message: str) -> str:
-    return f"You told me to stop, so I leave this: “{_short(message)}”"
-
-
-def _short(message: str) -> str:
-    return message if len(message) <= 200 else f"{message[:200]} …"
-
-
 def _kept(situation: Situation) -> ChatAction | None:
     """The order to remember what the robot sees, if the message says that and nothing else."""
     name = keeping_action(situation.message, situation.catalogue)
@@ -461,15 +473,6 @@ def _kept(situation: Situation) -> ChatAction | None:
         return None
     call = ActionCall(name=name, reason="remember what I see")
     return ChatAction(message_response="I will keep what I see now.", queue=(call,))
-
-
-def _unreadable(message: str, *, bare: bool = False) -> str:
-    """Why a message cannot be a request, in plain words; empty if it can."""
-    if not message.strip() and not bare:
-        return "I did not get any words. Please write what I should do."
-    if len(message) > MAX_CHARS:
-        return f"That message is too long for me ({len(message)} characters). Please use fewer words."
-    return ""
 
 
 _RECALLED_TURNS = 6

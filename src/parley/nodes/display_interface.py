@@ -91,11 +91,14 @@ class DisplayInterface(Node):
 
     async def _show(self, feed: _Feed) -> None:
         """Show what waits, at the allowed pace, until nothing does."""
+        loop = asyncio.get_running_loop()
         try:
             while (picture := feed.waiting) is not None:
                 feed.waiting = None
+                # Counted from the beginning, or a film at just this pace would fall behind more and more.
+                next_s = loop.time() + _either(feed.settings.interval_s, self._min_interval_s)
                 await self._show_one(feed, picture)
-                await asyncio.sleep(_either(feed.settings.interval_s, self._min_interval_s))
+                await asyncio.sleep(max(0.0, next_s - loop.time()))
         finally:
             del self._busy[feed.topic.name]
 

@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-import asyncio
 import uuid
 from collections.abc import Callable, Sequence
 from dataclasses import replace
@@ -17,14 +16,14 @@ from parley.memory.incidents import IncidentStore
 from parley.messages import topics
 from parley.messages.chat import ActionCall, ChatAction, ChatFeedback, ChatInput, SystemCommand
 from parley.messages.failure import ErrorHandlingMessage
-from parley.messages.incident import GetIncidents
+from parley.messages.incident import GetIncidents, Incident
 from parley.messages.ros import ChatRequest, ChatResponse, String
 from parley.messages.status import ActorStatus, PlanUpdate, StopCommand, StopReport
 from parley.messages.wire import decode, encode
 from parley.nodes.base import Mailboxes, Node
 from parley.nodes.incident_log import IncidentLog
 from parley.nodes.presence import Presence
-from parley.nodes.questions import OpenQuestions
+from parley.nodes.questions import OpenQuestions, SeenIds
 from parley.nodes.repair import (
     MAX_ALONE,
     Ending,
@@ -34,6 +33,7 @@ from parley.nodes.repair import (
     memory_query,
     steps_left,
 )
+from parley.nodes.thinking import PATIENCE_S, Thinking
 from parley.nodes.which_robot import WhichRobot
 from parley.transport.base import Transport
 from parley.world.object_map import MapObject
@@ -45,6 +45,10 @@ _ENDED_BY: dict[Control, Ending] = {
 }  # fmt: skip
 
 
+_STARTED_ANEW = (
+    "I was started anew, so you need not answer my last question any more. Please tell me what to do."
+)
+_THINKING = "I am still working out what to do. You can say “stop” or “skip it” meanwhile."
 _STOPPED = "I was stopped for safety. Release the stop first; then I ask you again."
 
 
@@ -60,6 +64,7 @@ class ErrorHandler(Node):
         language_timeout_s: Wall time an answer of the language engine may take.
         incidents: Where failures are written down, open; its owner closes it. None: kept while the node is
             open.
+        patience_s: Wall time after which the operator is told that it takes long.
     """
 
     name: ClassVar[str] = "error_handler"
@@ -74,14 +79,19 @@ class ErrorHandler(Node):
         max_attempts: int = 3,
         language_timeout_s: float = 30.0,
         incidents: IncidentStore | None = None,
+        patience_s: float = PATIENCE_S,
     ) -> None:
         super().__init__(transport)
         self._language, self._objects, self._clock = language, objects, clock
-        self._max_attempts, self._language_timeout_s = max_attempts, language_timeout_s
+        self._max_attempts = max_attempts
+        self._thinking = Thinking(language_timeout_s, patience_s)
         self._store = incidents
         self._log: IncidentLog
         self._presence = Presence(clock)
         self._questions = OpenQuestions()
+        self._seen_ids = SeenIds()
+        self.left_over: Sequence[Incident] = ()
+        """Failures that an earlier process left open; they were closed when this one began."""
         self._which = WhichRobot()
         self._mailboxes: Mailboxes[str] = Mailboxes(self._on_defect)
         self._repairs: dict[str, Repair] = {}
@@ -98,7 +108,7 @@ class ErrorHandler(Node):
             own = await IncidentStore.open(":memory:", self._clock)
             store = await self.opened.enter_async_context(own)
         self._log = IncidentLog(store, self._clock)
-        await self._log.settle_left_over()
+        self.left_over = await self._log.settle_left_over()
         self.opened.push_async_callback(self._log.flush)
         await self.opened.enter_async_context(self._mailboxes)
         await self.subscribe(topics.ACTOR_STATUS, ActorStatus, self._presence.on_status)
@@ -110,6 +120,10 @@ class ErrorHandler(Node):
         await self.subscribe_raw(topics.PLAN, self._on_plan)
         server = await self.transport.serve(topics.GET_INCIDENTS, self._on_get)
         self.opened.push_async_callback(server.close)
+        for incident in self.left_over:
+            if incident.questions:
+                closes = _question_id(incident)
+                self._say(incident.robot, _STARTED_ANEW, "info", closes=closes)
 
     # -- from the wire ---------------------------------------------------------------------------------
 
@@ -133,7 +147,11 @@ class ErrorHandler(Node):
         self._mailboxes.post(target, lambda: self._attempt(repair, None))
 
     def _on_input(self, said: ChatInput) -> None:
+        if not self._seen_ids.is_new(said.id):
+            return
         control = control_of(said.message, self._presence.names())
+        if self._questions.is_late(said) and control not in ("stop", "clear", "emergency_stop"):
+            return  # the chat interface says so
         if control is not None and not (control == "start" and said.type == "response"):
             named = self._presence.named_in(said.message)
             for target in named or [self._presence.resolve(name) or name for name in said.targets]:
@@ -242,7 +260,7 @@ class ErrorHandler(Node):
         if not self._is_current(repair):
             return
         if reply is not None:
-            repair.dialogue.append(Turn("operator", reply))
+            repair.note_turn(Turn("operator", reply))
         if resolution.success and reply is None and self._is_used_up(repair, resolution):
             resolution = _plain_question(repair.failure)
         if resolution.success:
@@ -264,8 +282,9 @@ class ErrorHandler(Node):
 
     async def _resolve(self, repair: Repair, reply: str | None) -> ChatAction:
         """Ask the language engine; when it cannot answer, fall back to the failure's own sentence."""
+        target = repair.failure.target
         try:
-            async with asyncio.timeout(self._language_timeout_s):
+            async with self._thinking.about(target, lambda: self._say(target, _THINKING, "info")):
                 return await self._language.resolve(await self._situation(repair, reply))
         except (LanguageError, TimeoutError) as error:
             self.log.warning("no resolution", target=repair.failure.target, error=repr(error))
@@ -317,13 +336,13 @@ class ErrorHandler(Node):
 
     def _watch(self, repair: Repair, correction: Sequence[ActionCall]) -> None:
         """See whether the correction helps (none: the step as it was)."""
-        repair.tried.append(tuple(correction) or (repair.failure.action_called,))
+        repair.note_correction(correction)
         self._trying[repair.failure.target] = repair
 
     def _answer_aside(self, repair: Repair, resolution: ChatAction, question: ChatAction) -> None:
         """Answer what the operator asked, keep what they ordered for later, and ask again: no attempt."""
         target = repair.failure.target
-        repair.dialogue.append(Turn("assistant", resolution.message_response))
+        repair.note_turn(Turn("assistant", resolution.message_response))
         later = (*resolution.queue, *resolution.afterwards)
         if later or resolution.system_cmd:
             order = ChatAction(queue=later, system_cmd=resolution.system_cmd, targets=(target,))
@@ -334,12 +353,13 @@ class ErrorHandler(Node):
     def _ask(self, repair: Repair, resolution: ChatAction) -> None:
         repair.attempts += 1
         self._keep_for_later(repair, resolution)
-        repair.dialogue.append(Turn("assistant", resolution.message_response))
+        repair.note_turn(Turn("assistant", resolution.message_response))
         self._put(repair, resolution)
 
     def _put(self, repair: Repair, question: ChatAction, *, instead_of: str = "") -> None:
-        repair.question, repair.question_id = question, uuid.uuid4().hex
         repair.note_asked(question.message_response, self._clock.unix_ms())
+        repair.question = question
+        repair.question_id = _question_id(repair.incident)
         self._record(repair)
         self._say(
             repair.failure.target,
@@ -375,6 +395,7 @@ class ErrorHandler(Node):
         self._log.write(repair.incident)
 
     def _end(self, repair: Repair, ending: Ending, note: str = "") -> None:
+        self._thinking.give_up(repair.failure.target)
         repair.note_end(ending, self._clock.unix_ms(), note)
         self._record(repair)
 
@@ -399,6 +420,11 @@ class ErrorHandler(Node):
         repair = self._repairs.get(target)
         if repair is not None:
             self._give_up(repair)
+
+
+def _question_id(incident: Incident) -> str:
+    """Of the last question: known from the record, so that the next process can close what this one asked."""
+    return f"{incident.id}-{incident.questions}"
 
 
 def _plain_question(failure: ErrorHandlingMessage) -> ChatAction:

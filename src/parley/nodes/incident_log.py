@@ -33,16 +33,19 @@ class IncidentLog:
         self._waiting: dict[str, Incident] = {}
         self._writer: asyncio.Task[None] | None = None
 
-    async def settle_left_over(self) -> None:
-        """Close what an earlier process left open: nobody works on it any more."""
+    async def settle_left_over(self) -> list[Incident]:
+        """Close what an earlier process left open, and return it: nobody works on it any more."""
+        settled: list[Incident] = []
         try:
             for incident in await self._store.still_open():
                 changes = {
                     "ending": "cancelled", "closed_unix_ms": self._clock.unix_ms(), "note": UNSETTLED,
                 }  # fmt: skip
                 await self._store.save(incident.model_copy(update=changes))
+                settled.append(incident)
         except StoreError as error:
             log.error("incidents not settled", problem=str(error))
+        return settled
 
     def write(self, incident: Incident) -> None:
         """Keep `incident` in place of its earlier form."""

@@ -9,6 +9,7 @@ from typing import ClassVar
 
 from parley.errors import InvalidMessageError, LanguageError, StoreError
 from parley.language.base import Language
+from parley.memory.answer_size import MAX_ANSWER_CHARS, fitting, without_pictures
 from parley.memory.meanings import Meanings, fused
 from parley.memory.store import MemoryStore
 from parley.messages import topics
@@ -124,14 +125,28 @@ class MemoryNode(Node):
             raise
         if request.kind == "select":
             found = [entry for entry in await self._find(request) if request.type in ("", entry.type)]
-            reply = MemoryReply.of(_shown(_time_order(found), request))
-            return ChatResponse(encode(reply))
+            return ChatResponse(encode(MemoryReply.of(self._fitting(_shown(_time_order(found), request))[0])))
         listed = [entry for entry in await self._list(request) if request.type in ("", entry.type)]
         if request.kind == "search":
             listed = listed[: request.limit or self._short_list]
         elif request.limit:
             listed = listed[-request.limit :]
-        return ChatResponse(encode(MemoryList(memories=tuple(_shown(listed, request)))))
+        memories, left_out = self._fitting(_shown(listed, request))
+        return ChatResponse(encode(MemoryList(memories=tuple(memories), left_out=left_out)))
+
+    def _fitting(self, entries: Sequence[MemoryEntry]) -> tuple[list[MemoryEntry], int]:
+        shown, left_out = fitting(entries)
+        if left_out:
+            self.log.warning("the oldest memories do not fit into one answer", left_out=left_out)
+        return shown, left_out
+
+    async def _everything(self, request: GetMemory) -> list[MemoryEntry]:
+        """All memories, oldest first; pictures with their data if they fit into one answer."""
+        scope = request.scope or None
+        if request.pictures and await self._store.picture_chars(scope) <= MAX_ANSWER_CHARS:
+            return await self._store.all(scope, request.type)
+        bare = await self._store.all(scope, request.type, pictures=False)
+        return without_pictures(bare) if request.pictures else bare
 
     async def _list(self, request: GetMemory) -> list[MemoryEntry]:
         scope = request.scope or None
@@ -146,15 +161,16 @@ class MemoryNode(Node):
                 older = await self._store.history(request.request)
                 return [entry for entry in older if scope is None or entry.scope in ("", scope)]
         if request.limit:
-            return (await self._store.newest(request.limit, scope, request.type))[::-1]
-        return await self._store.all(scope, request.type)
+            newest = self._store.newest(request.limit, scope, request.type, pictures=request.pictures)
+            return (await newest)[::-1]
+        return await self._everything(request)
 
     async def _find(self, request: GetMemory) -> list[MemoryEntry]:
         scope = request.scope or None
         if request.request.strip().rstrip(".!").casefold() == RETURN_ALL:
-            return await self._store.all(scope)
+            return await self._everything(request)
         found = await self._search(request.request, scope, self._short_list)
-        short_list = _own_first(await self._fill_up(found, scope))
+        short_list = _own_first(await self._fill_up(found, scope, pictures=request.pictures))
         if not short_list:
             return []
         try:
@@ -174,12 +190,14 @@ class MemoryNode(Node):
         )
         return fused(lexical, alike, first=words)[:limit] if alike else lexical
 
-    async def _fill_up(self, lexical: Sequence[MemoryEntry], scope: str | None) -> list[MemoryEntry]:
+    async def _fill_up(
+        self, lexical: Sequence[MemoryEntry], scope: str | None, *, pictures: bool
+    ) -> list[MemoryEntry]:
         """Add the newest memories up to the length of a short list.
 
         What matters need not share a word with the request; a small memory is thus shown whole.
         """
-        newest = await self._store.newest(self._short_list, scope)
+        newest = await self._store.newest(self._short_list, scope, pictures=pictures)
         unique = {(entry.name, entry.scope): entry for entry in [*lexical, *newest]}
         return list(unique.values())[: self._short_list]
 

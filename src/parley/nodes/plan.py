@@ -12,6 +12,7 @@ Here are the orders; what the plan is made of is in `plan_core`, what it makes o
 from __future__ import annotations
 
 from collections.abc import Sequence
+from typing import Final
 
 from parley.messages.chat import ActionCall
 from parley.nodes.plan_core import GOING, KEEP_DONE
@@ -21,6 +22,11 @@ from parley.nodes.plan_reports import ReportedPlan
 from parley.nodes.plan_steps import ACTIVE_STATES, OPEN_STATES, Step, When, with_givers
 
 __all__ = ["KEEP_DONE", "TargetPlan"]
+
+_ALL_AT_ONCE: Final = (
+    "I can only stop all that I am doing at the same time, not one of it. "
+    "Wait until the rest is done, or say “cancel everything”."
+)
 
 
 class TargetPlan(ReportedPlan):
@@ -126,6 +132,8 @@ class TargetPlan(ReportedPlan):
         if step is self.current:
             return self.skip()
         if step.state in ACTIVE_STATES:
+            if self._ends_others(step):
+                return [Say(_ALL_AT_ONCE, "error")]
             step.ending = True
             return self._end(step)
         self.steps.remove(step)
@@ -143,9 +151,16 @@ class TargetPlan(ReportedPlan):
             current.state = "skipped"
             self._tidy()
             return self._push()
+        if self._ends_others(current):
+            return [Say(_ALL_AT_ONCE, "error")]
         current.ending = True
         self._pause_wanted = False
         return self._end(current) if current.state != "queued" else []
+
+    def _ends_others(self, step: Step) -> bool:
+        """Whether the engine could end `step` only together with what runs beside it."""
+        beside = (s for s in self.steps if s is not step and s.together is step.together)
+        return not self._can_end_step() and any(other.state in OPEN_STATES for other in beside)
 
     def correction(self, calls: Sequence[ActionCall]) -> list[ActionCall]:
         """What will really be put in the failed step's place: `calls` with the values they can be given."""

@@ -78,6 +78,11 @@ class Approvals:
         """What waits of a robot, oldest first."""
         return [proposal for proposal in self._waiting.values() if proposal.target == target]
 
+    @property
+    def waiting(self) -> tuple[PlanProposal, ...]:
+        """What waits of all robots, oldest first."""
+        return tuple(self._waiting.values())
+
     def drop(self, identity: str) -> None:
         """Forget a proposal."""
         self._waiting.pop(identity, None)
@@ -117,6 +122,11 @@ class PlanBoard:
             self._free[plan.target] = free
             self._free_since[plan.target] = update.revision
         return update
+
+    @property
+    def shown(self) -> tuple[PlanUpdate, ...]:
+        """What was last published of each plan."""
+        return tuple(self._shown.values())
 
     def is_past(self, target: str, revision: int | None) -> bool:
         """Whether the steps that have not begun are others than at `revision`; None is never past."""

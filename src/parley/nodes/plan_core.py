@@ -26,6 +26,7 @@ from parley.nodes.plan_steps import (
     OPEN_STATES,
     RunState,
     Step,
+    StepState,
     failure_message,
     fill_inputs,
     stages,
@@ -39,6 +40,12 @@ KEEP_DONE: Final = 20
 """Finished steps that stay in the graph; older ones are dropped so that graphs do not grow for ever (P11)."""
 
 GOING: Final = ("starting", "continuing", "running", "paused")
+
+
+def _shown(step: Step, asking: bool) -> StepState:
+    if step.ended_by_others:
+        return "stopped"
+    return "waiting" if asking else step.state
 
 
 class PlanCore:
@@ -115,7 +122,7 @@ class PlanCore:
             state = "paused" if still else "running"
         asking = self._asking() if self.asked and not self.held else None
         shown = [
-            PlanStep(action=call, node=step.node, state="waiting" if step is asking else step.state)
+            PlanStep(action=call, node=step.node, state=_shown(step, step is asking))
             for step, call in zip(self.steps, listed(self.steps), strict=True)
         ]
         return PlanUpdate(target=self.target, graph_name=self.graph_name, state=state, steps=tuple(shown))
@@ -256,6 +263,8 @@ class PlanCore:
             return [EndStep(self.graph_name, step.node)]
         step.state = "skipped"
         self._tidy()
+        if not self.graph_name:
+            return []  # all of it is being stopped already
         self._stopping, self.graph_name, self.run = self.graph_name, "", "stopping"
         return [StopGraph(self._stopping)]
 

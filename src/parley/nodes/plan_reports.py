@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Collection
+from collections.abc import Collection, Mapping, Sequence
 from typing import Any, Final
 
 from parley.errors import FailureCode
@@ -17,13 +17,19 @@ from parley.nodes.plan_steps import (
     OPEN_STATES,
     Step,
     previous,
+    stages,
     verdict,
 )
-from parley.umrf.model import Graph, GraphState, Node, NodeState
+from parley.umrf.model import Graph, GraphState, Node, NodeState, Response, Result
 
 __all__ = ["ReportedPlan"]
 
 _BUSY: Final = ACTIVE_NODES | {NodeState.STOPPING}
+
+
+def _state(nodes: Mapping[str, Node], step: Step) -> NodeState | None:
+    node = nodes.get(step.node)
+    return node.state if node is not None else None
 
 
 class ReportedPlan(PlanCore):
@@ -40,9 +46,16 @@ class ReportedPlan(PlanCore):
         effects: list[Effect] = []
         by_name = {node.full_name: node for node in graph.nodes}
         answered = False
-        for step in list(self.steps):
-            node = by_name.get(step.node)
-            if node is not None:
+        found = [
+            (step, by_name[step.node])
+            for group in stages(self.steps)
+            # What failed comes first, as it decides whether the end of what ran beside it counts.
+            for step in sorted(group, key=lambda s: _state(by_name, s) is not NodeState.ERROR)
+            if step.node in by_name
+        ]
+        self._note_dropped(graph, found)
+        for step, node in found:
+            if step.node == node.full_name:
                 was = step.result
                 effects += self._on_node(step, node)
                 answered |= node.state is NodeState.ERROR and was is None and step.result is False
@@ -70,6 +83,8 @@ class ReportedPlan(PlanCore):
             if step.upset and step.state == "finished":
                 step.again()
                 return self._continue() if self._may_continue() else []
+        if self.run == "halted":
+            self._note_ended_by_others()
         self._decide()
         return self._continue() if self._awaiting and self._may_continue() else []
 
@@ -162,8 +177,8 @@ class ReportedPlan(PlanCore):
                 self._nudged.discard(step.node)
             case NodeState.FINISHED:
                 self._nudged.discard(step.node)
-                if step.upset and step.stopped and not step.ending:
-                    step.again()
+                if step.upset and not step.ending and (step.stopped or not self._can_end_step()):
+                    step.again()  # an engine that does not say that it was stopped may have stopped it
                 else:
                     step.state = "skipped" if step.ending else "finished"
             case NodeState.ERROR if step.ending:
@@ -241,6 +256,7 @@ class ReportedPlan(PlanCore):
     def _on_halted(self) -> list[Effect]:
         if not self.held and not self._nudged and not self._can_end_step():
             self._infer()
+        self._note_ended_by_others()
         self._decide()
         waiting = [step for step in self.steps if step.state in OPEN_STATES]
         if waiting and not self.held and self._is_asked(waiting):
@@ -279,12 +295,18 @@ class ReportedPlan(PlanCore):
         text = "My plan was interrupted. It is kept; say “carry on” when I should go on with it."
         return [Say(text, "error")] if self.pending and not self.held else []
 
+    def _note_ended_by_others(self) -> None:
+        """Steps that somebody else ended are as those that were left out: nothing came of them."""
+        for step in self.steps:
+            if step.ended_by_others:
+                step.state = "stopped"
+
     def _on_ended_by_others(self, state: GraphState) -> list[Effect]:
         """The graph ended although nobody asked here: what is left will not run."""
         left = [
             step
             for step in self.steps
-            if step.state in OPEN_STATES or (step.state == "finished" and step.stopped)
+            if step.state in OPEN_STATES or (step.state in ("finished", "stopped") and step.stopped)
         ]
         for step in left:
             step.state = "stopped"
@@ -294,13 +316,35 @@ class ReportedPlan(PlanCore):
         undone = "; ".join(step.call.reason for step in left if step.call.reason)
         return [Say(f"The plan was stopped. Not done: {undone}." if undone else "The plan was stopped.")]
 
+    def _note_dropped(self, graph: Graph, found: Sequence[tuple[Step, Node]]) -> None:
+        """A step that was dropped when it had begun already may fail yet, and stop what ran beside it."""
+        known = {step.node for step, _ in found}
+        failed = {
+            node.ref for node in graph.nodes if node.state is NodeState.ERROR and node.full_name not in known
+        }
+        for step, node in found:
+            stops = (
+                edge.node in failed and edge.response(Result.ON_ERROR) is Response.STOP
+                for edge in node.parents
+            )
+            if failed and any(stops):
+                step.upset = step.upset or (step.state in OPEN_STATES and step.result is None)
+
     def _on_stopping(self, graph: Graph) -> list[Effect]:
         if graph.state is GraphState.RUNNING:
+            self._note_done(graph)
             return [StopGraph(self._stopping)]  # the stop may have overtaken the start
         if graph.state not in (GraphState.STOPPED, GraphState.ERROR, GraphState.FINISHED):
             return []
         self._stopping, self.run = "", "none"
         return self._push()
+
+    def _note_done(self, graph: Graph) -> None:
+        """What has come to its end before the stop reached the engine need not be done again."""
+        done = {node.full_name for node in graph.nodes if node.state is NodeState.FINISHED}
+        for step in self.steps:
+            if step.state in OPEN_STATES and step.node in done:
+                step.state = "finished"
 
     def _abandon_start(self) -> None:
         self.graph_name, self.run = "", "none"

@@ -75,6 +75,11 @@ class Step:
         """Full name of its node, empty before it has one."""
         return f"{self.call.name}_{self.instance_id}" if self.instance_id >= 0 else ""
 
+    @property
+    def ended_by_others(self) -> bool:
+        """Whether it was stopped before its end, not by the operator nor for a failure beside it."""
+        return self.state == "finished" and self.stopped and not self.upset
+
     def again(self) -> None:
         """Put it back among those that have not begun."""
         self.instance_id, self.state, self.result = -1, "queued", None

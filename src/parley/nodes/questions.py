@@ -3,10 +3,36 @@
 from __future__ import annotations
 
 import re
+from collections import OrderedDict
+from typing import Final
 
 from parley.messages.chat import ChatFeedback, ChatInput
 
-__all__ = ["OpenQuestions"]
+__all__ = ["OpenQuestions", "SeenIds"]
+
+_KEPT: Final = 500
+
+
+class SeenIds:
+    """The last ids of messages, to recognise one that is sent twice, e.g. after a reconnect."""
+
+    def __init__(self, kept: int = _KEPT) -> None:
+        self._kept = kept
+        self._ids: OrderedDict[str, None] = OrderedDict()
+
+    def __contains__(self, message_id: str) -> bool:
+        return message_id in self._ids
+
+    def is_new(self, message_id: str) -> bool:
+        """Take over an id; whether it was not there yet. A message without an id is always new."""
+        if not message_id:
+            return True
+        if message_id in self._ids:
+            return False
+        self._ids[message_id] = None
+        if len(self._ids) > self._kept:
+            self._ids.popitem(last=False)
+        return True
 
 
 class OpenQuestions:
@@ -15,6 +41,7 @@ class OpenQuestions:
     def __init__(self) -> None:
         self._open: dict[str, list[ChatFeedback]] = {}
         self._names: dict[str, str] = {}
+        self._settled = SeenIds()
 
     def on_feedback(self, feedback: ChatFeedback) -> None:
         """Take over what robots say."""
@@ -22,6 +49,7 @@ class OpenQuestions:
             self._names[_key(target)] = target
             waiting = self._open.setdefault(_key(target), [])
             if feedback.closes:
+                self._settled.is_new(feedback.closes)
                 waiting[:] = [question for question in waiting if question.id != feedback.closes]
             if feedback.type == "request":
                 waiting.append(feedback)
@@ -30,6 +58,13 @@ class OpenQuestions:
         """Take over what the operator answers; what it answers is settled."""
         for robot, question in self.answered(said):
             self._open[_key(robot)].remove(question)
+            self._settled.is_new(question.id)
+
+    def is_late(self, said: ChatInput) -> bool:
+        """Whether `said` answers a question that is settled, by somebody else or otherwise."""
+        if said.type != "response" or said.reply_to not in self._settled:
+            return False
+        return all(question.id != said.reply_to for waiting in self._open.values() for question in waiting)
 
     def answered(self, said: ChatInput) -> list[tuple[str, ChatFeedback]]:
         """Robots with the question of theirs that `said` answers.

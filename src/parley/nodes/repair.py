@@ -16,10 +16,23 @@ from parley.messages.status import ActorStatus, PlanUpdate
 from parley.world.geometry import Pose2D
 from parley.world.object_map import MapObject
 
-__all__ = ["MAX_ALONE", "Ending", "Repair", "ending_of", "failed_situation", "memory_query", "steps_left"]
+__all__ = [
+    "MAX_ALONE",
+    "Ending",
+    "Repair",
+    "ending_of",
+    "failed_situation",
+    "left_over_text",
+    "memory_query",
+    "steps_left",
+]
 
 MAX_ALONE: Final = 3
 """Corrections of one step that are tried without asking; then the operator is asked."""
+
+MAX_NOTED: Final = 100
+"""Attempts in a record; somebody may talk for hours with a robot that waits."""
+_MAX_TURNS: Final = 100
 
 Ending = Literal["open", "solved", "skipped", "cancelled", "replaced", "held"]
 
@@ -104,11 +117,22 @@ class Repair:
         same = update.graph_name == self.incident.graph_name
         return "solved" if same and states.count("finished") >= wanted else "open"
 
+    def note_turn(self, turn: Turn) -> None:
+        """Take over what was said; very old turns are forgotten."""
+        self.dialogue.append(turn)
+        del self.dialogue[:-_MAX_TURNS]
+
+    def note_correction(self, correction: Sequence[ActionCall]) -> None:
+        """Take over what is carried out now in place of the step (nothing: the step as it was)."""
+        self.tried.append(tuple(correction) or (self.failure.action_called,))
+        del self.tried[:-_MAX_TURNS]
+
     # -- the record ------------------------------------------------------------------------------------
 
     def note_asked(self, question: str, unix_ms: int) -> None:
         """Write down that the operator was asked."""
         self._note(IncidentAttempt(kind="asked", asked=question, unix_ms=unix_ms))
+        self.incident = self.incident.model_copy(update={"questions": self.incident.questions + 1})
 
     def note_answered(self, reply: str) -> None:
         """Write down what the operator said."""
@@ -127,7 +151,9 @@ class Repair:
         self.incident = self.incident.model_copy(update=changes)
 
     def _note(self, attempt: IncidentAttempt) -> None:
-        self.incident = self.incident.model_copy(update={"attempts": (*self.incident.attempts, attempt)})
+        first, later = self.incident.attempts[:1], self.incident.attempts[1:]
+        attempts = (*first, *later[2 - MAX_NOTED :], attempt)
+        self.incident = self.incident.model_copy(update={"attempts": attempts})
 
     def _renew(self, **changes: str) -> None:
         if not self.incident.attempts:
@@ -168,6 +194,14 @@ def failed_situation(
         robot=failure.target,
         robot_pose=Pose2D(pose.x, pose.y, pose.yaw) if pose is not None else None,
         catalogue=status.catalogue if status is not None else (),
+    )
+
+
+def left_over_text(incident: Incident) -> str:
+    """About a failure that was not settled when the program ended, for the operator."""
+    return (
+        f"I was started anew before this was settled: {incident.message} "
+        "Please give the order again if it still holds."
     )
 
 

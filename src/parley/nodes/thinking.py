@@ -5,8 +5,12 @@ from __future__ import annotations
 import asyncio
 from collections.abc import AsyncIterator, Callable
 from contextlib import asynccontextmanager
+from typing import Final
 
-__all__ = ["Thinking"]
+__all__ = ["PATIENCE_S", "Thinking"]
+
+PATIENCE_S: Final = 5.0
+"""Wall time after which the operator is told that understanding takes long."""
 
 
 class Thinking:

@@ -80,6 +80,8 @@ class UmrfPlanner(PlanSender):
         self._presence = Presence(clock, tuple(known_robots), self._on_presence)
         self._plans: dict[str, TargetPlan] = {}
         self._approvals, self._board = Approvals(approval, policies), PlanBoard()
+        self._listeners = 0
+        """How many listen to the plans."""
         self._questions = OpenQuestions()
         self._left = LeftGraphs()
         self._answered: set[str] = set()
@@ -96,6 +98,7 @@ class UmrfPlanner(PlanSender):
         await self.subscribe_raw(topics.GRAPH_FEEDBACK, self._on_feedback, depth=100)
         await self.subscribe(topics.CHAT_FEEDBACK, ChatFeedback, self._on_said)
         await self.subscribe(topics.CHAT_INPUT, ChatInput, self._on_input)
+        self.opened.callback(self.transport.on_endpoints_changed(self._on_ends))
         self.spawn(self._watch_presence(), name="presence")
 
     def restore(self, target: str, steps: Sequence[Step]) -> None:
@@ -425,6 +428,18 @@ class UmrfPlanner(PlanSender):
         return self._presence.get(target) is not None
 
     # -- sending ---------------------------------------------------------------------------------------
+
+    def _on_ends(self) -> None:
+        """Tell all plans again when somebody new listens; saying the same twice does no harm."""
+        name = topics.PLAN.name
+        ends = self.transport.endpoints()
+        before, self._listeners = (
+            self._listeners,
+            sum(e.role == "subscription" and e.name == name for e in ends),
+        )
+        if self._listeners > before:
+            for told in (*self._board.shown, *self._approvals.waiting):
+                self.publish(topics.PLAN, told)
 
     def _plan(self, target: str) -> TargetPlan:
         plan = self._plans.get(target)

@@ -76,15 +76,16 @@ class TerminalClient:
             "robot": self._robot,
         }
 
-    async def run(self, greeting: Sequence[str] = ()) -> None:
+    async def run(self, greeting: Sequence[str] = (), engine: str = "") -> None:
         """Talk until the operator leaves.
 
         Args:
             greeting: Sentences the operator may want to try.
+            engine: What understands them (`Language.label`); empty: not known here.
         """
         async with contextlib.AsyncExitStack() as stack:
             await stack.enter_async_context(self._console)
-            self._greet(greeting)
+            self._greet(greeting, engine)
             await stack.enter_async_context(self._link)
             ticker = asyncio.create_task(self._tick(), name="terminal-tick")
             stack.push_async_callback(_cancel, ticker)
@@ -298,8 +299,10 @@ class TerminalClient:
     def _note(self, key: str, **values: object) -> None:
         self._console.show([Line("note", self._texts(key, **values))])
 
-    def _greet(self, examples: Sequence[str]) -> None:
+    def _greet(self, examples: Sequence[str], engine: str) -> None:
         self._note("welcome")
+        if engine:
+            self._note("understands", name=engine)
         if examples:
             self._note("try")
             self._console.show([Line("step", f"“{example}”") for example in examples])

@@ -12,7 +12,7 @@ from pydantic import BaseModel
 from parley.clock import Clock
 from parley.errors import InvalidMessageError
 from parley.messages import topics
-from parley.messages.chat import ChatFeedback, ChatInput
+from parley.messages.chat import ChatFeedback, ChatInput, ReplyDraft
 from parley.messages.memory import RETURN_ALL, GetMemory, MemoryEntry, MemoryReply
 from parley.messages.ros import ChatRequest, String
 from parley.messages.status import (
@@ -69,6 +69,7 @@ class Link:
             self._publishers[kind] = publisher
         view = self._view
         await self._listen(topics.CHAT_FEEDBACK, _reader(ChatFeedback), view.on_feedback)
+        await self._listen(topics.REPLY_DRAFT, _reader(ReplyDraft), view.on_draft)
         await self._listen(topics.PLAN, _read_plan, view.on_plan)
         await self._listen(topics.GRAPH_EVENTS, _reader(GraphEvent), view.on_event)
         await self._listen(topics.ACTOR_STATUS, _reader(ActorStatus), self._on_status)

@@ -8,7 +8,7 @@ from __future__ import annotations
 from collections.abc import Sequence
 from dataclasses import dataclass, field
 
-from parley.messages.chat import ChatFeedback
+from parley.messages.chat import ChatFeedback, ReplyDraft
 from parley.messages.status import (
     ActorStatus,
     GraphEvent,
@@ -25,6 +25,8 @@ from parley.terminal.texts import Texts
 __all__ = ["LOST_AFTER_S", "OperatorView", "Question", "RobotView"]
 
 _KINDS: dict[str, LineKind] = {"response": "said", "info": "said", "request": "asked", "error": "problem"}
+
+_DRAFT_CHARS = 70
 
 LOST_AFTER_S = 5.0
 """Wall time without a heartbeat after which a robot counts as out of contact."""
@@ -56,6 +58,8 @@ class RobotView:
     progress: Progress | None = None
     pending: list[Question | PlanProposal] = field(default_factory=list)
     """Questions and proposals that await the operator, oldest first."""
+    draft: str = ""
+    """The reply that it is writing, as far as it is."""
     offered: tuple[str, ...] = ()
     """Choices of the robot's last word, where it was no question."""
 
@@ -137,6 +141,12 @@ class OperatorView:
                 footnote=footnote,
             )
         ]
+
+    def on_draft(self, draft: ReplyDraft) -> list[Line]:
+        """A robot's reply grows; it stands in the live view until the whole of it comes."""
+        for name in draft.targets:
+            self._robot(name).draft = draft.message
+        return []
 
     def on_plan(self, message: PlanUpdate | PlanProposal) -> list[Line]:
         """A plan is proposed or has changed."""
@@ -227,6 +237,8 @@ class OperatorView:
         rows: list[Fragments] = []
         if current is not None:
             rows.append([("class:robot", f" {self._mood(current)}")])
+        if current is not None and current.draft:
+            rows.append([("class:dim", f" … {_end_of(current.draft)}")])
         if others:
             rows.append([("class:dim", f" {' · '.join(self._mood(robot) for robot in others)}")])
         if current is not None and current.plan is not None and current.plan.state != "idle":
@@ -250,6 +262,8 @@ class OperatorView:
 
     def _propose(self, robot: RobotView, proposal: PlanProposal) -> list[Line]:
         """Show the steps that wait for a yes; the robot says the words that go with them itself."""
+        if proposal in robot.pending:
+            return []  # told again for somebody who came later
         self.replies += 1
         robot.pending = [item for item in robot.pending if not isinstance(item, PlanProposal)]
         robot.pending.append(proposal)
@@ -278,9 +292,17 @@ class OperatorView:
         return lines
 
 
+def _end_of(text: str) -> str:
+    """What was written last, on one row."""
+    flat = " ".join(text.split())
+    return flat if len(flat) <= _DRAFT_CHARS else f"…{flat[-_DRAFT_CHARS:]}"
+
+
 def _hear(robot: RobotView, feedback: ChatFeedback) -> None:
     """Keep what a robot's words ask for; a question without an id lasts until the robot's next words."""
     settled = {feedback.closes} if feedback.closes else set()
+    if feedback.type in ("response", "error"):
+        robot.draft = ""
     if feedback.type in ("request", "response"):
         settled.add("")
     robot.pending = [

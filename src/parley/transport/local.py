@@ -72,7 +72,7 @@ class _LocalSubscription(Generic[M]):
     async def _handle(self, message: M) -> None:
         try:
             answer = self._handler(message)
-            if inspect.isawaitable(answer):
+            if answer is not None and inspect.isawaitable(answer):
                 await answer
         except asyncio.CancelledError:
             if _being_cancelled():

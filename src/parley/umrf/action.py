@@ -12,8 +12,8 @@ dataclass becomes a name level (``pose: Pose`` with ``position: Position`` gives
 argument with a default is not required. Outputs are the fields of the returned dataclass, flattened likewise;
 returning None or True means `on_true` without outputs, returning False means `on_false` (an action that may
 do either is annotated ``-> Found | bool``). To end with
-`on_false` *and* outputs, or otherwise spelt parameters, see `Outcome` and `action(inputs=.., outputs=..)`:
-an argument then stands for a flat name with ``__`` for ``::``.
+`on_false` *and* outputs return an `Outcome` (``-> Found | Outcome``). For otherwise spelt parameters see
+`action(inputs=.., outputs=..)`: an argument then stands for a flat name with ``__`` for ``::``.
 
 The action's name is the function's name in camel case (``get_coordinates`` -> ``GetCoordinates``).
 Plain (not async) functions run in a thread. Failing is raising `parley.errors.ActionFailure`.
@@ -82,6 +82,11 @@ class RunHandle(Protocol):
     @property
     def stop_requested(self) -> bool:
         """Plain (threaded) actions look at it; async ones are cancelled."""
+        ...
+
+    @property
+    def result_asked(self) -> bool:
+        """Whether an edge tells false from true: then not finding something is an answer, not a failure."""
         ...
 
 
@@ -230,7 +235,7 @@ def _derive_inputs(hints: Mapping[str, Any], signature: inspect.Signature) -> di
 
 
 def _derive_outputs(returned: Any) -> dict[str, Parameter]:
-    kind = strip_optional(returned, bool)
+    kind = strip_optional(strip_optional(returned, bool), Outcome)
     if kind in (None, type(None), bool, Outcome, Any):
         return {}
     if not is_record(kind):

@@ -22,7 +22,7 @@ from parley.umrf.action import RunHandle
 from parley.umrf.admission import check_entry, check_removed, values_to_continue
 from parley.umrf.catalogue import Catalogue
 from parley.umrf.flow import Effect, Flow, FlowNode
-from parley.umrf.model import Graph, GraphState, NodeState, Result
+from parley.umrf.model import ENDED, Graph, GraphState, NodeState, Result
 from parley.umrf.node_run import Ended, NodeRun
 from parley.umrf.other_runs import InnerRuns, RemoteRun, run_of
 from parley.umrf.remote import Peers, RemoteEnd
@@ -42,8 +42,6 @@ STOP_TIMEOUT_S: Final = 5.0
 _MARGIN_S: Final = 0.1
 """Closing waits so much longer than a stop, so that the time-out is told first."""
 
-_ENDED: Final = frozenset({GraphState.FINISHED, GraphState.STOPPED, GraphState.ERROR})
-_RESTING: Final = _ENDED | {GraphState.HALTED}
 _MOVING: Final = (NodeState.RUNNING, NodeState.PAUSE_REQUESTED)
 _STILL: Final = (NodeState.PAUSED, NodeState.PAUSE_REQUESTED)
 
@@ -146,7 +144,7 @@ class GraphRun:
         Raises:
             GraphRefusedError: The graph has ended, or `continue_from` is unknown or lacks inputs.
         """
-        over = self.state in _ENDED and (continue_from or not self._active())
+        over = self.state in ENDED and (continue_from or not self._active())
         if over or self.state is GraphState.STOPPING:
             raise self._refusal("graph_ended", f"{self.name} is {self.state}", "start it anew")
         past = values_to_continue(self.name, self._flow, continue_from, self._runs)
@@ -199,10 +197,7 @@ class GraphRun:
         """What `restore` needs besides the graph: the frame, and the nodes (that changed since last time)."""
         changed = (item for item in self._flow.nodes.values() if everything or item.unsaved)
         nodes = [(item.name, save_node(item)) for item in changed]
-        frame = save_frame(self.state, self.result, self._flow, self._later, self._rounds)
-        frame["restart"] = [name for name, run in self._runs.items() if run.restart_wanted]
-        frame["inner"] = [run.inner_name for run in self._runs.values() if run.inner_name]
-        return frame, nodes
+        return save_frame(self.state, self.result, self._flow, self._later, self._rounds, self._runs), nodes
 
     def restore(self, saved: SavedRun) -> None:
         """Instead of `start`: stand where another process was interrupted, until `resume` (or `stop`).
@@ -221,7 +216,7 @@ class GraphRun:
 
     def modified(self, graph: Graph, continue_from: str = "") -> tuple[Graph, Flow, Mapping[str, Any]]:
         """What `modify` would make of it, without doing so; raises as that does."""
-        if self.state in _ENDED or self.state is GraphState.STOPPING:
+        if self.state in ENDED or self.state is GraphState.STOPPING:
             text = f"{self.name} is {self.state} and cannot be changed"
             raise self._refusal("graph_ended", text, "start a new graph")
         resolved = self._resolve(replace(graph, name=self.name))
@@ -259,8 +254,7 @@ class GraphRun:
 
     def snapshot(self) -> Graph:
         """The graph as it is now, with states, logs and the data that is there (4.3)."""
-        nodes = [item.snapshot() for item in self._flow.nodes.values()]
-        return replace(self._graph, nodes=tuple(nodes), state=self.state)
+        return replace(self._graph, nodes=self._flow.snapshot(), state=self.state)
 
     def outputs(self, node: str) -> Mapping[str, Any]:
         """What the node of that full name gave in its last run, by flat name."""
@@ -291,6 +285,7 @@ class GraphRun:
             graph_name=self.name,
             clock=self._clock,
             on_progress=lambda fraction, text: self._announce.progress(item.node, fraction, text),
+            asked=lambda: self._flow.asks(item.name),
         )
         run.begin(self._make_context, self._run_ended)
 
@@ -490,7 +485,7 @@ class GraphRun:
         self, state: GraphState, cause: str, result: Result | None = None, message: str = ""
     ) -> None:
         self.state, self.result = state, result
-        if state in _RESTING:
+        if state in ENDED or state is GraphState.HALTED:
             self._rested.set()
         else:
             self._rested.clear()

@@ -53,6 +53,8 @@ class Effect:
 class Runner:
     """What runs one node: made before its first run and kept, so that class actions remember."""
 
+    __slots__ = ("_made", "_spec")
+
     def __init__(self, spec: ActionSpec) -> None:
         self._spec = spec
         self._made: Callable[..., Any] | None = None
@@ -100,16 +102,20 @@ class FlowNode:
     """What runs it, the same object for all runs."""
     unsaved: bool = True
     """Whether something changed since it was last saved; whoever saves it takes the mark away."""
+    stale: set[str] = field(default_factory=set, kw_only=True, repr=False)
+    """Of its flow: full names of nodes that changed since they were last shown."""
     name: str = field(init=False)
     """The full name."""
     _shown: Node | None = field(default=None, init=False, repr=False)
 
     def __post_init__(self) -> None:
         self.name = self.node.full_name
+        self.stale.add(self.name)
 
     def touch(self) -> None:
         """Something about the node is different now; to be called after each change."""
         self._shown, self.unsaved = None, True
+        self.stale.add(self.name)  # last, as a log line may come from a thread
 
     @property
     def spontaneous(self) -> bool:
@@ -137,9 +143,20 @@ class FlowNode:
     def snapshot(self) -> Node:
         """The node as it is now, with the data that is there (4.3); the same object until it changes."""
         if self._shown is None:
-            inputs = _valued(self.node.input_parameters, self.values)
-            self._shown = replace(
-                self.node, state=self.state, input_parameters=inputs, messages=tuple(self.log)
+            node = self.node
+            self._shown = Node(  # done for each change of each node, and `replace` takes three times as long
+                name=node.name,
+                instance_id=node.instance_id,
+                type=node.type,
+                actor=node.actor,
+                description=node.description,
+                state=self.state,
+                input_parameters=_valued(node.input_parameters, self.values),
+                output_parameters=node.output_parameters,
+                parents=node.parents,
+                children=node.children,
+                gui_attributes=node.gui_attributes,
+                messages=tuple(self.log),
             )
         return self._shown
 
@@ -189,10 +206,14 @@ class Flow:
         self.started: bool = previous is not None and previous.started
         old = previous.nodes if previous is not None else {}
         self.nodes: dict[str, FlowNode] = {}
+        self._stale: set[str] = set()
+        self._shown: dict[str, Node] = {}
         for node in graph.nodes:
             kept = old.get(node.full_name)
             self.nodes[node.full_name] = (
-                _new(node, specs[node.full_name]) if kept is None else _carry(kept, node)
+                _new(node, specs[node.full_name], self._stale)
+                if kept is None
+                else _carry(kept, node, self._stale)
             )
         for relation in self.entry:
             item = self.nodes[relation.node.full_name]
@@ -278,6 +299,15 @@ class Flow:
                     effects += self._respond(child, response, refused)
         return effects
 
+    def snapshot(self) -> tuple[Node, ...]:
+        """All nodes as they are now; only those that changed are looked at."""
+        if not self._shown:
+            self._shown = {name: item.snapshot() for name, item in self.nodes.items()}
+        while self._stale:
+            name = self._stale.pop()
+            self._shown[name] = self.nodes[name].snapshot()
+        return tuple(self._shown.values())
+
     def reachable(self, name: str) -> list[FlowNode]:
         """All nodes to which edges lead from node `name`, itself left out; cycles are no obstacle."""
         found = {name: self.nodes[name]}
@@ -290,6 +320,16 @@ class Flow:
                     waiting.append(child)
         del found[name]
         return list(found.values())
+
+    def asks(self, name: str) -> bool:
+        """Whether something else follows when node `name` ends false than when it ends true."""
+        item = self.nodes.get(name)
+        for relation in item.children if item is not None else ():
+            child = self.nodes.get(relation.node.full_name)
+            edge = child.parents.get(name) if child is not None else self.exit.get(name)
+            if edge is not None and edge.response(Result.ON_TRUE) is not edge.response(Result.ON_FALSE):
+                return True
+        return False
 
     def waiting_for(self) -> str:
         """Why nodes that were reached do not run, in words; empty if there are none."""
@@ -358,7 +398,7 @@ class Flow:
         return all(name in self.exit_received for name, edge in self.exit.items() if edge.required)
 
 
-def _new(node: Node, spec: ActionSpec) -> FlowNode:
+def _new(node: Node, spec: ActionSpec, stale: set[str]) -> FlowNode:
     values = {name: item.value for name, item in node.input_parameters.items() if item.has_data}
     return FlowNode(
         node=node,
@@ -367,6 +407,7 @@ def _new(node: Node, spec: ActionSpec) -> FlowNode:
         children=node.children,
         values=values,
         runner=Runner(spec),
+        stale=stale,
     )
 
 
@@ -374,7 +415,7 @@ def _parents(node: Node) -> dict[str, ParentRelation]:
     return {relation.node.full_name: relation for relation in node.parents}
 
 
-def _carry(kept: FlowNode, node: Node) -> FlowNode:
+def _carry(kept: FlowNode, node: Node, stale: set[str]) -> FlowNode:
     """Step 4 of 11.5: relations are replaced, values that are given overwrite; nothing else changes."""
     parents, entered = _parents(node), {ENTRY.full_name} & kept.received
     carried = replace(
@@ -385,6 +426,7 @@ def _carry(kept: FlowNode, node: Node) -> FlowNode:
         values=dict(kept.values),
         transferred=set(kept.transferred),
         received=kept.received & parents.keys() | entered,
+        stale=stale,
     )
     for name, given in node.input_parameters.items():
         own = kept.node.input_parameters.get(name)

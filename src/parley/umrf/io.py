@@ -9,8 +9,9 @@ from __future__ import annotations
 
 import json
 from collections.abc import Generator, Mapping
-from dataclasses import replace
+from dataclasses import fields, replace
 from json.encoder import encode_basestring
+from operator import attrgetter
 from typing import Any, Final
 
 from parley.errors import GraphRefusedError
@@ -144,14 +145,17 @@ class GraphWriter:
 
     def prepare(self, graph: Graph, most: int) -> bool:
         """Write at most so many nodes that have changed; whether that was all, so that `write` is quick."""
-        texts, left, before = self._texts, most, self._nodes
-        same = len(before) == len(graph.nodes)
-        for index, node in enumerate(graph.nodes):
-            if same and before[index] is node:
-                continue
+        if graph.nodes is self._nodes:
+            return True
+        texts, left, nodes = self._texts, most, graph.nodes
+        if len(self._nodes) == len(nodes):
+            nodes = tuple(node for node, old in zip(nodes, self._nodes, strict=True) if node is not old)
+        for node in nodes:
             name = node.full_name
             known = texts.get(name)
-            if known is not None and known[0] is node:
+            if known is None:
+                self._order = []
+            elif known[0] is node:
                 continue
             if left == 0:
                 return False
@@ -171,7 +175,8 @@ class GraphWriter:
         if len(self._texts) != len(graph.nodes):  # some were taken out
             names = {node.full_name for node in graph.nodes}
             self._texts = {name: item for name, item in self._texts.items() if name in names}
-        if len(self._order) != len(self._texts) or any(name not in self._texts for name in self._order):
+            self._order = []
+        if not self._order:
             self._order = sorted(self._texts)
         actions = ",\n".join([self._texts[name][1] for name in self._order])
         return self._frame.replace('"actions": []', f'"actions": [\n{actions}\n    ]', 1)
@@ -181,10 +186,12 @@ def _node_text(node: Node, known: tuple[Node, str] | None) -> str:
     """The text of a node inside a graph, made from the last one if only its state is another."""
     if known is not None:
         old, text = known
-        if replace(old, state=node.state) == node:
+        if _BUT_STATE(old) == _BUT_STATE(node):
             return text.replace(_state_line(old), _state_line(node), 1)
     return _lay_out_node(node)
 
+
+_BUT_STATE: Final = attrgetter(*(item.name for item in fields(Node) if item.name != "state"))
 
 _LINE: Final = "\n            "
 """What begins a line of a node's own keys in a published graph."""

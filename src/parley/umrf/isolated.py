@@ -61,6 +61,7 @@ class _Order:
     actor: str
     graph_name: str
     node: str
+    result_asked: bool
 
 
 def isolated(spec: ActionSpec) -> Callable[..., Any]:
@@ -102,6 +103,7 @@ def _order(spec: ActionSpec, handle: RunHandle, arguments: Mapping[str, Any]) ->
         actor=handle.actor,
         graph_name=handle.graph_name,
         node=handle.node,
+        result_asked=handle.result_asked,
     )
 
 
@@ -205,6 +207,8 @@ class IsolatedContext:
 
     def __init__(self, order: _Order, connection: Connection) -> None:
         self.actor, self.graph_name, self.node = order.actor, order.graph_name, order.node
+        self.result_asked = order.result_asked
+        """See `RunHandle.result_asked`; as it was when the run began."""
         self.clock: Clock = WallClock()
         self.run: RunHandle = self
         """Itself, so that ``ctx.run.log`` works here as in other actions."""

@@ -8,12 +8,13 @@ from __future__ import annotations
 from collections.abc import Mapping
 from dataclasses import dataclass, field
 from enum import StrEnum
-from typing import Any
+from typing import Any, Final, NamedTuple
 
 from parley.messages.pvf import Parameter
 
 __all__ = [
     "DEFAULT_CONDITIONS",
+    "ENDED",
     "ENTRY",
     "EXIT",
     "ChildRelation",
@@ -58,6 +59,10 @@ class GraphState(StrEnum):
     CLEARING = "CLEARING"
 
 
+ENDED: Final = frozenset({GraphState.FINISHED, GraphState.STOPPED, GraphState.ERROR})
+"""States of a graph that cannot be gone on with."""
+
+
 class Result(StrEnum):
     """How a node ended (5.3), and how a whole graph did (8.3)."""
 
@@ -89,9 +94,8 @@ DEFAULT_CONDITIONS: Mapping[Result, Response] = {
 """Responses where a relation does not say (5.3)."""
 
 
-@dataclass(frozen=True, slots=True, order=True)
-class NodeRef:
-    """Names a node inside its graph."""
+class NodeRef(NamedTuple):
+    """Names a node inside its graph; a tuple, as checking a graph compares hardly anything else."""
 
     name: str
     instance_id: int = 0

@@ -51,6 +51,7 @@ class NodeRun:
         graph_name: The graph it is part of.
         clock: Robot time for the action; progress is spaced by wall time.
         on_progress: Gets fraction and text, on the loop, at most every 100 ms.
+        asked: Whether what follows depends on whether it ends true or false, as the graph is now.
     """
 
     def __init__(
@@ -61,11 +62,12 @@ class NodeRun:
         graph_name: str,
         clock: Clock,
         on_progress: Callable[[float | None, str], None],
+        asked: Callable[[], bool],
     ) -> None:
         self.actor, self.graph_name, self.node, self.clock = actor, graph_name, item.name, clock
         self.restart_wanted = False
         self.last_log = ""
-        self._item, self._on_progress = item, on_progress
+        self._item, self._on_progress, self._asked = item, on_progress, asked
         self._values = dict(item.values)
         self._loop = asyncio.get_running_loop()
         self._thread = threading.get_ident()
@@ -223,3 +225,8 @@ class NodeRun:
     def stop_requested(self) -> bool:
         """See `RunHandle.stop_requested`."""
         return self._stopping
+
+    @property
+    def result_asked(self) -> bool:
+        """See `RunHandle.result_asked`."""
+        return self._asked()

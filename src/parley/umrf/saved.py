@@ -10,17 +10,16 @@ from __future__ import annotations
 
 from collections.abc import Iterable, Mapping
 from dataclasses import dataclass, field
-from typing import Any, Final
+from typing import Any
 
 from parley.errors import GraphRefusedError, Problem
 from parley.messages.pvf import Parameter, fits_type
 from parley.umrf.flow import Flow, FlowNode
-from parley.umrf.model import Graph, GraphState, LogMessage, NodeState, Result
+from parley.umrf.model import ENDED, Graph, GraphState, LogMessage, NodeState, Result
+from parley.umrf.node_run import NodeRun
 from parley.umrf.rounds import Rounds
 
 __all__ = ["Later", "SavedRun", "load", "save_frame", "save_node"]
-
-_ENDED: Final = frozenset({GraphState.FINISHED, GraphState.STOPPED, GraphState.ERROR})
 
 
 @dataclass(frozen=True, slots=True)
@@ -39,7 +38,7 @@ class SavedRun:
     def state(self) -> GraphState:
         """What it is in when it is restored: nothing goes on before somebody says so."""
         state = GraphState(self.frame["state"])
-        if state in _ENDED or state is GraphState.HALTED:
+        if state in ENDED or state is GraphState.HALTED:
             return state
         return GraphState.STOPPED if state is GraphState.STOPPING else GraphState.PAUSED
 
@@ -143,14 +142,21 @@ def _put(
 
 
 def save_frame(
-    state: GraphState, result: Result | None, flow: Flow, later: Later, rounds: Rounds
+    state: GraphState,
+    result: Result | None,
+    flow: Flow,
+    later: Later,
+    rounds: Rounds,
+    runs: Mapping[str, NodeRun],
 ) -> dict[str, Any]:
-    """The changing part of a run beside its nodes and what carries them out."""
+    """The changing part of a run beside its nodes."""
     return later.save() | {
         "state": state.value,
         "result": result.value if result is not None else "",
         "rounds": {name: result.value for name, result in rounds.pending.items()},
         "flow": _save_exit(flow),
+        "restart": [name for name, run in runs.items() if run.restart_wanted],
+        "inner": [run.inner_name for run in runs.values() if run.inner_name],
     }
 
 

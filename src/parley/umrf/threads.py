@@ -47,6 +47,7 @@ async def in_thread(name: str, function: Callable[..., T], /, *args: Any, **kwar
             error = caught
         if not loop.is_closed():
             loop.call_soon_threadsafe(settle, result, error)
+        result = error = None  # what was raised knows this frame: without this a circle
 
     threading.Thread(target=work, name=name, daemon=True).start()
     return await done

@@ -6,7 +6,7 @@ import io
 import ipaddress
 import socket
 
-__all__ = ["LOCAL_NAMES", "lan_addresses", "qr_svg", "qr_text"]
+__all__ = ["LOCAL_NAMES", "lan_addresses", "paired", "qr_svg", "qr_text"]
 
 LOCAL_NAMES = ("localhost", "127.0.0.1", "::1")
 
@@ -26,6 +26,11 @@ def lan_addresses() -> tuple[str, ...]:
         listed = []
     found += [str(item[4][0]) for item in listed]
     return tuple(dict.fromkeys(a for a in found if not ipaddress.ip_address(a).is_loopback))
+
+
+def paired(address: str, code: str) -> str:
+    """The address with the pairing code behind the #, so that it is sent to no server."""
+    return f"{address}#code={code}" if code else address
 
 
 def qr_svg(text: str) -> bytes:

@@ -2,8 +2,6 @@
 
 from __future__ import annotations
 
-import base64
-import binascii
 import uuid
 from collections.abc import Callable, Sequence
 from contextlib import AsyncExitStack
@@ -13,21 +11,22 @@ import structlog
 
 from parley import __version__
 from parley.clock import Clock, WallClock
-from parley.messages.chat import ChatImage
+from parley.messages.chat import ChatFeedback, ChatImage, ChatInput
 from parley.messages.map import MapView
 from parley.messages.status import PlanDecision
 from parley.transport.base import Transport
-from parley.web.bodies import ChatPost, ImageUpload
+from parley.web.bodies import ChatPost
 from parley.web.config import Module, WebConfig
 from parley.web.feed_state import Picture
-from parley.web.feeds import CAMERA_FEED, Feeds
+from parley.web.feeds import Feeds
 from parley.web.keeper import Keeper
 from parley.web.link import Link
 from parley.web.models import ChatEntry, Policy, RobotView, ServerInfo, Snapshot
+from parley.web.pictures import kept_picture
 from parley.web.problems import WebProblem
 from parley.web.sessions import Sessions
 from parley.web.state import WebState
-from parley.web.store import KeptPicture, WebStore
+from parley.web.store import WebStore
 
 __all__ = ["Backend"]
 
@@ -35,7 +34,8 @@ log = structlog.get_logger(__name__)
 
 RECENT: Final = 300
 """Entries that are read from the store at the start."""
-_SIGNATURES: Final = ((b"\xff\xd8\xff", "image/jpeg"), (b"\x89PNG\r\n\x1a\n", "image/png"))
+RESEND_WITHIN_MS: Final = 30_000
+"""A message that a killed server may not have sent is sent by the next one unless it is older than this."""
 
 
 class Backend:
@@ -44,7 +44,7 @@ class Backend:
     Args:
         transport: Opened by the caller.
         config: The settings.
-        secret: What one signs in with; empty: nobody has to.
+        pairs: Whether one has to sign in with a pairing code, where there is no password.
         clock: Wall time.
     """
 
@@ -54,11 +54,11 @@ class Backend:
     feeds: Feeds
 
     def __init__(
-        self, transport: Transport, config: WebConfig, *, secret: str = "", clock: Clock | None = None
+        self, transport: Transport, config: WebConfig, *, pairs: bool = False, clock: Clock | None = None
     ) -> None:
         self.transport, self.config = transport, config
         self.clock: Clock = clock or WallClock()
-        self.sessions = Sessions(self.clock, secret)
+        self.sessions = Sessions(self.clock, config.password if pairs else "", pairs=pairs)
         self.addresses: tuple[str, ...] = ()
         """Where the page can be opened; set by the server."""
         self.view_listeners: list[Callable[[MapView], None]] = []
@@ -83,6 +83,7 @@ class Backend:
         enter = self._stack.enter_async_context
         folder = self.config.data_dir
         self.store = await enter(await WebStore.open(folder / "web.db" if folder else ":memory:", self.clock))
+        await self.sessions.restore(self.store)
         entries, complete = await self.store.page(limit=RECENT)
         if self.config.fresh_robots:
             entries = await self._close_questions(entries)
@@ -106,6 +107,7 @@ class Backend:
                 on_joined=self._on_joined,
             )
         )
+        await self._settle_unsent()
         self.feeds = await enter(
             Feeds(self.transport, self.state.feeds, lambda: list(self.state.robots.views), self._on_picture)
         )
@@ -174,13 +176,11 @@ class Backend:
 
     async def _say(self, post: ChatPost, author: str) -> ChatEntry:
         known = await self.store.entry(post.id)
-        if known is not None and (known[1] or known[0].who == "robot"):
-            if known[0].message != post.text:
-                raise WebProblem(409, "Another message has this id.", "Send it under a new one.", path="id")
-            return known[0]
+        if known is not None:
+            return await self._say_again(post, known)
         self._check_reply(post)
         targets = tuple(dict.fromkeys(self.state.robots.resolve(name) or name for name in post.targets))
-        pictures = [_picture(f"{post.id}.{number}", image) for number, image in enumerate(post.images)]
+        pictures = [kept_picture(f"{post.id}.{number}", image) for number, image in enumerate(post.images)]
         composed = self.state.chat.compose(
             post.id,
             post.text,
@@ -191,16 +191,47 @@ class Backend:
             author=author,
             unix_ms=self.clock.unix_ms(),
         )
-        await self._keeper.keep(composed.entry, pictures)
+        await self.store.keep([composed.entry], pictures, composed.messages)
         self.state.chat.said(composed)
-        for message in composed.messages:
-            self.link.send(message)
-        await self.store.mark_sent(post.id)
+        await self._send(composed.entry, composed.messages)
         return composed.entry
+
+    async def _say_again(self, post: ChatPost, known: ChatEntry) -> ChatEntry:
+        """A message that was posted before: it goes out, as it was, only if it may not have gone yet."""
+        if known.message != post.text:
+            raise WebProblem(409, "Another message has this id.", "Send it under a new one.", path="id")
+        for entry, messages in await self.store.unsent(post.id):
+            await self._send(entry, messages)
+        return known
+
+    async def _send(self, entry: ChatEntry, messages: Sequence[ChatInput]) -> None:
+        """Hand a message to robots. After a kill in between it goes again, under ids that they know."""
+        for message in messages:
+            await self.link.say(message)
+        await self.store.mark_sent(entry.id)
+
+    async def _settle_unsent(self) -> None:
+        """What an earlier run left: sent now if it was said just now to robots that run on, else told of."""
+        now_ms = self.clock.unix_ms()
+        for entry, messages in await self.store.unsent():
+            if not self.config.fresh_robots and now_ms - entry.unix_ms <= RESEND_WITHIN_MS:
+                await self._send(entry, messages)
+                continue
+            said = f"“{entry.message}”" if entry.message else "your picture"
+            self.state.chat.on_feedback(
+                ChatFeedback(
+                    message=f"I was interrupted and may not have got {said}. Say it again if it still holds.",
+                    targets=entry.targets,
+                    type="error",
+                    reply_to=entry.id,
+                ),
+                unix_ms=now_ms,
+            )
+            await self.store.mark_sent(entry.id)
 
     def _check_reply(self, post: ChatPost) -> None:
         question = self.state.chat.entries.get(post.reply_to)
-        if question is None or question.question in ("", "open"):
+        if question is None or question.question in ("", "open") or question.answer_id == post.id:
             return
         raise WebProblem(
             409,
@@ -235,9 +266,6 @@ class Backend:
     # -- what comes in ---------------------------------------------------------------------------------
 
     def _on_joined(self, robot: str) -> None:
-        view = self.state.robots.views[robot]
-        if any(CAMERA_FEED in item.capabilities for item in view.catalogue):
-            self.state.feeds.announce(robot, CAMERA_FEED, continuous=True)
         policy = self._policies.get(robot)
         if policy is not None:
             decision = {"target": robot, "decision": "policy", "policy": policy}
@@ -250,24 +278,3 @@ class Backend:
     def _on_picture(self, key: tuple[str, str], picture: Picture) -> None:
         for listener in self.picture_listeners:
             listener(key, picture)
-
-
-def _picture(key: str, image: ImageUpload) -> KeptPicture:
-    data, media_type = read_image(image.data)
-    return KeptPicture(key, media_type, data)
-
-
-def read_image(text: str) -> tuple[bytes, str]:
-    """The bytes and the media type of a picture in base64.
-
-    Raises:
-        WebProblem: It is neither a JPEG nor a PNG.
-    """
-    try:
-        data = base64.b64decode(text.partition(",")[2] if text.startswith("data:") else text, validate=True)
-    except (binascii.Error, ValueError):
-        data = b""
-    found: Sequence[str] = [kind for start, kind in _SIGNATURES if data.startswith(start)]
-    if not found:
-        raise WebProblem(422, "The picture cannot be read.", "Use a JPEG or PNG picture.", path="images")
-    return data, found[0]

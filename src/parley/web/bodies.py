@@ -104,7 +104,7 @@ class ChatPost(WebModel):
 
     @model_validator(mode="after")
     def _says_something(self) -> Self:
-        if not self.text and not self.images:
+        if not self.text.strip() and not self.images:
             raise ValueError("there are neither words nor a picture")
         return self
 

@@ -2,32 +2,38 @@
 
 from __future__ import annotations
 
-from collections import deque
-from collections.abc import Callable, Sequence
-from itertools import islice
+from collections import OrderedDict
+from collections.abc import Callable
 
 from parley.web.models import Change
 
-__all__ = ["ChangeLog", "newest_only"]
+__all__ = ["ChangeLog"]
 
 
 class ChangeLog:
-    """Numbers changes and keeps the newest.
+    """Numbers changes and keeps the newest one of each thing: it carries the thing as it is now.
 
     Args:
         run: Names this log; another process has another one.
-        limit: How many changes are kept.
+        limit: How many things are remembered; those that changed least lately are forgotten.
     """
 
     def __init__(self, run: str, *, limit: int = 5000) -> None:
         self.run, self.seq = run, 0
-        self._kept: deque[Change] = deque(maxlen=limit)
+        self._limit, self._forgotten = limit, 0
+        self._kept: OrderedDict[tuple[str, ...], Change] = OrderedDict()
         self._listeners: list[Callable[[], None]] = []
 
     def add(self, change: Change) -> None:
         """Number `change` and tell the listeners that there is something new."""
         self.seq += 1
-        self._kept.append(change.model_copy(update={"seq": self.seq}))
+        numbered = change.model_copy(update={"seq": self.seq})
+        key = _key(numbered)
+        self._kept[key] = numbered
+        self._kept.move_to_end(key)
+        if len(self._kept) > self._limit:
+            _, oldest = self._kept.popitem(last=False)
+            self._forgotten = oldest.seq
         for listener in self._listeners:
             listener()
 
@@ -37,22 +43,14 @@ class ChangeLog:
 
     def since(self, seq: int) -> list[Change] | None:
         """What changed after number `seq`, each thing once; None if that is not known any more."""
-        missing = self.seq - seq
-        if missing < 0 or missing > len(self._kept):
+        if not self._forgotten <= seq <= self.seq:
             return None
-        return newest_only(list(islice(reversed(self._kept), missing))[::-1])
-
-
-def newest_only(changes: Sequence[Change]) -> list[Change]:
-    """Of several changes of one thing only the last; the order of those that stay is kept."""
-    seen: set[tuple[str, ...]] = set()
-    kept: list[Change] = []
-    for change in reversed(changes):
-        key = _key(change)
-        if key not in seen:
-            seen.add(key)
-            kept.append(change)
-    return kept[::-1]
+        missing: list[Change] = []
+        for change in reversed(self._kept.values()):
+            if change.seq <= seq:
+                break
+            missing.append(change)
+        return missing[::-1]
 
 
 def _key(change: Change) -> tuple[str, ...]:

@@ -38,8 +38,8 @@ class WebConfig(BaseModel):
     """Modules that are switched off."""
     examples: tuple[str, ...] = ()
     """Sentences to begin with."""
-    language: str = "offline"
-    """Label of the language engine."""
+    language: str = "built in, works without a model"
+    """The language engine in words for people."""
     offline_language: bool = True
     data_dir: Path | None = None
     """Where the conversation and a made certificate are kept; None: only while the server runs."""

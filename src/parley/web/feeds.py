@@ -16,12 +16,12 @@ from parley.messages.topics import display_topic
 from parley.transport.base import Subscription, Transport
 from parley.web.feed_state import FeedBook, Picture
 
-__all__ = ["CAMERA_FEED", "Feeds"]
+__all__ = ["CONTINUOUS", "Feeds"]
 
 log = structlog.get_logger(__name__)
 
-CAMERA_FEED: Final = "camera"
-"""Name of the feed that a robot with a camera has, though its topic exists only while somebody watches."""
+CONTINUOUS: Final = frozenset({"camera", "map"})
+"""Names of feeds that are films; nobody need watch for their topics to be there."""
 _PREFIX: Final = display_topic("r", "f").name.removesuffix("r/f")
 
 Key = tuple[str, str]
@@ -120,7 +120,7 @@ class Feeds:
             if end.role == "publisher" and end.name.startswith(_PREFIX):
                 folder, _, feed = end.name.rpartition("/")
                 robot = names.get(folder, folder.removeprefix(_PREFIX))
-                self._book.announce(robot, feed, continuous=feed == CAMERA_FEED)
+                self._book.announce(robot, feed, continuous=feed in CONTINUOUS)
 
     async def _subscribe(self, key: Key) -> None:
         def receive(message: CompressedImage) -> None:

@@ -15,7 +15,7 @@ from starlette.types import ASGIApp, Message, Receive, Scope, Send
 from parley.clock import Clock
 from parley.web.limits import Rate
 from parley.web.problems import WebProblem, problem_response
-from parley.web.sessions import COOKIE, Session, Sessions
+from parley.web.sessions import Session, Sessions, cookie_name
 
 __all__ = ["Guard"]
 
@@ -23,6 +23,8 @@ SAFE_METHODS: Final = frozenset({"GET", "HEAD", "OPTIONS"})
 MAX_BODY_BYTES: Final = 64 * 1024
 MAX_UPLOAD_BYTES: Final = 20 * 1024 * 1024
 """For the addresses that take pictures."""
+MAX_UPLOADS: Final = 8
+"""Large bodies that are held at once; more wait their turn."""
 BODY_WITHIN_S: Final = 30.0
 """Wall time in which a body must have come."""
 _TOO_LARGE: Final = "That is more than this server takes."
@@ -68,6 +70,7 @@ class Guard:
         self._hosts = {host.casefold() for host in hosts}
         self._origins = {origin.rstrip("/").casefold() for origin in origins}
         self._https = https
+        self._uploads = asyncio.Semaphore(MAX_UPLOADS)
         self._changes = Rate(per_s=20, burst=60)
         self._reads = Rate(per_s=100, burst=400)
 
@@ -86,13 +89,22 @@ class Guard:
             await _refuse(problem, scope, receive, sealed)
             return
         scope["state"]["session"] = session
-        if scope["type"] == "http" and scope["method"] not in SAFE_METHODS:
-            try:
-                receive = await _whole(receive, _limit(scope["path"]))
-            except WebProblem as problem:
-                await _refuse(problem, scope, receive, sealed)
-                return
-        await self._app(scope, receive, sealed)
+        if scope["type"] != "http" or scope["method"] in SAFE_METHODS:
+            await self._app(scope, receive, sealed)
+        elif scope["path"].startswith(_UPLOADS) and _is_large(headers):
+            async with self._uploads:
+                await self._take(scope, receive, sealed)
+        else:
+            await self._take(scope, receive, sealed)
+
+    async def _take(self, scope: Scope, receive: Receive, send: Send) -> None:
+        """Answer a request with a body."""
+        try:
+            receive = await _whole(receive, _limit(scope["path"]))
+        except WebProblem as problem:
+            await _refuse(problem, scope, receive, send)
+            return
+        await self._app(scope, receive, send)
 
     def _admit(self, scope: Scope, headers: MutableMapping[str, str]) -> Session | None:
         """Check a request from the outside to the inside.
@@ -106,11 +118,11 @@ class Guard:
         if is_live or method not in SAFE_METHODS:
             self._check_origin(headers)
         self._check_size(path, headers)
-        session = self._sessions.get(_cookie(headers.get("cookie", "")))
+        session = self._sessions.get(_cookie(headers.get("cookie", ""), cookie_name(https=self._https)))
         is_inside = is_live or (path.startswith("/api/") and path not in _OPEN)
         if is_inside and self._sessions.required and session is None:
             raise WebProblem(401, "You are not signed in.", "Sign in first.")
-        self._check_rate(scope, path, method)
+        self._check_rate(scope, path, method, session)
         return session
 
     def _check_host(self, headers: MutableMapping[str, str]) -> None:
@@ -138,13 +150,15 @@ class Guard:
         if not length.isdecimal() or int(length) > _limit(path):
             raise WebProblem(413, _TOO_LARGE, _SMALLER)
 
-    def _check_rate(self, scope: Scope, path: str, method: str) -> None:
-        """Stopping is never slowed down; everything else has its measure."""
+    def _check_rate(self, scope: Scope, path: str, method: str, session: Session | None) -> None:
+        """Stopping is never slowed down; everything else has its measure, for each who signed in."""
         if path == "/api/stop":
             return
-        client = scope.get("client") or ("", 0)
+        # Where nobody has to sign in, sessions are to be had for nothing and tell nobody apart.
+        known = session.digest if session is not None and self._sessions.required else ""
+        who = known or str((scope.get("client") or ("", 0))[0])
         rate = self._reads if method in SAFE_METHODS else self._changes
-        wait_s = rate.take(str(client[0]), self._clock.wall_s())
+        wait_s = rate.take(who, self._clock.wall_s())
         if wait_s > 0:
             raise WebProblem(
                 429,
@@ -163,7 +177,7 @@ class Guard:
         extra = [*_HEADERS, (b"content-security-policy", policy.encode())]
         if self._https:
             extra.append((b"strict-transport-security", b"max-age=31536000"))
-        is_data = scope["path"].startswith("/api/")
+        is_data = scope["path"].startswith(("/api/", _LIVE))
 
         async def sealed(message: Message) -> None:
             if message["type"] in ("http.response.start", "websocket.http.response.start"):
@@ -174,6 +188,11 @@ class Guard:
             await send(message)
 
         return sealed
+
+
+def _is_large(headers: MutableMapping[str, str]) -> bool:
+    """Whether a body is more than words, or may be."""
+    return int(headers.get("content-length", MAX_UPLOAD_BYTES)) > MAX_BODY_BYTES
 
 
 def _limit(path: str) -> int:
@@ -206,9 +225,9 @@ async def _whole(receive: Receive, limit: int) -> Receive:
     return replay
 
 
-def _cookie(text: str) -> str:
+def _cookie(text: str, name: str) -> str:
     try:
-        found = SimpleCookie(text).get(COOKIE)
+        found = SimpleCookie(text).get(name)
     except CookieError:
         return ""
     return found.value if found is not None else ""

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import asyncio
-from collections.abc import Callable, Sequence
+from collections.abc import Callable
 from types import TracebackType
 from typing import Self
 
@@ -11,7 +11,7 @@ import structlog
 
 from parley.errors import StoreError
 from parley.web.models import ChatEntry
-from parley.web.store import KeptPicture, WebStore
+from parley.web.store import WebStore
 
 __all__ = ["Keeper"]
 
@@ -50,14 +50,6 @@ class Keeper:
         """Store and then show `entry`; returns at once."""
         self._waiting.append(entry)
         self._arrived.set()
-
-    async def keep(self, entry: ChatEntry, pictures: Sequence[KeptPicture] = ()) -> None:
-        """Store `entry` without showing it; it is durable afterwards.
-
-        Raises:
-            StoreError: It was not stored.
-        """
-        await self._store.keep([entry], pictures)
 
     async def _run(self) -> None:
         while self._waiting or not self._closing:

@@ -11,13 +11,13 @@ import structlog
 from pydantic import BaseModel
 
 from parley.clock import Clock
-from parley.errors import InvalidMessageError, TransportError, UnavailableError
+from parley.errors import GraphRefusedError, InvalidMessageError, TransportError, UnavailableError
 from parley.messages import topics
 from parley.messages.chat import ChatAction, ChatFeedback, ChatInput, ReplyDraft
 from parley.messages.incident import GetIncidents, Incident, IncidentList
 from parley.messages.map import MapView
 from parley.messages.memory import AddToMemory, MemoryEvent, RemoveMemory
-from parley.messages.ros import ChatRequest, ChatResponse, String
+from parley.messages.ros import ChatRequest, ChatResponse, String, UmrfGraphFeedback
 from parley.messages.status import (
     ActorStatus,
     GraphEvent,
@@ -31,6 +31,7 @@ from parley.messages.status import (
 from parley.messages.topics import Service, Topic
 from parley.messages.wire import decode, encode, load_json, to_string
 from parley.transport.base import Publisher, Transport
+from parley.umrf.io import read_graph
 from parley.web.state import WebState
 
 __all__ = ["Link"]
@@ -42,6 +43,8 @@ P = TypeVar("P", bound=BaseModel)
 TICK_S: Final = 0.25
 """Wall time between two looks at what is overdue."""
 CALL_TIMEOUT_S: Final = 10.0
+ECHO_WITHIN_S: Final = 2.0
+"""Wall time after which a message counts as carried though it did not come back."""
 
 _SENT: Final[dict[type[BaseModel], Topic[String]]] = {
     ChatInput: topics.CHAT_INPUT,
@@ -77,6 +80,8 @@ class Link:
         self._on_view_heard, self._on_joined = on_view, on_joined
         self._stack = contextlib.AsyncExitStack()
         self._publishers: dict[type[BaseModel], Publisher[String]] = {}
+        self._echoes: dict[str, asyncio.Future[None]] = {}
+        """Messages that were published and did not come back yet, by id."""
         self._memory_waits: dict[str, list[asyncio.Future[MemoryEvent]]] = {}
 
     async def __aenter__(self) -> Self:
@@ -99,9 +104,7 @@ class Link:
             self._publishers[kind] = publisher
         state, now_ms = self._state, self._clock.unix_ms
         await self._listen(topics.ACTOR_STATUS, _reader(ActorStatus), self._on_status)
-        await self._listen(
-            topics.CHAT_INPUT, _reader(ChatInput), lambda m: state.chat.on_input(m, unix_ms=now_ms())
-        )
+        await self._listen(topics.CHAT_INPUT, _reader(ChatInput), self._on_input)
         await self._listen(
             topics.CHAT_FEEDBACK, _reader(ChatFeedback), lambda m: state.chat.on_feedback(m, unix_ms=now_ms())
         )
@@ -111,6 +114,8 @@ class Link:
         await self._listen(topics.PLAN, _read_plan, state.on_plan)
         await self._listen(topics.PLAN_DECISION, _reader(PlanDecision), state.plans.on_decision)
         await self._listen(topics.GRAPH_EVENTS, _reader(GraphEvent), state.on_event)
+        feedback = await self.transport.subscribe(topics.GRAPH_FEEDBACK, self._on_feedback, depth=1000)
+        self._stack.push_async_callback(feedback.close)
         await self._listen(topics.STOP, _reader(StopCommand), self._on_stop)
         await self._listen(
             topics.STOP_REPORT,
@@ -130,6 +135,19 @@ class Link:
     ) -> None:
         """Publish what an operator said or decided on the topic of its kind."""
         self._publishers[type(message)].publish(to_string(message))
+
+    async def say(self, message: ChatInput) -> None:
+        """Publish an operator's words and wait until they come back: then the transport has carried them."""
+        echo: asyncio.Future[None] = asyncio.get_running_loop().create_future()
+        self._echoes[message.id] = echo
+        try:
+            self.send(message)
+            async with asyncio.timeout(ECHO_WITHIN_S):
+                await echo
+        except TimeoutError:
+            log.warning("no echo of a message", id=message.id)
+        finally:
+            del self._echoes[message.id]
 
     async def ask(self, service: Service[ChatRequest, ChatResponse], request: BaseModel, kind: type[P]) -> P:
         """Call a service that speaks JSON.
@@ -190,6 +208,24 @@ class Link:
             self._state.chat.on_restart(status.actor)
         if is_new or restarted:
             self._on_joined(status.actor)
+
+    def _on_feedback(self, feedback: UmrfGraphFeedback) -> None:
+        """Whole graphs; plans are left out before they are read, as the planner tells more of them."""
+        plans = self._state.plans
+        for text in reversed(feedback.history):
+            try:
+                raw = load_json("UmrfGraphFeedback", text)
+                name = raw.get("graph_name") if isinstance(raw, dict) else None
+                if isinstance(name, str) and not plans.shows_plan(feedback.actor, name):
+                    plans.on_graph(feedback.actor, read_graph(raw))
+            except (InvalidMessageError, GraphRefusedError) as error:
+                log.warning("unreadable graph", actor=feedback.actor, error=str(error))
+
+    def _on_input(self, said: ChatInput) -> None:
+        echo = self._echoes.get(said.id)
+        if echo is not None and not echo.done():
+            echo.set_result(None)
+        self._state.chat.on_input(said, unix_ms=self._clock.unix_ms())
 
     def _on_stop(self, command: StopCommand) -> None:
         self._state.robots.on_stop(command, now_s=self._clock.wall_s(), unix_ms=self._clock.unix_ms())

@@ -190,7 +190,7 @@ class ServerInfo(WebModel):
 
     version: str
     language: str
-    """Label of the language engine."""
+    """The language engine in words for people."""
     offline_language: bool
     """Whether it works without a model, which the page says plainly."""
     modules: dict[str, bool] = Field(default_factory=dict)

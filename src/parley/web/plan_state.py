@@ -3,18 +3,15 @@
 from __future__ import annotations
 
 import re
-from collections import deque
-from collections.abc import Callable, Mapping, Sequence
-from dataclasses import dataclass, field
+from collections import OrderedDict
+from collections.abc import Callable, Sequence
 from typing import Final, Literal
 
 from parley.messages.chat import ActionCall
-from parley.messages.failure import FailureReport
-from parley.messages.pvf import Parameter, fits_type
 from parley.messages.status import GraphEvent, PlanDecision, PlanProposal, PlanUpdate, Rejection
+from parley.umrf.model import Graph
 from parley.web.models import (
     Change,
-    ParameterView,
     PlanChange,
     PlanGone,
     PlanView,
@@ -23,56 +20,16 @@ from parley.web.models import (
     ProposalView,
     StepView,
 )
+from parley.web.node_state import OVER, GraphTold, NodeTold, StepState, parameter_views
 
 __all__ = ["PlanBook"]
 
 Risk = Literal["none", "low", "high"]
-StepState = Literal[
-    "queued", "running", "finished", "failed", "stopped", "skipped", "paused", "stopping", "waiting"
-]
-
+PAST_KEPT: Final = 500
 OVER_KEPT: Final = 3
 """How many other graphs of a robot stay listed after they ended."""
 
-_NODE_STATES: Final[Mapping[str, StepState]] = {
-    "RUNNING": "running",
-    "PAUSE_REQUESTED": "running",
-    "PAUSED": "paused",
-    "STOPPING": "stopping",
-    "FINISHED": "finished",
-    "BYPASSED": "skipped",
-    "ERROR": "failed",
-}
-_GRAPH_STATES: Final[Mapping[str, Literal["running", "paused", "held", "ended"]]] = {
-    "PAUSED": "paused",
-    "HALTED": "held",
-    "STOPPED": "ended",
-    "FINISHED": "ended",
-    "ERROR": "ended",
-}
-_OVER: Final = frozenset({"finished", "failed", "stopped", "skipped"})
 _WORD_STARTS = re.compile(r"(?<=[a-z0-9])(?=[A-Z])|[_\s]+")
-
-
-@dataclass(slots=True)
-class _Node:
-    """What the engine told of one node."""
-
-    state: StepState = "queued"
-    progress: float | None = None
-    progress_text: str = ""
-    message: str = ""
-    outputs: tuple[ParameterView, ...] = ()
-    started_unix_ms: int = 0
-    ended_unix_ms: int = 0
-
-
-@dataclass(slots=True)
-class _Graph:
-    """One graph: its nodes by full name, in the order in which they were heard of."""
-
-    nodes: dict[str, _Node] = field(default_factory=dict)
-    state: Literal["running", "paused", "held", "ended"] = "running"
 
 
 class PlanBook:
@@ -88,8 +45,9 @@ class PlanBook:
         self.views: dict[tuple[str, str], PlanView] = {}
         self.proposals: dict[str, ProposalView] = {}
         self._updates: dict[str, PlanUpdate] = {}
-        self._graphs: dict[tuple[str, str], _Graph] = {}
-        self._past: deque[tuple[str, str]] = deque(maxlen=500)
+        self._free_since: dict[str, int] = {}
+        self._graphs: dict[tuple[str, str], GraphTold] = {}
+        self._past: OrderedDict[tuple[str, str], None] = OrderedDict()
         """Graphs of plans that were replaced: what comes late about them is dropped."""
         self.decided: set[str] = set()
         """Proposals that were approved or edited, but may yet be refused and then go on waiting."""
@@ -100,6 +58,8 @@ class PlanBook:
         """The planner tells a robot's plan."""
         robot, before = update.target, self._updates.get(update.target)
         self._updates[robot] = update
+        if before is None or _not_begun(before) != _not_begun(update):
+            self._free_since[robot] = update.revision
         if before is not None and before.graph_name != update.graph_name:
             self._drop(robot, before.graph_name)
         for proposal in [p for p in self.proposals.values() if p.robot == robot]:
@@ -107,13 +67,19 @@ class PlanBook:
                 self._end_proposal(proposal.id)
         self._show_plan(update, before)
 
+    def is_past(self, robot: str, revision: int) -> bool:
+        """Whether the steps of a robot's plan that have not begun are others than at `revision`."""
+        return revision < self._free_since.get(robot, 0)
+
     def on_proposal(self, proposal: PlanProposal) -> None:
         """Steps wait for a yes."""
         steps = tuple(
-            self._step(proposal.target, f"step-{number}", call, "queued", _Node())
+            self._step(proposal.target, f"step-{number}", call, "queued", NodeTold())
             for number, call in enumerate(proposal.steps)
         )
         view = ProposalView(id=proposal.id, robot=proposal.target, message=proposal.message, steps=steps)
+        if self.proposals.get(proposal.id) == view:
+            return
         self.proposals[proposal.id] = view
         self._emit(ProposalChange(seq=0, proposal=view))
 
@@ -137,6 +103,7 @@ class PlanBook:
         for proposal in [p for p in self.proposals.values() if p.robot == robot]:
             self._end_proposal(proposal.id)
         self._updates.pop(robot, None)
+        self._free_since.pop(robot, None)
 
     # -- what engines tell -----------------------------------------------------------------------------
 
@@ -145,16 +112,31 @@ class PlanBook:
         key = (event.actor, event.graph_name)
         if key in self._past:
             return
-        graph = self._graphs.setdefault(key, _Graph())
-        if event.kind == "graph":
-            graph.state = _GRAPH_STATES.get(event.state, "running")
-        elif event.node:
-            _take(graph.nodes.setdefault(event.node, _Node()), event)
+        graph = self._graphs.setdefault(key, GraphTold())
+        graph.on_event(event)
         update = self._updates.get(event.actor)
         if update is not None and update.graph_name == event.graph_name:
-            self._show_plan(update, update)
+            self._show_step(update, event.node)
         else:
             self._show_graph(*key, graph)
+
+    def shows_plan(self, robot: str, graph_name: str) -> bool:
+        """Whether a graph belongs to a plan, the one in progress or one that is past."""
+        update = self._updates.get(robot)
+        is_present = update is not None and update.graph_name == graph_name
+        return is_present or (robot, graph_name) in self._past
+
+    def on_graph(self, robot: str, whole: Graph) -> None:
+        """An engine tells a whole graph; those that belong to plans are known better from the planner."""
+        if self.shows_plan(robot, whole.name):
+            return
+        key = (robot, whole.name)
+        graph = self._graphs.get(key) or GraphTold()
+        graph.on_graph(whole)
+        if key not in self._graphs and graph.state == "ended":
+            return  # over before anybody here heard of it, perhaps a plan's
+        self._graphs[key] = graph
+        self._show_graph(robot, whole.name, graph)
 
     # -- showing ---------------------------------------------------------------------------------------
 
@@ -162,14 +144,7 @@ class PlanBook:
         key = (update.target, update.graph_name)
         nodes = self._graphs[key].nodes if key in self._graphs else {}
         steps = tuple(
-            self._step(
-                update.target,
-                step.node or f"step-{number}",
-                step.action,
-                _state(step.state, nodes.get(step.node)),
-                nodes.get(step.node) or _Node(),
-            )
-            for number, step in enumerate(update.steps)
+            self._planned(update, number, nodes.get(step.node)) for number, step in enumerate(update.steps)
         )
         state: Literal["idle", "awaiting_approval", "running", "paused", "held", "ended"] = update.state
         shown = self.views.get(key)
@@ -184,9 +159,27 @@ class PlanBook:
             )
         )
 
-    def _show_graph(self, robot: str, name: str, graph: _Graph) -> None:
+    def _show_step(self, update: PlanUpdate, node: str) -> None:
+        """The same plan, of which only one step has news."""
+        key = (update.target, update.graph_name)
+        shown, told = self.views.get(key), self._graphs[key].nodes.get(node)
+        if shown is None:
+            self._show_plan(update, None)
+        elif told is not None:
+            steps = tuple(
+                self._planned(update, number, told) if step.id == node else step
+                for number, step in enumerate(shown.steps)
+            )
+            self._put(shown.model_copy(update={"steps": steps}))
+
+    def _planned(self, update: PlanUpdate, number: int, told: NodeTold | None) -> StepView:
+        step = update.steps[number]
+        key = step.node or f"step-{number}"
+        return self._step(update.target, key, step.action, _state(step.state, told), told or NodeTold())
+
+    def _show_graph(self, robot: str, name: str, graph: GraphTold) -> None:
         steps = tuple(
-            self._step(robot, node, ActionCall(name=_action_of(node)), told.state, told)
+            self._step(robot, node, told.call or ActionCall(name=_action_of(node)), told.state, told)
             for node, told in graph.nodes.items()
         )
         self._put(PlanView(robot=robot, graph_name=name, kind="graph", state=graph.state, steps=steps))
@@ -199,8 +192,8 @@ class PlanBook:
             for key in over[:-OVER_KEPT]:
                 self._drop(*key)
 
-    def _step(self, robot: str, key: str, call: ActionCall, state: StepState, node: _Node) -> StepView:
-        is_over = state in _OVER
+    def _step(self, robot: str, key: str, call: ActionCall, state: StepState, node: NodeTold) -> StepView:
+        is_over = state in OVER
         return StepView(
             id=key,
             action=call.name,
@@ -226,7 +219,9 @@ class PlanBook:
 
     def _drop(self, robot: str, graph_name: str) -> None:
         if graph_name:
-            self._past.append((robot, graph_name))
+            self._past[robot, graph_name] = None
+            if len(self._past) > PAST_KEPT:
+                self._past.popitem(last=False)
         self._graphs.pop((robot, graph_name), None)
         if self.views.pop((robot, graph_name), None) is not None:
             self._emit(PlanGone(seq=0, robot=robot, graph_name=graph_name))
@@ -237,35 +232,13 @@ class PlanBook:
         self._emit(ProposalGone(seq=0, id=proposal_id))
 
 
-def parameter_views(parameters: Mapping[str, Parameter]) -> tuple[ParameterView, ...]:
-    """Flat parameters for the page; values that cannot be written in JSON are left out."""
-    return tuple(
-        ParameterView(
-            name=name, type=item.type, value=item.value if fits_type(item.type, item.value) else None
-        )
-        for name, item in parameters.items()
-    )
-
-
-def _take(node: _Node, event: GraphEvent) -> None:
-    if event.kind == "progress":
-        node.progress, node.progress_text = event.progress, event.progress_text
-        return
-    node.state = _NODE_STATES.get(event.state, "queued")
-    if event.result == "on_stopped" and node.state == "finished":
-        node.state = "stopped"
-    if node.state == "running" and not node.started_unix_ms:
-        node.started_unix_ms = event.unix_ms
-    if node.state in _OVER:
-        node.ended_unix_ms = event.unix_ms
-    if event.outputs:
-        node.outputs = parameter_views(event.outputs)
-    node.message = FailureReport.parse(event.message).message if event.message else ""
-
-
-def _state(planned: StepState, node: _Node | None) -> StepState:
+def _state(planned: StepState, node: NodeTold | None) -> StepState:
     """The planner's word counts; only that a step is just being stopped is known to the engine alone."""
-    return "stopping" if node is not None and node.state == "stopping" and planned not in _OVER else planned
+    return "stopping" if node is not None and node.state == "stopping" and planned not in OVER else planned
+
+
+def _not_begun(update: PlanUpdate) -> list[tuple[str, ActionCall]]:
+    return [(step.node, step.action) for step in update.steps if step.state == "queued"]
 
 
 def _changed(before: PlanView, steps: Sequence[StepView]) -> tuple[str, ...]:

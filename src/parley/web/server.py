@@ -5,15 +5,15 @@ from __future__ import annotations
 import asyncio
 import contextlib
 import errno
-import secrets
 import socket
 import tempfile
-from collections.abc import Iterator
+from collections.abc import Callable, Iterator
 from contextlib import AsyncExitStack
 from pathlib import Path
 from typing import Final, Self
 
 import uvicorn
+from starlette.types import ASGIApp
 
 from parley.clock import Clock, WallClock
 from parley.errors import ConfigError
@@ -29,8 +29,6 @@ __all__ = ["WebServer"]
 
 END_WITHIN_S: Final = 1
 """Wall time that open connections are given when the server ends."""
-_CODE_LETTERS: Final = "23456789ABCDEFGHJKMNPQRSTUVWXYZ"
-"""Without what is easily mixed up."""
 
 
 class WebServer:
@@ -41,6 +39,7 @@ class WebServer:
         config: The settings.
         clock: Wall time.
         port_is_wish: Whether another port will do where the one of `config` is taken.
+        around: Put around everything that is served, e.g. to measure it.
     """
 
     live: Live
@@ -53,22 +52,22 @@ class WebServer:
         *,
         clock: Clock | None = None,
         port_is_wish: bool = False,
+        around: Callable[[ASGIApp], ASGIApp] = lambda app: app,
     ) -> None:
-        self._config, self._clock = config, clock or WallClock()
+        self._config, self._clock, self._around = config, clock or WallClock(), around
         self._port_is_wish = port_is_wish
         self.is_open_to_others = config.lan or config.host not in (*LOCAL_NAMES, "")
-        self.pairing_code = ""
-        """What one signs in with, where no password was given and one has to sign in."""
-        if self.is_open_to_others and not config.password:
-            letters = "".join(secrets.choice(_CODE_LETTERS) for _ in range(8))
-            self.pairing_code = f"{letters[:4]}-{letters[4:]}"
-        secret = config.password or self.pairing_code
-        self.backend = Backend(transport, config, secret=secret, clock=self._clock)
+        self.backend = Backend(transport, config, pairs=self.is_open_to_others, clock=self._clock)
         self.url = ""
         """Where the page is on this machine."""
         self.fingerprint = ""
         """Of the certificate, where it was made here."""
         self._stack = AsyncExitStack()
+
+    @property
+    def pairing_code(self) -> str:
+        """What the next device signs in with, where no password was given and one has to sign in."""
+        return self.backend.sessions.code
 
     async def __aenter__(self) -> Self:
         try:
@@ -99,7 +98,7 @@ class WebServer:
         app = create_app(self.backend, live, hosts=names, origins=config.origins, https=files is not None)
         server = _Server(
             uvicorn.Config(
-                app,
+                self._around(app),
                 log_config=None,
                 access_log=False,
                 server_header=False,
@@ -107,6 +106,7 @@ class WebServer:
                 lifespan="off",
                 ws="websockets-sansio",
                 ws_max_size=MAX_MESSAGE_BYTES,
+                ws_per_message_deflate=False,  # it cost more than all the rest; pictures are packed already
                 limit_concurrency=1000,
                 timeout_keep_alive=15,
                 timeout_graceful_shutdown=END_WITHIN_S,

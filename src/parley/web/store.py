@@ -1,4 +1,4 @@
-"""What the page's server keeps over restarts: conversation, pictures in it, robots added by name, policies.
+"""What the page's server keeps over restarts: conversation, pictures, robots, policies, who is signed in.
 
 What `keep` returned for survives `kill -9`.
 """
@@ -11,16 +11,19 @@ from collections.abc import Iterable, Sequence
 from dataclasses import dataclass
 from pathlib import Path
 from types import TracebackType
-from typing import Self
+from typing import Final, Self
+
+from pydantic import TypeAdapter
 
 from parley.clock import Clock
 from parley.errors import StoreError
 from parley.memory.database import Database
+from parley.messages.chat import ChatInput
 from parley.web.models import ChatEntry
 
 __all__ = ["KeptPicture", "WebStore"]
 
-_VERSION = 1
+_MESSAGES: Final = TypeAdapter(tuple[ChatInput, ...])
 MAX_PICTURES = 500
 """The oldest pictures go when there are more."""
 
@@ -61,10 +64,22 @@ class WebStore:
     ) -> None:
         await self._database.close()
 
-    async def keep(self, entries: Sequence[ChatEntry], pictures: Sequence[KeptPicture] = ()) -> None:
-        """Store entries as they stand, all or none; it is durable afterwards."""
+    async def keep(
+        self,
+        entries: Sequence[ChatEntry],
+        pictures: Sequence[KeptPicture] = (),
+        messages: Sequence[ChatInput] = (),
+    ) -> None:
+        """Store entries as they stand, all or none; it is durable afterwards.
+
+        Args:
+            entries: What was said.
+            pictures: Attached to it.
+            messages: What goes to robots for the first entry; they count as unsent until `mark_sent`.
+        """
         rows = [(e.id, e.seq, _names(e.targets), e.message.casefold(), e.model_dump_json()) for e in entries]
         images = [(picture.id, picture.media_type, picture.data) for picture in pictures]
+        unsent = [(entries[0].id, _MESSAGES.dump_json(tuple(messages)).decode())] if messages else []
 
         def work(db: sqlite3.Connection) -> None:
             db.execute("BEGIN IMMEDIATE")
@@ -75,6 +90,7 @@ class WebStore:
                     " folded = excluded.folded, entry = excluded.entry",
                     rows,
                 )
+                db.executemany("INSERT INTO outbox VALUES (?, ?)", unsent)
                 if images:
                     db.executemany("INSERT OR IGNORE INTO picture VALUES (?, ?, ?)", images)
                     db.execute(
@@ -91,14 +107,24 @@ class WebStore:
 
     async def mark_sent(self, key: str) -> None:
         """Remember that an operator's message went out."""
-        await self._database.run(lambda db: db.execute("UPDATE chat SET sent = 1 WHERE id = ?", (key,)))
+        await self._database.run(lambda db: db.execute("DELETE FROM outbox WHERE id = ?", (key,)))
 
-    async def entry(self, key: str) -> tuple[ChatEntry, bool] | None:
-        """The entry of that key, and whether it went out; None if there is none."""
-        row = await self._database.run(
-            lambda db: db.execute("SELECT entry, sent FROM chat WHERE id = ?", (key,)).fetchone()
+    async def unsent(self, key: str = "") -> list[tuple[ChatEntry, tuple[ChatInput, ...]]]:
+        """What perhaps did not go out, oldest first, with what goes to robots; all, or that of one key."""
+        rows = await self._database.run(
+            lambda db: db.execute(
+                "SELECT entry, messages FROM outbox JOIN chat USING (id) WHERE ? IN ('', id) ORDER BY seq",
+                (key,),
+            ).fetchall()
         )
-        return (ChatEntry.model_validate_json(row[0]), bool(row[1])) if row else None
+        return [(ChatEntry.model_validate_json(row[0]), _MESSAGES.validate_json(row[1])) for row in rows]
+
+    async def entry(self, key: str) -> ChatEntry | None:
+        """The entry of that key; None if there is none."""
+        row = await self._database.run(
+            lambda db: db.execute("SELECT entry FROM chat WHERE id = ?", (key,)).fetchone()
+        )
+        return ChatEntry.model_validate_json(row[0]) if row else None
 
     async def page(
         self, *, before: int | None = None, limit: int = 50, words: str = "", robot: str = ""
@@ -151,6 +177,28 @@ class WebStore:
         )
         return dict(rows)
 
+    async def sessions(self, unix_ms: int) -> list[tuple[str, str, int]]:
+        """Digest, name and end of each session that has not ended; the others are dropped."""
+
+        def work(db: sqlite3.Connection) -> list[tuple[str, str, int]]:
+            db.execute("DELETE FROM session WHERE ends_unix_ms <= ?", (unix_ms,))
+            return db.execute("SELECT digest, name, ends_unix_ms FROM session ORDER BY rowid").fetchall()
+
+        return await self._database.run(work)
+
+    async def keep_session(self, digest: str, name: str, ends_unix_ms: int, *, instead_of: str) -> None:
+        """Keep a session, in the place of another one if that is kept."""
+
+        def work(db: sqlite3.Connection) -> None:
+            db.execute("INSERT INTO session VALUES (?, ?, ?)", (digest, name, ends_unix_ms))
+            db.execute("DELETE FROM session WHERE digest = ?", (instead_of,))
+
+        await self._database.run(work)
+
+    async def drop_session(self, digest: str) -> None:
+        """Forget a session."""
+        await self._database.run(lambda db: db.execute("DELETE FROM session WHERE digest = ?", (digest,)))
+
     async def set(self, kind: str, name: str, value: str) -> None:
         """Keep a setting."""
         await self._database.run(
@@ -167,31 +215,43 @@ class WebStore:
         )
 
 
+_FORMS: Final = (
+    """
+    CREATE TABLE chat (
+        id TEXT PRIMARY KEY,
+        seq INTEGER NOT NULL,
+        robots TEXT NOT NULL,
+        folded TEXT NOT NULL,
+        entry TEXT NOT NULL,
+        sent INTEGER NOT NULL DEFAULT 0
+    ) STRICT;
+    CREATE INDEX chat_seq ON chat (seq);
+    CREATE TABLE picture (id TEXT PRIMARY KEY, media_type TEXT NOT NULL, data BLOB NOT NULL) STRICT;
+    CREATE TABLE setting (
+        kind TEXT NOT NULL, name TEXT NOT NULL, value TEXT NOT NULL, PRIMARY KEY (kind, name)
+    ) STRICT;
+    """,
+    """
+    ALTER TABLE chat DROP COLUMN sent;
+    CREATE TABLE outbox (id TEXT PRIMARY KEY, messages TEXT NOT NULL) STRICT;
+    CREATE TABLE session (
+        digest TEXT PRIMARY KEY, name TEXT NOT NULL, ends_unix_ms INTEGER NOT NULL
+    ) STRICT;
+    """,
+)
+"""What each version adds to the one before."""
+
+
 def _prepare(db: sqlite3.Connection) -> None:
     (version,) = db.execute("PRAGMA user_version").fetchone()
-    if version > _VERSION:
+    if version > len(_FORMS):
         raise StoreError("a newer Parley wrote the chat file; use that one, or another folder")
-    if version == 0:
-        db.executescript(
-            f"""
-            BEGIN;
-            CREATE TABLE chat (
-                id TEXT PRIMARY KEY,
-                seq INTEGER NOT NULL,
-                robots TEXT NOT NULL,
-                folded TEXT NOT NULL,
-                entry TEXT NOT NULL,
-                sent INTEGER NOT NULL DEFAULT 0
-            ) STRICT;
-            CREATE INDEX chat_seq ON chat (seq);
-            CREATE TABLE picture (id TEXT PRIMARY KEY, media_type TEXT NOT NULL, data BLOB NOT NULL) STRICT;
-            CREATE TABLE setting (
-                kind TEXT NOT NULL, name TEXT NOT NULL, value TEXT NOT NULL, PRIMARY KEY (kind, name)
-            ) STRICT;
-            PRAGMA user_version = {_VERSION};
-            COMMIT;
-            """
-        )
+    for number, form in enumerate(_FORMS[version:], version + 1):
+        db.executescript(f"BEGIN; {form} PRAGMA user_version = {number}; COMMIT;")
+    _, _, file = db.execute("PRAGMA database_list").fetchone()
+    for path in (Path(f"{file}{ending}") for ending in ("", "-wal", "-shm")):
+        if file and path.exists():
+            path.chmod(0o600)  # conversations are nobody else's business
 
 
 def _names(targets: Iterable[str]) -> str:

@@ -5,10 +5,10 @@ import { beforeEach, describe, expect, it, vi } from 'vitest';
 import { entry, robot, snapshot } from '@/live/samples';
 import { useLive } from '@/live/store';
 import type { Snapshot } from '@/live/types';
+import { useDrafts } from '@/state/drafts';
 import { usePrefs } from '@/state/prefs';
 
 import { ChatPanel } from './chat-panel';
-import { useDrafts } from './drafts';
 import { useOutbox } from './outbox';
 
 type Sent = { text: string; targets: string[]; reply_to: string };

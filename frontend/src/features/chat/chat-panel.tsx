@@ -4,6 +4,7 @@ import { useTranslation } from 'react-i18next';
 
 import { useWorld } from '@/live/store';
 import type { ChatEntry } from '@/live/types';
+import { draftKey, useDrafts } from '@/state/drafts';
 import { usePrefs } from '@/state/prefs';
 import { useSelection } from '@/state/selection';
 import { Icon, type IconName } from '@/ui/icon';
@@ -12,7 +13,6 @@ import { useShortcut } from '@/ui/use-shortcut';
 
 import css from './chat-panel.module.css';
 import { Composer } from './composer';
-import { draftKey, useDrafts } from './drafts';
 import { History } from './history';
 import { useOutbox } from './outbox';
 import { answering, conversation, openQuestions } from './questions';

@@ -2,14 +2,14 @@ import { useEffect } from 'react';
 import { FileTrigger } from 'react-aria-components';
 import { useTranslation } from 'react-i18next';
 
+import { draftKey, emptyDraft, useDrafts } from '@/state/drafts';
 import { useToasts } from '@/state/toasts';
 import { Button } from '@/ui/button';
 import { nameList } from '@/ui/words';
 
 import css from './composer.module.css';
-import { draftKey, emptyDraft, useDrafts } from './drafts';
 import { useOutbox } from './outbox';
-import { readPhoto } from './photo';
+import { readPhoto } from '@/ui/photo';
 import type { Answering } from './questions';
 
 interface Props {
@@ -28,9 +28,11 @@ export function Composer({ chosen, answering, lastSaid, input }: Props) {
   const setDraft = useDrafts((state) => state.set);
   const send = useOutbox((outbox) => outbox.send);
   const nobody = chosen.length === 0;
-  const ready = !nobody && draft.text.trim() !== '';
+  const ready = !nobody && (draft.text.trim() !== '' || draft.photo !== null);
 
   useGrowing(input, draft.text);
+  useAsked(input);
+  useWantedKeyboard(input);
 
   const submit = () => {
     if (!ready) return;
@@ -121,6 +123,29 @@ function PhotoButton({ isDisabled, onPhoto }: { isDisabled: boolean; onPhoto: (p
       <Button tone="quiet" icon="photo" iconOnly aria-label={t('attach')} isDisabled={isDisabled} />
     </FileTrigger>
   );
+}
+
+/** Takes the keyboard when another part of the page put words here to go on with. */
+function useWantedKeyboard(input: React.RefObject<HTMLTextAreaElement | null>) {
+  const wanted = useDrafts((state) => state.asked > state.met);
+  const meet = useDrafts((state) => state.meet);
+  useEffect(() => {
+    if (!wanted) return;
+    input.current?.focus();
+    meet();
+  }, [input, wanted, meet]);
+}
+
+/** Takes the keyboard when another part of the page put words into the draft. */
+function useAsked(input: React.RefObject<HTMLTextAreaElement | null>) {
+  const { asked, met, meet } = useDrafts();
+  useEffect(() => {
+    const box = input.current;
+    if (asked === met || !box) return;
+    meet();
+    box.focus();
+    box.setSelectionRange(box.value.length, box.value.length);
+  }, [asked, met, meet, input]);
 }
 
 const TALLEST_PX = 160;

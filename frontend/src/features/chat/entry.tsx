@@ -27,6 +27,8 @@ export const Entry = memo(function Entry({ entry, showName, offers, onChoose, on
   return (
     <li
       className={css.entry}
+      tabIndex={-1}
+      data-entry={entry.id}
       data-mine={mine}
       data-type={entry.type}
       data-question={entry.question || undefined}
@@ -35,11 +37,7 @@ export const Entry = memo(function Entry({ entry, showName, offers, onChoose, on
     >
       {(showName || debug || entry.question !== '') && <Head entry={entry} debug={debug} />}
       <div className={css.said}>
-        <p className={css.text}>{entry.message}</p>
-        {entry.images.map((address) => (
-          <img key={address} className={css.image} src={address} alt={t('photo')} loading="lazy" />
-        ))}
-        {entry.draft && <span className={css.drafting}>{t('drafting')}</span>}
+        <Said entry={entry} />
       </div>
       {offers && (
         <div className={css.choices} role="group" aria-label={t('choices')}>
@@ -51,7 +49,7 @@ export const Entry = memo(function Entry({ entry, showName, offers, onChoose, on
         </div>
       )}
       {entry.sources.length > 0 && <Sources names={entry.sources} />}
-      {mine && (
+      {mine && entry.message && (
         <button type="button" className={css.edit} aria-label={t('edit')} title={t('edit')} onClick={() => onEdit(entry.message)}>
           <Icon name="edit" size={16} />
         </button>
@@ -59,6 +57,20 @@ export const Entry = memo(function Entry({ entry, showName, offers, onChoose, on
     </li>
   );
 });
+
+/** Words and pictures; either may be missing. */
+function Said({ entry }: { entry: ChatEntry }) {
+  const { t } = useTranslation('chat');
+  return (
+    <>
+        {entry.message && <p className={css.text}>{entry.message}</p>}
+        {entry.images.map((address) => (
+          <img key={address} className={css.image} src={address} alt={t('photo')} loading="lazy" />
+        ))}
+        {entry.draft && <span className={css.drafting}>{t('drafting')}</span>}
+    </>
+  );
+}
 
 function Head({ entry, debug }: { entry: ChatEntry; debug: boolean }) {
   const { t, i18n } = useTranslation('chat');

@@ -13,6 +13,7 @@ import css from './history.module.css';
 import { undelivered, useOutbox } from './outbox';
 import { PendingEntry } from './pending-entry';
 import { offering } from './questions';
+import { useMomentShown } from './use-moment';
 import { useStickToEnd } from './use-stick-to-end';
 
 interface Props {
@@ -45,6 +46,8 @@ export function History({ entries, onChoose, onEdit, empty }: Props) {
   const offers = useMemo(() => offering(entries), [entries]);
   const visible = entries.slice(-shown);
   const more = shown < entries.length || !complete;
+
+  useMomentShown({ entries, complete, shown, draw: setShown, loadOlder, scroller, keepPlace });
 
   const showOlder = async () => {
     keepPlace();
@@ -98,9 +101,8 @@ export function History({ entries, onChoose, onEdit, empty }: Props) {
 
 async function loadOlder(): Promise<void> {
   const live = useLive.getState();
-  const first = live.world.chat[0];
   await attempt(async () => {
-    const page = await getChat({ ...(first ? { before: first.seq } : {}), limit: 200 });
+    const page = await getChat({ before: live.world.chatFrom, limit: 200 });
     live.takeOlderChat(page.entries, page.complete);
   });
 }

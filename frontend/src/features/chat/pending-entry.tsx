@@ -13,7 +13,7 @@ export function PendingEntry({ message }: { message: Outgoing }) {
   return (
     <li className={css.entry} data-mine="true">
       <div className={css.said}>
-        <p className={css.text}>{message.text}</p>
+        <p className={css.text}>{message.text || message.images.map((image) => image.name).join(', ')}</p>
       </div>
       <div className={css.waiting} data-failed={failed} role={failed ? 'alert' : undefined}>
         <span>{failed ? `${t('failed')}. ${message.reason}` : t('sending')}</span>

@@ -22,25 +22,28 @@ export function DisplayPanel() {
   const shown = groups.flatMap(([, some]) => some.filter((feed) => isShown(feed, choice)));
   const enlarged = shown.find((feed) => feedKey(feed) === large);
   return (
-    <Panel title={t('title')} tools={<FeedMenu groups={groups} />}>
-      {!known && <p role="status">{t('common:loading')}</p>}
-      {known && groups.length === 0 && (
-        <Empty title={t('empty')}>
-          <p>{t('emptyText')}</p>
-        </Empty>
-      )}
-      {groups.length > 0 && shown.length === 0 && (
-        <Empty title={t('noneChosen')}>
-          <p>{t('noneChosenText')}</p>
-        </Empty>
-      )}
-      <ul className={css.grid}>
-        {shown.map((feed) => (
-          <li key={feedKey(feed)}>
-            <FeedPicture feed={feed} onEnlarge={() => setLarge(feedKey(feed))} />
-          </li>
-        ))}
-      </ul>
+    <Panel title={t('title')} tools={<FeedMenu groups={groups} />} flush>
+      {/* eslint-disable-next-line jsx-a11y/no-noninteractive-tabindex -- what scrolls must be reachable by keys */}
+      <div className={css.scroller} tabIndex={0} role="group" aria-label={t('title')}>
+        {!known && <Empty title={t('common:loading')} />}
+        {known && groups.length === 0 && (
+          <Empty title={t('empty')}>
+            <p>{t('emptyText')}</p>
+          </Empty>
+        )}
+        {groups.length > 0 && shown.length === 0 && (
+          <Empty title={t('noneChosen')}>
+            <p>{t('noneChosenText')}</p>
+          </Empty>
+        )}
+        <ul className={css.grid}>
+          {shown.map((feed) => (
+            <li key={feedKey(feed)}>
+              <FeedPicture feed={feed} onEnlarge={() => setLarge(feedKey(feed))} />
+            </li>
+          ))}
+        </ul>
+      </div>
       {enlarged && (
         <FullScreen feeds={shown} feed={enlarged} onShow={(feed) => setLarge(feedKey(feed))} onClose={() => setLarge('')} />
       )}

@@ -3,7 +3,7 @@ import { memo } from 'react';
 import type { MapInfo, MapThing, MapView } from '@/live/types';
 
 import css from './map.module.css';
-import { roomForLabels, toScreen, type Place, type Size, type Viewport } from './viewport';
+import { labelOf, roomForLabels, toScreen, type Place, type Size, type Viewport } from './viewport';
 
 export interface Rover {
   name: string;
@@ -110,11 +110,11 @@ function Labels({ things, rovers, view, size, robotPx }: LabelsProps) {
   });
   const named = things.map((thing) => ({
     id: `thing ${thing.id}`,
-    text: thing.description || thing.kind,
+    text: labelOf(thing, view.scale),
     at: toScreen(view, size, thing),
   }));
   const labels = [...robots, ...named];
-  const written = roomForLabels(labels);
+  const written = roomForLabels(labels, size);
   return (
     <g className={css.labels}>
       {labels

@@ -38,21 +38,22 @@ export function MapStage({ map, rovers, marked, onMark }: Props) {
   });
   const senses = rovers.some((rover) => (rover.view?.scan.length ?? 0) > 0);
   return (
-    <div
-      ref={box}
-      className={css.stage}
-      role="application"
-      aria-label={t('help', { robot: chosen?.name ?? map.robot })}
-      // eslint-disable-next-line jsx-a11y/no-noninteractive-tabindex -- it is moved, zoomed and pointed at by keys
-      tabIndex={0}
-      {...handlers}
-    >
-      <MapDrawing map={map} view={view} size={size} rovers={rovers} marked={marked} showScan={showScan} />
-      <span className={css.cross}>
-        <Icon name="target" size={28} />
-      </span>
-      {/* eslint-disable-next-line jsx-a11y/no-static-element-interactions -- keeps taps on buttons off the map */}
-      <div className={css.tools} onPointerDown={stay} onKeyDown={stay}>
+    <div className={css.frame}>
+      <div
+        ref={box}
+        className={css.stage}
+        role="application"
+        aria-label={t('help', { robot: chosen?.name ?? map.robot })}
+        // eslint-disable-next-line jsx-a11y/no-noninteractive-tabindex -- it is moved, zoomed and pointed at by keys
+        tabIndex={0}
+        {...handlers}
+      >
+        <MapDrawing map={map} view={view} size={size} rovers={rovers} marked={marked} showScan={showScan} />
+        <span className={css.cross}>
+          <Icon name="target" size={28} />
+        </span>
+      </div>
+      <div className={css.tools} role="group" aria-label={t('tools')}>
         <Button icon="plus" iconOnly aria-label={t('larger')} onPress={() => zoomBy(ZOOM_STEP)} />
         <Button icon="minus" iconOnly aria-label={t('smaller')} onPress={() => zoomBy(1 / ZOOM_STEP)} />
         <Button
@@ -70,8 +71,6 @@ export function MapStage({ map, rovers, marked, onMark }: Props) {
     </div>
   );
 }
-
-const stay = (event: React.SyntheticEvent) => event.stopPropagation();
 
 interface SwitchProps {
   icon: IconName;

@@ -5,6 +5,7 @@ import { useLive } from '@/live/store';
 import type { MapThing } from '@/live/types';
 import { draftKey, useDrafts } from '@/state/drafts';
 import { effective, useRobotNames, useSelectionStore } from '@/state/selection';
+import { goTo } from '@/ui/use-hash';
 
 import type { Place } from './viewport';
 
@@ -19,7 +20,7 @@ export function useSaying() {
     (deed: 'go' | 'mention', what: Place | MapThing) => {
       const chosen = effective(useSelectionStore.getState().chosen, names);
       add(draftKey(chosen), inWords(deed, what));
-      window.location.hash = '#/';
+      goTo('/');
     },
     [names, add],
   );

@@ -102,17 +102,28 @@ export function thingAt(things: readonly MapThing[], place: Place, reachM: numbe
   );
 }
 
+/** From so many pixels per metre there is room for more than what kind of thing it is. */
+const LONG_NAMES_SCALE = 60;
+
+/** What a thing is called on the map. */
+export const labelOf = (thing: MapThing, scale: number): string =>
+  (scale < LONG_NAMES_SCALE ? thing.kind || thing.description : thing.description || thing.kind).replaceAll('_', ' ');
+
 const LETTER_PX = 6.6;
 const LINE_PX = 16;
 
-/** Which labels can be written without lying over each other; the first come first. */
-export function roomForLabels(labels: readonly { id: string; text: string; at: Place }[]): ReadonlySet<string> {
+/** Which labels can be written inside the screen and not over each other; the first come first. */
+export function roomForLabels(
+  labels: readonly { id: string; text: string; at: Place }[],
+  size: Size,
+): ReadonlySet<string> {
   const taken: { left: number; right: number; top: number; bottom: number }[] = [];
   const written = new Set<string>();
   for (const { id, text, at } of labels) {
     const half = (text.length * LETTER_PX) / 2;
     const box = { left: at.x - half, right: at.x + half, top: at.y - LINE_PX / 2, bottom: at.y + LINE_PX / 2 };
-    const free = taken.every(
+    const inside = box.left >= 0 && box.right <= size.width && box.top >= 0 && box.bottom <= size.height;
+    const free = inside && taken.every(
       (other) =>
         box.right < other.left || box.left > other.right || box.bottom < other.top || box.top > other.bottom,
     );

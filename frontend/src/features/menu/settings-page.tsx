@@ -8,6 +8,7 @@ import { Button } from '@/ui/button';
 import { Choice } from '@/ui/choice';
 import { Panel } from '@/ui/panel';
 
+import { InstallHint } from './install-hint';
 import css from './settings-page.module.css';
 
 const themes: readonly Theme[] = ['system', 'light', 'dark', 'contrast'];
@@ -40,6 +41,7 @@ export function SettingsPage({ canSignOut, onSignedOut }: { canSignOut: boolean;
           onChange={(planColours) => prefs.set({ planColours })}
         />
         <About />
+        <InstallHint />
         {canSignOut && (
           <Button onPress={() => void attempt(closeSession).then((done) => done && onSignedOut())}>
             {t('session:signOut')}

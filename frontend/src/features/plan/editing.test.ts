@@ -2,7 +2,7 @@ import { describe, expect, it } from 'vitest';
 
 import { step } from '@/live/samples';
 
-import { editable, moved, newStep, nudged, pendingSteps, setInput, toDraft } from './editing';
+import { editable, moved, newStep, nudged, pendingSteps, putBack, setInput, toDraft } from './editing';
 
 const drafts = ['a', 'b', 'c'].map((id) => toDraft(step({ id })));
 const ids = (steps: readonly { id: string }[]) => steps.map((one) => one.id).join('');
@@ -49,6 +49,16 @@ describe('changing a plan', () => {
     expect(made.call).toEqual({
       GoTo: { input_parameters: { pose: { position: { x: { pvf_type: 'number' } } } }, output_parameters: {} },
     });
+  });
+
+  it('puts a step back where it stood, however many have begun meanwhile', () => {
+    const steps = ['a', 'b', 'c', 'd'].map((id) => step({ id, call: { [id]: {} } }));
+    const [, b, c, d] = steps;
+    if (!b || !c || !d) throw new Error('there are four');
+    const renamed = { ...d, id: 'd2' };
+    expect(putBack(b, steps, [c, renamed]).map((one) => one.id)).toEqual(['b', 'c', 'd2']);
+    expect(putBack(c, steps, [renamed]).map((one) => one.id)).toEqual(['c', 'd2']);
+    expect(putBack(d, steps, []).map((one) => one.id)).toEqual(['d']);
   });
 
   it('lets people write words, not coordinates', () => {

@@ -69,3 +69,12 @@ export function nudged(steps: readonly DraftStep[], id: string, by: -1 | 1): rea
 /** Inputs a person can write down: words, numbers and yes or no; places come from other steps. */
 export const editable = (input: ParameterView) =>
   ['string', 'number', 'bool'].includes(input.type) && !/(?:^|::)(?:position|orientation)::/.test(input.name);
+
+/** A step that was taken out, put where it stood: in front of the first that came after it and still waits. */
+export function putBack(step: StepView, before: readonly StepView[], now: readonly StepView[]): readonly StepView[] {
+  const sameCall = (one: StepView, other: StepView) => JSON.stringify(one.call) === JSON.stringify(other.call);
+  const behind = before.slice(before.findIndex((one) => one.id === step.id) + 1);
+  const successor = now.findIndex((one) => behind.some((other) => sameCall(one, other)));
+  const at = successor < 0 ? now.length : successor;
+  return [...now.slice(0, at), step, ...now.slice(at)];
+}

@@ -1,13 +1,10 @@
 import { useEffect, useRef, useState } from 'react';
 import { useTranslation } from 'react-i18next';
 
-import { ApiError, putSteps } from '@/live/api';
 import { useWorld } from '@/live/store';
-import type { ActionCall, PlanView, StepState } from '@/live/types';
+import type { PlanView, StepState } from '@/live/types';
 import { planKey } from '@/live/world';
-import { explain } from '@/state/do';
 import { useSelection } from '@/state/selection';
-import { useToasts } from '@/state/toasts';
 import { Choice } from '@/ui/choice';
 import { Empty, Panel } from '@/ui/panel';
 
@@ -15,10 +12,11 @@ import { pendingSteps, toDraft } from './editing';
 import { PlanControls } from './plan-controls';
 import { PlanEditor } from './plan-editor';
 import css from './plan-panel.module.css';
-import { PolicyChoice } from './policy-choice';
+import { PolicyChoice } from '@/ui/policy-choice';
 import { ProposalCard } from './proposal-card';
 import { pickPlan, proposalsOf, shownPlans } from './shown-plans';
 import { StepCard } from './step-card';
+import { useRemoving, useSaving } from './use-saving';
 
 const BUSY: readonly StepState[] = ['running', 'waiting', 'failed', 'paused', 'stopping'];
 
@@ -45,10 +43,13 @@ export function PlanPanel() {
   );
   return (
     <Panel title={t('title')} tools={choice} flush>
-      {plan ? <PlanOf key={planKey(plan)} plan={plan} /> : <Empty title={t('noRobot')} />}
+      {plan ? <PlanOf key={partKey(plan)} plan={plan} /> : <Empty title={t('noRobot')} />}
     </Panel>
   );
 }
+
+/** A robot's own plan stays the same part of the page whichever steps it has, or open boxes would close. */
+const partKey = (plan: PlanView) => (plan.kind === 'plan' ? plan.robot : planKey(plan));
 
 function PlanOf({ plan }: { plan: PlanView }) {
   const { t } = useTranslation(['plan', 'common']);
@@ -56,7 +57,9 @@ function PlanOf({ plan }: { plan: PlanView }) {
   const [editing, setEditing] = useState<PlanView | null>(null);
   const waiting = plan.kind === 'plan' ? proposalsOf(proposals, plan.robot) : [];
   const pending = pendingSteps(plan.steps);
-  const save = useSaving(() => setEditing(null));
+  const close = () => setEditing(null);
+  const save = useSaving();
+  const remove = useRemoving(plan);
   const steps = useCurrentInView(plan);
   return (
     <>
@@ -75,8 +78,11 @@ function PlanOf({ plan }: { plan: PlanView }) {
             robot={plan.robot}
             steps={pendingSteps(editing.steps).map(toDraft)}
             saveLabel={t('common:save')}
-            onSave={(calls) => save(plan.robot, calls, editing.revision)}
-            onCancel={() => setEditing(null)}
+            onSave={async (calls) => {
+              const outcome = await save(plan.robot, calls, editing.revision);
+              if (outcome !== 'refused') close();
+            }}
+            onCancel={close}
           />
         )}
         {plan.steps.length > 0 && (
@@ -84,7 +90,13 @@ function PlanOf({ plan }: { plan: PlanView }) {
             {plan.steps
               .filter((step) => !editing || step.state !== 'queued')
               .map((step, index) => (
-                <StepCard key={step.id} step={step} number={index + 1} changed={plan.changed.includes(step.id)} />
+                <StepCard
+                  key={step.id}
+                  step={step}
+                  number={index + 1}
+                  changed={plan.changed.includes(step.id)}
+                  onRemove={plan.kind === 'plan' && step.state === 'queued' ? () => remove(step) : null}
+                />
               ))}
           </ol>
         )}
@@ -111,21 +123,4 @@ function useCurrentInView(plan: PlanView) {
     if (current > 0) list.current?.children[current]?.scrollIntoView({ block: 'nearest' });
   }, [current]);
   return list;
-}
-
-/** Sends changed steps; when the plan has moved on meanwhile, says so and closes the editor. */
-function useSaving(close: () => void) {
-  const { t } = useTranslation(['plan', 'common']);
-  const show = useToasts((state) => state.show);
-  return async (robot: string, calls: readonly ActionCall[], revision: number) => {
-    try {
-      await putSteps(robot, calls, revision);
-      show({ tone: 'info', message: t('saved') });
-      close();
-    } catch (error) {
-      const conflict = error instanceof ApiError && error.status === 409;
-      show({ tone: 'error', message: conflict ? t('conflict') : explain(error) });
-      if (conflict) close();
-    }
-  };
 }

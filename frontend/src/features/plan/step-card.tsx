@@ -24,10 +24,12 @@ interface Props {
   step: StepView;
   number: number;
   changed: boolean;
+  /** Given if the step can still be taken out. */
+  onRemove?: (() => void) | null;
 }
 
 /** One step: what, why, how far. Its state is told by colour, sign and word. */
-export function StepCard({ step, number, changed }: Props) {
+export function StepCard({ step, number, changed, onRemove = null }: Props) {
   const { t } = useTranslation('plan');
   const [open, setOpen] = useState(false);
   return (
@@ -36,9 +38,12 @@ export function StepCard({ step, number, changed }: Props) {
         <Icon name={icons[step.state]} size={18} />
       </span>
       <div className={css.body}>
-        <p className={css.label}>
-          <span className={css.number}>{number}.</span> {sentence(step.label) || inWords(step.action)}
-        </p>
+        <div className={css.top}>
+          <p className={css.label}>
+            <span className={css.number}>{number}.</span> {sentence(step.label) || inWords(step.action)}
+          </p>
+          {onRemove && <Remove label={sentence(step.label)} onRemove={onRemove} />}
+        </div>
         <div className={css.row}>
           <p className={css.state}>
             <span>{t(`step.${step.state}`)}</span>
@@ -52,11 +57,31 @@ export function StepCard({ step, number, changed }: Props) {
           </button>
         </div>
         {step.state === 'running' && <Progress step={step} />}
-        {step.message && <p className={css.message}>{step.message}</p>}
-        {step.reason && step.reason !== step.label && <p className={css.reason}>{t('why', { reason: step.reason })}</p>}
+        <Told step={step} />
         {open && <Details step={step} />}
       </div>
     </li>
+  );
+}
+
+/** Why it failed, and why it is there. */
+function Told({ step }: { step: StepView }) {
+  const { t } = useTranslation('plan');
+  return (
+    <>
+      {step.message && <p className={css.message}>{step.message}</p>}
+      {step.reason && step.reason !== step.label && <p className={css.reason}>{t('why', { reason: step.reason })}</p>}
+    </>
+  );
+}
+
+function Remove({ label, onRemove }: { label: string; onRemove: () => void }) {
+  const { t } = useTranslation('plan');
+  const name = t('removeStep', { step: label });
+  return (
+    <button type="button" className={css.remove} aria-label={name} title={name} onClick={onRemove}>
+      <Icon name="trash" size={16} />
+    </button>
   );
 }
 

@@ -8,10 +8,13 @@ import { TextField } from '@/ui/text-field';
 
 import css from './sign-in.module.css';
 
+/** A code that came with the address, as in the picture that phones are shown: `#code=ABCD-EFGH`. */
+const codeOfAddress = () => /^#code=(.+)$/.exec(window.location.hash)?.[1] ?? '';
+
 /** Asks for the password or code. */
 export function SignIn({ onSignedIn }: { onSignedIn: () => void }) {
   const { t } = useTranslation('session');
-  const [secret, setSecret] = useState('');
+  const [secret, setSecret] = useState(codeOfAddress);
   const [name, setName] = useState('');
   const [problem, setProblem] = useState('');
   const [busy, setBusy] = useState(false);
@@ -20,6 +23,7 @@ export function SignIn({ onSignedIn }: { onSignedIn: () => void }) {
     setBusy(true);
     try {
       await openSession(secret, name);
+      if (codeOfAddress() !== '') window.location.hash = '#/';
       onSignedIn();
     } catch (error) {
       setProblem(error instanceof ApiError && error.status === 401 ? t('wrong') : explain(error));
@@ -44,7 +48,7 @@ export function SignIn({ onSignedIn }: { onSignedIn: () => void }) {
           label={t('secret')}
           type="password"
           autoComplete="current-password"
-          autoFocus
+          autoFocus={secret === ''}
           value={secret}
           onChange={setSecret}
         />

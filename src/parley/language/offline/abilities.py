@@ -3,9 +3,10 @@
 from __future__ import annotations
 
 from parley.language.offline.catalogue import text_inputs
-from parley.language.offline.saying import listing, whole_sentence
+from parley.language.offline.lexicon import lexicon
+from parley.language.offline.saying import a, listing, whole_sentence
 from parley.language.offline.scene import Scene
-from parley.language.offline.text import split_name
+from parley.language.offline.text import lemma, singular, split_name
 from parley.messages.status import ActionInfo
 
 __all__ = ["abilities", "can_list", "cannot"]
@@ -44,11 +45,18 @@ def can_list(scene: Scene) -> list[str]:
 
 
 def _described(info: ActionInfo) -> str:
-    if info.description:
-        first = info.description.strip().split(". ")[0].rstrip(".")
-        return first[0].lower() + first[1:]
-    rest = " something" if text_inputs(info) else ""
-    return " ".join(split_name(info.name)) + rest
+    if info.description.strip():
+        words = info.description.strip().split(". ")[0].rstrip(".").split()
+        # "Drives to the dock and charges": what it does, in the form that follows "I can".
+        words = [
+            lemma(word.lower()) if i == 0 or words[i - 1] == "and" else word for i, word in enumerate(words)
+        ]
+        return " ".join(words)
+    name = split_name(info.name)
+    verb, what = (name[0] if name else info.name), " ".join(name[1:])
+    if what and name[-1] not in lexicon().goals_and_places:
+        return f"{verb} {what if singular(name[-1]) != name[-1] else a(what)}"
+    return f"{verb} {what}".strip() + (" something" if text_inputs(info) else "")
 
 
 def abilities(scene: Scene) -> str:

@@ -6,7 +6,7 @@ from parley.language.base import Situation
 from parley.language.offline.lexicon import lexicon
 from parley.language.offline.text import Phrase, closest, keys, tokens
 
-__all__ = ["addressed", "own_part", "stranger"]
+__all__ = ["addressed", "other_robots", "own_part", "stranger"]
 
 _CALLS = frozenset(
     {"hey", "hi", "hello", "ok", "okay", "dear", "tell", "have", "let", "ask", "make", "and", "please", "get"}
@@ -15,6 +15,7 @@ _CALLS = frozenset(
 
 def addressed(words: Phrase, situation: Situation) -> tuple[Phrase, tuple[str, ...]]:
     """The message without the names it calls, and the robots it is for (empty: nobody was named)."""
+    words = _others_named(words, situation)
     group = lexicon().everybody.match(keys(words))
     if group is not None and group[0] < len(words) and situation.robots:
         rest = words[group[0] :]
@@ -35,6 +36,44 @@ def addressed(words: Phrase, situation: Situation) -> tuple[Phrase, tuple[str, .
     if last:
         named.append(last)
     return rest, tuple(dict.fromkeys(named))
+
+
+_OTHERS = (
+    ("the", "other", "robots"), ("the", "other", "robot"), ("the", "other", "two"), ("your", "colleague"),
+    ("your", "colleagues"), ("the", "others"), ("one", "of", "you"), ("any", "of", "you"),
+    ("either", "of", "you"),
+)  # fmt: skip
+_BEFORE_OTHERS = frozenset({"let", "tell", "have", "send", "ask", "get", "make", "should", "could", "and"})
+
+
+def _others_named(words: Phrase, situation: Situation) -> Phrase:
+    """The names of the other robots for "the other robot", that of the one spoken to for "one of you"."""
+    flat = keys(words)
+    for at in range(min(4, len(flat))):
+        marker = next((m for m in _OTHERS if flat[at : at + len(m)] == m), ())
+        if not marker or (at and flat[at - 1] not in _BEFORE_OTHERS) or at + len(marker) >= len(flat):
+            continue
+        names = [name for name in situation.robots if name != situation.robot]
+        names = (
+            [situation.robot or situation.robots[0]] if marker[-1] == "you" and situation.robots else names
+        )
+        if not names or (marker[-1] in {"robot", "colleague"} and len(names) > 1):
+            return words
+        called = tuple(
+            word for i, n in enumerate(names) for word in (*(tokens("and") if i else ()), *tokens(n))
+        )
+        return (*words[:at], *called, *words[at + len(marker) :])
+    return words
+
+
+def other_robots(words: Phrase, situation: Situation) -> tuple[str, ...]:
+    """The robots that "the other robot" may mean, if there are several."""
+    flat = keys(words)
+    for at in range(min(4, len(flat) - 3)):
+        if flat[at : at + 3] == ("the", "other", "robot") and (not at or flat[at - 1] in _BEFORE_OTHERS):
+            names = tuple(name for name in situation.robots if name != situation.robot)
+            return names if len(names) > 1 else ()
+    return ()
 
 
 def own_part(words: Phrase, situation: Situation) -> tuple[Phrase, tuple[str, ...], str] | None:

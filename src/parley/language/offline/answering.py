@@ -10,8 +10,8 @@ from parley.language.offline.abilities import abilities
 from parley.language.offline.changing import Changing
 from parley.language.offline.clauses import Clause
 from parley.language.offline.commands import Command, read_command
-from parley.language.offline.saying import listing, whole_sentence
 from parley.language.offline.replies import agrees
+from parley.language.offline.saying import in_turn, whole_sentence
 from parley.language.offline.scene import UnclearError
 from parley.language.offline.stories import told_around
 from parley.language.offline.text import Word, keys, plain
@@ -102,7 +102,7 @@ class Answering(Changing):
         if self.tasks.steps and known:
             parts.append("I remember: " + " ".join(dict.fromkeys(known)))
         if self.tasks.will:
-            parts.append(whole_sentence(f"I will {listing(self._will(), 'and then')}"))
+            parts.append(whole_sentence(f"I will {in_turn(self._will())}"))
         return " ".join(part for part in parts if part) or "All right."
 
     def _new(self) -> list[object]:
@@ -123,11 +123,28 @@ class Answering(Changing):
             self.replies.append(unclear.question)
 
     def _result(self, text: str, steps: Sequence[ActionCall], choices: Sequence[str] = ()) -> ChatAction:
+        given = {c.arguments.get("name") for c in self.commands if c.command == "add_memory"}
+        taken = {c.arguments.get("name") for c in self.commands if c.command == "remove_memory"} & given
+        # Told and taken back in one message: nothing is to be kept of it.
+        self.commands = [c for c in self.commands if c.arguments.get("name") not in taken or not taken]
         return ChatAction(
-            message_response=text,
+            message_response=_to_the_operator(text),
             queue=tuple(steps),
             system_cmd=tuple(self.commands),
             targets=self.targets or ((self.scene.situation.robot,) if self.scene.situation.robot else ()),
             choices=tuple(choices),
             sources=tuple(self.scene.sources),
         )
+
+
+def _to_the_operator(text: str) -> str:
+    """What is remembered of the operator, said to the operator."""
+    for third, second in _SECOND_PERSON:
+        text = text.replace(third, second)
+    return text
+
+
+_SECOND_PERSON = (
+    ("The operator is ", "You are "), ("the operator is ", "you are "), ("The operator's ", "Your "),
+    ("the operator's ", "your "),
+)  # fmt: skip

@@ -12,7 +12,8 @@ from parley.language.offline.nouns import bare, coordinated, noun_phrase
 from parley.language.offline.remembering import find_fact
 from parley.language.offline.saying import the
 from parley.language.offline.scene import OPERATOR, Place, UnclearError
-from parley.language.offline.text import Phrase, keys, plain, tokens
+from parley.language.offline.text import Phrase, keys, plain, singular, tokens
+from parley.messages.status import ActionInfo
 
 __all__ = ["Carrying"]
 
@@ -71,6 +72,10 @@ class Carrying(Looking):
             # "Take the left door": a way to go.
             self._go(replace(command, kind="motion", verb="go", place=command.theme, theme=()))
             return
+        if keys(command.theme) in {("me",), ("us",)} and (command.place or command.recipient):
+            where = command.place or command.recipient
+            self._lead(replace(command, kind="guide", theme=OPERATOR, place=where, recipient=()))
+            return
         command = self._from_where_it_is(command)
         only = (
             not command.recipient
@@ -79,6 +84,8 @@ class Carrying(Looking):
         )
         if only and self.catalogue.with_role("grasp") is not None:
             self.collect(command)
+            return
+        if self._fetched_by_action(command):
             return
         theme, source = self._theme(command)
         if self.scene.is_person(theme):
@@ -105,6 +112,26 @@ class Carrying(Looking):
         self.carried = ()
         self.scene.mention(recipient)
         self.scene.mention(theme)
+
+    def _lead(self, command: Command) -> None:
+        """Lead somebody somewhere."""
+        raise NotImplementedError
+
+    def _fetched_by_action(self, command: Command) -> bool:
+        """Let an action that brings things from wherever they are do it, if nobody knows where they are."""
+        fetcher = self.catalogue.with_role("fetch")
+        if fetcher is None or self.catalogue.with_role("grasp") is not None or self._knows(command.theme):
+            return False
+        if command.source or self.scene.is_person(command.theme) or keys(command.theme)[0] in ASKING:
+            return False
+        recipient = command.recipient or (() if command.place else OPERATOR)
+        self._invoke(fetcher, replace(command, recipient=self.scene.referent(recipient) if recipient else ()))
+        return True
+
+    def _giver(self) -> ActionInfo | None:
+        """The action that hands over what the robot has on board."""
+        giver = self.catalogue.with_role("handover")
+        return giver or (self.catalogue.with_role("fetch") if self.catalogue.with_role("grasp") else None)
 
     def _knows(self, theme: Phrase) -> bool:
         """Whether it is on the map or remembered to be somewhere."""
@@ -163,7 +190,7 @@ class Carrying(Looking):
             recipient = self.scene.persons[-1] if self.scene.persons else OPERATOR
         recipient = self.scene.referent(recipient) if recipient else ()
         unknown = recipient == OPERATOR and not command.place and not self._is_known(OPERATOR)
-        if unknown and self.catalogue.with_role("handover") is not None and not self.scene.hints:
+        if unknown and self._giver() is not None and not self.scene.hints:
             self.notes.append("I do not know where you are, so please come to me or tell me.")
             return recipient, Place("")
         if command.place:
@@ -203,8 +230,14 @@ class Carrying(Looking):
         self.carried = theme
 
     def _hand_over(self, theme: Phrase, recipient: Phrase, command: Command) -> None:
-        giver = self.catalogue.with_role("handover") if recipient else self.catalogue.with_role("place")
+        giver = self._giver() if recipient else self.catalogue.with_role("place")
         if giver is None:
+            if self.catalogue.with_role("grasp") is not None:
+                deed = "hand over" if recipient else "put down"
+                it = "them" if singular(theme[-1].key) != theme[-1].key else "it"
+                self.notes.append(
+                    f"I cannot {deed} {the(plain(theme))}, so somebody has to take {it} from me."
+                )
             return
         self._invoke(giver, replace(command, theme=theme, recipient=recipient or command.recipient))
 
@@ -252,6 +285,8 @@ class Carrying(Looking):
             raise UnableError(f"{command.verb} {the(plain(theme)) if theme else 'things'}")
         if command.place:
             self._stand_at(self._place_or_here(command.place))
+        if placer is None and asker is None:
+            self.notes.append(f"I cannot put {the(plain(theme))} down, so somebody has to take it from me.")
         if placer is not None:
             self._invoke(placer, replace(command, theme=theme))
         elif asker is not None:
@@ -260,8 +295,17 @@ class Carrying(Looking):
             self.will.append(f"ask you to take {the(plain(theme))} off me")
         self.carried = ()
 
+    def _stand_at_person(self, person: Phrase) -> None:
+        """Go to where somebody is remembered to be."""
+        fact, _ = find_fact(person, self.scene.facts)
+        if fact is not None and not self.here:
+            self._stand_at(self.scene.remembered_place(person))
+
     def _guide(self, command: Command, theme: Phrase) -> None:
         guide = self.catalogue.with_role("guide")
         if guide is None:
             raise UnableError("take people along")
-        self._invoke(guide, replace(command, theme=theme, recipient=theme))
+        if command.source:
+            self._stand_at(self.scene.place(command.source))
+        self._stand_at_person(theme)
+        self._invoke(guide, replace(command, kind="guide", theme=theme, recipient=theme))

@@ -13,6 +13,7 @@ from typing import Any
 
 from parley.language.offline.lexicon import lexicon
 from parley.language.offline.text import lemma, singular, split_name
+from parley.language.word_lists import load_data
 from parley.messages.chat import ActionCall
 from parley.messages.pvf import Parameter
 from parley.messages.status import ActionInfo
@@ -35,6 +36,12 @@ _PARAMETER_ROLES = {
         "point",
         "loc",
         "dest",
+        "surface",
+        "zone",
+        "hall",
+        "station",
+        "receptacle",
+        "site",
     ],
     "person": [
         "person",
@@ -72,10 +79,15 @@ _PARAMETER_ROLES = {
 def parameter_role(name: str) -> str:
     """What kind of words an input takes, by its name: place, person, text, object or empty."""
     words = split_name(name.replace("::", "_"))
+    telling = [word for word in words if word not in _VAGUE_NAMES] or words
     for role, known in _PARAMETER_ROLES.items():
-        if any(word in known for word in words):
+        if any(word in known for word in telling):
             return role
-    return ""
+    return "person" if any(singular(word) in lexicon().person_words for word in telling) else ""
+
+
+_VAGUE_NAMES = frozenset({"name", "id", "to", "what", "description", "text", "string"})
+"""Words of a parameter's name that say little beside another: "item_name" is an item."""
 
 
 def text_inputs(info: ActionInfo) -> list[str]:
@@ -92,6 +104,8 @@ def roles_of(info: ActionInfo) -> frozenset[str]:
     words = split_name(info.name)
     if not words:
         return frozenset()
+    if not info.inputs and set(words) & _HOMING and not set(words) & _NOT_HOMING:
+        return frozenset({"dock"})
     numeric = [kind for kind in info.outputs.values() if kind in {"number", "numbers"}]
     if text_inputs(info) and len(numeric) >= 2:
         return frozenset({"locate"})
@@ -118,62 +132,18 @@ def roles_of(info: ActionInfo) -> frozenset[str]:
     return frozenset()
 
 
-_PHYSICAL = frozenset({"place"})
+_HOMING = frozenset({"dock", "charger", "charge", "recharge", "charging", "home", "base"})
+_NOT_HOMING = frozenset(
+    {"undock", "leave", "battery", "status", "get", "check", "is", "set", "light", "lights"}
+)
+_FETCHING = frozenset(
+    {"bring", "fetch", "get", "carry", "deliver", "transport", "supply", "retrieve", "ship"}
+)
+_PHYSICAL = frozenset({"place", "fetch"})
 """Roles that need something named: without an input for it, "set" or "release" mean something else."""
 
 
-_ANY_SIGHT = frozenset(
-    [
-        "object",
-        "obj",
-        "item",
-        "thing",
-        "person",
-        "people",
-        "human",
-        "place",
-        "area",
-        "around",
-        "at",
-        "for",
-        "up",
-        "in",
-        "into",
-        "photo",
-        "picture",
-        "image",
-        "scene",
-        "environment",
-        "surroundings",
-        "room",
-        "view",
-        "camera",
-        "site",
-        "location",
-        "target",
-        "zone",
-        "spot",
-        "out",
-        "over",
-        "with",
-        "robot",
-        "a",
-        "the",
-        "of",
-        "on",
-        "inspection",
-        "look",
-        "visual",
-        "objects",
-        "things",
-        "persons",
-        "humans",
-        "places",
-        "point",
-        "position",
-        "something",
-    ]
-)
+_ANY_SIGHT = frozenset(load_data("names")["any_sight"])
 _TAKING = frozenset({"take", "capture", "snap", "get", "make", "shoot", "grab", "send"})
 _PICTURES = frozenset({"photo", "picture", "image", "photograph", "snapshot", "pic"})
 
@@ -186,13 +156,19 @@ def _by_words(words: tuple[str, ...]) -> frozenset[str]:
     if base[0] in _TAKING and set(base[1:]) & _PICTURES:
         return frozenset({"look"})
     found = lex.verbs.match(base)
-    if found is not None and found[0] > 1 and not found[1].startswith("other:"):
-        return frozenset({found[1].partition(":")[0]})
+    kind = "" if found is None or found[1].startswith("other:") else found[1].partition(":")[0]
+    if found is not None and kind and found[0] > 1:
+        return frozenset({_transferring(base[0]) if kind == "transfer" else kind})
     if base[0] in lex.action_words:
         return frozenset({lex.action_words[base[0]]})
-    if found is not None and not found[1].startswith("other:"):
-        return frozenset({found[1].partition(":")[0]})
+    if kind:
+        return frozenset({_transferring(base[0]) if kind == "transfer" else kind})
     return frozenset()
+
+
+def _transferring(verb: str) -> str:
+    """Getting something on board, bringing it from elsewhere, or handing it over."""
+    return "grasp" if verb in {"take", "grab"} else "fetch" if verb in _FETCHING else "handover"
 
 
 def templates(info: ActionInfo) -> tuple[str, ...]:
@@ -282,6 +258,20 @@ class Catalogue:
         ]
         return fitting[0] if len(fitting) == 1 else None
 
+    def reading(self, words: Sequence[str]) -> ActionInfo | None:
+        """The one action without inputs that tells what is asked about ("get_battery_level": the battery)."""
+        said = {singular(word) for word in words}
+        fitting = [
+            info
+            for info in self.infos
+            if not info.inputs
+            and split_name(info.name)[:1]
+            and split_name(info.name)[0] in _TELLING
+            and (about := {singular(word) for word in split_name(info.name)[1:]} - _OF_READING)
+            and about <= said
+        ]
+        return fitting[0] if len(fitting) == 1 else None
+
     def by_phrase(self, words: Sequence[str]) -> ActionInfo | None:
         """The one action of which a whole phrase or example is said, fixed words behind a value included."""
         text = " ".join((lemma(words[0]), *words[1:])) if words else ""
@@ -362,7 +352,7 @@ class Catalogue:
         ):
             known[texts[0]] = words
             missing.pop(texts[0])
-        if any(kind != "string" for kind in missing.values()):
+        if any(kind != "string" and name not in info.optional for name, kind in missing.items()):
             return None
         return [*before, call(info, known, reason)]
 
@@ -392,46 +382,9 @@ class Catalogue:
         return table
 
 
-_EMPTY = frozenset(
-    [
-        "the",
-        "a",
-        "an",
-        "of",
-        "to",
-        "in",
-        "on",
-        "at",
-        "for",
-        "from",
-        "with",
-        "and",
-        "or",
-        "it",
-        "is",
-        "are",
-        "be",
-        "one",
-        "some",
-        "any",
-        "by",
-        "into",
-        "onto",
-        "that",
-        "this",
-        "as",
-        "up",
-        "down",
-        "me",
-        "my",
-        "your",
-        "you",
-        "i",
-        "we",
-        "please",
-        "then",
-    ]
-)
+_TELLING = frozenset({"get", "check", "read", "report", "measure", "query", "show", "request", "test"})
+_OF_READING = frozenset({"level", "status", "state", "value", "reading", "info", "current", "data", "report"})
+_EMPTY = frozenset(load_data("names")["empty"])
 
 
 def _says(phrase: str, text: str) -> bool:
@@ -455,6 +408,7 @@ _COVERED = {
     "back": frozenset({"motion"}),
     "place": frozenset({"place"}),
     "motion": frozenset({"motion"}),
+    "dock": frozenset({"dock"}),
 }
 
 

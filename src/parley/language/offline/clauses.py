@@ -9,6 +9,7 @@ from parley.language.control import control_of
 from parley.language.offline.conditions import is_rule, split_condition
 from parley.language.offline.facts import read_statement, strip_openers
 from parley.language.offline.lexicon import lexicon
+from parley.language.offline.simultaneous import side_by_side
 from parley.language.offline.text import Phrase, Word, keys, lemma, plain
 
 __all__ = ["Clause", "clauses", "opens_command"]
@@ -35,6 +36,8 @@ class Clause:
     whole: bool = False
     """With `first`: before all of its sentence, not only before what was said last."""
     sentence: int = 0
+    beside: bool = False
+    """To be done at the same time as what comes before it."""
 
     def said(self) -> str:
         """The clause with what marks it, readable."""
@@ -44,6 +47,7 @@ class Clause:
 def _said(clause: Clause) -> str:
     marks = ["question"] if clause.is_question else []
     marks += ["before the rest"] if clause.first else []
+    marks += ["at the same time"] if clause.beside else []
     if clause.condition or clause.conditional:
         what = f"“{plain(clause.condition)}”" if clause.condition else "what was looked at last"
         marks.append(f"{'unless' if clause.otherwise else 'if'} {what}")
@@ -60,7 +64,7 @@ def clauses(message: Phrase, opens: Opens) -> list[Clause]:
     result: list[Clause] = []
     for number, (sentence, asked) in enumerate(_sentences(message)):
         sentence = _without_reason(sentence, opens)
-        parts = _conditional(sentence, opens)
+        parts = _parts_of(sentence, opens)
         result.extend(
             replace(
                 clause,
@@ -79,6 +83,29 @@ def clauses(message: Phrase, opens: Opens) -> list[Clause]:
         else:
             ordered.append(clause)
     return ordered
+
+
+def _parts_of(sentence: Phrase, opens: Opens) -> list[Clause]:
+    both = side_by_side(sentence, opens)
+    if both is None:
+        return _begun_first(_conditional(sentence, opens))
+    first, second = (_conditional(_trim(part), opens) if part else [] for part in both[:2])
+    return [*first, *(replace(clause, beside=both[2]) for clause in second)]
+
+
+_BEGINNING = frozenset({"begin", "start", "commence", "beginning", "starting"})
+
+
+def _begun_first(parts: list[Clause]) -> list[Clause]:
+    """For "end at A but begin at B": where to begin comes first, wherever it is said."""
+    return [
+        replace(clause, first=True, whole=True)
+        if index
+        and clause.words[0].key in _BEGINNING
+        and {"at", "with", "from", "in", "by"} & set(keys(clause.words[1:4]))
+        else clause
+        for index, clause in enumerate(parts)
+    ]
 
 
 def opens_command(words: Phrase, extra_verbs: Sequence[tuple[str, ...]] = ()) -> bool:
@@ -365,9 +392,21 @@ def _new_clause(sentence: Phrase, start: int, index: int, opens: Opens) -> bool:
     return _tells_or_asks(sentence[index].key, before, rest)
 
 
+_TAKING_BACK = frozenset({"i", "or", "no", "wait", "rather", "sorry", "oops", "correction"})
+
+
 def _corrects(before: Phrase, rest: Phrase, opens: Opens) -> bool:
     """Whether what follows takes back or narrows down what came before."""
-    if lexicon().corrections.match(keys(rest)) and keys(rest)[0] in {"i", "or", "no", "wait", "rather"}:
+    if lexicon().corrections.match(keys(rest)) and keys(rest)[0] in {
+        "i",
+        "or",
+        "no",
+        "wait",
+        "rather",
+        "sorry",
+        "oops",
+        "correction",
+    }:
         return True
     if rest[0].key in {"just", "only", "but"} and lexicon().prohibitions.match(keys(before)):
         # "Do not go to the box, just to the door": what is wanted instead.
@@ -414,7 +453,7 @@ def _leaves_out(before: Phrase, rest: Phrase) -> bool:
 _COUNTING = frozenset(
     {"second", "secondly", "third", "thirdly", "fourth", "fifth", "finally", "lastly", "last"}
 )
-_SKIPPING = frozenset({("skip",), ("omit",), ("exclude",), ("ignore",)})
+_SKIPPING = frozenset({("skip",), ("omit",), ("exclude",), ("ignore",), ("leave",)})
 _THE_REST = frozenset(
     {("the", "rest"), ("the", "others"), ("everything", "else"), ("nothing", "else"), ("all", "else")}
 )

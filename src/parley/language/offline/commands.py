@@ -166,7 +166,7 @@ def _serial(verb: str, rest: Phrase, kind: str) -> Phrase | None:
 
 def _fill(command: Command, is_person: IsPerson) -> Command:
     match command.kind:
-        case "motion" | "back" | "wait":
+        case "motion" | "back" | "wait" | "dock":
             return _motion(command)
         case "look" | "count":
             return _look(command)
@@ -226,8 +226,36 @@ def _trim_article(words: Phrase) -> Phrase:
     return bare(words)
 
 
+def _counted(words: Phrase) -> Phrase:
+    """For "boxes there are on the desk" and "boxes on the desk are open": what is counted."""
+    flat = keys(words)
+    for index in range(1, len(flat) - 1):
+        if flat[index : index + 2] in {("there", "are"), ("are", "there"), ("there", "is")}:
+            return (*words[:index], *words[index + 2 :])
+        if flat[index] == "are":
+            found = lexicon().places.match(flat, index + 1)
+            if found is not None:
+                return (*words[:index], *words[index + 1 :])
+            noun = noun_phrase(words[:index])
+            size = len(words[:index]) - len(noun.anchors[0]) if noun.anchors else index
+            at = _at(flat[:index], tuple(noun.relation.split())) if noun.relation else size
+            return (*words[:at], *words[index + 1 :], *words[at:index])
+    return words
+
+
+def _without_listener(words: Phrase) -> Phrase:
+    """Without "to me" or "for us" at the end."""
+    return words[:-2] if len(words) > 3 and keys(words[-2:]) in _TO_ME else words
+
+
+_TO_ME = frozenset((to, whom) for to in ("to", "for") for whom in ("me", "us"))
+
+
 def _look(command: Command) -> Command:
-    words = command.words
+    words = _without_listener(command.words)
+    if command.kind == "count":
+        words = _counted(words)
+        command = replace(command, words=words)
     if words and set(keys(words)) <= _DIRECTIONS:
         return replace(command, theme=words)
     while len(words) > 1 and words[0].key in {"at", "on", "into", "in", "inside", "over", "around"}:
@@ -340,7 +368,7 @@ def _at(flat: tuple[str, ...], wanted: tuple[str, ...]) -> int:
 def _transfer(command: Command, is_person: IsPerson) -> Command:
     """Theme, source, goal and recipient, in either order of objects."""
     words = _trim_end(command.words)
-    if words and words[0].key in {"up", "over", "back", "along"}:
+    if len(words) > 1 and words[0].key in {"up", "over", "back", "along", "out", "away"}:
         words = words[1:]
     words = _as_kinds(words)
     parts = _cut_at(words, frozenset({"from", "to", "for", "into", "onto", "towards"}))

@@ -11,8 +11,9 @@ from parley.language.offline.facts import Fact
 from parley.language.offline.lexicon import lexicon
 from parley.language.offline.meaning import Meaning
 from parley.language.offline.nouns import bare
+from parley.language.offline.saying import the
 from parley.language.offline.scene import UnclearError
-from parley.language.offline.text import Phrase, Word, keys, plain
+from parley.language.offline.text import Phrase, Word, keys, plain, tokens
 from parley.messages.chat import Flow, FlowIf
 
 __all__ = ["Doing"]
@@ -96,7 +97,7 @@ class Doing(Meaning):
         ]
         word = "if not" if clause.otherwise else "if so"
         if len(self.tasks.will) > told:
-            self.tasks.will[-1] = f"{word}, {self.tasks.will[-1]}"
+            self.tasks.will[told] = f"{word}, {self.tasks.will[told]}"
 
     def _named_later(self, clause: Clause) -> Phrase:
         """For "Go to the desk only if it is free": the condition with what the order names."""
@@ -105,7 +106,7 @@ class Doing(Meaning):
         if keys(condition)[0] not in {"it", "they", "he", "she"} or mentioned:
             return condition
         command = read_command(clause.words, self.scene.is_person, self.scene.catalogue.verbs)
-        named = bare(command.place or command.theme) if command is not None else ()
+        named = tokens(the(plain(bare(command.place or command.theme)))) if command is not None else ()
         return (*named, *condition[1:]) if named else condition
 
     def _one_look(self, before: int) -> None:
@@ -141,6 +142,14 @@ class Doing(Meaning):
 
     def _same_condition(self, clause: Clause) -> bool:
         return bool(self._checked[0]) and keys(self._checked[0]) == keys(clause.condition)
+
+    def _side_by_side(self, start: int) -> None:
+        """The steps from `start` on are done at the same time as the one before them."""
+        steps = self.tasks.steps
+        self.tasks.beside = False
+        if start < len(steps) and steps[start].flow is None and steps[start - 1].flow is None:
+            steps[start] = steps[start].model_copy(update={"flow": Flow(together_with=start - 1)})
+            self.tasks.will[-1] = f"{self.tasks.will[-1]} at the same time"
 
     def _clause(self, clause: Clause, *, alone: bool, index: int) -> None:
         """Read one clause; what reads whole messages says how."""

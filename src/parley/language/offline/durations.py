@@ -13,7 +13,7 @@ _UNITS_S = {
     "second": 1.0, "seconds": 1.0, "sec": 1.0, "secs": 1.0, "s": 1.0, "minute": 60.0, "minutes": 60.0,
     "min": 60.0, "mins": 60.0, "hour": 3600.0, "hours": 3600.0, "h": 3600.0,
 }  # fmt: skip
-_VAGUE = {"a": 1.0, "an": 1.0, "half": 0.5, "couple": 2.0, "few": 3.0}
+_VAGUE = {"a": 1.0, "an": 1.0, "half": 0.5, "couple": 2.0, "few": 3.0, "quarter": 0.25}
 
 
 def duration_s(phrase: Phrase) -> float | None:
@@ -31,7 +31,7 @@ def duration_s(phrase: Phrase) -> float | None:
         elif word in _TENS:
             count = _TENS[word]
         elif word in _VAGUE:
-            count = _VAGUE[word] if word != "a" or count == 1.0 else count
+            count = _VAGUE[word] if word not in {"a", "an"} or count == 1.0 else count
     half = flat[at + 1 : at + 4] == ("and", "a", "half")
     return (count + 0.5 * half) * _UNITS_S[flat[at]]
 

@@ -6,10 +6,10 @@ from collections.abc import Sequence
 from dataclasses import dataclass
 
 from parley.language.offline.commands import Command
-from parley.language.offline.facts import strip_openers
+from parley.language.offline.facts import read_statement, strip_openers
 from parley.language.offline.lexicon import lexicon
 from parley.language.offline.nouns import bare
-from parley.language.offline.remembering import find_fact
+from parley.language.offline.remembering import Remembered, find_fact
 from parley.language.offline.saying import listing, the, whole_sentence
 from parley.language.offline.scene import Scene, UnclearError
 from parley.language.offline.text import Phrase, Word, keys, lemma, plain, singular, split_name, tokens
@@ -326,17 +326,35 @@ def _forget_last(scene: Scene) -> Edit:
     """The newest fact, the one of the last message first of all."""
     if not scene.situation.memory:
         return Edit((), "There is nothing to forget.")
+    stated = _stated_last(scene)
+    if stated is not None:
+        return Edit(
+            (_remove(stated.entry.name),), f"I have forgotten: {whole_sentence(stated.fact.sentence[:200])}"
+        )
     entry = max(enumerate(scene.situation.memory), key=lambda item: (item[1].updated_unix_ms, item[0]))[1]
     return Edit((_remove(entry.name),), f"I have forgotten: {whole_sentence(entry.data[:200])}")
 
 
+def _stated_last(scene: Scene) -> Remembered | None:
+    """The remembered fact that the operator stated in the message before, if any."""
+    said = next((t.content for t in reversed(scene.situation.history) if t.role == "operator"), "")
+    for sentence in said.split(". "):
+        fact = read_statement(tokens(sentence))
+        if fact is not None:
+            return next(
+                (known for known in scene.facts if keys(known.fact.subject) == keys(fact.subject)), None
+            )
+    return None
+
+
 def _just_remembered(scene: Scene) -> bool:
-    """Whether what was said last was a fact."""
-    history = scene.situation.history
+    """Whether what was said last was a fact, or the newest memory was what was answered."""
+    history, memory = scene.situation.history, scene.situation.memory
     if not history:
         return True
     last = history[-1].content.lower()
-    return "remember" in last or "noted" in last
+    newest = memory[-1].data.lower().strip(" .") if memory else ""
+    return "remember" in last or "noted" in last or (bool(newest) and newest in last)
 
 
 def _forget_about(about: Phrase, scene: Scene) -> Edit:

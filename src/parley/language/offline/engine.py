@@ -15,6 +15,7 @@ from parley.language.base import (
 from parley.language.offline import grounding, interpreter, pictures, recall, recovery, replies
 from parley.language.offline.asides import about_failure
 from parley.language.offline.explaining import Decision, Trace
+from parley.language.offline.reordering import instead_of_answer
 from parley.messages.chat import ChatAction
 from parley.messages.memory import MemoryEntry
 from parley.robots.base import CameraImage
@@ -52,6 +53,8 @@ class OfflineLanguage:
         trace = Trace()
         failure = situation.failure
         aside = about_failure(failure, situation.message) if failure is not None else None
+        if aside is None and situation.question and failure is None:
+            aside = instead_of_answer(situation, interpreter.interpret)
         answer = aside or interpreter.interpret(situation, trace)
         if any(picture.sent for picture in situation.pictures):
             answer = answer.model_copy(update={"message_response": f"{answer.message_response} {_BLIND}"})

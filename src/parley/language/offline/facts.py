@@ -113,7 +113,7 @@ def read_statement(phrase: Phrase) -> Fact | None:
     """The fact that a clause states, or None if it states none."""
     phrase = _without_end(strip_openers(phrase, reporting=True))
     flat = keys(phrase)
-    if len(flat) < 3 or flat[0] in lexicon().question_starts - {"when"}:
+    if len(flat) < 3 or flat[0] in lexicon().question_starts - {"when"} | lexicon().be:
         return None
     if flat[0] in {"i", "we"} and flat[1] in {"hope", "hoped", "wish", "wonder", "feel"}:
         return None
@@ -394,7 +394,10 @@ def _sentence(phrase: Phrase) -> str:
     if flat[0] in {"i", "we"} and flat[1] in {"am", "are", "was", "were"}:
         text = "The operator is " + plain(phrase[2:])
     elif flat[0] in {"i", "we"}:
-        text = "The operator " + plain(phrase[1:])
+        theirs = (Word("their", "their") if word.key in {"my", "our"} else word for word in phrase[1:])
+        text = "The operator " + plain(tuple(theirs))
+    elif flat[0] in {"my", "our"}:
+        text = "The operator's " + plain(phrase[1:])
     else:
         text = plain(phrase)
         text = text[0].upper() + text[1:]

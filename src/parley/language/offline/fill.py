@@ -11,7 +11,7 @@ from parley.language.offline.commands import Command
 from parley.language.offline.durations import duration_s, without_duration
 from parley.language.offline.grounding import describe, ground_phrase
 from parley.language.offline.lexicon import lexicon
-from parley.language.offline.nouns import bare
+from parley.language.offline.nouns import bare, noun_phrase
 from parley.language.offline.scene import Scene
 from parley.language.offline.text import Phrase, keys, lemma, plain, singular, split_name, tokens
 from parley.messages.status import ActionInfo
@@ -19,6 +19,8 @@ from parley.messages.status import ActionInfo
 __all__ = ["arguments"]
 
 
+_OF_STATE = frozenset({"state", "mode", "setting", "status", "power", "switch", "on"})
+_STATES = frozenset({"on", "off", "open", "closed", "up", "down", "locked", "unlocked"})
 _OF_TIME = frozenset({"duration", "time", "seconds", "second", "s", "sec", "secs", "timeout", "delay"})
 
 
@@ -33,34 +35,61 @@ def arguments(info: ActionInfo, command: Command, scene: Scene) -> dict[str, Any
         for name, words in _by_phrase(info, command).items()
         if name in text_inputs(info)
     }
+    command = _states(info, command, values)
+    _texts(info, command, scene, values)
+    _numbers(info, command, scene, values)
+    return values
+
+
+def _states(info: ActionInfo, command: Command, values: dict[str, Any]) -> Command:
+    """For "switch the light off": how it is to be afterwards; the rest of the command is returned."""
+    said = [word.key for word in command.clause if word.key in _STATES]
+    for name in text_inputs(info):
+        if name not in values and set(split_name(name)) & _OF_STATE and said:
+            values[name] = said[-1]
+            command = _without_state(command, said[-1])
+    return command
+
+
+def _texts(info: ActionInfo, command: Command, scene: Scene, values: dict[str, Any]) -> None:
+    """Words for the inputs that take words, by what the inputs are called."""
     by_role: dict[str, Phrase] = {
         "place": command.place,
         "person": command.recipient or (command.theme if scene.is_person(command.theme) else ()),
         "object": command.theme,
         "text": command.words,
     }
-    texts = [name for name in text_inputs(info) if name not in values]
     left: list[str] = []
     used: list[Phrase] = [()]
-    for name in texts:
+    for name in [name for name in text_inputs(info) if name not in values]:
         words = by_role.get(parameter_role(name), ())
         if words and words not in used:
             values[name] = plain(bare(words)) if parameter_role(name) == "text" else _named(words, scene)
             used.append(words)
         else:
             left.append(name)
-    spare = [
-        w for w in (command.theme, command.place, command.recipient, command.words) if w and w not in used
-    ]
+    parts = (command.theme, command.place, command.recipient, command.words)
     # "Measure the temperature": what the action is about anyway is no value for it.
-    spare = [
-        w
-        for w in spare
-        if scene.ground(w).outcome != "none"
-        or not {singular(k) for k in keys(bare(w))} <= {singular(n) for n in split_name(info.name)}
-    ]
+    spare = [w for w in parts if w and w not in used and not _is_topic(w, info, scene)]
     if not values and left and spare:
         values[left[0]] = _named(spare[0], scene)
+        used.append(spare[0])
+        left = left[1:]
+    for name in left:
+        # "Pour water into the cup": what no name tells is taken in the order in which it is said.
+        unused = [w for w in (command.theme, command.place) if w and w not in used]
+        if parameter_role(name) == "" and unused and values:
+            values[name] = _named(unused[0], scene)
+            used.append(unused[0])
+
+
+def _is_topic(words: Phrase, info: ActionInfo, scene: Scene) -> bool:
+    topic = {singular(n) for n in split_name(info.name)}
+    return scene.ground(words).outcome == "none" and {singular(k) for k in keys(bare(words))} <= topic
+
+
+def _numbers(info: ActionInfo, command: Command, scene: Scene, values: dict[str, Any]) -> None:
+    """Numbers for the inputs that take numbers: said now, or in answer to a question about it."""
     numbers = [
         float(lexicon().numbers.get(word.key, word.key))
         for word in command.words
@@ -83,7 +112,16 @@ def arguments(info: ActionInfo, command: Command, scene: Scene) -> dict[str, Any
             values[name] = span_s
         elif numbers:
             values[name] = numbers.pop(0)
-    return values
+
+
+def _without_state(command: Command, state: str) -> Command:
+    def cut(phrase: Phrase) -> Phrase:
+        return tuple(word for word in phrase if word.key != state)
+
+    theme = cut(command.theme)
+    noun = noun_phrase(theme)
+    place = command.place or (noun.anchors[0] if len(noun.anchors) == 1 and noun.core else ())
+    return replace(command, theme=theme, place=place, words=cut(command.words))
 
 
 def _named(words: Phrase, scene: Scene) -> str:
@@ -101,7 +139,11 @@ def _named(words: Phrase, scene: Scene) -> str:
 
 def _by_phrase(info: ActionInfo, command: Command) -> dict[str, Phrase]:
     """Values where one of the action's own phrases fits the whole clause."""
-    clause = [word for word in bare(command.clause) if word.is_word]
+    whole = [word for word in command.clause if word.is_word]
+    return _fitted(info, whole) or _fitted(info, [word for word in bare(command.clause) if word.is_word])
+
+
+def _fitted(info: ActionInfo, clause: list[Any]) -> dict[str, Phrase]:
     text = " ".join([lemma(clause[0].key), *(word.key for word in clause[1:])]) if clause else ""
     for phrase in (*info.phrases, *templates(info)):
         names = re.findall(r"\{(\w+)\}", phrase)

@@ -12,7 +12,7 @@ from parley.language.offline.nouns import bare, noun_phrase
 from parley.language.offline.remembering import find_fact
 from parley.language.offline.saying import the
 from parley.language.offline.scene import OPERATOR, Place, Scene, UnclearError
-from parley.language.offline.text import Phrase, keys, plain, singular, split_name, tokens
+from parley.language.offline.text import Phrase, keys, lemma, plain, singular, split_name, tokens
 from parley.messages.chat import ActionCall
 from parley.messages.status import ActionInfo
 from parley.world.geometry import Pose2D
@@ -45,6 +45,8 @@ class Going:
     """Where the steps so far have brought the robot."""
     carried: Phrase = ()
     """What the robot has on board by now."""
+    beside: bool = False
+    """Whether what is added is to be done while driving: then nothing is driven to for it."""
     seen: Phrase = ()
     """What the step before looked for."""
 
@@ -175,7 +177,8 @@ class Going:
         return self.scene.place(phrase)
 
     def _stand_at(self, place: Place | None) -> None:
-        if place is not None and place.value != self.here and self.catalogue.mover is not None:
+        elsewhere = place is not None and place.value != self.here and not self.beside
+        if place is not None and elsewhere and self.catalogue.mover is not None:
             self.travel(place, f"go to {place.label}")
 
     def _said(self, info: ActionInfo, words: str, why: str) -> list[ActionCall]:
@@ -221,6 +224,9 @@ def _saying(info: ActionInfo, command: Command) -> str:
         return f"{verb} {the(plain(command.theme))}{whom}".replace("the operator", "you").replace(
             "to operator", "to you"
         )
+    if command.clause[0].key.endswith("ing"):
+        base = lemma(command.clause[0].key)
+        return f"{base} {plain(command.clause[1:])}".strip()
     return plain(command.clause).lower() if command.clause[0].is_capital else plain(command.clause)
 
 
@@ -238,9 +244,9 @@ def _with_reason(step: ActionCall, reason: str) -> ActionCall:
 def coordinates(phrase: Phrase) -> tuple[float, float] | None:
     """Two numbers, if the phrase says nothing but where on the map they are."""
     numbers = [
-        float(word.key.replace(",", ".")) for word in phrase if re.fullmatch(r"\d+(?:[.,]\d+)?", word.key)
+        float(word.key.replace(",", ".")) for word in phrase if re.fullmatch(r"-?\d+(?:[.,]\d+)?", word.key)
     ]
-    others = {word.key for word in phrase if word.is_word and not word.key[0].isdigit()}
+    others = {word.key for word in phrase if word.is_word and not word.key.lstrip("-")[:1].isdigit()}
     known = {
         "x",
         "y",

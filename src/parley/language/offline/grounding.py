@@ -20,6 +20,7 @@ from parley.language.offline import spatial
 from parley.language.offline.lexicon import lexicon
 from parley.language.offline.nouns import NounPhrase, bare, noun_phrase, number_of
 from parley.language.offline.text import Phrase, closest, keys, plain, singular, split_name, tokens
+from parley.language.offline.viewing import COMPASS, by_view, is_view, rank_word
 from parley.world.geometry import Pose2D
 from parley.world.object_map import MapObject
 
@@ -168,11 +169,11 @@ def _candidates(
     """Profiles that fit the core of the phrase, and the modifiers that no description settles."""
     core = noun.core
     generic = _without_generic(core, profiles)
-    settled = tuple(word for word in generic if word not in _SETTLED_LATER)
+    settled = tuple(word for word in generic if not _settled_later(word))
     if not settled:
         told = [p for p in _by_any_word(generic, profiles) if _labels_fit(generic, p)] if generic else []
         return (told, ()) if told else (list(profiles), generic)
-    later = tuple(word for word in generic if word in _SETTLED_LATER)
+    later = tuple(word for word in generic if _settled_later(word))
     steps = (_by_head, _by_synonym, _by_kind, _by_any_word, _by_typo)
     for step in steps[:-2] if strict else steps:
         for words, rest in ((generic, ()), (settled, later)):
@@ -196,11 +197,17 @@ _SIZES = {
     "smallest": -1.0,
     "smaller": -1.0,
 }
-_SIDES = {
+_SIDES: dict[tuple[str, ...], str] = {
     ("left",): "left", ("right",): "right", ("left", "side"): "left", ("right", "side"): "right",
     ("left", "hand", "side"): "left", ("right", "hand", "side"): "right", ("your", "left"): "left",
-    ("far", "left"): "leftmost", ("far", "right"): "rightmost",
+    ("your", "right"): "right", ("far", "left"): "leftmost", ("far", "right"): "rightmost",
+    ("middle",): "middle", ("center",): "middle", ("centre",): "middle", ("corner",): "corner",
+    **{(name,): name for name in COMPASS}, **{(name, "side"): name for name in COMPASS},
+    **{(name, "corner"): name for name in COMPASS}, **{(name, "end"): name for name in COMPASS},
+    **{(f"{name}ern", "side"): name for name in COMPASS},
+    **{tuple(name.split("-")): name for name in COMPASS if "-" in name},
 }  # fmt: skip
+_BEFORE_YOU = {"in front of": "ahead", "behind": "behind", "ahead of": "ahead"}
 
 
 def _side(noun: NounPhrase) -> NounPhrase:
@@ -208,23 +215,31 @@ def _side(noun: NounPhrase) -> NounPhrase:
     near = noun.relation in {"closest to", "nearest to", "nearest", "closest", "next to", "near", "close to"}
     if near and len(noun.anchors) == 1 and noun.core and keys(noun.anchors[0]) == ("you",):
         return replace(noun, core=("nearest", *noun.core), relation="", anchors=())
-    if noun.relation not in {"on", "at", "to"} or len(noun.anchors) != 1 or not noun.core:
+    if len(noun.anchors) != 1 or not noun.core:
         return noun
-    side = _SIDES.get(keys(bare(noun.anchors[0])))
+    anchor = keys(bare(noun.anchors[0]))
+    if anchor == ("you",) and noun.relation in _BEFORE_YOU:
+        return replace(noun, core=(_BEFORE_YOU[noun.relation], *noun.core), relation="", anchors=())
+    if noun.relation == "from" and anchor in _SIDES:
+        return _counted_from(noun, _SIDES[anchor])
+    if noun.relation not in {"on", "at", "to", "in"}:
+        return noun
+    side = _SIDES.get(anchor) or _SIDES.get(anchor[: anchor.index("of")] if "of" in anchor else ())
     return noun if side is None else replace(noun, core=(side, *noun.core), relation="", anchors=())
 
 
-_SETTLED_LATER = frozenset(_SIZES) | {
-    "nearest",
-    "closest",
-    "nearby",
-    "farthest",
-    "furthest",
-    "left",
-    "right",
-    "leftmost",
-    "rightmost",
-}
+def _counted_from(noun: NounPhrase, side: str) -> NounPhrase:
+    """For "the second door from the left"."""
+    ordinals = {str(n) for word, n in lexicon().ordinals.items() if word in keys(noun.phrase)}
+    number = next((word for word in noun.core if word in ordinals), "")
+    rest = tuple(word for word in noun.core if word != number)
+    if not number or not rest:
+        return noun
+    return replace(noun, core=(rank_word(int(number), side), *rest), relation="", anchors=())
+
+
+def _settled_later(word: str) -> bool:
+    return word in _SIZES or is_view(word)
 
 
 def _without_generic(core: tuple[str, ...], profiles: Sequence[_Profile]) -> tuple[str, ...]:
@@ -314,8 +329,8 @@ def _narrow(
             sized = spatial.by_size(items, _SIZES[word])
             said = [i for i in items if any(set(o) <= _profile(i).words for o in variants((word,)))]
             items = said if len(sized) > 1 and said else sized
-        elif pose is not None:
-            items = spatial.by_view(items, word, pose)
+        else:
+            items = by_view(items, word, pose, objects)
     return items
 
 

@@ -9,7 +9,9 @@ from parley.language.base import Situation
 from parley.language.control import control_of
 from parley.language.offline import addressing, social
 from parley.language.offline.changing import CONTROL_REPLIES
+from parley.language.offline.courtesy import plainly
 from parley.language.offline.explaining import Trace
+from parley.language.offline.facts import strip_openers
 from parley.language.offline.followup import declines, pending_request
 from parley.language.offline.grounding import ground_phrase
 from parley.language.offline.lexicon import lexicon
@@ -55,16 +57,20 @@ def _controlled(message: str, situation: Situation, trace: Trace) -> ChatAction 
 
 
 def _read(message: str, situation: Situation, trace: Trace) -> ChatAction:
-    words = mended(tokens(message), situation)
+    words = plainly(mended(tokens(message), situation))
     if plain(words) != plain(tokens(message)):
         trace.note("words", f"read as “{plain(words)}”")
+    others = addressing.other_robots(words, situation)
+    if others:
+        text = f"Which robot do you mean: {listing(list(others), 'or')}?"
+        return _say(situation, text).model_copy(update={"choices": others})
     own = addressing.own_part(words, situation)
     if own is not None:
         trace.note("target", f"several robots get orders; the one of {own[2]} is “{plain(own[0])}”")
         mine = interpret(replace(situation, message=plain(own[0]), robot=own[2], robots=(own[2],)), trace)
-        others = f"I do only my part; {listing(own[1])} must get this message too."
+        theirs = f"That is my part; {listing(own[1])} must get this message too."
         return mine.model_copy(
-            update={"message_response": f"{mine.message_response} {others}", "targets": (own[2],)}
+            update={"message_response": f"{mine.message_response} {theirs}", "targets": (own[2],)}
         )
     words, targets = addressing.addressed(words, situation)
     if targets:
@@ -83,7 +89,7 @@ def _read(message: str, situation: Situation, trace: Trace) -> ChatAction:
         text = f"I will remember that: {taught.sentence}."
         return _say(situation, text, commands=(protocol_memory(taught),), targets=targets)
     request = pending_request(words, situation)
-    answer = social.reply(words) if request is None else None
+    answer = social.reply(words) or social.reply(strip_openers(words)) if request is None else None
     if answer is not None:
         trace.note("answer", "small talk, a greeting, thanks, or another language")
         return _say(situation, answer, targets=targets)

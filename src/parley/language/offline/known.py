@@ -32,6 +32,18 @@ class UnclearError(Exception):
         super().__init__(question)
 
 
+def _described_person(flat: tuple[str, ...]) -> bool:
+    """For "the person wearing red", "the man with the hat", "the guest who is waving"."""
+    lex = lexicon()
+    at = next((i for i, word in enumerate(flat[:4]) if singular(word) in lex.person_words), -1)
+    if at < 0 or any(word in lex.verb_classes["motion"] for word in flat[:at]):
+        return False
+    following = flat[at + 1 : at + 2]
+    return following in {("with",), ("who",), ("whose",)} or (
+        following[:1] != () and following[0].endswith("ing")
+    )
+
+
 @dataclass(frozen=True, slots=True)
 class Place:
     """Somewhere the robot can be sent, or something it can be sent to."""
@@ -113,6 +125,8 @@ class Known:
         lex = lexicon()
         phrase = bare(phrase)
         flat = keys(phrase)
+        if len(flat) > 2 and _described_person(flat):
+            return True
         if not flat or len(flat) > 3:
             return False
         if flat in {("operator",)} or (

@@ -6,11 +6,13 @@ from dataclasses import dataclass, replace
 
 from parley.language.offline.catalogue import parameter_role, text_inputs
 from parley.language.offline.commands import Command
-from parley.language.offline.going import FORWARD, Going, UnableError
+from parley.language.offline.docking import Docking
+from parley.language.offline.going import FORWARD, UnableError
+from parley.language.offline.lexicon import lexicon
 from parley.language.offline.nouns import bare, noun_phrase
 from parley.language.offline.saying import the
 from parley.language.offline.scene import Place, UnclearError
-from parley.language.offline.text import Phrase, Word, keys, plain, tokens
+from parley.language.offline.text import Phrase, Word, keys, plain, singular, split_name, tokens
 from parley.messages.status import ActionInfo
 
 __all__ = ["ASKING", "Looking"]
@@ -24,6 +26,22 @@ def _start_of(flat: tuple[str, ...], relation: str) -> int:
     return next((i for i in range(len(flat)) if flat[i : i + len(wanted)] == wanted), len(flat))
 
 
+_PICTURES = frozenset({"picture", "pictures", "photo", "photos", "photograph", "image", "snapshot", "pic"})
+_GENERAL = frozenset((word,) for word in (
+    "things", "everything", "stuff", "anyone", "anybody", "someone", "somebody", "nobody", "everyone",
+    "everybody", "anything", "something", "nothing", "all",
+))  # fmt: skip
+
+
+def _without_article(words: Phrase) -> Phrase:
+    return words[1:] if keys(words[:1]) in {("the",), ("a",), ("an",)} else words
+
+
+def _in_general(command: Command) -> bool:
+    """Whether it is about no thing in particular ("whether anyone is there")."""
+    return command.kind == "whether" and keys(bare(command.theme)) in _GENERAL
+
+
 def _of_one(member: Phrase, command: Command) -> Command:
     """For one of several of which something is to be checked ("whether all boxes are shut")."""
     link = next((i for i, word in enumerate(command.words) if word.key in {"are", "is", "were", "was"}), 0)
@@ -35,13 +53,20 @@ def _of_one(member: Phrase, command: Command) -> Command:
 
 
 @dataclass
-class Looking(Going):
+class Looking(Docking):
     """How to look at things and for things."""
 
     def _look(self, command: Command) -> None:
-        looker = self.catalogue.with_role("look", "search")
+        looker = self._looker(command)
         if looker is None:
             raise UnableError(f"{command.verb} things")
+        if _in_general(command) and not command.place and not noun_phrase(command.words).anchors:
+            # "The hall. Is anyone there?"
+            if not self.here and self.scene.places:
+                self._stand_at(self.scene.place(self.scene.places[-1]))
+            request = self._whether(command)
+            self._add_look(looker, request, f"check {request}")
+            return
         if command.place:
             self._look_there(command, looker)
             return
@@ -73,11 +98,24 @@ class Looking(Going):
         for member in members:
             self._look_at(member, _of_one(member, command) if len(members) > 1 else command, looker)
 
+    def _looker(self, command: Command) -> ActionInfo | None:
+        """The action to look with: one that is called like the verb, for pictures one that takes them."""
+        lookers = self.catalogue.all_with_role("look")
+        pictures = bool(_PICTURES & set(keys(command.clause[:4])) or _PICTURES & set(command.verb.split()))
+        taking = [info for info in lookers if _PICTURES & set(split_name(info.name))]
+        others = [info for info in lookers if info not in taking]
+        named = (i for i in others if split_name(i.name)[:1] == tuple(command.verb.split()[:1]))
+        if pictures and taking:
+            return taking[0]
+        return next(named, None) or next(iter([*others, *taking]), None) or self.catalogue.with_role("search")
+
     def _inside(self, command: Command) -> Command | None:
         """For "count the cups on the table": at the table, look for the cups."""
         if command.kind == "whether":
             subject = keys(bare(command.theme))
-            if self._grounds(command.theme) or (subject and subject[0] in ASKING):
+            if (self._grounds(command.theme) and not _in_general(command)) or (
+                subject and subject[0] in ASKING
+            ):
                 return None
             noun = noun_phrase(command.words)
         else:
@@ -93,7 +131,7 @@ class Looking(Going):
 
     def _look_there(self, command: Command, looker: ActionInfo) -> None:
         """Something in or at a place: "the shelf for leaks", "whether the cup is on the table"."""
-        whole = command.kind == "whether" and self._grounds(command.theme)
+        whole = command.kind == "whether" and self._grounds(command.theme) and not _in_general(command)
         stand = self._place_or_here(command.theme if whole else command.place)
         theme = plain(self.scene.referent(command.theme)) if command.theme else ""
         request = self._whether(command) if command.kind == "whether" else theme
@@ -102,7 +140,13 @@ class Looking(Going):
         if command.kind == "whether":
             self._add_look(looker, request, f"check {request}")
         else:
-            self._add_look(looker, request or command.verb, f"look for {theme}")
+            self._add_look(looker, request or command.verb, f"look for {self._named(theme)}")
+
+    def _named(self, theme: str) -> str:
+        """With its article, but "cracks" and "all the cups" as they are."""
+        words = theme.split()
+        plural = bool(words) and singular(words[-1].lower()) != words[-1].lower()
+        return theme if plural or (" " in theme and words[0].lower() in lexicon().numbers) else the(theme)
 
     def _look_at(self, member: Phrase, command: Command, looker: ActionInfo) -> None:
         if command.kind == "whether":
@@ -136,6 +180,7 @@ class Looking(Going):
             self.will.append(saying)
 
     def _search(self, command: Command) -> None:
+        command = self._where_last_said(command)
         theme = self._wanted(command.theme)
         searcher = self._searcher(theme)
         if searcher is None:
@@ -158,16 +203,41 @@ class Looking(Going):
             elif not (own or self.here):
                 raise UnclearError(f"Where should I look for {the(words)}?")
         self.scene.mention(theme)
+        if self._is_somebody(theme) and keys(self.scene.persons[-1] if self.scene.persons else ()) != keys(
+            theme
+        ):
+            self.scene.persons.append(theme)
         self.seen = theme
         self._add_look(searcher, words, f"look for {the(words)}")
 
+    def _where_last_said(self, command: Command) -> Command:
+        """For "the person in the red coat in the hall": where is what is said last and is on the map."""
+        if command.place and self._grounds(command.place):
+            return command
+        words = tuple(word for word in command.words if word.is_word)
+        flat = keys(words)
+        if not command.place and not self.scene.is_person(words):
+            return command
+        for at in range(len(flat) - 2, 0, -1):
+            found = lexicon().places.match(flat, at)
+            rest = (
+                words[at + found[0] :] if found is not None and found[1] not in {"of", "with", "from"} else ()
+            )
+            if rest and self._grounds(rest) and not self._grounds(words):
+                return replace(command, theme=_without_article(words[:at]), place=bare(rest))
+        return command
+
     def _searcher(self, theme: Phrase) -> ActionInfo | None:
-        wanted = "person" if self.scene.is_person(theme) else "object"
+        wanted = "person" if self._is_somebody(theme) else "object"
         for info in (*self.catalogue.all_with_role("search"), *self.catalogue.all_with_role("meet")):
             roles = {parameter_role(name) for name in text_inputs(info)}
             if wanted in roles or not roles & {"person", "object"}:
                 return info
         return self.catalogue.with_role("look") or self.catalogue.with_role("search")
+
+    def _is_somebody(self, theme: Phrase) -> bool:
+        core = noun_phrase(theme).core
+        return self.scene.is_person(theme) or (bool(core) and core[-1] in lexicon().person_words)
 
     def _wanted(self, theme: Phrase) -> Phrase:
         if not theme:

@@ -10,7 +10,8 @@ from parley.language.offline.commands import Command, read_command
 from parley.language.offline.facts import read_statement, strip_openers
 from parley.language.offline.lexicon import lexicon
 from parley.language.offline.nouns import bare
-from parley.language.offline.text import Phrase, Word, keys
+from parley.language.offline.saying import the
+from parley.language.offline.text import Phrase, Word, keys, plain, tokens
 from parley.language.offline.wishes import due, missing, need, wish
 
 __all__ = ["Meaning"]
@@ -43,6 +44,18 @@ _FOLLOW_ON = (
     ("same", "for"),
     ("same", "with"),
 )
+
+
+_ONCE_MORE = frozenset({"motion", "look", "search", "transfer", "whether"})
+
+
+def _end_of(theme: Phrase, words: Phrase) -> int:
+    """Where what is looked at ends in "the door is open"."""
+    wanted = keys(theme)
+    ends = (
+        i + len(wanted) for i in range(len(words)) if wanted and keys(words[i : i + len(wanted)]) == wanted
+    )
+    return next(ends, 0)
 
 
 @dataclass
@@ -108,12 +121,7 @@ class Meaning(Answering):
     def _elliptical(self, words: Phrase) -> Command | None:
         """For "Go to A, then B": a bare noun phrase does again what the clause before did."""
         words = self._follow_on(words)
-        if (
-            self.last is None
-            or self.last.kind not in {"motion", "look", "search", "transfer"}
-            or not words
-            or len(words) > 9
-        ):
+        if self.last is None or self.last.kind not in _ONCE_MORE or not words or len(words) > 9:
             return None
         while len(words) > 1 and words[-1].key in {"too", "also", "next", "then", "now", "please"}:
             words = words[:-1]
@@ -124,6 +132,10 @@ class Meaning(Answering):
         if not words or any(w.key in lexicon().be for w in words):
             return None
         words = self._labelled(words)
+        if self.last.kind == "whether":
+            rest = self.last.words[_end_of(self.last.theme, self.last.words) :]
+            named = tokens(the(plain(words)))
+            return replace(self.last, theme=words, place=(), words=(*named, *rest), clause=words)
         if self.last.kind == "motion":
             return replace(
                 self.last, place=words, clause=(Word("go", "go"), Word("to", "to"), *words), negated=negated

@@ -27,11 +27,51 @@ def mended(words: Phrase, situation: Situation) -> Phrase:
     for info in situation.catalogue:
         known.update(split_name(info.name))
     known.update(name.lower() for name in situation.robots)
+    words = tuple(part for word in words for part in _cut(word, frozenset(known)))
     return _without_haste(mend(words, frozenset(known), lexicon().often_mistyped, _verbs()))
 
 
 _ARTICLES = frozenset({"the", "a", "an", "my", "your", "this", "that"})
 _LABEL = re.compile(r"([a-z]{2,})-?(\d{1,3})")
+
+
+def _cut(word: Word, known: frozenset[str]) -> tuple[Word, ...]:
+    """For "gotothe" "go to the", for "inspectthe" "inspect the": unknown words cut into small ones."""
+    key = word.key
+    if len(key) < 5 or not key.isalpha() or key in known:
+        return (word,)
+    for size in range(2, len(key) - 1):
+        head, tail = key[:size], key[size:]
+        if (head not in _GLUE and head not in _verbs()) or (
+            head not in _GLUE and tail[:3] not in {"the", "at", "to"}
+        ):
+            continue
+        rest = (Word(tail, tail),) if tail in known and len(tail) > 1 else _cut(Word(tail, tail), known)
+        if len(rest) > 1 or (tail in known and len(tail) > 1):
+            return (Word(head, head), *rest)
+    return (word,)
+
+
+_GLUE = frozenset(
+    {
+        "go",
+        "to",
+        "the",
+        "and",
+        "in",
+        "into",
+        "at",
+        "on",
+        "then",
+        "from",
+        "of",
+        "for",
+        "goto",
+        "tothe",
+        "look",
+        "check",
+    }
+)
 
 
 def _apart(words: Phrase, situation: Situation) -> Phrase:
@@ -88,7 +128,7 @@ def _without_haste(words: Phrase) -> Phrase:
         for index, word in enumerate(words)
         if not (
             word.key in _HASTE
-            and flat[index - 1 : index] in {("a",), ("another",)}
+            and (flat[index - 1 : index] in {("a",), ("another",), (",",), (".",), ("and",)} or not index)
             and flat[index + 1 : index + 2]
             and flat[index + 1] in _DEEDS
         )

@@ -11,7 +11,7 @@ from parley.language.offline.nouns import bare
 from parley.language.offline.remembering import memory_name
 from parley.language.offline.saying import the, whole_sentence
 from parley.language.offline.scene import Scene
-from parley.language.offline.text import keys, lemma, plain, tokens
+from parley.language.offline.text import keys, lemma, plain, singular, tokens
 from parley.messages.chat import SystemCommand
 
 __all__ = ["Noting"]
@@ -74,7 +74,7 @@ class Noting:
         name = memory_name(fact, self.scene.facts)
         self.scene.trace.note("memory", f"kept as {name}: {fact.sentence}")
         where = (
-            f"where {the(plain(fact.subject))} is"
+            f"where {the(plain(fact.subject))} {'are' if _is_plural(fact.sentence) else 'is'}"
             if fact.is_location
             else f"about {the(plain(fact.subject))}"
         )
@@ -88,13 +88,19 @@ class Noting:
             self.scene.places.append(fact.place)
         said = fact.sentence
         first = said.split()[0] if said else ""
-        keep = (
+        known = bool(said) and singular(first.lower()) in lexicon().vocabulary
+        keep = not known and (
             self.scene.is_person(tokens(first))
             or first.isupper()
             or (fact.subject and plain(fact.subject).startswith(first) and fact.subject[0].is_capital)
         )
+        said = said.replace(" their ", " your ", 1) if said.startswith("The operator ") else said
         said = said if keep else said[:1].lower() + said[1:]
-        said = said.replace("the operator", "you", 1).replace("you is", "you are", 1)
+        said = (
+            said.replace("the operator's", "your", 1)
+            .replace("the operator", "you", 1)
+            .replace("you is", "you are", 1)
+        )
         self.replies.append(f"I will remember that {said}.")
 
     def learn(self) -> None:
@@ -102,3 +108,8 @@ class Noting:
         for fact in self.scene.learned:
             self.remember(fact)
         self.scene.learned.clear()
+
+
+def _is_plural(sentence: str) -> bool:
+    words = sentence.lower().split()
+    return "are" in words[:6] or "were" in words[:6]

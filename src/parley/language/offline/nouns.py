@@ -7,7 +7,7 @@ from dataclasses import dataclass, replace
 from parley.language.offline.lexicon import lexicon
 from parley.language.offline.text import Phrase, keys, plain, singular
 
-__all__ = ["NounPhrase", "bare", "coordinated", "noun_phrase", "number_of"]
+__all__ = ["NounPhrase", "bare", "coordinated", "noun_phrase", "number_of", "split_exception"]
 
 
 @dataclass(frozen=True, slots=True)
@@ -33,6 +33,10 @@ class NounPhrase:
 
 
 _EXCEPT = (
+    "but leave out",
+    "and leave out",
+    "leave out",
+    "leaving out",
     "but skip",
     "but omit",
     "but exclude",
@@ -67,7 +71,8 @@ def bare(phrase: Phrase) -> Phrase:
         size = lex.adverbs.match_end(keys(words))
         if not size or size >= len(words):
             break
-        if size == 1 and words[-1].key == "right" and words[-2].key in lex.determiners:
+        sided = words[-1].key == "right" or words[-1].key in lex.ordinals
+        if size == 1 and sided and words[-2].key in lex.determiners - {"a"}:
             # "The door on the right": a side, no manner.
             break
         words = words[:-size]
@@ -88,7 +93,9 @@ def noun_phrase(phrase: Phrase) -> NounPhrase:
     for marker in (*_EXCEPT, *(_THAT_ARE_NOT if quantified else ())):
         at = _find(flat, tuple(marker.split()))
         if at > 0:
-            phrase, excluded = phrase[:at], bare(phrase[at + len(marker.split()) :])
+            left_out = phrase[at + len(marker.split()) :]
+            counted = keys(left_out[-1:]) and (left_out[-1].key in lex.ordinals or left_out[-1].key == "last")
+            phrase, excluded = phrase[:at], left_out[-1:] if counted else bare(left_out)
             break
     phrase = _partitive(bare(phrase))
     quantifier = ""
@@ -108,6 +115,16 @@ def noun_phrase(phrase: Phrase) -> NounPhrase:
     if relation.startswith("halfway"):
         relation = "between"
     return NounPhrase(phrase, core, relation, anchors, quantifier, excluded)
+
+
+def split_exception(phrase: Phrase) -> tuple[Phrase, Phrase]:
+    """What is named, and what is left out of it ("except ..."), with its marker."""
+    flat = keys(phrase)
+    for marker in _EXCEPT:
+        at = _find(flat, tuple(marker.split()))
+        if at > 0:
+            return phrase[:at], phrase[at:]
+    return phrase, ()
 
 
 def _is_rest(phrase: Phrase) -> bool:
@@ -155,12 +172,12 @@ _AS_SUPERLATIVE = {"nearer": "nearest", "closer": "closest", "farther": "farthes
 def _partitive(phrase: Phrase) -> Phrase:
     """For "the bigger of the two boxes" "bigger box", for "one of the boxes" "any box"."""
     flat = keys(phrase)
-    if len(flat) < 3 or flat[1] != "of" or flat[0] not in _COMPARING | {"one"}:
+    if len(flat) < 3 or flat[1] != "of" or flat[0] not in _COMPARING | {"one", "any", "either"}:
         return phrase
     rest = phrase[2:]
     while len(rest) > 1 and (rest[0].key in lexicon().determiners or rest[0].key in lexicon().numbers):
         rest = rest[1:]
-    if flat[0] == "one":
+    if flat[0] in {"one", "any", "either"}:
         if singular(rest[-1].key) == rest[-1].key:
             return phrase
         return (replace(phrase[0], key="any", raw="any"), *_as_singular(rest))
@@ -215,7 +232,7 @@ def _first_relation(phrase: Phrase) -> tuple[int, int]:
             found = lex.places.match(flat, skip)
             if found:
                 return index, skip - index + found[0]
-        if flat[index] in lex.location_verbs and index > 0:
+        if flat[index] in lex.location_verbs and index > 0 and flat[index - 1] not in lex.determiners:
             found = lex.places.match(flat, index + 1)
             if found:
                 return index, 1 + found[0]

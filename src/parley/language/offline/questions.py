@@ -47,6 +47,8 @@ def answer(clause: Clause, scene: Scene) -> Answer | None:
     words = strip_openers(clause.words)
     words = tuple(word for word in words if word.is_word)
     words, wrapped = _unwrapped(words)
+    if wrapped and _to_be_done(keys(words), keys(clause.words), scene):
+        return None
     flat = keys(words)
     if not flat:
         return None
@@ -74,11 +76,30 @@ def answer(clause: Clause, scene: Scene) -> Answer | None:
         for start in _starts(kind):
             if _begins(flat, start):
                 return Answer(reply(scene, words[len(start) :]))
-    for reader in (_does, about_map.which, about_map.how_far, _where, _what_in, _how_many, _who, _whether):
+    for reader in (
+        _does,
+        _attribute,
+        about_map.which,
+        about_map.how_far,
+        _where,
+        _what_in,
+        _how_many,
+        _who,
+        _whether,
+    ):
         found = reader(words, flat, scene, asked or wrapped)
         if found is not None:
             return found
     return about_map.told(words, flat, scene, asked or wrapped) or _open_question(words, clause.is_question)
+
+
+def _to_be_done(asked: tuple[str, ...], said: tuple[str, ...], scene: Scene) -> bool:
+    """For "tell me how many boxes there are in A", "say what day it is": an order for an action."""
+    catalogue = scene.catalogue
+    if said[:1] == ("say",) and catalogue.with_role("speak") is not None:
+        return True
+    counted = asked[:2] == ("how", "many") and catalogue.with_role("count") is not None
+    return counted and len(asked) > 3 and asked[2] not in {"robots", "steps"}
 
 
 def _planned(flat: tuple[str, ...], scene: Scene) -> Answer | None:
@@ -113,7 +134,7 @@ _ABLE = (
     ("are", "you", "capable", "of"),
 )
 _GENERIC = frozenset(
-    {
+    [
         "thing",
         "object",
         "something",
@@ -126,7 +147,7 @@ _GENERIC = frozenset(
         "someone",
         "somebody",
         "around",
-    }
+    ]
 )
 
 
@@ -175,6 +196,9 @@ def _unwrapped(words: Phrase) -> tuple[Phrase, bool]:
 
 
 def _begins(flat: tuple[str, ...], start: tuple[str, ...]) -> bool:
+    if start[-1] == "left" and flat[len(start) : len(start) + 1] == ("of",):
+        # "What is left of the door?" is about the door.
+        return False
     if start[-1] == "next" and flat[len(start) : len(start) + 1] == ("to",):
         # "What is next to the door?" is about the door.
         return False
@@ -195,7 +219,7 @@ def _open_question(words: Phrase, marked: bool) -> Answer | None:
     if (
         flat[0] in {"do", "does", "did", "have", "has", "are"}
         and flat[1:2]
-        and flat[1] in _ASKED_ABOUT
+        and (flat[1] in _ASKED_ABOUT or (marked and flat[0] in {"does", "did", "has"}))
         and flat[1:3] != ("you", "mind")
     ):
         return Answer("I do not know that. Tell me, and I will remember it.")
@@ -205,12 +229,6 @@ def _open_question(words: Phrase, marked: bool) -> Answer | None:
             return None
         return Answer("I do not know that. Tell me, and I will remember it.")
     return None
-
-
-# -- fixed kinds --
-
-
-# -- questions about the world --
 
 
 def _where(words: Phrase, flat: tuple[str, ...], scene: Scene, _: bool) -> Answer | None:
@@ -282,6 +300,7 @@ def _what_in(words: Phrase, flat: tuple[str, ...], scene: Scene, _: bool) -> Ans
         and not f.fact.negated
         and wanted
         and wanted <= set(noun_phrase(f.fact.place).core)
+        and (flat[0] != "who" or scene.is_person(f.fact.subject))
     ]
     for item in hits:
         scene.use(item)
@@ -357,7 +376,8 @@ def _whether(words: Phrase, flat: tuple[str, ...], scene: Scene, asked: bool) ->
     cut = _cut(rest, noun.relation)
     subject = bare(rest[:cut])
     place = noun.anchors[0] if noun.anchors else ()
-    if not there:
+    told = find_fact(subject, scene.facts)[0] if subject and place else None
+    if not there and (told is None or keys(told.fact.subject) != keys(subject)):
         about = _grounded_prefix(rest, scene)
         if about and about < len(rest) and lexicon().places.match(keys(rest), about) is None:
             return _state(rest, scene, words)
@@ -423,6 +443,37 @@ def _does(words: Phrase, flat: tuple[str, ...], scene: Scene, asked: bool) -> An
         f"I do not know. Shall I go to {the(plain(bare(rest[:size])))} and have a look?",
         (*rest[:size], *said),
     )
+
+
+def _attribute(words: Phrase, flat: tuple[str, ...], scene: Scene, asked: bool) -> Answer | None:
+    """For "what colour is the dock?", "does A like tea?": what is remembered of it."""
+    if flat[0] in {"does", "did", "has"}:
+        start = 1
+    elif (
+        flat[0] in {"what", "which"} and len(flat) > 3 and flat[1] not in lexicon().be | lexicon().auxiliaries
+    ):
+        start = next((i + 1 for i in range(2, min(5, len(flat))) if flat[i] in _LINKS), 0)
+    else:
+        return None
+    for end in range(len(words), start, -1) if start else ():
+        about = bare(words[start:end])
+        known, _ = find_fact(about, scene.facts, locations=False) if about else (None, [])
+        if known is None or known.fact.is_location or set(keys(known.fact.subject)) - set(keys(about)):
+            continue
+        told = {lemma(word) for word in (*keys(known.fact.state), known.fact.relation)}
+        wanted = {lemma(word) for word in flat[end:]} - {"have", "be"}
+        if flat[0] in {"does", "did", "has"} and not wanted & told:
+            return None
+        scene.use(known)
+        fitting = wanted <= told
+        lead = (
+            "" if flat[0] in {"what", "which"} or not fitting else "No: " if known.fact.negated else "Yes: "
+        )
+        return Answer(lead + whole_sentence(known.fact.sentence))
+    return None
+
+
+_LINKS = lexicon().be | {"does", "do", "did", "has", "have"}
 
 
 def _grounded_prefix(rest: Phrase, scene: Scene) -> int:

@@ -6,6 +6,7 @@ from dataclasses import dataclass, replace
 
 from parley.language.offline import social
 from parley.language.offline.abilities import abilities, cannot
+from parley.language.offline.catalogue import call
 from parley.language.offline.clauses import Clause, clauses, opens_command
 from parley.language.offline.commands import Command, read_command
 from parley.language.offline.constructions import recast
@@ -16,13 +17,16 @@ from parley.language.offline.keeping import kept_part, restarts
 from parley.language.offline.lexicon import lexicon
 from parley.language.offline.nouns import noun_phrase
 from parley.language.offline.recalling import Recalling
-from parley.language.offline.repeating import repetition
+from parley.language.offline.repeating import counted_times, repetition, without_recurrence
 from parley.language.offline.replanning import inserted, read_replanning
+from parley.language.offline.restated import as_added, restated
+from parley.language.offline.rewording import reworded
 from parley.language.offline.saying import the, whole_sentence
 from parley.language.offline.scene import UnclearError
+from parley.language.offline.spoken import spoken
 from parley.language.offline.stories import mentioned, told_around
 from parley.language.offline.tasks import UnableError
-from parley.language.offline.text import Phrase, Word, keys, plain, tokens
+from parley.language.offline.text import Phrase, Word, keys, plain, split_name, tokens
 from parley.messages.chat import ActionCall, ChatAction, SystemCommand
 
 __all__ = ["Reader"]
@@ -56,6 +60,9 @@ _NOTHING_MORE = frozenset(
 )
 
 
+_MOST_TIMES = 20
+
+
 @dataclass
 class Reader(Recalling):
     """Reads the clauses of one message in order."""
@@ -63,7 +70,12 @@ class Reader(Recalling):
     def read(self, words: Phrase) -> ChatAction:
         """Understand a whole message."""
         self._mention_history()
-        words = _as_visit(words)
+        stated = restated(words, self.scene)
+        if stated is not None:
+            self.scene.trace.note("edit", stated.reply)
+            self.commands.extend(stated.commands)
+            return self._result(stated.reply, stated.queue)
+        words = reworded(_as_visit(spoken(as_added(words, self.scene), self.scene)), self._on_map)
         order = recast(words, self.scene) if self.scene.situation.queue else None
         words = order[0] if order is not None else words
         if restarts(words) and self._restart():
@@ -77,6 +89,8 @@ class Reader(Recalling):
             self.scene.trace.note("edit", edit.reply)
             self.commands.extend(edit.commands)
             return self._result(edit.reply, edit.queue)
+        words, often = without_recurrence(words)
+        words, times = counted_times(words) if often else (words, 1)
         before: tuple[ActionCall, ...] = ()
         place = inserted(words, self.scene)
         if place is not None:
@@ -88,6 +102,8 @@ class Reader(Recalling):
             taken = range(count - 1, count - 1 - len(before), -1)
             self.commands.extend(SystemCommand(command="pop", arguments={"parameters": i}) for i in taken)
         parts = clauses(words, lambda phrase: opens_command(phrase, self.scene.catalogue.verbs))
+        self._hurried = any(_hurries(part) for part in parts[1:])
+        parts = [part for i, part in enumerate(parts) if not i or not _hurries(part)]
         # Where the operator is counts from the start, wherever it is said ("get it, I am at the door").
         parts = sorted(parts, key=lambda part: not _says_where_i_am(part))
         try:
@@ -99,8 +115,14 @@ class Reader(Recalling):
                 if index >= len(self._parts):
                     break
                 self._at = index
+                start = len(self.tasks.steps)
+                self.tasks.beside = clause.beside and start > 0
                 self._clause(clause, alone=len(parts) == 1, index=index)
+                if self.tasks.beside:
+                    self._side_by_side(start)
             self._complain()
+            if often:
+                self._recurs(often, times)
         except UnclearError as unclear:
             self.scene.trace.note("question", unclear.question)
             self.commands = [c for c in self.commands if c.command != "pop"]
@@ -111,6 +133,9 @@ class Reader(Recalling):
             return self._result(cannot(unable.what, self.scene), ())
         self.learn()
         return self._result(self._reply(), (*self.tasks.steps, *before))
+
+    def _on_map(self, words: Phrase) -> bool:
+        return self.scene.ground(words).outcome != "none"
 
     def _clause(self, clause: Clause, *, alone: bool, index: int) -> None:
         start = len(self.tasks.steps)
@@ -125,19 +150,9 @@ class Reader(Recalling):
         if order is not None:
             self.scene.trace.note("recast", f"“{plain(order[0])}”, after the pattern: {order[1]}")
             clause = replace(clause, words=order[0], is_question=False)
-        if self._again(clause) or self._delayed(clause):
+        if self._again(clause) or self._delayed(clause) or self._says_nothing(clause, alone=alone):
             return
-        if self.tasks.steps and keys(strip_openers(clause.words)) in _REPORTS:
-            return
-        called = {part for name in self.scene.situation.robots for part in keys(tokens(name))} | {"robot"}
-        if set(keys(strip_openers(clause.words))) <= called | {"dear", "my", "hi", "hello"}:
-            return
-        if not clause.words or lexicon().adverbs.match(keys(clause.words)) == (
-            len(clause.words),
-            plain(clause.words).lower(),
-        ):
-            return
-        if self._order(clause, alone, index) or self._spoken(clause):
+        if self._reading(clause) or self._order(clause, alone, index) or self._spoken(clause):
             return
         if self._named(clause):
             return
@@ -146,6 +161,19 @@ class Reader(Recalling):
             self._do(command)
         elif len(self.tasks.steps) == start and not self.state(clause):
             self._fallback(clause, alone=alone)
+
+    def _says_nothing(self, clause: Clause, *, alone: bool) -> bool:
+        """Whether it only calls the robot, is courteous, or asks for a report that is made anyway."""
+        if self.tasks.steps and keys(strip_openers(clause.words)) in _REPORTS:
+            return True
+        called = {part for name in self.scene.situation.robots for part in keys(tokens(name))} | {"robot"}
+        if set(keys(strip_openers(clause.words))) <= called | {"dear", "my", "hi", "hello"}:
+            return True
+        courtesy = lexicon().polite.match(keys(clause.words)) if clause.words else None
+        if courtesy is not None and courtesy[0] == len(clause.words) and not alone:
+            return True
+        manner = lexicon().adverbs.match(keys(clause.words))
+        return not clause.words or manner == (len(clause.words), plain(clause.words).lower())
 
     def _again(self, clause: Clause) -> bool:
         """For "do that again", "repeat the last step"."""
@@ -162,6 +190,20 @@ class Reader(Recalling):
             self._last_order_again()
         return True
 
+    def _recurs(self, often: str, times: int) -> None:
+        """What is asked for again and again: so often, with waiting in between, if that can be, else once."""
+        steps, span_s = list(self.tasks.steps), duration_s(tokens(often))
+        waiter = self.scene.catalogue.with_role("wait")
+        numbers = [n for n, kind in waiter.inputs.items() if kind == "number"] if waiter is not None else []
+        counted = 1 < times <= _MOST_TIMES and span_s is not None and not any(step.flow for step in steps)
+        if steps and counted and waiter is not None and len(numbers) == 1:
+            pause = call(waiter, {numbers[0]: span_s}, f"wait until the next time, {often}")
+            self.tasks.steps += [step for _ in range(times - 1) for step in (pause, *steps)]
+            self.tasks.will.append(f"do that {times} times, {often}")
+        elif steps:
+            text = f"I cannot do that {often} by myself, so I do it once now; please tell me each time."
+            self.tasks.notes.append(text)
+
     def _restart(self) -> bool:
         """Begin again: what was asked for last, or else what is still pending; False if there is neither."""
         situation = self.scene.situation
@@ -177,6 +219,21 @@ class Reader(Recalling):
             self.tasks.steps += situation.queue
         return True
 
+    def _reading(self, clause: Clause) -> bool:
+        """For "what is your battery level?", where an action without inputs tells it."""
+        info = self.scene.catalogue.reading(keys(clause.words))
+        if info is None or len(clause.words) > 9 or read_statement(clause.words) is not None:
+            return False
+        self.tasks.do(
+            Command(
+                "other",
+                split_name(info.name)[0],
+                words=clause.words,
+                clause=tokens(f"{split_name(info.name)[0]} {the(' '.join(split_name(info.name)[1:]))}"),
+            )
+        )
+        return True
+
     def _is_place(self, words: Phrase) -> bool:
         """Whether words name one object of the map and say nothing else."""
         return 0 < len(words) <= 6 and self.scene.ground(strip_openers(words)).outcome == "match"
@@ -189,7 +246,7 @@ class Reader(Recalling):
         at = next(
             (i for i in range(2, len(words) - 1) if words[i].key == "in" and _is_span(words[i + 1 :])), 0
         )
-        if at and opens_command(words):
+        if at and opens_command(words) and not _says_something(words):
             words = (*words[at:], *words[:at])
         if keys(words[:1]) not in {("in",), ("after",)}:
             return False
@@ -234,7 +291,9 @@ class Reader(Recalling):
             UnclearError: Nothing tells what to do with it.
         """
         sets_out = {"start", "begin", "first", "finish", "end"} & set(keys(clause.words[:2]))
-        hurries = {"please", "now", "immediately", "asap", "quickly", "next"} & set(keys(clause.words))
+        hurries = self._hurried or {"please", "now", "immediately", "asap", "quickly", "next"} & set(
+            keys(clause.words)
+        )
         more = self._at < len(self._parts) - 1
         # "The desk, then the door": places and nothing else are a way to go.
         a_way = len(self._parts) > 1 and all(self._is_place(part.words) for part in self._parts)
@@ -273,6 +332,24 @@ class Reader(Recalling):
             self.replies.append(whole_sentence(f"I did not understand “{plain(words)[:80]}”"))
             return
         raise UnclearError(f"{social.not_understood(words)} {abilities(self.scene)}")
+
+
+def _says_something(words: Phrase) -> bool:
+    """Whether a time at the end belongs to what is to be said ("tell A that we close in ten minutes")."""
+    flat = keys(strip_openers(words, requests=True))
+    found = lexicon().verbs.match(flat)
+    spoken = found is not None and found[1].startswith("speak:") and flat[0] != "remind"
+    return spoken or flat[:1] == ("let",)
+
+
+def _hurries(clause: Clause) -> bool:
+    """Whether a clause is nothing but "now, please"."""
+    return bool(clause.words) and {w.key for w in clause.words if w.is_word} <= _HURRYING
+
+
+_HURRYING = frozenset(
+    {"now", "please", "immediately", "asap", "quickly", "quick", "fast", "hurry", "at", "once", "pls"}
+)
 
 
 def _says_where_i_am(clause: Clause) -> bool:

@@ -29,6 +29,8 @@ class Reading(Noting):
     """Clauses that mean nothing here."""
     _parts: Sequence[Clause] = ()
     _at: int = 0
+    _hurried: bool = False
+    """Whether the message ends with "now, please" and the like."""
     _before_last: tuple[int, int] = (0, 0)
 
     _checked: tuple[Phrase, int] = ((), 0)

@@ -47,7 +47,7 @@ class Referring(Known):
                 return self.persons[-1]
             if self.things:
                 return self.things[-1]
-            raise UnclearError("What do you mean by that? Please name it.")
+            raise UnclearError(f"What do you mean by “{word}”? Please name it.")
         if word == "there":
             if self.places or self.things:
                 return (self.places or self.things)[-1]

@@ -14,7 +14,7 @@ from parley.language.offline.protocols import first_act
 from parley.language.offline.text import Phrase, keys, plain, tokens
 from parley.messages.chat import ActionCall, ChatAction, SystemCommand
 
-__all__ = ["new_order", "orders_otherwise", "with_order_behind"]
+__all__ = ["instead_of_answer", "new_order", "orders_otherwise", "with_order_behind"]
 
 _LATER = tuple(
     tuple(text.split())
@@ -36,6 +36,12 @@ _DROPPED = tuple(
 )  # fmt: skip
 _LEFT_OUT = tuple(tuple(text.split()) for text in ("skip it", "skip that", "skip this", "skip"))
 _AGAIN = tuple(tuple(text.split()) for text in ("try again", "try it again", "try once more", "retry"))
+_WHAT_TO_DO = frozenset(
+    (word, verb, "i")
+    for word in ("where", "how", "what")
+    for verb in ("should", "shall", "do", "must", "can")
+)
+"""How people ask what their part is."""
 _KEEPING = ("add_memory", "remove_memory")
 _JOINING = frozenset({"and", "then", ",", ".", "!", ";", "but", "just", "rather", "instead", "no", "well"})
 
@@ -113,6 +119,33 @@ def with_order_behind(
     commands = (*repair.system_cmd, *_memories(understood))
     changes = {"message_response": said, "afterwards": understood.queue, "system_cmd": commands}
     return repair.model_copy(update=changes)
+
+
+def instead_of_answer(
+    situation: Situation, interpret: Callable[[Situation], ChatAction]
+) -> ChatAction | None:
+    """What "forget it and go to the box" or "how should I do that?" means where the robot asked for a hand.
+
+    Args:
+        situation: With the robot's question.
+        interpret: Understands a message.
+
+    Returns:
+        None if the message is something else.
+    """
+    words = tokens(situation.message)
+    rest, dropped = _behind(words, _DROPPED)
+    if dropped and _is_order(rest):
+        alone = replace(situation, message=plain(rest), queue=(), status="idle", question="")
+        understood = interpret(alone)
+        if not understood.queue:
+            return None
+        said = f"All right, I drop the rest of the plan. {understood.message_response}"
+        commands = (SystemCommand(command="clear"), *_memories(understood))
+        return understood.model_copy(update={"message_response": said, "system_cmd": commands})
+    if keys(strip_openers(words))[:3] in _WHAT_TO_DO:
+        return ChatAction(message_response="I know no more about it than what I ask you for.")
+    return None
 
 
 def orders_otherwise(reply: str, *, dropping: bool = False) -> bool:

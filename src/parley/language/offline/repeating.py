@@ -11,7 +11,7 @@ from parley.language.offline.scene import Scene
 from parley.language.offline.text import Phrase, keys
 from parley.messages.chat import ActionCall
 
-__all__ = ["Repetition", "repetition"]
+__all__ = ["Repetition", "counted_times", "repetition", "without_recurrence"]
 
 _ONCE_MORE = r"(?:again|once more|one more time|another time|once again|a second time|over again|over)"
 _ALL = re.compile(
@@ -62,3 +62,42 @@ def _index(word: str, count: int) -> int | None:
         return 0
     ordinal = lexicon().ordinals.get(word)
     return None if ordinal is None else ordinal - 1
+
+
+_OFTEN = re.compile(
+    r"(?:,? ?\b)(?:(?:every|each) (?:(?:\d+|"
+    + "|".join(lexicon().numbers)
+    + r"|few|other|half|couple of|fifteen|twenty|"
+    r"thirty|quarter) )?(?:second|minute|min|hour|day|night|morning|evening|week|half hour)s?|hourly|daily|"
+    r"every now and then|every once in a while|from time to time|at regular intervals|regularly|periodically|"
+    r"once an hour|once a day|twice a day|all the time|continuously|repeatedly|"
+    r"again and again|over and over(?: again)?)$"
+)
+
+
+def without_recurrence(words: Phrase) -> tuple[Phrase, str]:
+    """A message without "every ten minutes" at its end (or start), and those words."""
+    flat = keys(words)
+    for size in range(5, 0, -1):
+        for at in range(len(flat) - size + 1):
+            said = " ".join(flat[at : at + size])
+            if not _OFTEN.fullmatch(said) or any(not word.is_word for word in words[at : at + size]):
+                continue
+            before, after = words[:at], words[at + size :]
+            after = after[1:] if not before and after and not after[0].is_word else after
+            return (*before, *after), said
+    return words, ""
+
+
+def counted_times(words: Phrase) -> tuple[Phrase, int]:
+    """A message without "three times" or "twice", and how often that is; 1 if nothing is said."""
+    flat = keys(words)
+    for at, word in enumerate(flat):
+        if word == "twice":
+            return (*words[:at], *words[at + 1 :]), 2
+        if word == "times" and at:
+            said = flat[at - 1]
+            return (*words[: at - 1], *words[at + 1 :]), lexicon().numbers.get(
+                said, int(said) if said.isdigit() else 1
+            )
+    return words, 1

@@ -22,7 +22,7 @@ from parley.language.offline.scene import Scene
 from parley.language.offline.text import Phrase, keys, lemma, plain, singular, tokens
 from parley.messages.chat import ActionCall, SystemCommand
 
-__all__ = ["Visit", "inserted", "read_replanning", "visit_of", "visits", "without"]
+__all__ = ["Visit", "inserted", "ordered", "read_replanning", "visit_of", "visits", "without"]
 
 
 @dataclass(frozen=True, slots=True)
@@ -96,6 +96,7 @@ def read_replanning(words: Phrase, scene: Scene) -> Edit | None:
     words = tuple(word for word in strip_openers(words, requests=True) if word.is_word or word.key == ",")
     return (
         _cut_short(words, scene)
+        or _turned_round(words, scene)
         or _swapped(words, scene)
         or _relative(words, scene)
         or _extreme(words, scene)
@@ -119,6 +120,25 @@ def _cut_short(words: Phrase, scene: Scene) -> Edit | None:
     return Edit(_pops(indices), f"I leave out everything {plain(words[at:])}.")
 
 
+_REVERSED = frozenset(
+    tuple(text.split())
+    for text in (
+        "reverse the order", "reverse the plan", "reverse it", "reverse everything", "do it in reverse",
+        "do it in reverse order", "the other way round", "do it the other way round", "turn the order around",
+        "do them in reverse order", "go in reverse order", "invert the order",
+    )
+)  # fmt: skip
+
+
+def _turned_round(words: Phrase, scene: Scene) -> Edit | None:
+    """For "reverse the order": what is being done now is finished first."""
+    if keys(words) not in _REVERSED:
+        return None
+    order = list(range(len(visits(scene))))
+    kept = 1 if scene.situation.status == "running" else 0
+    return ordered([*order[:kept], *order[kept:][::-1]], scene)
+
+
 def _swapped(words: Phrase, scene: Scene) -> Edit | None:
     """For "swap A and B"."""
     flat = keys(words)
@@ -131,7 +151,7 @@ def _swapped(words: Phrase, scene: Scene) -> Edit | None:
         return None
     order = list(range(len(visits(scene))))
     order[first], order[second] = order[second], order[first]
-    return _ordered(order, scene)
+    return ordered(order, scene)
 
 
 _SWAPS = (
@@ -160,7 +180,7 @@ def _relative(words: Phrase, scene: Scene) -> Edit | None:
         return None
     order = [index for index in range(len(visits(scene))) if index != moved]
     order.insert(order.index(anchor) + (flat[at] == "after"), moved)
-    return _ordered(order, scene)
+    return ordered(order, scene)
 
 
 def _main_clause(words: Phrase) -> int:
@@ -185,7 +205,7 @@ def _extreme(words: Phrase, scene: Scene) -> Edit | None:
     # What is being done now is finished first.
     running = scene.situation.status == "running" and moved > 0
     order.insert(len(order) if _EXTREMES[flat[-size:]] else int(running), moved)
-    return _ordered(order, scene)
+    return ordered(order, scene)
 
 
 _EXTREMES = {
@@ -251,7 +271,8 @@ def _renamed(step: ActionCall, old: Phrase, new: str, scene: Scene) -> ActionCal
     return step.model_copy(update={"input_parameters": inputs, "reason": ""})
 
 
-def _ordered(order: Sequence[int], scene: Scene) -> Edit | None:
+def ordered(order: Sequence[int], scene: Scene) -> Edit | None:
+    """The pending visits in another order, given by their places in the present one."""
     listed = visits(scene)
     first = next((i for i, index in enumerate(order) if i != index), None)
     names = [

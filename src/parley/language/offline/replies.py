@@ -75,10 +75,11 @@ def read_reply(reply: str, choices: Sequence[str] = (), question: str = "") -> R
     order = control_of(reply)
     if order in {"stop", "skip", "clear", "emergency_stop"}:
         return ReplyReading("control")
-    if asks(reply) or orders_otherwise(reply, dropping=True):
+    if (asks(reply) and len(reply.split()) > 1) or orders_otherwise(reply, dropping=True):
         return ReplyReading("aside")
     answer = agrees(reply)
-    if _is_open(question) and order is None and not (answer is False and len(reply.split()) < 3):
+    refused = answer is False and len(reply.split()) < 3
+    if reply.strip() and not choices and order is None and not refused and _is_open(question):
         return ReplyReading("answer")
     if answer is not None:
         return ReplyReading("yes" if answer else "no")

@@ -6,7 +6,7 @@ from collections.abc import Sequence
 
 from parley.language.offline.lexicon import lexicon
 
-__all__ = ["a", "capital", "listing", "the", "whole_sentence"]
+__all__ = ["a", "capital", "in_turn", "listing", "the", "whole_sentence"]
 
 
 def the(text: str) -> str:
@@ -19,8 +19,9 @@ def the(text: str) -> str:
         or words[0].lower() in lexicon().determiners | lexicon().quantifiers | lexicon().operator_pronouns
     ):
         return text
-    label = len(words) > 1 and (words[-1].isdigit() or len(words[-1]) == 1)
-    name = words[0][:1].isupper() and words[0][1:].islower()
+    placed = bool(set(words[1:-1]) & lexicon().goals_and_places)
+    label = len(words) > 1 and (words[-1].isdigit() or len(words[-1]) == 1) and not placed
+    name = words[0][:1].isupper() and words[0][1:].islower() and words[0].isalpha()
     identifier = "_" in words[0]
     return text if label or name or identifier else f"the {text}"
 
@@ -42,6 +43,20 @@ def listing(parts: Sequence[str], last: str = "and") -> str:
     if len(parts) < 2:
         return "".join(parts)
     return f"{', '.join(parts[:-1])} {last} {parts[-1]}"
+
+
+def in_turn(deeds: Sequence[str]) -> str:
+    """What is done one after the other, in words that follow "I will"."""
+    starts = [i for i, deed in enumerate(deeds) if deed.startswith(("if so,", "if not,"))]
+    if starts and starts[0]:
+        ends = [*starts[1:], len(deeds)]
+        parts = [
+            listing(deeds[a:b], "and then") for a, b in zip([0, *starts], [starts[0], *ends], strict=True)
+        ]
+        return "; ".join(parts)
+    if len(deeds) == 2 and deeds[-1].endswith("at the same time"):
+        return listing(deeds)
+    return listing(deeds, "and then")
 
 
 def whole_sentence(text: str) -> str:

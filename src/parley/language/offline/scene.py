@@ -11,7 +11,7 @@ from parley.language.offline.explaining import Trace
 from parley.language.offline.grounding import describe, ground_phrase
 from parley.language.offline.known import OPERATOR, Place, UnclearError
 from parley.language.offline.lexicon import lexicon
-from parley.language.offline.nouns import NounPhrase, bare, coordinated, noun_phrase
+from parley.language.offline.nouns import NounPhrase, bare, coordinated, noun_phrase, split_exception
 from parley.language.offline.placing import Placing, place_said
 from parley.language.offline.remembering import remembered
 from parley.language.offline.saying import listing, the
@@ -69,7 +69,13 @@ class Scene(Placing):
             return [phrase]
         if "or" in keys(phrase):
             return [self._either(phrase)]
-        parts = [phrase] if "between" in keys(phrase) else coordinated(phrase)
+        named, exception = split_exception(phrase)
+        listed = coordinated(named)
+        # "All boxes except the red one and the blue one"; in "A and B but not C" nothing is left out.
+        whole_list = "between" in keys(phrase) or (exception and len(listed) == 1)
+        parts = [phrase] if whole_list else listed if exception else coordinated(phrase)
+        if whole.outcome == "none":
+            parts = [p for part in parts for p in (self._side_by_side(part) or [part])]
         quantified = next((word for word in phrase[:1] if word.key in lexicon().quantifiers), None)
         for index, part in enumerate(parts or [phrase]):
             before = parts[index - 1] if index else ()
@@ -79,7 +85,30 @@ class Scene(Placing):
             if index == 0 and quantified and part[:1] != (quantified,):
                 part = (quantified, *part)
             members.extend(self._expanded(part))
-        return members
+        gone = self._excepted(noun_phrase(phrase).excluded, ()) if exception and not whole_list else ()
+        return [m for m in members if not gone or ground_phrase(m, self.objects).candidates != gone[:1]]
+
+    def _side_by_side(self, phrase: Phrase) -> list[Phrase]:
+        """For "the desk the door the box": things named one after the other without any mark."""
+        words = bare(phrase)
+        if len(words) < 2 or ground_phrase(phrase, self.objects).outcome == "match":
+            return []
+        parts: list[Phrase] = []
+        at = 0
+        while at < len(words) and len(words) < 16:
+            sizes = range(min(4, len(words) - at), 0, -1)
+            named = (bare(words[at : at + size]) for size in sizes)
+            sized = zip(sizes, named, strict=True)
+            found = next(((n, p) for n, p in sized if p and self._is_called(p)), None)
+            if found is None:
+                return []
+            parts.append(found[1])
+            at += found[0]
+        return parts if len(parts) > 1 else []
+
+    def _is_called(self, phrase: Phrase) -> bool:
+        first = keys(phrase)[0] not in lexicon().vocabulary - lexicon().nouns or len(phrase) > 1
+        return first and ground_phrase(phrase, self.objects, strict=True).outcome == "match"
 
     def _series(self, phrase: Phrase) -> list[Phrase]:
         """For "boxes 2 to 4": each of them, as far as they are on the map."""
@@ -143,7 +172,7 @@ class Scene(Placing):
         if keys(excluded[:1]) == ("one",) and noun_phrase(excluded).anchors:
             # "All lamps except the one in the hall": the lamp in the hall.
             excluded = (*noun.phrase[: len(noun.core)], *excluded[1:])
-        left_out = ground_phrase(excluded, self.objects).candidates if excluded else ()
+        left_out = self._excepted(excluded, found.candidates)
         if noun.quantifier == "rest":
             left_out = self._mentioned()
         if noun.excluded and not left_out:
@@ -153,6 +182,19 @@ class Scene(Placing):
             for item in found.candidates
             if item not in left_out
         ]
+
+    def _excepted(self, excluded: Phrase, found: Sequence[MapObject]) -> tuple[MapObject, ...]:
+        """What is left out: "the red one", "boxes 2 and 3", "the first"."""
+        flat = tuple(word for word in keys(bare(excluded)) if word != "one")
+        if len(flat) == 1 and found and (flat[0] == "last" or flat[0] in lexicon().ordinals):
+            index = -1 if flat[0] == "last" else lexicon().ordinals[flat[0]] - 1
+            return (found[index],) if index < len(found) else ()
+        parts: list[Phrase] = []
+        for part in coordinated(excluded):
+            before = parts[-1] if parts else ()
+            alike = len(part) == 1 and len(before) > 1 and _is_label(part[0]) and _is_label(before[-1])
+            parts.append((*before[:-1], *part) if alike else part)
+        return tuple(item for part in parts for item in ground_phrase(part, self.objects).candidates)
 
     def _mentioned(self) -> tuple[MapObject, ...]:
         """The objects spoken of so far, for "the rest".

@@ -8,7 +8,7 @@ from collections.abc import Callable, Sequence
 from parley.world.geometry import Pose2D
 from parley.world.object_map import MapObject
 
-__all__ = ["by_anchor", "by_size", "by_view", "nearest_to"]
+__all__ = ["by_anchor", "by_size", "nearest_to", "smallest"]
 
 _CLEARLY = 1.25
 """Something is clearly nearer if everything else is this much farther away."""
@@ -19,7 +19,7 @@ _ROOM_M2 = 2.0
 
 def nearest_to(items: Sequence[MapObject], x_m: float, y_m: float) -> list[MapObject]:
     """The items that are clearly nearest to a point: one, or several that are about equally near."""
-    return _smallest(items, lambda item: _gap(item, x_m, y_m))
+    return smallest(items, lambda item: _gap(item, x_m, y_m))
 
 
 def by_size(items: Sequence[MapObject], sign: float) -> list[MapObject]:
@@ -30,23 +30,6 @@ def by_size(items: Sequence[MapObject], sign: float) -> list[MapObject]:
     return [sized[0]] if ratio > 1.2 else list(items)
 
 
-def by_view(items: Sequence[MapObject], word: str, pose: Pose2D) -> list[MapObject]:
-    """The nearest, farthest, left or right one as seen from `pose`."""
-    if word in {"nearest", "closest"}:
-        return nearest_to(items, pose.x_m, pose.y_m)[:1]
-    if word == "nearby":
-        return nearest_to(items, pose.x_m, pose.y_m)
-    if word in {"farthest", "furthest"}:
-        return _smallest(items, lambda item: -_gap(item, pose.x_m, pose.y_m), absolute=True)
-    sign = 1.0 if word.startswith("left") else -1.0
-
-    def lateral(item: MapObject) -> float:
-        angle = pose.bearing_to(item.x_m, item.y_m) - pose.yaw_rad
-        return -sign * math.hypot(item.x_m - pose.x_m, item.y_m - pose.y_m) * math.sin(angle)
-
-    return _smallest(items, lateral, absolute=True)
-
-
 def by_anchor(
     items: Sequence[MapObject], relation: str, anchors: Sequence[MapObject], pose: Pose2D | None
 ) -> list[MapObject]:
@@ -54,7 +37,7 @@ def by_anchor(
     first = anchors[0]
     if len(anchors) > 1:
         second = anchors[1]
-        return _smallest(
+        return smallest(
             items,
             lambda item: max(_gap(item, first.x_m, first.y_m), _gap(item, second.x_m, second.y_m)),
         )
@@ -72,11 +55,14 @@ def by_anchor(
     if "left" in relation or "right" in relation:
         on_side = [item for item in items if _on_side(item, first, "left" in relation, pose)]
         items = on_side or list(items)
-    elif relation == "behind" and pose is not None:
-        beyond = pose.distance_to(Pose2D(first.x_m, first.y_m))
-        items = [i for i in items if pose.distance_to(Pose2D(i.x_m, i.y_m)) > beyond] or list(items)
+    elif relation in {"behind", "beyond", "in front of"} and pose is not None:
+        there = pose.distance_to(Pose2D(first.x_m, first.y_m))
+        sign = -1.0 if relation == "in front of" else 1.0
+        items = [i for i in items if sign * (pose.distance_to(Pose2D(i.x_m, i.y_m)) - there) > 0] or list(
+            items
+        )
     if relation.startswith(("far", "fur", "away")):
-        return _smallest(items, lambda item: -_gap(item, first.x_m, first.y_m), absolute=True)
+        return smallest(items, lambda item: -_gap(item, first.x_m, first.y_m), absolute=True)
     near = nearest_to(items, first.x_m, first.y_m)
     # "The closest to" is a comparison: the nearest is meant even if others are not much farther.
     return near[:1] if "closest" in relation or "nearest" in relation else near
@@ -98,9 +84,10 @@ def _gap(item: MapObject, x_m: float, y_m: float) -> float:
     return math.hypot(item.x_m - x_m, item.y_m - y_m)
 
 
-def _smallest(
+def smallest(
     items: Sequence[MapObject], measure: Callable[[MapObject], float], *, absolute: bool = False
 ) -> list[MapObject]:
+    """The items with the smallest measure: several if they are about equal."""
     measured = sorted(((measure(item), index, item) for index, item in enumerate(items)), key=lambda m: m[:2])
     if not measured:
         return []

@@ -16,8 +16,10 @@ from parley.language.offline.durations import duration_s, without_duration
 from parley.language.offline.going import UnableError
 from parley.language.offline.lexicon import lexicon
 from parley.language.offline.nouns import bare, noun_phrase
+from parley.language.offline.saying import the
 from parley.language.offline.scene import UnclearError
-from parley.language.offline.text import Phrase, Word, keys, plain
+from parley.language.offline.text import Phrase, Word, keys, plain, split_name, tokens
+from parley.language.offline.wording import asked_directly, turned
 from parley.messages.status import ActionInfo
 
 __all__ = ["Tasks", "UnableError"]
@@ -47,6 +49,7 @@ class Tasks(Carrying):
 
     def _add(self, command: Command) -> str:
         """Add the steps for a command; why just these is returned."""
+        command = self._about_people(command)
         whole = self.catalogue.by_phrase(keys(command.clause))
         if whole is not None:
             self._invoke_each(whole, command)
@@ -65,6 +68,14 @@ class Tasks(Carrying):
         self._by_kind(command)
         return f"the catalogue's way to do what “{command.verb}” asks for ({command.kind})"
 
+    def _about_people(self, command: Command) -> Command:
+        """Read "them" as somebody where only people can be meant."""
+        persons = self.scene.persons
+        if command.kind not in {"follow", "guide", "meet"} or not persons:
+            return command
+        them = keys(command.theme) in {("them",), ("they",)}
+        return replace(command, theme=persons[-1]) if them else command
+
     def _by_kind(self, command: Command) -> None:
         match command.kind:
             case "motion":
@@ -79,18 +90,22 @@ class Tasks(Carrying):
                 self._fetch(command)
             case "follow" | "guide":
                 self._with_somebody(command)
+            case "dock":
+                self._dock(command)
             case "grasp":
                 self._grasp(command)
             case "place":
                 self._place(command)
             case "speak" if self.catalogue.with_role("speak") is not None:
                 self._speak(command)
+            case "ask":
+                self._ask(command)
             case _:
                 self._other(command)
 
     def _invoke_each(self, info: ActionInfo, command: Command) -> None:
         """An action of its own kind, once for everything that is named."""
-        command = replace(command, theme=without_duration(command.theme))
+        command = self._at_its_place(info, replace(command, theme=without_duration(command.theme)))
         quantified = bool({"and"} & set(keys(command.theme))) or noun_phrase(command.theme).quantifier
         members = self.scene.several(command.theme) if command.theme and quantified else []
         if len(members) < 2 or ("and" in keys(command.theme) and any(not self._grounds(m) for m in members)):
@@ -101,6 +116,35 @@ class Tasks(Carrying):
         for member in members:
             words = (*member, *tail)
             self._invoke(info, replace(command, theme=member, words=words, clause=(*verb, *words)))
+
+    def _at_its_place(self, info: ActionInfo, command: Command) -> Command:
+        """For "open the window in the hall": to the hall first, unless the action takes the place itself."""
+        theme = command.theme
+        noun = noun_phrase(theme)
+        takes_place = any(parameter_role(name) == "place" for name in text_inputs(info))
+        if len(noun.anchors) != 1 or not noun.core or noun.relation in _NO_PLACE:
+            return command
+        if self.catalogue.mover is None or command.verb not in keys(command.clause[:1]) or command.place:
+            return command
+        anchor = noun.anchors[0]
+        amount = _amount(anchor)
+        anchor = anchor[: len(anchor) - len(amount)] if amount else anchor
+        if self._is_one(theme) or not self._grounds(anchor):
+            return command
+        left = bare(theme[: _start_of(keys(theme), noun.relation)])
+        others = [n for n in text_inputs(info) if parameter_role(n) not in {"person", "text"}]
+        if takes_place or len(others) > 1:
+            return replace(command, theme=left, place=anchor)
+        self._stand_at(self.scene.place(anchor))
+        said = command.words[: _start_of(keys(command.words), noun.relation)]
+        return replace(
+            command, theme=left, words=(*said, *amount), clause=(*command.clause[:1], *said, *amount)
+        )
+
+    def _is_one(self, theme: Phrase) -> bool:
+        """Whether words name something on the map, where it is said to be included."""
+        core = " ".join(noun_phrase(theme).core)
+        return self._grounds(theme) and self._grounds(tokens(core))
 
     def _other(self, command: Command) -> None:
         info = self.catalogue.for_verb(command.verb) or self.catalogue.for_verb(command.verb.split()[0])
@@ -139,7 +183,9 @@ class Tasks(Carrying):
 
     def _lead(self, command: Command) -> None:
         """Lead somebody somewhere: by an action, else by going ahead."""
-        guide, goal = self.catalogue.with_role("guide"), command.place
+        guide, goal = self.catalogue.with_role("guide"), command.place or command.recipient
+        if guide is not None and command.source:
+            self._stand_at(self.scene.place(command.source))
         if guide is not None or not goal or self.catalogue.mover is None:
             self._other(command)
             return
@@ -159,18 +205,24 @@ class Tasks(Carrying):
             return
         flat = keys(command.words)
         start = flat.index("for") if "for" in flat and not until else 0
-        rest = plain(command.words[start:]).removeprefix("for ")
+        rest = plain(turned(command.words[start:])).removeprefix("for ")
         over = f"Please tell me when I may go on: I am to wait {rest if until else f'for {rest}'}."
         self.steps += self._said(asker, over, f"ask you when to go on, after waiting {rest}")
         self.will.append(f"wait {rest if until else f'for {rest}'} (please tell me when I may go on)")
 
     def _speak(self, command: Command) -> None:
         """Say something, to somebody in particular if named: then where that person is."""
-        speaker = self.catalogue.with_role("speak")
+        speaker = self._speaker(command)
         texts = text_inputs(speaker) if speaker is not None else []
         if speaker is None or not texts:
             raise UnableError(plain(command.clause))
         said, listener = spoken(command, self.scene.is_person)
+        place = listener if listener and lexicon().places.match(keys(listener)) is not None else ()
+        if place:
+            # Said between quotation marks, and where it is to be said.
+            found = lexicon().places.match(keys(place))
+            self._stand_at(self.scene.place(place[found[0] if found else 0 :]))
+            listener = ()
         if not said:
             raise UnclearError("What should I say?")
         if keys(bare(listener)) in {("me",), ("us",)}:
@@ -179,18 +231,59 @@ class Tasks(Carrying):
             self._go_to_person(listener)
         elif keys(command.words[:1]) == ("me",):
             said = self._find_out(bare(command.words[1:]))
+        if all(parameter_role(name) == "person" for name in texts) and listener:
+            # "Greet A" by an action of that name.
+            who = plain(_person_of(listener))
+            self.steps.append(call(speaker, {texts[0]: who}, plain(command.clause)))
+            self.will.append(f"{command.verb} {the(who)}")
+            return
         text = "hello" if keys(said) == ("hello",) else plain(said)
+        text = asked_directly(said) if command.kind == "ask" else text
         if command.verb.startswith("introduce yourself") and self.scene.situation.robot:
             text = f"hello, I am {self.scene.situation.robot}"
         name = next((n for n in texts if parameter_role(n) == "text"), texts[0])
         values = {name: text}
         values |= {
-            n: plain(bare(listener))
+            n: plain(_person_of(listener))
             for n in texts
             if n != name and parameter_role(n) == "person" and listener
         }
         self.steps.append(call(speaker, values, f"say “{text}”"))
         self.will.append(f"say “{text}”")
+
+    def _speaker(self, command: Command) -> ActionInfo | None:
+        """The action to speak with: the one that is called like the verb, else one that takes any text."""
+        speakers = self.catalogue.all_with_role("speak")
+        first = command.verb.split()[0]
+        named = next((info for info in speakers if split_name(info.name)[:1] == (first,)), None)
+        free = (i for i in speakers if any(parameter_role(n) != "person" for n in text_inputs(i)))
+        return named or next(free, None)
+
+    def _ask(self, command: Command) -> None:
+        """Ask somebody: by an action for it, else by saying the question to them."""
+        listener = spoken(command, self.scene.is_person)[1]
+        operator = keys(bare(listener)) in {("me",), ("us",)}
+        here = self.scene.persons[-1] if self.scene.persons and self.here and not listener else ()
+        if here and self._speaker(command) is not None:
+            # "Find P and ask their name".
+            self._speak(replace(command, words=(*here, *_named_of(command.words))))
+            return
+        asker = self.catalogue.with_role("ask_operator")
+        if self._speaker(command) is not None and listener and not operator:
+            self._speak(command)
+            return
+        if asker is None:
+            raise UnableError(plain(command.clause))
+        if operator or not listener:
+            self._other(command)
+            return
+        self._go_to_person(listener)
+        self._have_asked(asker, plain(turned(command.clause)))
+
+    def _have_asked(self, asker: ActionInfo, what: str) -> None:
+        """What only a person can do is asked of one."""
+        self.steps += self._said(asker, f"Please {what} and tell me the answer.", f"ask you to {what}")
+        self.will.append(f"ask you to {what}, because I cannot do that myself")
 
     def _find_out(self, said: Phrase) -> Phrase:
         """For "tell me the name of the person in the hall": it has to be found out there first."""
@@ -215,12 +308,30 @@ class Tasks(Carrying):
 
     def _go_to_person(self, listener: Phrase) -> None:
         noun = noun_phrase(listener)
+        met = bool(self.here) and keys(listener) in {keys(person) for person in self.scene.persons}
+        if met:
+            return
         if noun.anchors and noun.anchors[0]:
             self._stand_at(self.scene.place(noun.anchors[0]))
         else:
             person = self.scene.referent(bare(listener))
             self._stand_at(self.scene.remembered_place(person))
-        self.scene.mention(bare(listener[: len(noun.core)] if noun.anchors else listener))
+        self.scene.mention(bare(listener)[: len(noun.core)] if noun.anchors else bare(listener))
+
+
+_NO_PLACE = frozenset({"of", "with", "from", "for", "against"})
+
+
+def _start_of(flat: tuple[str, ...], relation: str) -> int:
+    wanted = tuple(relation.split())
+    return next((i for i in range(len(flat)) if flat[i : i + len(wanted)] == wanted), len(flat))
+
+
+def _named_of(words: Phrase) -> Phrase:
+    """For "(ask) their name": what their name is."""
+    if keys(words[:1]) in {("their",), ("his",), ("her",)}:
+        return (*tokens("what their"), *words[1:], *tokens("is"))
+    return words
 
 
 def _amount(words: Phrase) -> Phrase:
@@ -267,10 +378,16 @@ def _placed_listener(words: Phrase, size: int) -> int:
 
 def spoken(command: Command, is_person: Callable[[Phrase], bool]) -> tuple[Phrase, Phrase]:
     """What is to be said and to whom: "tell P that S", "say S to P", "greet P"."""
+    marks = [i for i, word in enumerate(command.words) if word.key == '"']
+    if len(marks) > 1:
+        outside = tuple(w for w in (*command.words[: marks[0]], *command.words[marks[-1] + 1 :]) if w.is_word)
+        outside = outside[1:] if keys(outside[:1]) == ("to",) else outside
+        return tuple(w for w in command.words[marks[0] + 1 : marks[-1]] if w.key != '"'), outside
     words = tuple(word for word in command.words if word.is_word)
     hello = (Word("hello", "hello"),)
     if command.verb in {
         "greet",
+        "salute",
         "welcome",
         "say hello to",
         "say hi to",
@@ -284,7 +401,7 @@ def spoken(command: Command, is_person: Callable[[Phrase], bool]) -> tuple[Phras
     }:
         return hello, words
     flat = keys(words)
-    if command.verb in {"tell", "inform", "notify", "remind", "warn", "alert"}:
+    if command.verb in {"ask", "tell", "inform", "notify", "remind", "warn", "alert"}:
         for size in range(min(3, len(words)), 0, -1):
             if is_person(words[:size]):
                 placed = _placed_listener(words, size)
@@ -299,5 +416,5 @@ def spoken(command: Command, is_person: Callable[[Phrase], bool]) -> tuple[Phras
                 ]
     for index in range(len(flat) - 2, 0, -1):
         if flat[index] == "to" and is_person(_person_of(words[index + 1 :])):
-            return bare(words[:index]), words[index + 1 :]
-    return words, ()
+            return words[:index], words[index + 1 :]
+    return (words[1:] if flat[:1] == ("that",) and len(words) > 2 else words), ()

@@ -27,7 +27,7 @@ class Word:
     @property
     def is_word(self) -> bool:
         """Whether it is not punctuation."""
-        return self.key[:1].isalnum()
+        return self.key.lstrip("-")[:1].isalnum()
 
     @property
     def is_capital(self) -> bool:
@@ -37,7 +37,10 @@ class Word:
 
 Phrase = tuple[Word, ...]
 
-_TOKEN = re.compile(r"\d+(?:[.,]\d+)+|[^\W_]+(?:['-][^\W_]+)*'?|\.{2,}|[.,!?;:()\"]|\n", re.UNICODE)
+_TOKEN = re.compile(
+    r"(?<![^\s(,;])-\d+(?:[.,]\d+)*|\d+(?:[.,]\d+)+|[^\W_]+(?:['-][^\W_]+)*'?|\.{2,}|[.,!?;:()\"]|\n",
+    re.UNICODE,
+)
 _DASH = re.compile(r"\s+(?:[-=]+>|-+|[–—→])\s+")
 """Between words it parts them like a comma."""
 _SUFFIX = {"n't": "not", "'re": "are", "'m": "am", "'ve": "have", "'ll": "will", "'d": "would"}
@@ -50,6 +53,7 @@ def tokens(text: str) -> Phrase:
     A possessive keeps its ``'s``; ``X's`` before something that can be said of X is read as "X is".
     """
     text = unicodedata.normalize("NFC", text).replace("’", "'").replace("‘", "'").replace("`", "'")
+    text = text.replace("“", '"').replace("”", '"').replace("„", '"')
     text = _DASH.sub(" , ", text).replace(" & ", " and ")
     raw = [match.group() for match in _TOKEN.finditer(text)]
     result: list[Word] = []

@@ -84,6 +84,12 @@ def due(words: Phrase, scene: Scene) -> Command | None:
         if subject[0].key in {"i", "you", "we", "it"} and len(subject) == 1 and subject[0].key != "it":
             return None
         verb = Word(lemma(done), lemma(done))
+        if rest and lexicon().verbs.match((verb.key, rest[0].key)) not in {
+            None,
+            lexicon().verbs.match((verb.key,)),
+        }:
+            # "Needs looking at": look at it.
+            subject, rest = (rest[0], *subject), rest[1:]
         return read_command((verb, *subject, *rest), scene.is_person, scene.catalogue.verbs)
     return None
 

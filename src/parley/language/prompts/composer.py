@@ -59,6 +59,7 @@ def compose_interpret(situation: Situation, *, sees: bool = True) -> Prompt:
         sees: Whether the pictures of the situation go along with it.
     """
     about = [
+        *([data.block("open_question", situation.question)] if situation.question else []),
         *([data.block("failure", _failure(situation.failure))] if situation.failure is not None else []),
         *([data.block("pictures", data.pictures(situation.pictures, sees))] if situation.pictures else []),
     ]

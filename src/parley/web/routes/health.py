@@ -30,8 +30,9 @@ async def get_info(web: Web) -> ServerInfo:
 
 @router.get("/qr.svg", response_class=Response, responses={200: {"content": {"image/svg+xml": {}}}})
 async def get_qr(request: Request, web: Web) -> Response:
-    """The address for phones, to be read with a camera."""
-    from parley.web.addresses import qr_svg
+    """The address for phones, to be read with a camera; where devices are paired, with the code for one."""
+    from parley.web.addresses import paired, qr_svg
 
     address = web.addresses[0] if web.addresses else str(request.base_url)
-    return Response(await run_in_threadpool(qr_svg, address), media_type="image/svg+xml")
+    text = paired(address, web.sessions.code)
+    return Response(await run_in_threadpool(qr_svg, text), media_type="image/svg+xml")

@@ -17,9 +17,10 @@ from parley.messages.memory import (
     MemoryList,
     RemoveMemory,
 )
-from parley.web.backend import Backend, read_image
+from parley.web.backend import Backend
 from parley.web.bodies import Done, MemoryPut
 from parley.web.models import MemoryItem
+from parley.web.pictures import checked_image, read_image
 from parley.web.problems import WebProblem
 from parley.web.routes.access import Author, Web, module
 
@@ -82,7 +83,7 @@ async def get_memory_image(name: Name, web: Web, scope: Scope = "") -> Response:
 async def put_memory(name: Name, put: MemoryPut, web: Web, author: Author) -> Done:
     """Remember something under a name; what stood there before goes to the history."""
     if put.type == "image":
-        read_image(put.data)
+        checked_image(put.data)
     body = MemoryBody(
         type=put.type,
         data=put.data,

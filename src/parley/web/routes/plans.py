@@ -72,7 +72,7 @@ async def put_steps(robot: Robot, put: StepsPut, web: Web) -> Done:
     plan = next((v for v in web.state.plans.views.values() if v.robot == name and v.kind == "plan"), None)
     if plan is None:
         raise WebProblem(409, f"{name} has no plan to change.", "Tell it what to do first.")
-    if plan.revision != put.revision:
+    if web.state.plans.is_past(name, put.revision):
         raise WebProblem(
             409, "The plan has changed meanwhile.", "Look at it and change it again.", path="revision"
         )

@@ -6,7 +6,7 @@ from fastapi import APIRouter, Request, Response
 
 from parley.web.bodies import Done, SessionInfo, SessionPost
 from parley.web.routes.access import Author, Web
-from parley.web.sessions import COOKIE, SESSION_S
+from parley.web.sessions import SESSION_S, cookie_name
 
 __all__ = ["router"]
 
@@ -24,21 +24,18 @@ async def get_session(request: Request, web: Web, author: Author) -> SessionInfo
 async def post_session(post: SessionPost, request: Request, response: Response, web: Web) -> SessionInfo:
     """Sign in with the password or pairing code; where none is asked for, only tell one's name."""
     address = request.client.host if request.client else ""
-    token = await web.sessions.open(post.secret, post.name, address)
-    response.set_cookie(
-        COOKIE,
-        token,
-        max_age=SESSION_S,
-        httponly=True,
-        secure=request.url.scheme == "https",
-        samesite="strict",
-    )
+    https = request.url.scheme == "https"
+    name = cookie_name(https=https)
+    token = await web.sessions.open(post.secret, post.name, address, request.cookies.get(name, ""))
+    response.set_cookie(name, token, max_age=SESSION_S, httponly=True, secure=https, samesite="strict")
     return SessionInfo(required=web.sessions.required, authenticated=True, name=post.name)
 
 
 @router.delete("")
 async def delete_session(request: Request, response: Response, web: Web) -> Done:
     """Sign out."""
-    web.sessions.close(request.cookies.get(COOKIE, ""))
-    response.delete_cookie(COOKIE)
+    https = request.url.scheme == "https"
+    name = cookie_name(https=https)
+    await web.sessions.close(request.cookies.get(name, ""))
+    response.delete_cookie(name, httponly=True, secure=https, samesite="strict")
     return Done()

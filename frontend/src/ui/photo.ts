@@ -1,4 +1,4 @@
-import type { Photo } from './drafts';
+import type { Photo } from '@/state/drafts';
 
 const LONGEST_SIDE_PX = 1280;
 const QUALITY = 0.85;

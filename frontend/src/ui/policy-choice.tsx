@@ -4,7 +4,7 @@ import { putPolicy } from '@/live/api';
 import { useWorld } from '@/live/store';
 import type { Policy } from '@/live/types';
 import { attempt } from '@/state/do';
-import { Choice } from '@/ui/choice';
+import { Choice } from './choice';
 
 const policies: readonly Policy[] = ['run_at_once', 'ask_when_risky', 'ask_first'];
 

@@ -1,0 +1,51 @@
+/** The story of the nursing home, as an operator lives it: told in the chat, seen on the page, over a restart. */
+import { afterAll, beforeAll, describe, expect, it } from 'vitest';
+
+import { hasBrowser, robotNamed, say, sizes, startStage, steps, type Stage } from './stage';
+
+const SMALL_SOFA = { x: 5.28, y: 0.95 };
+
+describe.skipIf(!hasBrowser)('an operator in the nursing home', () => {
+  let stage: Stage;
+
+  beforeAll(async () => {
+    stage = await startStage(['--speed', '6']);
+  });
+
+  afterAll(async () => {
+    await stage.close();
+  });
+
+  it('tells the robot two things, asks for a third, helps twice, and sees it done', async () => {
+    const page = await stage.open(sizes.desktop);
+    await say(page, 'John is on the sofa.');
+    await page.getByText('I will remember that John is on the sofa').waitFor();
+    await say(page, 'There is a water bottle in the fridge.');
+    await page.getByText(/I will remember that there is a water bottle/i).waitFor();
+
+    await stage.system.end();
+    await page.getByText(/The connection is lost since/).waitFor();
+    await stage.system.start();
+    await page.getByText(/The connection is lost since/).waitFor({ state: 'detached' });
+    await page.getByRole('textbox', { name: 'Write to David' }).waitFor();
+
+    await say(page, 'John is thirsty, get him water.');
+    const cards = steps(page).locator('li[data-state]');
+    await cards.nth(5).waitFor();
+    const question = page.locator('li[data-question="open"]');
+    await question.waitFor();
+    expect(await question.innerText()).toMatch(/water bottle/);
+    await page.getByRole('region', { name: 'Pictures' }).getByRole('img').first().waitFor();
+    await say(page, 'I have put it on you.');
+
+    await page.getByRole('group', { name: 'Possible answers' }).getByRole('button', { name: 'small sofa' }).click();
+    await expect.poll(() => cards.count(), { timeout: 60_000 }).toBeGreaterThan(0);
+    await page.getByText('Ended', { exact: true }).waitFor();
+    expect(await cards.evaluateAll((all) => all.map((card) => (card as HTMLElement).dataset.state))).toEqual(
+      Array(await cards.count()).fill('finished'),
+    );
+    const pose = (await robotNamed(stage))?.pose;
+    expect(Math.hypot((pose?.x ?? 99) - SMALL_SOFA.x, (pose?.y ?? 99) - SMALL_SOFA.y)).toBeLessThan(2);
+    expect(await page.locator('li[data-question="open"]').count()).toBe(0);
+  });
+});

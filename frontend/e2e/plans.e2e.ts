@@ -1,0 +1,135 @@
+/** Plans: asked for, changed before and while they run, refused, stopped. */
+import type { Page } from 'playwright-core';
+import { afterAll, beforeAll, beforeEach, describe, expect, it } from 'vitest';
+
+import { distance, hasBrowser, PATIENCE_MS, robotNamed, say, sizes, startStage, steps, untilItMoved, type Stage } from './stage';
+
+const TASK = 'Go to the bed, then look at the wardrobe, then go to the refrigerator.';
+const proposal = (page: Page) => page.getByRole('region', { name: 'David asks: shall I do this?' });
+const names = (page: Page) => page.getByRole('row').locator('span').filter({ hasText: /\w/ }).allInnerTexts();
+
+describe.skipIf(!hasBrowser)('an operator with a plan', () => {
+  let stage: Stage;
+
+  const order = async (path: string, body: object, method = 'POST') => {
+    const headers = { 'Content-Type': 'application/json' };
+    const answer = await fetch(`${stage.system.address}api/plans/David/${path}`, { method, headers, body: JSON.stringify(body) });
+    expect(answer.status).toBe(200);
+  };
+  const policy = (chosen: string) => order('policy', { policy: chosen }, 'PUT');
+
+  beforeAll(async () => {
+    stage = await startStage();
+  });
+
+  beforeEach(async () => {
+    await expect.poll(async () => (await robotNamed(stage))?.name, { timeout: PATIENCE_MS }).toBe('David');
+    await order('command', { command: 'clear' });
+  });
+
+  afterAll(async () => {
+    await stage.close();
+  });
+
+  it('says no, and nothing moves', async () => {
+    await policy('ask_first');
+    const page = await stage.open(sizes.phone);
+    const from = await robotNamed(stage);
+    await say(page, 'Go to the bed.');
+    await page.getByRole('link', { name: /shall I do this/ }).tap();
+    await proposal(page).getByRole('button', { name: 'No', exact: true }).tap();
+    await proposal(page).waitFor({ state: 'detached' });
+    const now = await robotNamed(stage);
+    expect(now?.state).toBe('idle');
+    expect(distance(now, from)).toBeLessThan(0.1);
+  });
+
+  it('says yes, and it begins', async () => {
+    await policy('ask_first');
+    const page = await stage.open(sizes.tablet);
+    const from = await robotNamed(stage);
+    await say(page, 'Go to the bed.');
+    await proposal(page).getByRole('button', { name: 'Yes, begin' }).tap();
+    await untilItMoved(stage, from);
+  });
+
+  it('puts steps in another order with keys and by dragging, before it begins', async () => {
+    await policy('ask_first');
+    const page = await stage.open(sizes.desktop);
+    await say(page, TASK);
+    await proposal(page).getByRole('button', { name: 'Change' }).press('Enter');
+    const rows = proposal(page).getByRole('row');
+    await rows.nth(3).waitFor();
+    const before = await names(page);
+    const last = rows.last();
+    await last.getByRole('button', { name: /^Move .* up$/ }).press('Enter');
+    const moved = await names(page);
+    expect(moved).not.toEqual(before);
+    expect([...moved].sort()).toEqual([...before].sort());
+
+    const dragged = (await names(page))[0];
+    await rows.first().locator('span').first().dragTo(rows.nth(2), { targetPosition: { x: 60, y: 40 } });
+    await expect.poll(async () => (await names(page))[0], { timeout: PATIENCE_MS }).not.toBe(dragged);
+    await proposal(page).getByRole('button', { name: 'Cancel' }).press('Enter');
+    await proposal(page).getByRole('button', { name: 'No', exact: true }).press('Enter');
+    await proposal(page).waitFor({ state: 'detached' });
+  });
+
+  it('takes one step out of a running plan, puts it back, and changes what is left', async () => {
+    await policy('run_at_once');
+    const page = await stage.open(sizes.desktop);
+    await say(page, TASK);
+    await steps(page).locator('li[data-state="running"]').waitFor();
+    await say(page, 'pause');
+    const queued = steps(page).locator('li[data-state="queued"]');
+    await page.getByText('Paused', { exact: true }).first().waitFor();
+    const count = await queued.count();
+    expect(count).toBeGreaterThan(2);
+    await queued.last().getByRole('button', { name: /^Remove/ }).click();
+    await expect.poll(() => queued.count(), { timeout: PATIENCE_MS }).toBe(count - 1);
+    await page.getByRole('button', { name: 'Undo' }).click();
+    await expect.poll(() => queued.count(), { timeout: PATIENCE_MS }).toBe(count);
+
+    await page.getByRole('button', { name: 'Change', exact: true }).click();
+    await page.getByRole('row').last().getByRole('button', { name: /^Remove/ }).click();
+    await page.getByRole('button', { name: 'Save' }).click();
+    await page.getByText('The plan was changed.').first().waitFor();
+    await expect.poll(() => queued.count(), { timeout: PATIENCE_MS }).toBe(count - 1);
+  });
+
+  it('is told when somebody else changed the plan meanwhile', async () => {
+    await policy('run_at_once');
+    const [one, two] = await Promise.all([stage.open(sizes.desktop), stage.open(sizes.desktop)]);
+    await say(one, TASK);
+    await steps(one).locator('li[data-state="running"]').waitFor();
+    await say(one, 'pause');
+    await two.getByText('Paused', { exact: true }).first().waitFor();
+    const queued = steps(two).locator('li[data-state="queued"]');
+    const count = await queued.count();
+    await one.getByRole('button', { name: 'Change', exact: true }).click();
+    await queued.last().getByRole('button', { name: /^Remove/ }).click();
+    await expect.poll(() => queued.count(), { timeout: PATIENCE_MS }).toBe(count - 1);
+    await one.getByRole('row').first().getByRole('button', { name: /^Remove/ }).click();
+    await one.getByRole('button', { name: 'Save' }).click();
+    await one.getByText(/The plan changed in the meantime/).waitFor();
+    await expect.poll(() => steps(one).locator('li[data-state="queued"]').count(), { timeout: PATIENCE_MS }).toBe(count - 1);
+  });
+
+  it('stops it while it drives, and lets it carry on afterwards', async () => {
+    await policy('run_at_once');
+    const page = await stage.open(sizes.tablet);
+    const from = await robotNamed(stage);
+    await say(page, 'Go to the refrigerator.');
+    await untilItMoved(stage, from);
+    await page.getByRole('button', { name: 'Stop', exact: true }).tap();
+    await page.locator('li[data-reached="true"]', { hasText: 'Sent' }).waitFor();
+    await page.locator('li[data-reached="true"]', { hasText: 'Standing still' }).waitFor();
+    const stood = await robotNamed(stage);
+    await page.getByRole('button', { name: 'Release…' }).tap();
+    await page.getByRole('button', { name: 'Yes, it is safe' }).tap();
+    await page.getByText('David is stopped').waitFor({ state: 'detached' });
+    expect(distance(await robotNamed(stage), stood)).toBeLessThan(0.25);
+    await page.getByRole('button', { name: 'Continue' }).tap();
+    await untilItMoved(stage, stood);
+  });
+});

@@ -1,0 +1,77 @@
+import { describe, expect, it } from 'vitest';
+
+import { mapInfo } from '@/live/samples';
+
+import { bounds, fit, labelOf, pan, roomForLabels, thingAt, toMap, toScreen, zoom } from './viewport';
+
+const size = { width: 800, height: 400 };
+
+describe('the part of a map on the screen', () => {
+  it('is all of it at first, upright', () => {
+    const view = fit(mapInfo, size);
+    const { from, to } = bounds(mapInfo);
+    expect(from).toEqual({ x: -2, y: -1 });
+    expect(to).toEqual({ x: 8, y: 4 });
+    const lower = toScreen(view, size, from);
+    const upper = toScreen(view, size, to);
+    expect(lower.x).toBeGreaterThanOrEqual(0);
+    expect(upper.x).toBeLessThanOrEqual(size.width);
+    expect(upper.y).toBeGreaterThanOrEqual(0);
+    expect(lower.y).toBeGreaterThan(upper.y);
+    expect(lower.y).toBeLessThanOrEqual(size.height);
+  });
+
+  it('turns with a map whose picture is turned', () => {
+    const turned = { ...mapInfo, origin: { x: 0, y: 0, yaw: Math.PI / 2 } };
+    expect(bounds(turned).from.x).toBeCloseTo(-5);
+    expect(bounds(turned).to.y).toBeCloseTo(10);
+  });
+
+  it('leads from a place to the screen and back', () => {
+    const view = { centre: { x: 1, y: -2 }, scale: 37 };
+    const back = toMap(view, size, toScreen(view, size, { x: 3.25, y: 0.5 }));
+    expect(back.x).toBeCloseTo(3.25);
+    expect(back.y).toBeCloseTo(0.5);
+  });
+
+  it('keeps the point under the fingers while zooming', () => {
+    const at = { x: 130, y: 300 };
+    const before = fit(mapInfo, size);
+    const after = zoom(before, size, 3, at, 1);
+    expect(after.scale).toBeCloseTo(before.scale * 3);
+    expect(toMap(after, size, at).x).toBeCloseTo(toMap(before, size, at).x);
+    expect(toMap(after, size, at).y).toBeCloseTo(toMap(before, size, at).y);
+  });
+
+  it('is never zoomed or moved until nothing is left of it', () => {
+    const view = fit(mapInfo, size);
+    expect(zoom(view, size, 1e-9, { x: 0, y: 0 }, 5).scale).toBe(5);
+    expect(pan(view, mapInfo, 1e6, 1e6).centre).toEqual({ x: -2, y: 4 });
+  });
+});
+
+describe('pointing at a map', () => {
+  it('finds the smaller of two things that lie over each other', () => {
+    const small = { id: 's', kind: 'cup', description: '', x: 3, y: 1, width: 0.1, height: 0.1 };
+    expect(thingAt([...mapInfo.objects, small], { x: 3, y: 1 }, 0)?.id).toBe('s');
+  });
+
+  it('finds a narrow thing by a finger beside it, and nothing where nothing is', () => {
+    expect(thingAt(mapInfo.objects, { x: 0, y: 3.15 }, 0.2)?.id).toBe('door_1');
+    expect(thingAt(mapInfo.objects, { x: 6, y: 3 }, 0.2)).toBeNull();
+  });
+});
+
+describe('labels on a map', () => {
+  it('are left out where they would lie over an earlier one or leave the screen', () => {
+    const label = (id: string, x: number, y: number) => ({ id, text: 'front door', at: { x, y } });
+    const written = roomForLabels([label('a', 200, 100), label('b', 210, 104), label('c', 200, 200), label('d', 2, 50)], size);
+    expect([...written]).toEqual(['a', 'c']);
+  });
+
+  it('are short while the map is small', () => {
+    const [box] = mapInfo.objects;
+    expect(box && labelOf(box, 20)).toBe('box');
+    expect(box && labelOf(box, 100)).toBe('red box');
+  });
+});

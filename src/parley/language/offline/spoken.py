@@ -1,0 +1,66 @@
+"""What people say, put the way the rest reads it: frames off, run-on speech cut, conditions and stops in order."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass, field
+
+from parley.language.offline.conditioning import as_conditions
+from parley.language.offline.frames import unframed
+from parley.language.offline.grounding import ground_phrase
+from parley.language.offline.itineraries import as_itinerary
+from parley.language.offline.lexicon import lexicon
+from parley.language.offline.nouns import bare
+from parley.language.offline.run_on import punctuated
+from parley.language.offline.scene import Scene
+from parley.language.offline.text import Phrase, keys, plain
+
+__all__ = ["spoken"]
+
+_LONGEST_NAME = 7
+
+
+def spoken(words: Phrase, scene: Scene) -> Phrase:
+    """A message in plainer words, with marks where its sentences end.
+
+    Args:
+        words: All words and punctuation.
+        scene: What is known; what was changed is noted in its trace.
+    """
+    names = _Names(scene)
+    result = unframed(punctuated(words, names.is_stop), names.is_stop)
+    result = as_conditions(result, names.is_stop, scene.is_person)
+    if not scene.situation.queue:
+        result = as_itinerary(result, names.is_stop) or result
+    if keys(result) != keys(words):
+        scene.trace.note("words", f"meant as “{plain(result)}”")
+    return result
+
+
+@dataclass
+class _Names:
+    """Which words name one thing on the map; each phrase is looked up once."""
+
+    scene: Scene
+    known: dict[tuple[str, ...], bool] = field(default_factory=dict)
+    said: frozenset[str] = field(init=False)
+
+    def __post_init__(self) -> None:
+        names = (part for item in self.scene.objects for part in item.description.lower().split())
+        self.said = frozenset(names)
+
+    def is_stop(self, words: Phrase) -> bool:
+        """Whether words name one thing on the map and say nothing else."""
+        flat = keys(words)
+        if not flat or len(flat) > _LONGEST_NAME or any(not word.is_word for word in words):
+            return False
+        if flat[-1] in lexicon().determiners or (flat[0] in lexicon().vocabulary and not self._may_begin(flat)):
+            return False
+        if flat not in self.known:
+            named = bare(words)
+            rest = set(flat) - self.said - lexicon().determiners
+            found = bool(named) and len(rest) < 2 and ground_phrase(named, self.scene.objects, strict=True).outcome == "match"
+            self.known[flat] = found
+        return self.known[flat]
+
+    def _may_begin(self, flat: tuple[str, ...]) -> bool:
+        return flat[0] in lexicon().determiners or flat[0] in self.said

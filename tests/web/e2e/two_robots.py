@@ -1,0 +1,53 @@
+"""The demonstration with a second robot, as a process: ``python -m tests.web.e2e.two_robots --data FOLDER``.
+
+A line ``vanish NAME`` on standard input makes that robot fall silent, as if its power had gone.
+"""
+
+from __future__ import annotations
+
+import argparse
+import asyncio
+import sys
+from pathlib import Path
+
+from parley.cli.output import quiet_logs
+from parley.cli.web import serve_until_interrupted
+from parley.config import SystemConfig
+from parley.demos.catalogue import load_demo
+from parley.web.config import WebConfig
+from parley.web.server import WebServer
+
+SECOND = {"Ruth": (7.5, 5.0, 0.0)}
+"""Name and place of the second robot: x and y in metres, heading in radians."""
+
+
+def listen() -> None:
+    """Do what a line on standard input says."""
+    words = sys.stdin.readline().split()
+    if words[:1] == ["vanish"]:
+        [heartbeat] = [task for task in asyncio.all_tasks() if task.get_name() == f"heartbeat {words[1]}"]
+        heartbeat.cancel()
+
+
+async def main(data: Path, port: int, speed: float) -> None:
+    """Serve until interrupted."""
+    demo = load_demo("nursing-home")
+    story = demo.story.model_copy(update={"robots": SECOND})
+    config = SystemConfig(speed=speed, data_dir=data)
+    page = WebConfig(port=port, data_dir=data, examples=story.examples, fresh_robots=True)
+    async with demo.system_for(story, config) as system, WebServer(system.transport, page) as server:
+        asyncio.get_running_loop().add_reader(sys.stdin.fileno(), listen)
+        await serve_until_interrupted(server, opens=False)
+
+
+if __name__ == "__main__":
+    parser = argparse.ArgumentParser()
+    parser.add_argument("--data", type=Path, required=True)
+    parser.add_argument("--port", type=int, default=0)
+    parser.add_argument("--speed", type=float, default=1.0)
+    options = parser.parse_args()
+    quiet_logs(False)
+    try:
+        asyncio.run(main(options.data, options.port, options.speed))
+    except KeyboardInterrupt:
+        sys.exit(130)
