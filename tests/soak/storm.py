@@ -47,6 +47,8 @@ class Account:
     refused: bool = False
     active: set[str] = field(default_factory=set)
     """Nodes that are going on, which they may be beyond the end of their graph."""
+    commanded: bool = False
+    """Whether any command was sent for it after its start; if not, it cannot move once it is at rest."""
 
     @property
     def at_rest(self) -> bool:
@@ -149,13 +151,16 @@ class Storm:
         names = list(self._open[actor])
         if not names:
             return "unknown"
-        return self._rng.choice(names)
+        name = self._rng.choice(names)
+        self._open[actor][name].commanded = True
+        return name
 
     async def _start(self, actor: str) -> None:
         name = f"{actor}_{self._count}"
         self._count += 1
         going_on = [known for known, item in self._open[actor].items() if not item.at_rest]
         for known in going_on[:-GOING_ON]:  # so that a storm of any length reaches a steady state
+            self._open[actor][known].commanded = True
             self._send(topics.GRAPH_STOP, ros.UmrfGraphStop(known, (actor,)))
         self._open[actor][name] = Account()
         self._send(topics.GRAPH_START, ros.UmrfGraphStart("", json.dumps(self._graph(name)), (actor,)))
@@ -229,6 +234,8 @@ class Storm:
             return
         if event.sequence != account.sequence + 1:
             self.gaps.append(f"{event.graph_name}: {event.sequence} after {account.sequence}")
+        if account.at_rest and not account.commanded:
+            self.gaps.append(f"{event.graph_name} went on by itself: {account.state}, then {event.state}")
         account.sequence = event.sequence
         if event.kind == "graph":
             account.state = event.state

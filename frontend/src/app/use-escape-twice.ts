@@ -11,7 +11,11 @@ export function useEscapeTwice(run: () => void): void {
   });
   useEffect(() => {
     const onKey = (event: KeyboardEvent) => {
-      if (event.key !== 'Escape' || event.repeat) return;
+      if (event.repeat) return;
+      if (event.key !== 'Escape') {
+        before.current = Number.NEGATIVE_INFINITY; // closing one box, then another, is not a stop
+        return;
+      }
       if (event.timeStamp - before.current < TWICE_WITHIN_MS) {
         before.current = Number.NEGATIVE_INFINITY;
         latest.current();

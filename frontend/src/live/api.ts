@@ -120,6 +120,8 @@ export interface MemoryBody {
   info?: string;
   /** A robot's name; empty: for all. */
   scope?: string;
+  /** What was forgotten a moment ago: where it came from stays known. */
+  again?: boolean;
 }
 
 const scoped = (scope: string | undefined) => (scope === undefined ? '' : `?scope=${part(scope)}`);

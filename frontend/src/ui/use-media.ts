@@ -4,6 +4,8 @@ export type Layout = 'phone' | 'tablet' | 'desktop';
 
 const TABLET = '(min-width: 700px)';
 const DESKTOP = '(min-width: 1180px)';
+/** Lying phones, and pages that were made twice as large: parts under each other would be slits. */
+const LOW = '(max-height: 559px)';
 
 function useMedia(query: string): boolean {
   return useSyncExternalStore(
@@ -20,6 +22,8 @@ function useMedia(query: string): boolean {
 export function useLayout(): Layout {
   const desktop = useMedia(DESKTOP);
   const tablet = useMedia(TABLET);
+  const low = useMedia(LOW);
+  if (low) return 'phone';
   if (desktop) return 'desktop';
   return tablet ? 'tablet' : 'phone';
 }

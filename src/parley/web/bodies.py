@@ -173,6 +173,8 @@ class MemoryPut(WebModel):
     """The text, or the picture as base64 of a JPEG or PNG."""
     info: Annotated[str, StringConstraints(max_length=1000)] = ""
     scope: Annotated[str, StringConstraints(max_length=100)] = ""
+    again: bool = False
+    """Bring back what was forgotten last under this name: unchanged, it keeps where it came from."""
 
 
 class FeedKey(WebModel):

@@ -54,6 +54,20 @@ describe('the chat', () => {
     expect(sent).toMatchObject([{ text: 'come here', targets: ['Ada', 'Bob'] }]);
   });
 
+  it('sends one message after the other, in the order in which they were written', async () => {
+    let answer: (response: Response) => void = () => undefined;
+    vi.stubGlobal('fetch', (_path: string, options: RequestInit) => {
+      sent.push(JSON.parse(String(options.body)) as Sent);
+      return sent.length > 1 ? Promise.resolve(new Response('{}')) : new Promise<Response>((resolve) => (answer = resolve));
+    });
+    const user = show({});
+    await user.type(screen.getByRole('textbox', { name: 'Write to Ada' }), 'first{Enter}');
+    await user.type(screen.getByRole('textbox', { name: 'Write to Ada' }), 'second{Enter}');
+    expect(sent.map((one) => one.text)).toEqual(['first']);
+    answer(new Response('{}'));
+    await vi.waitFor(() => expect(sent.map((one) => one.text)).toEqual(['first', 'second']));
+  });
+
   it('keeps a draft for each robot', async () => {
     const user = show({});
     await user.type(screen.getByRole('textbox', { name: 'Write to Ada' }), 'half a sen');

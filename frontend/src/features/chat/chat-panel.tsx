@@ -5,8 +5,9 @@ import { useTranslation } from 'react-i18next';
 import { useWorld } from '@/live/store';
 import type { ChatEntry } from '@/live/types';
 import { draftKey, useDrafts } from '@/state/drafts';
+import { useMoment } from '@/state/moment';
 import { usePrefs } from '@/state/prefs';
-import { useSelection } from '@/state/selection';
+import { useSelection, useSelectionStore } from '@/state/selection';
 import { Icon, type IconName } from '@/ui/icon';
 import { Panel } from '@/ui/panel';
 import { useShortcut } from '@/ui/use-shortcut';
@@ -27,6 +28,8 @@ export function ChatPanel() {
   const chosen = useSelection();
   const send = useOutbox((outbox) => outbox.send);
   const { debug, set } = usePrefs();
+  const only = useSelectionStore((state) => state.only);
+  const showMoment = useMoment((state) => state.show);
   const [searching, setSearching] = useState(false);
   const input = useRef<HTMLTextAreaElement>(null);
 
@@ -41,6 +44,11 @@ export function ChatPanel() {
       void send({ text: choice, targets: question.targets, reply_to: question.question === 'open' ? question.id : '', images: [] }),
     [send],
   );
+  // What was found may have been said to robots that are not spoken to now.
+  const goToEntry = (entry: ChatEntry) => {
+    if (!conversation([entry], chosen).length && entry.targets[0]) only(entry.targets[0]);
+    showMoment(entry.unix_ms);
+  };
   const key = draftKey(chosen);
   const edit = useCallback(
     (text: string) => {
@@ -62,7 +70,7 @@ export function ChatPanel() {
   return (
     <Panel title={t('title')} tools={tools} flush>
       <RobotTabs questions={questions} />
-      {searching && <SearchBox />}
+      {searching && <SearchBox onGo={goToEntry} />}
       <History
         key={key}
         entries={entries}

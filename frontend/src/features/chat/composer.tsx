@@ -30,7 +30,6 @@ export function Composer({ chosen, answering, lastSaid, input }: Props) {
   const nobody = chosen.length === 0;
   const ready = !nobody && (draft.text.trim() !== '' || draft.photo !== null);
 
-  useGrowing(input, draft.text);
   useAsked(input);
   useWantedKeyboard(input);
 
@@ -54,6 +53,7 @@ export function Composer({ chosen, answering, lastSaid, input }: Props) {
   };
 
   const label = nobody ? t('writeNobody') : t('writeTo', { names: nameList(chosen, i18n.language) });
+  useGrowing(input, draft.text, label);
   return (
     <form
       className={css.form}
@@ -150,11 +150,11 @@ function useAsked(input: React.RefObject<HTMLTextAreaElement | null>) {
 
 const TALLEST_PX = 160;
 
-/** Makes the box as tall as what is written in it. */
-function useGrowing(input: React.RefObject<HTMLTextAreaElement | null>, text: string) {
+/** Makes the box as tall as what is written in it, or stands there instead. */
+function useGrowing(input: React.RefObject<HTMLTextAreaElement | null>, text: string, label: string) {
   useEffect(() => {
     if (input.current) fitHeight(input.current);
-  }, [input, text]);
+  }, [input, text, label]);
 }
 
 function fitHeight(box: HTMLTextAreaElement) {

@@ -18,6 +18,10 @@ interface Outbox {
   discard: (id: string) => void;
 }
 
+const LONGEST_TURN_MS = 2000;
+
+const pause = (ms: number) => new Promise((resolve) => setTimeout(resolve, ms));
+
 export const useOutbox = create<Outbox>()((set, get) => {
   const change = (id: string, part: Partial<Outgoing>) =>
     set((now) => ({ messages: now.messages.map((one) => (one.id === id ? { ...one, ...part } : one)) }));
@@ -32,6 +36,14 @@ export const useOutbox = create<Outbox>()((set, get) => {
     }
   };
 
+  // What is written second must not be heard first, but nor may it wait long for one that is stuck.
+  let before: Promise<unknown> = Promise.resolve();
+  const inTurn = async (message: OutgoingMessage) => {
+    const turn = Promise.race([before, pause(LONGEST_TURN_MS)]).then(() => deliver(message));
+    before = turn;
+    await turn;
+  };
+
   return {
     messages: [],
     send: async (message) => {
@@ -39,11 +51,11 @@ export const useOutbox = create<Outbox>()((set, get) => {
       set((now) => ({
         messages: [...now.messages, { ...outgoing, unixMs: Date.now(), state: 'sending', reason: '' }],
       }));
-      await deliver(outgoing);
+      await inTurn(outgoing);
     },
     retry: async (id) => {
       const message = get().messages.find((one) => one.id === id);
-      if (message) await deliver(message);
+      if (message) await inTurn(message);
     },
     discard: (id) => set((now) => ({ messages: now.messages.filter((one) => one.id !== id) })),
   };

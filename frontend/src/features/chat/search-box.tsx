@@ -13,8 +13,8 @@ const AFTER_TYPING_MS = 250;
 
 type Result = { state: 'idle' } | { state: 'ready'; entries: readonly ChatEntry[] } | { state: 'failed'; reason: string };
 
-/** Finds what was said, however long ago. */
-export function SearchBox() {
+/** Finds what was said, however long ago, and leads there. */
+export function SearchBox({ onGo }: { onGo: (entry: ChatEntry) => void }) {
   const { t, i18n } = useTranslation('chat');
   const [words, setWords] = useState('');
   const [result, setResult] = useState<Result>({ state: 'idle' });
@@ -49,11 +49,13 @@ export function SearchBox() {
           <ul className={css.found}>
             {result.entries.map((entry) => (
               <li key={entry.id}>
-                <span className={css.when}>
-                  {entry.who === 'operator' ? entry.author || t('you') : nameList(entry.targets, i18n.language)},{' '}
-                  {dayName(entry.unix_ms, now, i18n.language)} {clockTime(entry.unix_ms, i18n.language)}
-                </span>
-                <span>{entry.message}</span>
+                <button type="button" className={css.go} onClick={() => onGo(entry)}>
+                  <span className={css.when}>
+                    {entry.who === 'operator' ? entry.author || t('you') : nameList(entry.targets, i18n.language)},{' '}
+                    {dayName(entry.unix_ms, now, i18n.language)} {clockTime(entry.unix_ms, i18n.language)}
+                  </span>
+                  <span>{entry.message}</span>
+                </button>
               </li>
             ))}
           </ul>

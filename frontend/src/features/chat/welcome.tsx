@@ -19,6 +19,7 @@ const SHOWN = 3;
 export function Welcome({ chosen, onSay }: Props) {
   const { t, i18n } = useTranslation('chat');
   const examples = useWorld((world) => world.info?.examples ?? NO_EXAMPLES);
+  const foreign = useWorld((world) => world.info?.offline_language ?? false) && !i18n.language.startsWith('en');
   if (chosen.length === 0) {
     return (
       <Empty title={t('emptyNobody')}>
@@ -29,6 +30,7 @@ export function Welcome({ chosen, onSay }: Props) {
   return (
     <Empty title={t('emptyTitle', { name: nameList(chosen, i18n.language) })}>
       <p>{t('emptyText')}</p>
+      {foreign && <p>{t('speaksEnglish')}</p>}
       <ul className={css.examples}>
         {examples.slice(0, SHOWN).map((example) => (
           <li key={example}>

@@ -25,7 +25,7 @@ export function sourceOf(item: MemoryItem): Source {
 /** What is needed to remember it again. */
 async function bodyOf(item: MemoryItem): Promise<MemoryBody> {
   const data = item.type === 'image' ? await fetchPicture(item.data) : item.data;
-  return { type: item.type, data, info: item.info, scope: item.scope };
+  return { type: item.type, data, info: item.info, scope: item.scope, again: true };
 }
 
 /** Forget one memory. @returns How to bring it back. @throws ApiError It could not be forgotten. */

@@ -1,12 +1,12 @@
 import { useTranslation } from 'react-i18next';
 
 import type { ParameterView, StepView } from '@/live/types';
-import { inWords } from '@/ui/words';
+import { clockTime, inWords } from '@/ui/words';
 
 import css from './details.module.css';
 import { rowsOf, type Row } from './parameters';
 
-/** What a step was given and what it found out. */
+/** What a step was given, what it found out, and under what circumstances. */
 export function Details({ step }: { step: StepView }) {
   const { t } = useTranslation('plan');
   return (
@@ -14,6 +14,32 @@ export function Details({ step }: { step: StepView }) {
       <p className={css.action}>{inWords(step.action)}</p>
       <Values title={t('given')} parameters={step.inputs} />
       <Values title={t('found')} parameters={step.outputs} />
+      <Circumstances step={step} />
+    </div>
+  );
+}
+
+/** Under what circumstances it was done. */
+function Circumstances({ step }: { step: StepView }) {
+  const { t, i18n } = useTranslation('plan');
+  const at = (unixMs: number) => clockTime(unixMs, i18n.language, true);
+  return (
+    <>
+      <p className={css.title}>{t('circumstances')}</p>
+      <dl className={css.rows}>
+        <Fact name={t('care')} value={t(`cares.${step.risk}`)} />
+        {step.started_unix_ms > 0 && <Fact name={t('began')} value={at(step.started_unix_ms)} />}
+        {step.ended_unix_ms > 0 && <Fact name={t('ended')} value={at(step.ended_unix_ms)} />}
+      </dl>
+    </>
+  );
+}
+
+function Fact({ name, value }: { name: string; value: string }) {
+  return (
+    <div>
+      <dt>{name}</dt>
+      <dd>{value}</dd>
     </div>
   );
 }

@@ -9,11 +9,12 @@ from parley.language.offline.grounding import describe, ground_phrase
 from parley.language.offline.lexicon import lexicon
 from parley.language.offline.nouns import bare
 from parley.language.offline.own_state import told_about
+from parley.language.offline.remembering import find_fact
 from parley.language.offline.saying import listing, the, whole_sentence
 from parley.language.offline.scene import Scene
 from parley.language.offline.text import Phrase, keys, lemma, plain, singular
 
-__all__ = ["Answer", "how_far", "told", "which"]
+__all__ = ["Answer", "attribute", "how_far", "told", "which"]
 
 
 @dataclass(frozen=True, slots=True)
@@ -96,3 +97,34 @@ def told(words: Phrase, flat: tuple[str, ...], scene: Scene, asked: bool) -> Ans
             scene.use(item)
             return Answer(whole_sentence(item.fact.sentence or plain(item.fact.subject)))
     return None
+
+
+def attribute(words: Phrase, flat: tuple[str, ...], scene: Scene, asked: bool) -> Answer | None:
+    """For "what colour is the dock?", "does A like tea?": what is remembered of it."""
+    if flat[0] in {"does", "did", "has"}:
+        start = 1
+    elif (
+        flat[0] in {"what", "which"} and len(flat) > 3 and flat[1] not in lexicon().be | lexicon().auxiliaries
+    ):
+        start = next((i + 1 for i in range(2, min(5, len(flat))) if flat[i] in _LINKS), 0)
+    else:
+        return None
+    for end in range(len(words), start, -1) if start else ():
+        about = bare(words[start:end])
+        known, _ = find_fact(about, scene.facts, locations=False) if about else (None, [])
+        if known is None or known.fact.is_location or set(keys(known.fact.subject)) - set(keys(about)):
+            continue
+        told = {lemma(word) for word in (*keys(known.fact.state), known.fact.relation)}
+        wanted = {lemma(word) for word in flat[end:]} - {"have", "be"}
+        if flat[0] in {"does", "did", "has"} and not wanted & told:
+            return None
+        scene.use(known)
+        fitting = wanted <= told
+        lead = (
+            "" if flat[0] in {"what", "which"} or not fitting else "No: " if known.fact.negated else "Yes: "
+        )
+        return Answer(lead + whole_sentence(known.fact.sentence))
+    return None
+
+
+_LINKS = lexicon().be | {"does", "do", "did", "has", "have"}

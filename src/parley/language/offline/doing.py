@@ -144,10 +144,10 @@ class Doing(Meaning):
         return bool(self._checked[0]) and keys(self._checked[0]) == keys(clause.condition)
 
     def _side_by_side(self, start: int) -> None:
-        """The steps from `start` on are done at the same time as the one before them."""
-        steps = self.tasks.steps
+        """The steps from `start` on are done at the same time as the one before them, if that was asked."""
+        steps, beside = self.tasks.steps, self.tasks.beside
         self.tasks.beside = False
-        if start < len(steps) and steps[start].flow is None and steps[start - 1].flow is None:
+        if beside and start < len(steps) and steps[start].flow is None and steps[start - 1].flow is None:
             steps[start] = steps[start].model_copy(update={"flow": Flow(together_with=start - 1)})
             self.tasks.will[-1] = f"{self.tasks.will[-1]} at the same time"
 

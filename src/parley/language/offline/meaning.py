@@ -11,7 +11,7 @@ from parley.language.offline.facts import read_statement, strip_openers
 from parley.language.offline.lexicon import lexicon
 from parley.language.offline.nouns import bare
 from parley.language.offline.saying import the
-from parley.language.offline.text import Phrase, Word, keys, plain, tokens
+from parley.language.offline.text import Phrase, Word, keys, lemma, plain, tokens
 from parley.language.offline.wishes import due, missing, need, wish
 
 __all__ = ["Meaning"]
@@ -129,7 +129,7 @@ class Meaning(Answering):
         words = words[1:] if negated else words
         found = lexicon().goals.match(keys(words))
         words = bare(words[found[0] :] if found and found[0] < len(words) else words)
-        if not words or any(w.key in lexicon().be for w in words):
+        if not words or any(w.key in lexicon().be for w in words) or self._happens(words):
             return None
         words = self._labelled(words)
         if self.last.kind == "whether":
@@ -142,6 +142,14 @@ class Meaning(Answering):
             )
         place = self.last.place if self.last.kind == "transfer" else ()
         return replace(self.last, theme=words, place=place, source=(), clause=words, negated=negated)
+
+    def _happens(self, words: Phrase) -> bool:
+        """Whether somebody did something ("the cook made soup"), as against a name with such a word in it."""
+        first = words[0].key
+        if first in {"never", "whatever", "anyway", "because", "although", "while"}:
+            return True
+        told = any(lemma(word.key) != word.key and not word.key.endswith(("s", "ing")) for word in words[1:])
+        return told and len(words) > 2 and self.scene.ground(words).outcome == "none"
 
     def _labelled(self, words: Phrase) -> Phrase:
         """For "Go to room 1, then 2": a bare number or letter names another of the same kind."""

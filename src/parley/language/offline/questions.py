@@ -7,6 +7,7 @@ from functools import cache
 from parley.language.offline import about_map
 from parley.language.offline.abilities import abilities, cannot
 from parley.language.offline.about_map import Answer
+from parley.language.offline.asked import asked
 from parley.language.offline.clauses import Clause, opens_command
 from parley.language.offline.facts import strip_openers
 from parley.language.offline.grounding import describe, ground_phrase
@@ -68,8 +69,9 @@ def answer(clause: Clause, scene: Scene) -> Answer | None:
     )
     if not question:
         return None
-    asked = clause.is_question
-    ready = (_planned(flat, scene) or _able(words, flat, scene)) if asked else None
+    marked = clause.is_question
+    ready = (_planned(flat, scene) or _able(words, flat, scene)) if marked else None
+    ready = ready or asked(words, flat, scene)
     if ready is not None:
         return ready
     for kind, reply in ABOUT_ITSELF.items():
@@ -78,7 +80,7 @@ def answer(clause: Clause, scene: Scene) -> Answer | None:
                 return Answer(reply(scene, words[len(start) :]))
     for reader in (
         _does,
-        _attribute,
+        about_map.attribute,
         about_map.which,
         about_map.how_far,
         _where,
@@ -87,10 +89,10 @@ def answer(clause: Clause, scene: Scene) -> Answer | None:
         _who,
         _whether,
     ):
-        found = reader(words, flat, scene, asked or wrapped)
+        found = reader(words, flat, scene, marked or wrapped)
         if found is not None:
             return found
-    return about_map.told(words, flat, scene, asked or wrapped) or _open_question(words, clause.is_question)
+    return about_map.told(words, flat, scene, marked or wrapped) or _open_question(words, clause.is_question)
 
 
 def _to_be_done(asked: tuple[str, ...], said: tuple[str, ...], scene: Scene) -> bool:
@@ -271,6 +273,12 @@ def _where(words: Phrase, flat: tuple[str, ...], scene: Scene, _: bool) -> Answe
     scene.mention(bare(about))
     if hits:
         return Answer(" ".join(whole_sentence(item.fact.sentence) for item in hits))
+    denied = next(
+        (f for f in scene.facts if f.fact.negated and keys(f.fact.subject) == keys(bare(about))), None
+    )
+    if denied is not None and not hits:
+        scene.use(denied)
+        return Answer(f"I only know this: {whole_sentence(denied.fact.sentence)}")
     named = len(about) == 1 and about[0].is_capital
     found = ground_phrase(about, scene.objects, scene.situation.robot_pose, strict=named)
     if found.outcome == "match":
@@ -386,6 +394,14 @@ def _whether(words: Phrase, flat: tuple[str, ...], scene: Scene, asked: bool) ->
         scene.use(fact)
         same = not place or set(noun_phrase(place).core) <= set(noun_phrase(fact.fact.place).core)
         return Answer(("Yes: " if same else "As far as I know, no: ") + whole_sentence(fact.fact.sentence))
+    denied = next((f for f in scene.facts if f.fact.negated and keys(f.fact.subject) == keys(subject)), None)
+    if (
+        denied is not None
+        and place
+        and set(noun_phrase(place).core) <= set(noun_phrase(denied.fact.place).core)
+    ):
+        scene.use(denied)
+        return Answer(f"As far as I know, no: {whole_sentence(denied.fact.sentence)}")
     if place and ground_phrase(place, scene.objects).outcome != "none":
         return Answer(
             f"I do not know. Shall I go to {the(plain(place))} and have a look?", _statement(there, words)
@@ -443,37 +459,6 @@ def _does(words: Phrase, flat: tuple[str, ...], scene: Scene, asked: bool) -> An
         f"I do not know. Shall I go to {the(plain(bare(rest[:size])))} and have a look?",
         (*rest[:size], *said),
     )
-
-
-def _attribute(words: Phrase, flat: tuple[str, ...], scene: Scene, asked: bool) -> Answer | None:
-    """For "what colour is the dock?", "does A like tea?": what is remembered of it."""
-    if flat[0] in {"does", "did", "has"}:
-        start = 1
-    elif (
-        flat[0] in {"what", "which"} and len(flat) > 3 and flat[1] not in lexicon().be | lexicon().auxiliaries
-    ):
-        start = next((i + 1 for i in range(2, min(5, len(flat))) if flat[i] in _LINKS), 0)
-    else:
-        return None
-    for end in range(len(words), start, -1) if start else ():
-        about = bare(words[start:end])
-        known, _ = find_fact(about, scene.facts, locations=False) if about else (None, [])
-        if known is None or known.fact.is_location or set(keys(known.fact.subject)) - set(keys(about)):
-            continue
-        told = {lemma(word) for word in (*keys(known.fact.state), known.fact.relation)}
-        wanted = {lemma(word) for word in flat[end:]} - {"have", "be"}
-        if flat[0] in {"does", "did", "has"} and not wanted & told:
-            return None
-        scene.use(known)
-        fitting = wanted <= told
-        lead = (
-            "" if flat[0] in {"what", "which"} or not fitting else "No: " if known.fact.negated else "Yes: "
-        )
-        return Answer(lead + whole_sentence(known.fact.sentence))
-    return None
-
-
-_LINKS = lexicon().be | {"does", "do", "did", "has", "have"}
 
 
 def _grounded_prefix(rest: Phrase, scene: Scene) -> int:

@@ -2,10 +2,12 @@
 
 from __future__ import annotations
 
+from collections.abc import Sequence
 from dataclasses import dataclass, replace
 
 from parley.language.offline import social
 from parley.language.offline.abilities import abilities, cannot
+from parley.language.offline.asked import asked
 from parley.language.offline.catalogue import call
 from parley.language.offline.clauses import Clause, clauses, opens_command
 from parley.language.offline.commands import Command, read_command
@@ -70,6 +72,10 @@ class Reader(Recalling):
     def read(self, words: Phrase) -> ChatAction:
         """Understand a whole message."""
         self._mention_history()
+        asks = keys(strip_openers(words))[:1] in {(start,) for start in lexicon().question_starts}
+        about_plan = asked(*_flat(words), self.scene) if asks and self.scene.situation.queue else None
+        if about_plan is not None and not about_plan.look:
+            return self._result(about_plan.text, ())
         stated = restated(words, self.scene)
         if stated is not None:
             self.scene.trace.note("edit", stated.reply)
@@ -92,7 +98,7 @@ class Reader(Recalling):
         words, often = without_recurrence(words)
         words, times = counted_times(words) if often else (words, 1)
         before: tuple[ActionCall, ...] = ()
-        place = inserted(words, self.scene)
+        place = None if asks else inserted(words, self.scene)
         if place is not None:
             words, at = place
             before = self.scene.situation.queue[at:]
@@ -117,12 +123,10 @@ class Reader(Recalling):
                 self._at = index
                 start = len(self.tasks.steps)
                 self.tasks.beside = clause.beside and start > 0
-                self._clause(clause, alone=len(parts) == 1, index=index)
-                if self.tasks.beside:
-                    self._side_by_side(start)
+                self._clause_or_story(clause, index, parts)
+                self._side_by_side(start)
             self._complain()
-            if often:
-                self._recurs(often, times)
+            self._recurs(often, times)
         except UnclearError as unclear:
             self.scene.trace.note("question", unclear.question)
             self.commands = [c for c in self.commands if c.command != "pop"]
@@ -133,6 +137,20 @@ class Reader(Recalling):
             return self._result(cannot(unable.what, self.scene), ())
         self.learn()
         return self._result(self._reply(), (*self.tasks.steps, *before))
+
+    def _clause_or_story(self, clause: Clause, index: int, parts: Sequence[Clause]) -> None:
+        """Read one clause; what makes no sense among orders and names nothing is only told around them."""
+        start = len(self.tasks.steps)
+        try:
+            self._clause(clause, alone=len(parts) == 1, index=index)
+        except (UnclearError, UnableError):
+            verbs = self.scene.catalogue.verbs
+            others = any(opens_command(part.words, verbs) for part in parts if part is not clause)
+            named = mentioned(clause.words, self.scene) or clause.condition or clause.conditional
+            if not others or named or opens_command(clause.words, verbs):
+                raise
+            del self.tasks.steps[start:]
+            self.unread.append(clause.words)
 
     def _on_map(self, words: Phrase) -> bool:
         return self.scene.ground(words).outcome != "none"
@@ -151,6 +169,9 @@ class Reader(Recalling):
             self.scene.trace.note("recast", f"“{plain(order[0])}”, after the pattern: {order[1]}")
             clause = replace(clause, words=order[0], is_question=False)
         if self._again(clause) or self._delayed(clause) or self._says_nothing(clause, alone=alone):
+            return
+        if self.tasks.meet(clause.words):
+            self.scene.trace.note("frame", f"with people: {clause.said()}")
             return
         if self._reading(clause) or self._order(clause, alone, index) or self._spoken(clause):
             return
@@ -192,7 +213,7 @@ class Reader(Recalling):
 
     def _recurs(self, often: str, times: int) -> None:
         """What is asked for again and again: so often, with waiting in between, if that can be, else once."""
-        steps, span_s = list(self.tasks.steps), duration_s(tokens(often))
+        steps, span_s = list(self.tasks.steps) if often else [], duration_s(tokens(often))
         waiter = self.scene.catalogue.with_role("wait")
         numbers = [n for n, kind in waiter.inputs.items() if kind == "number"] if waiter is not None else []
         counted = 1 < times <= _MOST_TIMES and span_s is not None and not any(step.flow for step in steps)
@@ -332,6 +353,12 @@ class Reader(Recalling):
             self.replies.append(whole_sentence(f"I did not understand “{plain(words)[:80]}”"))
             return
         raise UnclearError(f"{social.not_understood(words)} {abilities(self.scene)}")
+
+
+def _flat(words: Phrase) -> tuple[Phrase, tuple[str, ...]]:
+    """The words without punctuation, and what is compared of them."""
+    body = tuple(word for word in strip_openers(words) if word.is_word)
+    return body, keys(body)
 
 
 def _says_something(words: Phrase) -> bool:

@@ -7,8 +7,8 @@ from dataclasses import dataclass, field
 
 from parley.language.offline.clauses import Clause
 from parley.language.offline.commands import Command
+from parley.language.offline.meeting import Meeting
 from parley.language.offline.noting import Noting
-from parley.language.offline.tasks import Tasks
 from parley.language.offline.text import Phrase
 
 __all__ = ["Reading"]
@@ -19,7 +19,7 @@ class Reading(Noting):
     """The state of reading one message."""
 
     targets: tuple[str, ...] = ()
-    tasks: Tasks = field(init=False)
+    tasks: Meeting = field(init=False)
     last: Command | None = None
     _previous: Command | None = None
     """What the message before asked for."""
@@ -36,4 +36,4 @@ class Reading(Noting):
     _checked: tuple[Phrase, int] = ((), 0)
 
     def __post_init__(self) -> None:
-        self.tasks = Tasks(self.scene)
+        self.tasks = Meeting(self.scene)

@@ -27,7 +27,7 @@ class Remembered:
 
 
 def remembered(memory: Iterable[MemoryEntry]) -> list[Remembered]:
-    """What the text memories say, newest first."""
+    """What the text memories say, newest first; what robots noted counts as older than what was told."""
     result: list[Remembered] = []
     for entry in memory:
         if entry.type != "text":
@@ -35,7 +35,8 @@ def remembered(memory: Iterable[MemoryEntry]) -> list[Remembered]:
         fact = _entry_fact(entry.name, entry.data)
         if fact is not None:
             result.append(Remembered(fact, entry))
-    return result[::-1]
+    newest = result[::-1]
+    return sorted(newest, key=lambda item: "/" in item.entry.source)
 
 
 @lru_cache(maxsize=4096)

@@ -44,7 +44,8 @@ def restated(words: Phrase, scene: Scene) -> Edit | None:
     """The change of what is pending that a statement means; None if it means none."""
     if not scene.situation.queue or len(words) > 26 or "?" in keys(words):
         return None
-    body = tuple(word for word in strip_openers(words) if word.is_word)
+    refuses = keys(words[:1]) == ("no",) and keys(words[1:2]) != (",",)
+    body = tuple(word for word in (words if refuses else strip_openers(words)) if word.is_word)
     while body and body[0].key in {"actually", "oh", "well", "sorry", "also", "by", "way", "hm", "right", "ok", "okay"}:
         body = body[1:]
     moved = _moved(body, scene)

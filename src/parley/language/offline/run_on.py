@@ -32,7 +32,7 @@ _OPEN = (
         "did", "than", "of", "with", "for", "from", "at", "by", "into", "onto", "kindly", "now", "go", "come",
         "can", "could", "would", "should", "shall", "also", "try", "better", "quickly", "first", "next", "no",
         "either", "maybe", "perhaps", "only", "be", "me", "always", "still", "ever", "anyone", "someone",
-        "somebody", "anybody", "lets",
+        "somebody", "anybody", "lets", "else", "otherwise",
     })
     | _SUBORDINATE
     | lexicon().determiners
@@ -69,11 +69,17 @@ def punctuated(words: Phrase, is_stop: IsStop) -> Phrase:
     for index, word in enumerate(words):
         if word.key in _MARKS:
             start, ordered = index + 1, False
+        elif index > start + 2 and _goes_on(words, flat, index, is_stop):
+            result.append(_STOP)
+            start, ordered = index + 1, False
+            continue
         elif index > start:
             begins = _order_at(words, flat, index, is_stop)
             if begins and _may_end(words, flat, start, index, is_stop, strong=begins == "strong"):
                 result.append(_STOP)
                 start, ordered = index, True
+                if word.key in {"so", "anyway", "anyways"}:
+                    continue
             elif (
                 ordered
                 and _statement_at(words, flat, index)
@@ -88,6 +94,13 @@ def punctuated(words: Phrase, is_stop: IsStop) -> Phrase:
     return tuple(result)
 
 
+def _goes_on(words: Phrase, flat: tuple[str, ...], index: int, is_stop: IsStop) -> bool:
+    """Whether "and after the desk ..." begins here."""
+    if flat[index] != "and" or flat[index + 1 : index + 2] != ("after",):
+        return False
+    return any(is_stop(words[index + 2 : index + 2 + size]) for size in range(1, _LONGEST_STOP + 1))
+
+
 def _order_at(words: Phrase, flat: tuple[str, ...], index: int, is_stop: IsStop) -> str:
     """Whether an order begins here; "strong" if nothing else can be meant."""
     at = index
@@ -98,7 +111,10 @@ def _order_at(words: Phrase, flat: tuple[str, ...], index: int, is_stop: IsStop)
         return "strong" if led or _order_at(words[at + 1 :], flat[at + 1 :], 0, is_stop) else ""
     if flat[at : at + 2] in _REQUESTS and flat[at + 2 : at + 3] == ("you",):
         return "strong"
-    at += polite + (flat[at + polite : at + polite + 1] == ("you",))
+    at += polite
+    at += next((len(m) for m in _AT_FIRST if flat[at : at + len(m)] == m), 0)
+    polite = polite or at > index
+    at += (flat[at : at + 1] == ("you",))
     found = lexicon().verbs.match(flat, at) if at < len(flat) else None
     if found is None or found[1].partition(":")[0] not in _ORDERING or lemma(flat[at]) != flat[at]:
         return ""
@@ -115,6 +131,7 @@ def _order_at(words: Phrase, flat: tuple[str, ...], index: int, is_stop: IsStop)
     return "strong" if polite or (stop and (goal is not None or found[0] > 1)) else "weak"
 
 
+_AT_FIRST = (("before", "anything", "else"), ("first", "of", "all"), ("before", "everything", "else"), ("first",))
 _REQUESTS = frozenset({("i", "need"), ("i", "want"), ("we", "need"), ("can", "you"), ("could", "you"), ("you", "go"),
                        ("would", "you"), ("will", "you"), ("you", "check")})  # fmt: skip
 

@@ -13,6 +13,7 @@ from parley.language.offline.nouns import bare
 from parley.language.offline.run_on import punctuated
 from parley.language.offline.scene import Scene
 from parley.language.offline.text import Phrase, keys, plain
+from parley.language.offline.told import in_order
 
 __all__ = ["spoken"]
 
@@ -27,7 +28,8 @@ def spoken(words: Phrase, scene: Scene) -> Phrase:
         scene: What is known; what was changed is noted in its trace.
     """
     names = _Names(scene)
-    result = unframed(punctuated(words, names.is_stop), names.is_stop)
+    result = in_order(punctuated(words, names.is_stop), names.is_stop)
+    result = unframed(result, names.is_stop)
     result = as_conditions(result, names.is_stop, scene.is_person)
     if not scene.situation.queue:
         result = as_itinerary(result, names.is_stop) or result

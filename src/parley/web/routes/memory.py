@@ -89,7 +89,7 @@ async def put_memory(name: Name, put: MemoryPut, web: Web, author: Author) -> Do
         data=put.data,
         info=put.info or (put.data[:200] if put.type == "text" else name),
         scope=put.scope,
-        source=author or "operator",
+        source=(put.again and await _former_source(web, name, put)) or author or "operator",
     )
     await _change(web, AddToMemory({name: body}))
     return Done()
@@ -115,6 +115,15 @@ async def _get(web: Backend, name: str, scope: str, *, pictures: bool) -> Memory
     if not named:
         raise WebProblem(404, f"Nothing is remembered under the name {name}.")
     return named[0]
+
+
+async def _former_source(web: Backend, name: str, put: MemoryPut) -> str:
+    """Where what is put back came from, by the history and not by who asks; empty if it is not the same."""
+    request = GetMemory(request=name, kind="history", scope=put.scope, pictures=put.type == "image")
+    former = [entry for entry in await _ask(web, request) if entry.scope == put.scope]
+    if former and (former[-1].type, former[-1].data) == (put.type, put.data):
+        return former[-1].source
+    return ""
 
 
 async def _change(web: Backend, message: AddToMemory | RemoveMemory) -> None:
