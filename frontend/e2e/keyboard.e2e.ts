@@ -42,6 +42,15 @@ describe.skipIf(!hasBrowser)('an operator without a mouse', () => {
     const palette = page.getByRole('dialog');
     await palette.getByRole('textbox').waitFor();
     expect(await barriers(page)).toEqual([]);
+    await page.keyboard.press('Escape'); // once: closes the box, and stops nobody
+    await palette.waitFor({ state: 'detached' });
+    await page.keyboard.press('Control+k');
+    await palette.getByRole('textbox').waitFor();
+    await page.keyboard.press('Escape');
+    await palette.waitFor({ state: 'detached' });
+    expect((await robotNamed(stage))?.state).toBe('running');
+    await page.keyboard.press('Control+k');
+    await palette.getByRole('textbox').waitFor();
     await page.keyboard.type('memory');
     await page.keyboard.press('ArrowDown');
     await page.keyboard.press('Enter');

@@ -17,6 +17,9 @@ beforeAll(async () => {
   window.CSS ??= {} as typeof CSS;
   window.CSS.escape ??= (text: string) => text.replaceAll(/[^\w-]/g, (sign) => `\\${sign}`);
   Element.prototype.scrollIntoView ??= () => undefined;
+  // There is no screen: it counts as a large one.
+  window.matchMedia ??= (query) => Object.assign(new EventTarget(), { matches: true, media: query }) as MediaQueryList;
+  window.matchMedia ??= () => Object.assign(new EventTarget(), { matches: false }) as unknown as MediaQueryList;
   window.ResizeObserver ??= NoResize as unknown as typeof ResizeObserver;
   await startWords('en');
 });

@@ -15,6 +15,7 @@ from parley.messages import topics
 from parley.messages.chat import ActionCall
 from parley.messages.incident import Incident
 from parley.messages.map import MapInfo
+from parley.messages.memory import MemoryEntry
 from parley.messages.ros import ChatRequest, ChatResponse
 from parley.messages.status import (
     PlanProposal,
@@ -196,6 +197,24 @@ async def test_memories_are_kept_found_shown_and_forgotten() -> None:
         assert [item["data"] for item in history] == ["The box is by the door."]
         assert (await rig.http.delete("/api/memory/box")).status_code == 404
         assert (await rig.http.get("/api/memory/box")).status_code == 404
+
+
+async def test_a_forgotten_memory_that_is_brought_back_keeps_where_it_came_from() -> None:
+    async with (
+        served("Ada") as rig,
+        await MemoryStore.open(":memory:") as store,
+        MemoryNode(rig.robots.transport, store, OfflineLanguage()),
+    ):
+        seen = MemoryEntry(name="box", data="The box is by the door.", info="the box", source="Ada/Inspect")
+        await store.add(seen)
+        assert (await rig.http.delete("/api/memory/box")).status_code == 200
+        back = {"data": seen.data, "info": seen.info, "again": True}
+        assert (await rig.http.put("/api/memory/box", json=back)).status_code == 200
+        assert (await rig.http.get("/api/memory/box")).json()["source"] == "Ada/Inspect"
+        assert (await rig.http.delete("/api/memory/box")).status_code == 200
+        changed = {**back, "data": "The box is gone."}
+        assert (await rig.http.put("/api/memory/box", json=changed)).status_code == 200
+        assert (await rig.http.get("/api/memory/box")).json()["source"] == "operator"
 
 
 async def test_what_is_not_running_is_said_in_plain_words() -> None:

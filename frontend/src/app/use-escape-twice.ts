@@ -11,7 +11,8 @@ export function useEscapeTwice(run: () => void): void {
   });
   useEffect(() => {
     const onKey = (event: KeyboardEvent) => {
-      if (event.repeat) return;
+      // Parts of the page pass keys on to others: only what was really pressed counts.
+      if (event.repeat || !event.isTrusted) return;
       if (event.key !== 'Escape') {
         before.current = Number.NEGATIVE_INFINITY; // closing one box, then another, is not a stop
         return;

@@ -48,19 +48,21 @@ function Narrow({ hasPlan, hasDisplay }: { hasPlan: boolean; hasDisplay: boolean
   const [pictures, setPictures] = useState(false);
   return (
     <div className={css.phone}>
-      {some && hasDisplay && (
-        <div className={css.pictures}>
-          <Button tone="quiet" icon={pictures ? 'up' : 'down'} aria-expanded={pictures} onPress={() => setPictures(!pictures)}>
-            {t('display')}
-          </Button>
-          {pictures && (
-            <Area name="strip">
-              <DisplayPanel />
-            </Area>
-          )}
-        </div>
-      )}
-      {hasPlan && <PlanStrip />}
+      <div className={css.strips}>
+        {some && hasDisplay && (
+          <div className={css.pictures}>
+            <Button tone="quiet" icon={pictures ? 'up' : 'down'} aria-expanded={pictures} onPress={() => setPictures(!pictures)}>
+              {t('display')}
+            </Button>
+            {pictures && (
+              <Area name="strip">
+                <DisplayPanel />
+              </Area>
+            )}
+          </div>
+        )}
+        {hasPlan && <PlanStrip />}
+      </div>
       <Area name="chat">
         <ChatPanel />
       </Area>

@@ -1121,6 +1121,11 @@ export interface components {
          * @description What is to be remembered.
          */
         MemoryPut: {
+            /**
+             * Again
+             * @default false
+             */
+            again: boolean;
             /** Data */
             data: string;
             /**

@@ -14,6 +14,8 @@ export interface FrameMeta {
 /** Shows a picture; what it returns is waited for before the next one is asked for. */
 type FrameHandler = (picture: Blob, meta: FrameMeta) => void | Promise<void>;
 
+const REFUSED_DELAY_MS = 1000;
+
 let socket: Socket | null = null;
 const watchers = new Map<string, Set<FrameHandler>>();
 /** The last picture of each feed that is looked at, for who looks at it as well. */
@@ -33,17 +35,23 @@ export function connect(): () => void {
     timeout: 8000,
   });
   socket = opened;
+  // A server that hangs up or refuses, as one that is just ending does, is left alone by the library: we try again.
+  let knock: ReturnType<typeof setTimeout> | undefined;
+  const knockLater = () => {
+    clearTimeout(knock);
+    knock = setTimeout(() => opened.connect(), REFUSED_DELAY_MS);
+  };
   opened.on('connect', () => {
     live().setConnection('connected');
     sendWatched();
   });
   opened.on('disconnect', (reason) => {
     live().setConnection('lost', Date.now());
-    // A server that hangs up wants a new greeting; the library waits for us to give it.
-    if (reason === 'io server disconnect') opened.connect();
+    if (reason === 'io server disconnect') knockLater();
   });
   opened.on('connect_error', () => {
     if (live().connection !== 'lost') live().setConnection('lost', Date.now());
+    if (!opened.active) knockLater();
   });
   opened.on('snapshot', (snapshot: Snapshot) => live().takeSnapshot(snapshot));
   opened.on('changes', (changes: Change[]) => live().takeChanges(changes));
@@ -52,6 +60,7 @@ export function connect(): () => void {
   document.addEventListener('visibilitychange', sendWatched);
   return () => {
     document.removeEventListener('visibilitychange', sendWatched);
+    clearTimeout(knock);
     opened.removeAllListeners();
     opened.disconnect();
     socket = null;

@@ -7,16 +7,22 @@ interface Props {
   children: React.ReactNode;
   /** Let the content run to the edges. */
   flush?: boolean;
+  /** Without a heading to be seen. */
+  bare?: boolean;
 }
 
 /** A part of the page with a heading; fills the place it is given and scrolls inside. */
-export function Panel({ title, tools, children, flush = false }: Props) {
+export function Panel({ title, tools, children, flush = false, bare = false }: Props) {
   return (
     <section className={css.panel} aria-label={title}>
-      <header className={css.head}>
-        <h2>{title}</h2>
-        {tools && <div className={css.tools}>{tools}</div>}
-      </header>
+      {bare ? (
+        <h2 className="hidden">{title}</h2>
+      ) : (
+        <header className={css.head}>
+          <h2>{title}</h2>
+          {tools && <div className={css.tools}>{tools}</div>}
+        </header>
+      )}
       {flush ? (
         <div className={css.flush}>{children}</div>
       ) : (

@@ -5,7 +5,7 @@ export type Layout = 'phone' | 'tablet' | 'desktop';
 const TABLET = '(min-width: 700px)';
 const DESKTOP = '(min-width: 1180px)';
 /** Lying phones, and pages that were made twice as large: parts under each other would be slits. */
-const LOW = '(max-height: 559px)';
+const LOW = '(max-height: 559px) and (max-width: 1179px)';
 
 function useMedia(query: string): boolean {
   return useSyncExternalStore(
@@ -18,11 +18,14 @@ function useMedia(query: string): boolean {
   );
 }
 
+/** Whether there is so little height that headings have to make room. */
+export const useIsLow = () => useMedia(LOW);
+
 /** How much room there is. */
 export function useLayout(): Layout {
   const desktop = useMedia(DESKTOP);
   const tablet = useMedia(TABLET);
-  const low = useMedia(LOW);
+  const low = useIsLow();
   if (low) return 'phone';
   if (desktop) return 'desktop';
   return tablet ? 'tablet' : 'phone';

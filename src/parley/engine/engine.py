@@ -135,6 +135,7 @@ class ActionEngine:
             self.runs,
             report=lambda report: self._publish_payload(topics.STOP_REPORT, report),
             complain=lambda problem: self._reject(topics.STOP.name, "", [problem]),
+            remember=self._remember_latch,
         )
 
     async def __aenter__(self) -> Self:
@@ -178,8 +179,14 @@ class ActionEngine:
         stack.push_async_callback(self._together.close)
         stack.callback(self._inbox.close)
         await self._serve(stack)
+        if self._journal is not None and self.actor in self._journal.latched:
+            await self._emergency.stop()  # only a person ends a stop, not a restart
         settle_heap()
         await self._listen(stack)
+
+    def _remember_latch(self, latched: bool) -> None:
+        if self._journal is not None:
+            self._journal.record_latch(self.actor, latched)
 
     async def _serve(self, stack: AsyncExitStack) -> None:
         own = await self._transport.serve(topics.actor_graph_get(self.actor), self._graph_get)

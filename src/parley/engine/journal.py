@@ -27,9 +27,11 @@ from parley.engine.journal_file import (
     Batch,
     GraphText,
     prepare,
+    read_latched,
     read_left,
     settle_all,
     write,
+    write_latched,
 )
 from parley.engine.journal_older import put_aside_other_form
 from parley.errors import StoreError
@@ -49,10 +51,18 @@ class Journal:
     """See `open`. Recording never raises: a full disk is logged, and no reason for a robot to stop."""
 
     def __init__(
-        self, database: Database, clock: Clock, interrupted: Sequence[Interrupted], last: int
+        self,
+        database: Database,
+        clock: Clock,
+        interrupted: Sequence[Interrupted],
+        last: int,
+        latched: frozenset[str],
     ) -> None:
         self.interrupted = tuple(interrupted)
         """What was under way when an earlier process was killed, oldest first."""
+        self.latched = latched
+        """Actors whose emergency stop nobody had reset when the earlier process ended."""
+        self._latching: set[asyncio.Task[None]] = set()
         self._database, self._clock = database, clock
         self._first = self._next = last + 1
         self._ids: weakref.WeakKeyDictionary[GraphRun, int] = weakref.WeakKeyDictionary()
@@ -80,10 +90,11 @@ class Journal:
         database = await Database.open(path, prepare=prepare, unix_ms=clock.unix_ms(), what="journal")
         try:
             interrupted, last = await database.run(read_left)
+            latched = await database.run(read_latched)
         except BaseException:
             await database.close()
             raise
-        return cls(database, clock, interrupted, last)
+        return cls(database, clock, interrupted, last, latched)
 
     async def __aenter__(self) -> Self:
         return self
@@ -116,6 +127,18 @@ class Journal:
         if self._writer is None:
             self._writer = asyncio.get_running_loop().create_task(self._write(), name="journal")
 
+    def record_latch(self, actor: str, latched: bool) -> None:
+        """Note that an actor was stopped by an emergency stop, or reset; at once, not with the next batch."""
+        task = asyncio.get_running_loop().create_task(self._write_latch(actor, latched), name="journal latch")
+        self._latching.add(task)
+        task.add_done_callback(self._latching.discard)
+
+    async def _write_latch(self, actor: str, latched: bool) -> None:
+        try:
+            await self._database.run(functools.partial(write_latched, actor=actor, latched=latched))
+        except StoreError as error:
+            log.error("the stop cannot be noted", actor=actor, reason=str(error))
+
     @contextmanager
     def read_from(self, name: str, text: str) -> Iterator[None]:
         """If the graph of that name begins in here, it is the one that was read from `text`.
@@ -133,6 +156,8 @@ class Journal:
         while self._writer is not None:
             self._hurry.set()
             await asyncio.wait([self._writer])
+        if self._latching:
+            await asyncio.wait(self._latching)
 
     async def close(self) -> None:
         """Write what is left, note that nothing was interrupted, and close the file. Idempotent."""

@@ -36,6 +36,7 @@ class EmergencyStop:
         runs: Its graphs; their `latched` is kept here.
         report: Told `received`, `at_rest` and `reset`.
         complain: Told what went wrong with a stop.
+        remember: Told at once whether the stop is latched, to be known after a restart.
         rest_timeout_s: Wall time after which is said what still moves or goes on.
     """
 
@@ -47,10 +48,11 @@ class EmergencyStop:
         *,
         report: Callable[[StopReport], None],
         complain: Callable[[Problem], None],
+        remember: Callable[[bool], None] = lambda _: None,
         rest_timeout_s: float = REST_TIMEOUT_S,
     ) -> None:
         self._actor, self._robot, self._runs = actor, robot, runs
-        self._report, self._complain = report, complain
+        self._report, self._complain, self._remember = report, complain, remember
         self._rest_timeout_s = rest_timeout_s
         self._tasks: set[asyncio.Task[None]] = set()
         self._resetting: asyncio.Task[None] | None = None
@@ -64,6 +66,7 @@ class EmergencyStop:
         if self._robot is not None:
             self._spawn(self._stop_drive(self._robot))
             await asyncio.sleep(0)  # the drive is told before anything else happens, and may take its time
+        self._remember(True)
         self._runs.pause_all()
         self._spawn(self._watch_rest(command_id))
         self._spawn(self._watch_actions())
@@ -89,6 +92,7 @@ class EmergencyStop:
                 )
                 return
         self._runs.latched = False
+        self._remember(False)
         self._say("reset", command_id)
 
     async def _stop_drive(self, robot: Robot) -> None:

@@ -1,4 +1,4 @@
-import { render, screen, within } from '@testing-library/react';
+import { act, render, screen, within } from '@testing-library/react';
 import userEvent from '@testing-library/user-event';
 import { beforeEach, describe, expect, it, vi } from 'vitest';
 
@@ -66,6 +66,18 @@ describe('the chat', () => {
     expect(sent.map((one) => one.text)).toEqual(['first']);
     answer(new Response('{}'));
     await vi.waitFor(() => expect(sent.map((one) => one.text)).toEqual(['first', 'second']));
+  });
+
+  it('does not send anew what was said long ago, once it is out of the part that is held', async () => {
+    const user = show({});
+    await user.type(screen.getByRole('textbox', { name: 'Write to Ada' }), 'long ago{Enter}');
+    const key = useOutbox.getState().messages[0]?.id ?? '';
+    const chat = [entry({ id: key, seq: 1, who: 'operator', message: 'long ago' })];
+    act(() => useLive.getState().takeSnapshot(snapshot({ robots: [robot({ name: 'Ada' })], chat })));
+    const later = [entry({ id: 'later', seq: 200 })];
+    act(() => useLive.getState().takeSnapshot(snapshot({ run: 'run-2', robots: [robot({ name: 'Ada' })], chat: later, chat_complete: false })));
+    expect(screen.queryByText('long ago')).toBeNull();
+    expect(screen.queryByText('Sending…')).toBeNull();
   });
 
   it('keeps a draft for each robot', async () => {

@@ -10,6 +10,7 @@ import { usePrefs } from '@/state/prefs';
 import { useSelection, useSelectionStore } from '@/state/selection';
 import { Icon, type IconName } from '@/ui/icon';
 import { Panel } from '@/ui/panel';
+import { useIsLow } from '@/ui/use-media';
 import { useShortcut } from '@/ui/use-shortcut';
 
 import css from './chat-panel.module.css';
@@ -26,6 +27,7 @@ export function ChatPanel() {
   const { t } = useTranslation('chat');
   const chat = useWorld((world) => world.chat);
   const chosen = useSelection();
+  const low = useIsLow();
   const send = useOutbox((outbox) => outbox.send);
   const { debug, set } = usePrefs();
   const only = useSelectionStore((state) => state.only);
@@ -36,7 +38,11 @@ export function ChatPanel() {
   const questions = useMemo(() => openQuestions(chat), [chat]);
   const entries = useMemo(() => conversation(chat, chosen), [chat, chosen]);
   const answer = useMemo(() => answering(questions, chosen), [questions, chosen]);
-  const lastSaid = useMemo(() => entries.findLast((entry) => entry.who === 'operator')?.message ?? '', [entries]);
+  const onItsWay = useOutbox((outbox) => outbox.messages.at(-1)?.text);
+  const lastSaid = useMemo(
+    () => onItsWay ?? entries.findLast((entry) => entry.who === 'operator')?.message ?? '',
+    [onItsWay, entries],
+  );
 
   const say = (text: string) => void send({ text, targets: chosen, reply_to: '', images: [] });
   const choose = useCallback(
@@ -68,8 +74,8 @@ export function ChatPanel() {
     </>
   );
   return (
-    <Panel title={t('title')} tools={tools} flush>
-      <RobotTabs questions={questions} />
+    <Panel title={t('title')} tools={tools} flush bare={low}>
+      <RobotTabs questions={questions} tools={low ? tools : null} />
       {searching && <SearchBox onGo={goToEntry} />}
       <History
         key={key}

@@ -2,6 +2,7 @@
 import { create } from 'zustand';
 
 import { sendMessage, type OutgoingMessage } from '@/live/api';
+import { useLive } from '@/live/store';
 import { explain } from '@/state/do';
 
 export interface Outgoing extends OutgoingMessage {
@@ -59,6 +60,14 @@ export const useOutbox = create<Outbox>()((set, get) => {
     },
     discard: (id) => set((now) => ({ messages: now.messages.filter((one) => one.id !== id) })),
   };
+});
+
+// What the conversation has held once is delivered, also when that part of it is no longer held here.
+useLive.subscribe((live, before) => {
+  const { messages } = useOutbox.getState();
+  if (messages.length === 0 || live.world.chat === before.world.chat) return;
+  const left = undelivered(messages, new Set(live.world.chat.map((entry) => entry.id)));
+  if (left.length < messages.length) useOutbox.setState({ messages: left });
 });
 
 /** Those that the conversation does not hold yet. A message to several may come back in parts (`key`, `key/2`). */

@@ -50,7 +50,7 @@ function Tab({ name, chosen, awaitsAnswer, onOnly, onToggle }: TabProps) {
 }
 
 /** The robots one can talk to: tap for one; shift-click, long touch or the switch for several. */
-export function RobotTabs({ questions }: { questions: Questions }) {
+export function RobotTabs({ questions, tools = null }: { questions: Questions; tools?: React.ReactNode }) {
   const { t } = useTranslation('chat');
   const names = useRobotNames();
   const chosen = useSelection();
@@ -83,6 +83,7 @@ export function RobotTabs({ questions }: { questions: Questions }) {
           {t('several')}
         </button>
       )}
+      {tools}
     </div>
   );
 }

@@ -60,8 +60,12 @@ function About() {
   return (
     <>
       <dl className={css.about}>
-        <dt>{t('understands')}</dt>
-        <dd>{info.language}</dd>
+        {!info.offline_language && (
+          <>
+            <dt>{t('understands')}</dt>
+            <dd>{info.language}</dd>
+          </>
+        )}
         <dt>{t('version')}</dt>
         <dd>{info.version}</dd>
       </dl>

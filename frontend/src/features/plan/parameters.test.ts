@@ -1,6 +1,8 @@
 import { describe, expect, it } from 'vitest';
 
-import { rowsOf } from './parameters';
+import { step } from '@/live/samples';
+
+import { rowsOf, withReceived } from './parameters';
 
 const number = (name: string, value: number | null) => ({ name, type: 'number', value });
 
@@ -22,5 +24,15 @@ describe('values of a step', () => {
   it('says when a place or value is not known yet', () => {
     const rows = rowsOf([number('pose::position::x', null), { name: 'answer', type: 'string', value: null }]);
     expect(rows.map((row) => (row.kind === 'value' ? row.value : 'place'))).toEqual([null, null]);
+  });
+
+  it('tells what a step that has begun got from the one before, and nothing of one that has not', () => {
+    const wanted = { inputs: [number('x', null)], outputs: [] };
+    const steps = withReceived([
+      step({ id: 'a', state: 'finished', inputs: [], outputs: [number('x', 3)] }),
+      step({ id: 'b', state: 'running', ...wanted }),
+      step({ id: 'c', state: 'queued', ...wanted }),
+    ]);
+    expect(steps.map(({ inputs }) => inputs[0]?.value)).toEqual([undefined, 3, null]);
   });
 });

@@ -1,5 +1,5 @@
 /** Values of steps as people read them. Plain functions. */
-import type { ActionCall, ParameterView } from '@/live/types';
+import type { ActionCall, ParameterView, StepView } from '@/live/types';
 import { inWords } from '@/ui/words';
 
 export type Row =
@@ -28,6 +28,19 @@ export function rowsOf(parameters: readonly ParameterView[]): readonly Row[] {
   }
   return [...rows, ...[...places].map(([name, parts]) => placeRow(name, parts))];
 }
+
+/** Steps that have begun, with what they got from steps before them. */
+export function withReceived(steps: readonly StepView[]): readonly StepView[] {
+  const found = new Map<string, ParameterView>();
+  return steps.map((step) => {
+    const inputs = step.state === 'queued' ? step.inputs : step.inputs.map((input) => known(input) ?? found.get(keyOf(input)) ?? input);
+    for (const output of step.outputs) if (known(output)) found.set(keyOf(output), output);
+    return { ...step, inputs };
+  });
+}
+
+const known = (one: ParameterView) => (one.value === null || one.value === undefined ? null : one);
+const keyOf = (one: ParameterView) => `${one.name} ${one.type}`;
 
 function placeRow(name: string, parts: ReadonlyMap<string, unknown>): Row {
   const [x, y, yaw] = [parts.get('x'), parts.get('y'), parts.get('turn_y')];

@@ -1,4 +1,4 @@
-import { useEffect, useRef, useState } from 'react';
+import { useEffect, useMemo, useRef, useState } from 'react';
 import { useTranslation } from 'react-i18next';
 
 import { useWorld } from '@/live/store';
@@ -11,6 +11,7 @@ import { Empty, Panel } from '@/ui/panel';
 import { pendingSteps, toDraft } from './editing';
 import { PlanControls } from './plan-controls';
 import { PlanEditor } from './plan-editor';
+import { withReceived } from './parameters';
 import css from './plan-panel.module.css';
 import { PolicyChoice } from '@/ui/policy-choice';
 import { ProposalCard } from './proposal-card';
@@ -57,6 +58,7 @@ function PlanOf({ plan }: { plan: PlanView }) {
   const [editing, setEditing] = useState<PlanView | null>(null);
   const waiting = plan.kind === 'plan' ? proposalsOf(proposals, plan.robot) : [];
   const pending = pendingSteps(plan.steps);
+  const told = useMemo(() => withReceived(plan.steps), [plan.steps]);
   const close = () => setEditing(null);
   const save = useSaving();
   const remove = useRemoving(plan);
@@ -87,7 +89,7 @@ function PlanOf({ plan }: { plan: PlanView }) {
         )}
         {plan.steps.length > 0 && (
           <ol className={css.steps} ref={steps}>
-            {plan.steps
+            {told
               .filter((step) => !editing || step.state !== 'queued')
               .map((step, index) => (
                 <StepCard

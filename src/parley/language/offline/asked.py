@@ -1,6 +1,7 @@
 """Questions in other words: by what they ask for and about, wherever in the sentence it stands.
 
-How much is left and what comes when, why, how far, who or what is somewhere, all that was told, what was seen.
+How much is left and what comes when, why, how far, who or what is somewhere, all that was told, what was
+seen.
 """
 
 from __future__ import annotations
@@ -24,38 +25,54 @@ __all__ = ["asked"]
 
 _Reader = Callable[[Phrase, tuple[str, ...], Scene], Answer | None]
 
-_LEFT = frozenset({"left", "remain", "remains", "remaining", "more", "still", "ahead", "outstanding", "open", "yet",
-                   "pending", "further", "missing", "undone", "else"})  # fmt: skip
-_STOPS = frozenset({"stop", "step", "place", "job", "task", "visit", "station", "thing", "item", "order", "work",
-                    "go", "do", "action", "errand", "point"})  # fmt: skip
+_LEFT = frozenset({
+    "left", "remain", "remains", "remaining", "more", "still", "ahead", "outstanding", "open", "yet",
+    "pending", "further", "missing", "undone", "else",
+})  # fmt: skip
+_STOPS = frozenset({
+    "stop", "step", "place", "job", "task", "visit", "station", "thing", "item", "order", "work", "go",
+    "do", "action", "errand", "point",
+})  # fmt: skip
 _QUANTITY = (("how", "many"), ("how", "much"), ("what",), ("which",), ("is", "there"), ("are", "there"),
              ("have", "you"), ("do", "you"), ("anything",))  # fmt: skip
 _WHO = frozenset({"who", "whom", "anybody", "anyone", "somebody", "someone"})
 _WHAT = frozenset({"what", "which", "anything", "something", "things"})
-_HERE = frozenset({"is", "are", "was", "can", "could", "would", "do", "does", "might", "will", "should", "kept", "keep", "find",
-                   "stored", "store", "meet", "see", "there", "lie", "lies", "lying", "i", "you", "we", "have", "has", "got", "know",
-                   "now", "currently", "right", "at", "the", "moment", "to", "be", "stands", "standing", "sits", "sitting", "located",
-                   "waiting", "staying", "works", "working", "usually", "normally", "today", "all", "else", "hidden", "put", "placed",
-                   "things", "people", "lives", "sleeps", "stuff", "of", "anything", "tell", "me", "get"})  # fmt: skip
-_SEEING = frozenset({"see", "seen", "saw", "find", "found", "notice", "noticed", "discover", "discovered", "observe"})
-_TOLD = frozenset({"remember", "remembered", "told", "memory", "memories", "noted", "mind", "memorised", "memorized", "recall",
-                   "learned", "learnt", "stored", "saved", "said", "facts", "notes", "note", "know"})  # fmt: skip
-_ABOUT_TELLING = frozenset({
-    "what", "all", "everything", "list", "which", "things", "you", "have", "has", "i", "we", "me", "us", "so", "far", "do",
-    "did", "in", "your", "of", "that", "keep", "kept", "is", "are", "the", "facts", "tell", "there", "give", "show", "been",
-    "to", "already", "now", "currently", "stuff", "information", "about", "anything", "ever", "sum", "up", "read", "out",
-    "repeat", "recite", "else", "were", "got", "please", "can", "could", "full", "whole", "a", "as", "my", "notes", "on", "file",
+_HERE = frozenset({
+    "is", "are", "was", "can", "could", "would", "do", "does", "might", "will", "should", "kept", "keep",
+    "find", "stored", "store", "meet", "see", "there", "lie", "lies", "lying", "i", "you", "we", "have",
+    "has", "got", "know", "now", "currently", "right", "at", "the", "moment", "to", "be", "stands",
+    "standing", "sits", "sitting", "located", "waiting", "staying", "works", "working", "usually",
+    "normally", "today", "all", "else", "hidden", "put", "placed", "things", "people", "lives", "sleeps",
+    "stuff", "of", "anything", "tell", "me", "get",
 })  # fmt: skip
-_TALENTS = frozenset({"use", "good", "useful", "suit", "suits", "jobs", "help", "trained", "purpose", "talents", "abilities",
-                      "capable", "tricks", "skills", "offer", "job", "made", "meant", "built", "strengths"})  # fmt: skip
+_SEEING = frozenset(
+    {"see", "seen", "saw", "find", "found", "notice", "noticed", "discover", "discovered", "observe"}
+)
+_TOLD = frozenset({
+    "remember", "remembered", "told", "memory", "memories", "noted", "mind", "memorised", "memorized",
+    "recall", "learned", "learnt", "stored", "saved", "said", "facts", "notes", "note", "know",
+})  # fmt: skip
+_ABOUT_TELLING = frozenset({
+    "what", "all", "everything", "list", "which", "things", "you", "have", "has", "i", "we", "me", "us",
+    "so", "far", "do", "did", "in", "your", "of", "that", "keep", "kept", "is", "are", "the", "facts",
+    "tell", "there", "give", "show", "been", "to", "already", "now", "currently", "stuff", "information",
+    "about", "anything", "ever", "sum", "up", "read", "out", "repeat", "recite", "else", "were", "got",
+    "please", "can", "could", "full", "whole", "a", "as", "my", "notes", "on", "file",
+})  # fmt: skip
+_TALENTS = frozenset({
+    "use", "good", "useful", "suit", "suits", "jobs", "help", "trained", "purpose", "talents",
+    "abilities", "capable", "tricks", "skills", "offer", "job", "made", "meant", "built", "strengths",
+})  # fmt: skip
 _ABOUT_TALENTS = frozenset({
-    "what", "which", "kind", "kinds", "sort", "sorts", "of", "are", "is", "you", "your", "for", "at", "in", "to", "do", "can", "any",
-    "anything", "have", "a", "the", "me", "us", "with", "things", "i", "we", "tasks", "robot", "really", "all", "so", "on", "be", "here",
-    "how", "could", "work", "give", "learned", "learnt", "like", "you're", "use", "else", "able", "what's", "does", "well",
+    "what", "which", "kind", "kinds", "sort", "sorts", "of", "are", "is", "you", "your", "for", "at",
+    "in", "to", "do", "can", "any", "anything", "have", "a", "the", "me", "us", "with", "things", "i",
+    "we", "tasks", "robot", "really", "all", "so", "on", "be", "here", "how", "could", "work", "give",
+    "learned", "learnt", "like", "you're", "use", "else", "able", "what's", "does", "well",
 })  # fmt: skip
 _LANGUAGES = frozenset({
-    "german", "french", "spanish", "estonian", "russian", "english", "finnish", "chinese", "italian", "portuguese", "polish",
-    "arabic", "hindi", "japanese", "turkish", "dutch", "swedish", "language", "languages", "latvian", "ukrainian",
+    "german", "french", "spanish", "estonian", "russian", "english", "finnish", "chinese", "italian",
+    "portuguese", "polish", "arabic", "hindi", "japanese", "turkish", "dutch", "swedish", "language",
+    "languages", "latvian", "ukrainian",
 })  # fmt: skip
 
 
@@ -75,10 +92,16 @@ def asked(words: Phrase, flat: tuple[str, ...], scene: Scene) -> Answer | None:
 def _why(words: Phrase, flat: tuple[str, ...], scene: Scene) -> Answer | None:
     """For "why are you going there?", "what are you doing that for?"."""
     why = flat[0] == "why" or flat[:2] in {("what", "for"), ("how", "come")} or flat[-2:] == ("what", "for")
-    why = why or flat[:3] in {("for", "what", "reason"), ("what", "is", "the"), ("what", "makes", "you")} and (
-        bool({"reason", "purpose", "makes"} & set(flat))
+    why = why or (
+        flat[:3] in {("for", "what", "reason"), ("what", "is", "the"), ("what", "makes", "you")}
+        and (bool({"reason", "purpose", "makes"} & set(flat)))
     )
-    if not why or "you" not in flat or flat[1:4] in {("do", "not", "you"), ("not", "you")} or {"not"} & set(flat[1:3]):
+    if (
+        not why
+        or "you" not in flat
+        or flat[1:4] in {("do", "not", "you"), ("not", "you")}
+        or {"not"} & set(flat[1:3])
+    ):
         return None
     said = next((t.content for t in reversed(scene.situation.history) if t.role == "operator"), "")
     if said and scene.situation.queue:
@@ -101,7 +124,9 @@ def _left(words: Phrase, flat: tuple[str, ...], scene: Scene) -> Answer | None:
     names = [_name(visit) for visit in listed]
     steps = len(scene.situation.queue)
     count = f"{len(listed)} {'stop is' if len(listed) == 1 else 'stops are'} left"
-    return Answer(f"{count} ({steps} {'step' if steps == 1 else 'steps'} in all): {listing(names, 'and then')}.")
+    return Answer(
+        f"{count} ({steps} {'step' if steps == 1 else 'steps'} in all): {listing(names, 'and then')}."
+    )
 
 
 def _name(visit: Visit) -> str:
@@ -121,7 +146,9 @@ def _order_of(words: Phrase, flat: tuple[str, ...], scene: Scene) -> Answer | No
     if at:
         others = listed[index + 1 :] if flat[at] != "before" else listed[:index][::-1]
         if not others:
-            return Answer(f"Nothing comes {'before' if flat[at] == 'before' else 'after'} {_name(listed[index])}.")
+            return Answer(
+                f"Nothing comes {'before' if flat[at] == 'before' else 'after'} {_name(listed[index])}."
+            )
         return Answer(f"{whole_sentence(f'{_name(others[0])} comes {flat[at]} {_name(listed[index])}')}")
     if flat[0] == "when" or flat[:2] in {("how", "soon"), ("how", "long")}:
         place = f"stop {index + 1} of {len(listed)}"
@@ -130,16 +157,24 @@ def _order_of(words: Phrase, flat: tuple[str, ...], scene: Scene) -> Answer | No
     return None
 
 
-_COMING = frozenset({"what", "where", "which", "comes", "come", "is", "next", "will", "do", "you", "go", "to", "are", "going", "stop",
-                     "place", "does", "then", "be", "happens", "right", "directly", "one", "visit", "driving", "the", "planned", "follows",
-                     "heading", "your", "straight", "immediately", "doing", "stands"})  # fmt: skip
+_COMING = frozenset({
+    "what", "where", "which", "comes", "come", "is", "next", "will", "do", "you", "go", "to", "are",
+    "going", "stop", "place", "does", "then", "be", "happens", "right", "directly", "one", "visit",
+    "driving", "the", "planned", "follows", "heading", "your", "straight", "immediately", "doing",
+    "stands",
+})  # fmt: skip
 
 
 def _far(words: Phrase, flat: tuple[str, ...], scene: Scene) -> Answer | None:
     """For "how far is it to the desk?", "what is the distance to A?"."""
     pose = scene.situation.robot_pose
-    asks = flat[:2] == ("how", "far") or "distance" in flat or ("how", "many", "metres") == flat[:3]
-    if not asks or pose is None or "between" in flat or {"from"} & set(flat[:-2]) and "to" in flat[flat.index("from") :]:
+    asks = flat[:2] == ("how", "far") or "distance" in flat or flat[:3] == ("how", "many", "metres")
+    if (
+        not asks
+        or pose is None
+        or "between" in flat
+        or ({"from"} & set(flat[:-2]) and "to" in flat[flat.index("from") :])
+    ):
         return None
     named = _named(words, scene)
     found = ground_phrase(named, scene.objects, pose) if named else None
@@ -172,7 +207,16 @@ def _somewhere(words: Phrase, flat: tuple[str, ...], scene: Scene) -> Answer | N
     if not (who or what) or found is None or not set(flat[:at]) <= _HERE | _WHO | _WHAT:
         return None
     tail = words[at + found[0] :]
-    while len(tail) > 1 and tail[-1].key in {"now", "right", "today", "currently", "moment", "usually", "at", "present"}:
+    while len(tail) > 1 and tail[-1].key in {
+        "now",
+        "right",
+        "today",
+        "currently",
+        "moment",
+        "usually",
+        "at",
+        "present",
+    }:
         tail = tail[:-1]
     wanted = set(noun_phrase(bare(tail)).core)
     hits = [f for f in _newest(scene) if wanted and wanted <= set(noun_phrase(f.fact.place).core)]
@@ -199,12 +243,29 @@ def _all_told(words: Phrase, flat: tuple[str, ...], scene: Scene) -> Answer | No
     """For "what all have I told you?", "list your memories"."""
     said = set(flat)
     whole = said - _TOLD <= _ABOUT_TELLING and bool(said & _TOLD)
-    people = bool({"who", "whom", "people"} & said) and said <= {"who", "whom", "do", "you", "know", "of", "about", "people", "which", "all"}
+    people = bool({"who", "whom", "people"} & said) and said <= {
+        "who",
+        "whom",
+        "do",
+        "you",
+        "know",
+        "of",
+        "about",
+        "people",
+        "which",
+        "all",
+    }
     if people and "know" in said:
         known = [f for f in scene.facts if scene.is_person(f.fact.subject)]
         text = " ".join(dict.fromkeys(whole_sentence(f.fact.sentence) for f in known))
         return Answer(f"I know of them: {text}" if known else "You have not told me of anybody yet.")
-    if not whole or len(said & {"what", "all", "everything", "list", "which", "anything", "facts", "notes", "memories"}) == 0:
+    if (
+        not whole
+        or len(
+            said & {"what", "all", "everything", "list", "which", "anything", "facts", "notes", "memories"}
+        )
+        == 0
+    ):
         return None
     if flat[-1] == "about" or not scene.situation.memory:
         return None if flat[-1] == "about" else Answer("You have not told me anything to remember yet.")
@@ -215,7 +276,12 @@ def _all_told(words: Phrase, flat: tuple[str, ...], scene: Scene) -> Answer | No
 
 def _saw(words: Phrase, flat: tuple[str, ...], scene: Scene) -> Answer | None:
     """For "what did you see (at the desk)?": what was reported last about it."""
-    past = flat[:3] in {("what", "did", "you"), ("what", "have", "you"), ("did", "you", "see"), ("have", "you", "seen")}
+    past = flat[:3] in {
+        ("what", "did", "you"),
+        ("what", "have", "you"),
+        ("did", "you", "see"),
+        ("have", "you", "seen"),
+    }
     if not past or flat[0] != "what" or not _SEEING & set(flat[3:5]):
         return None
     named = {singular(word) for word in noun_phrase(words[4:]).core} | {
@@ -224,10 +290,12 @@ def _saw(words: Phrase, flat: tuple[str, ...], scene: Scene) -> Answer | None:
     for turn in reversed(scene.situation.history):
         if turn.role == "operator":
             continue
-        about = {singular(lemma(word.key)) for word in tokens(turn.content)} | {singular(w.key) for w in tokens(turn.content)}
-        reports = {"see", "saw", "seen", "look", "find", "found", "there"} & {w.key for w in tokens(turn.content.lower())} or (
-            "looked" in turn.content.lower()
-        )
+        about = {singular(lemma(word.key)) for word in tokens(turn.content)} | {
+            singular(w.key) for w in tokens(turn.content)
+        }
+        reports = {"see", "saw", "seen", "look", "find", "found", "there"} & {
+            w.key for w in tokens(turn.content.lower())
+        } or ("looked" in turn.content.lower())
         future = "i will" in turn.content.lower()
         if reports and not future and (not named or named & about):
             return Answer(turn.content)
@@ -239,8 +307,27 @@ def _talents(words: Phrase, flat: tuple[str, ...], scene: Scene) -> Answer | Non
     said = set(flat)
     if said & _TALENTS and said <= _TALENTS | _ABOUT_TALENTS and {"you", "your"} & said and len(flat) > 3:
         return Answer(abilities(scene))
-    if said & _LANGUAGES and said <= _LANGUAGES | {"do", "can", "you", "speak", "understand", "know", "which", "what", "any", "other",
-                                                   "also", "talk", "in", "i", "to", "or", "does", "the", "are"}:  # fmt: skip
+    if said & _LANGUAGES and said <= _LANGUAGES | {
+        "do",
+        "can",
+        "you",
+        "speak",
+        "understand",
+        "know",
+        "which",
+        "what",
+        "any",
+        "other",
+        "also",
+        "talk",
+        "in",
+        "i",
+        "to",
+        "or",
+        "does",
+        "the",
+        "are",
+    }:
         if said & _LANGUAGES == {"english"}:
             return Answer("Yes, I understand plain English.")
         return Answer("I understand English only; “stop” I understand in some twenty languages.")

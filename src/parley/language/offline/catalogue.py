@@ -12,6 +12,7 @@ from collections.abc import Mapping, Sequence
 from typing import Any
 
 from parley.language.offline.lexicon import lexicon
+from parley.language.offline.naming import role_by_any_word
 from parley.language.offline.text import lemma, singular, split_name
 from parley.language.word_lists import load_data
 from parley.messages.chat import ActionCall
@@ -109,16 +110,34 @@ def roles_of(info: ActionInfo) -> frozenset[str]:
     numeric = [kind for kind in info.outputs.values() if kind in {"number", "numbers"}]
     if text_inputs(info) and len(numeric) >= 2:
         return frozenset({"locate"})
-    if words[0] == "ask" or (text_inputs(info) == ["question"] and words[0] != "answer"):
+    if words[0] == "ask" or (text_inputs(info) == ["question"] and not _ANSWERING & set(words)):
         return frozenset({"ask_operator"})
+    by_name = _by_name(info, words)
+    return _by_phrases(info, words) if by_name is None else by_name
+
+
+def _by_name(info: ActionInfo, words: tuple[str, ...]) -> frozenset[str] | None:
+    """What an action is good for by its name; None if that tells nothing."""
     roles = _by_words(words) - (frozenset() if text_inputs(info) else _PHYSICAL)
     typed = {word for name in info.inputs for word in split_name(name.replace("::", "_"))}
+    by_any = role_by_any_word(info.name, {parameter_role(name) for name in text_inputs(info)})
+    if roles == {"locate"} and text_inputs(info) and not info.outputs:
+        return frozenset({"search"})
+    if by_any == {"follow"} and roles and roles <= {"motion", "wait", "guide"}:
+        return by_any
     if roles & {"look", "search"} and not set(words[1:]) <= _ANY_SIGHT | typed:
         # "CheckBattery" looks at one thing only: it is its own kind.
-        return frozenset()
+        return by_any & {"search"} if _SOMEBODY & set(words) else frozenset()
     if roles:
         return roles
-    named = lex.verbs.match((lemma(words[0]), *words[1:]))
+    first = lexicon().verbs.match((lemma(words[0]), *words[1:]))
+    own_kind = first is not None and first[1].startswith("other:")
+    return None if own_kind else by_any or None
+
+
+def _by_phrases(info: ActionInfo, words: tuple[str, ...]) -> frozenset[str]:
+    """What an action is good for by its phrases and description, where its name tells nothing."""
+    named = lexicon().verbs.match((lemma(words[0]), *words[1:]))
     if named is not None and named[1].startswith("other:"):
         # Its own name says what it does; a phrase such as "put on {song}" must not make it another thing.
         return frozenset()
@@ -132,6 +151,8 @@ def roles_of(info: ActionInfo) -> frozenset[str]:
     return frozenset()
 
 
+_ANSWERING = frozenset({"answer", "reply", "respond", "qa", "take", "handle"})
+_SOMEBODY = frozenset({"someone", "somebody", "person", "people", "human", "humans"})
 _HOMING = frozenset({"dock", "charger", "charge", "recharge", "charging", "home", "base"})
 _NOT_HOMING = frozenset(
     {"undock", "leave", "battery", "status", "get", "check", "is", "set", "light", "lights"}

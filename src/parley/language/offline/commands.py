@@ -424,11 +424,14 @@ def _cut_at(words: Phrase, markers: frozenset[str]) -> dict[str, Phrase]:
     return parts
 
 
+_PARTICLES = frozenset({"over", "back", "along", "up", "down", "out", "across"})
+
+
 def _double_object(words: Phrase, is_person: IsPerson) -> tuple[Phrase, Phrase]:
     """For "him water", "the man the cup": who gets it stands first."""
     lex = lexicon()
     words = tuple(word for word in words if word.is_word)
-    if len(words) < 2:
+    if len(words) < 2 or (len(words) == 2 and words[1].key in _PARTICLES):
         return (), words
     if words[0].key in (lex.person_pronouns | lex.operator_pronouns) and not (
         words[0].key == "her" and False

@@ -1,4 +1,4 @@
-"""Conditions in other shapes, put as "if S, V": "Locked? Then V", "V provided S", "once A has left you may V"."""
+"""Conditions in other shapes, put as "if S, V": "Locked? Then V", "V provided S", "once A has left, V"."""
 
 from __future__ import annotations
 
@@ -20,23 +20,115 @@ _IF = tuple(
         "as long as", "if and only if", "only when", "only in case", "in the event that", "but only when",
     )
 )  # fmt: skip
+_OTHER_SHAPES = tuple(
+    (tuple(said.split()), tuple(meant.split()))
+    for said, meant in (
+        ("should it be so", "if so"),
+        ("should that be the case", "if so"),
+        ("should this be the case", "if so"),
+        ("in that case", "if so"),
+        ("if that is so", "if so"),
+        ("if it is so", "if so"),
+        ("if this is the case", "if so"),
+        ("should it not be so", "if not"),
+        ("should it not", "if not"),
+        ("in the other case", "otherwise"),
+        ("in any other case", "otherwise"),
+        ("if not so", "if not"),
+        ("failing that", "otherwise"),
+        ("but not if", "unless"),
+        ("but not when", "unless"),
+        ("except if", "unless"),
+        ("except when", "unless"),
+        ("just not if", "unless"),
+        ("only not if", "unless"),
+        ("not if", "unless"),
+        ("or if not", "otherwise"),
+    )
+)
 _STATES = (
-    ("open", "closed"), ("open", "shut"), ("unlocked", "locked"), ("empty", "full"), ("empty", "occupied"),
-    ("free", "occupied"), ("free", "busy"), ("free", "taken"), ("wet", "dry"), ("clean", "dirty"), ("on", "off"),
-    ("broken", "working"), ("broken", "fine"), ("broken", "ok"), ("light", "dark"), ("blocked", "clear"),
-    ("blocked", "free"), ("hot", "cold"), ("warm", "cold"), ("present", "missing"), ("cracked", "fine"),
-    ("damaged", "fine"), ("damaged", "ok"), ("ready", "busy"), ("tidy", "messy"), ("quiet", "noisy"),
-    ("unlocked", "shut"), ("available", "occupied"), ("lit", "dark"), ("full", "free"),
-)  # fmt: skip
+    ("open", "closed"),
+    ("open", "shut"),
+    ("unlocked", "locked"),
+    ("empty", "full"),
+    ("empty", "occupied"),
+    ("free", "occupied"),
+    ("free", "busy"),
+    ("free", "taken"),
+    ("wet", "dry"),
+    ("clean", "dirty"),
+    ("on", "off"),
+    ("broken", "working"),
+    ("broken", "fine"),
+    ("broken", "ok"),
+    ("light", "dark"),
+    ("blocked", "clear"),
+    ("blocked", "free"),
+    ("hot", "cold"),
+    ("warm", "cold"),
+    ("present", "missing"),
+    ("cracked", "fine"),
+    ("damaged", "fine"),
+    ("damaged", "ok"),
+    ("ready", "busy"),
+    ("tidy", "messy"),
+    ("quiet", "noisy"),
+    ("unlocked", "shut"),
+    ("available", "occupied"),
+    ("lit", "dark"),
+    ("full", "free"),
+)
 _ADJECTIVES = frozenset(word for pair in _STATES for word in pair)
 _MARKS = frozenset({".", "!", "?", ";", "\n"})
-_HAPPENS = frozenset({
-    "left", "leave", "gone", "go", "finished", "finish", "done", "out", "away", "arrived", "arrive", "come", "back",
-    "ready", "wake", "awake", "asleep", "sleep", "called", "call", "over", "returned", "return",
-})  # fmt: skip
-_WHEN = (("as", "soon", "as"), ("when",), ("once",), ("after",), ("whenever",), ("only", "after"), ("only", "once"))
-_ALLOWED = (("you", "may"), ("you", "can"), ("you", "could"), ("may", "you"), ("then", "you", "can"), ("you", "are", "allowed", "to"),
-            ("then", "you", "may"), ("you", "should"), ("you", "are", "free", "to"), ("then",), (",",))  # fmt: skip
+_HAPPENS = frozenset(
+    {
+        "left",
+        "leave",
+        "gone",
+        "go",
+        "finished",
+        "finish",
+        "done",
+        "out",
+        "away",
+        "arrived",
+        "arrive",
+        "come",
+        "back",
+        "ready",
+        "wake",
+        "awake",
+        "asleep",
+        "sleep",
+        "called",
+        "call",
+        "over",
+        "returned",
+        "return",
+    }
+)
+_WHEN = (
+    ("as", "soon", "as"),
+    ("when",),
+    ("once",),
+    ("after",),
+    ("whenever",),
+    ("only", "after"),
+    ("only", "once"),
+)
+_ALLOWED = (
+    ("you", "may"),
+    ("you", "can"),
+    ("you", "could"),
+    ("may", "you"),
+    ("then", "you", "can"),
+    ("you", "are", "allowed", "to"),
+    ("then", "you", "may"),
+    ("you", "should"),
+    ("you", "are", "free", "to"),
+    ("then",),
+    (",",),
+)
 _YES = (("if", "yes"), ("if", "so"), ("then",), ("yes",))
 _NO = (("if", "not"), ("if", "no"), ("otherwise",), ("else",), ("or", "else"), ("no",), ("not",))
 
@@ -49,7 +141,7 @@ def as_conditions(words: Phrase, is_stop: Names, is_person: Names) -> Phrase:
         is_stop: Whether words name something on the map.
         is_person: Whether words name a person.
     """
-    words = _with_if(words)
+    words = _opposite(_with(_with_if(_in_other_shape(words)), is_stop), is_stop)
     parts = _asked(_sentences(words), is_stop)
     result: list[Word] = []
     for sentence, mark in parts:
@@ -95,6 +187,60 @@ def _with_if(words: Phrase) -> Phrase:
     if flat[:1] == ("only",) and "if" in flat and opens_command(tuple(result[1:])):
         return tuple(result[1:])
     return tuple(result)
+
+
+def _in_other_shape(words: Phrase) -> Phrase:
+    """For "in that case" "if so", for "but not if S" "unless S"."""
+    flat = keys(words)
+    result: list[Word] = []
+    index = 0
+    while index < len(words):
+        size, meant = next(
+            ((len(s), m) for s, m in _OTHER_SHAPES if flat[index : index + len(s)] == s), (0, ())
+        )
+        if meant == ("unless",) and keys(result[-1:]) == (",",):
+            result.pop()
+        result += _words(" ".join(meant)) if size else (words[index],)
+        index += size or 1
+    return tuple(result)
+
+
+def _with(words: Phrase, is_stop: Names) -> Phrase:
+    """For "with the door shut, V" "if the door is shut, V"; for "the door, if it is shut, V" the same."""
+    flat = keys(words)
+    comma = flat.index(",") if "," in flat else 0
+    if (
+        flat[:1] == ("with",)
+        and comma > 2
+        and flat[comma - 1] in _ADJECTIVES
+        and is_stop(words[1 : comma - 1])
+    ):
+        return (*_words("if"), *words[1 : comma - 1], *_words("is"), *words[comma - 1 :])
+    if (
+        comma
+        and flat[comma + 1 : comma + 4] in {("if", "it", "is"), ("unless", "it", "is")}
+        and is_stop(words[:comma])
+    ):
+        return (words[comma + 1], *words[:comma], *words[comma + 3 :])
+    return words
+
+
+def _opposite(words: Phrase, is_stop: Names) -> Phrase:
+    """For "if it is open V, if it is shut W": W otherwise."""
+    flat = keys(words)
+    first = next(
+        (i for i in range(len(flat) - 1) if flat[i] in lexicon().be and flat[i + 1] in _ADJECTIVES), 0
+    )
+    if not first or "if" not in flat[:first]:
+        return words
+    for at in range(first + 2, len(flat) - 4):
+        echoed = flat[at] in {"if", "with", "when"} and flat[at + 1] in {"it", "that", "they"}
+        state = at + 2 + (flat[at] != "with")
+        if echoed and state < len(flat) and (flat[first + 1], flat[state]) in _OPPOSITES:
+            rest = words[state + 1 :]
+            rest = rest[1:] if keys(rest[:1]) == (",",) else rest
+            return (*words[:at], *_with_verb((*_words("otherwise"), *rest), is_stop))
+    return words
 
 
 def _has_verb(flat: tuple[str, ...]) -> bool:
@@ -241,7 +387,14 @@ def _event_end(words: Phrase, start: int, is_person: Names) -> int:
         if not is_person(words[start : start + size]) or flat[start] in {"you", "i", "we", "it"}:
             continue
         at = start + size
-        while at < len(flat) and flat[at] in lexicon().be | {"has", "have", "already", "just", "finally", "all"}:
+        while at < len(flat) and flat[at] in lexicon().be | {
+            "has",
+            "have",
+            "already",
+            "just",
+            "finally",
+            "all",
+        }:
             at += 1
         if at < len(flat) and (flat[at] in _HAPPENS or lemma(flat[at]) in _HAPPENS):
             return at + 1

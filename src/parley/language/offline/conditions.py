@@ -132,7 +132,8 @@ def _echo(flat: tuple[str, ...], words: Phrase, opens: Opens) -> tuple[int, bool
         end += 1
     if end >= len(flat):
         return None
-    ends = flat[end] in {",", "then"} or (opens(words[end:]) and not flat[end].endswith(("ing", "ed")))
+    orders = opens(words[end:]) and flat[end + 1 : end + 2] not in {(",",), ("then",)}
+    ends = flat[end] in {",", "then"} or (orders and not flat[end].endswith(("ing", "ed")))
     return (end, holds) if ends else None
 
 
@@ -248,9 +249,19 @@ def _parts(before: Phrase, condition: Phrase, rest: Phrase, holds: bool) -> Cond
     other = other or late
     if is_rule(condition):
         return Conditional(before, condition, rest, ())
-    return (
-        Conditional(before, condition, rest, other) if holds else Conditional(before, condition, other, rest)
-    )
+    condition, denied = _positive(condition)
+    if holds == denied:
+        rest, other = other, rest
+    return Conditional(before, condition, rest, other)
+
+
+def _positive(condition: Phrase) -> tuple[Phrase, bool]:
+    """Turn a denial ("X is not there") into what can be looked at ("X is there"); whether it was one."""
+    flat = keys(condition)
+    for index in range(1, len(flat)):
+        if flat[index] == "not" and flat[index - 1] in lexicon().be:
+            return condition[:index] + condition[index + 1 :], True
+    return condition, False
 
 
 def _otherwise(words: Phrase) -> tuple[Phrase, Phrase]:

@@ -1,8 +1,8 @@
-"""Ways of asking that put a frame around an order: hedges, wishes, worries, the passive, another language's grammar.
+"""Ways of asking that put a frame around an order: hedges, wishes, worries, the passive, foreign grammar.
 
-The frame consists of small words alone; what follows it is an order, an order in the passive ("that X is checked"),
-an order to whoever ("if somebody looked at X"), or a noun for one ("a look at X"). A worry about how a known thing is
-("I am afraid X is open") is an order to look.
+The frame consists of small words alone; what follows it is an order, an order in the passive ("that X is
+checked"), an order to whoever ("if somebody looked at X"), or a noun for one ("a look at X"). A worry about
+how a known thing is ("I am afraid X is open") is an order to look.
 """
 
 from __future__ import annotations
@@ -28,10 +28,18 @@ _WORRIED = frozenset(_DATA["worried"])
 _ASIDES = tuple(tuple(text.split()) for text in _DATA["asides"])
 _TAGS = tuple(tuple(text.split()) for text in _DATA["tags"])
 _PAST = frozenset({"if", "wish", "rather", "better", "glad", "happier"})
-_GETTING = frozenset({"have", "get", "see", "want", "like", "having", "need"})
-_NOT_MEANT = (("not", "suppose"), ("not", "too"), ("not", "mind"), ("not", "be", "better"), ("not", "imagine"))
-_KINDS = frozenset({"motion", "look", "whether", "search", "transfer", "grasp", "speak", "follow", "meet", "count",
-                    "guide", "place", "back"})  # fmt: skip
+_GETTING = frozenset({"have", "get", "see", "want", "like", "having", "need", "wants", "needs"})
+_NOT_MEANT = (
+    ("not", "suppose"),
+    ("not", "too"),
+    ("not", "mind"),
+    ("not", "be", "better"),
+    ("not", "imagine"),
+)
+_KINDS = frozenset({
+    "motion", "look", "whether", "search", "transfer", "grasp", "speak", "follow", "meet", "count",
+    "guide", "place", "back",
+})  # fmt: skip
 _LOOKS = frozenset({"look", "glance", "peek", "check", "inspection", "eye", "peep", "check-up"})
 _TRIPS = frozenset({"visit", "trip", "drive", "run", "walk"})
 _MARKS = frozenset({".", "!", "?", ";", "\n"})
@@ -52,7 +60,7 @@ def unframed(words: Phrase, is_stop: IsStop) -> Phrase:
         if index < len(words) and words[index].key not in _MARKS:
             continue
         said = _without_sounds(words[start:index])
-        order = _order(said, is_stop)
+        order = _order(said, is_stop) or _in_parts(said, is_stop)
         mark = words[index : index + 1]
         if order is not None and mark and mark[0].key == "?":
             mark = (Word(".", "."),)
@@ -84,6 +92,25 @@ def _without_sounds(words: Phrase) -> Phrase:
     if tag and flat[-len(tag) - 1] == ",":
         kept = kept[: -len(tag) - 1]
     return tuple(kept)
+
+
+def _in_parts(words: Phrase, is_stop: IsStop) -> Phrase | None:
+    """A sentence of which a part between commas is such an order."""
+    if "," not in keys(words):
+        return None
+    pieces: list[Word] = []
+    start, changed = 0, False
+    for index in range(len(words) + 1):
+        if index < len(words) and words[index].key != ",":
+            continue
+        whole = start and not {"if", "unless"} & set(keys(words[:index]))
+        order = _order(words[start:index], is_stop) if whole else None
+        if order is not None:
+            pieces[-1:] = [Word(".", ".")]
+            changed = True
+        pieces += (*(order or words[start:index]), *words[index : index + 1])
+        start = index + 1
+    return tuple(pieces) if changed else None
 
 
 def _order(words: Phrase, is_stop: IsStop) -> Phrase | None:
@@ -123,7 +150,7 @@ def _worry(words: Phrase, is_stop: IsStop) -> Phrase | None:
         if not _WORRIED & set(flat[:cut]):
             return None
         end = _stop_end(words, cut, is_stop)
-        if end == cut:
+        if end == cut or flat[cut - 1] in lexicon().determiners:
             continue
         if end == len(flat) and flat[cut - 1] == "about":
             return (*_words("inspect"), *words[cut:])
@@ -167,16 +194,22 @@ def _inside_frame(words: Phrase, is_stop: IsStop) -> Phrase | None:
     opens = opens_command(words)
     for cut in range(at, 0, -1):
         lead = flat[:cut]
-        if not _DESIRE & set(lead) or _denied(lead):
+        if not _DESIRE & set(lead) or _denied(lead) or lead[-1] in lexicon().determiners:
             continue
         rest = words[cut:]
         order = _passive(lead, rest, is_stop)
         if order is None and not opens:
-            order = _active(lead, rest, is_stop) or _noun_of_order(rest, is_stop)
+            order = (
+                _active(lead, rest, is_stop) or _noun_of_order(rest, is_stop) or _you_at(lead, rest, is_stop)
+            )
         if order is not None:
             return order
     # "X should be checked by somebody".
-    return _passive(("would",), words, is_stop) if "be" in flat[1:] and _DESIRE & set(flat) and not opens else None
+    return (
+        _passive(("would",), words, is_stop)
+        if "be" in flat[1:] and _DESIRE & set(flat) and not opens
+        else None
+    )
 
 
 def _denied(lead: tuple[str, ...]) -> bool:
@@ -198,7 +231,9 @@ def _passive(lead: tuple[str, ...], rest: Phrase, is_stop: IsStop) -> Phrase | N
     found = lexicon().verbs.match((verb, *flat[at + 1 :]))
     if found is None or verb == flat[at] or found[1].partition(":")[0] not in _KINDS:
         return None
-    if at > end and not {"be", "been", "was", "were", "is", "get", "gets", "got", "are", "being"} & set(flat[end:at]):
+    if at > end and not {"be", "been", "was", "were", "is", "get", "gets", "got", "are", "being"} & set(
+        flat[end:at]
+    ):
         return None
     tail = rest[at + found[0] :]
     if keys(tail[:1]) == ("by",) and keys(tail[1:2]) and keys(tail)[1] in _ANYBODY | {"you"}:
@@ -207,9 +242,9 @@ def _passive(lead: tuple[str, ...], rest: Phrase, is_stop: IsStop) -> Phrase | N
 
 
 _LINKING = frozenset({
-    "be", "been", "was", "were", "is", "are", "get", "gets", "got", "could", "would", "should", "can", "to", "ought",
-    "must", "will", "soon", "really", "perhaps", "maybe", "please", "quickly", "also", "now", "has", "have", "needs",
-    "being", "not", "might", "may", "had",
+    "be", "been", "was", "were", "is", "are", "get", "gets", "got", "could", "would", "should", "can",
+    "to", "ought", "must", "will", "soon", "really", "perhaps", "maybe", "please", "quickly", "also",
+    "now", "has", "have", "needs", "being", "not", "might", "may", "had",
 })  # fmt: skip
 
 
@@ -226,7 +261,9 @@ def _active(lead: tuple[str, ...], rest: Phrase, is_stop: IsStop) -> Phrase | No
     whom = (_ANYBODY | {"you", "robot"}) & set(lead)
     if not whom and lead[-1] not in {"to", "and", "please", "just", "kindly"}:
         return None
-    named = any(is_stop(rest[i:j]) for i in range(1, len(rest)) for j in range(i + 1, min(len(rest), i + 5) + 1))
+    named = any(
+        is_stop(rest[i:j]) for i in range(1, len(rest)) for j in range(i + 1, min(len(rest), i + 5) + 1)
+    )
     return (Word(base, base), *rest[1:]) if named else None
 
 
@@ -236,10 +273,22 @@ def _noun_of_order(rest: Phrase, is_stop: IsStop) -> Phrase | None:
     at = next((i for i in range(min(4, len(flat))) if flat[i] in _LOOKS | _TRIPS), -1)
     if at < 0 or (at and flat[0] not in {"a", "an", "another", "some", "quick"}):
         return None
-    start = at + 1 + (flat[at + 1 : at + 2] in {(p,) for p in ("at", "to", "of", "into", "in", "on", "over", "around")})
+    start = (
+        at
+        + 1
+        + (flat[at + 1 : at + 2] in {(p,) for p in ("at", "to", "of", "into", "in", "on", "over", "around")})
+    )
     end = _stop_end(rest, start, is_stop)
     verb = "inspect" if flat[at] in _LOOKS else "go to"
     return (*_words(verb), *rest[start:]) if end > start > at + 1 else None
+
+
+def _you_at(lead: tuple[str, ...], rest: Phrase, is_stop: IsStop) -> Phrase | None:
+    """For "(I would need you) at the desk"."""
+    if lead[-1] != "you" or keys(rest[:1]) not in {("at",), ("in",), ("by",), ("near",)}:
+        return None
+    end = _stop_end(rest, 1, is_stop)
+    return (*_words("go to"), *rest[1:]) if end > 1 else None
 
 
 _GOING = frozenset({"go", "drive", "come", "move", "run", "walk", "head", "roll"})

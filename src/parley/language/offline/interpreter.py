@@ -20,6 +20,7 @@ from parley.language.offline.protocols import protocol_memory, read_protocol
 from parley.language.offline.reader import Reader
 from parley.language.offline.saying import listing
 from parley.language.offline.scene import Scene
+from parley.language.offline.spoken import orders_among_talk
 from parley.language.offline.text import Phrase, keys, plain, tokens
 from parley.messages.chat import ChatAction, SystemCommand
 
@@ -90,6 +91,8 @@ def _read(message: str, situation: Situation, trace: Trace) -> ChatAction:
         return _say(situation, text, commands=(protocol_memory(taught),), targets=targets)
     request = pending_request(words, situation)
     answer = social.reply(words) or social.reply(strip_openers(words)) if request is None else None
+    if answer is not None and orders_among_talk(words, Scene.of(situation)):
+        answer = None
     if answer is not None:
         trace.note("answer", "small talk, a greeting, thanks, or another language")
         return _say(situation, answer, targets=targets)

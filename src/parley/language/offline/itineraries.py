@@ -1,7 +1,8 @@
 """Stops listed in few words: "A, then B, C last", "B once you have been at A", "A and B, start with B".
 
-A message, or one of its sentences, that consists of nothing but named places, words of order and at most a verb
-for them is put as "go to A, then go to B". One word more that this grammar does not know, and it is left alone.
+A message, or one of its sentences, that consists of nothing but named places, words of order and at most a
+verb for them is put as "go to A, then go to B". One word more that this grammar does not know, and it is
+left alone.
 """
 
 from __future__ import annotations
@@ -39,7 +40,18 @@ _LEADS = _table(
         "only then, second, secondly, third, thirdly, fourth, now, so, ok, okay, please, also, from there",
     ),
     (_ANY, "only after that, only afterwards, later, after"),
-    (_BEFORE_LAST, "before that, before it, before this, but before that"),
+    (
+        _BEFORE_LAST,
+        "before that, before it, before this, but before that, on the way there, on the way, on your way",
+    ),
+    (_BEFORE_LAST, "on your way there, before you go there"),
+    (
+        _ANY,
+        "step one, step two, step three, step four, number one, number two, number three, stop one, stop two",
+    ),
+    (_ANY, "stop three, step 1, step 2, step 3, from, the second thing, second thing, the next thing"),
+    (_FIRST, "the first thing, first thing, the first stop"),
+    (_LAST, "the last thing, last thing, the last stop, and last"),
 )
 _TAILS = _table(
     (_FIRST, "first, first of all, to start with, to begin with, comes first, goes first, is first"),
@@ -47,7 +59,11 @@ _TAILS = _table(
         _LAST,
         "last, last of all, at the end, in the end, at the very end, to finish with, comes last, goes last",
     ),
-    (_LAST, "to finish, is last"),
+    (_LAST, "to finish, is last, for last, until last, till last, till the end, until the end, for the end"),
+    (
+        _ANY,
+        "goes in between, goes between them, between them, in the middle, comes in between, between those",
+    ),
     (_ANY, "in between, second, third, next, afterwards, after that, after it, after this, later, too, also"),
     (_ANY, "as well, please, now, comes after it, comes after that, comes next, comes second, thanks"),
     (_BEFORE_LAST, "before that, before it, beforehand, before this, comes before it, comes before that"),
@@ -55,8 +71,8 @@ _TAILS = _table(
 _ALL = frozenset(
     tuple(text.split())
     for text in (
-        "each", "all", "them", "all of them", "them all", "each of them", "each one", "both", "both of them",
-        "every one", "every one of them", "all three",
+        "each", "all", "them", "all of them", "them all", "each of them", "each one", "both",
+        "both of them", "every one", "every one of them", "all three",
     )
 )  # fmt: skip
 _ORDERS = frozenset(
@@ -111,7 +127,33 @@ def _by_sentence(words: Phrase, is_stop: IsStop) -> Phrase | None:
     return tuple(result) if changed else None
 
 
+_AFTER = (
+    ("but", "not", "before"),
+    ("but", "not", "until"),
+    ("not", "before"),
+    ("not", "until"),
+    ("but", "only", "after"),
+    ("only", "after"),
+    ("but", "only", "once"),
+)
+
+
+def _simpler(words: Phrase) -> Phrase:
+    """With "after" for "but not before" and the like."""
+    flat = keys(words)
+    result: list[Word] = []
+    index = 0
+    while index < len(words):
+        marker = next((m for m in _AFTER if flat[index : index + len(m)] == m), ())
+        if marker and keys(result[-1:]) == (",",):
+            result.pop()
+        result += (Word("after", "after"),) if marker else (words[index],)
+        index += len(marker) or 1
+    return tuple(result)
+
+
 def _whole(words: Phrase, is_stop: IsStop) -> Phrase | None:
+    words = _simpler(words)
     try:
         stops, ordered, shared = _stops(words, is_stop)
     except _UnknownError:
@@ -134,12 +176,19 @@ def _stops(words: Phrase, is_stop: IsStop) -> tuple[list[_Stop], bool, str]:
     """
     stops: list[_Stop] = []
     ordered, shared, kind, early, joined = False, "", "", False, False
+    marked = _ANY
     for piece in _pieces(words):
         every = _of_all(piece)
         if every:
             shared = every
             continue
+        if keys(piece) in _LEADS:
+            # "On the way there, the desk".
+            marked = _LEADS[keys(piece)]
+            continue
         read = _read(piece, is_stop)
+        if marked != _ANY:
+            read, marked = [replace(stop, rank=marked) for stop in read], _ANY
         if joined and len(read) == 1 and not read[0].kind and read[0].rank == _ANY:
             # "A after B and C": whether C is before A nobody can tell by words of order alone.
             raise _UnknownError
@@ -159,6 +208,8 @@ def _put(stop: _Stop, stops: list[_Stop], *, early: bool) -> None:
         # "A and B, start with B".
         kind = stops.pop(same).kind
         stop = replace(stop, kind=kind or stop.kind)
+    if stop.rank == _BEFORE_LAST and stops and stops[-1].rank == _ANY and any(s.rank == _LAST for s in stops):
+        stop = replace(stop, rank=_ANY)
     if (stop.rank == _BEFORE_LAST or early) and stops:
         stops.insert(len(stops) - 1, replace(stop, rank=stops[-1].rank))
     else:
@@ -168,7 +219,8 @@ def _put(stop: _Stop, stops: list[_Stop], *, early: bool) -> None:
 def _pieces(words: Phrase) -> list[Phrase]:
     pieces: list[list[Word]] = [[]]
     for word in words:
-        if word.key in _CUTS and keys(pieces[-1][-1:]) != ("only",):
+        cut = word.key in _CUTS or (word.key == "to" and words[0].key == "from")
+        if cut and keys(pieces[-1][-1:]) != ("only",):
             pieces.append([])
         else:
             pieces[-1].append(word)
@@ -200,17 +252,45 @@ def _read(piece: Phrase, is_stop: IsStop) -> list[_Stop]:
     for at in range(len(flat)):
         if flat[at] not in _JOINTS:
             continue
-        other = rest[at + 1 :]
+        other, ahead = rest[at + 1 :], _ahead(rest[:at])
         been = next((b for b in _BEEN if keys(other)[: len(b)] == b), ())
         if flat[at] in {"once", "when"} and not been:
             continue
         other = other[len(been) :]
         if at == 0 and is_stop(other):
             return [_Stop(other, kind, rank)]
-        if is_stop(rest[:at]) and is_stop(other):
-            pair = [_Stop(rest[:at], kind, rank), _Stop(other, kind, rank)]
+        if is_stop(ahead) and is_stop(other):
+            pair = [_Stop(ahead, kind, rank), _Stop(other, kind, rank)]
             return pair if flat[at] == "before" else pair[::-1]
     raise _UnknownError
+
+
+def _ahead(words: Phrase) -> Phrase:
+    """The place in "A has to come (before B)"."""
+    while len(words) > 1 and words[-1].key in _COMING:
+        words = words[:-1]
+    return words
+
+
+_COMING = frozenset(
+    {
+        "has",
+        "to",
+        "come",
+        "comes",
+        "should",
+        "must",
+        "be",
+        "is",
+        "goes",
+        "go",
+        "needs",
+        "please",
+        "only",
+        "ought",
+        "first",
+    }
+)
 
 
 def _stripped(piece: Phrase, rank: int) -> tuple[Phrase, int]:
@@ -227,6 +307,13 @@ def _stripped(piece: Phrase, rank: int) -> tuple[Phrase, int]:
                 if marker == ("after",) and flat[1:2] == ("you",):
                     continue
                 rank = table[marker] if table[marker] != _ANY else rank
+                if (
+                    not front
+                    and rank == _LAST
+                    and flat[0] in {"leave", "save", "keep"}
+                    and len(piece) > size + 1
+                ):
+                    piece = piece[1:]
                 piece = piece[size:] if front else piece[:-size]
                 changed = True
                 break

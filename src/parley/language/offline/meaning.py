@@ -58,6 +58,13 @@ def _end_of(theme: Phrase, words: Phrase) -> int:
     return next(ends, 0)
 
 
+_NO_NAMES = frozenset({
+    "never", "whatever", "anyway", "because", "although", "while", "somebody", "someone", "nobody",
+    "everybody", "we", "they",
+})  # fmt: skip
+"""With these no name of a thing begins."""
+
+
 @dataclass
 class Meaning(Answering):
     """How a clause becomes a command."""
@@ -146,7 +153,7 @@ class Meaning(Answering):
     def _happens(self, words: Phrase) -> bool:
         """Whether somebody did something ("the cook made soup"), as against a name with such a word in it."""
         first = words[0].key
-        if first in {"never", "whatever", "anyway", "because", "although", "while"}:
+        if first in _NO_NAMES:
             return True
         told = any(lemma(word.key) != word.key and not word.key.endswith(("s", "ing")) for word in words[1:])
         return told and len(words) > 2 and self.scene.ground(words).outcome == "none"

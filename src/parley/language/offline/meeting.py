@@ -1,6 +1,6 @@
 """What is done with people: they are found where they are before they are spoken to, followed or led.
 
-It reads a clause of its own where somebody is described or a place is said for them, and leaves the rest alone.
+Clauses are read here where somebody is described or a place is said for them; the rest is left alone.
 """
 
 from __future__ import annotations
@@ -28,6 +28,8 @@ _GREETINGS = frozenset(_DATA["greetings"])
 _TOLD = frozenset(_DATA["told"])
 
 _OPERATOR = frozenset({"me", "us"})
+_PEOPLE = frozenset({"person", "people", "human", "humans", "someone", "somebody"})
+_ALL = frozenset({("everyone",), ("everybody",), ("all",)})
 
 
 @dataclass
@@ -65,8 +67,15 @@ class Meeting(Tasks):
                 return self._answered(rest)
             case "follow" if keys(rest[:1]) != ("me",):
                 return self._followed(rest)
-            case "guide" | "transfer":
-                return self._led(rest, of_things=kind == "transfer")
+            case "guide":
+                return self._led(rest, of_things=False)
+            case "transfer":
+                return self._led(rest, of_things=True) or self._brought(verb, words, rest)
+        if kind == "look" and verb.startswith("describe"):
+            somebody = read_somebody(rest, self.scene)
+            return (
+                somebody is not None and not rest[somebody.size + 2 :] and self._found(rest[: somebody.size])
+            )
         if flat[0] == "show":
             return self._led(rest, of_things=False) if "way" in flat else False
         return self._told("tell", rest[0:]) if flat[0] in {"give", "explain"} else False
@@ -74,6 +83,7 @@ class Meeting(Tasks):
     def _finder(self) -> ActionInfo | None:
         """The action that looks for people, else the one that looks for anything."""
         infos = [*self.catalogue.all_with_role("search"), *self.catalogue.all_with_role("meet")]
+        infos += [i for i in self.catalogue.all_with_role("look") if _PEOPLE & set(split_name(i.name))]
         people = lexicon().person_words | {"human", "people", "face"}
         for info in infos:
             said = {singular(word) for word in split_name(info.name)}
@@ -89,7 +99,7 @@ class Meeting(Tasks):
             place = self.scene.place(somebody.where)
             met = met and place.value == self.here
             self._stand_at(place)
-        if finder is not None and not met:
+        if finder is not None and not met and keys(somebody.who) not in _ALL:
             self._add_look(finder, plain(somebody.who), f"look for {self._them(somebody)}")
         self.scene.persons.append(somebody.who)
         self.seen = somebody.who
@@ -119,7 +129,7 @@ class Meeting(Tasks):
         return True
 
     def _told(self, verb: str, rest: Phrase) -> bool:
-        """For "tell A at B that S", "say S to A at B", "greet A at B", "tell the name of A at B to C at D"."""
+        """For "tell A at B that S", "say S to A at B", "greet A at B", "tell the name of A to C at D"."""
         if self.catalogue.with_role("speak") is None or (keys(rest[:1]) and rest[0].key in _OPERATOR):
             return self._reported(rest[1:]) if keys(rest[:1]) and verb == "tell" else False
         if verb in _GREETINGS:
@@ -127,9 +137,10 @@ class Meeting(Tasks):
             if somebody is None or not self._is_worth_it(somebody) or somebody.size < len(rest):
                 return False
             self._go_and_find(somebody)
-            parting = "bye" in verb
-            self._utter("goodbye" if parting else "hello", somebody, verb)
+            self._utter(self._greeting(verb), somebody, verb)
             return True
+        if keys(rest[:1]) and rest[0].key in lexicon().person_pronouns:
+            return False
         listener = read_somebody(rest, self.scene)
         said = rest[listener.size :] if listener is not None else ()
         if listener is None or not said:
@@ -144,6 +155,11 @@ class Meeting(Tasks):
         self._go_and_find(listener)
         self._utter(asked_directly(said) if verb == "ask" else plain(said), listener, verb)
         return True
+
+    def _greeting(self, verb: str) -> str:
+        if verb.startswith("introduce") and self.scene.situation.robot:
+            return f"hello, I am {self.scene.situation.robot}"
+        return "goodbye" if "bye" in verb else "hello"
 
     def _listener_behind(self, rest: Phrase) -> tuple[Somebody | None, Phrase]:
         flat = keys(rest)
@@ -187,7 +203,7 @@ class Meeting(Tasks):
         values: dict[str, str] = {}
         if listener is not None:
             values = {n: plain(listener.who) for n in texts if parameter_role(n) == "person"}
-        values |= {name: text for name in (free or [n for n in texts if n not in values])[:1]}
+        values |= dict.fromkeys((free or [n for n in texts if n not in values])[:1], text)
         self.steps.append(call(speaker, values, f"say “{text}”"))
         self.will.append(f"say “{text}”")
 
@@ -236,8 +252,21 @@ class Meeting(Tasks):
         self.travel(place, f"lead the way to {plain(goal)}")
         return True
 
+    def _brought(self, verb: str, words: Phrase, rest: Phrase) -> bool:
+        """For "bring it to the man in the red coat in the hall"."""
+        person, what = self._listener_behind(rest)
+        if person is None or not person.described or not person.where or not what:
+            return False
+        flat = keys(what)
+        source = bare(what[flat.index("from") + 1 :]) if "from" in flat else ()
+        theme = bare(what[: flat.index("from")] if source else what)
+        self.do(Command("transfer", verb, False, theme, person.where, source, person.who, rest, words))
+        return True
+
     def _with_them(self, info: ActionInfo, somebody: Somebody, goal: Phrase, saying: str) -> None:
-        values = {n: plain(somebody.who) for n in text_inputs(info) if parameter_role(n) in {"person", "object"}}
+        values = {
+            n: plain(somebody.who) for n in text_inputs(info) if parameter_role(n) in {"person", "object"}
+        }
         places = [n for n in text_inputs(info) if parameter_role(n) == "place" and n not in values]
         if goal and places:
             values[places[0]] = self.scene.place(goal).value
@@ -270,6 +299,7 @@ class Meeting(Tasks):
         if not at:
             return False
         kept = tuple(w for w in words[at:] if w.key not in {"are", "is", "there"})
+        kept = bare(kept[1:]) if keys(kept[:1]) == ("of",) else bare(kept)
         counter = self.catalogue.with_role("count")
         somebody = read_somebody(kept, self.scene)
         if somebody is None or not self._is_worth_it(somebody):
@@ -317,5 +347,3 @@ class Meeting(Tasks):
                 self._utter(f"the {plain(theme)}", None, "say")
             return True
         return False
-
-

@@ -8,13 +8,19 @@ from functools import cache
 from parley.language.base import Situation
 from parley.language.offline.lexicon import lexicon
 from parley.language.offline.text import Phrase, Word, mend, split_name, tokens
+from parley.language.word_lists import load_data
 
 __all__ = ["mended"]
+
+_LOOKS = frozenset(
+    load_data("people")["worn"] + load_data("people")["posture"] + load_data("people")["superlatives"]
+)
+"""Words about looks, which are no typing errors."""
 
 
 def mended(words: Phrase, situation: Situation) -> Phrase:
     """Typing errors in small words and verbs put right; nouns are compared loosely later."""
-    known = set(lexicon().vocabulary)
+    known = set(lexicon().vocabulary | _LOOKS)
     words = _apart(words, situation)
     for item in situation.objects:
         known.update(

@@ -1,7 +1,7 @@
 """People as they are told apart: by name, by what they do, by what they wear, and where they are.
 
-"The man in the red coat who sits by the window" is one description and one place. What is worn and how somebody
-holds themselves belongs to the description; what the map knows is where they are.
+"The man in the red coat who sits by the window" is one description and one place. What is worn and how
+somebody holds themselves belongs to the description; what the map knows is where they are.
 """
 
 from __future__ import annotations
@@ -82,7 +82,9 @@ def map_name_end(words: Phrase, scene: Scene) -> int:
     """How many words at the start name something on the map; 0 if none do."""
     for size in range(min(_LONGEST_NAME, len(words)), 0, -1):
         part = words[:size]
-        if part[-1].key in lexicon().determiners or not bare(part) or not part[-1].is_word:
+        last = part[-1].key
+        dangling = last in lexicon().determiners | lexicon().goals_and_places or not part[-1].is_word
+        if dangling or not bare(part):
             continue
         if ground_phrase(bare(part), scene.objects, strict=True).outcome != "none":
             return size
@@ -97,9 +99,10 @@ def _head(words: Phrase, scene: Scene) -> tuple[int | None, bool]:
         return None, False
     for size in (2, 1):
         named = words[:size]
-        if len(named) == size and all(w.is_capital for w in named) and flat[0] not in lex.determiners:
-            if scene.is_person(named) and not (singular(flat[size - 1]) in lex.person_words):
-                return size, True
+        titled = len(named) == size and all(word.is_capital for word in named)
+        kind = flat[0] in lex.determiners or singular(named[-1].key) in lex.person_words
+        if titled and not kind and scene.is_person(named):
+            return size, True
     start = 0
     while start < len(flat) and flat[start] in lex.determiners | lex.quantifiers | {"of"}:
         start += 1
@@ -113,7 +116,9 @@ def _head(words: Phrase, scene: Scene) -> tuple[int | None, bool]:
 
 
 def _tells_apart(flat: tuple[str, ...], at: int) -> bool:
-    return at < len(flat) and (flat[at].endswith("ing") or flat[at] in {"who", "in", "with", "at", "on", "by"})
+    return at < len(flat) and (
+        flat[at].endswith("ing") or flat[at] in {"who", "in", "with", "at", "on", "by"}
+    )
 
 
 def _ends(flat: tuple[str, ...], at: int) -> bool:
@@ -123,7 +128,14 @@ def _ends(flat: tuple[str, ...], at: int) -> bool:
     be = lexicon().be | {"has", "wears", "have"}
     if flat[at] == "that" and flat[at + 1 : at + 2] and flat[at + 1] in be:
         return False
-    if flat[at] in {"a", "an", "the"} and flat[at - 1] in {"wearing", "wears", "carrying", "holding", "raising", "has"}:
+    if flat[at] in {"a", "an", "the"} and flat[at - 1] in {
+        "wearing",
+        "wears",
+        "carrying",
+        "holding",
+        "raising",
+        "has",
+    }:
         return False
     if flat[at] in {"your", "my"}:
         return True

@@ -27,6 +27,7 @@ from parley.language.offline.saying import the, whole_sentence
 from parley.language.offline.scene import UnclearError
 from parley.language.offline.spoken import spoken
 from parley.language.offline.stories import mentioned, told_around
+from parley.language.offline.subsets import with_exception_behind
 from parley.language.offline.tasks import UnableError
 from parley.language.offline.text import Phrase, Word, keys, plain, split_name, tokens
 from parley.messages.chat import ActionCall, ChatAction, SystemCommand
@@ -107,6 +108,7 @@ class Reader(Recalling):
             count = len(self.scene.situation.queue)
             taken = range(count - 1, count - 1 - len(before), -1)
             self.commands.extend(SystemCommand(command="pop", arguments={"parameters": i}) for i in taken)
+        words = with_exception_behind(words)
         parts = clauses(words, lambda phrase: opens_command(phrase, self.scene.catalogue.verbs))
         self._hurried = any(_hurries(part) for part in parts[1:])
         parts = [part for i, part in enumerate(parts) if not i or not _hurries(part)]
@@ -125,6 +127,7 @@ class Reader(Recalling):
                 self.tasks.beside = clause.beside and start > 0
                 self._clause_or_story(clause, index, parts)
                 self._side_by_side(start)
+            self._skip_nothing()
             self._complain()
             self._recurs(often, times)
         except UnclearError as unclear:
@@ -137,6 +140,11 @@ class Reader(Recalling):
             return self._result(cannot(unable.what, self.scene), ())
         self.learn()
         return self._result(self._reply(), (*self.tasks.steps, *before))
+
+    def _skip_nothing(self) -> None:
+        """For "the desk was done, leave it" among orders: there is no step that could be left out."""
+        if self.tasks.steps and not self.scene.situation.queue:
+            self.commands = [c for c in self.commands if c.command != "skip"]
 
     def _clause_or_story(self, clause: Clause, index: int, parts: Sequence[Clause]) -> None:
         """Read one clause; what makes no sense among orders and names nothing is only told around them."""
@@ -164,14 +172,14 @@ class Reader(Recalling):
         clause = replace(clause, words=_without_frame(clause.words))
         if keys(strip_openers(clause.words)) in _NOTHING_MORE and (self.tasks.steps or self.replies):
             return
+        if self.tasks.meet(clause.words):
+            self.scene.trace.note("frame", f"with people: {clause.said()}")
+            return
         order = recast(clause.words, self.scene)
         if order is not None:
             self.scene.trace.note("recast", f"“{plain(order[0])}”, after the pattern: {order[1]}")
             clause = replace(clause, words=order[0], is_question=False)
         if self._again(clause) or self._delayed(clause) or self._says_nothing(clause, alone=alone):
-            return
-        if self.tasks.meet(clause.words):
-            self.scene.trace.note("frame", f"with people: {clause.said()}")
             return
         if self._reading(clause) or self._order(clause, alone, index) or self._spoken(clause):
             return

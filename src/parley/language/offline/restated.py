@@ -1,7 +1,7 @@
-"""Changes of the plan that are put as statements: "X is not needed", "X can wait", "somebody has checked X already".
+"""Changes of the plan put as statements: "X is not needed", "X can wait", "somebody has checked X".
 
-What is said is the visits that are named and a rest of small words; the rest tells by its cues what is meant. Words
-that belong to none of it, and it is no change of the plan.
+What is said is the visits that are named and a rest of small words; the rest tells by its cues what is
+meant. Words that belong to none of it, and it is no change of the plan.
 """
 
 from __future__ import annotations
@@ -15,7 +15,7 @@ from parley.language.offline.nouns import bare, coordinated
 from parley.language.offline.replanning import Visit, ordered, visit_of, visits
 from parley.language.offline.saying import listing, the
 from parley.language.offline.scene import Scene
-from parley.language.offline.text import Phrase, Word, keys, lemma, plain, singular, tokens
+from parley.language.offline.text import Phrase, Word, keys, singular, tokens
 from parley.language.word_lists import load_data
 from parley.messages.chat import SystemCommand
 
@@ -23,20 +23,34 @@ __all__ = ["as_added", "restated"]
 
 _DATA = load_data("restated")
 _SMALL = frozenset(_DATA["small"])
-_LOOKING = frozenset({"look", "inspect", "check", "looking", "inspecting", "checking", "examine", "see", "inspection"})
-_GOING = frozenset({"go", "drive", "going", "driving", "visit", "come", "there", "stop", "move", "head", "pass"})
-_NEEDING = frozenset({"need", "needs", "needed", "necessary", "required", "require", "requires", "want", "wanted",
-                      "have", "bother", "interested", "use", "care", "worth", "wants", "point", "urgent"})  # fmt: skip
-_NEEDLESS = frozenset({"unnecessary", "superfluous", "redundant", "obsolete", "needless", "pointless", "cancelled",
-                       "unneeded", "canceled"})  # fmt: skip
-_DONE = frozenset({"done", "checked", "visited", "inspected", "seen", "finished", "looked", "been", "covered",
-                   "examined", "handled", "sorted", "was"})  # fmt: skip
-_OUT = frozenset({"leave", "forget", "drop", "skip", "scrap", "cut", "take", "strike", "spare", "cross", "minus", "omit",
-                  "leaving", "without", "keep", "scratch"})  # fmt: skip
+_LOOKING = frozenset(
+    {"look", "inspect", "check", "looking", "inspecting", "checking", "examine", "see", "inspection"}
+)
+_GOING = frozenset(
+    {"go", "drive", "going", "driving", "visit", "come", "there", "stop", "move", "head", "pass"}
+)
+_NEEDING = frozenset({
+    "need", "needs", "needed", "necessary", "required", "require", "requires", "want", "wanted", "have",
+    "bother", "interested", "use", "care", "worth", "wants", "point", "urgent",
+})  # fmt: skip
+_NEEDLESS = frozenset({
+    "unnecessary", "superfluous", "redundant", "obsolete", "needless", "pointless", "cancelled",
+    "unneeded", "canceled",
+})  # fmt: skip
+_DONE = frozenset({
+    "done", "checked", "visited", "inspected", "seen", "finished", "looked", "been", "covered",
+    "examined", "handled", "sorted", "was",
+})  # fmt: skip
+_OUT = frozenset({
+    "leave", "forget", "drop", "skip", "scrap", "cut", "take", "strike", "spare", "cross", "minus",
+    "omit", "leaving", "without", "keep", "scratch",
+})  # fmt: skip
 _DENIALS = frozenset({"not", "no", "nobody", "none", "longer", "never", "without"})
 _LATER = frozenset({"last", "end", "wait", "later", "urgent", "hurry"})
-_ORDINAL_NOUNS = frozenset({"one", "stop", "visit", "place", "ones", "stops", "visits", "places", "these", "those", "of",
-                            "the", "two", "three"})  # fmt: skip
+_ORDINAL_NOUNS = frozenset({
+    "one", "stop", "visit", "place", "ones", "stops", "visits", "places", "these", "those", "of", "the",
+    "two", "three",
+})  # fmt: skip
 _LONGEST = 9
 
 
@@ -46,7 +60,19 @@ def restated(words: Phrase, scene: Scene) -> Edit | None:
         return None
     refuses = keys(words[:1]) == ("no",) and keys(words[1:2]) != (",",)
     body = tuple(word for word in (words if refuses else strip_openers(words)) if word.is_word)
-    while body and body[0].key in {"actually", "oh", "well", "sorry", "also", "by", "way", "hm", "right", "ok", "okay"}:
+    while body and body[0].key in {
+        "actually",
+        "oh",
+        "well",
+        "sorry",
+        "also",
+        "by",
+        "way",
+        "hm",
+        "right",
+        "ok",
+        "okay",
+    }:
         body = body[1:]
     moved = _moved(body, scene)
     if moved is not None:
@@ -85,7 +111,7 @@ def _visits_named(phrase: Phrase, scene: Scene) -> list[int]:
             return []
         count = next((lexicon().numbers[w] for w in flat if w in {"two", "three"}), 1)
         at = len(listed) - count if ranked[0] in {"last", "final"} else lexicon().ordinals[ranked[0]] - 1
-        return list(range(at, at + count)) if 0 <= at and at + count <= len(listed) else []
+        return list(range(at, at + count)) if at >= 0 and at + count <= len(listed) else []
     result: list[int] = []
     for part in coordinated(phrase):
         one = _index_of(part, scene)
@@ -98,7 +124,7 @@ def _visits_named(phrase: Phrase, scene: Scene) -> list[int]:
 
 def _index_of(part: Phrase, scene: Scene) -> int | None:
     words = bare(part)
-    if not words or lexicon().verbs.match(keys(words)) is not None and len(words) > 1:
+    if not words or (lexicon().verbs.match(keys(words)) is not None and len(words) > 1):
         return None
     return visit_of(words, scene)
 
@@ -131,14 +157,23 @@ def _without_somebody(rest: Phrase, scene: Scene) -> tuple[str, ...]:
 
 
 def _meaning(rest: tuple[str, ...]) -> str:
-    """What the small words around the visits mean: "drop", "look" (drop only the looking), "last", "first"."""
+    """What the small words around the visits mean: "drop", "look" (drop only that), "last", "first"."""
     said = set(rest)
     if not said or not said <= _SMALL:
         return ""
     denied = bool(said & _DENIALS)
-    if denied and said & _LOOKING and said & _GOING and (said & {"just", "only", "enough", "but"} or "need" in said):
+    if (
+        denied
+        and said & _LOOKING
+        and said & _GOING
+        and (said & {"just", "only", "enough", "but"} or "need" in said)
+    ):
         return "look"
-    if said & _LATER and not said & _OUT and (said & {"can", "could", "may", "should", "is", "do", "comes", "not"}):
+    if (
+        said & _LATER
+        and not said & _OUT
+        and (said & {"can", "could", "may", "should", "is", "do", "comes", "not"})
+    ):
         return "last"
     if "first" in said and said & {"rest", "others", "else", "remaining"}:
         return "first"
@@ -148,7 +183,11 @@ def _meaning(rest: tuple[str, ...]) -> str:
         or ("no" in said and said & {"more", "after"} and not said & {"there", "is"})
         or rest in {("no",), ("no", "please")}
         or (said & _DONE and (said & {"already", "has", "have"}) and not denied)
-        or (said & _OUT and (said & {"out", "forget", "drop", "skip", "scrap", "strike", "minus", "omit"}) and not denied)
+        or (
+            said & _OUT
+            and (said & {"out", "forget", "drop", "skip", "scrap", "strike", "minus", "omit"})
+            and not denied
+        )
     )
     return "drop" if dropped else ""
 
@@ -168,7 +207,9 @@ def _carried_out(meant: str, named: list[int], scene: Scene) -> Edit | None:
         for offset, step in enumerate(visit.steps)
         if meant == "drop" or _looks(step.name, scene)
     ]
-    pops = tuple(SystemCommand(command="pop", arguments={"parameters": i}) for i in sorted(gone, reverse=True))
+    pops = tuple(
+        SystemCommand(command="pop", arguments={"parameters": i}) for i in sorted(gone, reverse=True)
+    )
     if meant == "look":
         return Edit(pops, f"I will go to {names} without looking at it.") if pops else None
     return Edit(pops, f"I leave out {names}.")
@@ -198,10 +239,24 @@ def _moved(body: Phrase, scene: Scene) -> Edit | None:
     return None
 
 
-_ADDING = (("add",), ("include",), ("insert",), ("squeeze",), ("fit",), ("slot",), ("put",), ("throw",), ("append",),
-           ("tack",), ("slip",), ("work",))  # fmt: skip
-_PLANS = frozenset({"plan", "queue", "list", "route", "mission", "tour", "schedule", "round", "rounds", "trip", "itinerary",
-                    "programme", "program", "agenda", "stops", "run", "job", "jobs"})  # fmt: skip
+_ADDING = (
+    ("add",),
+    ("include",),
+    ("insert",),
+    ("squeeze",),
+    ("fit",),
+    ("slot",),
+    ("put",),
+    ("throw",),
+    ("append",),
+    ("tack",),
+    ("slip",),
+    ("work",),
+)
+_PLANS = frozenset({
+    "plan", "queue", "list", "route", "mission", "tour", "schedule", "round", "rounds", "trip",
+    "itinerary", "programme", "program", "agenda", "stops", "run", "job", "jobs",
+})  # fmt: skip
 
 
 def as_added(words: Phrase, scene: Scene) -> Phrase:
@@ -211,8 +266,14 @@ def as_added(words: Phrase, scene: Scene) -> Phrase:
     if flat[:1] not in _ADDING or len(flat) < 3 or len(flat) > 16:
         return words
     rest = list(body[1:])
-    end = next((i for i in range(1, len(rest)) if rest[i].key in {"to", "on", "in", "into", "onto", "before", "after", "as",
-                                                                    "too", "between"}), len(rest))  # fmt: skip
+    end = next(
+        (
+            i
+            for i in range(1, len(rest))
+            if rest[i].key in {"to", "on", "in", "into", "onto", "before", "after", "as", "too", "between"}
+        ),
+        len(rest),
+    )
     named, tail = tuple(rest[:end]), tuple(rest[end:])
     planned = bool({word.key for word in tail} & _PLANS) or keys(tail[:1]) == ("in",) or not tail
     if scene.ground(named).outcome != "match" or not (planned or keys(tail[:1]) in {("before",), ("after",)}):

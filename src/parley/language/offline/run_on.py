@@ -1,7 +1,8 @@
 """Speech without punctuation: where one clause ends and the next begins.
 
-Dictated words have no commas and no full stops. A clause begins at a verb in its base form with something to do it to,
-at "please" and "so" before such a verb, and at a subject with its finite verb behind an order that is complete.
+Dictated words have no commas and no full stops. A clause begins at a verb in its base form with something
+to do it to, at "please" and "so" before such a verb, and at a subject with its finite verb behind an order
+that is complete.
 """
 
 from __future__ import annotations
@@ -11,42 +12,112 @@ from collections.abc import Callable
 from parley.language.offline.lexicon import lexicon
 from parley.language.offline.text import Phrase, Word, keys, lemma
 
-__all__ = ["punctuated"]
+__all__ = ["holds_order", "punctuated"]
 
 IsStop = Callable[[Phrase], bool]
 
 _STOP = Word(".", ".")
 _MARKS = frozenset({".", "!", "?", ";", "\n"})
 _ORDERING = frozenset({
-    "motion", "back", "look", "whether", "search", "transfer", "grasp", "place", "speak", "follow", "guide",
-    "meet", "count", "dock",
+    "motion", "back", "look", "whether", "search", "transfer", "grasp", "place", "speak", "follow",
+    "guide", "meet", "count", "dock",
 })  # fmt: skip
 _SUBORDINATE = frozenset({
-    "if", "unless", "when", "once", "after", "before", "while", "as", "because", "since", "although", "whether",
-    "should", "provided", "assuming", "until", "till", "in", "on", "whenever", "though", "supposing", "providing",
+    "if", "unless", "when", "once", "after", "before", "while", "as", "because", "since", "although",
+    "whether", "should", "provided", "assuming", "until", "till", "in", "on", "whenever", "though",
+    "supposing", "providing",
 })  # fmt: skip
 _OPEN = (
-    frozenset({
-        "to", "not", "never", "and", "or", "but", "then", "you", "i", "we", "they", "he", "she", "just", "please",
-        "that", "which", "who", "what", "where", "how", "let", "will", "may", "might", "must", "do", "does", "so",
-        "did", "than", "of", "with", "for", "from", "at", "by", "into", "onto", "kindly", "now", "go", "come",
-        "can", "could", "would", "should", "shall", "also", "try", "better", "quickly", "first", "next", "no",
-        "either", "maybe", "perhaps", "only", "be", "me", "always", "still", "ever", "anyone", "someone",
-        "somebody", "anybody", "lets", "else", "otherwise",
-    })
+    frozenset(
+        {
+            "to",
+            "not",
+            "never",
+            "and",
+            "or",
+            "but",
+            "then",
+            "you",
+            "i",
+            "we",
+            "they",
+            "he",
+            "she",
+            "just",
+            "please",
+            "that",
+            "which",
+            "who",
+            "what",
+            "where",
+            "how",
+            "let",
+            "will",
+            "may",
+            "might",
+            "must",
+            "do",
+            "does",
+            "so",
+            "did",
+            "than",
+            "of",
+            "with",
+            "for",
+            "from",
+            "at",
+            "by",
+            "into",
+            "onto",
+            "kindly",
+            "now",
+            "go",
+            "come",
+            "can",
+            "could",
+            "would",
+            "should",
+            "shall",
+            "also",
+            "try",
+            "better",
+            "quickly",
+            "first",
+            "next",
+            "no",
+            "either",
+            "maybe",
+            "perhaps",
+            "only",
+            "be",
+            "me",
+            "always",
+            "still",
+            "ever",
+            "anyone",
+            "someone",
+            "somebody",
+            "anybody",
+            "lets",
+            "else",
+            "otherwise",
+        }
+    )
     | _SUBORDINATE
     | lexicon().determiners
     | lexicon().quantifiers
-)  # fmt: skip
+)
 """Behind these no clause of its own begins."""
 _CLOSING = frozenset({
-    "today", "yesterday", "tomorrow", "tonight", "there", "here", "it", "again", "them", "him", "her", "that",
-    "too", "thanks", "anyway", "well", "me", "us", "now", "away", "off", "up", "out", "down",
+    "today", "yesterday", "tomorrow", "tonight", "there", "here", "it", "again", "them", "him", "her",
+    "that", "too", "thanks", "anyway", "well", "me", "us", "now", "away", "off", "up", "out", "down",
 })  # fmt: skip
 """With these a clause may end."""
 _ANYWAY = frozenset({"anyway", "anyways", "whatever", "oh", "well", "so"})
-_SUBJECTS = frozenset({"it", "he", "she", "they", "we", "i", "there", "nobody", "everybody", "everyone", "nothing",
-                       "somebody", "someone"})  # fmt: skip
+_SUBJECTS = frozenset({
+    "it", "he", "she", "they", "we", "i", "there", "nobody", "everybody", "everyone", "nothing",
+    "somebody", "someone",
+})  # fmt: skip
 _FINITE = (
     frozenset({"has", "had", "have", "did", "does", "do", "will", "would", "can", "could"}) | lexicon().be
 )
@@ -94,6 +165,12 @@ def punctuated(words: Phrase, is_stop: IsStop) -> Phrase:
     return tuple(result)
 
 
+def holds_order(words: Phrase, is_stop: IsStop) -> bool:
+    """Whether an order for something that is known stands anywhere in a message."""
+    flat = keys(words)
+    return any(_order_at(words, flat, index, is_stop) == "strong" for index in range(len(words)))
+
+
 def _goes_on(words: Phrase, flat: tuple[str, ...], index: int, is_stop: IsStop) -> bool:
     """Whether "and after the desk ..." begins here."""
     if flat[index] != "and" or flat[index + 1 : index + 2] != ("after",):
@@ -104,6 +181,8 @@ def _goes_on(words: Phrase, flat: tuple[str, ...], index: int, is_stop: IsStop) 
 def _order_at(words: Phrase, flat: tuple[str, ...], index: int, is_stop: IsStop) -> str:
     """Whether an order begins here; "strong" if nothing else can be meant."""
     at = index
+    if at >= len(flat):
+        return ""
     polite = flat[at] in {"please", "kindly"}
     if flat[at] == "so" or flat[at] in {"anyway", "anyways"}:
         following = flat[at + 1 : at + 3]
@@ -114,7 +193,7 @@ def _order_at(words: Phrase, flat: tuple[str, ...], index: int, is_stop: IsStop)
     at += polite
     at += next((len(m) for m in _AT_FIRST if flat[at : at + len(m)] == m), 0)
     polite = polite or at > index
-    at += (flat[at : at + 1] == ("you",))
+    at += flat[at : at + 1] == ("you",)
     found = lexicon().verbs.match(flat, at) if at < len(flat) else None
     if found is None or found[1].partition(":")[0] not in _ORDERING or lemma(flat[at]) != flat[at]:
         return ""
@@ -126,14 +205,30 @@ def _order_at(words: Phrase, flat: tuple[str, ...], index: int, is_stop: IsStop)
     stop = any(
         is_stop(words[named : named + size]) for size in range(1, min(_LONGEST_STOP, len(flat) - named) + 1)
     )
-    if not (stop or flat[named : named + 1] and (flat[named] in lexicon().determiners | _AFTER_VERB)):
+    if not (stop or (flat[named : named + 1] and (flat[named] in lexicon().determiners | _AFTER_VERB))):
         return ""
     return "strong" if polite or (stop and (goal is not None or found[0] > 1)) else "weak"
 
 
-_AT_FIRST = (("before", "anything", "else"), ("first", "of", "all"), ("before", "everything", "else"), ("first",))
-_REQUESTS = frozenset({("i", "need"), ("i", "want"), ("we", "need"), ("can", "you"), ("could", "you"), ("you", "go"),
-                       ("would", "you"), ("will", "you"), ("you", "check")})  # fmt: skip
+_AT_FIRST = (
+    ("before", "anything", "else"),
+    ("first", "of", "all"),
+    ("before", "everything", "else"),
+    ("first",),
+)
+_REQUESTS = frozenset(
+    {
+        ("i", "need"),
+        ("i", "want"),
+        ("we", "need"),
+        ("can", "you"),
+        ("could", "you"),
+        ("you", "go"),
+        ("would", "you"),
+        ("will", "you"),
+        ("you", "check"),
+    }
+)
 
 
 def _may_end(
@@ -161,7 +256,7 @@ def _ends_here(words: Phrase, flat: tuple[str, ...], start: int, index: int, is_
 
 def _statement_at(words: Phrase, flat: tuple[str, ...], index: int) -> bool:
     """Whether a subject with its verb stands here ("it was cold", "nobody came")."""
-    if flat[index] not in _SUBJECTS or flat[index - 1] in _OPEN or not words[index - 1].is_word:
+    if flat[index] not in _SUBJECTS or flat[index - 1] in _OPEN - {"me"} or not words[index - 1].is_word:
         return False
     verb = flat[index + 1 : index + 2]
     return bool(verb) and (verb[0] in _FINITE or lemma(verb[0]) != verb[0])

@@ -9,6 +9,9 @@ from parley.language.offline.lexicon import lexicon
 __all__ = ["a", "capital", "in_turn", "listing", "the", "whole_sentence"]
 
 
+_SOMEBODY = frozenset({"somebody", "someone", "anybody", "anyone", "everybody", "everyone", "whoever"})
+
+
 def the(text: str) -> str:
     """With the article where English wants it: "the box", but "area A", "Anna", "my desk"."""
     words = text.split()
@@ -16,6 +19,7 @@ def the(text: str) -> str:
         return text
     if (
         text.lower() in {"home", "everything"}
+        or words[0].lower() in _SOMEBODY
         or words[0].lower() in lexicon().determiners | lexicon().quantifiers | lexicon().operator_pronouns
     ):
         return text

@@ -15,6 +15,7 @@ from parley.language.offline.nouns import NounPhrase, bare, coordinated, noun_ph
 from parley.language.offline.placing import Placing, place_said
 from parley.language.offline.remembering import remembered
 from parley.language.offline.saying import listing, the
+from parley.language.offline.subsets import part_of
 from parley.language.offline.text import Phrase, Word, keys, plain, singular, tokens
 from parley.world.object_map import MapObject
 
@@ -52,6 +53,9 @@ class Scene(Placing):
         told = self.told_apart(phrase)
         if told is not None:
             return [tokens(describe(told, self.objects))]
+        some = part_of(phrase, self.objects, self.situation.robot_pose)
+        if some is not None:
+            return [tokens(describe(item, self.objects)) for item in some]
         phrase = self._uncounted(phrase)
         phrase = _apposed(phrase)
         series = self._series(phrase)

@@ -34,6 +34,8 @@ def by_anchor(
     items: Sequence[MapObject], relation: str, anchors: Sequence[MapObject], pose: Pose2D | None
 ) -> list[MapObject]:
     """The items that stand in `relation` to the anchors."""
+    if not anchors:
+        return list(items)
     first = anchors[0]
     if len(anchors) > 1:
         second = anchors[1]

@@ -1,4 +1,4 @@
-"""What people say, put the way the rest reads it: frames off, run-on speech cut, conditions and stops in order."""
+"""What people say as the rest reads it: frames off, run-on speech cut, conditions and stops in order."""
 
 from __future__ import annotations
 
@@ -10,14 +10,16 @@ from parley.language.offline.grounding import ground_phrase
 from parley.language.offline.itineraries import as_itinerary
 from parley.language.offline.lexicon import lexicon
 from parley.language.offline.nouns import bare
-from parley.language.offline.run_on import punctuated
+from parley.language.offline.run_on import holds_order, punctuated
 from parley.language.offline.scene import Scene
 from parley.language.offline.text import Phrase, keys, plain
 from parley.language.offline.told import in_order
 
-__all__ = ["spoken"]
+__all__ = ["orders_among_talk", "spoken"]
 
 _LONGEST_NAME = 7
+_SMALL_TALK = 8
+"""Words that a message of nothing but talk may have without being looked through."""
 
 
 def spoken(words: Phrase, scene: Scene) -> Phrase:
@@ -38,6 +40,11 @@ def spoken(words: Phrase, scene: Scene) -> Phrase:
     return result
 
 
+def orders_among_talk(words: Phrase, scene: Scene) -> bool:
+    """Whether a message of more than a few words asks for something, whatever talk it begins with."""
+    return len(words) > _SMALL_TALK and holds_order(words, _Names(scene).is_stop)
+
+
 @dataclass
 class _Names:
     """Which words name one thing on the map; each phrase is looked up once."""
@@ -55,12 +62,18 @@ class _Names:
         flat = keys(words)
         if not flat or len(flat) > _LONGEST_NAME or any(not word.is_word for word in words):
             return False
-        if flat[-1] in lexicon().determiners or (flat[0] in lexicon().vocabulary and not self._may_begin(flat)):
+        if flat[-1] in lexicon().determiners or (
+            flat[0] in lexicon().vocabulary and not self._may_begin(flat)
+        ):
             return False
         if flat not in self.known:
             named = bare(words)
             rest = set(flat) - self.said - lexicon().determiners
-            found = bool(named) and len(rest) < 2 and ground_phrase(named, self.scene.objects, strict=True).outcome == "match"
+            found = (
+                bool(named)
+                and len(rest) < 2
+                and ground_phrase(named, self.scene.objects, strict=True).outcome == "match"
+            )
             self.known[flat] = found
         return self.known[flat]
 

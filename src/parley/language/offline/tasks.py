@@ -149,7 +149,8 @@ class Tasks(Carrying):
     def _other(self, command: Command) -> None:
         info = self.catalogue.for_verb(command.verb) or self.catalogue.for_verb(command.verb.split()[0])
         info = info or self.catalogue.with_role(command.kind)
-        if info is None and command.kind == "count":
+        reads = command.verb == "read" and bool(self.here or self._grounds(command.theme[-2:]))
+        if info is None and (command.kind == "count" or reads):
             self._look(replace(command, kind="look"))
             return
         if info is None and command.kind == "wait":
