@@ -38,7 +38,9 @@ export function ChatPanel() {
   const questions = useMemo(() => openQuestions(chat), [chat]);
   const entries = useMemo(() => conversation(chat, chosen), [chat, chosen]);
   const answer = useMemo(() => answering(questions, chosen), [questions, chosen]);
-  const onItsWay = useOutbox((outbox) => outbox.messages.at(-1)?.text);
+  const onItsWay = useOutbox(
+    (outbox) => outbox.messages.findLast((one) => one.targets.some((name) => chosen.includes(name)))?.text,
+  );
   const lastSaid = useMemo(
     () => onItsWay ?? entries.findLast((entry) => entry.who === 'operator')?.message ?? '',
     [onItsWay, entries],
