@@ -404,6 +404,43 @@ asyncio.run(main())
 """
 
 
+OPENER = """
+import asyncio, sys
+from parley.memory.store import MemoryStore
+
+async def main():
+    for number in range(40):
+        print(number, flush=True)
+        sys.stdin.readline()
+        async with await MemoryStore.open(f"{sys.argv[1]}/{number}.db"):
+            pass
+
+asyncio.run(main())
+"""
+
+
+def test_two_processes_that_make_the_same_file_at_once_both_get_it(tmp_path: Path) -> None:
+    children = [
+        subprocess.Popen(
+            [sys.executable, "-c", OPENER, str(tmp_path)],
+            stdin=subprocess.PIPE, stdout=subprocess.PIPE, text=True,
+        )
+        for _ in range(2)
+    ]  # fmt: skip
+    for number in range(40):
+        for child in children:
+            assert child.stdout is not None
+            while (line := child.stdout.readline()) and line.strip() != str(number):
+                pass
+        for child in children:
+            assert child.stdin is not None
+            child.stdin.write("go\n")
+            child.stdin.flush()
+    for child in children:
+        child.communicate(timeout=60)
+    assert [child.returncode for child in children] == [0, 0]
+
+
 def test_two_processes_that_write_at_once_lose_nothing(tmp_path: Path) -> None:
     path = tmp_path / "memory.db"
     children = [

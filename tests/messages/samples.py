@@ -251,6 +251,7 @@ SAMPLES: dict[type[BaseModel], dict[str, Any]] = {
         "node": "Move_0",
         "result": "on_true",
         "outputs": {"x": {"pvf_type": "number", "pvf_value": 1.0}},
+        "number": 7,
         "answers": "2",
         "message": "it did not work",
         "command": "modify",

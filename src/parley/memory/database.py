@@ -9,6 +9,7 @@ from __future__ import annotations
 
 import asyncio
 import sqlite3
+import threading
 from collections.abc import Callable
 from concurrent.futures import ThreadPoolExecutor
 from pathlib import Path
@@ -26,6 +27,9 @@ log = structlog.get_logger(__name__)
 
 _BUSY_TIMEOUT_S = 5.0
 """How long a change waits for another process that is writing."""
+_WAL_RETRY_S = 0.02
+_WAL_TRIES = 250
+"""Together as long as `_BUSY_TIMEOUT_S`."""
 
 
 class Database:
@@ -110,7 +114,7 @@ def _connect(path: Path | str, prepare: Callable[[sqlite3.Connection], None]) ->
     # Only the one thread uses the connection after it is made, but which that is SQLite need not know.
     connection = sqlite3.connect(path, timeout=_BUSY_TIMEOUT_S, isolation_level=None, check_same_thread=False)
     try:
-        connection.execute("PRAGMA journal_mode = WAL")
+        _use_wal(connection)
         # What is acknowledged must survive a power cut too.
         connection.execute("PRAGMA synchronous = FULL")
         prepare(connection)
@@ -121,6 +125,19 @@ def _connect(path: Path | str, prepare: Callable[[sqlite3.Connection], None]) ->
         connection.close()
         raise
     return connection
+
+
+def _use_wal(connection: sqlite3.Connection) -> None:
+    """Switch to the write-ahead log; SQLite itself does not wait where two processes do so at once."""
+    for _ in range(_WAL_TRIES):
+        try:
+            connection.execute("PRAGMA journal_mode = WAL")
+            return
+        except sqlite3.OperationalError as error:
+            if error.sqlite_errorcode & 0xFF != sqlite3.SQLITE_BUSY:
+                raise
+        threading.Event().wait(_WAL_RETRY_S)
+    connection.execute("PRAGMA journal_mode = WAL")
 
 
 class _DamagedError(sqlite3.DatabaseError):
