@@ -10,7 +10,7 @@ from parley.errors import GraphRefusedError, Problem
 from parley.messages.pvf import Parameter
 from parley.umrf.action import ActionSpec
 from parley.umrf.catalogue import Catalogue
-from parley.umrf.check import check
+from parley.umrf.check import check, reasons
 from parley.umrf.io import read_graph
 from parley.umrf.resolve import resolve
 
@@ -189,3 +189,16 @@ def test_resolving_refuses_with_all_problems_and_merges_defaults() -> None:
     assert error.value.graph_name == "g"
     resolved = resolve(read_graph(two()), CATALOGUE, actor="A")
     assert resolved.specs["SameText_1"].name == "SameText"
+
+
+def test_a_value_that_cannot_be_read_does_not_hide_what_else_is_wrong() -> None:
+    graph = two(name="Unheard")
+    graph["actions"][0]["input_parameters"]["left"]["pvf_value"] = 5
+    with pytest.raises(GraphRefusedError) as refused:
+        read_graph(graph)
+    told = reasons(refused.value, CATALOGUE, actor="A")
+    assert [(problem.path, problem.code) for problem in told] == [
+        ("actions[0].input_parameters.left.pvf_value", "malformed"),
+        ("graph_exit[0]", "missing_node"),
+        ("actions[1].name", "unknown_action"),
+    ]

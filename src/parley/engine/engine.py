@@ -38,7 +38,7 @@ from parley.robots.base import Robot
 from parley.transport.base import Publisher, Transport
 from parley.umrf.action import RunHandle
 from parley.umrf.catalogue import Catalogue
-from parley.umrf.check import vouch_steps
+from parley.umrf.check import reasons, vouch_steps
 from parley.umrf.executor import STOP_TIMEOUT_S, GraphRun
 from parley.umrf.io import read_steps, write_descriptor, write_graph
 from parley.umrf.model import Graph, Result
@@ -274,7 +274,8 @@ class ActionEngine:
         try:
             yield from steps
         except GraphRefusedError as error:
-            self._reject(what, error.graph_name or name, error.problems)
+            problems = reasons(error, self._catalogue, actor=self.actor)
+            self._reject(what, error.graph_name or name, problems)
 
     def start(
         self,

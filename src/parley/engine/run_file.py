@@ -11,7 +11,7 @@ from parley.errors import GraphRefusedError, Problem
 from parley.files import read_text
 from parley.umrf.action import RunHandle
 from parley.umrf.catalogue import Catalogue
-from parley.umrf.check import check
+from parley.umrf.check import check, reasons
 from parley.umrf.executor import GraphRun
 from parley.umrf.io import read_graph
 from parley.umrf.model import Graph, Result
@@ -39,7 +39,7 @@ def check_file(path: Path, catalogue: Catalogue, actor: str = "") -> list[Proble
     try:
         return check(read_graph_file(path), catalogue, actor=actor)
     except GraphRefusedError as error:
-        return list(error.problems)
+        return reasons(error, catalogue, actor=actor)
 
 
 async def run_graph(

@@ -10,15 +10,19 @@ from collections import Counter
 from collections.abc import Collection, Generator, Iterator, Sequence
 from dataclasses import replace
 
-from parley.errors import Problem
+from parley.errors import GraphRefusedError, Problem
 from parley.messages.pvf import SEPARATOR, Parameter, Parameters
 from parley.umrf.action import ActionSpec
 from parley.umrf.catalogue import Catalogue
 from parley.umrf.graph_index import GraphSpec, given_name
+from parley.umrf.io import UnreadableGraphError
 from parley.umrf.model import ENTRY, EXIT, ChildRelation, Graph, Node, NodeRef, ParentRelation
 from parley.umrf.reading import SLICE
 
-__all__ = ["check", "vouch_steps"]
+__all__ = ["check", "reasons", "vouch_steps"]
+
+_OF_NAMES = frozenset({"unknown_action", "not_capable", "reserved_name", "duplicate_node"})
+"""Codes of problems that no value can have caused."""
 
 
 def check(
@@ -41,6 +45,21 @@ def check(
     """
     steps = _Checker(graph, catalogue, actor, known_actors, given).problems()
     return [problem for problem in steps if problem is not None]
+
+
+def reasons(error: GraphRefusedError, catalogue: Catalogue, *, actor: str = "") -> list[Problem]:
+    """Why a graph was refused; of one that could not be read also what is wrong with names in the rest of it.
+
+    What hangs on values is left out, as those that could not be read would seem to be missing. So is whether
+    other actors are there, which is for whoever starts the graph to find out.
+    """
+    problems = list(error.problems)
+    if isinstance(error, UnreadableGraphError) and error.readable is not None:
+        places = {problem.path for problem in problems}
+        actors = {node.actor for node in error.readable.nodes}
+        further = check(error.readable, catalogue, actor=actor, known_actors=actors)
+        problems += [item for item in further if item.code in _OF_NAMES and item.path not in places]
+    return problems
 
 
 def vouch_steps(graph: Graph, catalogue: Catalogue, *, actor: str) -> Generator[None, None, bool]:

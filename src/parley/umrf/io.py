@@ -8,13 +8,13 @@ use the `faithful` one, which reads back to the same graph.
 from __future__ import annotations
 
 import json
-from collections.abc import Generator, Mapping
+from collections.abc import Generator, Mapping, Sequence
 from dataclasses import fields, replace
 from json.encoder import encode_basestring
 from operator import attrgetter
 from typing import Any, Final
 
-from parley.errors import GraphRefusedError
+from parley.errors import GraphRefusedError, Problem
 from parley.messages.pvf import SEPARATOR, Parameters, write_parameters
 from parley.umrf.action import ActionSpec
 from parley.umrf.model import (
@@ -31,6 +31,7 @@ from parley.umrf.reading import Reader, in_one_go, load_object
 
 __all__ = [
     "GraphWriter",
+    "UnreadableGraphError",
     "dump",
     "graph_to_json",
     "node_to_json",
@@ -47,6 +48,18 @@ _TEXTS: Final = ("phrases", "examples", "effects", "capabilities")
 _TIMES: Final = ("duration_s", "timeout_s")
 
 
+class UnreadableGraphError(GraphRefusedError):
+    """A graph that cannot be read as it stands.
+
+    Attributes:
+        readable: What could be read of it, for whoever looks for further problems; None if hardly anything.
+    """
+
+    def __init__(self, graph_name: str, problems: Sequence[Problem], readable: Graph | None) -> None:
+        self.readable = readable
+        super().__init__(graph_name, problems)
+
+
 def read_graph(source: str | Mapping[str, Any]) -> Graph:
     """Read a graph from JSON text or an object that was parsed already.
 
@@ -60,13 +73,13 @@ def read_steps(raw: Mapping[str, Any]) -> Generator[None, None, Graph]:
     """Read a graph from an object that `load_object` gave, yielding now and then.
 
     Raises:
-        GraphRefusedError: With every problem and where it is.
+        UnreadableGraphError: With every problem and where it is.
     """
     reader = Reader()
     graph = yield from reader.graph(raw)
     if graph is None or reader.problems:
         name = raw.get("graph_name")
-        raise GraphRefusedError(name if isinstance(name, str) else "", reader.problems)
+        raise UnreadableGraphError(name if isinstance(name, str) else "", reader.problems, graph)
     return graph
 
 
