@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import asyncio
+from abc import abstractmethod
 from collections.abc import Callable, Sequence
 from dataclasses import dataclass
 from typing import Literal
@@ -58,9 +59,9 @@ class PlanSender(Node):
         super().__init__(transport)
         self._patience = patience
 
+    @abstractmethod
     def _speaks_parley(self, target: str) -> bool:
         """Whether the robot's engine is one of ours; override."""
-        raise NotImplementedError
 
     def _send(self, plan: TargetPlan, effects: Sequence[Effect]) -> None:
         """Send all of it, then the plan as it is now; override for the latter."""

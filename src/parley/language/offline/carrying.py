@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from abc import abstractmethod
 from dataclasses import dataclass, replace
 
 from parley.language.offline.commands import Command
@@ -113,9 +114,9 @@ class Carrying(Looking):
         self.scene.mention(recipient)
         self.scene.mention(theme)
 
+    @abstractmethod
     def _lead(self, command: Command) -> None:
         """Lead somebody somewhere."""
-        raise NotImplementedError
 
     def _fetched_by_action(self, command: Command) -> bool:
         """Let an action that brings things from wherever they are do it, if nobody knows where they are."""

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from abc import abstractmethod
 from dataclasses import dataclass, replace
 
 from parley.language.offline.clauses import Clause
@@ -151,9 +152,9 @@ class Doing(Meaning):
             steps[start] = steps[start].model_copy(update={"flow": Flow(together_with=start - 1)})
             self.tasks.will[-1] = f"{self.tasks.will[-1]} at the same time"
 
+    @abstractmethod
     def _clause(self, clause: Clause, *, alone: bool, index: int) -> None:
         """Read one clause; what reads whole messages says how."""
-        raise NotImplementedError
 
 
 def _without_times(command: Command) -> Command:
