@@ -404,6 +404,16 @@ asyncio.run(main())
 """
 
 
+@pytest.mark.skipif(sys.platform == "win32", reason="rights are given otherwise there")
+async def test_only_its_owner_can_read_the_file(tmp_path: Path) -> None:
+    def rights() -> set[int]:
+        return {file.stat().st_mode & 0o777 for file in tmp_path.iterdir()}
+
+    async with await MemoryStore.open(tmp_path / "memory.db") as store:
+        await fill(store, box="by the door")
+        assert rights() == {0o600}
+
+
 OPENER = """
 import asyncio, sys
 from parley.memory.store import MemoryStore

@@ -111,6 +111,8 @@ class Database:
 def _connect(path: Path | str, prepare: Callable[[sqlite3.Connection], None]) -> sqlite3.Connection:
     if str(path) != ":memory:":
         Path(path).parent.mkdir(parents=True, exist_ok=True)
+        # What people said is nobody else's business; SQLite gives the files beside it the same rights.
+        Path(path).touch(mode=0o600, exist_ok=True)
     # Only the one thread uses the connection after it is made, but which that is SQLite need not know.
     connection = sqlite3.connect(path, timeout=_BUSY_TIMEOUT_S, isolation_level=None, check_same_thread=False)
     try:
