@@ -16,11 +16,13 @@ from pydantic_core import to_json
 from parley.errors import InvalidMessageError
 from parley.messages.chat import ChatAction
 from parley.messages.ros import String
+from parley.messages.status import PlanProposal, PlanUpdate
 
 __all__ = [
     "MAX_MESSAGE_CHARS",
     "MAX_NESTING",
     "decode",
+    "decode_plan",
     "encode",
     "load_json",
     "to_string",
@@ -34,6 +36,17 @@ MAX_NESTING = 100
 
 MAX_MESSAGE_CHARS = 32 * 1024 * 1024
 """Larger texts are refused unread: the largest honest message is a raw picture."""
+
+
+def decode_plan(text: str) -> PlanUpdate | PlanProposal:
+    """A message of the plan topic by its `kind`; any other kind is an update, whose check names the fault.
+
+    Raises:
+        InvalidMessageError: It is neither; names the field.
+    """
+    value = load_json("Plan", text)
+    is_proposal = isinstance(value, dict) and value.get("kind") == "proposal"
+    return decode(PlanProposal, text) if is_proposal else decode(PlanUpdate, text)
 
 
 def encode(payload: BaseModel) -> str:

@@ -19,14 +19,12 @@ from parley.messages.status import (
     ActorStatus,
     GraphEvent,
     PlanDecision,
-    PlanProposal,
-    PlanUpdate,
     Rejection,
     StopCommand,
     StopReport,
 )
 from parley.messages.topics import Topic
-from parley.messages.wire import decode, encode, load_json, to_string
+from parley.messages.wire import decode, decode_plan, encode, to_string
 from parley.terminal.lines import Line
 from parley.terminal.view import OperatorView
 from parley.transport.base import Publisher, Transport
@@ -70,7 +68,7 @@ class Link:
         view = self._view
         await self._listen(topics.CHAT_FEEDBACK, _reader(ChatFeedback), view.on_feedback)
         await self._listen(topics.REPLY_DRAFT, _reader(ReplyDraft), view.on_draft)
-        await self._listen(topics.PLAN, _read_plan, view.on_plan)
+        await self._listen(topics.PLAN, decode_plan, view.on_plan)
         await self._listen(topics.GRAPH_EVENTS, _reader(GraphEvent), view.on_event)
         await self._listen(topics.ACTOR_STATUS, _reader(ActorStatus), self._on_status)
         await self._listen(topics.STOP_REPORT, _reader(StopReport), view.on_stop_report)
@@ -123,10 +121,3 @@ _SENT: dict[type[BaseModel], Topic[String]] = {
 
 def _reader(kind: type[P]) -> Callable[[str], P]:
     return lambda text: decode(kind, text)
-
-
-def _read_plan(text: str) -> PlanUpdate | PlanProposal:
-    """A message of the plan topic by its `kind`; any other kind is an update, whose check names the fault."""
-    value = load_json("Plan", text)
-    is_proposal = isinstance(value, dict) and value.get("kind") == "proposal"
-    return decode(PlanProposal, text) if is_proposal else decode(PlanUpdate, text)

@@ -22,14 +22,12 @@ from parley.messages.status import (
     ActorStatus,
     GraphEvent,
     PlanDecision,
-    PlanProposal,
-    PlanUpdate,
     Rejection,
     StopCommand,
     StopReport,
 )
 from parley.messages.topics import Service, Topic
-from parley.messages.wire import decode, encode, load_json, to_string
+from parley.messages.wire import decode, decode_plan, encode, load_json, to_string
 from parley.transport.base import Publisher, Transport
 from parley.umrf.io import read_graph
 from parley.web.state import WebState
@@ -111,7 +109,7 @@ class Link:
         await self._listen(
             topics.REPLY_DRAFT, _reader(ReplyDraft), lambda m: state.chat.on_draft(m, unix_ms=now_ms())
         )
-        await self._listen(topics.PLAN, _read_plan, state.on_plan)
+        await self._listen(topics.PLAN, decode_plan, state.on_plan)
         await self._listen(topics.PLAN_DECISION, _reader(PlanDecision), state.plans.on_decision)
         await self._listen(topics.GRAPH_EVENTS, _reader(GraphEvent), state.on_event)
         feedback = await self.transport.subscribe(topics.GRAPH_FEEDBACK, self._on_feedback, depth=1000)
@@ -264,10 +262,3 @@ async def _cancel(task: asyncio.Task[None]) -> None:
 
 def _reader(kind: type[P]) -> Callable[[str], P]:
     return lambda text: decode(kind, text)
-
-
-def _read_plan(text: str) -> PlanUpdate | PlanProposal:
-    """A message of the plan topic by its `kind`; any other kind is an update, whose check names the fault."""
-    value = load_json("Plan", text)
-    is_proposal = isinstance(value, dict) and value.get("kind") == "proposal"
-    return decode(PlanProposal, text) if is_proposal else decode(PlanUpdate, text)
