@@ -12,10 +12,14 @@ from parley.language.base import (
     ReplyReading,
     Situation,
 )
-from parley.language.offline import grounding, interpreter, pictures, recall, recovery, replies
-from parley.language.offline.asides import about_failure
-from parley.language.offline.explaining import Decision, Trace
-from parley.language.offline.reordering import instead_of_answer
+from parley.language.offline import interpreter
+from parley.language.offline.facts import recall
+from parley.language.offline.repair import recovery, replies
+from parley.language.offline.repair.asides import about_failure
+from parley.language.offline.repair.reordering import instead_of_answer
+from parley.language.offline.scene import grounding
+from parley.language.offline.tasks import pictures
+from parley.language.offline.words.explaining import Decision, Trace
 from parley.messages.chat import ChatAction
 from parley.messages.memory import MemoryEntry
 from parley.robots.base import CameraImage

@@ -7,21 +7,22 @@ from dataclasses import replace
 
 from parley.language.base import Situation
 from parley.language.control import control_of
-from parley.language.offline import addressing, social
-from parley.language.offline.changing import CONTROL_REPLIES
-from parley.language.offline.courtesy import plainly
-from parley.language.offline.explaining import Trace
-from parley.language.offline.facts import strip_openers
-from parley.language.offline.followup import declines, pending_request
-from parley.language.offline.grounding import ground_phrase
-from parley.language.offline.lexicon import lexicon
-from parley.language.offline.mending import mended
-from parley.language.offline.protocols import protocol_memory, read_protocol
+from parley.language.offline.dialogue import addressing
+from parley.language.offline.dialogue.followup import declines, pending_request
+from parley.language.offline.facts.facts import strip_openers
+from parley.language.offline.facts.protocols import protocol_memory, read_protocol
+from parley.language.offline.plan_changes.changing import CONTROL_REPLIES
 from parley.language.offline.reader import Reader
-from parley.language.offline.saying import listing
-from parley.language.offline.scene import Scene
-from parley.language.offline.spoken import orders_among_talk
-from parley.language.offline.text import Phrase, keys, plain, tokens
+from parley.language.offline.scene.grounding import ground_phrase
+from parley.language.offline.scene.scene import Scene
+from parley.language.offline.sentences.spoken import orders_among_talk
+from parley.language.offline.words import social
+from parley.language.offline.words.courtesy import plainly
+from parley.language.offline.words.explaining import Trace
+from parley.language.offline.words.lexicon import lexicon
+from parley.language.offline.words.mending import mended
+from parley.language.offline.words.saying import listing
+from parley.language.offline.words.text import Phrase, keys, plain, tokens
 from parley.messages.chat import ChatAction, SystemCommand
 
 __all__ = ["interpret"]

@@ -5,31 +5,31 @@ from __future__ import annotations
 from collections.abc import Sequence
 from dataclasses import dataclass, replace
 
-from parley.language.offline import social
-from parley.language.offline.abilities import abilities, cannot
-from parley.language.offline.asked import asked
-from parley.language.offline.catalogue import call
-from parley.language.offline.clauses import Clause, clauses, opens_command
-from parley.language.offline.commands import Command, read_command
-from parley.language.offline.constructions import recast
-from parley.language.offline.durations import duration_s
-from parley.language.offline.edits import several_steps
-from parley.language.offline.facts import read_statement, strip_openers
-from parley.language.offline.keeping import kept_part, restarts
-from parley.language.offline.lexicon import lexicon
-from parley.language.offline.nouns import noun_phrase
-from parley.language.offline.recalling import Recalling
-from parley.language.offline.repeating import counted_times, repetition, without_recurrence
-from parley.language.offline.replanning import inserted, read_replanning
-from parley.language.offline.restated import as_added, restated
-from parley.language.offline.rewording import reworded
-from parley.language.offline.saying import the, whole_sentence
-from parley.language.offline.scene import UnclearError
-from parley.language.offline.spoken import spoken
-from parley.language.offline.stories import mentioned, told_around
-from parley.language.offline.subsets import with_exception_behind
-from parley.language.offline.tasks import UnableError
-from parley.language.offline.text import Phrase, Word, keys, plain, split_name, tokens
+from parley.language.offline.dialogue.asked import asked
+from parley.language.offline.facts.facts import read_statement, strip_openers
+from parley.language.offline.facts.recalling import Recalling
+from parley.language.offline.facts.stories import mentioned, told_around
+from parley.language.offline.plan_changes.edits import several_steps
+from parley.language.offline.plan_changes.keeping import kept_part, restarts
+from parley.language.offline.plan_changes.repeating import counted_times, repetition, without_recurrence
+from parley.language.offline.plan_changes.replanning import inserted, read_replanning
+from parley.language.offline.plan_changes.restated import as_added, restated
+from parley.language.offline.scene.scene import UnclearError
+from parley.language.offline.scene.subsets import with_exception_behind
+from parley.language.offline.sentences.clauses import Clause, clauses, opens_command
+from parley.language.offline.sentences.constructions import recast
+from parley.language.offline.sentences.rewording import reworded
+from parley.language.offline.sentences.spoken import spoken
+from parley.language.offline.tasks.abilities import abilities, cannot
+from parley.language.offline.tasks.catalogue import call
+from parley.language.offline.tasks.commands import Command, read_command
+from parley.language.offline.tasks.tasks import UnableError
+from parley.language.offline.words import social
+from parley.language.offline.words.durations import duration_s
+from parley.language.offline.words.lexicon import lexicon
+from parley.language.offline.words.nouns import noun_phrase
+from parley.language.offline.words.saying import the, whole_sentence
+from parley.language.offline.words.text import Phrase, Word, keys, plain, split_name, tokens
 from parley.messages.chat import ActionCall, ChatAction, SystemCommand
 
 __all__ = ["Reader"]

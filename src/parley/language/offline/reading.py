@@ -5,11 +5,11 @@ from __future__ import annotations
 from collections.abc import Sequence
 from dataclasses import dataclass, field
 
-from parley.language.offline.clauses import Clause
-from parley.language.offline.commands import Command
-from parley.language.offline.meeting import Meeting
-from parley.language.offline.noting import Noting
-from parley.language.offline.text import Phrase
+from parley.language.offline.facts.noting import Noting
+from parley.language.offline.sentences.clauses import Clause
+from parley.language.offline.tasks.commands import Command
+from parley.language.offline.tasks.meeting import Meeting
+from parley.language.offline.words.text import Phrase
 
 __all__ = ["Reading"]
 

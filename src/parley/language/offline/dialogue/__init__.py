@@ -1,0 +1,1 @@
+"""Which robot is meant, questions and their answers, and answers to our own questions."""

@@ -1,0 +1,114 @@
+"""Answers to questions that Parley asked about a message: they complete that message."""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from dataclasses import dataclass
+
+from parley.language.base import Situation, Turn
+from parley.language.offline.facts.facts import read_statement, strip_openers
+from parley.language.offline.repair.replies import agrees
+from parley.language.offline.sentences.clauses import clauses, opens_command
+from parley.language.offline.words import social
+from parley.language.offline.words.lexicon import lexicon
+from parley.language.offline.words.text import Phrase, keys, plain, tokens
+
+__all__ = ["Request", "declines", "pending_request"]
+
+_ASKING_BACK = (
+    "which one do you mean",
+    "where is",
+    "where are you",
+    "do you mean",
+    "what should i",
+    "where should i",
+    "shall i",
+    "tell me where",
+    "who do you mean",
+    "what do you mean",
+    "please name",
+    "which",
+)
+_LONGEST_ANSWER = 14
+
+
+@dataclass(frozen=True, slots=True)
+class Request:
+    """An earlier message with the answers that complete it."""
+
+    message: str
+    hints: tuple[str, ...] = ()
+    history: tuple[Turn, ...] = ()
+    """What was said before that message."""
+    declined: bool = False
+
+
+def pending_request(words: Phrase, situation: Situation) -> Request | None:
+    """The message that was asked about, if `words` answer the question."""
+    history = situation.history
+    if not history or not _asks(history[-1]) or not _is_answer(words, history[-1]):
+        return None
+    hints = [plain(words)]
+    at = len(history) - 1
+    while at > 0 and _asks(history[at]):
+        at -= 1
+        turn = history[at]
+        if turn.role != "operator":
+            return None
+        if at > 0 and _asks(history[at - 1]) and _is_answer(tokens(turn.content), history[at - 1]):
+            hints.insert(0, turn.content)
+            at -= 1
+            continue
+        declined = agrees(plain(words)) is False and len(words) <= 4
+        return Request(turn.content, _unchained(hints), history[:at], declined)
+    return None
+
+
+def declines(message: str, situation: Situation) -> bool:
+    """Whether a message says no to a question that was just asked."""
+    asked = bool(situation.history) and _asks(situation.history[-1])
+    return asked and agrees(message) is False
+
+
+def _unchained(hints: Sequence[str]) -> tuple[str, ...]:
+    return tuple(hints)
+
+
+def _asks(turn: Turn) -> bool:
+    text = turn.content.lower()
+    return (
+        turn.role == "assistant"
+        and ("?" in text[-140:] or "tell me where" in text)
+        and any(q in text for q in _ASKING_BACK)
+    )
+
+
+def _is_answer(words: Phrase, question: Turn) -> bool:
+    """A fragment, a yes or no, or a place; a new order or question is none."""
+    parts = clauses(words, opens_command)
+    if (
+        len(parts) > 1
+        and agrees(plain(words)) is not True
+        and opens_command(parts[-1].words)
+        and "one" not in keys(parts[-1].words)
+    ):
+        # "Forget it, go to the box": a new order.
+        return False
+    words = tuple(word for word in words if word.is_word)
+    if not words or len(words) > _LONGEST_ANSWER:
+        return False
+    flat = keys(strip_openers(words))
+    if agrees(plain(words)) is not None and len(words) <= 5:
+        return True
+    if flat[0] in lexicon().question_starts or social.reply(words) is not None:
+        return False
+    asked_where = any(
+        text in question.content.lower()
+        for text in ("where is", "where are", "where should", "tell me where")
+    )
+    if asked_where and read_statement(words) is not None:
+        return True
+    if opens_command(words):
+        # "Go to the small one" answers "which one?" as well as "the small one" does.
+        return "one" in flat and flat[0] in {"go", "take", "use"}
+    return read_statement(words) is None or flat[0] in {"it", "he", "she", "they", "i"}

@@ -1,0 +1,148 @@
+"""Questions about the robot itself: what it can do, does, plans, knows and where it is."""
+
+from __future__ import annotations
+
+from collections.abc import Callable
+
+from parley.language.offline.facts.remembering import Remembered, find_fact
+from parley.language.offline.scene.grounding import describe, ground_phrase
+from parley.language.offline.scene.scene import Scene
+from parley.language.offline.tasks.abilities import abilities
+from parley.language.offline.words.nouns import bare, noun_phrase
+from parley.language.offline.words.saying import listing, the, whole_sentence
+from parley.language.offline.words.text import Phrase, keys, plain, split_name
+from parley.messages.chat import ActionCall
+
+__all__ = ["ABOUT_ITSELF", "step_words", "told_about"]
+
+
+def _say_abilities(scene: Scene, _: Phrase) -> str:
+    return abilities(scene)
+
+
+def _say_status(scene: Scene, _: Phrase) -> str:
+    situation = scene.situation
+    if not situation.queue:
+        return (
+            "I am waiting for your instructions."
+            if situation.status != "paused"
+            else "I am standing still; say “carry on” when I may go on."
+        )
+    now = step_words(situation.queue[0])
+    if situation.status == "paused":
+        return f"I am paused. Next I would {now}."
+    rest = f" After that I have {len(situation.queue) - 1} more to do." if len(situation.queue) > 1 else ""
+    return f"I am at this step: {now}.{rest}"
+
+
+def _say_left(scene: Scene, _: Phrase) -> str:
+    queue = scene.situation.queue
+    if not queue:
+        return "Nothing is left to do. I am waiting for your instructions."
+    steps = [step_words(step) for step in queue]
+    return f"{len(steps)} {'step is' if len(steps) == 1 else 'steps are'} left: {listing(steps, 'and then')}."
+
+
+def _say_where(scene: Scene, _: Phrase) -> str:
+    pose = scene.situation.robot_pose
+    if pose is None:
+        return "I do not know where I am."
+    near = sorted(scene.objects, key=lambda item: (item.x_m - pose.x_m) ** 2 + (item.y_m - pose.y_m) ** 2)
+    nearest = f" The nearest thing I know is {the(describe(near[0], scene.objects))}." if near else ""
+    return f"I am at x {pose.x_m:.1f} m, y {pose.y_m:.1f} m on the map.{nearest}"
+
+
+def _say_name(scene: Scene, _: Phrase) -> str:
+    name = scene.situation.robot
+    return (
+        f"I am {name}, a robot that you can talk to. {abilities(scene)}"
+        if name
+        else f"I am a robot that you can talk to. {abilities(scene)}"
+    )
+
+
+def _say_objects(scene: Scene, _: Phrase) -> str:
+    if not scene.objects:
+        return "I know no objects: my map has none."
+    names = [the(describe(item, scene.objects)) for item in scene.objects]
+    shown = names[:30]
+    more = f" and {len(names) - 30} more" if len(names) > 30 else ""
+    return f"On my map are {listing(shown) if not more else ', '.join(shown)}{more}."
+
+
+def _say_memory(scene: Scene, rest: Phrase) -> str:
+    about = bare(rest)
+    while (
+        about
+        and about[0].key
+        in {"about", "of", "regarding", "on", "now", "so", "far", "i", "told", "you", "concerning"}
+        and len(about) > 1
+    ):
+        about = bare(about[1:])
+    if not about or keys(about)[0] in {
+        "about",
+        "of",
+        "everything",
+        "anything",
+        "so",
+        "now",
+        "far",
+        "i",
+        "all",
+    }:
+        if not scene.situation.memory:
+            return "You have not told me anything to remember yet."
+        return "I remember: " + " ".join(
+            whole_sentence(entry.data[:200] if entry.type == "text" else entry.info)
+            for entry in scene.situation.memory[-20:]
+        )
+    about = scene.referent(about)
+    found = told_about(about, scene)
+    for item in found:
+        scene.use(item)
+    if found:
+        return " ".join(whole_sentence(item.fact.sentence) for item in found)
+    on_map = ground_phrase(about, scene.objects)
+    if on_map.outcome != "none":
+        names = listing([the(describe(item, scene.objects)) for item in on_map.candidates])
+        return f"I know {names} on the map, and nothing else about it."
+    return f"I do not know anything about {the(plain(about))}. Tell me, and I will remember it."
+
+
+def told_about(about: Phrase, scene: Scene) -> list[Remembered]:
+    """Facts of which something is the subject or the place."""
+    fact, several = find_fact(about, scene.facts, locations=False)
+    direct = [fact] if fact is not None else several
+    names = {item.entry.name for item in direct}
+    wanted = set(noun_phrase(about).core)
+    related = [
+        i
+        for i in scene.facts
+        if i.entry.name not in names and wanted and wanted <= set(noun_phrase(i.fact.place).core)
+    ]
+    return [*direct, *related]
+
+
+def _say_robots(scene: Scene, _: Phrase) -> str:
+    robots = scene.situation.robots or ((scene.situation.robot,) if scene.situation.robot else ())
+    return f"The robots here are {listing(list(robots))}." if robots else "I do not know of any other robots."
+
+
+ABOUT_ITSELF: dict[str, Callable[[Scene, Phrase], str]] = {
+    "ability": _say_abilities,
+    "status": _say_status,
+    "left": _say_left,
+    "objects": _say_objects,
+    "memory": _say_memory,
+    "self": _say_where,
+    "name": _say_name,
+    "robots": _say_robots,
+}
+
+
+def step_words(step: ActionCall) -> str:
+    """A step in words."""
+    if step.reason:
+        return step.reason
+    values = [str(p.value) for p in step.input_parameters.values() if isinstance(p.value, str)]
+    return " ".join([*split_name(step.name), *values])

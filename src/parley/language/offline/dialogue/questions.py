@@ -1,0 +1,483 @@
+"""Questions: about abilities, places, memory, plan and state, answered at once and without acting."""
+
+from __future__ import annotations
+
+from functools import cache
+
+from parley.language.offline.dialogue import about_map
+from parley.language.offline.dialogue.about_map import Answer
+from parley.language.offline.dialogue.asked import asked
+from parley.language.offline.dialogue.own_state import ABOUT_ITSELF, told_about
+from parley.language.offline.facts.facts import strip_openers
+from parley.language.offline.facts.remembering import find_fact
+from parley.language.offline.scene.grounding import describe, ground_phrase
+from parley.language.offline.scene.scene import Scene
+from parley.language.offline.sentences.clauses import Clause, opens_command
+from parley.language.offline.tasks.abilities import abilities, cannot
+from parley.language.offline.words.lexicon import lexicon
+from parley.language.offline.words.nouns import bare, noun_phrase
+from parley.language.offline.words.saying import a, capital, listing, the, whole_sentence
+from parley.language.offline.words.text import Phrase, Word, keys, lemma, plain, singular, tokens
+from parley.language.word_lists import load_data
+from parley.messages.chat import ActionCall
+
+__all__ = ["Answer", "answer"]
+
+
+@cache
+def _starts(kind: str) -> tuple[tuple[str, ...], ...]:
+    """The word sequences with which questions of a kind begin, longest first."""
+    return tuple(
+        sorted((tuple(text.split()) for text in load_data("questions")[kind]), key=len, reverse=True)
+    )
+
+
+_ALSO_WRAPPED = ("left", "memory", "status", "objects")
+"""Kinds of questions that need no question word behind "tell me" and the like."""
+
+
+_ASKED_ABOUT = frozenset({"you", "i", "we", "they", "he", "she", "it"})
+
+
+def answer(clause: Clause, scene: Scene) -> Answer | None:
+    """The answer if the clause is a question, else None.
+
+    Raises:
+        UnclearError: It can be read in several ways.
+    """
+    words = strip_openers(clause.words)
+    words = tuple(word for word in words if word.is_word)
+    words, wrapped = _unwrapped(words)
+    if wrapped and _to_be_done(keys(words), keys(clause.words), scene):
+        return None
+    flat = keys(words)
+    if not flat:
+        return None
+    text = " ".join(flat)
+    if text in {"help", "help me", "i need help", "can you help me", "could you help me", "i need your help"}:
+        return Answer(abilities(scene))
+    if " ".join(flat[:4]).startswith(
+        ("what do you see", "what can you see", "what you see", "what you find")
+    ):
+        return None
+    question = (
+        clause.is_question
+        or flat[0] in lexicon().question_starts
+        or flat[0] in lexicon().be
+        or flat[0] in {"do", "did", "have", "has", "does"}
+        or wrapped
+    )
+    if not question:
+        return None
+    marked = clause.is_question
+    ready = (_planned(flat, scene) or _able(words, flat, scene)) if marked else None
+    ready = ready or asked(words, flat, scene)
+    if ready is not None:
+        return ready
+    for kind, reply in ABOUT_ITSELF.items():
+        for start in _starts(kind):
+            if _begins(flat, start):
+                return Answer(reply(scene, words[len(start) :]))
+    for reader in (
+        _does,
+        about_map.attribute,
+        about_map.which,
+        about_map.how_far,
+        _where,
+        _what_in,
+        _how_many,
+        _who,
+        _whether,
+    ):
+        found = reader(words, flat, scene, marked or wrapped)
+        if found is not None:
+            return found
+    return about_map.told(words, flat, scene, marked or wrapped) or _open_question(words, clause.is_question)
+
+
+def _to_be_done(asked: tuple[str, ...], said: tuple[str, ...], scene: Scene) -> bool:
+    """For "tell me how many boxes there are in A", "say what day it is": an order for an action."""
+    catalogue = scene.catalogue
+    if said[:1] == ("say",) and catalogue.with_role("speak") is not None:
+        return True
+    counted = asked[:2] == ("how", "many") and catalogue.with_role("count") is not None
+    return counted and len(asked) > 3 and asked[2] not in {"robots", "steps"}
+
+
+def _planned(flat: tuple[str, ...], scene: Scene) -> Answer | None:
+    """For "will you go to the box?", "are you going to inspect it?": about the plan, if it says so."""
+    start = next((s for s in _WILL if flat[: len(s)] == s), ())
+    if not start or not scene.situation.queue or "please" in flat:
+        return None
+    names = [item.lower() for step in scene.situation.queue for item in _values(step)]
+    said = f" {' '.join(flat[len(start) :])} "
+    if any(f" {name} " in said for name in names):
+        return Answer(f"Yes, {said.strip()} is part of the plan.")
+    return None
+
+
+_WILL = (
+    ("will", "you"),
+    ("are", "you", "going", "to"),
+    ("do", "you", "still", "plan", "to"),
+    ("do", "you", "plan", "to"),
+)
+
+
+def _values(step: ActionCall) -> list[str]:
+    return [p.value for p in step.input_parameters.values() if isinstance(p.value, str)]
+
+
+_ABLE = (
+    ("are", "you", "able", "to"),
+    ("can", "you"),
+    ("could", "you"),
+    ("do", "you", "know", "how", "to"),
+    ("are", "you", "capable", "of"),
+)
+_GENERIC = frozenset(
+    [
+        "thing",
+        "object",
+        "something",
+        "stuff",
+        "people",
+        "person",
+        "item",
+        "place",
+        "anything",
+        "someone",
+        "somebody",
+        "around",
+    ]
+)
+
+
+def _able(words: Phrase, flat: tuple[str, ...], scene: Scene) -> Answer | None:
+    """For "can you carry things?", "are you able to drive?": about abilities, not about doing it now."""
+    size = next((len(start) for start in _ABLE if flat[: len(start)] == start), 0)
+    if not size or size >= len(flat):
+        return None
+    base = (lemma(flat[size]), *flat[size + 1 :])
+    found = lexicon().verbs.match(base)
+    rest = flat[size + found[0] :] if found is not None else ()
+    if found is None:
+        return None
+    asks = flat[:size] not in {("can", "you"), ("could", "you")}
+    own = scene.catalogue.for_verb(base[0]) or scene.catalogue.by_description(base)
+    if asks and found[1].startswith("other:") and own is None:
+        return Answer(cannot(plain((Word(base[0], base[0]), *words[size + 1 :])), scene))
+    if any(singular(word) not in _GENERIC for word in rest):
+        return None
+    kind = found[1].partition(":")[0]
+    said = plain((Word(base[0], base[0]), *words[size + 1 :]))
+    roles = {"whether": {"look"}, "transfer": {"fetch", "grasp", "ask_operator"}, "back": {"motion"}}.get(
+        kind, {kind}
+    )
+    if scene.catalogue.with_role(*sorted(roles)) is not None or scene.catalogue.for_verb(base[0]) is not None:
+        return Answer(f"Yes, I can {said}. {abilities(scene)}")
+    return None if kind in {"look", "search", "motion"} and not rest else Answer(cannot(said, scene))
+
+
+def _unwrapped(words: Phrase) -> tuple[Phrase, bool]:
+    flat = keys(words)
+    for wrapper in _starts("wrappers"):
+        rest = words[len(wrapper) :]
+        if flat[: len(wrapper)] == wrapper and rest:
+            lead = keys(rest)[0]
+            asked = (
+                lead in lexicon().question_starts
+                or lead in {"about", "your", "everything", "all", "if", "whether"}
+                or any(_begins(keys(rest), start) for kind in _ALSO_WRAPPED for start in _starts(kind))
+            )
+            if asked and not (
+                lead in {"if", "whether"} or (lead in {"all", "everything"} and wrapper[0] == "show")
+            ):
+                return rest, True
+    return words, False
+
+
+def _begins(flat: tuple[str, ...], start: tuple[str, ...]) -> bool:
+    if start[-1] == "left" and flat[len(start) : len(start) + 1] == ("of",):
+        # "What is left of the door?" is about the door.
+        return False
+    if start[-1] == "next" and flat[len(start) : len(start) + 1] == ("to",):
+        # "What is next to the door?" is about the door.
+        return False
+    if (len(start) == 2 and start[0] in {"the", "your"}) or start[0] in {
+        "all",
+        "next",
+        "remaining",
+        "pending",
+        "current",
+        "everything",
+    }:
+        return flat[: len(start)] == start and len(flat) <= len(start) + 3
+    return flat[: len(start)] == start
+
+
+def _open_question(words: Phrase, marked: bool) -> Answer | None:
+    flat = keys(words)
+    if (
+        flat[0] in {"do", "does", "did", "have", "has", "are"}
+        and flat[1:2]
+        and (flat[1] in _ASKED_ABOUT or (marked and flat[0] in {"does", "did", "has"}))
+        and flat[1:3] != ("you", "mind")
+    ):
+        return Answer("I do not know that. Tell me, and I will remember it.")
+    if flat[0] in lexicon().question_starts and not (flat[0] == "when" and not marked):
+        if flat[1:2] == ("about",) or opens_command(words):
+            # "Why don't you go to ..." asks for it.
+            return None
+        return Answer("I do not know that. Tell me, and I will remember it.")
+    return None
+
+
+def _where(words: Phrase, flat: tuple[str, ...], scene: Scene, _: bool) -> Answer | None:
+    """For "Where is X?", "where can I find X?", "have you seen X?"."""
+    if flat[0] == "where":
+        rest = words[1:]
+        while len(rest) > 1 and rest[0].key in lexicon().be | lexicon().auxiliaries | {
+            "i",
+            "find",
+            "you",
+            "we",
+            "see",
+            "to",
+            "exactly",
+            "put",
+            "get",
+            "keep",
+            "leave",
+            "store",
+            "place",
+            "hide",
+            "last",
+        }:
+            rest = rest[1:]
+    elif flat[:3] in {("have", "you", "seen"), ("did", "you", "see"), ("what", "room", "is")}:
+        rest = words[3:]
+    elif flat[:1] in {("which",), ("what",)} and flat[1:2] in {("room",), ("place",)} and "is" in flat:
+        rest = words[flat.index("is") + 1 :]
+    else:
+        return None
+    about = bare(rest)
+    while len(about) > 1 and about[-1].key in lexicon().be | lexicon().location_verbs | {"now", "in", "at"}:
+        about = bare(about[:-1])
+    need = lexicon().need_phrases.get(" ".join(keys(about)))
+    about = tokens(need) if need else scene.referent(about)
+    fact, several = find_fact(about, scene.facts)
+    hits = [fact] if fact is not None else several
+    for item in hits:
+        scene.use(item)
+    scene.mention(bare(about))
+    if hits:
+        return Answer(" ".join(whole_sentence(item.fact.sentence) for item in hits))
+    denied = next(
+        (f for f in scene.facts if f.fact.negated and keys(f.fact.subject) == keys(bare(about))), None
+    )
+    if denied is not None and not hits:
+        scene.use(denied)
+        return Answer(f"I only know this: {whole_sentence(denied.fact.sentence)}")
+    named = len(about) == 1 and about[0].is_capital
+    found = ground_phrase(about, scene.objects, scene.situation.robot_pose, strict=named)
+    if found.outcome == "match":
+        thing = found.candidates[0]
+        name = capital(the(describe(thing, scene.objects)))
+        return Answer(f"{name} is on my map at x {thing.x_m:.1f} m, y {thing.y_m:.1f} m.")
+    if found.outcome == "ambiguous":
+        names = listing([the(describe(i, scene.objects)) for i in found.candidates])
+        return Answer(f"I know several on my map: {names}.")
+    return Answer(f"I do not know where {the(plain(about))} is. Tell me and I will remember it.")
+
+
+def _what_in(words: Phrase, flat: tuple[str, ...], scene: Scene, _: bool) -> Answer | None:
+    """For "What is in X?", "who is on X?": the remembered facts about that place."""
+    if flat[0] not in {"what", "who"} or len(flat) < 4 or flat[1] not in lexicon().be:
+        return None
+    at = 3 if flat[2] in lexicon().location_verbs | {"there"} else 2
+    found = lexicon().places.match(flat, at)
+    if found is None:
+        return None
+    place = bare(words[at + found[0] :])
+    wanted = set(noun_phrase(place).core)
+    hits = [
+        f
+        for f in scene.facts
+        if f.fact.is_location
+        and not f.fact.negated
+        and wanted
+        and wanted <= set(noun_phrase(f.fact.place).core)
+        and (flat[0] != "who" or scene.is_person(f.fact.subject))
+    ]
+    for item in hits:
+        scene.use(item)
+    if hits:
+        return Answer(" ".join(whole_sentence(item.fact.sentence) for item in hits))
+    if ground_phrase(place, scene.objects).outcome != "none":
+        ask = f"I do not know what is {found[1]} {the(plain(place))}. Shall I go there and have a look?"
+        return Answer(ask, (Word("at", "at"), *place))
+    return Answer(f"I do not know what is {found[1]} {the(plain(place))}. Tell me and I will remember it.")
+
+
+def _how_many(words: Phrase, flat: tuple[str, ...], scene: Scene, _: bool) -> Answer | None:
+    start = 2 if flat[:2] == ("how", "many") else 1
+    owned = next(
+        (i for i in range(2, len(flat)) if flat[i].endswith("'s") and flat[i - 1] in lexicon().be), 0
+    )
+    if start == 1 and owned and flat[0] in {"which", "what"}:
+        item = scene.told_apart((words[owned], *words[1 : owned - 1]))
+        if item is not None:
+            return Answer(f"It is {the(describe(item, scene.objects))}.")
+    if len(flat) < 3 or (
+        start == 1 and (flat[0] not in {"which", "what"} or flat[1] in lexicon().be | lexicon().auxiliaries)
+    ):
+        return None
+    end = next((i for i in range(start + 1, len(flat)) if flat[i] in lexicon().be | {"do", "can"}), len(flat))
+    about = bare(words[start:end])
+    found = ground_phrase(about, scene.objects) if about else None
+    where = noun_phrase(words[start:]) if start == 2 else None
+    unknown = found is None or found.outcome == "none"
+    placed = where is not None and bool(where.core) and len(where.anchors) == 1 and where.relation != "of"
+    if where is not None and placed and unknown:
+        anchor = where.anchors[0]
+        if ground_phrase(anchor, scene.objects).outcome == "match":
+            text = f"I do not know. Shall I go to {the(plain(anchor))} and have a look?"
+            return Answer(text, (*about, *tokens(where.relation), *anchor), counts=True)
+    if found is None or found.outcome == "none":
+        return Answer(f"I do not know of any {plain(about)}.") if start == 2 else None
+    names = listing([the(describe(item, scene.objects)) for item in found.candidates])
+    return Answer(f"I know {len(found.candidates)} on my map: {names}.")
+
+
+def _who(words: Phrase, flat: tuple[str, ...], scene: Scene, _: bool) -> Answer | None:
+    if flat[:2] not in {("who", "is"), ("what", "is"), ("what", "are"), ("who", "are")} or len(flat) < 3:
+        return None
+    about = bare(words[2:])
+    found = told_about(about, scene)
+    for item in found:
+        scene.use(item)
+    if found:
+        return Answer(" ".join(whole_sentence(item.fact.sentence) for item in found))
+    return Answer(f"I do not know anything about {the(plain(about))}. Tell me, and I will remember it.")
+
+
+def _whether(words: Phrase, flat: tuple[str, ...], scene: Scene, asked: bool) -> Answer | None:
+    """For "Is there an X in the Y?", "is the X open?": from memory, else looking is offered."""
+    if flat[0] not in lexicon().be or len(flat) < 3 or flat[1] == "you" or (not asked and flat[1] != "there"):
+        return None
+    words = tuple(
+        word for word in words if word.key not in {"still", "already", "really", "currently", "now"}
+    )
+    flat = keys(words)
+    if len(flat) < 3:
+        return None
+    if flat[1] in lexicon().thing_pronouns | lexicon().person_pronouns and (scene.things or scene.persons):
+        words = (words[0], *bare(scene.referent(words[1:2])), *words[2:])
+        flat = keys(words)
+    while len(words) > 3 and words[-1].key in {"somewhere", "anywhere", "here", "around", "left"}:
+        words = words[:-1]
+        flat = keys(words)
+    there = flat[1] == "there"
+    rest = words[2:] if there else words[1:]
+    noun = noun_phrase(rest)
+    cut = _cut(rest, noun.relation)
+    subject = bare(rest[:cut])
+    place = noun.anchors[0] if noun.anchors else ()
+    told = find_fact(subject, scene.facts)[0] if subject and place else None
+    if not there and (told is None or keys(told.fact.subject) != keys(subject)):
+        about = _grounded_prefix(rest, scene)
+        if about and about < len(rest) and lexicon().places.match(keys(rest), about) is None:
+            return _state(rest, scene, words)
+    fact, _ = find_fact(subject, scene.facts) if subject else (None, [])
+    if fact is not None and (there or place):
+        scene.use(fact)
+        same = not place or set(noun_phrase(place).core) <= set(noun_phrase(fact.fact.place).core)
+        return Answer(("Yes: " if same else "As far as I know, no: ") + whole_sentence(fact.fact.sentence))
+    denied = next((f for f in scene.facts if f.fact.negated and keys(f.fact.subject) == keys(subject)), None)
+    if (
+        denied is not None
+        and place
+        and set(noun_phrase(place).core) <= set(noun_phrase(denied.fact.place).core)
+    ):
+        scene.use(denied)
+        return Answer(f"As far as I know, no: {whole_sentence(denied.fact.sentence)}")
+    if place and ground_phrase(place, scene.objects).outcome != "none":
+        return Answer(
+            f"I do not know. Shall I go to {the(plain(place))} and have a look?", _statement(there, words)
+        )
+    known = ground_phrase(subject, scene.objects) if subject else None
+    if there and known is not None and known.outcome != "none" and not place:
+        return Answer(f"Yes, I know {listing([a(describe(i, scene.objects)) for i in known.candidates])}.")
+    if not there:
+        return _state(rest, scene, words)
+    return Answer(
+        f"I do not know of {a(plain(subject))}{' there' if place else ''}. Tell me if there is one."
+    )
+
+
+def _state(rest: Phrase, scene: Scene, words: Phrase) -> Answer:
+    """For "Is the X open?"."""
+    size = _grounded_prefix(rest, scene)
+    for cut in (size, len(rest) - 1):
+        known, _ = find_fact(bare(rest[:cut]), scene.facts, locations=False) if cut > 0 else (None, [])
+        if known is None or known.fact.is_location or not keys(known.fact.state):
+            continue
+        if keys(known.fact.subject) != keys(bare(rest[:cut])):
+            continue
+        asked, told = set(keys(rest[cut:])), set(keys(known.fact.state))
+        if asked & told:
+            scene.use(known)
+            agrees_ = (asked <= told) and not known.fact.negated
+            return Answer(
+                ("Yes: " if agrees_ else "As far as I know, no: ") + whole_sentence(known.fact.sentence)
+            )
+    if size:
+        turned = (*rest[:size], words[0], *rest[size:])
+        return Answer(
+            f"I do not know. Shall I go to {the(plain(bare(rest[:size])))} and have a look?", turned
+        )
+    fact, _ = find_fact(bare(rest[:-1]) or rest, scene.facts, locations=False)
+    if fact is not None:
+        scene.use(fact)
+        return Answer("I remember: " + whole_sentence(fact.fact.sentence))
+    return Answer("I do not know that. Tell me, and I will remember it.")
+
+
+def _does(words: Phrase, flat: tuple[str, ...], scene: Scene, asked: bool) -> Answer | None:
+    """For "does the box need paint?", "do the lamps work?": only looking can tell."""
+    if flat[0] not in {"does", "do", "did", "has", "have"} or not asked or len(flat) < 3:
+        return None
+    rest = words[1:]
+    size = _grounded_prefix(rest, scene)
+    if not size or lexicon().places.match(keys(rest), size) is not None:
+        return None
+    verb = rest[size]
+    third = f"{verb.key}es" if verb.key.endswith(("s", "sh", "ch", "x")) else f"{verb.key}s"
+    said = (words[0], *rest[size:]) if flat[0] in {"has", "have"} else (Word(third, third), *rest[size + 1 :])
+    return Answer(
+        f"I do not know. Shall I go to {the(plain(bare(rest[:size])))} and have a look?",
+        (*rest[:size], *said),
+    )
+
+
+def _grounded_prefix(rest: Phrase, scene: Scene) -> int:
+    """How many of the first words name one object of the map; 0 if none do."""
+    for size in range(len(rest) - 1, 0, -1):
+        if ground_phrase(rest[:size], scene.objects).outcome == "match":
+            return size
+    return 0
+
+
+def _statement(there: bool, words: Phrase) -> Phrase:
+    """The question turned into what follows "whether"."""
+    if there:
+        return (words[1], words[0], *words[2:])
+    noun = noun_phrase(words[1:])
+    cut = _cut(words[1:], noun.relation)
+    return (*words[1 : 1 + cut], words[0], *words[1 + cut :])
+
+
+def _cut(words: Phrase, relation: str) -> int:
+    flat, wanted = keys(words), tuple(relation.split())
+    return next((i for i in range(len(flat)) if relation and flat[i : i + len(wanted)] == wanted), len(flat))

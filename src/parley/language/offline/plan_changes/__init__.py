@@ -1,0 +1,1 @@
+"""Changes of what is pending: dropping, keeping, moving, replacing, repeating."""

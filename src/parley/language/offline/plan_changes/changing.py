@@ -1,0 +1,162 @@
+"""Corrections, refusals and changes of the plan in one message."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass, replace
+
+from parley.language.control import control_of
+from parley.language.offline.facts.facts import read_statement, strip_openers
+from parley.language.offline.plan_changes import edits
+from parley.language.offline.plan_changes.replanning import visit_of, without
+from parley.language.offline.reading import Reading
+from parley.language.offline.sentences.clauses import Clause, opens_command
+from parley.language.offline.tasks.commands import Command
+from parley.language.offline.words.lexicon import lexicon
+from parley.language.offline.words.nouns import bare, coordinated
+from parley.language.offline.words.saying import whole_sentence
+from parley.language.offline.words.text import Phrase, keys, lemma, plain
+from parley.messages.chat import CommandName, SystemCommand
+
+__all__ = ["CONTROL_REPLIES", "Changing"]
+
+CONTROL_REPLIES: dict[str, tuple[CommandName, str]] = {
+    "stop": ("stop", "I stop here and wait. Say “carry on” when I may go on."),
+    "emergency_stop": ("stop", "I stop at once."),
+    "start": ("start", "I carry on."),
+    "skip": ("skip", "I leave this step out."),
+    "clear": ("clear", "I cancel everything that was planned."),
+}
+
+
+_NOTHING_ELSE = frozenset(
+    {("the", "rest"), ("the", "others"), ("everything", "else"), ("all", "others"), ("all", "the", "others")}
+)
+
+
+@dataclass
+class Changing(Reading):
+    """How a message takes back or changes what was asked for."""
+
+    def _corrected(self, clause: Clause) -> Clause:
+        """For "... I mean the desk": what the clause before it asked for is taken back."""
+        found = lexicon().corrections.match(keys(clause.words))
+        further = lexicon().corrections.match(keys(clause.words), found[0]) if found is not None else None
+        if found is not None and further is not None:
+            # "Actually, make it the box".
+            found = found[0] + further[0], further[1]
+        if found is not None and self.last is None and self._previous is not None:
+            return self._corrected_before(clause, found[0])
+        if (
+            found is None
+            or self.last is None
+            or found[0] >= len(clause.words)
+            or found[1] in {"no longer", "not any more"}
+        ):
+            return clause
+        if read_statement(clause.words[found[0] :]) is not None:
+            return clause
+        steps, will = self._before_last
+        del self.tasks.steps[steps:]
+        del self.tasks.will[will:]
+        self.tasks.here = ""
+        return replace(clause, words=clause.words[found[0] :])
+
+    def _corrected_before(self, clause: Clause, size: int) -> Clause:
+        """For "I meant the desk", said of the message before: what is still pending of it is taken back."""
+        if clause.words[0].key == "wrong" and self._at < len(self._parts) - 1:
+            # "Wrong box, I meant ...": what is right follows.
+            return replace(clause, words=())
+        rest = clause.words[size:]
+        previous = self._previous
+        if previous is None or not rest or read_statement(rest) is not None or opens_command(rest):
+            return clause
+        if self.scene.ground(rest).outcome == "none":
+            return clause
+        self.last = previous
+        at = visit_of(previous.place or previous.theme, self.scene)
+        if at is not None:
+            self.commands.extend(without(at, self.scene).commands)
+        return replace(clause, words=rest)
+
+    def _instead(self, clause: Clause) -> Clause:
+        """For "Instead of the desk go to the box": pending steps about the desk are dropped."""
+        flat = keys(clause.words)
+        at = next((i for i in range(len(flat) - 2) if flat[i : i + 2] == ("instead", "of")), -1)
+        if at < 0:
+            return clause
+        rest = clause.words[at + 2 :]
+        end = (
+            len(rest)
+            if at
+            else next(
+                (i for i in range(1, len(rest)) if opens_command(rest[i:]) or rest[i].key == ","), len(rest)
+            )
+        )
+        refused = Command("motion", "go", True, place=bare(rest[:end]), clause=rest[:end])
+        for index in reversed(edits.steps_of(refused, self.scene)):
+            self.commands.append(SystemCommand(command="pop", arguments={"parameters": index}))
+        return replace(clause, words=clause.words[:at] if at else rest[end:])
+
+    def _dropped(self, words: Phrase) -> edits.Edit | None:
+        """For "drop the box", "forget about the box" with a visit to the box pending."""
+        words = strip_openers(words, requests=True)
+        verb = edits.drop_verb(words)
+        if not verb or verb >= len(words) or not self.scene.situation.queue:
+            return None
+        rest = edits.of_plan(bare(words[verb:]))
+        if {"inspect", "inspection", "inspecting", "look", "looking", "check", "checking"} & set(keys(rest)):
+            return None
+        at = visit_of(rest, self.scene)
+        if at is None and "and" in keys(rest):
+            found = [visit_of(part, self.scene) for part in coordinated(rest)]
+            listed = [index for index in found if index is not None]
+            if len(listed) == len(found) > 1:
+                parts = [without(index, self.scene) for index in sorted(listed, reverse=True)]
+                pops = tuple(command for part in parts for command in part.commands)
+                return edits.Edit(pops, f"I leave out {plain(rest)}.")
+        return None if at is None else without(at, self.scene)
+
+    def _order(self, clause: Clause, alone: bool, index: int) -> bool:
+        """Stop words among other clauses, and changes of the plan."""
+        words = strip_openers(clause.words)
+        control = None if clause.is_question else control_of(plain(words))
+        if control is not None:
+            if control == "start" and not alone:
+                return True
+            if control == "stop" and not alone:
+                # "Stop and go to the desk": the new order takes the place of the old ones. Elsewhere ("go to
+                # the desk and wait there") standing still is what the robot does anyway.
+                if index or keys(words)[0] not in {"stop", "halt"}:
+                    return True
+                control = "clear"
+            command, reply = CONTROL_REPLIES[control]
+            self._command_once(SystemCommand(command=command), reply)
+            return True
+        verb = edits.drop_verb(words)
+        if verb and self.tasks.steps and keys(words[verb:]) in _NOTHING_ELSE:
+            self.replies.append("I leave out the rest.")
+            return True
+        edit = self._dropped(words) or edits.read_edit(words, self.scene)
+        if edit is not None:
+            self.scene.trace.note("edit", edit.reply)
+            self.commands.extend(edit.commands)
+            self.replies.append(edit.reply)
+            return True
+        return False
+
+    def _do_not(self, command: Command) -> None:
+        for phrase in (command.place, command.theme):
+            self.scene.mention(bare(phrase))
+            if phrase:
+                self.scene.places.append(bare(phrase))
+        words = " ".join([lemma(command.clause[0].key), plain(command.clause[1:])]).strip()
+        dropped = edits.steps_of(command, self.scene)
+        self.commands.extend(
+            SystemCommand(command="pop", arguments={"parameters": i}) for i in reversed(dropped)
+        )
+        self.replies.append(whole_sentence(f"All right, I will not {words}"))
+
+    def _command_once(self, command: SystemCommand, reply: str) -> None:
+        if command not in self.commands:
+            self.commands.append(command)
+            self.replies.append(reply)

@@ -1,0 +1,386 @@
+"""Changes of the plan and of memory: dropping steps, forgetting."""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from dataclasses import dataclass
+
+from parley.language.offline.facts.facts import read_statement, strip_openers
+from parley.language.offline.facts.remembering import Remembered, find_fact
+from parley.language.offline.scene.scene import Scene, UnclearError
+from parley.language.offline.tasks.commands import Command
+from parley.language.offline.words.lexicon import lexicon
+from parley.language.offline.words.nouns import bare
+from parley.language.offline.words.saying import listing, the, whole_sentence
+from parley.language.offline.words.text import Phrase, Word, keys, lemma, plain, singular, split_name, tokens
+from parley.messages.chat import ActionCall, SystemCommand
+
+__all__ = ["Edit", "drop_verb", "of_plan", "read_edit", "several_steps", "steps_of"]
+
+_STEP_WORDS = frozenset(
+    {"step", "action", "task", "item", "stop", "one", "order", "command", "part", "thing", "waypoint"}
+)
+_FORGET_STARTS = (
+    ("forget",),
+    ("do", "not", "remember"),
+    ("delete",),
+    ("remove",),
+    ("erase",),
+    ("unlearn",),
+    ("clear",),
+    ("wipe",),
+)
+
+
+@dataclass(frozen=True, slots=True)
+class Edit:
+    """What changes, and what is said about it."""
+
+    commands: tuple[SystemCommand, ...]
+    reply: str
+    queue: tuple[ActionCall, ...] = ()
+    """Pending steps that were taken out and are put back in another order."""
+
+
+def read_edit(words: Phrase, scene: Scene) -> Edit | None:
+    """A change of plan or memory that a clause asks for, or None."""
+    words = strip_openers(words, requests=True)
+    words = tuple(word for word in words if word.is_word)
+    return _drop(words, scene) or _forget(words, scene)
+
+
+def _drop(words: Phrase, scene: Scene) -> Edit | None:
+    size = drop_verb(words)
+    if not size or size >= len(words):
+        return None
+    first = lemma(words[0].key)
+    rest = keys(of_plan(bare(words[size:])))
+    several = _last_ones(rest, scene)
+    if several is not None:
+        return several
+    index = _step_index(rest, len(scene.situation.queue))
+    if index is None:
+        index = _named_step(rest, scene.situation.queue, first)
+    if index is None:
+        return None
+    if scene.situation.queue and index >= len(scene.situation.queue):
+        return Edit(
+            (), f"There are only {len(scene.situation.queue)} steps left, so there is no step {index + 1}."
+        )
+    if not scene.situation.queue:
+        return Edit((), "There is nothing planned that I could leave out.")
+    dropped = _said(scene.situation.queue[index])
+    return Edit(
+        (SystemCommand(command="pop", arguments={"parameters": index}),),
+        f"I leave out step {index + 1}: {dropped}.",
+    )
+
+
+def several_steps(words: Phrase, scene: Scene) -> Edit | None:
+    """For "skip the second and third step", said as a whole message."""
+    words = tuple(word for word in strip_openers(words, requests=True) if word.is_word)
+    size = drop_verb(words)
+    return _last_ones(keys(of_plan(bare(words[size:]))), scene) if size and size < len(words) else None
+
+
+def _last_ones(rest: tuple[str, ...], scene: Scene) -> Edit | None:
+    """For "drop the last two (steps)", "drop the first three", "drop steps 2 and 3"."""
+    lex, count = lexicon(), len(scene.situation.queue)
+    numbers = [int(w) if w.isdigit() else lex.numbers.get(w, lex.ordinals.get(w, 0)) for w in rest]
+    if len(rest) in {2, 3} and rest[0] in {"last", "final", "first", "next"} and numbers[1] > 1:
+        if rest[2:] and singular(rest[2]) not in _STEP_WORDS:
+            return None
+        size = min(numbers[1], count)
+        start = {"first": 0, "next": min(1, count)}.get(rest[0], count - size)
+        indices = list(range(start, min(start + size, count)))
+    elif (rest and singular(rest[0]) in _STEP_WORDS and "and" in rest) or (
+        rest[-1:] in {("steps",), ("step",)} and "and" in rest
+    ):
+        indices = sorted({number - 1 for number in numbers if 0 < number <= count})
+        if len(indices) < 2:
+            return None
+    else:
+        return None
+    if not indices:
+        return Edit((), "There is nothing planned that I could leave out.")
+    pops = tuple(SystemCommand(command="pop", arguments={"parameters": i}) for i in reversed(indices))
+    said = [_said(scene.situation.queue[i]) for i in indices]
+    return Edit(pops, f"I leave out {listing(said)}.")
+
+
+def drop_verb(words: Phrase) -> int:
+    """How many words at the start ask for something to be left out; 0 if they do not."""
+    flat = keys(words)
+    if not flat:
+        return 0
+    verbs = lexicon().verb_classes["drop_step"]
+    first = lemma(flat[0])
+    return next((n for n in (3, 2, 1) if " ".join((first, *flat[1:n])) in verbs and n <= len(flat)), 0)
+
+
+def of_plan(phrase: Phrase) -> Phrase:
+    """Without "from the plan" and the like at the end."""
+    while len(phrase) > 3 and _is_plan(keys(phrase[-3:])):
+        phrase = phrase[:-3]
+    return phrase
+
+
+def _is_plan(end: tuple[str, ...]) -> bool:
+    prepositions, plans = (
+        {"of", "from", "in", "on"},
+        {"plan", "queue", "list", "route", "mission", "tour", "schedule"},
+    )
+    return end[0] in prepositions and end[1] in {"the", "your"} and end[2] in plans
+
+
+def _step_index(rest: tuple[str, ...], count: int) -> int | None:
+    """The 0-based place of "the second step", "step 3", "number two", "the last one", "the next step"."""
+    lex = lexicon()
+    if not rest or not (
+        set(rest) & _STEP_WORDS
+        or (
+            len(rest) <= 2
+            and (rest[0] in {"number"} or rest[-1] in lex.ordinals or rest[-1] in {"last", "next"})
+        )
+    ):
+        return None
+    if len(rest) > 4:
+        return None
+    for word in rest:
+        if word in lex.ordinals:
+            return lex.ordinals[word] - 1
+        if word.isdigit():
+            return int(word) - 1
+        if word in lex.numbers and (word != "one" or rest[-2:] in {("step", "one"), ("number", "one")}):
+            return lex.numbers[word] - 1
+    if "last" in rest or "final" in rest:
+        return max(count - 1, 0)
+    if "next" in rest or "following" in rest:
+        return 1
+    return None
+
+
+def _named_step(rest: tuple[str, ...], queue: Sequence[ActionCall], verb: str) -> int | None:
+    """For "Drop the inspection", "cancel going to the door": the one step whose name or words say so."""
+    if verb == "forget" or not rest:
+        return None
+    wanted = (
+        {singular(lemma(word)) for word in rest}
+        - lexicon().determiners
+        - {"part", "step", "to", "go", "at", "of", "trip", "visit"}
+    )
+    hits = []
+    for index, step in enumerate(queue):
+        words = {singular(lemma(word)) for word in (*split_name(step.name), *step.reason.lower().split())}
+        for parameter in step.input_parameters.values():
+            if isinstance(parameter.value, str):
+                words.update(singular(word.key) for word in tokens(parameter.value))
+        words |= {"inspection"} if words & {"inspect", "look"} else set()
+        if wanted and wanted <= words:
+            hits.append(index)
+    return hits[-1] if len(hits) == 1 else None
+
+
+def _said(step: ActionCall) -> str:
+    return step.reason or " ".join(split_name(step.name))
+
+
+def steps_of(command: Command, scene: Scene) -> list[int]:
+    """Pending steps that do what is forbidden, ascending; the one being executed is left alone."""
+    target = plain(bare(command.place or command.theme)).lower()
+    if not target:
+        return []
+    hits: list[int] = []
+    for index, step in enumerate(scene.situation.queue):
+        said = [p.value.lower() for p in step.input_parameters.values() if isinstance(p.value, str)]
+        wanted = any(target in text or text in target for text in said if text)
+        roles = [scene.catalogue.roles(info) for info in scene.catalogue.infos if info.name == step.name]
+        carries_on = (
+            bool(hits)
+            and hits[-1] == index - 1
+            and not said
+            and command.kind == "motion"
+            and any("motion" in r for r in roles)
+        )
+        looks = any(r & {"look", "search"} for r in roles)
+        if index and (carries_on or (wanted and looks == (command.kind != "motion"))):
+            hits.append(index)
+    return hits
+
+
+def _forget(words: Phrase, scene: Scene) -> Edit | None:
+    flat = keys(words)
+    untrue = _untrue(words)
+    if untrue:
+        return _forget_about(untrue, scene)
+    start = next((s for s in _FORGET_STARTS if flat[: len(s)] == s), None)
+    if start is None or len(flat) == len(start):
+        return None
+    strong = start in {("forget",), ("do", "not", "remember"), ("unlearn",)} or {
+        "memory",
+        "memories",
+        "remember",
+        "told",
+        "know",
+    } & set(flat)
+    if not strong:
+        return None
+    if (
+        flat[len(start) :]
+        in {
+            ("all", "that"),
+            ("it", "all"),
+            ("all", "of", "it"),
+            ("all", "of", "that"),
+            ("the", "plan"),
+            ("all", "this"),
+        }
+        and scene.situation.queue
+    ):
+        return Edit((SystemCommand(command="clear"),), "I cancel everything that was planned.")
+    rest = words[len(start) :]
+    while (
+        rest
+        and rest[0].key
+        in {
+            "about",
+            "what",
+            "i",
+            "told",
+            "you",
+            "said",
+            "know",
+            "ever",
+            "where",
+            "that",
+            "everything",
+            "all",
+            "the",
+            "fact",
+            "memory",
+            "of",
+            "just",
+            "who",
+            "when",
+            "how",
+            "memories",
+            "thing",
+            "things",
+            "stuff",
+            "news",
+            "my",
+            "is",
+            "are",
+        }
+        and len(rest) > 1
+    ):
+        rest = rest[1:]
+    about = bare(rest)
+    drop_tail = {"is", "are", "was", "anymore", "memory", "please", "said"}
+    while about and about[-1].key in drop_tail and len(about) > 1:
+        about = about[:-1]
+    if keys(words[len(start) :]) in {("your", "memory"), ("your", "whole", "memory"), ("the", "memory")}:
+        about = (Word("memories", "memories"),)
+    everything = {"everything", "all"} & set(keys(words[len(start) : len(start) + 2]))
+    said_only = set(keys(words[len(start) :])) <= lexicon().told
+    if (everything and said_only) or keys(about)[-1:] == ("memories",):
+        names = [entry.name for entry in scene.situation.memory]
+        return Edit(
+            tuple(_remove(name) for name in names),
+            "I have forgotten everything you told me." if names else "There is nothing to forget.",
+        )
+    if not about or keys(about)[0] in {"that", "it", "this", "said", "told"}:
+        if flat[1:] in {("it",), ("that",)} and not _just_remembered(scene):
+            # "Forget it" gives up what was talked about; nothing that is known is lost.
+            return Edit((), "All right, I leave it.")
+        return _forget_last(scene)
+    return _forget_about(about, scene)
+
+
+def _untrue(words: Phrase) -> Phrase:
+    """For "what I told you about A is no longer true": A."""
+    flat = keys(words)
+    if "about" not in flat[:8] or not {"told", "said", "thing", "fact"} & set(flat[:5]):
+        return ()
+    at = flat.index("about")
+    link = next((i for i in range(at + 2, len(flat)) if flat[i] in lexicon().be), 0)
+    denied = set(flat[link:]) & {
+        "not",
+        "no",
+        "wrong",
+        "false",
+        "outdated",
+        "obsolete",
+        "incorrect",
+        "untrue",
+        "old",
+    }
+    return bare(words[at + 1 : link]) if link and denied else ()
+
+
+def _remove(name: str) -> SystemCommand:
+    return SystemCommand(command="remove_memory", arguments={"name": name})
+
+
+def _forget_last(scene: Scene) -> Edit:
+    """The newest fact, the one of the last message first of all."""
+    if not scene.situation.memory:
+        return Edit((), "There is nothing to forget.")
+    stated = _stated_last(scene)
+    if stated is not None:
+        return Edit(
+            (_remove(stated.entry.name),), f"I have forgotten: {whole_sentence(stated.fact.sentence[:200])}"
+        )
+    entry = max(enumerate(scene.situation.memory), key=lambda item: (item[1].updated_unix_ms, item[0]))[1]
+    return Edit((_remove(entry.name),), f"I have forgotten: {whole_sentence(entry.data[:200])}")
+
+
+def _stated_last(scene: Scene) -> Remembered | None:
+    """The remembered fact that the operator stated in the message before, if any."""
+    said = next((t.content for t in reversed(scene.situation.history) if t.role == "operator"), "")
+    for sentence in said.split(". "):
+        fact = read_statement(tokens(sentence))
+        if fact is not None:
+            return next(
+                (known for known in scene.facts if keys(known.fact.subject) == keys(fact.subject)), None
+            )
+    return None
+
+
+def _just_remembered(scene: Scene) -> bool:
+    """Whether what was said last was a fact, or the newest memory was what was answered."""
+    history, memory = scene.situation.history, scene.situation.memory
+    if not history:
+        return True
+    last = history[-1].content.lower()
+    newest = memory[-1].data.lower().strip(" .") if memory else ""
+    return "remember" in last or "noted" in last or (bool(newest) and newest in last)
+
+
+def _forget_about(about: Phrase, scene: Scene) -> Edit:
+    if len(about) == 1 and about[0].key in lexicon().person_pronouns:
+        about = scene.referent(about)
+    cut = next((i for i, word in enumerate(about) if word.key in lexicon().be and i), len(about))
+    fact, several = find_fact(about[:cut], scene.facts, locations=False)
+    hits = [fact] if fact is not None else several
+    if len({item.entry.name for item in hits}) > 1:
+        same = {keys(item.fact.subject) for item in hits}
+        if len(same) > 1:
+            raise UnclearError(
+                f"Which should I forget: {' or '.join(whole_sentence(h.fact.sentence)[:-1] for h in hits)}?",
+                [h.fact.sentence for h in hits],
+            )
+    if not hits:
+        by_name = [e for e in scene.situation.memory if set(keys(about)) <= set(split_name(e.name))]
+        if not by_name:
+            return Edit((), f"I do not remember anything about {the(plain(about))}.")
+        return Edit(
+            tuple(_remove(e.name) for e in by_name),
+            f"I have forgotten what you told me about {the(plain(about))}.",
+        )
+    subject = keys(hits[0].fact.subject)
+    names = dict.fromkeys(item.entry.name for item in scene.facts if keys(item.fact.subject) == subject)
+    return Edit(
+        tuple(_remove(name) for name in names),
+        f"I have forgotten what you told me about {the(plain(about[:cut]))}.",
+    )

@@ -1,0 +1,333 @@
+"""Changes of the order of what is pending: swapping, doing first, before or after something else, replacing.
+
+A plan can only be shortened and continued at its end, so a new order is: what changes is taken out, from its
+first step on, and put back in the new order.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from dataclasses import dataclass, replace
+
+from parley.language.control import control_of
+from parley.language.offline.facts.facts import strip_openers
+from parley.language.offline.plan_changes.edits import Edit, drop_verb
+from parley.language.offline.scene.grounding import describe
+from parley.language.offline.scene.scene import Scene
+from parley.language.offline.sentences.clauses import opens_command
+from parley.language.offline.tasks.catalogue import text_inputs
+from parley.language.offline.words.lexicon import lexicon
+from parley.language.offline.words.nouns import bare, noun_phrase
+from parley.language.offline.words.saying import listing, the
+from parley.language.offline.words.text import Phrase, keys, lemma, plain, singular, tokens
+from parley.messages.chat import ActionCall, SystemCommand
+
+__all__ = ["Visit", "inserted", "ordered", "read_replanning", "visit_of", "visits", "without"]
+
+
+@dataclass(frozen=True, slots=True)
+class Visit:
+    """Consecutive pending steps that belong together: finding, going to and looking at one thing."""
+
+    start: int
+    steps: tuple[ActionCall, ...]
+
+    @property
+    def names(self) -> tuple[str, ...]:
+        """The words its steps were given."""
+        values = (p.value for step in self.steps for p in step.input_parameters.values())
+        return tuple(value for value in values if isinstance(value, str) and value)
+
+
+def visits(scene: Scene) -> list[Visit]:
+    """The pending steps in groups."""
+    groups: list[list[ActionCall]] = []
+    starts: list[int] = []
+    for index, step in enumerate(scene.situation.queue):
+        info = scene.catalogue.get(step.name)
+        roles = scene.catalogue.roles(info) if info is not None else frozenset()
+        leads = "locate" in roles or ("motion" in roles and info is not None and bool(text_inputs(info)))
+        if leads or not groups:
+            groups.append([])
+            starts.append(index)
+        groups[-1].append(step)
+    return [Visit(start, tuple(group)) for start, group in zip(starts, groups, strict=True)]
+
+
+def visit_of(phrase: Phrase, scene: Scene) -> int | None:
+    """The place among the visits of the one that a phrase names; None if none or several do."""
+    listed = visits(scene)
+    words = bare(_noun(phrase))
+    if not words or not listed:
+        return None
+    flat = keys(words)
+    if flat[-1] in {"one", "visit", "stop", "place"} and (flat[0] in lexicon().ordinals or flat[0] == "last"):
+        index = len(listed) - 1 if flat[0] == "last" else lexicon().ordinals[flat[0]] - 1
+        return index if index < len(listed) else None
+    meant = scene.ground(words)
+    item = meant.candidates[0] if meant.outcome == "match" else None
+    wanted = {singular(word) for word in flat}
+    hits = [
+        index
+        for index, visit in enumerate(listed)
+        if any(
+            wanted <= {singular(word.key) for word in tokens(name)}
+            or (item is not None and name in {describe(item, scene.objects), item.id, item.description})
+            for name in visit.names
+        )
+    ]
+    return hits[0] if len(hits) == 1 else None
+
+
+def _noun(phrase: Phrase) -> Phrase:
+    """What is named, without the verb before it ("inspect the box", "going to the door")."""
+    words = strip_openers(phrase, requests=True)
+    flat = (lemma(words[0].key), *keys(words[1:])) if words else ()
+    found = lexicon().verbs.match(flat) or ((1, "do") if flat[:1] in {("do",), ("doing",)} else None)
+    rest = words[found[0] :] if found is not None and found[0] < len(words) else words
+    goal = lexicon().goals.match(keys(rest))
+    return rest[goal[0] :] if goal is not None and goal[0] < len(rest) else rest
+
+
+def read_replanning(words: Phrase, scene: Scene) -> Edit | None:
+    """A new order of the pending visits that a sentence asks for, or None."""
+    if len(scene.situation.queue) < 2 or len(words) > 24:
+        return None
+    words = tuple(word for word in strip_openers(words, requests=True) if word.is_word or word.key == ",")
+    return (
+        _cut_short(words, scene)
+        or _turned_round(words, scene)
+        or _swapped(words, scene)
+        or _relative(words, scene)
+        or _extreme(words, scene)
+        or _replaced(words, scene)
+    )
+
+
+def _cut_short(words: Phrase, scene: Scene) -> Edit | None:
+    """For "remove everything after A", with A pending."""
+    flat = keys(words)
+    size = drop_verb(words)
+    at = next((i for i in range(len(flat)) if flat[i] in {"before", "after"}), 0)
+    if not size or flat[size:at] not in {("everything",), ("all",), ("all", "steps"), ("everything", "else")}:
+        return None
+    anchor = visit_of(words[at + 1 :], scene)
+    if anchor is None:
+        return Edit((), f"{plain(words[at + 1 :])} is not in the plan, so I leave it as it is.")
+    listed = visits(scene)
+    gone = listed[anchor + 1 :] if flat[at] == "after" else listed[:anchor]
+    indices = [visit.start + i for visit in gone for i in range(len(visit.steps))]
+    return Edit(_pops(indices), f"I leave out everything {plain(words[at:])}.")
+
+
+_REVERSED = frozenset(
+    tuple(text.split())
+    for text in (
+        "reverse the order", "reverse the plan", "reverse it", "reverse everything", "do it in reverse",
+        "do it in reverse order", "the other way round", "do it the other way round", "turn the order around",
+        "do them in reverse order", "go in reverse order", "invert the order",
+    )
+)  # fmt: skip
+
+
+def _turned_round(words: Phrase, scene: Scene) -> Edit | None:
+    """For "reverse the order": what is being done now is finished first."""
+    if keys(words) not in _REVERSED:
+        return None
+    order = list(range(len(visits(scene))))
+    kept = 1 if scene.situation.status == "running" else 0
+    return ordered([*order[:kept], *order[kept:][::-1]], scene)
+
+
+def _swapped(words: Phrase, scene: Scene) -> Edit | None:
+    """For "swap A and B"."""
+    flat = keys(words)
+    size = next((len(v) for v in _SWAPS if flat[: len(v)] == v), 0)
+    joint = next((i for i in range(size + 1, len(flat) - 1) if flat[i] in {"and", "with", "for"}), 0)
+    if not size or not joint:
+        return None
+    first, second = visit_of(words[size:joint], scene), visit_of(words[joint + 1 :], scene)
+    if first is None or second is None or first == second:
+        return None
+    order = list(range(len(visits(scene))))
+    order[first], order[second] = order[second], order[first]
+    return ordered(order, scene)
+
+
+_SWAPS = (
+    ("change", "the", "order", "of"), ("switch", "the", "order", "of"), ("swap", "the", "order", "of"),
+    ("swap",), ("switch",), ("exchange",), ("reverse", "the", "order", "of"), ("reverse",),
+)  # fmt: skip
+
+
+def _relative(words: Phrase, scene: Scene) -> Edit | None:
+    """For "do A before B", "A after B", "before B do A", both pending."""
+    flat = keys(words)
+    at = next((i for i in range(len(flat)) if flat[i] in {"before", "after"}), -1)
+    if at < 0:
+        return None
+    if at == 0:
+        cut = _main_clause(words)
+        if not cut:
+            return None
+        moved, anchor = (
+            visit_of(words[cut + 1 :], scene),
+            visit_of(words[1 : cut + (words[cut].key != ",")], scene),
+        )
+    else:
+        moved, anchor = visit_of(words[:at], scene), visit_of(words[at + 1 :], scene)
+    if moved is None or anchor is None or moved == anchor:
+        return None
+    order = [index for index in range(len(visits(scene))) if index != moved]
+    order.insert(order.index(anchor) + (flat[at] == "after"), moved)
+    return ordered(order, scene)
+
+
+def _main_clause(words: Phrase) -> int:
+    """Where the main clause begins after "before A, ..."; 0 if nowhere."""
+    flat = keys(words)
+    comma = next((i for i in range(2, len(flat) - 1) if flat[i] == ","), 0)
+    return comma or next((i - 1 for i in range(2, len(flat) - 1) if opens_command(words[i:])), 0)
+
+
+def _extreme(words: Phrase, scene: Scene) -> Edit | None:
+    """For "do A first", "visit A last", "A next", with A pending."""
+    flat = keys(words)
+    while flat and flat[-1] in {"please", "now", ",", "instead"}:
+        flat = flat[:-1]
+    size = next((len(e) for e in _EXTREMES if flat[-len(e) :] == e), 0)
+    if not size or size >= len(flat):
+        return None
+    moved = visit_of(words[: len(flat) - size], scene)
+    if moved is None:
+        return None
+    order = [index for index in range(len(visits(scene))) if index != moved]
+    # What is being done now is finished first.
+    running = scene.situation.status == "running" and moved > 0
+    order.insert(len(order) if _EXTREMES[flat[-size:]] else int(running), moved)
+    return ordered(order, scene)
+
+
+_EXTREMES = {
+    ("first",): False, ("next",): False, ("first", "of", "all"): False, ("right", "after", "this"): False,
+    ("until", "last"): True, ("for", "last"): True, ("until", "the", "end"): True, ("to", "last"): True,
+    ("last",): True, ("at", "the", "end"): True, ("in", "the", "end"): True, ("to", "the", "end"): True,
+    ("last", "of", "all"): True, ("at", "the", "very", "end"): True,
+}  # fmt: skip
+
+
+def _replaced(words: Phrase, scene: Scene) -> Edit | None:
+    """For "replace A with B", "B instead of A", "not A, B", "B rather than A", with A pending."""
+    flat = keys(words)
+    old: Phrase = ()
+    new: Phrase = ()
+    if flat[:1] in {("replace",), ("substitute",), ("change",)}:
+        joint = next((i for i in range(2, len(flat) - 1) if flat[i] in {"with", "by", "to", "for"}), 0)
+        old, new = (words[1:joint], words[joint + 1 :]) if joint else ((), ())
+    elif flat[:1] == ("not",) and "," in flat:
+        old, new = words[1 : flat.index(",")], words[flat.index(",") + 1 :]
+        new = new[1:] if keys(new[:1]) == ("but",) else new
+    elif flat[-2:-1] and (cut := _find(flat, _INSTEAD)):
+        old, new = words[cut[1] :], words[: cut[0]]
+    at = visit_of(old, scene) if old and new else None
+    target = scene.ground(_noun(new)) if at is not None else None
+    if at is None or target is None or target.outcome != "match":
+        return None
+    visit, words_of = visits(scene)[at], describe(target.candidates[0], scene.objects)
+    renamed = Visit(visit.start, tuple(_renamed(step, _noun(old), words_of, scene) for step in visit.steps))
+    verb = lexicon().verbs.match(
+        tuple(lemma(w) for w in keys(strip_openers(new))[:1]) + keys(strip_openers(new))[1:]
+    )
+    if verb is not None and verb[1].partition(":")[0] not in {"motion"} and flat[:1] != ("replace",):
+        return None
+    listed = visits(scene)
+    listed[at] = renamed
+    return _put_back(
+        listed, at, scene, f"I will go to {the(words_of)} instead of {the(plain(bare(_noun(old))))}."
+    )
+
+
+_INSTEAD = (("instead", "of"), ("rather", "than"), ("in", "place", "of"))
+
+
+def _find(flat: tuple[str, ...], markers: Sequence[tuple[str, ...]]) -> tuple[int, int] | None:
+    for index in range(1, len(flat)):
+        for marker in markers:
+            if flat[index : index + len(marker)] == marker and index + len(marker) < len(flat):
+                return index, index + len(marker)
+    return None
+
+
+def _renamed(step: ActionCall, old: Phrase, new: str, scene: Scene) -> ActionCall:
+    """The same step for something else."""
+    inputs = dict(step.input_parameters)
+    for name, parameter in inputs.items():
+        if isinstance(parameter.value, str) and parameter.value:
+            said, wanted = plain(bare(old)).lower(), parameter.value.lower()
+            found = scene.ground(tokens(parameter.value))
+            same = found.outcome == "match" and scene.ground(old).candidates == found.candidates
+            value = new if same or said == wanted else parameter.value.replace(plain(bare(old)), new)
+            inputs[name] = replace(parameter, value=value)
+    return step.model_copy(update={"input_parameters": inputs, "reason": ""})
+
+
+def ordered(order: Sequence[int], scene: Scene) -> Edit | None:
+    """The pending visits in another order, given by their places in the present one."""
+    listed = visits(scene)
+    first = next((i for i, index in enumerate(order) if i != index), None)
+    names = [
+        the(visit.names[0]) if visit.names else "the current step" for visit in (listed[i] for i in order)
+    ]
+    text = f"All right, in this order: {listing(names, 'and then')}."
+    if first is None:
+        return Edit((), text)
+    return _put_back([listed[index] for index in order], first, scene, text)
+
+
+def _put_back(listed: Sequence[Visit], first: int, scene: Scene, text: str) -> Edit:
+    """Take out everything from the first visit that changes and put it back as listed."""
+    again = [step for visit in listed[first:] for step in visit.steps]
+    if any(step.flow is not None for step in again):
+        return Edit(
+            (),
+            "Some of these steps depend on others, so I leave the order as it is. Cancel and tell me anew?",
+        )
+    kept = sum(len(visit.steps) for visit in visits(scene)[:first])
+    return Edit(_pops(range(kept, len(scene.situation.queue))), text, tuple(again))
+
+
+def _pops(indices: Sequence[int]) -> tuple[SystemCommand, ...]:
+    return tuple(
+        SystemCommand(command="pop", arguments={"parameters": index})
+        for index in sorted(indices, reverse=True)
+    )
+
+
+def without(at: int, scene: Scene) -> Edit:
+    """Leave a whole visit out."""
+    visit = visits(scene)[at]
+    name = the(visit.names[0]) if visit.names else "this step"
+    indices = range(visit.start, visit.start + len(visit.steps))
+    return Edit(_pops(indices), f"I leave out {name}.")
+
+
+def inserted(words: Phrase, scene: Scene) -> tuple[Phrase, int] | None:
+    """For "before A, V" and "V before A" with A pending: V, and the first step that V comes before."""
+    flat = keys(strip_openers(words))
+    words = strip_openers(words)
+    if len(scene.situation.queue) < 1 or not {"before", "after"} & set(flat):
+        return None
+    at = next(i for i in range(len(flat)) if flat[i] in {"before", "after"})
+    if at == 0:
+        cut = _main_clause(words)
+        anchor, rest = words[1 : cut + (words[cut].key != ",")], words[cut + 1 :]
+    else:
+        anchor, rest = words[at + 1 :], words[:at]
+    if control_of(plain(rest)) is not None or drop_verb(strip_openers(rest, requests=True)):
+        return None
+    listed = visits(scene)
+    index = visit_of(anchor, scene) if anchor and rest and not noun_phrase(anchor).anchors else None
+    if index is None:
+        return None
+    index += flat[at] == "after"
+    return rest, listed[index].start if index < len(listed) else len(scene.situation.queue)

@@ -1,0 +1,285 @@
+"""Changes of the plan put as statements: "X is not needed", "X can wait", "somebody has checked X".
+
+What is said is the visits that are named and a rest of small words; the rest tells by its cues what is
+meant. Words that belong to none of it, and it is no change of the plan.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+
+from parley.language.offline.facts.facts import strip_openers
+from parley.language.offline.plan_changes.edits import Edit
+from parley.language.offline.plan_changes.replanning import Visit, ordered, visit_of, visits
+from parley.language.offline.scene.scene import Scene
+from parley.language.offline.words.lexicon import lexicon
+from parley.language.offline.words.nouns import bare, coordinated
+from parley.language.offline.words.saying import listing, the
+from parley.language.offline.words.text import Phrase, Word, keys, singular, tokens
+from parley.language.word_lists import load_data
+from parley.messages.chat import SystemCommand
+
+__all__ = ["as_added", "restated"]
+
+_DATA = load_data("restated")
+_SMALL = frozenset(_DATA["small"])
+_LOOKING = frozenset(
+    {"look", "inspect", "check", "looking", "inspecting", "checking", "examine", "see", "inspection"}
+)
+_GOING = frozenset(
+    {"go", "drive", "going", "driving", "visit", "come", "there", "stop", "move", "head", "pass"}
+)
+_NEEDING = frozenset({
+    "need", "needs", "needed", "necessary", "required", "require", "requires", "want", "wanted", "have",
+    "bother", "interested", "use", "care", "worth", "wants", "point", "urgent",
+})  # fmt: skip
+_NEEDLESS = frozenset({
+    "unnecessary", "superfluous", "redundant", "obsolete", "needless", "pointless", "cancelled",
+    "unneeded", "canceled",
+})  # fmt: skip
+_DONE = frozenset({
+    "done", "checked", "visited", "inspected", "seen", "finished", "looked", "been", "covered",
+    "examined", "handled", "sorted", "was",
+})  # fmt: skip
+_OUT = frozenset({
+    "leave", "forget", "drop", "skip", "scrap", "cut", "take", "strike", "spare", "cross", "minus",
+    "omit", "leaving", "without", "keep", "scratch",
+})  # fmt: skip
+_DENIALS = frozenset({"not", "no", "nobody", "none", "longer", "never", "without"})
+_LATER = frozenset({"last", "end", "wait", "later", "urgent", "hurry"})
+_ORDINAL_NOUNS = frozenset({
+    "one", "stop", "visit", "place", "ones", "stops", "visits", "places", "these", "those", "of", "the",
+    "two", "three",
+})  # fmt: skip
+_LONGEST = 9
+
+
+def restated(words: Phrase, scene: Scene) -> Edit | None:
+    """The change of what is pending that a statement means; None if it means none."""
+    if not scene.situation.queue or len(words) > 26 or "?" in keys(words):
+        return None
+    refuses = keys(words[:1]) == ("no",) and keys(words[1:2]) != (",",)
+    body = tuple(word for word in (words if refuses else strip_openers(words)) if word.is_word)
+    while body and body[0].key in {
+        "actually",
+        "oh",
+        "well",
+        "sorry",
+        "also",
+        "by",
+        "way",
+        "hm",
+        "right",
+        "ok",
+        "okay",
+    }:
+        body = body[1:]
+    moved = _moved(body, scene)
+    if moved is not None:
+        return moved
+    for start, end, named in _named(body, scene):
+        rest = _without_somebody((*body[:start], *body[end:]), scene)
+        meant = _meaning(rest)
+        if meant:
+            return _carried_out(meant, named, scene)
+    return None
+
+
+def _named(body: Phrase, scene: Scene) -> list[tuple[int, int, list[int]]]:
+    """Each part of a statement that names pending visits, longest first."""
+    found: list[tuple[int, int, list[int]]] = []
+    for size in range(min(_LONGEST, len(body)), 0, -1):
+        for start in range(len(body) - size + 1):
+            part = body[start : start + size]
+            if set(keys(part[:1] + part[-1:])) & (_SMALL - lexicon().determiners - _ORDINAL_NOUNS):
+                continue
+            if not part or keys(part)[-1] in lexicon().determiners - {"these", "those"}:
+                continue
+            indices = _visits_named(part, scene)
+            if indices:
+                found.append((start, start + size, indices))
+    return found
+
+
+def _visits_named(phrase: Phrase, scene: Scene) -> list[int]:
+    """The places among the visits of all that a phrase names; empty if part of it names none."""
+    listed = visits(scene)
+    flat = keys(phrase)
+    ranked = [w for w in flat if w in lexicon().ordinals or w in {"last", "final"}]
+    if ranked:
+        if not set(flat) <= {*ranked, *_ORDINAL_NOUNS} or len(ranked) > 1 or len(flat) < 2:
+            return []
+        count = next((lexicon().numbers[w] for w in flat if w in {"two", "three"}), 1)
+        at = len(listed) - count if ranked[0] in {"last", "final"} else lexicon().ordinals[ranked[0]] - 1
+        return list(range(at, at + count)) if at >= 0 and at + count <= len(listed) else []
+    result: list[int] = []
+    for part in coordinated(phrase):
+        one = _index_of(part, scene)
+        many = [one] if one is not None else _of_kind(part, listed)
+        if not many:
+            return []
+        result += many
+    return sorted(set(result))
+
+
+def _index_of(part: Phrase, scene: Scene) -> int | None:
+    words = bare(part)
+    if not words or (lexicon().verbs.match(keys(words)) is not None and len(words) > 1):
+        return None
+    return visit_of(words, scene)
+
+
+def _of_kind(part: Phrase, listed: Sequence[Visit]) -> list[int]:
+    """For "the doors": every visit of that kind."""
+    words = bare(part)
+    while words and words[0].key in {"any", "all", "more", "other", "further", "both"}:
+        words = bare(words[1:])
+    if not words or singular(words[-1].key) == words[-1].key:
+        return []
+    wanted = {singular(word.key) for word in words}
+    hits = [
+        index
+        for index, visit in enumerate(listed)
+        if any(wanted <= {singular(word.key) for word in tokens(name)} for name in visit.names)
+    ]
+    return hits if len(hits) > 1 or words else []
+
+
+def _without_somebody(rest: Phrase, scene: Scene) -> tuple[str, ...]:
+    """The rest without the person who did it ("A has already checked ...")."""
+    for size in range(min(3, len(rest) - 1), 0, -1):
+        following = keys(rest[size : size + 1])
+        if set(keys(rest[:size])) <= _SMALL or not following or following[0] not in _SMALL | {"has", "have"}:
+            continue
+        if scene.is_person(rest[:size]):
+            return ("somebody", *keys(rest[size:]))
+    return keys(rest)
+
+
+def _meaning(rest: tuple[str, ...]) -> str:
+    """What the small words around the visits mean: "drop", "look" (drop only that), "last", "first"."""
+    said = set(rest)
+    if not said or not said <= _SMALL:
+        return ""
+    denied = bool(said & _DENIALS)
+    if (
+        denied
+        and said & _LOOKING
+        and said & _GOING
+        and (said & {"just", "only", "enough", "but"} or "need" in said)
+    ):
+        return "look"
+    if (
+        said & _LATER
+        and not said & _OUT
+        and (said & {"can", "could", "may", "should", "is", "do", "comes", "not"})
+    ):
+        return "last"
+    if "first" in said and said & {"rest", "others", "else", "remaining"}:
+        return "first"
+    dropped = (
+        (denied and said & _NEEDING)
+        or said & _NEEDLESS
+        or ("no" in said and said & {"more", "after"} and not said & {"there", "is"})
+        or rest in {("no",), ("no", "please")}
+        or (said & _DONE and (said & {"already", "has", "have"}) and not denied)
+        or (
+            said & _OUT
+            and (said & {"out", "forget", "drop", "skip", "scrap", "strike", "minus", "omit"})
+            and not denied
+        )
+    )
+    return "drop" if dropped else ""
+
+
+def _carried_out(meant: str, named: list[int], scene: Scene) -> Edit | None:
+    listed = visits(scene)
+    names = listing([the(listed[i].names[0]) if listed[i].names else "this step" for i in named])
+    if meant in {"last", "first"}:
+        rest = [i for i in range(len(listed)) if i not in named]
+        if meant == "last":
+            return ordered([*rest, *named], scene)
+        now = rest[:1] if scene.situation.status == "running" and 0 not in named else []
+        return ordered([*now, *named, *(i for i in rest if i not in now)], scene)
+    gone = [
+        visit.start + offset
+        for visit in (listed[i] for i in named)
+        for offset, step in enumerate(visit.steps)
+        if meant == "drop" or _looks(step.name, scene)
+    ]
+    pops = tuple(
+        SystemCommand(command="pop", arguments={"parameters": i}) for i in sorted(gone, reverse=True)
+    )
+    if meant == "look":
+        return Edit(pops, f"I will go to {names} without looking at it.") if pops else None
+    return Edit(pops, f"I leave out {names}.")
+
+
+def _looks(name: str, scene: Scene) -> bool:
+    info = scene.catalogue.get(name)
+    return info is not None and bool(scene.catalogue.roles(info) & {"look", "search"})
+
+
+def _moved(body: Phrase, scene: Scene) -> Edit | None:
+    """For "I would rather you did A before B", "A should come after B", both pending."""
+    flat = keys(body)
+    at = next((i for i in range(1, len(flat) - 1) if flat[i] in {"before", "after", "ahead"}), 0)
+    if not at:
+        return None
+    behind = body[at + 1 + (flat[at + 1] == "of") :]
+    anchor = visit_of(behind, scene)
+    if anchor is None:
+        return None
+    for start, end, named in _named(body[:at], scene):
+        small = {*flat[:start], *flat[end:at]}
+        if len(named) == 1 and small and small <= _SMALL and not small & _DENIALS and named[0] != anchor:
+            order = [i for i in range(len(visits(scene))) if i != named[0]]
+            order.insert(order.index(anchor) + (flat[at] == "after"), named[0])
+            return ordered(order, scene)
+    return None
+
+
+_ADDING = (
+    ("add",),
+    ("include",),
+    ("insert",),
+    ("squeeze",),
+    ("fit",),
+    ("slot",),
+    ("put",),
+    ("throw",),
+    ("append",),
+    ("tack",),
+    ("slip",),
+    ("work",),
+)
+_PLANS = frozenset({
+    "plan", "queue", "list", "route", "mission", "tour", "schedule", "round", "rounds", "trip",
+    "itinerary", "programme", "program", "agenda", "stops", "run", "job", "jobs",
+})  # fmt: skip
+
+
+def as_added(words: Phrase, scene: Scene) -> Phrase:
+    """For "add A to the round", "squeeze A in before B": a visit to A."""
+    body = tuple(word for word in strip_openers(words, requests=True) if word.is_word)
+    flat = keys(body)
+    if flat[:1] not in _ADDING or len(flat) < 3 or len(flat) > 16:
+        return words
+    rest = list(body[1:])
+    end = next(
+        (
+            i
+            for i in range(1, len(rest))
+            if rest[i].key in {"to", "on", "in", "into", "onto", "before", "after", "as", "too", "between"}
+        ),
+        len(rest),
+    )
+    named, tail = tuple(rest[:end]), tuple(rest[end:])
+    planned = bool({word.key for word in tail} & _PLANS) or keys(tail[:1]) == ("in",) or not tail
+    if scene.ground(named).outcome != "match" or not (planned or keys(tail[:1]) in {("before",), ("after",)}):
+        return words
+    where = next((i for i, word in enumerate(tail) if word.key in {"before", "after"}), len(tail))
+    end_only = {"end", "last"} & {word.key for word in tail}
+    if where < len(tail) and not end_only:
+        return (Word("visit", "visit"), *named, *tail[where:])
+    return (Word("visit", "visit"), *named)

@@ -1,0 +1,1 @@
+"""What descriptions mean: objects of the map, people, pronouns, groups, places by relation."""

@@ -1,0 +1,141 @@
+"""Which of several offered things an answer means."""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from functools import cache
+
+from parley.language.offline.scene.grounding import ground_phrase
+from parley.language.offline.scene.spatial import nearest_to
+from parley.language.offline.words.lexicon import lexicon
+from parley.language.offline.words.nouns import bare
+from parley.language.offline.words.text import Phrase, keys, lemma, tokens
+from parley.language.word_lists import load_data
+from parley.world.geometry import Pose2D
+from parley.world.object_map import MapObject
+
+__all__ = ["choose", "choose_object", "strip_lead_ins"]
+
+_ANY = frozenset(["any", "either", "whichever", "whatever", "anyone"])
+
+
+def choose(texts: Sequence[str], reply: str) -> int | None:
+    """Index of the offered text that `reply` means, or None if it means none or several."""
+    items = [
+        MapObject(id="?" * (index + 1), description=text, x_m=0.0, y_m=0.0)
+        for index, text in enumerate(texts)
+    ]
+    found = choose_object(items, reply)
+    return None if found is None else items.index(found)
+
+
+def choose_object(
+    candidates: Sequence[MapObject],
+    reply: str,
+    objects: Sequence[MapObject] = (),
+    pose: Pose2D | None = None,
+) -> MapObject | None:
+    """The candidate that `reply` means, by words, place, number or exclusion.
+
+    Args:
+        candidates: What was offered, in the order in which it was named.
+        reply: The answer.
+        objects: The whole map, for answers like "the one near the door".
+        pose: The robot's, for "the nearest".
+    """
+    words = tuple(word for word in tokens(reply) if word.is_word)
+    if not words or not candidates:
+        return None
+    by_text = [item for item in candidates if item.description.lower() == reply.strip().lower()]
+    if len(by_text) == 1:
+        return by_text[0]
+    if _is_any(keys(words)):
+        return nearest_to(candidates, pose.x_m, pose.y_m)[0] if pose is not None else candidates[0]
+    excluded = _excluded(words, candidates, objects, pose)
+    if excluded is not None:
+        return excluded
+    meant = strip_lead_ins(words)
+    return _by_words(meant, candidates, objects, pose) or _by_position(keys(bare(meant)), candidates)
+
+
+def _is_any(flat: tuple[str, ...]) -> bool:
+    if any(lexicon().your_choice.match(flat, index) for index in range(len(flat))):
+        return True
+    return bool(set(flat[:2]) & _ANY) and len(flat) <= 5
+
+
+def _excluded(
+    words: Phrase, candidates: Sequence[MapObject], objects: Sequence[MapObject], pose: Pose2D | None
+) -> MapObject | None:
+    """For "Not the large one" leaves the other of two."""
+    flat = keys(words)
+    if "not" not in flat or len(candidates) != 2:
+        return None
+    at = flat.index("not")
+    refused = _by_words(strip_lead_ins(words[at + 1 :]), candidates, objects, pose)
+    return next((item for item in candidates if refused is not None and item != refused), None)
+
+
+@cache
+def _lead_ins() -> tuple[tuple[str, ...], ...]:
+    return tuple(
+        sorted((tuple(text.split()) for text in load_data("replies")["lead_ins"]), key=len, reverse=True)
+    )
+
+
+def strip_lead_ins(words: Phrase) -> Phrase:
+    """Without "I mean", "it is" and the like at the start of an answer."""
+    stripped = True
+    while stripped and words:
+        stripped = False
+        for lead in _lead_ins():
+            flat = keys(words)
+            head = tuple(lemma(word) if index == 0 else word for index, word in enumerate(flat[: len(lead)]))
+            if (flat[: len(lead)] == lead or head == lead) and len(words) > len(lead):
+                words, stripped = words[len(lead) :], True
+                break
+    return words
+
+
+def _by_words(
+    words: Phrase, candidates: Sequence[MapObject], objects: Sequence[MapObject], pose: Pose2D | None
+) -> MapObject | None:
+    if not words:
+        return None
+    found = ground_phrase(words, candidates, pose)
+    if found.outcome == "match":
+        return found.candidates[0]
+    among_all = ground_phrase(words, _with_all(candidates, objects), pose, among=candidates)
+    if among_all.outcome == "match":
+        return among_all.candidates[0]
+    nouns = [word for word in words if word.key not in lexicon().vocabulary or word.key in lexicon().synonyms]
+    if found.outcome == "none" and len(nouns) != len(words) and nouns:
+        looser = ground_phrase(tuple(nouns), candidates, pose)
+        return looser.candidates[0] if looser.outcome == "match" else None
+    return None
+
+
+def _with_all(candidates: Sequence[MapObject], objects: Sequence[MapObject]) -> list[MapObject]:
+    known = {item.id for item in candidates}
+    return [*candidates, *(item for item in objects if item.id not in known)]
+
+
+def _by_position(flat: tuple[str, ...], candidates: Sequence[MapObject]) -> MapObject | None:
+    lex = lexicon()
+    words = tuple(
+        word
+        for word in flat
+        if word not in {"one", "option", "number", "choice", "the", "of", "them", "two"} or len(flat) == 1
+    )
+    if len(words) != 1:
+        return None
+    word = words[0]
+    if word in {"last", "latter"}:
+        return candidates[-1]
+    if word in {"former"}:
+        return candidates[0]
+    if len(word) == 1 and word.isalpha():
+        number = ord(word) - ord("a") + 1
+    else:
+        number = lex.ordinals.get(word) or lex.numbers.get(word) or (int(word) if word.isdigit() else 0)
+    return candidates[number - 1] if 0 < number <= len(candidates) else None

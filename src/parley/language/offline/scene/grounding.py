@@ -1,0 +1,406 @@
+"""Which object of the map a description means.
+
+Words are compared in steps, each looser than the one before: the same words, the same head noun with all
+modifiers, words of the same meaning, a general word for that kind of thing, any words of the description, and
+last typing errors. The first step that finds anything decides. Letters and numbers are compared exactly in
+every step. Then what is said about the place, the size and the distance chooses among the finds.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Iterable, Sequence
+from dataclasses import dataclass, replace
+from functools import lru_cache
+
+from rapidfuzz import fuzz
+from rapidfuzz.distance import OSA
+
+from parley.language.base import Grounding
+from parley.language.offline.scene import spatial
+from parley.language.offline.scene.viewing import COMPASS, by_view, is_view, rank_word
+from parley.language.offline.words.lexicon import lexicon
+from parley.language.offline.words.nouns import NounPhrase, bare, noun_phrase, number_of
+from parley.language.offline.words.text import Phrase, closest, keys, plain, singular, split_name, tokens
+from parley.world.geometry import Pose2D
+from parley.world.object_map import MapObject
+
+__all__ = ["describe", "ground", "ground_phrase", "head_of", "matching", "variants"]
+
+_MAX_VARIANTS = 48
+
+
+def ground(description: str, objects: Sequence[MapObject], pose: Pose2D | None = None) -> Grounding:
+    """Find the object that `description` means, seen from `pose`."""
+    return ground_phrase(tokens(description), objects, pose)
+
+
+def ground_phrase(
+    phrase: Phrase,
+    objects: Sequence[MapObject],
+    pose: Pose2D | None = None,
+    among: Sequence[MapObject] = (),
+    *,
+    strict: bool = False,
+) -> Grounding:
+    """As `ground`, for words already cut.
+
+    Args:
+        phrase: The description.
+        objects: The map.
+        pose: The robot's.
+        among: The only objects that may be meant, if given; the others may still be referred to.
+        strict: Whether the object must be called so: no other word of its description, no typing error.
+    """
+    eligible = among or objects
+    by_id = [item for item in eligible if item.id.lower() == plain(phrase).lower()]
+    if by_id:
+        return Grounding("match", (by_id[0],))
+    whole = bare(phrase)
+    if not whole or not objects:
+        return Grounding("none")
+    profiles = [_profile(item) for item in eligible]
+    exact = _exact(whole, profiles)
+    if exact:
+        return _grounding(exact)
+    noun = noun_phrase(phrase)
+    noun = _side(noun)
+    if not noun.core and noun.anchors:
+        # "in front of the door", "next to the box": the object named is what is meant (thesis 5.1.1).
+        return ground_phrase(noun.anchors[0], eligible, pose, strict=strict)
+    found, leftover = _candidates(noun, profiles, strict=strict)
+    if not found:
+        return Grounding("none", tuple(_near_misses(noun, eligible)))
+    return _grounding(_narrow(noun, leftover, found, objects, pose))
+
+
+def matching(phrase: Phrase, objects: Sequence[MapObject], pose: Pose2D | None = None) -> list[MapObject]:
+    """Every object that a description fits, for "all chairs" and the like."""
+    found = ground_phrase(phrase, objects, pose)
+    return [] if found.outcome == "none" else list(found.candidates)
+
+
+def describe(item: MapObject, objects: Iterable[MapObject]) -> str:
+    """The words that name an object: its description, or its id where another has the same description."""
+    same = [other for other in objects if other.description.lower() == item.description.lower()]
+    return item.description if len(same) <= 1 else item.id
+
+
+def head_of(words: Sequence[str]) -> str:
+    """The head noun of a bare noun phrase's core: its last word (before "of") that is no letter or number."""
+    if "of" in words[1:]:
+        words = words[: list(words).index("of", 1)]
+    for word in reversed(words):
+        if not _is_label(word):
+            return word
+    return words[-1] if words else ""
+
+
+@lru_cache(maxsize=2048)
+def variants(core: tuple[str, ...]) -> tuple[tuple[str, ...], ...]:
+    """The same noun phrase in other words of the same meaning, the words themselves first."""
+    synonyms = lexicon().synonyms
+    result: dict[tuple[str, ...], None] = {core: None}
+    queue = [core]
+    while queue and len(result) < _MAX_VARIANTS:
+        words = queue.pop(0)
+        for start in range(len(words)):
+            for end in range(start + 1, min(start + 3, len(words)) + 1):
+                for other in synonyms.get(" ".join(words[start:end]), ()):
+                    changed = (*words[:start], *map(singular, other.split()), *words[end:])
+                    if changed not in result and len(changed) <= len(core) + 2:
+                        result[changed] = None
+                        queue.append(changed)
+    return tuple(result)
+
+
+@dataclass(frozen=True, slots=True)
+class _Profile:
+    """An object's words, prepared for comparing."""
+
+    item: MapObject
+    names: frozenset[tuple[str, ...]]
+    heads: frozenset[str]
+    words: frozenset[str]
+
+
+@lru_cache(maxsize=4096)
+def _profile(item: MapObject) -> _Profile:
+    names: set[tuple[str, ...]] = set()
+    heads: set[str] = set()
+    words: set[str] = set()
+    id_words = tuple(number_of(singular(word)) for word in split_name(item.id))
+    for text in (item.description, *item.aliases):
+        noun = noun_phrase(tokens(text))
+        names.add(_comparable(bare(tokens(text))))
+        heads.update(
+            {head_of(noun.core), head_of(noun.core[noun.core.index("of") + 1 :]) if "of" in noun.core else ""}
+        )
+        words.update(_comparable(noun.phrase))
+    class_words = tuple(singular(word) for word in split_name(item.class_name))
+    if class_words:
+        heads.update({class_words[-1], "".join(class_words)})
+        words.update(class_words)
+    names.add(id_words)
+    words.update(id_words)
+    return _Profile(item, frozenset(names), frozenset(heads - {""}), frozenset(words))
+
+
+def _comparable(phrase: Phrase) -> tuple[str, ...]:
+    articles = {"the", "an"}
+    return tuple(
+        number_of(singular(word.key))
+        for index, word in enumerate(phrase)
+        if word.is_word and word.key not in articles and not (word.key == "a" and index < len(phrase) - 1)
+    )
+
+
+def _exact(phrase: Phrase, profiles: Sequence[_Profile]) -> list[MapObject]:
+    wanted = _comparable(phrase)
+    same = [profile.item for profile in profiles if wanted in profile.names]
+    if same:
+        return same
+    others = set(variants(wanted)[1:])
+    return [profile.item for profile in profiles if others & profile.names and _labels_fit(wanted, profile)]
+
+
+def _candidates(
+    noun: NounPhrase, profiles: Sequence[_Profile], *, strict: bool
+) -> tuple[list[_Profile], tuple[str, ...]]:
+    """Profiles that fit the core of the phrase, and the modifiers that no description settles."""
+    core = noun.core
+    generic = _without_generic(core, profiles)
+    settled = tuple(word for word in generic if not _settled_later(word))
+    if not settled:
+        told = [p for p in _by_any_word(generic, profiles) if _labels_fit(generic, p)] if generic else []
+        return (told, ()) if told else (list(profiles), generic)
+    later = tuple(word for word in generic if _settled_later(word))
+    steps = (_by_head, _by_synonym, _by_kind, _by_any_word, _by_typo)
+    for step in steps[:-2] if strict else steps:
+        for words, rest in ((generic, ()), (settled, later)):
+            found = [profile for profile in step(words, profiles) if _labels_fit(words, profile)]
+            if found:
+                return found, rest
+    return [], ()
+
+
+_SIZES = {
+    "large": 1.0,
+    "big": 1.0,
+    "huge": 1.0,
+    "largest": 1.0,
+    "biggest": 1.0,
+    "larger": 1.0,
+    "bigger": 1.0,
+    "small": -1.0,
+    "little": -1.0,
+    "tiny": -1.0,
+    "smallest": -1.0,
+    "smaller": -1.0,
+}
+_SIDES: dict[tuple[str, ...], str] = {
+    ("left",): "left", ("right",): "right", ("left", "side"): "left", ("right", "side"): "right",
+    ("left", "hand", "side"): "left", ("right", "hand", "side"): "right", ("your", "left"): "left",
+    ("your", "right"): "right", ("far", "left"): "leftmost", ("far", "right"): "rightmost",
+    ("middle",): "middle", ("center",): "middle", ("centre",): "middle", ("corner",): "corner",
+    **{(name,): name for name in COMPASS}, **{(name, "side"): name for name in COMPASS},
+    **{(name, "corner"): name for name in COMPASS}, **{(name, "end"): name for name in COMPASS},
+    **{(f"{name}ern", "side"): name for name in COMPASS},
+    **{tuple(name.split("-")): name for name in COMPASS if "-" in name},
+}  # fmt: skip
+_BEFORE_YOU = {"in front of": "ahead", "behind": "behind", "ahead of": "ahead"}
+
+
+def _side(noun: NounPhrase) -> NounPhrase:
+    """For "the door on the right": the right door."""
+    near = noun.relation in {"closest to", "nearest to", "nearest", "closest", "next to", "near", "close to"}
+    if near and len(noun.anchors) == 1 and noun.core and keys(noun.anchors[0]) == ("you",):
+        return replace(noun, core=("nearest", *noun.core), relation="", anchors=())
+    if len(noun.anchors) != 1 or not noun.core:
+        return noun
+    anchor = keys(bare(noun.anchors[0]))
+    if anchor == ("you",) and noun.relation in _BEFORE_YOU:
+        return replace(noun, core=(_BEFORE_YOU[noun.relation], *noun.core), relation="", anchors=())
+    if noun.relation == "from" and anchor in _SIDES:
+        return _counted_from(noun, _SIDES[anchor])
+    if noun.relation not in {"on", "at", "to", "in"}:
+        return noun
+    side = _SIDES.get(anchor) or _SIDES.get(anchor[: anchor.index("of")] if "of" in anchor else ())
+    return noun if side is None else replace(noun, core=(side, *noun.core), relation="", anchors=())
+
+
+def _counted_from(noun: NounPhrase, side: str) -> NounPhrase:
+    """For "the second door from the left"."""
+    ordinals = {str(n) for word, n in lexicon().ordinals.items() if word in keys(noun.phrase)}
+    number = next((word for word in noun.core if word in ordinals), "")
+    rest = tuple(word for word in noun.core if word != number)
+    if not number or not rest:
+        return noun
+    return replace(noun, core=(rank_word(int(number), side), *rest), relation="", anchors=())
+
+
+def _settled_later(word: str) -> bool:
+    return word in _SIZES or is_view(word)
+
+
+def _without_generic(core: tuple[str, ...], profiles: Sequence[_Profile]) -> tuple[str, ...]:
+    """Drop "one", "thing" and the like where no object is called so ("area one" is "area 1")."""
+    known = {word for profile in profiles for word in profile.words}
+    heads = {head for profile in profiles for head in profile.heads}
+    if len(core) > 1 and core[-1] == "one" and "1" in known and core[-2] in heads | {"number"}:
+        return (*core[:-1], "1")
+    dropped = lexicon().generic_things | {"number", "kind"}
+    return tuple(word for word in core if word not in dropped or word in known)
+
+
+def _by_head(words: tuple[str, ...], profiles: Sequence[_Profile]) -> list[_Profile]:
+    head = head_of(words)
+    return [p for p in profiles if head in p.heads and set(words) <= p.words | p.heads]
+
+
+def _by_synonym(words: tuple[str, ...], profiles: Sequence[_Profile]) -> list[_Profile]:
+    return _unique(p for other in variants(words)[1:] for p in _by_head(other, profiles))
+
+
+def _by_kind(words: tuple[str, ...], profiles: Sequence[_Profile]) -> list[_Profile]:
+    head = head_of(words)
+    members = lexicon().kinds.get(head, frozenset())
+    rest = set(words) - {head}
+    return [p for p in profiles if p.heads & members and rest <= p.words]
+
+
+def _by_any_word(words: tuple[str, ...], profiles: Sequence[_Profile]) -> list[_Profile]:
+    return _unique(p for other in variants(words) for p in profiles if set(other) <= p.words)
+
+
+def _by_typo(words: tuple[str, ...], profiles: Sequence[_Profile]) -> list[_Profile]:
+    known = {word for profile in profiles for word in profile.words | profile.heads}
+    common = lexicon().synonyms
+    mended = tuple(
+        word
+        if word in known or word in common or word in lexicon().nouns or _is_label(word)
+        else closest(word, known) or word
+        for word in words
+    )
+    if mended == words and len(words) > 1 and words[0] in known:
+        mended = _mended_beside(words, profiles)
+    if mended == words:
+        joined = "".join(words)
+        return _by_head((joined,), profiles) if len(words) > 1 else []
+    return _by_head(mended, profiles) or _by_synonym(mended, profiles) or _by_any_word(mended, profiles)
+
+
+def _mended_beside(words: tuple[str, ...], profiles: Sequence[_Profile]) -> tuple[str, ...]:
+    """A short last word mended where all others fit one object: "charging pol" beside "charging pole"."""
+    fitting = [p for p in profiles if set(words[:-1]) <= p.words]
+    heads = {head for p in fitting for head in p.heads if head[:1] == words[-1][:1] and len(words[-1]) > 2}
+    near = [head for head in heads if OSA.distance(head, words[-1]) == 1]
+    unknown = words[-1] not in lexicon().vocabulary | lexicon().nouns and not _is_label(words[-1])
+    return (*words[:-1], near[0]) if len(near) == 1 and unknown else words
+
+
+def _labels_fit(words: Iterable[str], profile: _Profile) -> bool:
+    """Letters and numbers must be there exactly: "area A" is never "area B"."""
+    return all(word in profile.words for word in words if _is_label(word))
+
+
+def _is_label(word: str) -> bool:
+    return len(word) == 1 or word.isdigit()
+
+
+def _unique(profiles: Iterable[_Profile]) -> list[_Profile]:
+    return list({profile.item.id: profile for profile in profiles}.values())
+
+
+def _narrow(
+    noun: NounPhrase,
+    leftover: tuple[str, ...],
+    found: list[_Profile],
+    objects: Sequence[MapObject],
+    pose: Pose2D | None,
+) -> list[MapObject]:
+    """Choose among finds by place, size and distance."""
+    items = [profile.item for profile in found]
+    if noun.relation and len(items) > 1:
+        items = _by_relation(noun, found, objects, pose)
+    for word in leftover:
+        if len(items) < 2:
+            break
+        if word in _SIZES:
+            sized = spatial.by_size(items, _SIZES[word])
+            said = [i for i in items if any(set(o) <= _profile(i).words for o in variants((word,)))]
+            items = said if len(sized) > 1 and said else sized
+        else:
+            items = by_view(items, word, pose, objects)
+    return items
+
+
+def _by_relation(
+    noun: NounPhrase, found: list[_Profile], objects: Sequence[MapObject], pose: Pose2D | None
+) -> list[MapObject]:
+    items = [profile.item for profile in found]
+    anchors: list[MapObject] = []
+    for anchor in noun.anchors:
+        where = ground_phrase(anchor, [o for o in objects if o not in items] or objects, pose)
+        if where.outcome != "match" or not _is_called(where.candidates[0], anchor):
+            where = ground_phrase(anchor, objects, pose)
+        if where.outcome == "match" and _is_called(where.candidates[0], anchor):
+            anchors.append(where.candidates[0])
+    wanted = tuple(sorted({word for anchor in noun.anchors for word in _comparable(anchor)}))
+    compares = "between" in noun.relation or noun.relation.startswith(("far", "fur", "away"))
+    told = (
+        []
+        if compares and len(anchors) == len(noun.anchors)
+        else [
+            p.item
+            for p in found
+            if any(set(other) <= p.words for other in variants(wanted)) and p.item not in anchors
+        ]
+    )
+    if "between" in noun.relation and len(noun.anchors) == 1:
+        pair = ground_phrase(_uncounted(noun.anchors[0]), objects, pose)
+        anchors = (
+            list(pair.candidates) if pair.outcome == "ambiguous" and len(pair.candidates) == 2 else anchors
+        )
+        told = []
+    if told or len(anchors) < len(noun.anchors):
+        return told or items
+    return spatial.by_anchor([i for i in items if i not in anchors] or items, noun.relation, anchors, pose)
+
+
+def _uncounted(phrase: Phrase) -> Phrase:
+    """For "the two doors" "the doors"."""
+    words = bare(phrase)
+    while len(words) > 1 and (words[0].key in lexicon().numbers or words[0].key in {"both", "all"}):
+        words = bare(words[1:])
+    return words
+
+
+def _is_called(item: MapObject, phrase: Phrase) -> bool:
+    """Whether the phrase names the object itself and not only something its description mentions."""
+    profile = _profile(item)
+    core = noun_phrase(phrase).core
+    return _comparable(bare(phrase)) in profile.names or any(
+        head_of(o) in profile.heads for o in variants(core)
+    )
+
+
+def _near_misses(noun: NounPhrase, objects: Sequence[MapObject]) -> list[MapObject]:
+    """Up to three objects that sound or mean something like it."""
+    words = set(noun.core)
+    text = " ".join(noun.core)
+    scored = sorted(
+        ((_likeness(words, text, item), -index, item) for index, item in enumerate(objects)),
+        key=lambda s: s[:2],
+        reverse=True,
+    )
+    return [item for score, _, item in scored[:3] if score > 0.62]
+
+
+def _likeness(words: set[str], text: str, item: MapObject) -> float:
+    profile = _profile(item)
+    shared = len({word for word in words & profile.words if not _is_label(word)})
+    return shared + fuzz.ratio(text, item.description.lower()) / 100.0
+
+
+def _grounding(items: Sequence[MapObject]) -> Grounding:
+    return Grounding("match" if len(items) == 1 else "ambiguous", tuple(items))

@@ -1,0 +1,204 @@
+"""Where things are: on the map, by what is remembered, by what the operator answered."""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from dataclasses import dataclass, replace
+
+from parley.language.offline.facts.facts import Fact, read_statement
+from parley.language.offline.facts.remembering import Remembered, find_fact, memory_name
+from parley.language.offline.scene.choosing import choose_object
+from parley.language.offline.scene.grounding import describe, ground_phrase
+from parley.language.offline.scene.known import Place, UnclearError
+from parley.language.offline.scene.referring import Referring
+from parley.language.offline.words.lexicon import lexicon
+from parley.language.offline.words.nouns import bare, noun_phrase
+from parley.language.offline.words.saying import listing, the
+from parley.language.offline.words.text import Phrase, keys, plain, tokens
+from parley.messages.memory import MemoryEntry
+from parley.world.object_map import MapObject
+
+__all__ = ["Placing"]
+
+_MAX_HOPS = 3
+
+
+@dataclass
+class Placing(Referring):
+    """How a phrase becomes a place."""
+
+    def place(self, phrase: Phrase, *, hops: int = 0, via: Remembered | None = None) -> Place:
+        """Where something is, from the operator's own words (or a remembered fact's, then `via` is given).
+
+        Raises:
+            UnclearError: Several things are meant, or nothing is known.
+        """
+        place = self._place(phrase, hops=hops, via=via)
+        source = "words as they are" if place.item is None else f"{place.item.id} on the map"
+        told = f", from the memory {place.via.entry.name}" if place.via is not None else ""
+        self.trace.note("argument", f"“{plain(phrase)}” is “{place.value}” ({source}{told})")
+        return place
+
+    def _place(self, phrase: Phrase, *, hops: int = 0, via: Remembered | None = None) -> Place:
+        phrase = self.referent(self._other(phrase))
+        remembered_words = via is not None
+        found = self.ground(phrase)
+        if found.outcome == "match":
+            item = found.candidates[0]
+            return Place(describe(item, self.objects), item, via)
+        whole = self.whole(phrase)
+        if whole is not None:
+            return Place(describe(whole, self.objects), whole, via)
+        if found.outcome == "ambiguous":
+            # What a memory leaves open is found out on the way; only the operator's own words are asked.
+            if remembered_words:
+                return Place(plain(bare(phrase)), None, via)
+            item = self.pick(phrase, found.candidates)
+            return Place(describe(item, self.objects), item)
+        if hops < _MAX_HOPS:
+            place = self.remembered_place(phrase, hops)
+            if place is not None:
+                return place
+        if not remembered_words and self.objects:
+            told = self.told_place(phrase, found.candidates)
+            if told is not None:
+                return told
+        if remembered_words or not self.objects:
+            return Place(plain(bare(phrase)), None, via)
+        raise self.unknown(phrase, found.candidates)
+
+    def whole(self, phrase: Phrase) -> MapObject | None:
+        """For "the handle of the door", the door: what is no object itself may be a part of one."""
+        flat = keys(phrase)
+        owner = next((i for i, word in enumerate(flat[:-1]) if word.endswith("'s")), -1)
+        if owner >= 0 and find_fact(phrase, self.facts)[0] is None:
+            # "The door's handle", "room 2's window".
+            last = phrase[owner]
+            stem = replace(last, key=last.key.removesuffix("'s"), raw=last.raw.removesuffix("'s"))
+            found = self.ground((*phrase[:owner], stem))
+            return found.candidates[0] if found.outcome == "match" else None
+        if "of" not in flat[1:-1] or find_fact(phrase, self.facts)[0] is not None:
+            return None
+        if ground_phrase(phrase[: flat.index("of", 1)], self.objects).outcome != "none":
+            return None
+        found = self.ground(phrase[flat.index("of", 1) + 1 :])
+        return found.candidates[0] if found.outcome == "match" else None
+
+    def told_place(self, phrase: Phrase, near: Sequence[MapObject] = ()) -> Place | None:
+        """Where the operator's answer to an earlier question puts something; it is remembered."""
+        for index, hint in enumerate(self.hints):
+            meant = choose_object(near, hint, self.objects, self.situation.robot_pose) if near else None
+            if meant is not None:
+                del self.hints[index]
+                return Place(describe(meant, self.objects), meant)
+            where = place_said(tokens(hint))
+            if where is None:
+                continue
+            del self.hints[index]
+            relation, words = where
+            fact = Fact(
+                phrase, words, relation, sentence=f"{the(plain(phrase))} is {relation} {the(plain(words))}"
+            )
+            fact = replace(fact, sentence=fact.sentence[0].upper() + fact.sentence[1:])
+            self.learned.append(fact)
+            known = Remembered(fact, MemoryEntry(name=memory_name(fact, self.facts), data=fact.sentence))
+            return self.place(words, hops=1, via=known)
+        return None
+
+    def remembered_place(self, phrase: Phrase, hops: int = 0) -> Place | None:
+        """Where something is remembered to be.
+
+        Raises:
+            UnclearError: Different things of that name are remembered.
+        """
+        fact, several = find_fact(phrase, self.facts)
+        if several:
+            labels = [
+                f"{the(plain(f.fact.subject))} {f.fact.relation} {the(plain(f.fact.place))}" for f in several
+            ]
+            stand_ins = [
+                MapObject(id="?" * (i + 1), description=label, x_m=0.0, y_m=0.0)
+                for i, label in enumerate(labels)
+            ]
+            chosen = self._hinted(stand_ins)
+            if chosen is None:
+                raise UnclearError(f"Do you mean {listing(labels, 'or')}?", labels)
+            fact = several[stand_ins.index(chosen)]
+        if fact is None:
+            return None
+        self.use(fact)
+        return replace(self.place(fact.fact.place, hops=hops + 1, via=fact), via=fact)
+
+    def pick(self, phrase: Phrase, candidates: Sequence[MapObject]) -> MapObject:
+        """One of several equals: by quantifier or an earlier answer; otherwise it is asked.
+
+        Raises:
+            UnclearError: With the choices.
+        """
+        noun = noun_phrase(phrase)
+        hinted = self._hinted(candidates)
+        if hinted is not None:
+            return hinted
+        if noun.quantifier in lexicon().free_choice:
+            pose = self.situation.robot_pose
+            return (
+                min(candidates, key=lambda i: (i.x_m - pose.x_m) ** 2 + (i.y_m - pose.y_m) ** 2)
+                if pose
+                else candidates[0]
+            )
+        choices = [describe(item, self.objects) for item in candidates]
+        raise UnclearError(
+            f"I know {len(choices)} of those: {listing([the(c) for c in choices])}. Which one do you mean?",
+            choices,
+        )
+
+    def _hinted(self, candidates: Sequence[MapObject]) -> MapObject | None:
+        for index, hint in enumerate(self.hints):
+            chosen = choose_object(candidates, hint, self.objects, self.situation.robot_pose)
+            if chosen is not None:
+                del self.hints[index]
+                return chosen
+        return None
+
+    def unknown(self, phrase: Phrase, near: Sequence[MapObject] = ()) -> UnclearError:
+        """The question about something that is neither on the map nor remembered."""
+        name = the(plain(bare(phrase)))
+        if near:
+            known = listing([the(describe(item, self.objects)) for item in near], "or")
+            return UnclearError(
+                f"I do not know where {name} is. Do you mean {known}?",
+                [describe(i, self.objects) for i in near],
+            )
+        return UnclearError(f"I do not know where {name} is. Tell me where it is, and I will remember it.")
+
+
+def place_said(answer: Phrase) -> tuple[str, Phrase] | None:
+    """Relation and place of an answer to "where": "in the box", "it is on the desk", "the desk"."""
+    fact = read_statement(answer)
+    if fact is not None and fact.is_location:
+        return fact.relation, fact.place
+    words = bare(answer)
+    found = lexicon().places.match(keys(words))
+    if found is not None and found[0] < len(words):
+        return found[1], bare(words[found[0] :])
+    return ("at", words) if 0 < len(words) <= 5 and keys(words)[0] not in _NO_PLACES else None
+
+
+_NO_PLACES = frozenset(
+    {
+        "yes",
+        "no",
+        "i",
+        "ok",
+        "okay",
+        "maybe",
+        "you",
+        "what",
+        "where",
+        "why",
+        "never",
+        "forget",
+        "nothing",
+        "nowhere",
+    }
+)

@@ -1,0 +1,401 @@
+"""Conditions in other shapes, put as "if S, V": "Locked? Then V", "V provided S", "once A has left, V"."""
+
+from __future__ import annotations
+
+from collections.abc import Callable
+
+from parley.language.offline.sentences.clauses import opens_command
+from parley.language.offline.words.lexicon import lexicon
+from parley.language.offline.words.text import Phrase, Word, keys, lemma
+
+__all__ = ["as_conditions"]
+
+Names = Callable[[Phrase], bool]
+
+_IF = tuple(
+    tuple(text.split())
+    for text in (
+        "provided that", "provided", "providing that", "providing", "on condition that",
+        "on the condition that", "supposing that", "supposing", "assuming that", "assuming", "so long as",
+        "as long as", "if and only if", "only when", "only in case", "in the event that", "but only when",
+    )
+)  # fmt: skip
+_OTHER_SHAPES = tuple(
+    (tuple(said.split()), tuple(meant.split()))
+    for said, meant in (
+        ("should it be so", "if so"),
+        ("should that be the case", "if so"),
+        ("should this be the case", "if so"),
+        ("in that case", "if so"),
+        ("if that is so", "if so"),
+        ("if it is so", "if so"),
+        ("if this is the case", "if so"),
+        ("should it not be so", "if not"),
+        ("should it not", "if not"),
+        ("in the other case", "otherwise"),
+        ("in any other case", "otherwise"),
+        ("if not so", "if not"),
+        ("failing that", "otherwise"),
+        ("but not if", "unless"),
+        ("but not when", "unless"),
+        ("except if", "unless"),
+        ("except when", "unless"),
+        ("just not if", "unless"),
+        ("only not if", "unless"),
+        ("not if", "unless"),
+        ("or if not", "otherwise"),
+    )
+)
+_STATES = (
+    ("open", "closed"),
+    ("open", "shut"),
+    ("unlocked", "locked"),
+    ("empty", "full"),
+    ("empty", "occupied"),
+    ("free", "occupied"),
+    ("free", "busy"),
+    ("free", "taken"),
+    ("wet", "dry"),
+    ("clean", "dirty"),
+    ("on", "off"),
+    ("broken", "working"),
+    ("broken", "fine"),
+    ("broken", "ok"),
+    ("light", "dark"),
+    ("blocked", "clear"),
+    ("blocked", "free"),
+    ("hot", "cold"),
+    ("warm", "cold"),
+    ("present", "missing"),
+    ("cracked", "fine"),
+    ("damaged", "fine"),
+    ("damaged", "ok"),
+    ("ready", "busy"),
+    ("tidy", "messy"),
+    ("quiet", "noisy"),
+    ("unlocked", "shut"),
+    ("available", "occupied"),
+    ("lit", "dark"),
+    ("full", "free"),
+)
+_ADJECTIVES = frozenset(word for pair in _STATES for word in pair)
+_MARKS = frozenset({".", "!", "?", ";", "\n"})
+_HAPPENS = frozenset(
+    {
+        "left",
+        "leave",
+        "gone",
+        "go",
+        "finished",
+        "finish",
+        "done",
+        "out",
+        "away",
+        "arrived",
+        "arrive",
+        "come",
+        "back",
+        "ready",
+        "wake",
+        "awake",
+        "asleep",
+        "sleep",
+        "called",
+        "call",
+        "over",
+        "returned",
+        "return",
+    }
+)
+_WHEN = (
+    ("as", "soon", "as"),
+    ("when",),
+    ("once",),
+    ("after",),
+    ("whenever",),
+    ("only", "after"),
+    ("only", "once"),
+)
+_ALLOWED = (
+    ("you", "may"),
+    ("you", "can"),
+    ("you", "could"),
+    ("may", "you"),
+    ("then", "you", "can"),
+    ("you", "are", "allowed", "to"),
+    ("then", "you", "may"),
+    ("you", "should"),
+    ("you", "are", "free", "to"),
+    ("then",),
+    (",",),
+)
+_YES = (("if", "yes"), ("if", "so"), ("then",), ("yes",))
+_NO = (("if", "not"), ("if", "no"), ("otherwise",), ("else",), ("or", "else"), ("no",), ("not",))
+
+
+def as_conditions(words: Phrase, is_stop: Names, is_person: Names) -> Phrase:
+    """The same message with its conditions in the usual shape.
+
+    Args:
+        words: All words and punctuation.
+        is_stop: Whether words name something on the map.
+        is_person: Whether words name a person.
+    """
+    words = _opposite(_with(_with_if(_in_other_shape(words)), is_stop), is_stop)
+    parts = _asked(_sentences(words), is_stop)
+    result: list[Word] = []
+    for sentence, mark in parts:
+        result += _after_event(_must(sentence, is_stop), is_stop, is_person)
+        result += (mark,) if mark is not None else ()
+    return tuple(result)
+
+
+def _word(text: str) -> Word:
+    return Word(text, text)
+
+
+def _words(text: str) -> Phrase:
+    return tuple(_word(part) for part in text.split())
+
+
+def _sentences(words: Phrase) -> list[tuple[Phrase, Word | None]]:
+    result: list[tuple[Phrase, Word | None]] = []
+    start = 0
+    for index, word in enumerate(words):
+        if word.key in _MARKS:
+            result.append((words[start:index], word))
+            start = index + 1
+    return [*result, (words[start:], None)] if start < len(words) else result
+
+
+def _with_if(words: Phrase) -> Phrase:
+    """For "provided that S" "if S", wherever it stands."""
+    flat = keys(words)
+    result: list[Word] = []
+    index = 0
+    while index < len(words):
+        found = next((m for m in _IF if flat[index : index + len(m)] == m), ())
+        end = index + len(found)
+        clause = flat[end : end + 8]
+        if found and clause and clause[0] not in {"by", "with", "you", "for"} and _has_verb(clause):
+            result.append(_word("if"))
+            index = end
+            continue
+        result.append(words[index])
+        index += 1
+    flat = keys(result)
+    if flat[:1] == ("only",) and "if" in flat and opens_command(tuple(result[1:])):
+        return tuple(result[1:])
+    return tuple(result)
+
+
+def _in_other_shape(words: Phrase) -> Phrase:
+    """For "in that case" "if so", for "but not if S" "unless S"."""
+    flat = keys(words)
+    result: list[Word] = []
+    index = 0
+    while index < len(words):
+        size, meant = next(
+            ((len(s), m) for s, m in _OTHER_SHAPES if flat[index : index + len(s)] == s), (0, ())
+        )
+        if meant == ("unless",) and keys(result[-1:]) == (",",):
+            result.pop()
+        result += _words(" ".join(meant)) if size else (words[index],)
+        index += size or 1
+    return tuple(result)
+
+
+def _with(words: Phrase, is_stop: Names) -> Phrase:
+    """For "with the door shut, V" "if the door is shut, V"; for "the door, if it is shut, V" the same."""
+    flat = keys(words)
+    comma = flat.index(",") if "," in flat else 0
+    if (
+        flat[:1] == ("with",)
+        and comma > 2
+        and flat[comma - 1] in _ADJECTIVES
+        and is_stop(words[1 : comma - 1])
+    ):
+        return (*_words("if"), *words[1 : comma - 1], *_words("is"), *words[comma - 1 :])
+    if (
+        comma
+        and flat[comma + 1 : comma + 4] in {("if", "it", "is"), ("unless", "it", "is")}
+        and is_stop(words[:comma])
+    ):
+        return (words[comma + 1], *words[:comma], *words[comma + 3 :])
+    return words
+
+
+def _opposite(words: Phrase, is_stop: Names) -> Phrase:
+    """For "if it is open V, if it is shut W": W otherwise."""
+    flat = keys(words)
+    first = next(
+        (i for i in range(len(flat) - 1) if flat[i] in lexicon().be and flat[i + 1] in _ADJECTIVES), 0
+    )
+    if not first or "if" not in flat[:first]:
+        return words
+    for at in range(first + 2, len(flat) - 4):
+        echoed = flat[at] in {"if", "with", "when"} and flat[at + 1] in {"it", "that", "they"}
+        state = at + 2 + (flat[at] != "with")
+        if echoed and state < len(flat) and (flat[first + 1], flat[state]) in _OPPOSITES:
+            rest = words[state + 1 :]
+            rest = rest[1:] if keys(rest[:1]) == (",",) else rest
+            return (*words[:at], *_with_verb((*_words("otherwise"), *rest), is_stop))
+    return words
+
+
+def _has_verb(flat: tuple[str, ...]) -> bool:
+    return any(word in lexicon().be | {"has", "have"} or word.endswith("s") for word in flat[1:])
+
+
+def _asked(parts: list[tuple[Phrase, Word | None]], is_stop: Names) -> list[tuple[Phrase, Word | None]]:
+    """For "Locked? Then V", "Door open? V. If not W": conditions of the orders that follow."""
+    result: list[tuple[Phrase, Word | None]] = []
+    index, last = 0, ""
+    while index < len(parts):
+        sentence, mark = parts[index]
+        asked = _state_asked(sentence, is_stop) if mark is not None and mark.key == "?" else None
+        if asked is None or index + 1 >= len(parts):
+            result.append((_with_verb(sentence, is_stop) if last else sentence, mark))
+            last = last if keys(sentence[:1]) == ("otherwise",) else ""
+            index += 1
+            continue
+        (thing, state), (then, end) = asked, parts[index + 1]
+        then = _ordering(then, is_stop)
+        other = not thing and (last, state) in _OPPOSITES
+        if not then:
+            result.append((sentence, mark))
+        elif other:
+            result.append(((*_words("otherwise"), *then), end))
+        else:
+            result.append(((*_words("if"), *(thing or _words("it")), *_words(f"is {state} ,"), *then), end))
+        last = "" if other else state
+        index += 2 if then else 1
+    return _joined(result)
+
+
+_OPPOSITES = frozenset((*_STATES, *((b, a) for a, b in _STATES)))
+
+
+def _joined(parts: list[tuple[Phrase, Word | None]]) -> list[tuple[Phrase, Word | None]]:
+    """What is to be done otherwise belongs to the sentence before."""
+    result: list[tuple[Phrase, Word | None]] = []
+    for sentence, mark in parts:
+        if result and keys(sentence[:1]) == ("otherwise",) and keys(result[-1][0][:1]) == ("if",):
+            before = result.pop()[0]
+            result.append(((*before, *_words(","), *sentence), mark))
+        else:
+            result.append((sentence, mark))
+    return result
+
+
+def _state_asked(sentence: Phrase, is_stop: Names) -> tuple[Phrase, str] | None:
+    """The thing, if it is named, and the state of a question without a verb."""
+    body = tuple(word for word in sentence if word.is_word)
+    flat = keys(body)
+    while flat[:1] in {("is",), ("it",), ("still",), ("and",)} and len(flat) > 1:
+        body, flat = body[1:], flat[1:]
+    if not flat or len(flat) > 6 or (flat[-1] not in _ADJECTIVES and not flat[-1].endswith("ed")):
+        return None
+    if len(flat) == 1:
+        return (), flat[0]
+    return (body[:-1], flat[-1]) if is_stop(body[:-1]) else None
+
+
+def _ordering(sentence: Phrase, is_stop: Names) -> Phrase:
+    """The order after "then"; empty if there is none. Places need no verb."""
+    words = sentence
+    while words and (not words[0].is_word or words[0].key in {"then", "so"}):
+        words = words[1:]
+    flat = keys(words)
+    yes = next((m for m in _YES if flat[: len(m)] == m), ())
+    words = words[len(yes) :]
+    pieces: list[Word] = []
+    start = 0
+    for index in range(len(words) + 1):
+        if index == len(words) or words[index].key == ",":
+            pieces += (*_with_verb(words[start:index], is_stop), *words[index : index + 1])
+            start = index + 1
+    ordered = tuple(pieces)
+    while ordered and ordered[0].key == ",":
+        ordered = ordered[1:]
+    return ordered if opens_command(ordered) else ()
+
+
+def _with_verb(piece: Phrase, is_stop: Names) -> Phrase:
+    """For "otherwise the desk", "the desk": going there."""
+    flat = keys(piece)
+    no = next((m for m in _NO if flat[: len(m)] == m), ())
+    rest = piece[len(no) :]
+    while rest and rest[0].key == ",":
+        rest = rest[1:]
+    lead = _words("otherwise") if no else ()
+    if keys(rest[:1]) == ("to",) and is_stop(rest[1:]):
+        return (*lead, *_words("go"), *rest)
+    named = rest[:-1] if keys(rest[-1:]) in {("then",), ("instead",)} else rest
+    if is_stop(named):
+        return (*lead, *_words("go to"), *named)
+    return (*lead, *rest) if no else piece
+
+
+def _must(sentence: Phrase, is_stop: Names) -> Phrase:
+    """For "the door must be shut, else V"."""
+    flat = keys(sentence)
+    at = next((i for i in range(1, len(flat) - 3) if flat[i] in {"must", "should", "has"}), 0)
+    be = at + 1 + (flat[at + 1 : at + 2] == ("to",))
+    other = next((i for i in range(be + 2, len(flat) - 1) if flat[i] in {"else", "otherwise"}), 0)
+    if not at or not other or flat[be : be + 1] != ("be",) or not is_stop(sentence[:at]):
+        return sentence
+    state = sentence[be + 1 : other]
+    while state and (not state[-1].is_word or state[-1].key == "or"):
+        state = state[:-1]
+    then = _with_verb(sentence[other + 1 :], is_stop)
+    return (*_words("unless"), *sentence[:at], *_words("is"), *state, *_words(","), *then)
+
+
+def _after_event(sentence: Phrase, is_stop: Names, is_person: Names) -> Phrase:
+    """For "once A has left you may V", "you may V when A has left": waiting, then V."""
+    flat = keys(sentence)
+    for index in range(len(flat) - 2):
+        marker = next((m for m in _WHEN if flat[index : index + len(m)] == m), ())
+        start = index + len(marker)
+        end = _event_end(sentence, start, is_person) if marker else 0
+        if not end:
+            continue
+        lead, rest = sentence[:index], sentence[end:]
+        order = _allowed(rest if index == 0 else lead)
+        if (index == 0 or not any(w.is_word for w in rest)) and opens_command(order):
+            return (*_words("wait until"), *sentence[start:end], _word("."), *order)
+        return sentence
+    return sentence
+
+
+def _allowed(words: Phrase) -> Phrase:
+    while True:
+        lead = next((m for m in _ALLOWED if keys(words[: len(m)]) == m), ())
+        if not lead:
+            break
+        words = words[len(lead) :]
+    while words and not words[-1].is_word:
+        words = words[:-1]
+    return words[:-1] if keys(words[-1:]) == ("only",) else words
+
+
+def _event_end(words: Phrase, start: int, is_person: Names) -> int:
+    """Where "A has left" ends that begins at `start`; 0 if nothing of the kind does."""
+    flat = keys(words)
+    for size in range(1, min(4, len(flat) - start)):
+        if not is_person(words[start : start + size]) or flat[start] in {"you", "i", "we", "it"}:
+            continue
+        at = start + size
+        while at < len(flat) and flat[at] in lexicon().be | {
+            "has",
+            "have",
+            "already",
+            "just",
+            "finally",
+            "all",
+        }:
+            at += 1
+        if at < len(flat) and (flat[at] in _HAPPENS or lemma(flat[at]) in _HAPPENS):
+            return at + 1
+    return 0

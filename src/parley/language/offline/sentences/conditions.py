@@ -1,0 +1,277 @@
+"""Conditions of a sentence: "if S, V, otherwise W", "V unless S", "when S, V", "..., if not, W"."""
+
+from __future__ import annotations
+
+from collections.abc import Callable
+from dataclasses import dataclass, replace
+
+from parley.language.offline.facts.facts import strip_openers
+from parley.language.offline.words.lexicon import lexicon
+from parley.language.offline.words.text import Phrase, keys, lemma
+
+__all__ = ["LAST", "Conditional", "is_rule", "split_condition"]
+
+Opens = Callable[[Phrase], bool]
+
+LAST: Phrase = ()
+"""Stands for what the step before looked at."""
+
+_LEADING: tuple[tuple[tuple[str, ...], bool], ...] = (
+    (("if",), True),
+    (("in", "case"), True),
+    (("provided", "that"), True),
+    (("provided",), True),
+    (("assuming", "that"), True),
+    (("assuming",), True),
+    (("as", "long", "as"), True),
+    (("should",), True),
+    (("unless",), False),
+)
+"""How a condition begins, and whether it must hold."""
+_TRAILING: tuple[tuple[tuple[str, ...], bool], ...] = (
+    (("only", "if"), True),
+    (("but", "only", "if"), True),
+    (("provided", "that"), True),
+    (("in", "case"), True),
+    (("as", "long", "as"), True),
+    (("unless",), False),
+    (("if",), True),
+)
+_FURTHER: tuple[tuple[tuple[str, ...], bool], ...] = (
+    (("if", "it", "is", "not"), False),
+    (("if", "that", "is", "not", "the", "case"), False),
+    (("if", "there", "is", "none"), False),
+    (("if", "not"), False),
+    (("if", "no"), False),
+    (("or", "else"), False),
+    (("otherwise",), False),
+    (("else",), False),
+    (("if", "it", "is"), True),
+    (("if", "that", "is", "the", "case"), True),
+    (("if", "so"), True),
+    (("if", "yes"), True),
+)
+"""What refers to a condition said before."""
+_ASKING = frozenset(
+    [
+        "as",
+        "check",
+        "see",
+        "out",
+        "know",
+        "me",
+        "look",
+        "inspect",
+        "tell",
+        "verify",
+        "what",
+        "even",
+        "ask",
+        "or",
+        "like",
+    ]
+)
+_WHOEVER = frozenset(
+    ["you", "i", "we", "anyone", "anybody", "somebody", "someone", "anything", "something", "nobody"]
+)
+
+
+@dataclass(frozen=True, slots=True)
+class Conditional:
+    """A sentence in parts."""
+
+    before: Phrase
+    """What is done in any case, first."""
+    condition: Phrase
+    """What has to be looked at; `LAST` if it has been."""
+    then: Phrase
+    otherwise: Phrase
+    late: bool = False
+    """Whether the condition was said behind what depends on it."""
+
+
+def is_rule(condition: Phrase) -> bool:
+    """Whether it is about whatever may happen later ("you see smoke"): such a rule is kept, not done."""
+    if not condition or condition[0].key not in _WHOEVER:
+        return False
+    # "Somebody is at the desk" can be looked at now; "you see smoke" is about whatever comes.
+    flat = keys(condition)
+    placed = len(flat) > 3 and flat[1] in lexicon().be and lexicon().places.match(flat, 2) is not None
+    return flat[0] in {"you", "i", "we"} or not placed
+
+
+def split_condition(sentence: Phrase, opens: Opens) -> Conditional | None:
+    """The parts of a sentence with a condition; None if it has none."""
+    words = strip_openers(sentence)
+    return _further(words, opens) or _leading(words, opens) or _inside(words, opens)
+
+
+_ABOUT_LAST = frozenset({"it", "he", "she", "they", "there", "that", "this"})
+_HOLDS = frozenset({"is", "are", "does", "do", "has", "have", "was", "were", "can"})
+
+
+def _echo(flat: tuple[str, ...], words: Phrase, opens: Opens) -> tuple[int, bool] | None:
+    """For "if there are(n't any), V", "if it does, V": how long the echo is, and what it says."""
+    if len(flat) < 4 or flat[0] not in {"if", "unless"} or flat[1] not in _ABOUT_LAST:
+        return None
+    if flat[2] not in _HOLDS:
+        return None
+    end, holds = 3, flat[0] != "unless"
+    while end < len(flat) and flat[end] in {
+        "not",
+        "none",
+        "no",
+        "any",
+        "one",
+        "some",
+        "indeed",
+        "so",
+        "nothing",
+    }:
+        holds = holds != (flat[end] in {"not", "none", "no", "nothing"})
+        end += 1
+    if end >= len(flat):
+        return None
+    orders = opens(words[end:]) and flat[end + 1 : end + 2] not in {(",",), ("then",)}
+    ends = flat[end] in {",", "then"} or (orders and not flat[end].endswith(("ing", "ed")))
+    return (end, holds) if ends else None
+
+
+def _further(words: Phrase, opens: Opens) -> Conditional | None:
+    """A sentence that begins with "if not" and the like."""
+    flat = keys(words)
+    echo = _echo(flat, words, opens)
+    if echo is not None:
+        rest = words[echo[0] :]
+        return Conditional((), LAST, rest, ()) if echo[1] else Conditional((), LAST, (), rest)
+    for marker, holds in _FURTHER:
+        end = len(marker)
+        if flat[:end] == marker and len(flat) > end and (len(marker) < 3 or flat[end] in {",", "then"}):
+            rest = words[end:]
+            return Conditional((), LAST, rest, ()) if holds else Conditional((), LAST, (), rest)
+    return None
+
+
+def _leading(words: Phrase, opens: Opens) -> Conditional | None:
+    flat = keys(words)
+    found = next(((m, holds) for m, holds in _LEADING if flat[: len(m)] == m), None)
+    if found is None and _is_state(flat):
+        found = ("when",), True
+    if found is None or (
+        flat[len(found[0]) : len(found[0]) + 1] == ("you",) and flat[-1] != "?" and _polite(flat)
+    ):
+        return None
+    marker, holds = found
+    start = len(marker)
+    comma = next((i for i in range(start + 2, len(flat)) if flat[i] in {",", "then"}), len(flat))
+    verb = next(
+        (
+            i
+            for i in range(start + 3, comma)
+            if opens(words[i:])
+            and not _is_noun(flat, i)
+            and flat[i - 1] not in lexicon().be | {"still", "already", "not"}
+            and not (comma < len(flat) and flat[i].endswith("ing"))
+        ),
+        0,
+    )
+    cut = verb or (comma if comma < len(flat) else 0)
+    if not cut or (marker == ("should",) and not opens(words[cut:])):
+        return None
+    condition = words[start:cut]
+    if marker == ("should",):
+        condition = tuple(replace(w, key="is", raw="is") if w.key == "be" else w for w in condition)
+    return _parts((), condition, words[cut:], holds)
+
+
+def _polite(flat: tuple[str, ...]) -> bool:
+    return flat[1:3] in {("you", "can"), ("you", "could"), ("you", "want"), ("you", "like"), ("you", "have")}
+
+
+def _is_state(flat: tuple[str, ...]) -> bool:
+    """For "When the box is empty, ...": a state, and neither the robot's nor "when that is done"."""
+    if (
+        flat[:1] != ("when",)
+        or flat[1:2] == ()
+        or flat[1] in {"you", "i", "that", "this", "done", "it", "we"}
+    ):
+        return False
+    return any(word in lexicon().be for word in flat[2:7])
+
+
+def _inside(words: Phrase, opens: Opens) -> Conditional | None:
+    """A condition behind what it is for, or behind a look: "V if S", "check X and if it is P, V"."""
+    flat = keys(words)
+    if flat[:1] == ("tell",) or {"remind"} & set(flat[:3]):
+        return None
+    for index in range(2, len(flat) - 1):
+        if flat[index - 1] in {"and", ",", "but", "then"}:
+            start = index
+            further = _further(words[start:], opens)
+            if further is not None:
+                return _with_before(words[: start - 1], further)
+            leading = _leading(words[start:], opens) if flat[index] in {"if", "unless", "should"} else None
+            if leading is not None:
+                return _with_before(words[: start - 1], leading)
+        for marker, holds in _TRAILING:
+            if flat[index : index + len(marker)] != marker or len(flat) < index + len(marker) + 2:
+                continue
+            if not _may_follow(flat, index, marker):
+                continue
+            start = next((i for i in range(index - 1, 0, -1) if flat[i] == "then"), 0)
+            before = words[:start] if start and opens(words[start + 1 : index]) else ()
+            main = words[start + 1 : index] if before else words[:index]
+            return replace(_parts(before, words[index + len(marker) :], main, holds), late=True)
+    return None
+
+
+def _with_before(before: Phrase, parts: Conditional) -> Conditional:
+    return Conditional(before, parts.condition, parts.then, parts.otherwise)
+
+
+def _may_follow(flat: tuple[str, ...], index: int, marker: tuple[str, ...]) -> bool:
+    if marker != ("if",):
+        return True
+    before = flat[index - 1]
+    return (
+        lexicon().verbs.match_end((lemma(before), "if")) == 0
+        and flat[index + 1] not in {"you", "possible", "not", "so", "it's"}
+        and before not in _ASKING
+        and before not in {"and", ","}
+        and "ask" not in flat[:index]
+    )
+
+
+def _parts(before: Phrase, condition: Phrase, rest: Phrase, holds: bool) -> Conditional:
+    """Cut "otherwise" off, which may stand behind the condition as well."""
+    condition, late = _otherwise(condition)
+    rest, other = _otherwise(rest)
+    other = other or late
+    if is_rule(condition):
+        return Conditional(before, condition, rest, ())
+    condition, denied = _positive(condition)
+    if holds == denied:
+        rest, other = other, rest
+    return Conditional(before, condition, rest, other)
+
+
+def _positive(condition: Phrase) -> tuple[Phrase, bool]:
+    """Turn a denial ("X is not there") into what can be looked at ("X is there"); whether it was one."""
+    flat = keys(condition)
+    for index in range(1, len(flat)):
+        if flat[index] == "not" and flat[index - 1] in lexicon().be:
+            return condition[:index] + condition[index + 1 :], True
+    return condition, False
+
+
+def _otherwise(words: Phrase) -> tuple[Phrase, Phrase]:
+    flat = keys(words)
+    for index in range(1, len(flat)):
+        for marker, holds in _FURTHER:
+            if not holds and flat[index : index + len(marker)] == marker:
+                return words[:index], words[index + len(marker) :]
+    return words, ()
+
+
+def _is_noun(flat: tuple[str, ...], index: int) -> bool:
+    return flat[index - 1] in lexicon().determiners | {"to", "of"}

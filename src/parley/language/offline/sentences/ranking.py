@@ -1,0 +1,116 @@
+"""Lists in an order that is said otherwise: "A first, B second", "A and B, ending at A"."""
+
+from __future__ import annotations
+
+from parley.language.offline.sentences.clauses import opens_command
+from parley.language.offline.words.lexicon import lexicon
+from parley.language.offline.words.nouns import bare
+from parley.language.offline.words.text import Phrase, Word, keys
+
+__all__ = ["participle_order", "ranked"]
+
+_RANKS = {
+    "first": 1, "firstly": 1, "second": 2, "secondly": 2, "third": 3, "thirdly": 3, "fourth": 4, "fifth": 5,
+    "next": 50, "afterwards": 50, "then": 50, "after": 50, "finally": 99, "lastly": 99, "last": 99,
+}  # fmt: skip
+_THEN = (Word(",", ","), Word("then", "then"))
+_PAUSES = {",", "and", "but", "then"}
+
+
+def _pieces(words: Phrase) -> list[Phrase]:
+    """A list cut at commas and conjunctions."""
+    pieces: list[list[Word]] = [[]]
+    for word in words:
+        if word.key in _PAUSES and not (word.key == "then" and not pieces[-1]):
+            pieces.append([])
+        elif word.is_word and word.key != "then":
+            pieces[-1].append(word)
+    return [tuple(piece) for piece in pieces if piece]
+
+
+def ranked(words: Phrase) -> Phrase:
+    """For "A first, B second, C last", "A and B, B first"."""
+    body = words
+    while body and not body[-1].is_word:
+        body = body[:-1]
+    flat = keys(body)
+    if len(flat) < 5 or not set(flat) & {"first", "second", "last"} or set(flat) & {".", "?", "!", ";"}:
+        return words
+    pieces = _pieces(body)
+    ranks = [_RANKS.get(piece[-1].key, 0) if len(piece) > 1 else 0 for piece in pieces]
+    if (
+        len(pieces) > 1
+        and all(ranks[:2])
+        and all(r or i > 1 for i, r in enumerate(ranks))
+        and ranks != sorted(ranks)
+    ) or (len(pieces) > 1 and ranks[0] == 1 and ranks[-1] > 1):
+        return _in_order([p[:-1] if r else p for p, r in zip(pieces, ranks, strict=True)], ranks)
+    if len(pieces) > 2 and ranks[-1] in {1, 99} and not any(ranks[:-1]):
+        return _moved(pieces[:-1], pieces[-1][:-1], last=ranks[-1] == 99) or words
+    return words
+
+
+def _in_order(pieces: list[Phrase], ranks: list[int]) -> Phrase:
+    ranks = [rank or 50 for rank in ranks]
+    order = sorted(range(len(pieces)), key=lambda i: (ranks[i], i))
+    lead = _verb_of(pieces[0])
+    pieces = [pieces[0][len(lead) :], *pieces[1:]]
+    verb = lead or (Word("visit", "visit"),)
+    return _joined([pieces[i] for i in order], verb)
+
+
+def _joined(pieces: list[Phrase], verb: Phrase) -> Phrase:
+    result: list[Word] = []
+    for piece in pieces:
+        result += _THEN if result else ()
+        result += piece if opens_command(piece) and _verb_of(piece) else (*verb, *piece)
+    return tuple(result)
+
+
+def _verb_of(piece: Phrase) -> Phrase:
+    """The verb at the start with its preposition: "go to" of "go to the desk"."""
+    if not opens_command(piece):
+        return ()
+    found = lexicon().verbs.match(keys(piece))
+    if found is None:
+        return ()
+    size = found[0]
+    goal = lexicon().goals.match(keys(piece), size)
+    size += goal[0] if goal is not None else 0
+    return piece[:size] if size < len(piece) else ()
+
+
+def _moved(members: list[Phrase], named: Phrase, *, last: bool) -> Phrase:
+    """The members of a list with the named one at its start or end; empty if it names none."""
+    lead = _verb_of(members[0])
+    members = [members[0][len(lead) :], *members[1:]]
+    wanted = keys(bare(named))
+    at = next((i for i, m in enumerate(members) if keys(bare(m))[-len(wanted) :] == wanted), -1)
+    if at < 0 or not lead or not wanted or any(opens_command(m) and _verb_of(m) for m in members):
+        return ()
+    rest = [m for i, m in enumerate(members) if i != at]
+    return _joined([*rest, members[at]] if last else [members[at], *rest], lead)
+
+
+_ENDING = {"ending": True, "finishing": True, "concluding": True, "starting": False, "beginning": False}
+
+
+def participle_order(words: Phrase) -> Phrase:
+    """For "visit A, B and C, ending at A", "check all boxes, starting with the red one"."""
+    flat = keys(words)
+    at = next((i for i in range(3, len(flat) - 2) if flat[i] in _ENDING), 0)
+    if not at or flat[at + 1] not in {"at", "with", "in", "from", "by"}:
+        return words
+    body = words[:at]
+    named = tuple(word for word in words[at + 2 :] if word.is_word)
+    last = _ENDING[flat[at]]
+    moved = _moved(_pieces(body), named, last=last)
+    if moved:
+        return moved
+    while body and (not body[-1].is_word or body[-1].key in _PAUSES):
+        body = body[:-1]
+    pieces = _pieces(body)
+    lead = _verb_of(pieces[0]) if pieces else ()
+    if not lead:
+        return words
+    return (*body, *_THEN, *lead, *named) if last else (*lead, *named, *_THEN, *body)

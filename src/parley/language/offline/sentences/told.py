@@ -1,0 +1,337 @@
+"""Long messages: where an order stands in the telling, and when it comes first though it is said last.
+
+"When all that is done" is "then", "before all that, V" is V before everything, ", the dog is asleep there"
+is a sentence of its own, "same thing there" says nothing that the order before did not.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Callable
+
+from parley.language.offline.sentences.clauses import opens_command
+from parley.language.offline.words.lexicon import lexicon
+from parley.language.offline.words.text import Phrase, Word, keys, lemma
+
+__all__ = ["in_order"]
+
+IsStop = Callable[[Phrase], bool]
+
+_STOP, _COMMA = Word(".", "."), Word(",", ",")
+_MARKS = frozenset({".", "!", "?", ";", "\n"})
+_WHEN = (("when",), ("once",), ("after",), ("as", "soon", "as"), ("and", "when"), ("and", "once"))
+_DOING = frozenset({
+    "you", "all", "that", "it", "this", "everything", "those", "these", "is", "are", "have", "has",
+    "been", "of", "with", "there", "done", "finished", "through", "ready", "over", "completed",
+    "complete", "done.", "had", "both", "them", "got",
+})  # fmt: skip
+_DONE = frozenset({"done", "finished", "through", "over", "completed", "complete"})
+_AT_FIRST = tuple(
+    tuple(text.split())
+    for text in (
+        "before all that", "before all of that", "before anything else", "before everything else",
+        "before all this", "before any of that", "before all else", "before everything",
+        "before doing any of that", "before all", "before you do any of that", "before you do all that",
+        "but before all that", "but before anything else", "ahead of all that", "prior to all that",
+        "first and foremost", "most urgently", "most important of all",
+    )
+)  # fmt: skip
+_SAME = frozenset(
+    tuple(text.split())
+    for text in (
+        "same thing there", "same there", "same thing", "same again", "the same there", "likewise",
+        "ditto", "same procedure", "the same", "same again there", "the same thing there",
+        "the same again",
+    )
+)  # fmt: skip
+_FINITE = lexicon().be | {"has", "have", "had", "needs", "likes", "says", "wants", "does", "will", "can"}
+_LINKED = frozenset(
+    {
+        "if",
+        "unless",
+        "when",
+        "whether",
+        "once",
+        "because",
+        "that",
+        "who",
+        "which",
+        "otherwise",
+        "else",
+        "check",
+        "where",
+    }
+)
+
+
+def in_order(words: Phrase, is_stop: IsStop) -> Phrase:
+    """A long message with what is told apart from what is asked, and what comes first in front.
+
+    Args:
+        words: All words and punctuation.
+        is_stop: Whether words name something on the map.
+    """
+    words = _each(_counted(_then(_without_remarks(words, is_stop))))
+    result: list[tuple[Phrase, Phrase]] = []
+    front: list[tuple[Phrase, Phrase]] = []
+    start = 0
+    for index in range(len(words) + 1):
+        if index < len(words) and words[index].key not in _MARKS:
+            continue
+        sentence, early = _early(words[start:index])
+        read = _going_on(_apart(sentence), is_stop)
+        mark = words[index : index + 1] or ((_STOP,) if early else ())
+        (front if early and result else result).append((read, mark))
+        start = index + 1
+    at = next((i for i, (sentence, _) in enumerate(result) if _orders(sentence)), len(result))
+    result[at:at] = front
+    return tuple(word for sentence, mark in _closed(result) for word in (*sentence, *mark))
+
+
+def _closed(parts: list[tuple[Phrase, Phrase]]) -> list[tuple[Phrase, Phrase]]:
+    """Every sentence but the last ends with a mark."""
+    return [(s, m or ((_STOP,) if i < len(parts) - 1 and s else ())) for i, (s, m) in enumerate(parts)]
+
+
+def _orders(sentence: Phrase) -> bool:
+    return any(
+        (i == 0 or not sentence[i - 1].is_word or sentence[i - 1].key in {"so", "and", "then"})
+        and opens_command(sentence[i:])
+        for i in range(len(sentence))
+    )
+
+
+def _then(words: Phrase) -> Phrase:
+    """For "when all that is done" "then"."""
+    flat = keys(words)
+    result: list[Word] = []
+    index = 0
+    while index < len(words):
+        marker = next((m for m in _WHEN if flat[index : index + len(m)] == m), ())
+        end = index + len(marker)
+        while marker and end < len(flat) and flat[end] in _DOING:
+            end += 1
+        if marker and _DONE & set(flat[index:end]) and flat[end - 1] in _DOING - {"you", "is", "have"}:
+            result.append(Word("then", "then"))
+            index = end + (flat[end : end + 1] == (",",))
+            continue
+        result.append(words[index])
+        index += 1
+    return tuple(result)
+
+
+_RANKED = frozenset({"first", "second", "third", "fourth", "next", "last", "final", "other"})
+_RANKED_NOUNS = frozenset({"thing", "step", "point", "task", "job", "stop", "item", "order"})
+_NUMBERED = frozenset({"one", "two", "three", "four", "five", "1", "2", "3", "4", "5"})
+
+
+def _counted(words: Phrase) -> Phrase:
+    """For "the last thing: V", "step two: V" "then V"."""
+    flat = keys(words)
+    result: list[Word] = []
+    index = 0
+    while index < len(words):
+        at = index + (flat[index] == "the")
+        pair = flat[at : at + 2]
+        ranked = len(pair) == 2 and (
+            (pair[0] in _RANKED and pair[1] in _RANKED_NOUNS)
+            or (pair[0] in {"step", "number"} and pair[1] in _NUMBERED)
+        )
+        if (
+            ranked
+            and flat[at + 2 : at + 3] in {(":",), (",",)}
+            and (index == 0 or flat[index - 1] in _MARKS | {",", "and"})
+        ):
+            result += (Word("then", "then"),) if any(word.is_word for word in result) else ()
+            index = at + 3
+            continue
+        if (
+            flat[index] in {"second", "third", "fourth"}
+            and index
+            and flat[index - 1] in {"and", ",", "."}
+            and (opens_command(words[index + 1 :]) and lexicon().verbs.match(flat, index + 1) is not None)
+        ):
+            result.append(Word("then", "then"))
+            index += 1
+            continue
+        result.append(words[index])
+        index += 1
+    return tuple(result)
+
+
+def _each(words: Phrase) -> Phrase:
+    """For "each of the two doors" "all the doors", for "every single" "every"."""
+    flat = keys(words)
+    result: list[Word] = []
+    index = 0
+    while index < len(words):
+        if (
+            flat[index] in {"each", "all"}
+            and flat[index + 1 : index + 3] == ("of", "the")
+            and (
+                flat[index + 3 : index + 4]
+                and (flat[index + 3] in lexicon().numbers)
+                and flat[index + 4 : index + 5]
+            )
+        ):
+            result += (Word("all", "all"), Word("the", "the"))
+            index += 4
+            continue
+        if flat[index] == "single" and index and flat[index - 1] in {"every", "each"}:
+            index += 1
+            continue
+        result.append(words[index])
+        index += 1
+    return tuple(result)
+
+
+_OPENING = frozenset({"right", "listen", "well", "ok", "okay", "so", "look", "alright"})
+_TAILS = (
+    ("that", "is", "it"),
+    ("that", "is", "all"),
+    ("that", "will", "be", "all"),
+    ("that", "would", "be", "all"),
+)
+_TELLERS = frozenset(
+    {"i", "we", "it", "he", "she", "they", "there", "nobody", "somebody", "everybody", "my", "our"}
+)
+_PAUSES = _MARKS | {",", "and", "then", "so"}
+
+
+def _without_remarks(words: Phrase, is_stop: IsStop) -> Phrase:
+    """Without "listen", "that is it", ", who is new,", ", in this order" and "before the guests come"."""
+    flat = keys(words)
+    if len(flat) > 3 and flat[0] in _OPENING and flat[1] in _TELLERS | lexicon().determiners:
+        words, flat = words[1:], flat[1:]
+    tail = next((t for t in _TAILS if flat[-len(t) :] == t and len(flat) > 8), ())
+    if tail:
+        words, flat = words[: -len(tail)], flat[: -len(tail)]
+    result: list[Word] = []
+    index = 0
+    while index < len(words):
+        end = _remark_end(words, flat, index, is_stop)
+        if end:
+            index = end
+            continue
+        result.append(words[index])
+        index += 1
+    return tuple(result)
+
+
+def _remark_end(words: Phrase, flat: tuple[str, ...], index: int, is_stop: IsStop) -> int:
+    """Where a remark that begins at `index` ends; 0 if none begins there."""
+    if flat[index] == "," and flat[index + 1 : index + 2] in {("who",), ("which",), ("whose",)}:
+        end = next((i for i in range(index + 2, len(flat)) if flat[i] in _MARKS | {","}), len(flat))
+        return end + (flat[end : end + 1] == (",",))
+    if flat[index] == "," and flat[index + 1 : index + 4] in {
+        ("in", "this", "order"),
+        ("in", "that", "order"),
+    }:
+        return index + 4
+    if flat[index] != "before" or index < 2:
+        return 0
+    end = next((i for i in range(index + 1, len(flat)) if flat[i] in _PAUSES), len(flat))
+    said = flat[index + 1 : end]
+    happens = len(said) > 2 and said[0] in {"the", "my", "our", "his", "her"} and _is_verb(said[-1])
+    named = any(is_stop(words[i:j]) for i in range(index + 1, end) for j in range(i + 1, min(end, i + 5) + 1))
+    return end if happens and not named else 0
+
+
+def _is_verb(word: str) -> bool:
+    base = lemma(word)
+    return lexicon().verbs.match((base,)) is not None or base in {"arrive", "begin", "start", "open", "close"}
+
+
+def _early(sentence: Phrase) -> tuple[Phrase, bool]:
+    """The sentence without "before all that", and whether it said so."""
+    flat = keys(sentence)
+    for index in range(len(flat)):
+        marker = next((m for m in _AT_FIRST if flat[index : index + len(m)] == m), ())
+        if not marker:
+            continue
+        before, after = sentence[:index], sentence[index + len(marker) :]
+        while after and after[0].key in {",", "please", "though"}:
+            after = after[1:]
+        while before and before[-1].key in {",", "please", "but", "and", "so"}:
+            before = before[:-1]
+        if not any(word.is_word for word in after):
+            return before, True
+        if not before or keys(before) in {("and",), ("but",), ("oh",), ("oh", ",", "and"), ("please",)}:
+            return after, True
+        return (*before, _COMMA, *after), False
+    return sentence, False
+
+
+def _apart(sentence: Phrase) -> Phrase:
+    """A sentence of its own for what is told behind a comma; nothing for "same thing there"."""
+    flat = keys(sentence)
+    same = next((m for m in _SAME if flat[-len(m) :] == m and len(flat) > len(m) + 1), ())
+    if same:
+        sentence, flat = sentence[: -len(same)], flat[: -len(same)]
+    if _LINKED & set(flat):
+        return sentence
+    result: list[Word] = []
+    index = 0
+    while index < len(sentence):
+        if flat[index] == ",":
+            end = next((i for i in range(index + 1, len(flat)) if flat[i] == ","), len(flat))
+            part = flat[index + 1 : end]
+            if part in _SAME:
+                index = end
+                continue
+            told = _tells(sentence[index + 1 : end])
+            result.append(_STOP if told and _asks(sentence[:index]) else sentence[index])
+        else:
+            result.append(sentence[index])
+        index += 1
+    return tuple(result)
+
+
+def _asks(words: Phrase) -> bool:
+    return opens_command(words) or keys(words[:1]) == ("not",) or opens_command(words[1:])
+
+
+def _tells(part: Phrase) -> bool:
+    """Whether a subject and its finite verb stand here ("the ducks are nesting", "somebody is ill")."""
+    flat = keys(part)
+    if len(flat) < 3 or opens_command(part):
+        return False
+    link = next((i for i in range(1, min(5, len(flat) - 1)) if flat[i] in _FINITE), 0)
+    if not link or flat[0] in lexicon().question_starts | {"and", "or", "but", "then"}:
+        return False
+    simple = flat[0] in {
+        "i",
+        "we",
+        "he",
+        "she",
+        "it",
+        "they",
+        "there",
+        "nobody",
+        "somebody",
+        "someone",
+        "everybody",
+        "nothing",
+    }
+    return simple or (flat[0] in lexicon().determiners and link > 1)
+
+
+def _going_on(sentence: Phrase, is_stop: IsStop) -> Phrase:
+    """For "after the desk (please) to the door": going there."""
+    flat = keys(sentence)
+    result: list[Word] = []
+    for index, word in enumerate(sentence):
+        if (
+            word.key == "to"
+            and index > 1
+            and flat[0] in {"after", "afterwards", "finally", "then", "next"}
+            and any(
+                is_stop(sentence[index + 1 : end]) for end in range(index + 2, min(index + 6, len(flat)) + 1)
+            )
+            and not any(
+                opens_command(sentence[i:]) and lemma(flat[i]) == flat[i]
+                for i in range(max(0, index - 3), index)
+            )
+        ):
+            result += (_COMMA, Word("go", "go"))
+        result.append(word)
+    return tuple(result)

@@ -1,0 +1,134 @@
+"""Indirect requests: what somebody wants or needs ("I would like some tea", "he is cold")."""
+
+from __future__ import annotations
+
+from dataclasses import replace
+
+from parley.language.offline.facts.remembering import find_fact
+from parley.language.offline.scene.scene import Scene
+from parley.language.offline.tasks.commands import Command, read_command
+from parley.language.offline.words.lexicon import lexicon
+from parley.language.offline.words.nouns import bare, noun_phrase
+from parley.language.offline.words.text import Phrase, Word, keys, lemma, tokens
+
+__all__ = ["due", "missing", "need", "wish"]
+
+
+def wish(words: Phrase, scene: Scene) -> Command | None:
+    """For "I would like some tea", "he needs the cup": something is to be brought."""
+    found = lexicon().wants.match(keys(words))
+    if found is not None and found[0] < len(words):
+        theme = words[found[0] :]
+        if keys(theme)[0] == "you" and lexicon().places.match(keys(theme), 1):
+            return read_command((Word("go", "go"), Word("to", "to"), *theme[1:]), scene.is_person)
+        if keys(theme)[:2] in {("to", "see"), ("to", "know"), ("to", "look"), ("to", "check")}:
+            return read_command(theme[1:], scene.is_person)
+        if keys(theme)[0] in {"to", "you"} or _to_do(theme):
+            return None
+        command = read_command((Word("bring", "bring"), Word("me", "me"), *theme), scene.is_person)
+        noun = noun_phrase(theme)
+        if (
+            command is not None
+            and noun.core
+            and len(noun.anchors) == 1
+            and noun.relation in {"at", "in", "by", "near"}
+        ):
+            size = next(
+                i
+                for i in range(len(theme))
+                if keys(theme[i:])[: len(noun.relation.split())] == tuple(noun.relation.split())
+            )
+            if find_fact(bare(theme[:size]), scene.facts)[0] is not None:
+                return replace(command, theme=bare(theme[:size]), place=noun.anchors[0], recipient=())
+        return command
+    flat = keys(words)
+    for index in range(1, min(4, len(flat) - 1)):
+        if flat[index] in {"needs", "wants", "need", "want"} or flat[index : index + 2] == (
+            "would",
+            "like",
+        ):
+            who = words[:index]
+            theme = words[index + (2 if flat[index] == "would" else 1) :]
+            if scene.is_person(who) and theme and theme[0].key not in {"to", "you"}:
+                scene.mention(bare(who))
+                return read_command((Word("bring", "bring"), *theme, Word("to", "to"), *who), scene.is_person)
+    return None
+
+
+def _to_do(theme: Phrase) -> bool:
+    """For "everything to look nice": how things should be, nothing to be brought."""
+    flat = keys(theme)
+    at = flat.index("to") if "to" in flat[1:-1] else 0
+    return bool(at) and lexicon().verbs.match(flat, at + 1) is not None and flat[:at] not in _SOMETHING
+
+
+_SOMETHING = frozenset({("something",), ("anything",)})
+_DUE = (
+    ("needs", "to", "be"), ("need", "to", "be"), ("has", "to", "be"), ("have", "to", "be"), ("should", "be"),
+    ("must", "be"), ("ought", "to", "be"), ("is", "to", "be"), ("are", "to", "be"), ("wants",),
+    ("needs",), ("need",),
+    ("requires",), ("require",),
+)  # fmt: skip
+
+
+def due(words: Phrase, scene: Scene) -> Command | None:
+    """For "the box should be inspected", "the box needs checking"."""
+    flat = keys(words)
+    for index in range(1, len(flat) - 1):
+        size = next((len(marker) for marker in _DUE if flat[index : index + len(marker)] == marker), 0)
+        done = flat[index + size] if size and index + size < len(flat) else ""
+        passive = flat[index + size - 1 : index + size] == ("be",)
+        if not done or lemma(done) == done or not (passive or done.endswith("ing")):
+            continue
+        subject, rest = words[:index], words[index + size + 1 :]
+        if subject[0].key in {"i", "you", "we", "it"} and len(subject) == 1 and subject[0].key != "it":
+            return None
+        verb = Word(lemma(done), lemma(done))
+        if rest and lexicon().verbs.match((verb.key, rest[0].key)) not in {
+            None,
+            lexicon().verbs.match((verb.key,)),
+        }:
+            # "Needs looking at": look at it.
+            subject, rest = (rest[0], *subject), rest[1:]
+        return read_command((verb, *subject, *rest), scene.is_person, scene.catalogue.verbs)
+    return None
+
+
+def missing(words: Phrase, scene: Scene) -> Command | None:
+    """For "the X is missing (from the Y)": somebody should go there and look for it."""
+    flat = keys(words)
+    link = next((i for i in range(1, len(flat)) if flat[i] in lexicon().be), 0)
+    state = flat[link + 1 : link + 2]
+    if (
+        not link
+        or state not in {("missing",), ("lost",), ("gone",), ("nowhere",)}
+        or scene.catalogue.with_role("look", "search") is None
+    ):
+        return None
+    place = (
+        bare(words[link + 3 :]) if flat[link + 2 : link + 3] in {("from",), ("in",), ("at",), ("on",)} else ()
+    )
+    return Command("search", "look for", theme=bare(words[:link]), place=place, words=words, clause=words)
+
+
+def need(words: Phrase, scene: Scene) -> Command | None:
+    """For "X is cold" and the like: what helps is to be brought to X, unless the message says what."""
+    flat = keys(words)
+    state = next((w for w in flat[2:] if w in lexicon().needs), None)
+    link = next(
+        (
+            i
+            for i in range(1, len(flat))
+            if flat[i] in lexicon().be | {"feels", "looks", "feel", "seems", "gets"}
+        ),
+        0,
+    )
+    if state is None or not link or "not" in flat:
+        return None
+    who = bare(words[:link])
+    if not scene.is_person(who):
+        return None
+    scene.mention(who)
+    return Command(
+        "need", state, theme=tokens(lexicon().needs[state]), recipient=who, words=words, clause=words
+    )

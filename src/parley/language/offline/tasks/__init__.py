@@ -1,0 +1,1 @@
+"""From an order to steps, by what the robot's own catalogue offers."""

@@ -1,0 +1,251 @@
+"""Steps that look at something or for something."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass, replace
+
+from parley.language.offline.scene.scene import Place, UnclearError
+from parley.language.offline.tasks.catalogue import parameter_role, text_inputs
+from parley.language.offline.tasks.commands import Command
+from parley.language.offline.tasks.docking import Docking
+from parley.language.offline.tasks.going import FORWARD, UnableError
+from parley.language.offline.words.lexicon import lexicon
+from parley.language.offline.words.nouns import bare, noun_phrase
+from parley.language.offline.words.saying import the
+from parley.language.offline.words.text import Phrase, Word, keys, plain, singular, split_name, tokens
+from parley.messages.status import ActionInfo
+
+__all__ = ["ASKING", "Looking"]
+
+ASKING = frozenset({"it", "that", "this", "them", "there", "here", "those", "these"})
+"""Words that point at something said before."""
+
+
+def _start_of(flat: tuple[str, ...], relation: str) -> int:
+    wanted = tuple(relation.split())
+    return next((i for i in range(len(flat)) if flat[i : i + len(wanted)] == wanted), len(flat))
+
+
+_PICTURES = frozenset({"picture", "pictures", "photo", "photos", "photograph", "image", "snapshot", "pic"})
+_GENERAL = frozenset((word,) for word in (
+    "things", "everything", "stuff", "anyone", "anybody", "someone", "somebody", "nobody", "everyone",
+    "everybody", "anything", "something", "nothing", "all",
+))  # fmt: skip
+
+
+def _without_article(words: Phrase) -> Phrase:
+    return words[1:] if keys(words[:1]) in {("the",), ("a",), ("an",)} else words
+
+
+def _in_general(command: Command) -> bool:
+    """Whether it is about no thing in particular ("whether anyone is there")."""
+    return command.kind == "whether" and keys(bare(command.theme)) in _GENERAL
+
+
+def _of_one(member: Phrase, command: Command) -> Command:
+    """For one of several of which something is to be checked ("whether all boxes are shut")."""
+    link = next((i for i, word in enumerate(command.words) if word.key in {"are", "is", "were", "was"}), 0)
+    if command.kind != "whether" or not link:
+        return command
+    verb = {"are": "is", "were": "was"}.get(command.words[link].key, command.words[link].key)
+    named = tokens(the(plain(member)))
+    return replace(command, theme=member, words=(*named, Word(verb, verb), *command.words[link + 1 :]))
+
+
+@dataclass
+class Looking(Docking):
+    """How to look at things and for things."""
+
+    def _look(self, command: Command) -> None:
+        looker = self._looker(command)
+        if looker is None:
+            raise UnableError(f"{command.verb} things")
+        if _in_general(command) and not command.place and not noun_phrase(command.words).anchors:
+            # "The hall. Is anyone there?"
+            if not self.here and self.scene.places:
+                self._stand_at(self.scene.place(self.scene.places[-1]))
+            request = self._whether(command)
+            self._add_look(looker, request, f"check {request}")
+            return
+        if command.place:
+            self._look_there(command, looker)
+            return
+        if (
+            command.theme
+            and set(keys(command.theme)) & FORWARD
+            and not self._grounds(command.theme[:1])
+            and len(command.theme) < 3
+        ):
+            raise UnableError("turn my camera")
+        looked = bool(self.steps) and self.steps[-1].name == looker.name and command.verb != "look around"
+        if not command.theme and command.kind == "look" and looked:
+            # "Something fell off the shelf, please have a look": that is planned already.
+            return
+        if not command.theme and not self.here and self.scene.places:
+            self._stand_at(self.scene.place(self.scene.places[-1]))
+            place = self.scene.places[-1]
+            self._add_look(looker, plain(place), f"look at {the(plain(place))}")
+            return
+        if not command.theme:
+            request = "whether " + plain(command.words) if command.kind == "whether" else "what can be seen"
+            self._add_look(looker, request, "look around")
+            return
+        inner = self._inside(command)
+        if inner is not None:
+            self._look_there(inner, looker)
+            return
+        members = self.scene.several(command.theme)
+        for member in members:
+            self._look_at(member, _of_one(member, command) if len(members) > 1 else command, looker)
+
+    def _looker(self, command: Command) -> ActionInfo | None:
+        """The action to look with: one that is called like the verb, for pictures one that takes them."""
+        lookers = self.catalogue.all_with_role("look")
+        pictures = bool(_PICTURES & set(keys(command.clause[:4])) or _PICTURES & set(command.verb.split()))
+        taking = [info for info in lookers if _PICTURES & set(split_name(info.name))]
+        others = [info for info in lookers if info not in taking]
+        named = (i for i in others if split_name(i.name)[:1] == tuple(command.verb.split()[:1]))
+        if pictures and taking:
+            return taking[0]
+        return next(named, None) or next(iter([*others, *taking]), None) or self.catalogue.with_role("search")
+
+    def _inside(self, command: Command) -> Command | None:
+        """For "count the cups on the table": at the table, look for the cups."""
+        if command.kind == "whether":
+            subject = keys(bare(command.theme))
+            if (self._grounds(command.theme) and not _in_general(command)) or (
+                subject and subject[0] in ASKING
+            ):
+                return None
+            noun = noun_phrase(command.words)
+        else:
+            if self.scene.ground(command.theme).outcome != "none":
+                return None
+            noun = noun_phrase(command.theme)
+        if len(noun.anchors) != 1 or noun.relation in {"of", "with", "from"} or not noun.core:
+            return None
+        if self.scene.ground(noun.anchors[0]).outcome == "none":
+            return None
+        theme = bare(command.theme[: _start_of(keys(command.theme), noun.relation)])
+        return replace(command, theme=theme, place=noun.anchors[0])
+
+    def _look_there(self, command: Command, looker: ActionInfo) -> None:
+        """Something in or at a place: "the shelf for leaks", "whether the cup is on the table"."""
+        whole = command.kind == "whether" and self._grounds(command.theme) and not _in_general(command)
+        stand = self._place_or_here(command.theme if whole else command.place)
+        theme = plain(self.scene.referent(command.theme)) if command.theme else ""
+        request = self._whether(command) if command.kind == "whether" else theme
+        self._stand_at(stand)
+        self.scene.mention(bare(command.theme))
+        if command.kind == "whether":
+            self._add_look(looker, request, f"check {request}")
+        else:
+            self._add_look(looker, request or command.verb, f"look for {self._named(theme)}")
+
+    def _named(self, theme: str) -> str:
+        """With its article, but "cracks" and "all the cups" as they are."""
+        words = theme.split()
+        plural = bool(words) and singular(words[-1].lower()) != words[-1].lower()
+        return theme if plural or (" " in theme and words[0].lower() in lexicon().numbers) else the(theme)
+
+    def _look_at(self, member: Phrase, command: Command, looker: ActionInfo) -> None:
+        if command.kind == "whether":
+            request = self._whether(command)
+            self._stand_at(self._place_or_here(member))
+            self.scene.mention(bare(self.scene.referent(member)))
+            self._add_look(looker, request, f"check {request}")
+            return
+        place = self._place_or_here(member)
+        name = plain(bare(self.scene.referent(member)))
+        owned = " of " in f" {name.lower()} " or "'s " in name
+        part = owned and self.scene.whole(tokens(name)) is not None
+        exact = place is not None and place.item is not None and place.via is None and not part
+        request = place.value if place is not None and exact else name
+        self._stand_at(place)
+        self._add_look(looker, request, f"look at {the(request)}")
+
+    def _whether(self, command: Command) -> str:
+        words, asking = command.words, "how" if command.verb.endswith("how") else "whether"
+        if command.theme and keys(bare(command.theme))[0] in ASKING:
+            subject = the(plain(self.scene.referent(command.theme)))
+            rest = words[len(command.theme) :]
+            return f"{asking} {subject} {plain(rest)}".strip()
+        return f"{asking} {plain(words)}"
+
+    def _add_look(self, looker: ActionInfo, request: str, saying: str) -> None:
+        added = self._said(looker, request, saying)
+        same = [step.input_parameters for step in self.steps[-len(added) :]]
+        if same != [step.input_parameters for step in added] or self.steps[-1].name != looker.name:
+            self.steps += added
+            self.will.append(saying)
+
+    def _search(self, command: Command) -> None:
+        command = self._where_last_said(command)
+        theme = self._wanted(command.theme)
+        searcher = self._searcher(theme)
+        if searcher is None:
+            raise UnableError("look for things")
+        words = plain(theme)
+        if command.place:
+            self._stand_at(self._place_or_here(command.place))
+            if keys(theme) == ("operator",) and self.catalogue.with_role("meet") is None:
+                # "Meet me at the desk": being there is all.
+                return
+        else:
+            own = "search" in self.catalogue.roles(searcher)
+            known = self._known_place(theme)
+            if known is not None:
+                self._stand_at(known)
+                if known.via is not None:
+                    words = (
+                        plain(known.via.fact.subject) if len(known.via.fact.subject) > len(theme) else words
+                    )
+            elif not (own or self.here):
+                raise UnclearError(f"Where should I look for {the(words)}?")
+        self.scene.mention(theme)
+        if self._is_somebody(theme) and keys(self.scene.persons[-1] if self.scene.persons else ()) != keys(
+            theme
+        ):
+            self.scene.persons.append(theme)
+        self.seen = theme
+        self._add_look(searcher, words, f"look for {the(words)}")
+
+    def _where_last_said(self, command: Command) -> Command:
+        """For "the person in the red coat in the hall": where is what is said last and is on the map."""
+        if command.place and self._grounds(command.place):
+            return command
+        words = tuple(word for word in command.words if word.is_word)
+        flat = keys(words)
+        if not command.place and not self.scene.is_person(words):
+            return command
+        for at in range(len(flat) - 2, 0, -1):
+            found = lexicon().places.match(flat, at)
+            rest = (
+                words[at + found[0] :] if found is not None and found[1] not in {"of", "with", "from"} else ()
+            )
+            if rest and self._grounds(rest) and not self._grounds(words):
+                return replace(command, theme=_without_article(words[:at]), place=bare(rest))
+        return command
+
+    def _searcher(self, theme: Phrase) -> ActionInfo | None:
+        wanted = "person" if self._is_somebody(theme) else "object"
+        for info in (*self.catalogue.all_with_role("search"), *self.catalogue.all_with_role("meet")):
+            roles = {parameter_role(name) for name in text_inputs(info)}
+            if wanted in roles or not roles & {"person", "object"}:
+                return info
+        return self.catalogue.with_role("look") or self.catalogue.with_role("search")
+
+    def _is_somebody(self, theme: Phrase) -> bool:
+        core = noun_phrase(theme).core
+        return self.scene.is_person(theme) or (bool(core) and core[-1] in lexicon().person_words)
+
+    def _wanted(self, theme: Phrase) -> Phrase:
+        if not theme:
+            raise UnclearError("What should I look for?")
+        return bare(self.scene.referent(theme))
+
+    def _known_place(self, theme: Phrase) -> Place | None:
+        if self._grounds(theme):
+            return self.scene.place(theme)
+        place = self.scene.remembered_place(theme)
+        return place if place is not None else self.scene.told_place(theme)

@@ -1,0 +1,176 @@
+"""Which order a clause means: by its verb, by what was said before, by what somebody needs."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass, replace
+
+from parley.language.offline.dialogue.answering import Answering
+from parley.language.offline.facts.facts import read_statement, strip_openers
+from parley.language.offline.sentences.clauses import Clause, opens_command
+from parley.language.offline.sentences.wishes import due, missing, need, wish
+from parley.language.offline.tasks.commands import Command, read_command
+from parley.language.offline.words.lexicon import lexicon
+from parley.language.offline.words.nouns import bare
+from parley.language.offline.words.saying import the
+from parley.language.offline.words.text import Phrase, Word, keys, lemma, plain, tokens
+
+__all__ = ["Meaning"]
+
+_FOLLOW_ON = (
+    *(
+        (*verb, *same, end)
+        for verb in ((), ("do",), ("and", "do"))
+        for same in (
+            ("the", "same"),
+            ("same", "thing"),
+            ("the", "same", "thing"),
+            ("likewise",),
+            ("that", "too"),
+            ("it", "too"),
+        )
+        for end in ("for", "with", "at", "in", "to")
+    ),
+    *(
+        (verb, it, end)
+        for verb in ("repeat", "do")
+        for it in ("that", "it", "this")
+        for end in ("for", "with", "at", "in")
+    ),
+    ("ditto", "for"),
+    ("likewise", "for"),
+    ("what", "about"),
+    ("how", "about"),
+    ("the", "same", "for"),
+    ("same", "for"),
+    ("same", "with"),
+)
+
+
+_ONCE_MORE = frozenset({"motion", "look", "search", "transfer", "whether"})
+
+
+def _end_of(theme: Phrase, words: Phrase) -> int:
+    """Where what is looked at ends in "the door is open"."""
+    wanted = keys(theme)
+    ends = (
+        i + len(wanted) for i in range(len(words)) if wanted and keys(words[i : i + len(wanted)]) == wanted
+    )
+    return next(ends, 0)
+
+
+_NO_NAMES = frozenset({
+    "never", "whatever", "anyway", "because", "although", "while", "somebody", "someone", "nobody",
+    "everybody", "we", "they",
+})  # fmt: skip
+"""With these no name of a thing begins."""
+
+
+@dataclass
+class Meaning(Answering):
+    """How a clause becomes a command."""
+
+    def _command(self, clause: Clause) -> Command | None:
+        command = read_command(clause.words, self.scene.is_person, self.scene.catalogue.verbs)
+        words = strip_openers(clause.words)
+        told = lexicon().reporting.match(keys(words))
+        if (
+            told is not None
+            and told[0] > 1
+            and words[0].key in {"take", "make", "put", "jot"}
+            and read_statement(words)
+        ):
+            return None
+        if (
+            keys(words)[:1] == ("you",)
+            and keys(words)[2:3] == ("find",)
+            and read_statement(words) is not None
+        ):
+            return None
+        plain_words = strip_openers(words, requests=True)
+        if len(self._follow_on(plain_words)) < len(plain_words):
+            command = self._elliptical(plain_words) or command
+        if command is None:
+            command = (
+                due(words, self.scene)
+                or wish(words, self.scene)
+                or need(words, self.scene)
+                or missing(words, self.scene)
+                or self._going(words)
+                or self._described(words)
+                or self._elliptical(words)
+            )
+        if (
+            command is not None
+            and command.kind == "other"
+            and read_statement(clause.words) is not None
+            and not opens_command(clause.words)
+        ):
+            return None
+        return command
+
+    def _described(self, words: Phrase) -> Command | None:
+        """For a verb that only a phrase, an example or a description of the catalogue knows."""
+        flat = keys(strip_openers(words, requests=True))
+        if not flat or flat[0] in lexicon().determiners | lexicon().question_starts | lexicon().be:
+            return None
+        catalogue = self.scene.catalogue
+        if catalogue.by_phrase(flat) is None and catalogue.by_description(flat) is None:
+            return None
+        words = strip_openers(words, requests=True)
+        return Command("other", words[0].key, theme=bare(words[1:]), words=words[1:], clause=words)
+
+    def _going(self, words: Phrase) -> Command | None:
+        """For "to the desk": going needs no verb."""
+        if keys(words)[:1] not in {("to",), ("over",), ("towards",), ("back",)} or len(words) < 2:
+            return None
+        return read_command((Word("go", "go"), *words), self.scene.is_person)
+
+    def _elliptical(self, words: Phrase) -> Command | None:
+        """For "Go to A, then B": a bare noun phrase does again what the clause before did."""
+        words = self._follow_on(words)
+        if self.last is None or self.last.kind not in _ONCE_MORE or not words or len(words) > 9:
+            return None
+        while len(words) > 1 and words[-1].key in {"too", "also", "next", "then", "now", "please"}:
+            words = words[:-1]
+        negated = words[0].key == "not" and len(words) > 1
+        words = words[1:] if negated else words
+        found = lexicon().goals.match(keys(words))
+        words = bare(words[found[0] :] if found and found[0] < len(words) else words)
+        if not words or any(w.key in lexicon().be for w in words) or self._happens(words):
+            return None
+        words = self._labelled(words)
+        if self.last.kind == "whether":
+            rest = self.last.words[_end_of(self.last.theme, self.last.words) :]
+            named = tokens(the(plain(words)))
+            return replace(self.last, theme=words, place=(), words=(*named, *rest), clause=words)
+        if self.last.kind == "motion":
+            return replace(
+                self.last, place=words, clause=(Word("go", "go"), Word("to", "to"), *words), negated=negated
+            )
+        place = self.last.place if self.last.kind == "transfer" else ()
+        return replace(self.last, theme=words, place=place, source=(), clause=words, negated=negated)
+
+    def _happens(self, words: Phrase) -> bool:
+        """Whether somebody did something ("the cook made soup"), as against a name with such a word in it."""
+        first = words[0].key
+        if first in _NO_NAMES:
+            return True
+        told = any(lemma(word.key) != word.key and not word.key.endswith(("s", "ing")) for word in words[1:])
+        return told and len(words) > 2 and self.scene.ground(words).outcome == "none"
+
+    def _labelled(self, words: Phrase) -> Phrase:
+        """For "Go to room 1, then 2": a bare number or letter names another of the same kind."""
+        named = bare(self.last.place or self.last.theme) if self.last is not None else ()
+        label = len(words) == 1 and (words[0].key.isdigit() or len(words[0].key) == 1)
+        if not label or len(named) < 2 or not (named[-1].key.isdigit() or len(named[-1].key) == 1):
+            return words
+        return (*named[:-1], *words)
+
+    def _follow_on(self, words: Phrase) -> Phrase:
+        """Also for "what about the desk?" and "and now the desk": as in the message before."""
+        flat = keys(words)
+        lead = next((lead for lead in _FOLLOW_ON if flat[: len(lead)] == lead), ())
+        leads_on = self._leads_on or flat[-1:] in {("too",), ("also",)} or flat[-2:] == ("as", "well")
+        if self.last is None and (lead or leads_on):
+            self.last = self._previous
+        return words[len(lead) :]

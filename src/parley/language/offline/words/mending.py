@@ -1,0 +1,148 @@
+"""Typing errors in small words and verbs put right before anything else; nouns are compared loosely later."""
+
+from __future__ import annotations
+
+import re
+from functools import cache
+
+from parley.language.base import Situation
+from parley.language.offline.words.lexicon import lexicon
+from parley.language.offline.words.text import Phrase, Word, mend, split_name, tokens
+from parley.language.word_lists import load_data
+
+__all__ = ["mended"]
+
+_LOOKS = frozenset(
+    load_data("people")["worn"] + load_data("people")["posture"] + load_data("people")["superlatives"]
+)
+"""Words about looks, which are no typing errors."""
+
+
+def mended(words: Phrase, situation: Situation) -> Phrase:
+    """Typing errors in small words and verbs put right; nouns are compared loosely later."""
+    known = set(lexicon().vocabulary | _LOOKS)
+    words = _apart(words, situation)
+    for item in situation.objects:
+        known.update(
+            word.key
+            for text in (item.description, *item.aliases, item.class_name, item.id)
+            for word in tokens(text)
+        )
+    for entry in situation.memory:
+        known.update(word.key for word in tokens(entry.data[:400]))
+    for info in situation.catalogue:
+        known.update(split_name(info.name))
+    known.update(name.lower() for name in situation.robots)
+    words = tuple(part for word in words for part in _cut(word, frozenset(known)))
+    return _without_haste(mend(words, frozenset(known), lexicon().often_mistyped, _verbs()))
+
+
+_ARTICLES = frozenset({"the", "a", "an", "my", "your", "this", "that"})
+_LABEL = re.compile(r"([a-z]{2,})-?(\d{1,3})")
+
+
+def _cut(word: Word, known: frozenset[str]) -> tuple[Word, ...]:
+    """For "gotothe" "go to the", for "inspectthe" "inspect the": unknown words cut into small ones."""
+    key = word.key
+    if len(key) < 5 or not key.isalpha() or key in known:
+        return (word,)
+    for size in range(2, len(key) - 1):
+        head, tail = key[:size], key[size:]
+        if (head not in _GLUE and head not in _verbs()) or (
+            head not in _GLUE and tail[:3] not in {"the", "at", "to"}
+        ):
+            continue
+        rest = (Word(tail, tail),) if tail in known and len(tail) > 1 else _cut(Word(tail, tail), known)
+        if len(rest) > 1 or (tail in known and len(tail) > 1):
+            return (Word(head, head), *rest)
+    return (word,)
+
+
+_GLUE = frozenset(
+    {
+        "go",
+        "to",
+        "the",
+        "and",
+        "in",
+        "into",
+        "at",
+        "on",
+        "then",
+        "from",
+        "of",
+        "for",
+        "goto",
+        "tothe",
+        "look",
+        "check",
+    }
+)
+
+
+def _apart(words: Phrase, situation: Situation) -> Phrase:
+    """Words written together or cut in the wrong place ("box1", "tot he box"), and "2" for "to"."""
+    texts = (f"{item.description} {item.class_name}" for item in situation.objects)
+    named = {word.key for text in texts for word in tokens(text)}
+    result: list[Word] = []
+    words = tuple(_unstretched(word) for word in words)
+    for at in range(len(words) - 1):
+        if words[at].key == "no" and words[at + 1].key == "one":
+            words = (*words[:at], Word("nobody", "nobody"), *words[at + 2 :])
+            break
+    flat = tuple(word.key for word in words)
+    index = 0
+    while index < len(words):
+        word, following = words[index], flat[index + 1] if index + 1 < len(flat) else ""
+        label = _LABEL.fullmatch(word.key)
+        if word.key[-1:] == "t" and following == "he" and word.key[:-1] in _BEFORE_THE:
+            result += [Word(word.key[:-1], word.raw[:-1]), Word("the", "the")]
+            index += 2
+            continue
+        if label and word.key not in named and label[1] in named and label[2] in named:
+            result += [Word(label[1], label[1]), Word(label[2], label[2])]
+        elif word.key == "2" and index and (following in _ARTICLES or flat[index - 1] in _GOING):
+            result.append(Word("to", "to"))
+        else:
+            result.append(word)
+        index += 1
+    return tuple(result)
+
+
+def _unstretched(word: Word) -> Word:
+    """For "gooo" "go"."""
+    for kept in (r"\1", r"\1\1"):
+        shorter = re.sub(r"([a-z])\1{2,}", kept, word.key)
+        if shorter != word.key and shorter in lexicon().vocabulary:
+            return Word(shorter, shorter)
+    return word
+
+
+_GOING = frozenset({"go", "drive", "come", "move", "head", "walk", "navigate", "return", "back", "over"})
+_BEFORE_THE = frozenset({"to", "in", "on", "at", "a", "for", "of", "by", "from", "into", "near", "and"})
+_HASTE = frozenset(
+    ["quick", "brief", "short", "close", "closer", "good", "proper", "careful", "thorough", "little", "nice"]
+)
+_DEEDS = frozenset(["look", "peek", "glance", "visit", "picture", "photo", "trip", "stop", "check", "round"])
+
+
+def _without_haste(words: Phrase) -> Phrase:
+    """For "have a quick look" reads "have a look": how it is done changes nothing."""
+    flat = tuple(word.key for word in words)
+    return tuple(
+        word
+        for index, word in enumerate(words)
+        if not (
+            word.key in _HASTE
+            and (flat[index - 1 : index] in {("a",), ("another",), (",",), (".",), ("and",)} or not index)
+            and flat[index + 1 : index + 2]
+            and flat[index + 1] in _DEEDS
+        )
+    )
+
+
+@cache
+def _verbs() -> frozenset[str]:
+    """First words of the verbs that typing errors are mended to."""
+    classes = lexicon().verb_classes
+    return frozenset(verb.split()[0] for name, verbs in classes.items() if name != "other" for verb in verbs)

@@ -1,0 +1,102 @@
+"""Small talk: greetings, thanks, insults, other languages."""
+
+from __future__ import annotations
+
+import unicodedata
+
+from parley.language.offline.words.lexicon import lexicon
+from parley.language.offline.words.text import Phrase, plain
+
+__all__ = ["not_understood", "reply"]
+
+_SHORT = {
+    **dict.fromkeys(
+        ("yes", "ok", "okay", "yeah", "sure", "fine", "all right", "alright", "right", "i see"), "All right."
+    ),
+    **dict.fromkeys(
+        ("no", "nope", "never mind", "nothing", "forget it", "no thanks"), "All right, then nothing."
+    ),
+    **dict.fromkeys(("sorry", "i am sorry", "oops", "my mistake"), "No problem."),
+    **dict.fromkeys(
+        (
+            "are you ok",
+            "are you okay",
+            "are you fine",
+            "are you ready",
+            "are you there",
+            "are you all right",
+            "can you hear me",
+            "do you hear me",
+            "do you understand me",
+        ),
+        "I am here and ready.",
+    ),
+    **dict.fromkeys(
+        ("that is wrong", "you are wrong", "wrong", "that is not right"),
+        "I am sorry. Please tell me what is right.",
+    ),
+    "shut up": "All right, I say no more.",
+}
+_ALSO_ENGLISH = frozenset(
+    {"is", "on", "do", "die", "un", "in", "la", "de", "es", "les", "en", "mine", "too", "we", "y"}
+)
+
+
+def reply(words: Phrase, *, alone: bool = True) -> str | None:
+    """The answer to what is only social; None if the words are about something."""
+    lex = lexicon()
+    flat = tuple(word.key for word in words if word.is_word)
+    if not flat:
+        return None
+    while (
+        len(flat) > 1
+        and flat[-1] in {"robot", "there", "please", "again", "everyone", "friend", "much"}
+        and flat not in lex.thanks
+    ):
+        flat = flat[:-1]
+    if flat in lex.greetings:
+        return "Hello! What can I do for you?" if alone else ""
+    if flat in lex.thanks or flat[:2] == ("thank", "you") or (flat[:1] == ("thanks",) and len(flat) < 5):
+        return "You are welcome." if alone else ""
+    if flat in lex.farewells:
+        return "Goodbye! I am here when you need me."
+    if not alone:
+        return None
+    text = " ".join(flat)
+    if text in _SHORT:
+        return _SHORT[text]
+    if set(flat) & lex.insults and (len(flat) <= 3 or flat[0] in {"you", "i", "what", "this", "that"}):
+        return "I am sorry if I did something wrong. Tell me what I should do."
+    if (
+        flat[:2] == ("i", "am")
+        and "not" not in flat
+        and set(flat[2:]) & {"bored", "sad", "happy", "tired", "lonely", "angry"}
+    ):
+        return "I am sorry, I cannot help with feelings. Is there something to look at for you?"
+    if (
+        set(flat) & lex.jokes
+        and flat[0] in {"do", "what", "how", "tell", "who", "is", "are", "sing", "can", "which", "should"}
+        and len(flat) <= 10
+    ):
+        return "I am no good at small talk: I drive, look and help. What can I do for you?"
+    if _is_foreign(words):
+        return "I understand only English, except for stop words. Please say it in English."
+    return None
+
+
+def _is_foreign(words: Phrase) -> bool:
+    letters = [char for word in words for char in word.raw if char.isalpha()]
+    if letters and sum("LATIN" not in unicodedata.name(char, "") for char in letters) > len(letters) / 2:
+        return True
+    flat = [word.key for word in words if word.is_word]
+    foreign = sum(word in lexicon().foreign for word in flat)
+    strictly = sum(word in lexicon().foreign - _ALSO_ENGLISH for word in flat)
+    english = sum(word in lexicon().vocabulary - (lexicon().foreign - {"is", "do"}) for word in flat)
+    return strictly >= 1 and foreign >= 2 and foreign > english
+
+
+def not_understood(words: Phrase) -> str:
+    """The sentence for words that mean nothing here."""
+    text = plain(words)
+    shown = text if len(text) <= 60 else text[:57] + "..."
+    return f"I am not sure what you mean by “{shown}”."

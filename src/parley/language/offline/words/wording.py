@@ -1,0 +1,78 @@
+"""Words turned from one speaker to another: what the operator says, as the robot says it."""
+
+from __future__ import annotations
+
+from parley.language.offline.words.lexicon import lexicon
+from parley.language.offline.words.text import Phrase, Word, keys, lemma, plain, singular
+
+__all__ = ["asked_directly", "turned"]
+
+_TURNED = {
+    "me": "you", "my": "your", "i": "you", "us": "you", "myself": "yourself", "you": "me", "your": "my",
+    "yourself": "myself", "mine": "yours", "we": "you", "our": "your",
+}  # fmt: skip
+_SUBJECT_AFTER = frozenset(
+    {"until", "till", "when", "whether", "if", "that", "before", "after", "once", "while"}
+)
+
+
+def turned(words: Phrase) -> Phrase:
+    """The operator's words as the robot repeats them: "until I call you" is "until you call me"."""
+    result: list[Word] = []
+    for index, word in enumerate(words):
+        other = _TURNED.get(word.key)
+        if word.key == "you" and index and words[index - 1].key in _SUBJECT_AFTER:
+            other = "I"
+        if word.key == "am" and result and result[-1].key == "you":
+            other = "are"
+        result.append(word if other is None else Word(other.lower(), other))
+    return tuple(result)
+
+
+_WHO_IS_ASKED = frozenset({"he", "she", "they", "it"})
+
+
+def asked_directly(words: Phrase) -> str:
+    """A reported question as it is put: "whether she needs help" is "Do you need help?"."""
+    flat = keys(words)
+    lead = flat[:1] if flat[:1] in {("whether",), ("if",)} else ()
+    asks = () if lead else flat[:1] if flat[:1] and flat[0] in lexicon().question_starts else None
+    if asks is None:
+        return plain(words)
+    rest = words[1:]
+    at = 0 if lead or (rest and rest[0].key in _WHO_IS_ASKED) else -1
+    if not lead and keys(rest[:1]) in {("their",), ("his",), ("her",)} and rest[-1].key in lexicon().be:
+        return _question(f"{flat[0]} {rest[-1].key} your {plain(rest[1:-1])}")
+    if at < 0 or not rest or rest[0].key not in _WHO_IS_ASKED:
+        return _sentence(words if not lead else rest, bool(lead))
+    verb, tail = rest[1:2], rest[2:]
+    if not verb:
+        return plain(words)
+    if verb[0].key in lexicon().be:
+        said = f"{'were' if verb[0].key in {'was', 'were'} else 'are'} you {plain(tail)}"
+    elif verb[0].key in lexicon().auxiliaries - {"has", "have"}:
+        said = f"{verb[0].key} you {plain(tail)}"
+    else:
+        said = f"do you {_base(verb[0].key)} {plain(tail)}"
+    start = "" if lead else f"{flat[0]} "
+    return _question(start + said)
+
+
+def _base(verb: str) -> str:
+    base = "have" if verb == "has" else lemma(verb)
+    return singular(base) if base == verb else base
+
+
+def _sentence(words: Phrase, reported: bool) -> str:
+    """For "whether the bus is late", "what time it is": the verb before the subject."""
+    flat = keys(words)
+    link = next((i for i in range(1, len(flat)) if flat[i] in lexicon().be), 0)
+    if not link:
+        return plain(words)
+    subject, verb, tail = words[:link], words[link], words[link + 1 :]
+    return _question(f"{verb.key} {plain(subject)} {plain(tail)}") if reported else _question(plain(words))
+
+
+def _question(text: str) -> str:
+    text = " ".join(text.split())
+    return f"{text[:1].upper()}{text[1:]}?"

@@ -1,0 +1,48 @@
+"""Courtesy around an order changes nothing; what only looks like it is kept."""
+
+from __future__ import annotations
+
+import pytest
+
+from parley.language.offline.words.courtesy import plainly
+from parley.language.offline.words.text import keys, tokens
+
+
+@pytest.mark.parametrize(
+    "said",
+    [
+        "I was wondering whether you might possibly be able to check the box",
+        "if it isn't too much bother I'd be ever so grateful if you would check the box",
+        "would it be too much trouble to ask you to check the box",
+        "is there any chance you could perhaps check the box",
+        "have you got time to check the box",
+        "check the box, thank you so much, you are a star",
+        "sorry if I am disturbing you but could you check the box",
+    ],
+)
+def test_courtesy_is_taken_off(said: str) -> None:
+    read = [key for key in keys(plainly(tokens(said))) if key.isalpha()]
+    assert read[-3:] == ["check", "the", "box"]
+    assert len(read) <= 5
+
+
+@pytest.mark.parametrize(
+    "said",
+    [
+        "do you know where the box is",
+        "have you checked the box",
+        "go to the box and say thank you",
+        "is the box open",
+        "I would like some tea",
+        "do not go there",
+    ],
+)
+def test_what_is_no_courtesy_stays(said: str) -> None:
+    assert plainly(tokens(said)) == tokens(said)
+
+
+def test_a_request_in_the_middle_of_dictated_words_is_a_sentence_of_its_own() -> None:
+    said = tokens("the weather is awful again today by the way could you go to the box and open it")
+    assert " . could you go" in " ".join(keys(plainly(said))) or ". by the way" in " ".join(
+        keys(plainly(said))
+    )

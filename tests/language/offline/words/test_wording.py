@@ -1,0 +1,77 @@
+"""Words turned from one speaker to another."""
+
+from __future__ import annotations
+
+import pytest
+
+from parley.language.offline.plan_changes.repeating import counted_times, without_recurrence
+from parley.language.offline.sentences.clauses import opens_command
+from parley.language.offline.sentences.simultaneous import side_by_side
+from parley.language.offline.words.saying import in_turn
+from parley.language.offline.words.text import keys, plain, tokens
+from parley.language.offline.words.wording import asked_directly, turned
+
+
+@pytest.mark.parametrize(
+    ("said", "repeated"),
+    [
+        ("until I call you", "until you call me"),
+        ("bring me my box", "bring you your box"),
+        ("when you see me", "when I see you"),
+    ],
+)
+def test_the_operators_words_are_repeated_from_the_robots_side(said: str, repeated: str) -> None:
+    assert plain(turned(tokens(said))) == repeated
+
+
+@pytest.mark.parametrize(
+    ("reported", "asked"),
+    [
+        ("whether she needs help", "Do you need help?"),
+        ("if he is cold", "Are you cold?"),
+        ("whether the box is open", "Is the box open?"),
+        ("what he wants", "What do you want?"),
+        ("what their name is", "What is your name?"),
+        ("the box is open", "the box is open"),
+    ],
+)
+def test_a_reported_question_is_put_directly(reported: str, asked: str) -> None:
+    assert asked_directly(tokens(reported)) == asked
+
+
+@pytest.mark.parametrize(
+    ("said", "rest", "often"),
+    [
+        ("check the box every ten minutes", "check the box", "every ten minutes"),
+        ("every hour, check the box", "check the box", "every hour"),
+        ("check the box hourly", "check the box", "hourly"),
+        ("check every box", "check every box", ""),
+    ],
+)
+def test_how_often_is_told_from_what(said: str, rest: str, often: str) -> None:
+    words, found = without_recurrence(tokens(said))
+    assert (plain(words), found) == (rest, often)
+
+
+def test_a_number_of_times_is_counted() -> None:
+    assert counted_times(tokens("check the box three times")) == (tokens("check the box"), 3)
+    assert counted_times(tokens("check the box")) == (tokens("check the box"), 1)
+
+
+@pytest.mark.parametrize(
+    ("said", "first", "second", "both"),
+    [
+        ("go to the box and at the same time say hello", "go to the box", "say hello", True),
+        ("say hello while you drive to the box", "drive to the box", "say hello", True),
+        ("check the box while waiting", "check the box", "", False),
+        ("while you are at the door, check the box", "visit the door", "check the box", False),
+    ],
+)
+def test_what_is_done_at_the_same_time_is_found(said: str, first: str, second: str, both: bool) -> None:
+    found = side_by_side(tokens(said), opens_command)
+    assert found is not None
+    assert (keys(found[0]), keys(found[1]), found[2]) == (keys(tokens(first)), keys(tokens(second)), both)
+
+
+def test_conditions_are_told_in_turn() -> None:
+    assert in_turn(["look", "if so, go", "if not, stay"]) == "look; if so, go; if not, stay"
