@@ -14,8 +14,16 @@ from parley.evaluation.gpsr import GPSR_SEED, gpsr_cases
 __all__ = ["SET_NAMES", "load_set", "own_set"]
 
 _DATA: Final = Path(__file__).parents[3] / "eval"
-_DEVELOPED: Final = ("development", "second_set", "third_set", "fourth_set", "fifth_set", "scenes")
-_BLIND: Final = ("blind_people",)
+_DEVELOPED: Final = (
+    "development",
+    "second_set",
+    "third_set",
+    "fourth_set",
+    "fifth_set",
+    "scenes",
+    "fresh_days",
+)
+_BLIND: Final = ("blind_people", "blind_voices")
 
 SET_NAMES: Final = ("development", "held-out", "blind", "gpsr", "all")
 """`held-out`: the half of the second set that nobody developed on; `blind` holds `gpsr`."""
