@@ -3,16 +3,19 @@
 from __future__ import annotations
 
 import time
-from collections.abc import Sequence
+from collections.abc import Awaitable, Callable, Mapping, Sequence
 from dataclasses import dataclass
-from typing import Final
+from typing import Any, Final
 
 from parley.actions.builtin import BUILTIN_ACTIONS
 from parley.config import ModelSettings
-from parley.language.base import Language, Situation
+from parley.language.base import Situation
 from parley.language.llm import build_language
+from parley.language.llm.answers import PlanAnswer
+from parley.language.llm.reading import read_plan
 from parley.language.llm.scripted_server import Say, ScriptedServer
 from parley.language.offline import OfflineLanguage
+from parley.language.prompts import compose_interpret
 from parley.messages.memory import MemoryEntry
 from parley.nodes.plan_check import plan_problems
 from parley.umrf.catalogue import Catalogue
@@ -48,32 +51,72 @@ class LanguageFigures:
 async def measure_language(times: int) -> list[LanguageFigures]:
     """Answer `times` messages each: offline, and by a model that answers at once (whole, and streamed).
 
-    What the second and third take is what is added to a model's own time, the scripted server's included.
+    What the model cases take is what is added to a model's own time, and what the scripted server itself
+    takes. Beside them stands what their parts take alone: the same requests sent by nothing but an HTTP
+    client, and by the provider's client, and Parley's own share: composing what a model is told, and checking
+    its answer. The rest is the library that runs the model's agents.
     """
     situations = [_situation(number) for number in range(WARM_UP + times)]
-    figures = [await _measure("offline", OfflineLanguage(), situations)]
+    offline = OfflineLanguage()
+    figures = [await _measure("offline", offline.interpret, situations)]
     async with ScriptedServer() as server:
         server.always(Say(answer=_PLAN, pieces=20))
         settings = ModelSettings(max_tokens_per_hour=None)
-        for case, streams in (("model_overhead", False), ("model_overhead_streamed", True)):
-            language = build_language([f"local:scripted@{server.url}"], settings, check=plan_problems)
-            async with language:  # type: ignore[attr-defined]
-                figures.append(await _measure(case, language, situations, streams=streams))
+        language = build_language([f"local:scripted@{server.url}"], settings, check=plan_problems)
+        async with language:  # type: ignore[attr-defined]
+            figures.append(await _measure("model_overhead", language.interpret, situations))
+            bodies = [request.body for request in server.requests]
+
+            async def streamed(situation: Situation) -> None:
+                await language.interpret(situation, on_draft=lambda _: None)
+
+            figures.append(await _measure("model_overhead_streamed", streamed, situations))
+        figures.append(await _measure("of_it_own_work", _own_work, situations))
+        figures += await _measure_clients(server, bodies)
     return figures
 
 
+async def _measure_clients(
+    server: ScriptedServer, bodies: Sequence[Mapping[str, Any]]
+) -> list[LanguageFigures]:
+    """The same questions without anything of Parley around them."""
+    import httpx2
+    from openai import AsyncOpenAI
+
+    async with (
+        httpx2.AsyncClient() as bare,
+        AsyncOpenAI(base_url=server.url, api_key="none", max_retries=0) as client,
+    ):
+
+        async def post(body: Mapping[str, Any]) -> None:
+            (await bare.post(f"{server.url}/chat/completions", json=body)).json()
+
+        async def create(body: Mapping[str, Any]) -> None:
+            await client.chat.completions.create(**body)
+
+        return [
+            await _measure("of_it_server_and_http", post, bodies),
+            await _measure("of_it_server_and_providers_client", create, bodies),
+        ]
+
+
+async def _own_work(situation: Situation) -> None:
+    compose_interpret(situation)
+    read_plan(PlanAnswer.model_validate(_PLAN), situation, plan_problems)
+
+
 async def _measure(
-    case: str, language: Language, situations: Sequence[Situation], *, streams: bool = False
+    case: str, ask: Callable[[Any], Awaitable[object]], questions: Sequence[object]
 ) -> LanguageFigures:
     taken_ms: list[float] = []
     cpu_s = 0.0
-    for number, situation in enumerate(situations):
+    for number, question in enumerate(questions):
         if number == WARM_UP:
             cpu_s = time.process_time()
         start_s = time.perf_counter()
-        await language.interpret(situation, on_draft=(lambda _: None) if streams else None)
+        await ask(question)
         taken_ms.append(1000 * (time.perf_counter() - start_s))
-    cpu_ms = 1000 * (time.process_time() - cpu_s) / (len(situations) - WARM_UP)
+    cpu_ms = 1000 * (time.process_time() - cpu_s) / (len(questions) - WARM_UP)
     return LanguageFigures(case, tuple(taken_ms[WARM_UP:]), cpu_ms)
 
 

@@ -2,7 +2,7 @@
 
 Three processes: robots that only send (`web_load`), the server with the display interface (this one), and a
 page that only listens (`web_page`). Each picture carries the time of its taking, so that it can be said where
-it waited.
+it waited. Then the same load once more with a real browser (`web_browser`) in the page's place.
 """
 
 from __future__ import annotations
@@ -24,6 +24,7 @@ from typing import Any, Final
 from starlette.types import ASGIApp, Message, Receive, Scope, Send
 
 from parley.bench.engine import share
+from parley.bench.web_browser import BrowserFigures, measure_browser
 from parley.bench.web_load import TOPICS, feed_name, robot_name
 from parley.clock import WallClock
 from parley.errors import ParleyError
@@ -67,9 +68,13 @@ class WebFigures:
     load_average: float
     """Of the machine in the last minute: with more than its cores, all waits are longer."""
     rss_mb: float
+    browser: BrowserFigures | None = None
+    """What a real browser made of the same load, apart from everything above."""
+    no_browser: str = ""
+    """Why there is none."""
 
     def facts(self) -> dict[str, Any]:
-        """For printing."""
+        """The server with a page that only listens, for printing."""
         stages = {
             f"frame_{stage}_p95_ms": round(share(ages, 0.95), 1) for stage, ages in self.stage_ms.items()
         }
@@ -101,6 +106,12 @@ class _Probe:
 
     def __init__(self) -> None:
         self.at_ns: dict[str, dict[int, int]] = {stage: {} for stage in _STAGES}
+
+    def take(self) -> dict[str, dict[int, int]]:
+        """What was noted until now; it is not noted any longer."""
+        taken = self.at_ns
+        self.at_ns = {stage: {} for stage in _STAGES}
+        return taken
 
     def note(self, stage: str, data: bytes) -> None:
         """A picture is there."""
@@ -134,8 +145,9 @@ async def measure_web(
     feeds: int = 8,
     feed_hz: float = 10.0,
     seconds: float = 10.0,
+    browser: bool = True,
 ) -> WebFigures:
-    """Load a server and let one page listen.
+    """Load a server and let one page listen, then one in a real browser if there is one and `browser` is set.
 
     Raises:
         ParleyError: The page heard nothing.
@@ -158,6 +170,8 @@ async def measure_web(
         out, _ = await page.communicate()
         starved_s += _starved_s()
         wall_s, cpu_s = time.perf_counter() - began_s, time.process_time() - before_s
+        load_average, stages = os.getloadavg()[0], probe.take()
+        drawn, why_not = await _drawn(server.url, seconds, feeds) if browser else (None, "not asked for")
     heard = json.loads(out)
     if not heard["changes"] or (feeds and not heard["frames"]):
         raise ParleyError("the page heard nothing, so nothing was measured")
@@ -170,22 +184,32 @@ async def measure_web(
         frame_ms=_ages(heard["frames"]),
         stage_ms={
             stage: _ages([(stamp, at_ns[stamp]) for stamp in frames if stamp in at_ns])
-            for stage, at_ns in probe.at_ns.items()
+            for stage, at_ns in stages.items()
         },
         server_ms=_ages(
             [
-                (at_ns, probe.at_ns["written"][stamp])
-                for stamp, at_ns in probe.at_ns["heard"].items()
-                if stamp in probe.at_ns["written"]
+                (at_ns, stages["written"][stamp])
+                for stamp, at_ns in stages["heard"].items()
+                if stamp in stages["written"]
             ]
         ),
-        frames_taken=len(probe.at_ns["heard"]),
+        frames_taken=len(stages["heard"]),
         server_cpu_share=cpu_s / wall_s,
         page_cpu_share=heard["cpu_s"] / wall_s,
         starved_share=starved_s / wall_s,
-        load_average=os.getloadavg()[0],
+        load_average=load_average,
         rss_mb=resource.getrusage(resource.RUSAGE_SELF).ru_maxrss / 1024,
+        browser=drawn,
+        no_browser=why_not,
     )
+
+
+async def _drawn(address: str, seconds: float, feeds: int) -> tuple[BrowserFigures | None, str]:
+    """What a real browser made of it, or why there is nothing."""
+    try:
+        return await measure_browser(address, seconds, feeds), ""
+    except ParleyError as error:
+        return None, str(error)
 
 
 def _starved_s() -> float:

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import asyncio
+import os
 from collections.abc import Callable, Sequence
 from typing import Annotated, Any
 
@@ -91,6 +92,11 @@ def _show(facts: dict[str, Any], as_json: bool) -> None:
         typer.echo("  ".join(f"{name} {value}" for name, value in facts.items()))
 
 
+def _show_machine(as_json: bool) -> None:
+    """How busy the machine was: times of a busy one say little."""
+    _show({"case": "machine", "cores": os.cpu_count(), "load": round(os.getloadavg()[0], 1)}, as_json)
+
+
 @app.command("memory")
 def memory(
     memories: Annotated[int, typer.Option(min=100, help="How many there are.")] = 100_000,
@@ -125,6 +131,7 @@ def memory(
     for case, taken_ms in searches.items():
         _show({"case": f"search_{case}", "searches": len(taken_ms), **_latency("", taken_ms)}, json)
     _show({"case": "add", "times": len(figures.add_ms), **_latency("", figures.add_ms)}, json)
+    _show_machine(json)
 
 
 @app.command("display")
@@ -153,6 +160,7 @@ def language(
     for figures in asyncio.run(measure_language(times)):
         facts = {"case": figures.case, "messages": times, "cpu_ms": round(figures.cpu_ms, 2)}
         _show(facts | _latency("", figures.latency_ms), json)
+    _show_machine(json)
 
 
 @app.command("demo")
@@ -185,9 +193,15 @@ def web(
     robots: Annotated[int, typer.Option(min=1, max=1000, help="How many robots give feedback.")] = 50,
     feeds: Annotated[int, typer.Option(min=0, max=64, help="How many picture feeds.")] = 8,
     seconds: Annotated[float, typer.Option(min=1, help="How long.")] = 10.0,
+    browser: Annotated[
+        bool, typer.Option(help="Once more with a real browser, if there is one to drive.")
+    ] = True,
 ) -> None:
     """The page's server: feedback at 10 Hz of many robots and pictures at 10 a second, over real sockets."""
     from parley.bench.web import measure_web
+    from parley.bench.web_report import report
 
     quiet_logs()
-    _show(asyncio.run(measure_web(robots=robots, feeds=feeds, seconds=seconds)).facts(), json)
+    figures = asyncio.run(measure_web(robots=robots, feeds=feeds, seconds=seconds, browser=browser))
+    for facts in report(figures):
+        _show(facts, json)

@@ -7,6 +7,7 @@ import { useNow } from '@/ui/use-now';
 import { ago } from '@/ui/words';
 
 import css from './display.module.css';
+import { Drawn } from './drawn';
 import { isStale } from './shown-feeds';
 import { useFeedName } from './use-feed-name';
 import { useNewestPicture } from './use-newest-picture';
@@ -29,13 +30,7 @@ export function FeedPicture({ feed, onEnlarge }: Props) {
   const ageMs = taken > 0 ? Math.max(0, onServerClock(now) - taken) : 0;
   const stale = picture !== null && isStale(feed, ageMs);
   const shown = picture ? (
-    <img
-      key={feed.name}
-      src={picture.address}
-      alt={t('alt', { name, robot: feed.robot })}
-      onLoad={picture.onShown}
-      onError={picture.onShown}
-    />
+    <Drawn picture={picture} label={t('alt', { name, robot: feed.robot })} />
   ) : (
     <span className={css.waiting}>{t('waiting')}</span>
   );

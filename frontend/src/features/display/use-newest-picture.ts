@@ -3,42 +3,44 @@ import { useEffect, useState } from 'react';
 import { watchFeed } from '@/live/connection';
 
 export interface Picture {
-  address: string;
+  /** Given away when it is drawn; see `Drawn`. */
+  bitmap: ImageBitmap;
   /** When it was taken, by the server's clock; 0 if that is not known. */
   unixMs: number;
-  /** To be called once it is on the screen, or cannot be. */
+  /** To be called once it is on the screen. */
   onShown: () => void;
 }
 
-/** The newest picture of a feed; earlier ones are let go of as soon as the next one is on the screen. */
+/** The newest picture of a feed. It is read beside the page's own work; one that a newer overtook is let go of. */
 export function useNewestPicture(robot: string, name: string): Picture | null {
   const [picture, setPicture] = useState<Picture | null>(null);
   useEffect(() => {
-    const held = new Set<string>();
-    const waiting = new Set<() => void>();
-    const stop = watchFeed({ robot, name }, (blob, meta) => {
-      const address = URL.createObjectURL(blob);
-      held.add(address);
-      return new Promise<void>((resolve) => {
-        const onShown = () => {
-          waiting.delete(onShown);
-          for (const other of held) {
-            if (other === address) break;
-            URL.revokeObjectURL(other);
-            held.delete(other);
-          }
+    let came = 0;
+    let newest = 0;
+    let ended = false;
+    let letGo: () => void = () => undefined;
+    const stop = watchFeed({ robot, name }, async (blob, meta) => {
+      came += 1;
+      const number = came;
+      const bitmap = await createImageBitmap(blob);
+      if (ended || number < newest) {
+        bitmap.close();
+        return;
+      }
+      newest = number;
+      letGo();
+      await new Promise<void>((resolve) => {
+        letGo = () => {
+          bitmap.close(); // does nothing to one that was drawn: that belongs to the canvas
           resolve();
         };
-        // A newer picture takes the place of one that is still being read.
-        for (const skipped of [...waiting]) skipped();
-        waiting.add(onShown);
-        setPicture({ address, unixMs: meta.unix_ms ?? 0, onShown });
+        setPicture({ bitmap, unixMs: meta.unix_ms ?? 0, onShown: resolve });
       });
     });
     return () => {
+      ended = true;
       stop();
-      for (const resolve of waiting) resolve();
-      for (const address of held) URL.revokeObjectURL(address);
+      letGo();
       setPicture(null);
     };
   }, [robot, name]);
