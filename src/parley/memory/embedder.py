@@ -12,18 +12,15 @@ from collections.abc import Sequence
 from typing import Any, Final, NoReturn
 
 import numpy as np
-import numpy.typing as npt
 
 from parley.config import EmbeddingSettings
 from parley.errors import ConfigError, LanguageError
+from parley.memory.vectors import Vectors
 
-__all__ = ["KEY_VARIABLE", "Embedder", "RefusedTextError", "Vectors", "configured_embedder"]
+__all__ = ["KEY_VARIABLE", "Embedder", "RefusedTextError", "configured_embedder"]
 
 KEY_VARIABLE: Final = "PARLEY_EMBEDDINGS_KEY"
 """Environment variable with the key."""
-
-Vectors = npt.NDArray[np.float32]
-"""One row per text, each of length one, so that a dot product is the cosine."""
 
 _MAX_ANSWER_BYTES: Final = 64 * 1024 * 1024
 _REFUSALS: Final = frozenset({400, 413, 422})

@@ -17,10 +17,11 @@ import structlog
 
 from parley.clock import Clock
 from parley.errors import LanguageError, StoreError
-from parley.memory.embedder import Embedder, RefusedTextError, Vectors
+from parley.memory.embedder import Embedder, RefusedTextError
 from parley.memory.retrieval import words
 from parley.memory.rows import COLUMNS, read_entry
 from parley.memory.store import MemoryStore
+from parley.memory.vectors import Vectors, VectorTable, make_sieve
 from parley.messages.memory import MemoryEntry
 
 __all__ = ["GONE", "Meanings", "fused"]
@@ -33,13 +34,11 @@ GONE: Final = (
 )
 """What people are told once, each time the server is lost."""
 
-Ids = np.ndarray[tuple[int], np.dtype[np.int64]]
-
 _BATCH: Final = 64
+_LOOKED_AT: Final = 2000
+"""So many memories at a time are looked through for some without a vector."""
 _MAX_CHARS: Final = 2000
 """Of one memory: what it is about stands at its beginning."""
-_GROWTH: Final = 1.25
-"""So that many small additions do not copy everything each time."""
 _SPARE: Final = 1000
 """So many forgotten vectors may stay in working memory."""
 
@@ -68,10 +67,7 @@ class Meanings:
     ) -> None:
         self._store, self._embedder, self._clock, self._tell = store, embedder, clock, tell
         self._retry_s, self._min_alike = retry_s, min_alike
-        self._ids = np.zeros(0, np.int64)
-        self._vectors: Vectors = np.zeros((0, 1), np.float32)
-        self._room: Vectors = self._vectors
-        """Where `_vectors` stand, with room for more behind them; what stands is never written again."""
+        self._table = VectorTable()
         self._seen_id = 0
         self._most = 0
         """So many may stand in working memory before what was forgotten is cleared out."""
@@ -109,7 +105,7 @@ class Meanings:
             return []
         if self._gone:
             self.wake()
-        if not len(self._ids):
+        if not len(self._table):
             return []
         try:
             vector = (await self._embedder.embed([request[:_MAX_CHARS]]))[0]
@@ -117,12 +113,12 @@ class Meanings:
             self._lost(error)
             return []
         self._gone = False
-        ids, vectors = self._ids, self._vectors
-        if vector.shape[0] != vectors.shape[1]:
+        view = self._table.view
+        if vector.shape[0] != view.vectors.shape[1]:
             log.warning("vectors of another length", model=self._embedder.model)
             return []
-        # Not on the file's thread: the product over many takes a while; words are looked up meanwhile.
-        ranked = await asyncio.to_thread(_ranked, vector, ids, vectors, self._min_alike, 8 * limit)
+        # Not on the file's thread: comparing many takes a while; words are looked up meanwhile.
+        ranked = await asyncio.to_thread(view.nearest, vector, 8 * limit, self._min_alike)
         return await self._store.database.run(lambda db: _holding(db, ranked, limit, scope))
 
     # -- in the background -----------------------------------------------------------------------------
@@ -146,19 +142,27 @@ class Meanings:
         model = self._embedder.model
         while True:
             after = self._seen_id
-            batch = await self._store.database.run(lambda db, a=after: _missing(db, model, a))  # type: ignore[misc]
-            if not batch:
+            batch, upto = await self._store.database.run(
+                lambda db, a=after: _missing(db, model, a)  # type: ignore[misc]
+            )
+            if upto == after:
                 return
-            done, vectors = await self._embed(batch)
-            self._gone = False
-            if done:
-                await self._store.database.run(
-                    lambda db, d=done, v=vectors: _keep(db, model, d, v)  # type: ignore[misc]
-                )
-                self._extend(done, vectors)
-                if len(self._ids) > self._most:
-                    await self._load()  # what was forgotten goes
-            self._seen_id = batch[-1][0]
+            await self._make_up(batch)
+            self._seen_id = upto
+
+    async def _make_up(self, batch: Sequence[tuple[int, str]]) -> None:
+        """Make and keep the vectors of a batch."""
+        if not batch:
+            return
+        done, vectors = await self._embed(batch)
+        self._gone = False
+        if done:
+            model = self._embedder.model
+            await self._store.database.run(lambda db: _keep(db, model, done, vectors))
+            self._table.extend(done, vectors)
+            if len(self._table) > self._most:
+                await self._load()  # what was forgotten goes
+            await self._make_sieve()
 
     async def _embed(self, batch: Sequence[tuple[int, str]]) -> tuple[list[int], Vectors]:
         """Vectors of a batch; a text that the server will not have is left out, the rest goes on."""
@@ -184,26 +188,13 @@ class Meanings:
                 "SELECT memory, vector FROM memory_vector WHERE model = ? ORDER BY memory", (model,)
             ).fetchall()
         )
-        self._ids, self._vectors = np.zeros(0, np.int64), np.zeros((0, 1), np.float32)
-        self._room = self._vectors
-        length = len(rows[0][1]) if rows else 0
-        fitting = [(identity, vector) for identity, vector in rows if len(vector) == length]
-        if fitting:
-            joined = np.frombuffer(b"".join(vector for _, vector in fitting), np.float32)
-            self._extend([identity for identity, _ in fitting], joined.reshape(len(fitting), -1))
-        self._most = 2 * len(self._ids) + _SPARE
+        self._table = await asyncio.to_thread(_table, rows)
+        self._most = 2 * len(self._table) + _SPARE
+        await self._make_sieve()
 
-    def _extend(self, ids: Sequence[int], vectors: Vectors) -> None:
-        known = self._vectors
-        if known.shape[1] != vectors.shape[1]:
-            self._ids, known = np.zeros(0, np.int64), vectors[:0]
-        begun, ended = len(known), len(known) + len(vectors)
-        if ended > len(self._room) or self._room.shape[1] != vectors.shape[1]:
-            self._room = np.empty((max(ended, int(_GROWTH * begun)), vectors.shape[1]), np.float32)
-            self._room[:begun] = known
-        self._room[begun:ended] = vectors
-        self._ids = np.concatenate([self._ids, np.asarray(ids, np.int64)])
-        self._vectors = self._room[:ended]
+    async def _make_sieve(self) -> None:
+        if self._table.wants_sieve:
+            self._table.adopt(await asyncio.to_thread(make_sieve, self._table.view))
 
     def _lost(self, error: LanguageError) -> None:
         log.warning("memories found by words alone", problem=str(error))
@@ -237,14 +228,25 @@ def fused(
     return [entries[key] for key in order]
 
 
-def _missing(db: sqlite3.Connection, model: str, after: int) -> list[tuple[int, str]]:
+def _missing(db: sqlite3.Connection, model: str, after: int) -> tuple[list[tuple[int, str]], int]:
+    """Some memories without a vector behind the one with the number `after`, and how far was looked.
+
+    Only so far that searches need not wait for it.
+    """
+    (end,) = db.execute(
+        "SELECT max(id) FROM (SELECT id FROM memory WHERE id > ? ORDER BY id LIMIT ?)", (after, _LOOKED_AT)
+    ).fetchone()
+    if end is None:
+        return [], after
     rows = db.execute(
         "SELECT m.id, m.name_key, m.info, CASE m.type WHEN 'text' THEN substr(m.data, 1, ?) ELSE '' END"
         " FROM memory m LEFT JOIN memory_vector v ON v.memory = m.id AND v.model = ?"
-        " WHERE m.id > ? AND m.ended_unix_ms IS NULL AND v.memory IS NULL ORDER BY m.id LIMIT ?",
-        (_MAX_CHARS, model, after, _BATCH),
-    )
-    return [(row[0], ". ".join(part for part in row[1:] if part)[:_MAX_CHARS]) for row in rows]
+        " WHERE m.id > ? AND m.id <= ? AND m.ended_unix_ms IS NULL AND v.memory IS NULL"
+        " ORDER BY m.id LIMIT ?",
+        (_MAX_CHARS, model, after, end, _BATCH),
+    ).fetchall()
+    texts = [(row[0], ". ".join(part for part in row[1:] if part)[:_MAX_CHARS]) for row in rows]
+    return texts, texts[-1][0] if len(texts) == _BATCH else end
 
 
 def _keep(db: sqlite3.Connection, model: str, ids: Sequence[int], vectors: Vectors) -> None:
@@ -265,13 +267,14 @@ def _keep(db: sqlite3.Connection, model: str, ids: Sequence[int], vectors: Vecto
     db.execute("COMMIT")
 
 
-def _ranked(vector: Vectors, ids: Ids, vectors: Vectors, least: float, most: int) -> list[int]:
-    """The memories whose vectors are nearest, nearest first; some may not hold any more."""
-    cosine = vectors @ vector
-    wanted = min(len(cosine), most)
-    top = np.argpartition(cosine, -wanted)[-wanted:]
-    ranked = sorted((int(n) for n in top if cosine[n] >= least), key=lambda n: float(cosine[n]), reverse=True)
-    return [int(ids[number]) for number in ranked]
+def _table(rows: Sequence[tuple[int, bytes]]) -> VectorTable:
+    """What stood in the file; vectors of another length than the first are passed over."""
+    length = len(rows[0][1]) if rows else 0
+    fitting = [(identity, vector) for identity, vector in rows if len(vector) == length]
+    if not fitting:
+        return VectorTable()
+    joined = np.frombuffer(b"".join(vector for _, vector in fitting), np.float32)
+    return VectorTable([identity for identity, _ in fitting], joined.reshape(len(fitting), -1))
 
 
 def _holding(
