@@ -1,7 +1,7 @@
 /** What operators do, in a real browser with a real system behind the page. */
 import { afterAll, beforeAll, describe, expect, it } from 'vitest';
 
-import { barriers, CHROMIUM, hasBrowser, robotNamed, say, sizes, startStage, steps, untilItMoved, type Stage } from './stage';
+import { CHROMIUM, hasBrowser, robotNamed, say, sizes, startStage, steps, untilItMoved, type Stage } from './stage';
 
 if (!hasBrowser) console.warn(`The stories in the browser are skipped: there is no Chromium at ${CHROMIUM}.`);
 
@@ -76,23 +76,4 @@ describe.skipIf(!hasBrowser)('an operator', () => {
     await page.getByRole('link', { name: 'Plan' }).tap();
     await page.getByRole('heading', { name: 'Plan' }).waitFor();
   });
-
-  const pages = ['', 'plan', 'display', 'map', 'memory', 'robots', 'incidents', 'settings'];
-  const looks = ['light', 'dark', 'contrast'] as const;
-  it.each(looks.flatMap((look) => pages.map((path) => [path || 'chat', look, path] as const)))(
-    'meets no barrier on the page %s in the look %s',
-    async (_name, look, path) => {
-      const page = await stage.open(path === 'plan' ? sizes.phone : sizes.desktop);
-      await page.evaluate(
-        (theme) =>
-          localStorage.setItem('parley.prefs', JSON.stringify({ state: { theme, language: 'en' }, version: 1 })),
-        look,
-      );
-      await page.goto(`${stage.system.address}#/${path}`);
-      await page.reload();
-      await page.getByRole('heading', { level: 2 }).first().waitFor();
-      await page.getByText(path === 'plan' ? 'David' : 'Connected', { exact: true }).first().waitFor();
-      expect(await barriers(page)).toEqual([]);
-      },
-  );
 });

@@ -7,6 +7,26 @@ import { hasBrowser, robotNamed, say, sizes, startStage, untilItMoved, type Stag
 const tab = (page: Page, name: string) =>
   page.getByRole('group', { name: 'Robots you talk to' }).getByRole('button', { name: new RegExp(`^${name}`) });
 
+interface Entry {
+  id: string;
+  who: string;
+  message: string;
+  targets: string[];
+  question: string;
+  reply_to: string;
+}
+
+interface Plan {
+  kind: string;
+  steps: { call: Record<string, unknown> }[];
+}
+
+/** What a robot's plan says of places, as text. */
+async function placesOf(stage: Stage, robot: string): Promise<string> {
+  const plans = await stage.get<Plan[]>(`plans/${robot}`);
+  return JSON.stringify(plans.filter((plan) => plan.kind === 'plan').map((plan) => plan.steps.map((step) => step.call)));
+}
+
 /** What the conversation shows, as texts. */
 const said = (page: Page) => page.locator('ol > li > div:first-of-type > p').allTextContents();
 
@@ -63,6 +83,34 @@ describe.skipIf(!hasBrowser)('people with two robots', () => {
     await Promise.all([one, two].map((page) => page.getByText('I will go to the large sofa').waitFor()));
     expect(await said(two)).toEqual(await said(one));
   });
+
+  it('answer the one that asks and order the other with the same words', async () => {
+    const page = await stage.open(sizes.desktop);
+    await tab(page, 'David').click();
+    await say(page, 'remember that John is on the sofa');
+    await page.getByText('I will remember that John is on the sofa.').first().waitFor();
+    await say(page, 'go to John');
+    await page.getByText(/^Answering David/).waitFor();
+    await tab(page, 'Ruth').click({ modifiers: ['Shift'] });
+    await page.getByText('David gets this as the answer, Ruth as a new request.').waitFor();
+    await say(page, 'go to the large sofa');
+    await page.getByText(/^Answering David/).waitFor({ state: 'detached' });
+    const { entries } = await stage.get<{ entries: Entry[] }>('chat');
+    const asked = entries.findLast((entry) => entry.question !== '' && entry.targets.includes('David'));
+    const answer = entries.findLast((entry) => entry.who === 'operator');
+    expect(asked?.question).toBe('answered');
+    expect(answer).toMatchObject({ message: 'go to the large sofa', targets: ['David', 'Ruth'], reply_to: asked?.id });
+    // One goes on with what it was at, the other begins something new.
+    for (const robot of ['David', 'Ruth']) {
+      await expect.poll(async () => placesOf(stage, robot), { timeout: 30_000 }).toContain('large sofa');
+    }
+    await page.getByText('I will go to the large sofa.').first().waitFor();
+    const replies = (await stage.get<{ entries: Entry[] }>('chat')).entries.filter((entry) => entry.reply_to === answer?.id);
+    expect(replies.map((entry) => entry.targets)).toContainEqual(['Ruth']);
+    for (const robot of ['David', 'Ruth']) {
+      await expect.poll(async () => (await robotNamed(stage, robot))?.state, { timeout: 60_000 }).toBe('idle');
+    }
+  }, 120_000);
 
   it('stop one of them while both drive, and see it sent and standing', async () => {
     const page = await stage.open(sizes.desktop);

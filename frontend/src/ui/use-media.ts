@@ -2,10 +2,11 @@ import { useSyncExternalStore } from 'react';
 
 export type Layout = 'phone' | 'tablet' | 'desktop';
 
-const TABLET = '(min-width: 700px)';
-const DESKTOP = '(min-width: 1180px)';
+// In letters, not dots: who has the browser write larger gets the layout for less room.
+const TABLET = '(min-width: 43.75em)';
+const DESKTOP = '(min-width: 73.75em)';
 /** Lying phones, and pages that were made twice as large: parts under each other would be slits. */
-const LOW = '(max-height: 559px) and (max-width: 1179px)';
+const LOW = '(max-height: 34.95em) and (max-width: 73.7em)';
 
 function useMedia(query: string): boolean {
   return useSyncExternalStore(

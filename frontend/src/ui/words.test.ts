@@ -1,6 +1,6 @@
 import { describe, expect, it } from 'vitest';
 
-import { ago, inWords } from './words';
+import { ago, inWords, timeOrDay } from './words';
 
 describe('words', () => {
   it('say how long ago something was', () => {
@@ -9,6 +9,13 @@ describe('words', () => {
     expect(ago(61_000, 'en')).toBe('1 minute ago');
     expect(ago(26 * 3_600_000, 'en')).toBe('yesterday');
     expect(ago(3 * 86_400_000, 'en')).toBe('3 days ago');
+  });
+
+  it('tell the time of today and the day of what was before', () => {
+    const now = new Date(2026, 2, 3, 10, 30).getTime();
+    expect(timeOrDay(new Date(2026, 2, 3, 0, 5).getTime(), now, 'en')).toBe('00:05');
+    expect(timeOrDay(new Date(2026, 2, 2, 23, 55).getTime(), now, 'en')).toBe('March 2 23:55');
+    expect(timeOrDay(new Date(2025, 2, 3, 10, 30).getTime(), now, 'en')).toBe('March 3, 2025 10:30');
   });
 
   it('are made of names', () => {

@@ -44,6 +44,12 @@ export function dayAndTime(unixMs: number, nowUnixMs: number, language: string):
   return `${dayName(unixMs, nowUnixMs, language)} ${clockTime(unixMs, language)}`;
 }
 
+/** The time of what was today, day and time of everything else. */
+export function timeOrDay(unixMs: number, nowUnixMs: number, language: string): string {
+  const today = new Date(unixMs).toDateString() === new Date(nowUnixMs).toDateString();
+  return today ? clockTime(unixMs, language) : dayAndTime(unixMs, nowUnixMs, language);
+}
+
 const steps = [
   ['second', 60],
   ['minute', 60],

@@ -66,6 +66,11 @@ export function ChatPanel() {
     [key],
   );
 
+  const closeSearch = () => {
+    setSearching(false);
+    input.current?.focus();
+  };
+
   useShortcut('/', () => input.current?.focus());
   useShortcut('mod+f', () => setSearching(true));
 
@@ -78,7 +83,7 @@ export function ChatPanel() {
   return (
     <Panel title={t('title')} tools={tools} flush bare={low}>
       <RobotTabs questions={questions} tools={low ? tools : null} />
-      {searching && <SearchBox onGo={goToEntry} />}
+      {searching && <SearchBox onGo={goToEntry} onClose={closeSearch} />}
       <History
         key={key}
         entries={entries}

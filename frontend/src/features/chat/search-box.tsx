@@ -5,7 +5,7 @@ import { getChat } from '@/live/api';
 import type { ChatEntry } from '@/live/types';
 import { explain } from '@/state/do';
 import { TextField } from '@/ui/text-field';
-import { clockTime, dayName, nameList } from '@/ui/words';
+import { nameList, timeOrDay } from '@/ui/words';
 
 import css from './search-box.module.css';
 
@@ -14,7 +14,7 @@ const AFTER_TYPING_MS = 250;
 type Result = { state: 'idle' } | { state: 'ready'; entries: readonly ChatEntry[] } | { state: 'failed'; reason: string };
 
 /** Finds what was said, however long ago, and leads there. */
-export function SearchBox({ onGo }: { onGo: (entry: ChatEntry) => void }) {
+export function SearchBox({ onGo, onClose }: { onGo: (entry: ChatEntry) => void; onClose: () => void }) {
   const { t, i18n } = useTranslation('chat');
   const [words, setWords] = useState('');
   const [result, setResult] = useState<Result>({ state: 'idle' });
@@ -39,9 +39,13 @@ export function SearchBox({ onGo }: { onGo: (entry: ChatEntry) => void }) {
     };
   }, [words]);
 
+  const onKeyDown = (event: React.KeyboardEvent) => {
+    if (event.key === 'Escape') onClose();
+  };
+
   return (
     <div className={css.box} role="search">
-      <TextField label={t('search')} hideLabel placeholder={t('searchPlaceholder')} value={words} onChange={setWords} autoFocus />
+      <TextField label={t('search')} hideLabel placeholder={t('searchPlaceholder')} value={words} onChange={setWords} onKeyDown={onKeyDown} autoFocus />
       <div aria-live="polite">
         {result.state === 'failed' && <p>{result.reason}</p>}
         {result.state === 'ready' && result.entries.length === 0 && <p>{t('searchNone')}</p>}
@@ -52,7 +56,7 @@ export function SearchBox({ onGo }: { onGo: (entry: ChatEntry) => void }) {
                 <button type="button" className={css.go} onClick={() => onGo(entry)}>
                   <span className={css.when}>
                     {entry.who === 'operator' ? entry.author || t('you') : nameList(entry.targets, i18n.language)},{' '}
-                    {dayName(entry.unix_ms, now, i18n.language)} {clockTime(entry.unix_ms, i18n.language)}
+                    {timeOrDay(entry.unix_ms, now, i18n.language)}
                   </span>
                   <span>{entry.message}</span>
                 </button>

@@ -39,7 +39,10 @@ export function useStickToEnd(entries: readonly ChatEntry[], waiting: number, sh
     };
   }, [hasContent]);
 
+  const before = useRef(waiting);
   useLayoutEffect(() => {
+    if (waiting > before.current) stick.current = true; // what one says oneself one wants to see
+    before.current = waiting;
     if (stick.current && scroller.current) scroller.current.scrollTop = scroller.current.scrollHeight;
   }, [entries, waiting]);
 

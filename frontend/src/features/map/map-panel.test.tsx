@@ -1,4 +1,4 @@
-import { fireEvent, render, screen, within } from '@testing-library/react';
+import { act, fireEvent, render, screen, within } from '@testing-library/react';
 import userEvent from '@testing-library/user-event';
 import { beforeEach, describe, expect, it, vi } from 'vitest';
 
@@ -13,6 +13,7 @@ const draft = () => Object.values(useDrafts.getState().drafts)[0]?.text;
 
 beforeEach(() => {
   useDrafts.setState({ drafts: {} });
+  useLive.getState().setConnection('connected');
   vi.stubGlobal('fetch', network({ map: { json: mapInfo } }));
   const robots = [robot({ name: 'Ada' }), robot({ name: 'Bob', pose: { x: 5, y: 3, yaw: 0 }, map_name: 'hall' })];
   useLive.getState().takeSnapshot(snapshot({ robots, views: [mapView] }));
@@ -55,5 +56,28 @@ describe('the map', () => {
     const list = within(screen.getByRole('region', { name: 'The map as a list' }));
     expect(list.getByText('Ada').closest('li')?.textContent).toBe('Ada is near: front door. It is on its way.');
     expect(list.getByText('Bob')).toBeTruthy();
+  });
+
+  it('stays as it was seen last, with its age, while there is no connection', async () => {
+    const { unmount } = render(<MapPanel />);
+    await screen.findByRole('application');
+    unmount();
+    act(() => useLive.getState().setConnection('lost', Date.now() - 12_000));
+    vi.stubGlobal('fetch', network({ map: { refused: 'gone' } }));
+    render(<MapPanel />);
+    expect(screen.getByRole('application')).toBeTruthy();
+    expect(screen.getByText('Not connected. This is how it was 12 seconds ago.')).toBeTruthy();
+    vi.stubGlobal('fetch', network({ map: { json: mapInfo } }));
+    act(() => useLive.getState().setConnection('connected'));
+    await vi.waitFor(() => expect(screen.queryByText(/^Not connected/)).toBeNull());
+  });
+
+  it('says that it is connecting where none was seen yet, and shows it once there is a connection', async () => {
+    useLive.getState().takeSnapshot(snapshot({ robots: [robot({ name: 'Cay' })] }));
+    useLive.getState().setConnection('lost', 1);
+    render(<MapPanel />);
+    expect(screen.getByText('Connecting…')).toBeTruthy();
+    act(() => useLive.getState().setConnection('connected'));
+    expect(await screen.findByRole('application')).toBeTruthy();
   });
 });

@@ -1,21 +1,24 @@
 import { useMemo, useState } from 'react';
 import { useTranslation } from 'react-i18next';
 
-import { getMap } from '@/live/api';
 import { useWorld } from '@/live/store';
 import type { MapInfo, MapThing } from '@/live/types';
 import { useRobotNames, useSelection } from '@/state/selection';
 import { Button } from '@/ui/button';
 import { Choice } from '@/ui/choice';
 import { Empty, Panel } from '@/ui/panel';
-import { useRequest } from '@/ui/use-request';
+import { useNow } from '@/ui/use-now';
+import { ago } from '@/ui/words';
 
 import type { Rover } from './map-drawing';
 import { MapList } from './map-list';
 import { MapStage } from './map-stage';
 import css from './map.module.css';
 import { PlaceBar } from './place-bar';
+import { useMap, type Shown } from './use-map';
 import type { Place } from './viewport';
+
+const AGE_STEP_MS = 1000;
 
 /** Where robots are and what stands around them. */
 export function MapPanel() {
@@ -27,8 +30,7 @@ export function MapPanel() {
   const [asked, setAsked] = useState(0);
   const robot = names.includes(picked) ? picked : selected;
   const mapName = useWorld((world) => world.views[robot]?.map_name ?? '');
-  // A robot that appears, or changes to another map, is asked anew.
-  const map = useRequest(robot && [robot, mapName, asked].join('\n'), () => getMap(robot));
+  const shown = useMap(robot, mapName, asked);
   const tools = (
     <>
       {names.length > 1 && (
@@ -40,7 +42,7 @@ export function MapPanel() {
           onChange={setPicked}
         />
       )}
-      <Button tone="quiet" icon="plan" aria-pressed={listed} isDisabled={map.state !== 'ready'} onPress={() => setListed(!listed)}>
+      <Button tone="quiet" icon="plan" aria-pressed={listed} isDisabled={shown.state !== 'ready'} onPress={() => setListed(!listed)}>
         {t('asList')}
       </Button>
     </>
@@ -48,25 +50,50 @@ export function MapPanel() {
   return (
     <Panel title={t('title')} tools={tools} flush>
       {robot === '' && <Empty title={t('noRobot')} />}
-      {robot !== '' && map.state === 'loading' && (
-        <Empty title={t('common:loading')} />
+      {robot !== '' && shown.state !== 'ready' && <NotYet shown={shown} onRetry={() => setAsked(asked + 1)} />}
+      {shown.state === 'ready' && (
+        <Ready key={mapName} map={shown.map} mapName={mapName} robot={robot} listed={listed}>
+          {shown.sinceUnixMs > 0 && <Old sinceUnixMs={shown.sinceUnixMs} />}
+        </Ready>
       )}
-      {map.state === 'failed' && (
-        <Empty title={t('empty')}>
-          {map.reason && <p>{map.reason}</p>}
-          <Button onPress={() => setAsked(asked + 1)}>{t('common:tryAgain')}</Button>
-        </Empty>
-      )}
-      {map.state === 'ready' && <Ready key={mapName} map={map.value} mapName={mapName} robot={robot} listed={listed} />}
     </Panel>
   );
 }
 
-function Ready({ map, mapName, robot, listed }: { map: MapInfo; mapName: string; robot: string; listed: boolean }) {
+function NotYet({ shown, onRetry }: { shown: Exclude<Shown, { state: 'ready' }>; onRetry: () => void }) {
+  const { t } = useTranslation(['map', 'common']);
+  if (shown.state !== 'failed') return <Empty title={t(shown.state === 'loading' ? 'common:loading' : 'connecting')} />;
+  return (
+    <Empty title={t('empty')}>
+      {shown.reason && <p>{shown.reason}</p>}
+      <Button onPress={onRetry}>{t('common:tryAgain')}</Button>
+    </Empty>
+  );
+}
+
+/** Says that what is shown may not be so any more. */
+function Old({ sinceUnixMs }: { sinceUnixMs: number }) {
+  const { t, i18n } = useTranslation('map');
+  const now = useNow(AGE_STEP_MS);
+  return (
+    <p className={css.old}>{t('old', { ago: ago(now - sinceUnixMs, i18n.language) })}</p>
+  );
+}
+
+interface ReadyProps {
+  map: MapInfo;
+  mapName: string;
+  robot: string;
+  listed: boolean;
+  children: React.ReactNode;
+}
+
+function Ready({ map, mapName, robot, listed, children }: ReadyProps) {
   const [marked, setMarked] = useState<Place | MapThing | null>(null);
   const rovers = useRovers(mapName, robot);
   return (
     <div className={css.layout}>
+      {children}
       <MapStage map={map} rovers={rovers} marked={marked} onMark={setMarked} />
       {listed && <MapList map={map} rovers={rovers} onMark={setMarked} />}
       <PlaceBar marked={marked} onClear={() => setMarked(null)} />

@@ -72,7 +72,7 @@ function Origin({ item }: { item: MemoryItem }) {
     none: '',
     operator: t('from.operator'),
     someone: source.kind === 'someone' ? t('from.someone', { who: source.who }) : '',
-    deed: source.kind === 'deed' ? t('from.deed', { who: source.who, deed: inWords(source.deed).toLowerCase() }) : '',
+    deed: source.kind === 'deed' ? t('from.deed', { who: source.who }) : '',
   }[source.kind];
   return (
     <p className={css.origin}>

@@ -87,6 +87,6 @@ describe('a memory', () => {
     expect(from('')).toEqual({ kind: 'none' });
     expect(from('operator')).toEqual({ kind: 'operator' });
     expect(from('Kim')).toEqual({ kind: 'someone', who: 'Kim' });
-    expect(from('Ada/Look')).toEqual({ kind: 'deed', who: 'Ada', deed: 'Look' });
+    expect(from('Ada/Look')).toEqual({ kind: 'deed', who: 'Ada' });
   });
 });

@@ -12,13 +12,13 @@ export function nameFor(text: string): string {
   return words.slice(0, NAME_WORDS).join('_').slice(0, NAME_LETTERS);
 }
 
-export type Source = { kind: 'none' | 'operator' } | { kind: 'someone'; who: string } | { kind: 'deed'; who: string; deed: string };
+export type Source = { kind: 'none' | 'operator' } | { kind: 'someone' | 'deed'; who: string };
 
 /** Where a memory came from: a person, a robot, or what a robot was doing. */
 export function sourceOf(item: MemoryItem): Source {
   const [who = '', deed = ''] = item.source.split('/');
   if (who === '') return { kind: 'none' };
-  if (deed !== '') return { kind: 'deed', who, deed };
+  if (deed !== '') return { kind: 'deed', who };
   return who === 'operator' ? { kind: 'operator' } : { kind: 'someone', who };
 }
 

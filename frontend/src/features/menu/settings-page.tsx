@@ -70,18 +70,22 @@ function About() {
         <dd>{info.version}</dd>
       </dl>
       {info.offline_language && <p>{t('offlineLanguage')}</p>}
-      {addresses.length > 0 && (
-        <section className={css.devices}>
-          <h3>{t('otherDevices')}</h3>
-          <p>{t('otherDevicesText')}</p>
-          <img src="/api/qr.svg" alt={t('qrAlt')} width={180} height={180} />
-          <ul>
-            {addresses.map((address) => (
-              <li key={address}>{address}</li>
-            ))}
-          </ul>
-        </section>
-      )}
+      <section className={css.devices}>
+        <h3>{t('otherDevices')}</h3>
+        {addresses.length === 0 ? (
+          <p>{t('onlyHere')}</p>
+        ) : (
+          <>
+            <p>{t('otherDevicesText')}</p>
+            <img src="/api/qr.svg" alt={t('qrAlt')} width={180} height={180} />
+            <ul>
+              {addresses.map((address) => (
+                <li key={address}>{address}</li>
+              ))}
+            </ul>
+          </>
+        )}
+      </section>
     </>
   );
 }

@@ -1,4 +1,4 @@
-import { useState } from 'react';
+import { useEffect, useRef, useState } from 'react';
 import { GridList, useDragAndDrop, type Key } from 'react-aria-components';
 import { useTranslation } from 'react-i18next';
 
@@ -31,6 +31,8 @@ export function PlanEditor({ robot, steps: initial, saveLabel, onSave, onCancel 
   const [busy, setBusy] = useState(false);
   const catalogue = useWorld((world) => world.robots[robot]?.catalogue ?? NO_ACTIONS);
   const show = useToasts((state) => state.show);
+
+  const box = useInView();
 
   const { dragAndDropHooks } = useDragAndDrop({
     getItems: (keys) => [...keys].map((key) => ({ 'text/plain': steps.find((step) => step.id === key)?.label ?? '' })),
@@ -67,7 +69,7 @@ export function PlanEditor({ robot, steps: initial, saveLabel, onSave, onCancel 
     setSteps(steps.map((step) => (step.id === id ? setInput(step, name, value) : step)));
 
   return (
-    <div className={css.editor}>
+    <div className={css.editor} ref={box} tabIndex={-1} role="group" aria-label={t('editTitle')}>
       <p className={css.help}>{t('editHelp')}</p>
       <GridList
         aria-label={t('editTitle')}
@@ -106,4 +108,14 @@ export function PlanEditor({ robot, steps: initial, saveLabel, onSave, onCancel 
       </div>
     </div>
   );
+}
+
+/** Brings what was opened to the top of where it stands, and takes the keyboard there. */
+function useInView() {
+  const box = useRef<HTMLDivElement>(null);
+  useEffect(() => {
+    box.current?.scrollIntoView({ block: 'start' });
+    box.current?.focus({ preventScroll: true });
+  }, []);
+  return box;
 }

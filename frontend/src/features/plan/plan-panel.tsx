@@ -44,7 +44,9 @@ export function PlanPanel() {
   );
   return (
     <Panel title={t('title')} tools={choice} flush>
-      {plan ? <PlanOf key={partKey(plan)} plan={plan} /> : <Empty title={t('noRobot')} />}
+      {plan ? <PlanOf key={partKey(plan)} plan={plan} /> : <Empty title={t('noRobot')}>
+          <p>{t('noRobotHelp')}</p>
+        </Empty>}
     </Panel>
   );
 }
@@ -57,16 +59,20 @@ function PlanOf({ plan }: { plan: PlanView }) {
   const proposals = useWorld((world) => world.proposals);
   const [editing, setEditing] = useState<PlanView | null>(null);
   const waiting = plan.kind === 'plan' ? proposalsOf(proposals, plan.robot) : [];
+  const current = plan.steps.findIndex((step) => BUSY.includes(step.state));
   const pending = pendingSteps(plan.steps);
   const told = useMemo(() => withReceived(plan.steps), [plan.steps]);
   const close = () => setEditing(null);
   const save = useSaving();
   const remove = useRemoving(plan);
-  const steps = useCurrentInView(plan);
+  const steps = useCurrentInView(current, editing !== null);
   return (
     <>
       <div className={css.bar} data-state={plan.state}>
-        <p className={css.state}>{t(`state.${plan.state}`)}</p>
+        <p className={css.state}>
+          {t(`state.${plan.state}`)}
+          {current >= 0 && plan.steps.length > 1 && t('stateStep', { number: current + 1, all: plan.steps.length })}
+        </p>
         <PlanControls plan={plan} onEdit={pending.length > 0 && !editing ? () => setEditing(plan) : null} />
       </div>
       {/* eslint-disable-next-line jsx-a11y/no-noninteractive-tabindex -- what scrolls must be reachable by keys */}
@@ -118,11 +124,10 @@ function PlanOf({ plan }: { plan: PlanView }) {
 }
 
 /** Brings the step that is being done into view when another one's turn has come. */
-function useCurrentInView(plan: PlanView) {
+function useCurrentInView(current: number, busyElsewhere: boolean) {
   const list = useRef<HTMLOListElement>(null);
-  const current = plan.steps.findIndex((step) => BUSY.includes(step.state));
   useEffect(() => {
-    if (current > 0) list.current?.children[current]?.scrollIntoView({ block: 'nearest' });
-  }, [current]);
+    if (current > 0 && !busyElsewhere) list.current?.children[current]?.scrollIntoView({ block: 'nearest' });
+  }, [current, busyElsewhere]);
   return list;
 }

@@ -3,14 +3,16 @@ import { useTranslation } from 'react-i18next';
 
 import { useWorld } from '@/live/store';
 import type { RobotView } from '@/live/types';
-import { attempt } from '@/state/do';
 import { stoppedRobots, useStopping } from '@/state/stopping';
 import { Button } from '@/ui/button';
-import { Dialog, DialogButtons } from '@/ui/dialog';
 import { Icon } from '@/ui/icon';
-import { clockTime } from '@/ui/words';
+import { clockTime, nameList } from '@/ui/words';
 
+import { Release } from './release';
 import css from './stop.module.css';
+
+/** So many are told of one by one; more would leave no room for the rest of the page. */
+const SINGLY = 2;
 
 /** What became of a stop, robot by robot, and the way out of it. */
 export function StopBanner() {
@@ -25,19 +27,54 @@ export function StopBanner() {
           {pending.failed ? t('notSent') : t('sending')}
         </p>
       )}
-      {stopped.map((robot) => (
-        <Stopped key={robot.name} robot={robot} />
-      ))}
+      {stopped.length > SINGLY ? (
+        <Many robots={stopped} />
+      ) : (
+        stopped.map((robot) => <Stopped key={robot.name} robot={robot} />)
+      )}
     </div>
+  );
+}
+
+/** Many stopped robots in one banner, and each when wanted. */
+function Many({ robots }: { robots: readonly RobotView[] }) {
+  const { t, i18n } = useTranslation('stop');
+  const [each, setEach] = useState(false);
+  const resting = robots.filter((robot) => robot.stop.state === 'at_rest').length;
+  const doubtful = robots.filter((robot) => robot.stop.state === 'overdue').map((robot) => robot.name);
+  return (
+    <>
+      <div className={css.banner} data-overdue={doubtful.length > 0}>
+        <p className={css.text}>
+          <Icon name="octagon" />
+          <strong>{t('bannerMany', { count: robots.length })}</strong>
+        </p>
+        {doubtful.length > 0 && (
+          <p className={css.overdue}>{t('overdueMany', { names: nameList(doubtful, i18n.language) })}</p>
+        )}
+        <p className={css.resting}>{t('resting', { resting, all: robots.length })}</p>
+        <div className={css.deeds}>
+          <Button icon={each ? 'up' : 'down'} aria-expanded={each} onPress={() => setEach(!each)}>
+            {t('each')}
+          </Button>
+          <Release names={robots.map((robot) => robot.name)} label={t('resetAll')} />
+        </div>
+      </div>
+      {each && (
+        <div className={css.each}>
+          {robots.map((robot) => (
+            <Stopped key={robot.name} robot={robot} />
+          ))}
+        </div>
+      )}
+    </>
   );
 }
 
 const ORDER = ['sent', 'received', 'at_rest'] as const;
 
 function Stopped({ robot }: { robot: RobotView }) {
-  const { t, i18n } = useTranslation(['stop', 'common']);
-  const [asking, setAsking] = useState(false);
-  const reset = useStopping((state) => state.reset);
+  const { t, i18n } = useTranslation('stop');
   const { state, sent_unix_ms: sentMs, at_rest_unix_ms: restMs } = robot.stop;
   const reached = ORDER.findIndex((one) => one === state);
   const times = { sent: sentMs, received: 0, at_rest: restMs };
@@ -59,29 +96,7 @@ function Stopped({ robot }: { robot: RobotView }) {
           ))}
         </ul>
       )}
-      <Button onPress={() => setAsking(true)}>{t('reset')}</Button>
-      <Dialog
-        role="alertdialog"
-        title={t('resetTitle', { name: robot.name })}
-        isOpen={asking}
-        onClose={() => setAsking(false)}
-      >
-        <p>{t('resetText', { name: robot.name })}</p>
-        <DialogButtons>
-          <Button autoFocus onPress={() => setAsking(false)}>
-            {t('common:cancel')}
-          </Button>
-          <Button
-            tone="main"
-            onPress={() => {
-              setAsking(false);
-              void attempt(() => reset([robot.name]));
-            }}
-          >
-            {t('resetYes')}
-          </Button>
-        </DialogButtons>
-      </Dialog>
+      <Release names={[robot.name]} label={t('reset')} />
     </div>
   );
 }

@@ -1,0 +1,183 @@
+/** Nothing keeps people from using any page or box, in any size, look or language (axe, WCAG 2.2 AA). */
+import { readFileSync } from 'node:fs';
+
+import type { Locator, Page } from 'playwright-core';
+import { afterAll, beforeAll, describe, expect, it } from 'vitest';
+
+import { barriers, hasBrowser, robotNamed, say, sizes, startStage, type Stage } from './stage';
+
+const pages = ['', 'plan', 'display', 'map', 'memory', 'robots', 'incidents', 'settings'] as const;
+/** In the second language only once: words change widths, not colours. */
+const faces = [
+  ['light', 'en'],
+  ['dark', 'en'],
+  ['contrast', 'en'],
+  ['light', 'et'],
+] as const;
+const combinations = Object.keys(sizes).flatMap((size) =>
+  faces.map(([look, language]) => [size as keyof typeof sizes, look, language] as const),
+);
+
+type Words = (file: string, key: string) => string;
+
+const wordsIn = (language: string): Words => (file, key) => {
+  const words = JSON.parse(readFileSync(`src/i18n/${language}/${file}.json`, 'utf8')) as Record<string, string>;
+  const found = words[key];
+  if (found === undefined) throw new Error(`there is no ${file}:${key}`);
+  return found.replace('{{robot}}', 'David').replace('{{name}}', 'David');
+};
+
+/** A page in a look and a language. */
+async function dressed(stage: Stage, size: keyof typeof sizes, theme: string, language: string): Promise<Page> {
+  const page = await stage.open(sizes[size]);
+  const prefs = JSON.stringify({ state: { theme, language, debug: true, welcomed: true }, version: 1 });
+  await page.evaluate((kept) => localStorage.setItem('parley.prefs', kept), prefs);
+  await page.reload();
+  await page.getByRole('heading', { level: 2 }).first().waitFor();
+  return page;
+}
+
+async function go(stage: Stage, page: Page, path: string): Promise<void> {
+  await page.goto(`${stage.system.address}#/${path}`);
+  await page.getByRole('heading', { level: 2 }).first().waitFor();
+}
+
+const post = (stage: Stage, path: string, body: object) =>
+  fetch(`${stage.system.address}api/${path}`, {
+    method: 'POST',
+    headers: { 'Content-Type': 'application/json' },
+    body: JSON.stringify(body),
+  });
+
+/** Collects what is found, by where. */
+class Findings {
+  readonly all: string[] = [];
+  constructor(private readonly page: Page) {}
+
+  async look(where: string, there?: Locator): Promise<void> {
+    await there?.first().waitFor();
+    this.all.push(...(await barriers(this.page)).map((barrier) => `${where}: ${barrier}`));
+  }
+}
+
+describe.skipIf(!hasBrowser)('nobody meets a barrier', () => {
+  let stage: Stage;
+
+  beforeAll(async () => {
+    stage = await startStage(['--ask-first', '--speed', '6']);
+  });
+
+  afterAll(async () => {
+    await stage.close();
+  });
+
+  it('where a plan waits for a yes', async () => {
+    const first = await stage.open(sizes.desktop);
+    await say(first, 'John is on the sofa.');
+    await first.getByText('I will remember that John').waitFor();
+    await say(first, 'go to John, then go to the TV');
+    await first.getByRole('heading', { name: 'David asks: shall I do this?' }).waitFor();
+    const found: string[] = [];
+    for (const [size, look, language] of combinations) {
+      const page = await dressed(stage, size, look, language);
+      const words = wordsIn(language);
+      const findings = new Findings(page);
+      await go(stage, page, 'plan');
+      await findings.look('proposal', page.getByRole('button', { name: words('plan', 'approve') }));
+      await page.getByRole('button', { name: words('plan', 'change'), exact: true }).first().click();
+      await findings.look('changing it', page.getByText(words('plan', 'editHelp')));
+      await go(stage, page, '');
+      await findings.look('chat beside it');
+      found.push(...findings.all.map((barrier) => `${size} ${look} ${language}: ${barrier}`));
+      await page.context().close();
+    }
+    expect(found).toEqual([]);
+  }, 300_000);
+
+  it('on any page, while a robot asks', async () => {
+    const [waiting] = (await stage.get<{ proposals: { id: string }[] }>('snapshot')).proposals;
+    await post(stage, 'plans/David/decision', { id: waiting?.id, decision: 'approve' });
+    const first = await stage.open(sizes.desktop);
+    await first.getByText(/^Answering David/).waitFor();
+    const found: string[] = [];
+    for (const [size, look, language] of combinations) {
+      const page = await dressed(stage, size, look, language);
+      const findings = new Findings(page);
+      for (const path of pages) {
+        await go(stage, page, path);
+        await findings.look(path || 'chat');
+      }
+      found.push(...findings.all.map((barrier) => `${size} ${look} ${language}: ${barrier}`));
+      await page.context().close();
+    }
+    expect(found).toEqual([]);
+  }, 600_000);
+
+  it.each(Object.keys(sizes) as (keyof typeof sizes)[])('in any box, in the size %s', async (size) => {
+    const found: string[] = [];
+    for (const [look, language] of faces) {
+      const page = await dressed(stage, size, look, language);
+      const findings = new Findings(page);
+      await boxes(stage, page, wordsIn(language), findings);
+      await stopping(stage, page, wordsIn(language), findings);
+      found.push(...findings.all.map((barrier) => `${look} ${language}: ${barrier}`));
+      await page.context().close();
+    }
+    expect(found).toEqual([]);
+  }, 300_000);
+});
+
+async function boxes(stage: Stage, page: Page, words: Words, findings: Findings): Promise<void> {
+  const box = page.getByRole('dialog');
+  const close = async () => {
+    await page.keyboard.press('Escape');
+    await box.waitFor({ state: 'detached' });
+  };
+  await page.getByRole('textbox').first().waitFor();
+  await page.keyboard.press('Control+k');
+  await findings.look('quick actions', box.getByRole('textbox'));
+  await close();
+  await page.locator('h2').first().click();
+  await page.keyboard.press('?');
+  await findings.look('keys', box);
+  await close();
+  await page.getByRole('button', { name: words('chat', 'addRobot') }).click();
+  await findings.look('add a robot', box);
+  await close();
+  const chosen = page.waitForEvent('filechooser');
+  await page.getByRole('button', { name: words('chat', 'attach') }).click();
+  const photo = { name: 'box.png', mimeType: 'image/png', buffer: await page.screenshot({ type: 'png' }) };
+  await (await chosen).setFiles(photo);
+  await findings.look('a photo', page.getByText('box.png'));
+  await page.getByRole('button', { name: words('chat', 'search') }).click();
+  await page.getByRole('search').getByRole('textbox').fill('John');
+  await findings.look('search', page.getByRole('search').getByRole('button').nth(1));
+  await go(stage, page, 'memory');
+  await page.getByRole('button', { name: words('memory', 'add'), exact: true }).click();
+  await findings.look('remember something', box);
+  await close();
+  await go(stage, page, 'display');
+  await page.getByRole('button', { name: words('display', 'choose') }).click();
+  await findings.look('choosing pictures', box);
+  await close();
+  await page.getByRole('img').first().click();
+  await findings.look('a large picture', box);
+  await close();
+  await go(stage, page, 'plan');
+  await page.getByRole('button', { name: words('plan', 'clear'), exact: true }).click();
+  await findings.look('cancelling', page.getByRole('alertdialog'));
+  await page.getByRole('button', { name: words('plan', 'clearNo') }).click();
+  await go(stage, page, 'map');
+  await page.getByRole('button', { name: words('map', 'asList') }).click();
+  await findings.look('the map as a list', page.getByRole('region', { name: words('map', 'list') }));
+}
+
+async function stopping(stage: Stage, page: Page, words: Words, findings: Findings): Promise<void> {
+  await post(stage, 'stop', { command: 'stop', targets: [], id: crypto.randomUUID() });
+  await findings.look('stopped', page.getByText(words('stop', 'banner')));
+  await page.getByRole('button', { name: words('stop', 'reset') }).click();
+  await findings.look('releasing', page.getByRole('alertdialog'));
+  await page.getByRole('button', { name: words('stop', 'resetYes') }).click();
+  await page.getByText(words('stop', 'banner')).waitFor({ state: 'detached' });
+  await expect.poll(async () => (await robotNamed(stage))?.state, { timeout: 30_000 }).not.toBe('stopped');
+}
