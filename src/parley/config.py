@@ -139,6 +139,11 @@ class SystemConfig(BaseModel):
         return self.data_dir / "incidents.db" if self.data_dir is not None else None
 
     @property
+    def proposals_file(self) -> Path | None:
+        """The plans that wait for a person's yes, None if they are not kept."""
+        return self.data_dir / "proposals.db" if self.data_dir is not None else None
+
+    @property
     def journal_file(self) -> Path | None:
         """The journal of what ran, None if it is not kept."""
         return self.data_dir / "journal.db" if self.data_dir is not None else None

@@ -25,11 +25,13 @@ from parley.language.llm.usage import Usage
 from parley.memory.embedder import configured_embedder
 from parley.memory.incidents import IncidentStore
 from parley.memory.meanings import Meanings
+from parley.memory.proposals import ProposalStore
 from parley.memory.store import MemoryStore
 from parley.nodes.camera_feed import CameraFeed
 from parley.nodes.chat_interface import ChatInterface
 from parley.nodes.display_interface import DisplayInterface
 from parley.nodes.error_handler import ErrorHandler
+from parley.nodes.lookout import Lookout
 from parley.nodes.map_feed import MapFeed, MapViews
 from parley.nodes.map_service import MapService
 from parley.nodes.memory import MemoryNode
@@ -154,7 +156,10 @@ class System:
                 feeds=config.display_feeds,
             )
         )
-        planner = await enter(UmrfPlanner(transport, clock, approval=config.approval))
+        proposals = await enter(await ProposalStore.open(config.proposals_file or ":memory:", clock))
+        planner = await enter(
+            UmrfPlanner(transport, clock, approval=config.approval, proposals=proposals, tell=self._tell_for)
+        )
         incidents = await enter(await IncidentStore.open(config.incidents_file or ":memory:", clock))
         recovery = await enter(
             ErrorHandler(
@@ -177,6 +182,7 @@ class System:
                 language_timeout_s=config.language_timeout_s,
             )
         )
+        await enter(Lookout(transport, clock))
         notices = self._notices = await enter(Notices(transport))
         for text in (self.store.notice, *self._early):
             self._tell_all(text, "error")
@@ -186,6 +192,7 @@ class System:
         await enter(MapService(transport, maps))
         engines = {name: await self._open_robot(name, views[name]) for name in self.robot_names}
         self._tell_interrupted(journal, planner, notices, engines)
+        planner.offer_again()
         told = {was.actor for was in journal.interrupted}
         for incident in recovery.left_over:
             if incident.robot in engines and incident.robot not in told:
@@ -204,6 +211,11 @@ class System:
             self._notices.tell(text, self.robot_names, kind)
         elif text:
             self._early.append(text)
+
+    def _tell_for(self, robot: str, text: str) -> None:
+        """Say something on behalf of a robot, as soon as somebody is there to hear it."""
+        if self._notices is not None:
+            self._notices.tell(text, [robot])
 
     def _tell_interrupted(
         self, journal: Journal, planner: UmrfPlanner, notices: Notices, engines: Mapping[str, ActionEngine]

@@ -17,6 +17,7 @@ from parley.engine.journal import Journal
 from parley.engine.runs import GraphRuns
 from parley.errors import ActionFailure, FailureCode
 from parley.language.scripted import ScriptedLanguage
+from parley.memory.proposals import ProposalStore
 from parley.messages import ros, topics
 from parley.messages.chat import ActionCall, ChatAction, SystemCommand
 from parley.messages.pvf import Parameter
@@ -298,7 +299,7 @@ class Crew:
 @asynccontextmanager
 async def crew(
     *robots: str, talking: bool = False, heartless: Sequence[str] = (), ask_first: Sequence[str] = (),
-    patience: Patience | None = None,
+    patience: Patience | None = None, proposals: ProposalStore | None = None,
 ) -> AsyncIterator[Crew]:  # fmt: skip
     """A planner and engines for `robots`; at the end no handler may have failed.
 
@@ -308,6 +309,7 @@ async def crew(
         heartless: Known robots that send no heartbeat.
         ask_first: Robots whose plans wait for approval.
         patience: How long the planner waits.
+        proposals: Where it keeps what waits for a yes.
     """
     async with AsyncExitStack() as stack:
         transport = await stack.enter_async_context(LocalTransport())
@@ -317,7 +319,7 @@ async def crew(
         planner = await stack.enter_async_context(
             UmrfPlanner(
                 transport, clock, known_robots=heartless, policies=dict.fromkeys(ask_first, "ask_first"),
-                patience=patience or Patience(answer_s=1.0, progress_s=1.0, end_s=2.0),
+                patience=patience or Patience(answer_s=1.0, progress_s=1.0, end_s=2.0), proposals=proposals,
             )
         )  # fmt: skip
         if talking:

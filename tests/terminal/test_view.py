@@ -170,13 +170,10 @@ def test_a_new_plan_is_shown_whole_and_then_only_what_is_done(view: OperatorView
     assert [line.text for line in lines] == ["✓ find the box (done)"]
 
 
-def test_the_end_of_a_plan_is_said(view: OperatorView) -> None:
+def test_the_end_of_a_plan_is_left_to_the_robot_to_say(view: OperatorView) -> None:
     view.on_plan(plan(step("go there", "running")))
     lines = view.on_plan(plan(step("go there", "finished"), state="idle"))
-    assert [line.text for line in lines] == [
-        "✓ go there (done)",
-        "Ada is done and ready for something else.",
-    ]
+    assert [line.text for line in lines] == ["✓ go there (done)"]
 
 
 def test_a_plan_that_failed_is_not_called_done(view: OperatorView) -> None:
@@ -201,7 +198,7 @@ def test_a_proposed_plan_asks_for_a_yes_and_goes_with_the_decision(view: Operato
     assert [line.text for line in lines] == [
         "Ada would do this:",
         "1. go to the box",
-        "Shall I do that? Answer yes or no.",
+        "Answer yes or no.",
     ]
     assert lines[-1].kind == "asked"
     assert view.on_plan(plan(step("go to the box"), state="awaiting_approval")) == []

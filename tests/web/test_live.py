@@ -136,6 +136,22 @@ async def test_a_page_that_confirms_nothing_gets_two_pictures_and_then_the_newes
         assert len(slow.frames) == 3
 
 
+async def test_a_page_may_look_away_while_pictures_are_on_their_way() -> None:
+    names = [f"camera {number}" for number in range(8)]
+    feeds = [{"robot": "Ada", "name": name} for name in names]
+    async with served("Ada") as rig:
+        page = await rig.page()
+        for name in names:
+            rig.robots.show("Ada", name)
+        await page.until(lambda: len({change["feed"]["name"] for change in page.of("feed")}) == len(names))
+        for _ in range(20):
+            await page.io.emit("watch", feeds)
+            await page.io.emit("watch", [])
+        await page.io.emit("watch", feeds[-1:])
+        rig.robots.show("Ada", names[-1], JPEG + b"!")
+        await until_it_shows(page, ord("!"))
+
+
 async def test_nonsense_from_a_page_does_no_harm() -> None:
     async with served("Ada") as rig:
         page = await rig.page()

@@ -83,6 +83,46 @@ def test_the_demo_serves_a_page_and_the_robot_drives(tmp_path: Path) -> None:
         assert "Traceback" not in errors
 
 
+def snapshot_with(client: httpx.Client, what: str) -> dict[str, Any]:
+    """The state of things, once there is some of `what`."""
+    ends_s = time.monotonic() + 30
+    while not (snapshot := dict(client.get("/api/snapshot").json()))[what]:
+        assert time.monotonic() < ends_s
+        time.sleep(0.05)
+    return snapshot
+
+
+@pytest.mark.timeout(200)
+def test_a_plan_that_waits_for_a_yes_is_on_the_page_again_after_kill_9(tmp_path: Path) -> None:
+    options = ("--ask-first", "--speed", "20")
+    with demo(tmp_path, *options) as (process, client):
+        snapshot_with(client, "robots")
+        post(client, "m1", "go to the dining table")
+        entries = until(client, "m1")
+        assert entries[-1]["message"] == "I would go to the dining table. Shall I?"
+        (before,) = snapshot_with(client, "proposals")["proposals"]
+        post(client, "m2", "what can you do?")  # what the robot says later is kept later
+        until(client, "m2")
+        process.kill()
+    with demo(tmp_path, *options) as (_, client):
+        snapshot_with(client, "robots")
+        (again,) = snapshot_with(client, "proposals")["proposals"]
+        assert again == before
+        decision = {"id": again["id"], "decision": "approve"}
+        assert client.post("/api/plans/David/decision", json=decision).status_code == 200
+        ends_s = time.monotonic() + 60
+        while not any("I have finished" in said["message"] for said in entries):
+            assert time.monotonic() < ends_s
+            entries = client.get("/api/chat").json()["entries"]
+            time.sleep(0.1)
+        said = [entry["message"] for entry in entries]
+        assert any("started anew" in message for message in said)
+        assert said.index("I will go to the dining table.") > said.index(
+            "I would go to the dining table. Shall I?"
+        )
+        assert client.get("/api/snapshot").json()["proposals"] == []
+
+
 @pytest.mark.parametrize("sent", [signal.SIGTERM, signal.SIGINT])
 def test_it_ends_in_order_while_pages_are_open(tmp_path: Path, sent: signal.Signals) -> None:
     with demo(tmp_path) as (process, client):

@@ -424,6 +424,23 @@ def test_a_proposal_told_again_is_no_news() -> None:
     assert len(changes) == count
 
 
+def test_how_much_care_a_step_needs_is_said_when_it_becomes_known() -> None:
+    changes: list[Any] = []
+    risks: dict[str, Any] = {}
+    book = PlanBook(changes.append, lambda _robot, action: risks.get(action, "low"))
+    book.on_proposal(PlanProposal(id="p1", target="Ada", steps=(ActionCall(name="Press"),)))
+    book.on_update(update(step("Press", "running", "Press_0")))
+    risks["Press"] = "high"
+    book.on_catalogue("Bob")
+    assert [item.risk for item in (*book.proposals["p1"].steps, *plan_of(book).steps)] == ["low", "low"]
+    count = len(changes)
+    book.on_catalogue("Ada")
+    assert [item.risk for item in (*book.proposals["p1"].steps, *plan_of(book).steps)] == ["high", "high"]
+    assert [change.kind for change in changes[count:]] == ["plan", "proposal"]
+    book.on_catalogue("Ada")
+    assert len(changes) == count + 2, "the same again is no news"
+
+
 def test_a_rate_grants_a_burst_and_then_an_average() -> None:
     rate = Rate(per_s=2, burst=3)
     assert [rate.take("a", 0.0) for _ in range(4)] == [0, 0, 0, 0.5]

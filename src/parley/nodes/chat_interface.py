@@ -9,23 +9,33 @@ import asyncio
 import uuid
 from collections import OrderedDict
 from collections.abc import Awaitable, Callable, Sequence
-from dataclasses import dataclass
 from typing import ClassVar, Final
 
 from parley.clock import Clock
-from parley.errors import LanguageError
-from parley.language.base import Language, Situation, Turn
+from parley.errors import InvalidMessageError, LanguageError
+from parley.language.base import Language, Situation
 from parley.language.control import Control, control_of
 from parley.memory.because import OPERATOR
 from parley.memory.client import recall, recall_newest
-from parley.memory.sayings import asks_for_all, for_oneself, keeping_action
+from parley.memory.sayings import asks_for_all, for_oneself
 from parley.messages import topics
-from parley.messages.chat import ActionCall, ChatAction, ChatFeedback, ChatInput, SystemCommand
+from parley.messages.chat import ChatAction, ChatFeedback, ChatInput, SystemCommand
 from parley.messages.failure import ErrorHandlingMessage
 from parley.messages.memory import AddToMemory, MemoryBody, MemoryEntry, MemoryEvent
 from parley.messages.ros import String
-from parley.messages.status import ActorStatus, PlanUpdate, Rejection, RejectionProblem, StopCommand
+from parley.messages.status import (
+    ActorStatus,
+    PlanDecision,
+    PlanProposal,
+    PlanUpdate,
+    Rejection,
+    RejectionProblem,
+    StopCommand,
+)
+from parley.messages.wire import decode_plan
+from parley.nodes.asking import SHALL_I, Offered, as_wish
 from parley.nodes.base import Mailboxes, Node
+from parley.nodes.chat_memories import Confirmations, Keeping, keeping_order, memory_query
 from parley.nodes.chat_texts import (
     AFTERWARDS,
     CONTROL_REPLIES,
@@ -37,6 +47,8 @@ from parley.nodes.chat_texts import (
 )
 from parley.nodes.conversation import Conversation
 from parley.nodes.drafts import Drafts
+from parley.nodes.finishing import Finishing
+from parley.nodes.plan_approval import waits_for_yes
 from parley.nodes.plan_check import check_calls, complete_calls
 from parley.nodes.plan_flow import pending_calls
 from parley.nodes.plan_steps import LATCHED
@@ -52,28 +64,9 @@ from parley.world.object_map import MapObject
 
 __all__ = ["ChatInterface"]
 
-MEMORY_WITHIN_S: Final = 5.0
-"""Wall time in which the memory must have confirmed what the reply promises."""
 _KEPT_QUESTIONS: Final = 100
 _HALTING: Final = ("stop", "clear", "emergency_stop")
 """Controls after which nothing that was said before may still set a robot in motion."""
-
-
-@dataclass(frozen=True, slots=True)
-class _Keeping:
-    """For whom and on whose word memories are kept."""
-
-    own: str
-    """The robot that was asked to remember for itself; empty for everybody."""
-    source: str
-    known: Sequence[MemoryEntry]
-
-    def of(self, command: str, name: str) -> dict[str, str]:
-        """Arguments beside name and data: what replaces or forgets a robot's own memory concerns that one."""
-        scope = next((entry.scope for entry in self.known if entry.name == name), None)
-        if command == "remove_memory":
-            return {} if scope is None else {"scope": scope}
-        return {"scope": self.own or scope or "", "source": self.source}
 
 
 class ChatInterface(Node):
@@ -117,8 +110,9 @@ class ChatInterface(Node):
         """The last failed step of each robot, for questions about it."""
         self._asked: OrderedDict[str, str] = OrderedDict()
         """The words of the last questions of robots, by id."""
+        self._offered, self._finishing = Offered(), Finishing(clock.now_s)
         self._seen_ids = SeenIds()
-        self._memory_waits: dict[str, asyncio.Future[MemoryEvent]] = {}
+        self._confirmations = Confirmations()
         self._recollections = Recollections(self, clock, self._remember, self._presence.names)
         self._halts: dict[str, int] = {}
         """How often each robot was told to stop: what was asked for before that is dropped."""
@@ -128,10 +122,11 @@ class ChatInterface(Node):
         await self.opened.enter_async_context(self._mailboxes)
         await self.subscribe(topics.ACTOR_STATUS, ActorStatus, self._presence.on_status)
         await self.subscribe(topics.CHAT_FEEDBACK, ChatFeedback, self._on_feedback)
-        await self.subscribe(topics.MEMORY_EVENT, MemoryEvent, self._on_memory_event)
+        await self.subscribe(topics.MEMORY_EVENT, MemoryEvent, self._confirmations.on_event)
         await self.subscribe(topics.STOP, StopCommand, self._on_emergency)
         await self.subscribe(topics.ERROR_HANDLING, ErrorHandlingMessage, self._on_failure)
         await self.subscribe_raw(topics.PLAN, self._on_plan)
+        await self.subscribe(topics.PLAN_DECISION, PlanDecision, self._on_decision)
         await self.subscribe(topics.CHAT_INPUT, ChatInput, self._on_input)
 
     # -- from the wire ---------------------------------------------------------------------------------
@@ -160,6 +155,11 @@ class ChatInterface(Node):
                 text = f"{target} is not there at the moment, so I cannot ask it."
                 self._say((target,), text, "error", said.id)
             else:
+                names = self._presence.names()
+                decision = self._offered.decided(target, said.message, names) if question is None else None
+                if decision is not None:
+                    self.publish(topics.PLAN_DECISION, decision)
+                    continue
                 about = said.reply_to or (question.id if question else "")
                 ours = about if said.type == "response" and self._recollections.asked(about) else ""
                 if question is None or ours:
@@ -218,9 +218,24 @@ class ChatInterface(Node):
         return found
 
     def _on_plan(self, message: String) -> None:
-        if '"kind":"update"' in message.data.replace(" ", ""):
-            update = PlanUpdate.model_validate_json(message.data)
-            self._plans[update.target] = update
+        try:
+            told = decode_plan(message.data)
+        except InvalidMessageError as error:
+            self.refuse(topics.PLAN.name, error)
+            return
+        if isinstance(told, PlanProposal):
+            self._offered.on_proposal(told)
+            self._finishing.on_proposal(told)
+            return
+        self._plans[told.target] = told
+        self._offered.on_update(told)
+        status = self._presence.get(told.target)
+        if done := self._finishing.on_update(told, status.catalogue if status else ()):
+            self._say((told.target,), done, "info")
+
+    def _on_decision(self, decision: PlanDecision) -> None:
+        self._offered.on_decision(decision)
+        self._finishing.on_decision(decision)
 
     def _on_feedback(self, feedback: ChatFeedback) -> None:
         self._questions.on_feedback(feedback)
@@ -231,11 +246,6 @@ class ChatInterface(Node):
 
     def _on_failure(self, failure: ErrorHandlingMessage) -> None:
         self._failures[failure.target] = failure
-
-    def _on_memory_event(self, event: MemoryEvent) -> None:
-        wait = self._memory_waits.get(event.name)
-        if wait is not None and not wait.done():
-            wait.set_result(event)
 
     def _on_emergency(self, command: StopCommand) -> None:
         """The stop button: what was asked for before it is dropped, as if it had been said."""
@@ -285,13 +295,22 @@ class ChatInterface(Node):
     async def _answer(self, target: str, said: ChatInput, halts: int) -> None:
         message = said.message
         own = for_oneself(message)
-        drafts = Drafts(said.id, target, lambda draft: self.publish(topics.REPLY_DRAFT, draft), self._clock)
+        asks = target in self._plans and self._plans[target].policy != "run_at_once"
+        # What may have to wait for a yes is not announced while it is being worked out.
+        drafts = Drafts(
+            "" if asks else said.id,
+            target,
+            lambda draft: self.publish(topics.REPLY_DRAFT, draft),
+            self._clock,
+        )
         try:
             async with self._thinking.about(
                 target, lambda: self._say((target,), still_thinking(message), "info")
             ):
                 situation = await self._situation(target, own or message, said)
-                understood = _kept(situation) or await self._language.interpret(situation, on_draft=drafts)
+                understood = keeping_order(situation) or await self._language.interpret(
+                    situation, on_draft=drafts
+                )
         except (LanguageError, TimeoutError) as error:
             if isinstance(error, TimeoutError) and halts != self._halts.get(target, 0):
                 self._say((target,), left(message), "response", said.id)
@@ -313,12 +332,14 @@ class ChatInterface(Node):
         if not order.targets:
             self._say((target,), f"That is for {' and '.join(understood.targets)}.", "response", said.id)
             return
-        kept = _Keeping(target if own else "", said.author or OPERATOR, situation.memory)
+        kept = Keeping(target if own else "", said.author or OPERATOR, situation.memory)
         order, confirmations = self._name_memories(order, kept)
         if order.queue or order.system_cmd:
-            self.publish(topics.CHAT_ACTION, order)
-        failed = await self._confirmed(confirmations)
+            self._order(order, message)
+        failed = await self._confirmations.confirmed(confirmations)
         reply = failed or understood.message_response or "Done."
+        if not failed and self._asks_first(order):
+            reply = f"{as_wish(reply, order.queue)} {SHALL_I}"
         if not failed and self._waits_behind_a_question(target, order):
             reply = f"{reply} {AFTERWARDS}"
         conversation = self._conversation(target)
@@ -341,6 +362,20 @@ class ChatInterface(Node):
             ),
         )
 
+    def _order(self, order: ChatAction, words: str) -> None:
+        for name in order.targets if order.queue else ():
+            self._finishing.on_order(name, words)
+        self.publish(topics.CHAT_ACTION, order)
+
+    def _asks_first(self, order: ChatAction) -> bool:
+        """Whether a person is asked before a robot begins with it: then it only says what it would do."""
+        for name in order.targets:
+            plan, status = self._plans.get(name), self._presence.get(name)
+            catalogue = status.catalogue if status is not None else ()
+            if plan is not None and waits_for_yes(plan.policy, order.queue, catalogue):
+                return True
+        return False
+
     def _waits_behind_a_question(self, target: str, order: ChatAction) -> bool:
         """Whether an order is kept until the robot's question about a failed step is answered."""
         plan = self._plans.get(target)
@@ -353,7 +388,7 @@ class ChatInterface(Node):
         if asks_for_all(message):
             memory = await recall_newest(self.transport, scope=target)
         else:
-            memory = await recall(self.transport, _memory_query(message, turns), scope=target)
+            memory = await recall(self.transport, memory_query(message, turns), scope=target)
         status, plan = self._presence.get(target), self._plans.get(target)
         pending = pending_calls(plan) if plan else []
         state = plan.state if plan else "idle"
@@ -409,7 +444,7 @@ class ChatInterface(Node):
     # -- memory ----------------------------------------------------------------------------------------
 
     def _name_memories(
-        self, order: ChatAction, kept: _Keeping
+        self, order: ChatAction, kept: Keeping
     ) -> tuple[ChatAction, list[asyncio.Future[MemoryEvent]]]:
         """Give each new memory a name, so that its confirmation can be recognised, a scope and a source."""
         waits: list[asyncio.Future[MemoryEvent]] = []
@@ -419,35 +454,16 @@ class ChatInterface(Node):
                 name = str(command.arguments.get("name") or f"memory_{uuid.uuid4().hex[:12]}")
                 arguments = {**kept.of(command.command, name), **command.arguments, "name": name}
                 command = SystemCommand(command=command.command, arguments=arguments)
-                waits.append(self._wait_for(name))
+                waits.append(self._confirmations.wait_for(name))
             commands.append(command)
         return order.model_copy(update={"system_cmd": tuple(commands)}), waits
 
-    def _wait_for(self, name: str) -> asyncio.Future[MemoryEvent]:
-        wait: asyncio.Future[MemoryEvent] = asyncio.get_running_loop().create_future()
-        self._memory_waits[name] = wait
-        return wait
-
     async def _remember(self, entry: MemoryEntry) -> str:
         """Store a memory; the plain reason if it is not durable in time."""
-        wait = self._wait_for(entry.name)
+        wait = self._confirmations.wait_for(entry.name)
         body = MemoryBody.model_validate(entry.model_dump())
         self.publish(topics.ADD_TO_MEMORY, AddToMemory({entry.name: body}))
-        return await self._confirmed([wait])
-
-    async def _confirmed(self, waits: list[asyncio.Future[MemoryEvent]]) -> str:
-        """Wait until what the reply promises is stored; the plain reason if it is not."""
-        if not waits:
-            return ""
-        try:
-            async with asyncio.timeout(MEMORY_WITHIN_S):
-                events = await asyncio.gather(*waits)
-        except TimeoutError:
-            return "I could not store that: the memory does not answer. Please tell me again later."
-        finally:
-            self._memory_waits = {k: w for k, w in self._memory_waits.items() if w not in waits}
-        failed = next((event for event in events if event.kind == "failed"), None)
-        return f"I could not store that: {failed.message}" if failed else ""
+        return await self._confirmations.confirmed([wait])
 
     # -- helpers ---------------------------------------------------------------------------------------
 
@@ -464,23 +480,3 @@ class ChatInterface(Node):
         self._say(
             (target,), "Something went wrong on my side. Nothing was started; please try again.", "error"
         )
-
-
-def _kept(situation: Situation) -> ChatAction | None:
-    """The order to remember what the robot sees, if the message says that and nothing else."""
-    name = keeping_action(situation.message, situation.catalogue)
-    if not name:
-        return None
-    call = ActionCall(name=name, reason="remember what I see")
-    return ChatAction(message_response="I will keep what I see now.", queue=(call,))
-
-
-_RECALLED_TURNS = 6
-"""How many turns back what is asked or meant may lie ("bring it to him")."""
-_RECALLED_CHARS = 300
-
-
-def _memory_query(message: str, turns: Sequence[Turn]) -> str:
-    """What to look up: the message, and what it may refer back to."""
-    recent = [turn.content[:_RECALLED_CHARS] for turn in turns[-_RECALLED_TURNS:]]
-    return "\n".join([message, *reversed(recent)])

@@ -84,6 +84,13 @@ class TargetPlan(ReportedPlan):
         self.graph_name, self.run = graph_name, "halted" if dry else "paused"
         self._next_id = 1 + max((step.instance_id for step in steps), default=-1)
 
+    def fail_again(self, action: str) -> Step | None:
+        """Of what an earlier process left, the step whose repair was under way; the plan is held for it."""
+        step = next((s for s in self.steps if s.call.name == action and s.state == "queued"), None)
+        if step is not None:
+            step.state, self.held, self._pause_wanted = "failed", True, False
+        return step
+
     def pause(self) -> list[Effect]:
         """Stand still, keep the plan."""
         if self.held:

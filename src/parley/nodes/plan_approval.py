@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Mapping, Sequence
+from collections.abc import Callable, Mapping, Sequence
 from types import MappingProxyType
 from typing import Literal
 
@@ -11,9 +11,20 @@ from parley.messages.status import ActionInfo, PlanProposal, PlanUpdate
 from parley.nodes.plan import TargetPlan
 from parley.nodes.plan_steps import Step
 
-__all__ = ["Approvals", "PlanBoard", "Policy"]
+__all__ = ["Approvals", "PlanBoard", "Policy", "waits_for_yes"]
 
 Policy = Literal["run_at_once", "ask_when_risky", "ask_first"]
+
+
+def waits_for_yes(policy: Policy, calls: Sequence[ActionCall], catalogue: Sequence[ActionInfo]) -> bool:
+    """Whether actions wait for a yes under a policy; what nobody knows the risk of is not risky."""
+    match policy:
+        case "ask_first":
+            return bool(calls)
+        case "ask_when_risky":
+            risky = {info.name for info in catalogue if info.risk == "high"}
+            return any(call.name in risky for call in calls)
+    return False
 
 
 class Approvals:
@@ -22,13 +33,18 @@ class Approvals:
     Args:
         default: The policy of robots for which none was chosen.
         policies: What was chosen for some.
+        on_drop: Gets the id of each proposal that waits no longer.
     """
 
     def __init__(
-        self, default: Policy = "run_at_once", policies: Mapping[str, Policy] = MappingProxyType({})
+        self,
+        default: Policy = "run_at_once",
+        policies: Mapping[str, Policy] = MappingProxyType({}),
+        on_drop: Callable[[str], None] = lambda _: None,
     ) -> None:
-        self._default, self._policies = default, dict(policies)
+        self._default, self._policies, self._on_drop = default, dict(policies), on_drop
         self._waiting: dict[str, PlanProposal] = {}
+        self._agreed: dict[str, str] = {}
         self._repairs: dict[str, Step] = {}
 
     def policy(self, target: str) -> Policy:
@@ -40,29 +56,28 @@ class Approvals:
         self._policies[target] = policy
 
     def asks(self, target: str, calls: Sequence[ActionCall], catalogue: Sequence[ActionInfo]) -> bool:
-        """Whether these actions of a robot wait for a yes; what nobody knows the risk of is not risky."""
-        match self.policy(target):
-            case "ask_first":
-                return bool(calls)
-            case "ask_when_risky":
-                risky = {info.name for info in catalogue if info.risk == "high"}
-                return any(call.name in risky for call in calls)
-        return False
+        """Whether these actions of a robot wait for a yes."""
+        return waits_for_yes(self.policy(target), calls, catalogue)
 
-    def put(self, proposal: PlanProposal, repairs: Step | None = None) -> None:
+    def put(self, proposal: PlanProposal, agreed: str = "", repairs: Step | None = None) -> None:
         """Let a proposal wait.
 
         Args:
             proposal: What is proposed.
+            agreed: What the robot says when it begins.
             repairs: The failed step in whose place it would be done, if it is a repair.
         """
-        self._waiting[proposal.id] = proposal
+        self._waiting[proposal.id], self._agreed[proposal.id] = proposal, agreed
         if repairs is not None:
             self._repairs[proposal.id] = repairs
 
     def get(self, identity: str) -> PlanProposal | None:
         """The proposal of that id, if it waits."""
         return self._waiting.get(identity)
+
+    def agreed(self, identity: str) -> str:
+        """What the robot says when it begins with the proposal of that id."""
+        return self._agreed.get(identity, "")
 
     def repairs(self, identity: str) -> bool:
         """Whether the proposal takes the place of a step that failed."""
@@ -85,7 +100,9 @@ class Approvals:
 
     def drop(self, identity: str) -> None:
         """Forget a proposal."""
-        self._waiting.pop(identity, None)
+        if self._waiting.pop(identity, None) is not None:
+            self._on_drop(identity)
+        self._agreed.pop(identity, None)
         self._repairs.pop(identity, None)
 
     def drop_settled(self, plan: TargetPlan) -> None:

@@ -7,48 +7,45 @@ from __future__ import annotations
 
 import asyncio
 import uuid
-from collections.abc import Mapping, Sequence
+from collections.abc import Callable, Mapping, Sequence
 from types import MappingProxyType
-from typing import ClassVar, Final, Literal
+from typing import ClassVar, Literal
 
 from parley.clock import Clock
 from parley.errors import GraphRefusedError, Problem
+from parley.memory.proposals import ProposalStore
 from parley.messages import ros, topics
 from parley.messages.chat import ActionCall, ChatAction, ChatFeedback, ChatInput, SystemCommand
 from parley.messages.memory import AddToMemory, RemoveMemory
-from parley.messages.status import (
-    ActionInfo,
-    ActorStatus,
-    GraphEvent,
-    PlanDecision,
-    PlanProposal,
-    Rejection,
-)
+from parley.messages.status import ActionInfo, ActorStatus, GraphEvent, PlanDecision, Rejection
+from parley.nodes.asking import CHANGED, REFUSED
 from parley.nodes.left_graphs import LeftGraphs
+from parley.nodes.offers import Offers
 from parley.nodes.plan import TargetPlan
-from parley.nodes.plan_approval import Approvals, PlanBoard, Policy
+from parley.nodes.plan_approval import PlanBoard, Policy
 from parley.nodes.plan_check import check_calls, complete_calls
-from parley.nodes.plan_effects import (
-    Effect,
-)
+from parley.nodes.plan_effects import Effect
 from parley.nodes.plan_flow import listed, rebased
 from parley.nodes.plan_memory import memory_change
+from parley.nodes.plan_orders import (
+    LEFT,
+    NOTHING_DONE,
+    PLAN_CHANGED,
+    WAITING,
+    WAITING_HELPLESS,
+    in_order,
+    is_same,
+    take_repair,
+)  # fmt: skip
 from parley.nodes.plan_sending import Patience, PlanSender
 from parley.nodes.plan_steps import Step
 from parley.nodes.presence import LOST_AFTER_S, Presence
+from parley.nodes.proposal_log import ProposalLog
 from parley.nodes.questions import OpenQuestions
 from parley.transport.base import Transport
 from parley.umrf.io import read_graph
 
 __all__ = ["Patience", "UmrfPlanner"]
-
-
-_HELP: Final = "Say “try again”, “skip it” or “cancel everything”, or give me another order."
-_WAITING: Final = f"Then I am waiting here. {_HELP}"
-_WAITING_HELPLESS: Final = f"What I worked out would not help, so I am waiting here. {_HELP}"
-_NOTHING_DONE: Final = "I worked out a plan that I cannot carry out, so I did nothing."
-_LEFT: Final = "I cannot carry out these steps, so I left everything as it is."
-_CHANGED: Final = "The plan has changed in the meantime, so I left it as it is. Please look at it again."
 
 
 class UmrfPlanner(PlanSender):
@@ -61,6 +58,8 @@ class UmrfPlanner(PlanSender):
         approval: Whether new steps wait for a person's yes.
         policies: Robots for which that is otherwise.
         patience: How long an engine is waited for.
+        proposals: Keeps what waits for a yes over restarts; None keeps it only while this process lives.
+        tell: Gets a robot and what it has to say by itself; None says it at once, to whoever listens.
     """
 
     name: ClassVar[str] = "umrf_planner"
@@ -74,12 +73,16 @@ class UmrfPlanner(PlanSender):
         approval: Policy = "run_at_once",
         policies: Mapping[str, Policy] = MappingProxyType({}),
         patience: Patience | None = None,
+        proposals: ProposalStore | None = None,
+        tell: Callable[[str, str], None] | None = None,
     ) -> None:
         super().__init__(transport, patience or Patience())
         self._clock = clock
         self._presence = Presence(clock, tuple(known_robots), self._on_presence)
         self._plans: dict[str, TargetPlan] = {}
-        self._approvals, self._board = Approvals(approval, policies), PlanBoard()
+        self._proposals, self._offers_again = ProposalLog(proposals), False
+        self._tell = tell or (lambda robot, text: self._say(robot, text, "info"))
+        self._approvals, self._board = Offers(self._proposals, clock, approval, policies), PlanBoard()
         self._listeners = 0
         """How many listen to the plans."""
         self._questions = OpenQuestions()
@@ -89,6 +92,7 @@ class UmrfPlanner(PlanSender):
 
     async def open(self) -> None:
         """See `Node.open`."""
+        await self.opened.enter_async_context(self._proposals)
         await self.subscribe(topics.ACTOR_STATUS, ActorStatus, self._presence.on_status)
         await self.subscribe(topics.CHAT_ACTION, ChatAction, self._on_chat_action)
         await self.subscribe(topics.UMRF_CORRECTION, ChatAction, self._on_correction)
@@ -117,6 +121,23 @@ class UmrfPlanner(PlanSender):
         """The engine of `target` holds a graph that an earlier process left; the same words go for it."""
         self._left.hold(self._plan(target).target, name)
 
+    def offer_again(self) -> None:
+        """Propose what an earlier process left waiting for a yes, now and to robots that come later.
+
+        Called when the plans it left are restored: a repair goes in the place of a step of theirs.
+        """
+        self._offers_again = True
+        for robot in self._presence.names():
+            self._offer_left(robot)
+
+    def _offer_left(self, robot: str) -> None:
+        status = self._presence.get(robot) if self._offers_again else None
+        for proposal, text in self._approvals.take_left(self._plan(robot), status) if status else ():
+            if proposal is not None:
+                self.publish(topics.PLAN, proposal)
+            self._send(self._plan(robot), [])
+            self._tell(robot, text)
+
     # -- orders ----------------------------------------------------------------------------------------
 
     def _on_chat_action(self, order: ChatAction) -> None:
@@ -125,7 +146,7 @@ class UmrfPlanner(PlanSender):
         for target in targets:
             plan = self._plan(target)
             calls = self._accept(plan, order.queue)
-            commands = _in_order(order.system_cmd)
+            commands = in_order(order.system_cmd)
             if calls is None:  # nothing of such an order is done, but stopping is never refused
                 commands = [item for item in commands if item.command in ("stop", "pause")]
             for command in commands:
@@ -149,7 +170,7 @@ class UmrfPlanner(PlanSender):
             if calls is None:
                 self._send(plan, plan.give_up())
                 continue
-            for command in _in_order(control):
+            for command in in_order(control):
                 self._send(plan, self._command(plan, command))
             if clears:
                 self._take_anew(plan, order.message_response, calls)
@@ -159,16 +180,16 @@ class UmrfPlanner(PlanSender):
     def _take_anew(self, plan: TargetPlan, message: str, calls: list[ActionCall]) -> None:
         """A repair that dropped the plan brings another one."""
         if self._asks_for_repair(plan, calls):
-            self._propose(plan, message, calls)
+            self._propose(plan, message, calls, announced=True)
         elif calls:
             self._send(plan, plan.append(calls))
 
     def _correct(self, plan: TargetPlan, message: str, calls: list[ActionCall]) -> None:
         """Repair, unless new steps that nobody asked for wait for a yes first; it is held till then."""
         failed = plan.failed
-        new = failed is not None and [call for call in calls if not _same(call, failed.call)]
+        new = failed is not None and [call for call in calls if not is_same(call, failed.call)]
         if new and not plan.given_up and self._asks_for_repair(plan, calls):
-            self._propose(plan, message, calls, repairs=failed)
+            self._propose(plan, message, calls, failed, announced=True)
             self._say(plan.target, "I wait for your yes before I do this.", "info")
         else:
             self._send(plan, plan.correct(calls))
@@ -198,8 +219,7 @@ class UmrfPlanner(PlanSender):
         if decision.decision == "reject":
             self._approvals.drop(decision.id)
             self._send(plan, plan.give_up() if repairs else [])
-            if repairs:
-                self._say(plan.target, _WAITING, "info")
+            self._say(plan.target, WAITING if repairs else REFUSED, "info")
             return
         calls: list[ActionCall] | None = list(proposal.steps)
         if decision.decision == "edit":
@@ -211,9 +231,12 @@ class UmrfPlanner(PlanSender):
         calls = self._accept(plan, calls or (), correcting=repairs, decided=edited)
         if calls is None:
             return  # it goes on waiting, for a better edit
+        agreed = CHANGED if edited else self._approvals.agreed(decision.id)
         self._approvals.drop(decision.id)
+        if agreed:
+            self._say(plan.target, agreed, "info")
         if repairs:
-            self._send(plan, _repair(plan, calls))
+            self._send(plan, take_repair(plan, calls))
         else:
             self._append(plan, calls)
 
@@ -225,7 +248,7 @@ class UmrfPlanner(PlanSender):
                 "revision", "the plan is another by now", "edit it as it is now", "past_revision"
             )
             self._refuse(topics.PLAN_DECISION.name, target, [problem])
-            self._say(target, _CHANGED, "error")
+            self._say(target, PLAN_CHANGED, "error")
             return
         free = {id(step) for step in plan.not_begun}
         begun = [index for index, step in enumerate(plan.steps) if id(step) not in free]
@@ -245,10 +268,18 @@ class UmrfPlanner(PlanSender):
             self._send(self._plan(target), [])
 
     def _propose(
-        self, plan: TargetPlan, message: str, calls: list[ActionCall], repairs: Step | None = None
+        self,
+        plan: TargetPlan,
+        message: str,
+        calls: Sequence[ActionCall],
+        repairs: Step | None = None,
+        *,
+        announced: bool = False,
     ) -> None:
-        proposal = PlanProposal(id=uuid.uuid4().hex, target=plan.target, message=message, steps=tuple(calls))
-        self._approvals.put(proposal, repairs)
+        status = self._presence.get(plan.target)
+        proposal = self._approvals.propose(
+            plan.target, message, calls, status, repairs=repairs, announced=announced
+        )
         self.publish(topics.PLAN, proposal)
         self._send(plan, [])
 
@@ -263,7 +294,7 @@ class UmrfPlanner(PlanSender):
         repair = self._approvals.repair(plan.target)
         if repair is not None:
             self._approvals.drop(repair.id)
-            return _repair(plan, repair.steps)
+            return take_repair(plan, repair.steps)
         effects: list[Effect] = []
         for proposal in [] if plan.pending else self._approvals.of(plan.target):
             self._approvals.drop(proposal.id)
@@ -319,7 +350,7 @@ class UmrfPlanner(PlanSender):
         problems = check_calls(put, catalogue, path="steps" if decided else "queue")
         if not problems:
             return calls
-        text = _WAITING_HELPLESS if correcting and not decided else ""
+        text = WAITING_HELPLESS if correcting and not decided else ""
         self._refuse_plan(plan, problems, decided=decided, text=text)
         return None
 
@@ -328,7 +359,7 @@ class UmrfPlanner(PlanSender):
     ) -> None:
         topic = topics.PLAN_DECISION if decided else topics.CHAT_ACTION
         self._refuse(topic.name, plan.target, problems)
-        self._say(plan.target, text or (_LEFT if decided else _NOTHING_DONE), "error")
+        self._say(plan.target, text or (LEFT if decided else NOTHING_DONE), "error")
 
     def _catalogue(self, target: str) -> Sequence[ActionInfo]:
         status = self._presence.get(target)
@@ -411,6 +442,8 @@ class UmrfPlanner(PlanSender):
     def _on_presence(self, robot: str, joined: bool) -> None:
         if joined and self._approvals.policy(robot) != "run_at_once":
             self._send(self._plan(robot), [])
+        if joined:
+            self._offer_left(robot)
         plan = self._plans.get(robot)
         if plan is None or not plan.pending:
             return
@@ -464,20 +497,3 @@ class UmrfPlanner(PlanSender):
         update = self._board.show(plan, self._approvals)
         if update is not None:
             self.publish(topics.PLAN, update)
-
-
-def _repair(plan: TargetPlan, calls: Sequence[ActionCall]) -> list[Effect]:
-    """Do what a person agreed to, even if the robot was told to stand still meanwhile."""
-    return plan.append(calls) if plan.given_up and calls else plan.correct(calls)
-
-
-def _same(first: ActionCall, second: ActionCall) -> bool:
-    return first.name == second.name and first.input_parameters == second.input_parameters
-
-
-def _in_order(commands: Sequence[SystemCommand]) -> list[SystemCommand]:
-    """Steps are counted before any is dropped, so the last is dropped first."""
-    last_first = iter(
-        sorted((c for c in commands if c.command == "pop"), key=lambda c: c.pop_index or 0, reverse=True)
-    )
-    return [next(last_first) if command.command == "pop" else command for command in commands]

@@ -153,9 +153,7 @@ class TerminalClient:
 
     def _echo(self, message: ChatInput | PlanDecision, text: str) -> None:
         """Say what became of the operator's words where that is not what they typed."""
-        if isinstance(message, PlanDecision):
-            self._note("approved" if message.decision == "approve" else "rejected", robot=message.target)
-        elif message.message != text:
+        if isinstance(message, ChatInput) and message.message != text:
             self._console.show([Line("said", message.message, speaker=self._texts("you"))])
 
     def _remind(self, robot: RobotView, message: ChatInput | PlanDecision) -> None:

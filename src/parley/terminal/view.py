@@ -164,9 +164,6 @@ class OperatorView:
         to_come = [step for step in message.steps if not is_over(step)]
         if is_new and to_come and message.state != "awaiting_approval":
             lines += self._plan(robot, to_come)
-        is_done = all(step.state in ("finished", "skipped") for step in message.steps)
-        if ended and message.state == "idle" and is_done:
-            lines.append(Line("note", self.texts("all_done", robot=robot.name)))
         return lines
 
     def on_event(self, event: GraphEvent) -> list[Line]:
@@ -269,7 +266,7 @@ class OperatorView:
         robot.pending.append(proposal)
         heading = Line("heading", self.texts("proposal_of", robot=robot.name))
         rows = [Line("step", f"{number}. {label(call)}") for number, call in enumerate(proposal.steps, 1)]
-        return [heading, *rows, Line("asked", self.texts("shall_i"), speaker=robot.name)]
+        return [heading, *rows, Line("asked", self.texts("yes_or_no"))]
 
     def _plan(self, robot: RobotView, steps: Sequence[PlanStep]) -> list[Line]:
         """A heading and the steps; those to come are numbered as operators call them ("the second")."""

@@ -198,13 +198,15 @@ class Link:
         self._stack.push_async_callback(subscription.close)
 
     def _on_status(self, status: ActorStatus) -> None:
-        is_new = status.actor not in self._state.robots.views
+        before = self._state.robots.views.get(status.actor)
         restarted = self._state.robots.on_status(
             status, now_s=self._clock.wall_s(), unix_ms=self._clock.unix_ms()
         )
         if restarted:
             self._state.chat.on_restart(status.actor)
-        if is_new or restarted:
+        if before is None or before.catalogue != status.catalogue:
+            self._state.plans.on_catalogue(status.actor)
+        if before is None or restarted:
             self._on_joined(status.actor)
 
     def _on_feedback(self, feedback: UmrfGraphFeedback) -> None:

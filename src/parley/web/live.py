@@ -245,6 +245,8 @@ class Live:
     async def _send_frames(self, client: _Client) -> None:
         now_s = self._backend.clock.wall_s()
         for key in list(client.frames):
+            if key not in client.frames:
+                continue  # it looked away while another picture was sent
             flying = [at_s for at_s in client.in_flight.get(key, ()) if now_s - at_s < CONFIRM_WITHIN_S]
             client.in_flight[key] = flying
             if len(flying) >= IN_FLIGHT:

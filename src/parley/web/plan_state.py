@@ -96,6 +96,19 @@ class PlanBook:
         """The steps of a proposal were refused."""
         self.decided -= {p.id for p in self.proposals.values() if p.robot == rejection.target}
 
+    def on_catalogue(self, robot: str) -> None:
+        """It has become known, or another, what a robot's actions are: how much care they need with it."""
+        for view in [view for (owner, _), view in self.views.items() if owner == robot]:
+            self._put(view.model_copy(update={"steps": self._weighed(robot, view.steps)}))
+        for proposal in [p for p in self.proposals.values() if p.robot == robot]:
+            steps = self._weighed(robot, proposal.steps)
+            if steps != proposal.steps:
+                changed = self.proposals[proposal.id] = proposal.model_copy(update={"steps": steps})
+                self._emit(ProposalChange(seq=0, proposal=changed))
+
+    def _weighed(self, robot: str, steps: Sequence[StepView]) -> tuple[StepView, ...]:
+        return tuple(step.model_copy(update={"risk": self._risk_of(robot, step.action)}) for step in steps)
+
     def forget(self, robot: str) -> None:
         """A robot was taken off the list."""
         for key in [key for key in self.views if key[0] == robot]:

@@ -1,0 +1,86 @@
+"""What the chat interface asks of the memory and lets it keep, on whose word, and whether that was kept."""
+
+from __future__ import annotations
+
+import asyncio
+from collections.abc import Sequence
+from dataclasses import dataclass
+from typing import Final
+
+from parley.language.base import Situation, Turn
+from parley.memory.sayings import keeping_action
+from parley.messages.chat import ActionCall, ChatAction
+from parley.messages.memory import MemoryEntry, MemoryEvent
+
+__all__ = ["Confirmations", "Keeping", "keeping_order", "memory_query"]
+
+_WITHIN_S: Final = 5.0
+"""Wall time in which the memory must have confirmed what the reply promises."""
+_RECALLED_TURNS: Final = 6
+"""How many turns back what is asked or meant may lie ("bring it to him")."""
+_RECALLED_CHARS: Final = 300
+
+
+@dataclass(frozen=True, slots=True)
+class Keeping:
+    """For whom and on whose word memories are kept."""
+
+    own: str
+    """The robot that was asked to remember for itself; empty for everybody."""
+    source: str
+    known: Sequence[MemoryEntry]
+
+    def of(self, command: str, name: str) -> dict[str, str]:
+        """Arguments beside name and data: what replaces or forgets a robot's own memory concerns that one."""
+        scope = next((entry.scope for entry in self.known if entry.name == name), None)
+        if command == "remove_memory":
+            return {} if scope is None else {"scope": scope}
+        return {"scope": self.own or scope or "", "source": self.source}
+
+
+class Confirmations:
+    """Waits until memories are durable."""
+
+    def __init__(self) -> None:
+        self._waits: dict[str, asyncio.Future[MemoryEvent]] = {}
+
+    def wait_for(self, name: str) -> asyncio.Future[MemoryEvent]:
+        """What the memory will say about the entry of that name; begin before it is told of it."""
+        wait: asyncio.Future[MemoryEvent] = asyncio.get_running_loop().create_future()
+        self._waits[name] = wait
+        return wait
+
+    def on_event(self, event: MemoryEvent) -> None:
+        """The memory says what became of an entry."""
+        wait = self._waits.get(event.name)
+        if wait is not None and not wait.done():
+            wait.set_result(event)
+
+    async def confirmed(self, waits: Sequence[asyncio.Future[MemoryEvent]]) -> str:
+        """Wait until what the reply promises is stored; the plain reason if it is not."""
+        if not waits:
+            return ""
+        try:
+            async with asyncio.timeout(_WITHIN_S):
+                events = await asyncio.gather(*waits)
+        except TimeoutError:
+            return "I could not store that: the memory does not answer. Please tell me again later."
+        finally:
+            self._waits = {name: wait for name, wait in self._waits.items() if wait not in waits}
+        failed = next((event for event in events if event.kind == "failed"), None)
+        return f"I could not store that: {failed.message}" if failed else ""
+
+
+def keeping_order(situation: Situation) -> ChatAction | None:
+    """The order to remember what the robot sees, if the message says that and nothing else."""
+    name = keeping_action(situation.message, situation.catalogue)
+    if not name:
+        return None
+    call = ActionCall(name=name, reason="remember what I see")
+    return ChatAction(message_response="I will keep what I see now.", queue=(call,))
+
+
+def memory_query(message: str, turns: Sequence[Turn]) -> str:
+    """What to look up: the message, and what it may refer back to."""
+    recent = [turn.content[:_RECALLED_CHARS] for turn in turns[-_RECALLED_TURNS:]]
+    return "\n".join([message, *reversed(recent)])

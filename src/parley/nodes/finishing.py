@@ -1,0 +1,136 @@
+"""When everything that an operator asked of a robot is done, so that it can say so, once. Pure."""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Collection, Sequence
+from dataclasses import dataclass, field
+from typing import Final
+
+from parley.messages.chat import ActionCall
+from parley.messages.status import ActionInfo, PlanDecision, PlanProposal, PlanStep, PlanUpdate
+
+__all__ = ["Finishing"]
+
+_SHORT_S: Final = 3.0
+"""Robot time within which whoever asked is still looking."""
+_WORDS_CHARS: Final = 120
+_NAMED: Final = 3
+"""How many requests are repeated word for word."""
+
+
+@dataclass(slots=True)
+class _Job:
+    """What one robot does from the moment it begins until nothing is left."""
+
+    state: str = "idle"
+    graph_name: str = ""
+    steps: int = 0
+    began_s: float = 0.0
+    failed: list[str] = field(default_factory=list)
+    """Actions of which as many were in the plan when one failed as are listed here."""
+    words: list[str] = field(default_factory=list)
+    """What was asked for."""
+    edited: bool = False
+    """A person changed the steps, so the words do not tell any more what is done."""
+    asked: str = ""
+    """What was asked for last and is not in the plan yet."""
+    offered: dict[str, str] = field(default_factory=dict)
+    """What was asked for and waits for a yes, by proposal."""
+
+
+class Finishing:
+    """Follows the plans of all robots.
+
+    Only work that moves a robot and that takes a while, or several steps, is worth a word; what was stopped,
+    cancelled or left out is not finished.
+
+    Args:
+        now_s: Robot time.
+    """
+
+    def __init__(self, now_s: Callable[[], float]) -> None:
+        self._now_s = now_s
+        self._jobs: dict[str, _Job] = {}
+
+    def on_order(self, target: str, words: str) -> None:
+        """An order goes to the planner; `words` are the operator's."""
+        self._job(target).asked = words
+
+    def on_proposal(self, proposal: PlanProposal) -> None:
+        """What was asked for last waits for a yes."""
+        job = self._job(proposal.target)
+        if proposal.id not in job.offered:
+            job.offered[proposal.id], job.asked = job.asked, ""
+
+    def on_decision(self, decision: PlanDecision) -> None:
+        """A person decided about a proposal, or changed a plan."""
+        job = self._job(decision.target)
+        words = job.offered.pop(decision.id, "")
+        if decision.decision == "approve":
+            job.asked = words
+        job.edited = job.edited or decision.decision == "edit"
+
+    def on_update(self, update: PlanUpdate, catalogue: Sequence[ActionInfo]) -> str:
+        """A robot's plan changed; returns what is to be said about it, or an empty text."""
+        job = self._job(update.target)
+        was, job.state = job.state, update.state
+        if update.state in ("idle", "awaiting_approval"):
+            ended = was not in ("idle", "awaiting_approval")
+            text = self._told(job, update.steps, catalogue) if ended else ""
+            if ended:
+                job.words, job.edited, job.steps, job.failed = [], False, 0, []
+            return text
+        if was in ("idle", "awaiting_approval"):
+            job.began_s = self._now_s()
+            if was == "awaiting_approval":  # "go ahead" is a yes to all that waits
+                job.words += [words for words in job.offered.values() if words]
+                job.offered.clear()
+        if job.asked and (update.graph_name != job.graph_name or len(update.steps) > job.steps):
+            job.words.append(job.asked)
+            job.asked = ""
+        job.graph_name, job.steps = update.graph_name, len(update.steps)
+        if update.state == "held":
+            job.failed = [step.action.name for step in update.steps]
+        return ""
+
+    def _told(self, job: _Job, steps: Sequence[PlanStep], catalogue: Sequence[ActionInfo]) -> str:
+        done = [step.action for step in steps if step.state == "finished"]
+        moving = {info.name for info in catalogue if "moves" in info.effects}
+        if not _is_whole(steps) or _is_less(done, job.failed) or not any(c.name in moving for c in done):
+            return ""
+        if len(steps) < 2 and self._now_s() - job.began_s < _SHORT_S:
+            return ""
+        finding = {info.name for info in catalogue if set(info.effects) == {"locates"}}
+        return f"I have finished: {_named(job, done, finding)}."
+
+    def _job(self, target: str) -> _Job:
+        return self._jobs.setdefault(target, _Job())
+
+
+def _is_whole(steps: Sequence[PlanStep]) -> bool:
+    """Whether nothing was stopped or left out but what a condition excluded."""
+    return all(
+        step.state == "finished"
+        or (step.state == "skipped" and step.action.flow is not None and step.action.flow.if_ is not None)
+        for step in steps
+    )
+
+
+def _is_less(done: Sequence[ActionCall], once: Sequence[str]) -> bool:
+    """Whether something of the plan that had failed was left out in the end."""
+    names = [call.name for call in done]
+    return any(names.count(name) < once.count(name) for name in set(once))
+
+
+def _named(job: _Job, done: Sequence[ActionCall], finding: Collection[str]) -> str:
+    words = list(dict.fromkeys(_short(text) for text in job.words))
+    if job.edited or not words:
+        words = list(dict.fromkeys(c.reason or c.name for c in done if c.name not in finding))
+    named = [f"“{text.strip().rstrip('.')}”" for text in words[:_NAMED]]
+    if len(words) > _NAMED:
+        return f"{', '.join(named)} and {len(words) - _NAMED} more"
+    return named[0] if len(named) == 1 else f"{', '.join(named[:-1])} and {named[-1]}"
+
+
+def _short(text: str) -> str:
+    return text if len(text) <= _WORDS_CHARS else f"{text[:_WORDS_CHARS].rstrip()} …"
