@@ -123,3 +123,40 @@ def test_any_text_can_be_asked_about(text: str) -> None:
 )
 def test_an_order_to_stop_is_told_from_what_only_sounds_like_one(said: str, meant: str | None) -> None:
     assert control_of(said) == meant
+
+
+@pytest.mark.parametrize(
+    ("text", "control"),
+    [
+        ("could you hold off for a tick", "stop"),
+        ("would you mind waiting a moment", "stop"),
+        ("sit tight for now", "stop"),
+        ("stop! there's a child", "stop"),
+        ("pause please, somebody is in the corridor", "stop"),
+        ("you may resume now, all clear", "start"),
+        ("continue with your round", "start"),
+        ("right, off you go again", "start"),
+        ("leave that one, next please", "skip"),
+        ("everything off, back to zero, cancel the lot", "clear"),
+    ],
+)
+def test_a_control_word_is_found_among_small_words_and_what_is_told(text: str, control: Control) -> None:
+    assert control_of(text, ("Rob",)) == control
+
+
+@pytest.mark.parametrize(
+    "text",
+    [
+        "wait, the red one",
+        "wait, go to the desk",
+        "hold my bag",
+        "leave that chair",
+        "move to the left",
+        "continue to the library",
+        "stop by the office",
+        "drop the box",
+        "halt, who goes there",
+    ],
+)
+def test_what_goes_on_to_name_something_is_no_control(text: str) -> None:
+    assert control_of(text) is None

@@ -22,6 +22,8 @@ _DEVELOPED: Final = (
     "fifth_set",
     "scenes",
     "fresh_days",
+    "fresh_nights",
+    "fresh_scenes",
 )
 _BLIND: Final = ("blind_people", "blind_voices")
 

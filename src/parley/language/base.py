@@ -102,6 +102,8 @@ class ErrorSituation:
     """What the operator just answered; None for the attempt without asking."""
     tried: tuple[tuple[ActionCall, ...], ...] = ()
     """Corrections of this step that were carried out already, in vain."""
+    pictures: tuple[Picture, ...] = ()
+    """Pictures sent with `reply`."""
     robot: str = ""
     robot_pose: Pose2D | None = None
     catalogue: tuple[ActionInfo, ...] = ()

@@ -13,6 +13,7 @@ from typing import Literal
 
 from rapidfuzz.distance import OSA
 
+from parley.language.control_grammar import among_talk, composed
 from parley.language.word_lists import load_data
 
 __all__ = ["Control", "control_of"]
@@ -48,7 +49,34 @@ def control_of(text: str, names: tuple[str, ...] = ()) -> Control | None:
         return "clear"
     if len(plain) < len(words) and _look_up(plain) == "stop":
         return "stop"
-    return _look_up(words) or _look_up(_strip(words, called)) or _repeated(_strip(words, called))
+    return _look_up(words) or _look_up(plain) or _in_full(text, words, called)
+
+
+def _in_full_words(text: str) -> str:
+    for short, full in (("'s", " is"), ("'m", " am"), ("'re", " are"), ("'ve", " have"), ("'ll", " will")):
+        text = re.sub(rf"(?<=\w){short}\b", full, text.replace("’", "'"))
+    return text
+
+
+def _in_full(text: str, words: tuple[str, ...], called: set[str]) -> Control | None:
+    """What is put together from a verb and small words, or said among what is only told."""
+    alone = _strip(words, called)
+    whole = _look_up(alone) or _repeated(alone) or composed(alone)
+    if whole is not None:
+        return whole
+    parts = [
+        _unasked(_words(part))[0]
+        for part in re.split(
+            r"[.!,;:\n–—]+|\s-\s|\bbecause\b|\bso\b(?!\s+(?:far|fast|that))", _in_full_words(text)
+        )
+    ]
+
+    def meant(part: tuple[str, ...]) -> str | None:
+        bare = _strip(_without_span(part), called)
+        return "clear" if _clears(bare) else _look_up(part) or _look_up(bare) or composed(bare)
+
+    among = among_talk([part for part in parts if not part or not set(part) <= called], meant)
+    return next((control for control in _CONTROLS if control == among), None)
 
 
 def _words(text: str) -> tuple[str, ...]:
@@ -126,7 +154,7 @@ _PLANS = frozenset({
 })  # fmt: skip
 _WHOLE = frozenset(
     {"the", "whole", "entire", "current", "complete", "all", "of", "my", "your", "our", "this", "rest"}
-)
+)  # fmt: skip
 _STRONG = frozenset({"cancel", "abort", "scrap", "discard", "abandon", "ditch", "terminate"})
 
 

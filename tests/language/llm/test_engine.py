@@ -157,3 +157,19 @@ def test_libraries_for_models_are_not_loaded_for_the_offline_engine() -> None:
     )
     done = subprocess.run([sys.executable, "-c", code], capture_output=True, text=True, check=True)
     assert done.stdout.split() == ["False", "False"]
+
+
+async def test_pictures_of_an_answer_go_along_when_a_failure_is_resolved() -> None:
+    answer = Say(answer={"message_response": "I take that one.", "success": True})
+    failure = ErrorSituation(
+        "Several fit.", look("box"), FailureCode.AMBIGUOUS, catalogue=(LOOK,), reply="this one",
+        pictures=(Picture("a.jpg", b"first", sent=True),),
+    )  # fmt: skip
+    async with model() as asked:
+        asked.will(answer, Say(status=400, body='{"error": {"message": "no pictures"}}'), answer)
+        for _ in range(2):
+            assert (await asked.language.resolve(failure)).success
+        bodies = [request.body for request in asked.server.requests]
+        assert [len(urls(body)) for body in bodies] == [1, 1, 0]
+        assert '"from": "the operator\'s message"' in bodies[0]["messages"][-1]["content"][0]["text"]
+        assert '"shown": false' in bodies[2]["messages"][-1]["content"]

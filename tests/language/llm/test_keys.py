@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import json
+import sys
 from pathlib import Path
 
 import pytest
@@ -10,7 +11,7 @@ import pytest
 from parley.config import ModelSettings
 from parley.errors import ConfigError, LanguageError
 from parley.language.llm import build_language
-from parley.language.llm.models import ModelSpec
+from parley.language.llm.models import ModelSpec, make_model
 from parley.language.llm.recording import Redactor
 from parley.language.llm.scripted_server import Say, ScriptedServer
 from parley.nodes.plan_check import plan_problems
@@ -97,3 +98,25 @@ def test_names_of_models_are_read_with_and_without_address() -> None:
 def test_name_that_means_no_model_is_refused(name: str) -> None:
     with pytest.raises(ConfigError):
         build_language([name], ModelSettings(), check=plan_problems)
+
+
+@pytest.mark.parametrize(
+    ("name", "gone", "library"),
+    [
+        ("anthropic:x", "anthropic", "parley-hri[anthropic]"),
+        ("google:x", "google", "parley-hri[google]"),
+        ("mistral:x", "mistral", "parley-hri[mistral]"),
+        ("groq:x", "groq", "parley-hri[groq]"),
+        ("cohere:x", "cohere", "pydantic-ai-slim[cohere]"),
+        ("ollama:x", "openai", "parley-hri[openai]"),
+        ("local:x@http://127.0.0.1:9/v1", "openai", "parley-hri[openai]"),
+    ],
+)
+def test_library_that_a_provider_lacks_is_named(
+    monkeypatch: pytest.MonkeyPatch, name: str, gone: str, library: str
+) -> None:
+    monkeypatch.setitem(sys.modules, f"pydantic_ai.models.{gone}", None)
+    monkeypatch.setitem(sys.modules, f"pydantic_ai.providers.{gone}", None)
+    with pytest.raises(ConfigError) as caught:
+        make_model(ModelSpec.parse(name), "some-key")
+    assert f"pip install '{library}'" in str(caught.value)

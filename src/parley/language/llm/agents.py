@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import json
-from collections.abc import AsyncIterable, Callable
+from collections.abc import AsyncIterable, Awaitable, Callable
 from typing import Any, Final, Literal, TypeVar
 
 from pydantic import BaseModel, ValidationError
@@ -49,8 +49,9 @@ def make_agent(kind: Kind, mode: OutputMode, corrections: int) -> Agent[Callable
         output_type=_output(answer, mode), retries={"output": corrections}, name=kind
     )
 
+    # Not plain functions, here and below: those would be sent to a thread, and wait for it on a busy machine.
     @agent.output_validator
-    def check(context: RunContext[Callable[[Any], object]], given: Any) -> Any:
+    async def check(context: RunContext[Callable[[Any], object]], given: Any) -> Any:
         try:
             context.deps(given)
         except AnswerRefusedError as refused:
@@ -70,10 +71,10 @@ def _output(answer: type[BaseModel], mode: OutputMode) -> Any:
     return [ToolOutput(answer, name=TOOL), TextOutput(_text_reader(answer))]
 
 
-def _text_reader(answer: type[A]) -> Callable[[str], A]:
+def _text_reader(answer: type[A]) -> Callable[[str], Awaitable[A]]:
     """Reads an answer from text: models that do not call tools write the JSON down, often between fences."""
 
-    def read(text: str) -> A:
+    async def read(text: str) -> A:
         start, end = text.find("{"), text.rfind("}")
         if start < 0 or end < start:
             raise ModelRetry(f"Answer by calling the tool {TOOL}, or with its arguments as one JSON object.")

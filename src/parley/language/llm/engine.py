@@ -3,10 +3,10 @@
 from __future__ import annotations
 
 import io
-from collections.abc import Callable, Sequence
+from collections.abc import Awaitable, Callable, Sequence
 from contextlib import AsyncExitStack
 from types import TracebackType
-from typing import Any, Final, Self, TypeVar, cast
+from typing import Any, Final, Generic, Self, TypeVar, cast
 
 import httpx2
 import structlog
@@ -25,6 +25,7 @@ from parley.language.base import (
     ErrorSituation,
     Grounding,
     InspectionReport,
+    Picture,
     ReplyReading,
     Situation,
 )
@@ -138,15 +139,9 @@ class LlmLanguage:
 
     async def interpret(self, situation: Situation, *, on_draft: DraftHandler | None = None) -> ChatAction:
         """See `Language.interpret`."""
-        shown = [each.jpeg for each in situation.pictures] if self.sees_pictures else []
-        try:
-            return await self._interpret(situation, shown, on_draft)
-        except ModelFailedError as error:
-            if not shown or not error.rejected:
-                raise
-            log.warning("model takes no pictures", model=self._name, error=str(error))
-            self._blind = True
-            return await self._interpret(situation, [], on_draft)
+        return await self._shown(
+            situation.pictures, lambda shown: self._interpret(situation, shown, on_draft)
+        )
 
     async def _interpret(
         self, situation: Situation, shown: Sequence[bytes], on_draft: DraftHandler | None
@@ -160,8 +155,28 @@ class LlmLanguage:
 
     async def resolve(self, situation: ErrorSituation) -> ChatAction:
         """See `Language.resolve`."""
-        prompt = compose_resolve(situation)
-        return await self._ask(prompt, lambda answer: reading.read_resolution(answer, situation, self._check))
+        return await self._shown(situation.pictures, lambda shown: self._resolve(situation, shown))
+
+    async def _resolve(self, situation: ErrorSituation, shown: Sequence[bytes]) -> ChatAction:
+        return await self._ask(
+            compose_resolve(situation, sees=bool(shown)),
+            lambda answer: reading.read_resolution(answer, situation, self._check),
+            pictures=shown,
+        )
+
+    async def _shown(
+        self, pictures: Sequence[Picture], ask: Callable[[Sequence[bytes]], Awaitable[ChatAction]]
+    ) -> ChatAction:
+        """Ask with pictures; without them if the model refuses the question because of them."""
+        shown = [each.jpeg for each in pictures] if self.sees_pictures else []
+        try:
+            return await ask(shown)
+        except ModelFailedError as error:
+            if not shown or not error.rejected:
+                raise
+            log.warning("model takes no pictures", model=self._name, error=str(error))
+            self._blind = True
+            return await ask([])
 
     async def select_memories(self, query: str, index: Sequence[MemoryEntry]) -> list[str]:
         """See `Language.select_memories`."""
@@ -274,7 +289,7 @@ class LlmLanguage:
                     usage=usage,
                     event_stream_handler=draft_handler(on_draft) if on_draft and self._streams else None,
                 )
-                answer = read(result.output)
+                answer = refused.read(result.output)
                 answered = True
                 return answer
             except LanguageError as error:
@@ -287,7 +302,7 @@ class LlmLanguage:
                 error_text = "" if answered else str(failure)
                 await self._note(prompt, messages, usage, self._clock.wall_s() - start_s, error_text)
 
-    def _failure(self, error: Exception, refused: _Refusals) -> LanguageError:
+    def _failure(self, error: Exception, refused: _Refusals[Any]) -> LanguageError:
         text = self._redactor.clean(f"{self._name}: {str(error) or type(error).__name__}")[:1000]
         failure = sorted_failure(error, text)
         if isinstance(failure, UnusableError) and refused.last is not None:
@@ -351,20 +366,29 @@ class LlmLanguage:
             return None  # nobody knows what this model costs
 
 
-class _Refusals:
-    """Reads answers, and remembers why the last one could not be used."""
+class _Refusals(Generic[R]):
+    """Reads answers, once each, and remembers why the last one could not be used."""
 
-    def __init__(self, read: Callable[[Any], object]) -> None:
+    def __init__(self, read: Callable[[Any], R]) -> None:
         self._read = read
+        self._last: tuple[Any, R] | None = None
         self.last: AnswerRefusedError | None = None
 
-    def __call__(self, answer: Any) -> object:
-        self.last = None
+    def __call__(self, answer: Any) -> R:
+        self.last = self._last = None
         try:
-            return self._read(answer)
+            result = self._read(answer)
         except AnswerRefusedError as refused:
             self.last = refused
             raise
+        self._last = (answer, result)
+        return result
+
+    def read(self, answer: Any) -> R:
+        """What `answer` means; it was probably the last one that was read."""
+        if self._last is not None and self._last[0] is answer:
+            return self._last[1]
+        return self(answer)
 
 
 def _content(prompt: Prompt, pictures: Sequence[bytes]) -> str | list[UserContent]:

@@ -25,6 +25,7 @@ LOCAL_SERVERS: Final = {
 }
 """Servers of one's own that speak the OpenAI protocol, where they usually listen."""
 _COMPATIBLE: Final = {"openai", "local", *LOCAL_SERVERS}
+_OWN_EXTRAS: Final = {"openai", "anthropic", "google", "mistral", "groq"}
 _NO_KEY: Final = "none"
 
 
@@ -93,10 +94,18 @@ def make_model(spec: ModelSpec, key: str) -> Model[Any]:
                 return _compatible(spec, key or named or _NO_KEY)
             return infer_model(spec.name, lambda provider: _provider(provider, spec, key))
     except ImportError as error:
-        extra = f"parley-hri[{spec.provider}]"
-        raise ConfigError(f"{spec.provider} models need a library: pip install '{extra}'") from error
+        raise ConfigError(
+            f"{spec.provider} models need a library: pip install '{_library(spec.provider)}'"
+        ) from error
     except (UserError, ValueError, TypeError) as error:
         raise ConfigError(f"{spec.name} cannot be used: {error}") from error
+
+
+def _library(provider: str) -> str:
+    """What to install for a provider."""
+    if provider in _COMPATIBLE:
+        return "parley-hri[openai]"
+    return f"parley-hri[{provider}]" if provider in _OWN_EXTRAS else f"pydantic-ai-slim[{provider}]"
 
 
 def _provider(name: str, spec: ModelSpec, key: str) -> Provider[Any]:

@@ -8,19 +8,22 @@ from dataclasses import replace
 from parley.language.base import Situation
 from parley.language.control import control_of
 from parley.language.offline.dialogue import addressing
+from parley.language.offline.dialogue.crews import plainly_called
 from parley.language.offline.dialogue.followup import declines, pending_request
 from parley.language.offline.facts.facts import strip_openers
 from parley.language.offline.facts.protocols import protocol_memory, read_protocol
 from parley.language.offline.plan_changes.changing import CONTROL_REPLIES
-from parley.language.offline.reader import Reader
+from parley.language.offline.readings.choosing import best_reading
 from parley.language.offline.scene.grounding import ground_phrase
 from parley.language.offline.scene.scene import Scene
 from parley.language.offline.sentences.spoken import orders_among_talk
+from parley.language.offline.tasks.meeting import Meeting
 from parley.language.offline.words import social
 from parley.language.offline.words.courtesy import plainly
 from parley.language.offline.words.explaining import Trace
 from parley.language.offline.words.lexicon import lexicon
 from parley.language.offline.words.mending import mended
+from parley.language.offline.words.quantities import plain_coordinates
 from parley.language.offline.words.saying import listing
 from parley.language.offline.words.text import Phrase, keys, plain, tokens
 from parley.messages.chat import ChatAction, SystemCommand
@@ -38,7 +41,7 @@ def interpret(situation: Situation, trace: Trace | None = None) -> ChatAction:
         trace: Collects what was decided, for those who ask why.
     """
     trace = Trace() if trace is None else trace
-    message = situation.message.strip()
+    message = plain_coordinates(situation.message.strip())
     if not any(char.isalnum() for char in message):
         return _say(situation, "I did not get any words. What can I do for you?")
     if len(message) > _LONGEST_CHARS:
@@ -51,17 +54,38 @@ def _controlled(message: str, situation: Situation, trace: Trace) -> ChatAction 
     control = control_of(message, situation.robots)
     if control == "skip" and declines(message, situation):
         return _say(situation, "All right, I leave it.")
+    if control is None and situation.queue and not declines(message, situation) and _gives_up(message):
+        control = "clear"
+    if control == "stop" and Meeting(Scene.of(situation)).ends_own(strip_openers(tokens(message))):
+        return None
     if control is None or (control == "start" and _wants_again(message, situation)):
         return None
     command, reply = CONTROL_REPLIES[control]
     trace.note("control", f"the whole message means “{control}”, so the command is {command}")
-    return _say(situation, reply, commands=(SystemCommand(command=command),))
+    called = addressing.addressed(plainly_called(tokens(message), situation), situation)[1]
+    return _say(situation, reply, commands=(SystemCommand(command=command),), targets=called)
+
+
+_GIVING_UP = frozenset(
+    tuple(text.split())
+    for text in (
+        "forget it", "forget about it", "never mind", "do not bother", "forget about that", "let it go", "it is all off",
+        "i changed my mind", "i have changed my mind", "changed my mind", "never mind then", "forget it then",
+    )
+)  # fmt: skip
+
+
+def _gives_up(message: str) -> bool:
+    """Whether a message with steps pending says that nothing of it is wanted any more."""
+    words = tuple(word for word in strip_openers(tokens(message)) if word.is_word)
+    return keys(words) in _GIVING_UP
 
 
 def _read(message: str, situation: Situation, trace: Trace) -> ChatAction:
     words = plainly(mended(tokens(message), situation))
     if plain(words) != plain(tokens(message)):
         trace.note("words", f"read as “{plain(words)}”")
+    words = plainly_called(words, situation)
     others = addressing.other_robots(words, situation)
     if others:
         text = f"Which robot do you mean: {listing(list(others), 'or')}?"
@@ -104,8 +128,7 @@ def _read(message: str, situation: Situation, trace: Trace) -> ChatAction:
         trace.note("words", f"an answer to a question about “{request.message}”: {hints}")
         words, targets = addressing.addressed(mended(tokens(request.message), situation), situation)
         situation = replace(situation, history=request.history)
-    scene = Scene.of(situation, request.hints if request else (), trace)
-    return Reader(scene, targets=targets).read(words)
+    return best_reading(words, situation, request.hints if request else (), trace, targets)
 
 
 def _can_be_looked_at(words: Phrase, condition: Phrase, situation: Situation) -> bool:

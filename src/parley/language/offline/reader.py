@@ -7,19 +7,33 @@ from dataclasses import dataclass, replace
 
 from parley.language.offline.dialogue.asked import asked
 from parley.language.offline.facts.facts import read_statement, strip_openers
-from parley.language.offline.facts.recalling import Recalling
 from parley.language.offline.facts.stories import mentioned, told_around
-from parley.language.offline.plan_changes.edits import several_steps
+from parley.language.offline.plan_changes.edits import Edit, several_steps
 from parley.language.offline.plan_changes.keeping import kept_part, restarts
+from parley.language.offline.plan_changes.rearranging import rearranged
 from parley.language.offline.plan_changes.repeating import counted_times, repetition, without_recurrence
 from parley.language.offline.plan_changes.replanning import inserted, read_replanning
+from parley.language.offline.plan_changes.rereading import Rereading
 from parley.language.offline.plan_changes.restated import as_added, restated
+from parley.language.offline.scene.marks import marks_of
+from parley.language.offline.scene.reported import asked_by_need, asked_by_report
 from parley.language.offline.scene.scene import UnclearError
 from parley.language.offline.scene.subsets import with_exception_behind
 from parley.language.offline.sentences.clauses import Clause, clauses, opens_command
 from parley.language.offline.sentences.constructions import recast
+from parley.language.offline.sentences.doing_stops import as_stops
+from parley.language.offline.sentences.look_only import as_look
+from parley.language.offline.sentences.remarks import (
+    as_visit,
+    hurries,
+    is_deed,
+    is_span,
+    says_something,
+    says_where_i_am,
+    without_frame,
+)
 from parley.language.offline.sentences.rewording import reworded
-from parley.language.offline.sentences.spoken import spoken
+from parley.language.offline.sentences.spoken import Names, spoken
 from parley.language.offline.tasks.abilities import abilities, cannot
 from parley.language.offline.tasks.catalogue import call
 from parley.language.offline.tasks.commands import Command, read_command
@@ -64,25 +78,35 @@ _NOTHING_MORE = frozenset(
 
 
 _MOST_TIMES = 20
+_LEADING_ON = frozenset({"and", "now", "then", "next", "also", "no", "nope"})
 
 
 @dataclass
-class Reader(Recalling):
+class Reader(Rereading):
     """Reads the clauses of one message in order."""
 
     def read(self, words: Phrase) -> ChatAction:
         """Understand a whole message."""
         self._mention_history()
+        self._mention_answer()
+        self.keep_lists()
+        words = self.with_owners(words)
+        if self.replies and not any(word.is_word for word in words):
+            return self._result(self._reply(), ())
+        for phrase in self.about:
+            self.scene.mention(phrase)
+            if self._on_map(phrase):
+                self.scene.places.append(phrase)
         asks = keys(strip_openers(words))[:1] in {(start,) for start in lexicon().question_starts}
-        about_plan = asked(*_flat(words), self.scene) if asks and self.scene.situation.queue else None
-        if about_plan is not None and not about_plan.look:
-            return self._result(about_plan.text, ())
+        answer = self._about_plan(words, asks=asks)
+        if answer is not None:
+            return answer
+        words = words if self.scene.situation.queue else self._grouped(words)
         stated = restated(words, self.scene)
         if stated is not None:
-            self.scene.trace.note("edit", stated.reply)
-            self.commands.extend(stated.commands)
-            return self._result(stated.reply, stated.queue)
-        words = reworded(_as_visit(spoken(as_added(words, self.scene), self.scene)), self._on_map)
+            return self._edited(stated)
+        plainer = as_visit(spoken(as_added(words, self.scene), self.scene))
+        words = reworded(plainer, self._on_map, timed=self.scene.catalogue.times_itself)
         order = recast(words, self.scene) if self.scene.situation.queue else None
         words = order[0] if order is not None else words
         if restarts(words) and self._restart():
@@ -93,53 +117,92 @@ class Reader(Recalling):
             or read_replanning(words, self.scene)
         )
         if edit is not None:
-            self.scene.trace.note("edit", edit.reply)
-            self.commands.extend(edit.commands)
-            return self._result(edit.reply, edit.queue)
+            return self._edited(edit)
+        words = self._grouped(words) if self.scene.situation.queue else words
         words, often = without_recurrence(words)
         words, times = counted_times(words) if often else (words, 1)
-        before: tuple[ActionCall, ...] = ()
-        place = None if asks else inserted(words, self.scene)
-        if place is not None:
-            words, at = place
-            before = self.scene.situation.queue[at:]
-            if any(step.flow is not None for step in before):
-                before = ()
-            count = len(self.scene.situation.queue)
-            taken = range(count - 1, count - 1 - len(before), -1)
-            self.commands.extend(SystemCommand(command="pop", arguments={"parameters": i}) for i in taken)
+        words, before = (words, ()) if asks else self._put_in(words)
+        return self._carried_out(words, before, often, times)
+
+    def _about_plan(self, words: Phrase, *, asks: bool) -> ChatAction | None:
+        """The answer to what is about pending steps: a question, or that they are to be done another way."""
+        about_plan = asked(*_flat(words), self.scene) if asks and self.scene.situation.queue else None
+        if about_plan is not None and not about_plan.look:
+            return self._result(about_plan.text, ())
+        once_more = self._changed_again(words)
+        if once_more is not None:
+            return once_more
+        change = rearranged(words, self.scene)
+        return self._rearranged(change) if change is not None else None
+
+    def _edited(self, edit: Edit) -> ChatAction:
+        """A change of the plan."""
+        self.scene.trace.note("edit", edit.reply)
+        self.commands.extend(edit.commands)
+        return self._result(edit.reply, edit.queue)
+
+    def _put_in(self, words: Phrase) -> tuple[Phrase, tuple[ActionCall, ...]]:
+        """What is to be put in among the pending steps, and those that come after it."""
+        place = inserted(words, self.scene)
+        if place is None:
+            return words, ()
+        words, at = place
+        before = self.scene.situation.queue[at:]
+        if any(step.flow is not None for step in before):
+            before = ()
+        count = len(self.scene.situation.queue)
+        taken = range(count - 1, count - 1 - len(before), -1)
+        self.commands.extend(SystemCommand(command="pop", arguments={"parameters": i}) for i in taken)
+        return words, before
+
+    def _carried_out(
+        self, words: Phrase, before: tuple[ActionCall, ...], often: str, times: int
+    ) -> ChatAction:
+        """Clause by clause; `before` are the pending steps that come after it."""
         words = with_exception_behind(words)
         parts = clauses(words, lambda phrase: opens_command(phrase, self.scene.catalogue.verbs))
-        self._hurried = any(_hurries(part) for part in parts[1:])
-        parts = [part for i, part in enumerate(parts) if not i or not _hurries(part)]
+        self._hurried = any(hurries(part) for part in parts[1:])
+        parts = [part for i, part in enumerate(parts) if not i or not hurries(part)]
+        is_stop = Names(self.scene).is_stop
+        parts = [replace(part, words=as_stops(as_look(part.words), is_stop)) for part in parts]
         # Where the operator is counts from the start, wherever it is said ("get it, I am at the door").
-        parts = sorted(parts, key=lambda part: not _says_where_i_am(part))
+        parts = sorted(parts, key=lambda part: not says_where_i_am(part))
+        self._leads_on = bool(words) and words[0].key in _LEADING_ON
         try:
-            self._parts = parts
-            self._leads_on = bool(words) and words[0].key in {"and", "now", "then", "next", "also"}
-            for clause in parts:
-                self.scene.trace.note("clause", clause.said())
-            for index, clause in enumerate(parts):
-                if index >= len(self._parts):
-                    break
-                self._at = index
-                start = len(self.tasks.steps)
-                self.tasks.beside = clause.beside and start > 0
-                self._clause_or_story(clause, index, parts)
-                self._side_by_side(start)
+            self._in_turn(self.arranged(parts))
             self._skip_nothing()
             self._complain()
             self._recurs(often, times)
         except UnclearError as unclear:
+            self.trouble = unclear
             self.scene.trace.note("question", unclear.question)
             self.commands = [c for c in self.commands if c.command != "pop"]
             return self._result(unclear.question, (), choices=unclear.choices)
         except UnableError as unable:
+            self.trouble = unable
             self.scene.trace.note("action", f"nothing in the catalogue can {unable.what}")
             self.commands = [c for c in self.commands if c.command != "pop"]
             return self._result(cannot(unable.what, self.scene), ())
         self.learn()
         return self._result(self._reply(), (*self.tasks.steps, *before))
+
+    def _in_turn(self, parts: Sequence[Clause]) -> None:
+        """Read clause after clause; what is read may change those that follow."""
+        self._parts = parts
+        for clause in parts:
+            self.scene.trace.note("clause", clause.said())
+        for index, clause in enumerate(parts):
+            if index >= len(self._parts):
+                break
+            self._at = index
+            start = len(self.tasks.steps)
+            self.tasks.beside = clause.beside and start > 0
+            self._clause_or_story(clause, index, parts)
+            self._side_by_side(start)
+
+    def _is_several(self, words: Phrase) -> bool:
+        """Whether words name more than one thing of the map."""
+        return len(self.scene.several(words)) > 1 if self.scene.ground(words).outcome != "none" else False
 
     def _skip_nothing(self) -> None:
         """For "the desk was done, leave it" among orders: there is no step that could be left out."""
@@ -151,14 +214,21 @@ class Reader(Recalling):
         start = len(self.tasks.steps)
         try:
             self._clause(clause, alone=len(parts) == 1, index=index)
-        except (UnclearError, UnableError):
+        except (UnclearError, UnableError) as error:
             verbs = self.scene.catalogue.verbs
             others = any(opens_command(part.words, verbs) for part in parts if part is not clause)
-            named = mentioned(clause.words, self.scene) or clause.condition or clause.conditional
+            named = (
+                (isinstance(error, UnclearError) and mentioned(clause.words, self.scene))
+                or clause.condition
+                or clause.conditional
+            )
             if not others or named or opens_command(clause.words, verbs):
                 raise
             del self.tasks.steps[start:]
             self.unread.append(clause.words)
+            for phrase in mentioned(clause.words, self.scene):
+                self.scene.mention(phrase)
+                self.scene.places.append(phrase)
 
     def _on_map(self, words: Phrase) -> bool:
         return self.scene.ground(words).outcome != "none"
@@ -169,13 +239,18 @@ class Reader(Recalling):
             self._condition(clause)
             return
         clause = self._corrected(self._instead(clause))
-        clause = replace(clause, words=_without_frame(clause.words))
+        clause = replace(clause, words=without_frame(clause.words))
         if keys(strip_openers(clause.words)) in _NOTHING_MORE and (self.tasks.steps or self.replies):
             return
         if self.tasks.meet(clause.words):
             self.scene.trace.note("frame", f"with people: {clause.said()}")
             return
-        order = recast(clause.words, self.scene)
+        others = [part for part in self._parts if part.words != clause.words]
+        order = (
+            asked_by_need(clause, others, self.scene)
+            or recast(clause.words, self.scene)
+            or asked_by_report(clause, others, self.scene)
+        )
         if order is not None:
             self.scene.trace.note("recast", f"“{plain(order[0])}”, after the pattern: {order[1]}")
             clause = replace(clause, words=order[0], is_question=False)
@@ -250,6 +325,8 @@ class Reader(Recalling):
 
     def _reading(self, clause: Clause) -> bool:
         """For "what is your battery level?", where an action without inputs tells it."""
+        if self._measured(clause):
+            return True
         info = self.scene.catalogue.reading(keys(clause.words))
         if info is None or len(clause.words) > 9 or read_statement(clause.words) is not None:
             return False
@@ -263,6 +340,19 @@ class Reader(Recalling):
         )
         return True
 
+    def _measured(self, clause: Clause) -> bool:
+        """For "how warm is it in the hall?", where an action measures just that."""
+        words = strip_openers(clause.words)
+        asks = keys(words[:1])
+        if not asks or asks[0] not in lexicon().question_starts | lexicon().be | {"tell"}:
+            return False
+        match = self.tasks.own_match(words, weak=True)
+        counts = match is not None and "count" in self.scene.catalogue.roles(match.info)
+        if match is None or not (match.info.outputs or counts):
+            return False
+        self.tasks.use_own(match, words)
+        return True
+
     def _is_place(self, words: Phrase) -> bool:
         """Whether words name one object of the map and say nothing else."""
         return 0 < len(words) <= 6 and self.scene.ground(strip_openers(words)).outcome == "match"
@@ -273,9 +363,9 @@ class Reader(Recalling):
         if clause.is_question:
             return False
         at = next(
-            (i for i in range(2, len(words) - 1) if words[i].key == "in" and _is_span(words[i + 1 :])), 0
+            (i for i in range(2, len(words) - 1) if words[i].key == "in" and is_span(words[i + 1 :])), 0
         )
-        if at and opens_command(words) and not _says_something(words):
+        if at and opens_command(words) and not says_something(words):
             words = (*words[at:], *words[:at])
         if keys(words[:1]) not in {("in",), ("after",)}:
             return False
@@ -320,13 +410,14 @@ class Reader(Recalling):
             UnclearError: Nothing tells what to do with it.
         """
         sets_out = {"start", "begin", "first", "finish", "end"} & set(keys(clause.words[:2]))
-        hurries = self._hurried or {"please", "now", "immediately", "asap", "quickly", "next"} & set(
+        hurried = self._hurried or {"please", "now", "immediately", "asap", "quickly", "next"} & set(
             keys(clause.words)
         )
         more = self._at < len(self._parts) - 1
         # "The desk, then the door": places and nothing else are a way to go.
+        grouped = any(marks_of(word) for word in phrase)
         a_way = len(self._parts) > 1 and all(self._is_place(part.words) for part in self._parts)
-        if sets_out or a_way or (hurries and not more):
+        if sets_out or grouped or a_way or (hurried and not more):
             self._do(Command("motion", "go", place=phrase, words=phrase, clause=clause.words))
         elif more:
             # "The desk by the door, go there": named first, asked for after.
@@ -343,7 +434,8 @@ class Reader(Recalling):
             self.replies.append("I am sorry if I did something wrong. Tell me what I should do.")
             return
         noun = noun_phrase(words)
-        found = self._grounded(noun.phrase) if noun.core and len(words) <= 6 else ""
+        short = len(words) <= (12 if noun.anchors else 6)
+        found = self._grounded(noun.phrase) if noun.core and short else ""
         if found:
             self._only_named(clause, noun.phrase, found)
             return
@@ -360,75 +452,13 @@ class Reader(Recalling):
         if not alone and (self.tasks.steps or self.commands or self.replies):
             self.replies.append(whole_sentence(f"I did not understand “{plain(words)[:80]}”"))
             return
-        raise UnclearError(f"{social.not_understood(words)} {abilities(self.scene)}")
+        wanted = strip_openers(words, requests=True)
+        if len(wanted) < len(words) and is_deed(wanted):
+            raise UnableError(plain(wanted))
+        raise UnclearError(f"{social.not_understood(words)} {abilities(self.scene)}", lost=True)
 
 
 def _flat(words: Phrase) -> tuple[Phrase, tuple[str, ...]]:
     """The words without punctuation, and what is compared of them."""
     body = tuple(word for word in strip_openers(words) if word.is_word)
     return body, keys(body)
-
-
-def _says_something(words: Phrase) -> bool:
-    """Whether a time at the end belongs to what is to be said ("tell A that we close in ten minutes")."""
-    flat = keys(strip_openers(words, requests=True))
-    found = lexicon().verbs.match(flat)
-    spoken = found is not None and found[1].startswith("speak:") and flat[0] != "remind"
-    return spoken or flat[:1] == ("let",)
-
-
-def _hurries(clause: Clause) -> bool:
-    """Whether a clause is nothing but "now, please"."""
-    return bool(clause.words) and {w.key for w in clause.words if w.is_word} <= _HURRYING
-
-
-_HURRYING = frozenset(
-    {"now", "please", "immediately", "asap", "quickly", "quick", "fast", "hurry", "at", "once", "pls"}
-)
-
-
-def _says_where_i_am(clause: Clause) -> bool:
-    if clause.condition or clause.conditional or keys(clause.words[:2]) not in {("i", "am"), ("we", "are")}:
-        return False
-    fact = read_statement(clause.words)
-    return fact is not None and fact.is_location
-
-
-def _without_frame(words: Phrase) -> Phrase:
-    """Without "either" before an order, and without "could you" before "remember that"."""
-    rest = strip_openers(words)
-    if keys(rest[:1]) == ("either",) and opens_command(rest[1:]):
-        return rest[1:]
-    asked = strip_openers(rest, requests=True)
-    told = lexicon().reporting.match(keys(asked))
-    noted = told is not None and told[0] > 1 and len(asked) < len(rest) and len(asked) > told[0] + 1
-    return asked if noted else words
-
-
-def _is_span(words: Phrase) -> bool:
-    """Whether words are nothing but a counted span of time ("ten minutes")."""
-    return (
-        len(words) in {2, 3}
-        and words[0].key not in {"a", "the"}
-        and duration_s((Word("in", "in"), *words)) is not None
-    )
-
-
-def _as_visit(words: Phrase) -> Phrase:
-    """For "add (a stop at) the desk to the plan": a visit."""
-    rest = strip_openers(words, requests=True)
-    if keys(rest[:1]) not in {("add",), ("include",), ("insert",)} or len(rest) < 2:
-        return words
-    rest = rest[1:]
-    flat = keys(rest)
-    if flat[:2] in {("a", "stop"), ("a", "visit"), ("another", "stop"), ("a", "trip")} and len(flat) > 3:
-        rest = rest[3:]
-    plans = {"plan", "queue", "list", "route", "mission", "tour", "schedule"}
-    for index in range(1, len(rest) - 2):
-        if keys(rest[index : index + 3]) == ("to", "the", "end"):
-            rest = rest[:index]
-            break
-        if rest[index].key in {"to", "in", "into"} and rest[index + 2].key in plans:
-            rest = (*rest[:index], *rest[index + 3 :])
-            break
-    return (Word("visit", "visit"), *rest) if rest else words

@@ -6,8 +6,10 @@ from collections.abc import Sequence
 from dataclasses import dataclass, field
 
 from parley.language.offline.facts.noting import Noting
+from parley.language.offline.scene.known import UnclearError
 from parley.language.offline.sentences.clauses import Clause
 from parley.language.offline.tasks.commands import Command
+from parley.language.offline.tasks.going import UnableError
 from parley.language.offline.tasks.meeting import Meeting
 from parley.language.offline.words.text import Phrase
 
@@ -25,6 +27,10 @@ class Reading(Noting):
     """What the message before asked for."""
     _leads_on: bool = False
     """Whether this message begins like a continuation."""
+    about: tuple[Phrase, ...] = ()
+    """What was told of before the message's first order."""
+    trouble: UnclearError | UnableError | None = None
+    """What ended the reading early."""
     unread: list[Phrase] = field(default_factory=list)
     """Clauses that mean nothing here."""
     _parts: Sequence[Clause] = ()

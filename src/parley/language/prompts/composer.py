@@ -77,8 +77,8 @@ def compose_interpret(situation: Situation, *, sees: bool = True) -> Prompt:
     return _prompt("interpret", parts, situation.catalogue)
 
 
-def compose_resolve(situation: ErrorSituation) -> Prompt:
-    """For getting over a failed step."""
+def compose_resolve(situation: ErrorSituation, *, sees: bool = True) -> Prompt:
+    """For getting over a failed step; `sees`: whether the pictures of the answer go along with it."""
     parts = [
         data.block("robot", {"name": situation.robot}),
         data.block("failure", _failure(situation)),
@@ -90,6 +90,8 @@ def compose_resolve(situation: ErrorSituation) -> Prompt:
         data.block("memory", data.memories(situation.memory)),
         data.block("conversation", data.turns(situation.dialogue)),
     ]
+    if situation.pictures:
+        parts.append(data.block("pictures", data.pictures(situation.pictures, sees)))
     if situation.reply is not None:
         parts.append(data.tagged("operator_message", situation.reply))
     return _prompt("resolve", parts, situation.catalogue)

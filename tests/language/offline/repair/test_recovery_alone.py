@@ -10,8 +10,10 @@ from parley.errors import FailureCode
 from parley.language.base import Situation
 from parley.language.offline import OfflineLanguage
 from parley.language.offline.facts.protocols import read_protocol
-from parley.messages.chat import ChatAction
+from parley.messages.chat import ActionCall, ChatAction
+from parley.messages.failure import ErrorHandlingMessage
 from parley.messages.memory import MemoryEntry
+from parley.nodes.repair import memory_query
 from parley.world.geometry import Pose2D
 from tests.language.dev_set import commands, plan
 from tests.language.offline.repair.test_recovery import HOME, answered, failing
@@ -184,3 +186,20 @@ async def test_value_that_got_lost_is_worked_out_again() -> None:
     missing = {"missing": ["pose::position::x"]}
     action = await alone(1, FailureCode.INTERNAL, details=missing)
     assert [step.name for step in action.queue] == ["GetCoordinates", "NavigateTo"]
+
+
+@pytest.mark.parametrize("code", [FailureCode.BLOCKED, FailureCode.NO_MATCH, FailureCode.TIMED_OUT])
+async def test_protocol_is_among_the_memories_that_matter_for_the_failure(code: FailureCode) -> None:
+    taught = {
+        FailureCode.BLOCKED: "When the way is blocked, wait a minute and try again.",
+        FailureCode.NO_MATCH: "If you cannot find something, look on the shelf and try again",
+        FailureCode.TIMED_OUT: "If anything takes too long, cancel it",
+    }
+    failure = ErrorHandlingMessage(
+        error_message="Something happened.", action_called=ActionCall(name="Go"), target="A", code=code
+    )
+    index = [*told(*taught.values()), *told("The box is red.")]
+    known = [entry.model_copy(update={"name": entry.data}) for entry in index]
+    chosen = await OfflineLanguage().select_memories(memory_query(failure, None), known)
+    assert taught[code] in chosen
+    assert "The box is red." not in chosen

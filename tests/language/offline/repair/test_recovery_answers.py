@@ -5,9 +5,10 @@ from __future__ import annotations
 import pytest
 
 from parley.errors import FailureCode
+from parley.language.base import Picture
 from parley.messages.chat import ChatAction
 from tests.language.dev_set import commands, plan
-from tests.language.offline.repair.test_recovery import CANDIDATES, answered, failing
+from tests.language.offline.repair.test_recovery import CANDIDATES, ambiguous, answered, failing
 
 BLOCKED = {"near": "refrigerator_1", "at": {"x": 1.0, "y": 5.0}}
 
@@ -154,3 +155,13 @@ async def test_after_a_vain_try_the_same_is_offered_last() -> None:
     action = await answered(1, FailureCode.BLOCKED, None, tried=((failed,),))
     assert action.message_response.startswith("That did not help.")
     assert action.choices == ("go on without it", "stop", "try again")
+
+
+async def test_offline_engine_says_that_it_cannot_see_into_the_picture_of_an_answer() -> None:
+    picture = (Picture("a.jpg", b"jpeg", sent=True),)
+    bare = await ambiguous("", pictures=picture)
+    assert (bare.success, bare.queue) == (None, ())
+    assert bare.message_response == "I cannot see what is in a picture. Please tell me in words."
+    worded = await ambiguous("the small one", pictures=picture)
+    assert worded.success and plan(worded)
+    assert worded.message_response.startswith("I cannot see what is in a picture. Thank you.")

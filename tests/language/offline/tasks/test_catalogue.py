@@ -12,7 +12,7 @@ from tests.language.dev_set import CATALOGUES
 @pytest.mark.parametrize(
     ("info", "roles"),
     [
-        (ActionInfo(name="NavigateTo", inputs={"x": "number"}), {"motion"}),
+        (ActionInfo(name="NavigateTo", inputs={"x": "number", "y": "number"}), {"motion"}),
         (ActionInfo(name="drive_to", inputs={"goal": "string"}), {"motion"}),
         (
             ActionInfo(name="FindPose", inputs={"of": "string"}, outputs={"x": "number", "y": "number"}),

@@ -10,7 +10,7 @@ __all__ = ["addressed", "other_robots", "own_part", "stranger"]
 
 _CALLS = frozenset(
     {"hey", "hi", "hello", "ok", "okay", "dear", "tell", "have", "let", "ask", "make", "and", "please", "get"}
-)
+)  # fmt: skip
 
 
 def addressed(words: Phrase, situation: Situation) -> tuple[Phrase, tuple[str, ...]]:
@@ -166,14 +166,26 @@ def _further_names(rest: Phrase, robots: tuple[str, ...]) -> tuple[Phrase, tuple
 
 def stranger(words: Phrase, situation: Situation) -> str:
     """The name of a robot that is called ("X, go to the door") but that nobody knows; empty if none is."""
-    if len(words) < 4 or words[1].key not in {",", ":"} or not words[0].is_capital or not situation.robots:
+    if len(words) > 5 and words[1].key.isdigit() and words[2].key in {",", ":"}:
+        # "Robot 2, go to the door".
+        words = (words[0], *words[2:])
+    if len(words) > 4 and words[1].key in {"should", "must", "shall"} and len(situation.robots) > 1:
+        # "X should go to the door".
+        words = (words[0], *tokens(","), *words[2:])
+    if (
+        len(words) < 4
+        or words[1].key not in {",", ":", "!"}
+        or not words[0].is_capital
+        or not situation.robots
+    ):
         return ""
     name = words[0].key
     known = lexicon().vocabulary | {part for robot in situation.robots for part in keys(tokens(robot))}
     told = {word.key for entry in situation.memory for word in tokens(entry.data[:400])}
     mapped = {word.key for item in situation.objects for word in tokens(item.description)}
     orders = _is_verb(next((w.key for w in words[2:] if w.key not in {"please", "can", "you", "could"}), ""))
-    return words[0].raw if orders and name not in known | told | mapped and len(name) > 2 else ""
+    named = len(name) > 2 or any(char.isdigit() for char in name)
+    return words[0].raw if orders and name not in known | told | mapped and named else ""
 
 
 _SENDING = (("send",), ("dispatch",), ("direct",), ("route",))
@@ -201,14 +213,15 @@ def _calls(words: Phrase, robots: tuple[str, ...]) -> list[tuple[int, str]]:
         for name in robots:
             called = keys(tokens(name))
             opens = index == 0 or flat[index - 1] in _BEFORE_CALLS or not words[index - 1].is_word
-            if flat[index : index + len(called)] == called and opens:
+            told = flat[index + len(called) : index + len(called) + 2] in {("and", "i"), ("and", "me")}
+            if flat[index : index + len(called)] == called and opens and not told:
                 found.append((index, name))
     return found
 
 
 _BEFORE_CALLS = frozenset(
     {"and", "while", "but", "then", "hey", "meanwhile", "whereas", "let", "have", "tell", "send"}
-)
+)  # fmt: skip
 
 
 def _without_end(words: Phrase) -> Phrase:

@@ -6,7 +6,9 @@ from collections.abc import Sequence
 from dataclasses import dataclass, replace
 
 from parley.language.offline.dialogue import questions
-from parley.language.offline.facts.stories import told_around
+from parley.language.offline.dialogue.turning import turned
+from parley.language.offline.facts.facts import strip_openers
+from parley.language.offline.facts.stories import mentioned, told_around
 from parley.language.offline.plan_changes.changing import Changing
 from parley.language.offline.repair.replies import agrees
 from parley.language.offline.scene.scene import UnclearError
@@ -15,7 +17,7 @@ from parley.language.offline.tasks.abilities import abilities
 from parley.language.offline.tasks.commands import Command, read_command
 from parley.language.offline.words import social
 from parley.language.offline.words.saying import in_turn, whole_sentence
-from parley.language.offline.words.text import Word, keys, plain
+from parley.language.offline.words.text import Phrase, Word, keys, plain
 from parley.messages.chat import ActionCall, ChatAction
 
 __all__ = ["Answering"]
@@ -27,8 +29,15 @@ class Answering(Changing):
 
     def _spoken(self, clause: Clause) -> bool:
         """Questions, and what is only social."""
+        if clause.is_question and self._goes_to_look():
+            asked = turned(strip_openers(clause.words), self.scene)
+            if asked:
+                self._look_now(questions.Answer("", asked))
+                self._parts = self._parts[: self._at + 1]
+                return True
         answer = questions.answer(clause, self.scene)
         if answer is not None:
+            self._mention_asked(clause.words)
             self.scene.trace.note("answer", f"a question: {answer.text}")
             if answer.look:
                 self._look_for_answer(answer)
@@ -41,6 +50,12 @@ class Answering(Changing):
                 self.replies.append(small_talk)
             return True
         return False
+
+    def _mention_asked(self, words: Phrase) -> None:
+        """What a question names may be meant by what follows it."""
+        for phrase in mentioned(words, self.scene):
+            self.scene.mention(phrase)
+            self.scene.places.append(phrase)
 
     def _look_for_answer(self, answer: questions.Answer) -> None:
         following = self._parts[self._at + 1 : self._at + 2]
@@ -85,7 +100,7 @@ class Answering(Changing):
         if not self.unread:
             return
         if not (self.tasks.steps or self.commands or self.replies):
-            raise UnclearError(f"{social.not_understood(self.unread[0])} {abilities(self.scene)}")
+            raise UnclearError(f"{social.not_understood(self.unread[0])} {abilities(self.scene)}", lost=True)
         for words in self.unread:
             if not told_around(words):
                 self.replies.append(whole_sentence(f"I did not understand “{plain(words)[:80]}”"))
@@ -104,7 +119,8 @@ class Answering(Changing):
             parts.append("I remember: " + " ".join(dict.fromkeys(known)))
         if self.tasks.will:
             parts.append(whole_sentence(f"I will {in_turn(self._will())}"))
-        return " ".join(part for part in parts if part) or "All right."
+        nothing = "I see. Tell me if there is something I can do." if self.told_only else "All right."
+        return " ".join(part for part in parts if part) or nothing
 
     def _new(self) -> list[object]:
         names = {c.arguments.get("name") for c in self.commands if c.command == "add_memory"}

@@ -11,6 +11,7 @@ from collections.abc import Callable
 
 from parley.language.offline.dialogue.about_map import Answer
 from parley.language.offline.dialogue.own_state import step_words
+from parley.language.offline.dialogue.progress import progress
 from parley.language.offline.facts.remembering import Remembered
 from parley.language.offline.plan_changes.replanning import Visit, visit_of, visits
 from parley.language.offline.scene.grounding import describe, ground_phrase
@@ -31,7 +32,8 @@ _LEFT = frozenset({
 })  # fmt: skip
 _STOPS = frozenset({
     "stop", "step", "place", "job", "task", "visit", "station", "thing", "item", "order", "work", "go",
-    "do", "action", "errand", "point",
+    "do", "action", "errand", "point", "list", "plan", "queue", "agenda",
+    "schedule", "round", "tour", "programme",
 })  # fmt: skip
 _QUANTITY = (("how", "many"), ("how", "much"), ("what",), ("which",), ("is", "there"), ("are", "there"),
              ("have", "you"), ("do", "you"), ("anything",))  # fmt: skip
@@ -161,7 +163,7 @@ _COMING = frozenset({
     "what", "where", "which", "comes", "come", "is", "next", "will", "do", "you", "go", "to", "are",
     "going", "stop", "place", "does", "then", "be", "happens", "right", "directly", "one", "visit",
     "driving", "the", "planned", "follows", "heading", "your", "straight", "immediately", "doing",
-    "stands",
+    "stands", "up", "off", "after", "following", "plan", "would", "should", "supposed", "have",
 })  # fmt: skip
 
 
@@ -334,4 +336,43 @@ def _talents(words: Phrase, flat: tuple[str, ...], scene: Scene) -> Answer | Non
     return None
 
 
-_READERS: tuple[_Reader, ...] = (_why, _order_of, _left, _far, _saw, _all_told, _talents, _somewhere)
+def _last_asked(words: Phrase, flat: tuple[str, ...], scene: Scene) -> Answer | None:
+    """For "what was the last thing I asked you to do?"."""
+    asks = (
+        flat
+        in {
+            ("what", "did", "i", "just", "say"),
+            ("what", "did", "i", "say"),
+            ("what", "was", "it", "i", "said"),
+        }
+        or flat[:4] in {("what", "did", "i", "ask"), ("what", "did", "i", "order")}
+        or (
+            flat[0] == "what"
+            and "last" in flat
+            and ({"i", "my"} & set(flat))
+            and bool(
+                {"asked", "ask", "order", "orders", "request", "command", "message", "said", "say", "told"}
+                & set(flat)
+            )
+        )
+    )
+    if not asks:
+        return None
+    said = next((t.content for t in reversed(scene.situation.history) if t.role == "operator"), "")
+    return Answer(
+        f"You asked me: “{said.strip()[:200]}”" if said else "You have not asked me for anything yet."
+    )
+
+
+_READERS: tuple[_Reader, ...] = (
+    _last_asked,
+    progress,
+    _why,
+    _order_of,
+    _left,
+    _far,
+    _saw,
+    _all_told,
+    _talents,
+    _somewhere,
+)

@@ -59,7 +59,8 @@ def pending_request(words: Phrase, situation: Situation) -> Request | None:
             hints.insert(0, turn.content)
             at -= 1
             continue
-        declined = agrees(plain(words)) is False and len(words) <= 4
+        free = any(lexicon().your_choice.match(keys(words), i) for i in range(len(words)))
+        declined = agrees(plain(words)) is False and len(words) <= 4 and not free
         return Request(turn.content, _unchained(hints), history[:at], declined)
     return None
 
@@ -67,6 +68,8 @@ def pending_request(words: Phrase, situation: Situation) -> Request | None:
 def declines(message: str, situation: Situation) -> bool:
     """Whether a message says no to a question that was just asked."""
     asked = bool(situation.history) and _asks(situation.history[-1])
+    if any(lexicon().your_choice.match(keys(tokens(message)), i) for i in range(len(tokens(message)))):
+        return False
     return asked and agrees(message) is False
 
 

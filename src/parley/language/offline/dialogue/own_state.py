@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable
+from collections.abc import Callable, Sequence
 
 from parley.language.offline.facts.remembering import Remembered, find_fact
 from parley.language.offline.scene.grounding import describe, ground_phrase
@@ -113,6 +113,7 @@ def told_about(about: Phrase, scene: Scene) -> list[Remembered]:
     """Facts of which something is the subject or the place."""
     fact, several = find_fact(about, scene.facts, locations=False)
     direct = [fact] if fact is not None else several
+    direct = [*direct, *_more_of(direct, scene)]
     names = {item.entry.name for item in direct}
     wanted = set(noun_phrase(about).core)
     related = [
@@ -121,6 +122,27 @@ def told_about(about: Phrase, scene: Scene) -> list[Remembered]:
         if i.entry.name not in names and wanted and wanted <= set(noun_phrase(i.fact.place).core)
     ]
     return [*direct, *related]
+
+
+def _more_of(told: Sequence[Remembered], scene: Scene) -> list[Remembered]:
+    """What else is remembered of the same thing, in other respects."""
+    subjects = {keys(item.fact.subject) for item in told}
+    respects = {_respect(item) for item in told}
+    result: list[Remembered] = []
+    for item in scene.facts:
+        if keys(item.fact.subject) in subjects and _respect(item) not in respects:
+            respects.add(_respect(item))
+            result.append(item)
+    return result
+
+
+def _respect(item: Remembered) -> tuple[object, ...]:
+    fact = item.fact
+    return (
+        (keys(fact.subject), "where")
+        if fact.is_location
+        else (keys(fact.subject), fact.relation, item.entry.name)
+    )
 
 
 def _say_robots(scene: Scene, _: Phrase) -> str:

@@ -5,19 +5,22 @@ from __future__ import annotations
 from functools import cache
 
 from parley.language.offline.dialogue import about_map
+from parley.language.offline.dialogue.able import KNOWING_HOW, able
 from parley.language.offline.dialogue.about_map import Answer
 from parley.language.offline.dialogue.asked import asked
 from parley.language.offline.dialogue.own_state import ABOUT_ITSELF, told_about
+from parley.language.offline.dialogue.retrieval import recalled, recalled_fully
+from parley.language.offline.dialogue.turning import turned
 from parley.language.offline.facts.facts import strip_openers
 from parley.language.offline.facts.remembering import find_fact
 from parley.language.offline.scene.grounding import describe, ground_phrase
 from parley.language.offline.scene.scene import Scene
 from parley.language.offline.sentences.clauses import Clause, opens_command
-from parley.language.offline.tasks.abilities import abilities, cannot
+from parley.language.offline.tasks.abilities import abilities
 from parley.language.offline.words.lexicon import lexicon
 from parley.language.offline.words.nouns import bare, noun_phrase
 from parley.language.offline.words.saying import a, capital, listing, the, whole_sentence
-from parley.language.offline.words.text import Phrase, Word, keys, lemma, plain, singular, tokens
+from parley.language.offline.words.text import Phrase, Word, keys, plain, tokens
 from parley.language.word_lists import load_data
 from parley.messages.chat import ActionCall
 
@@ -47,6 +50,33 @@ def answer(clause: Clause, scene: Scene) -> Answer | None:
     """
     words = strip_openers(clause.words)
     words = tuple(word for word in words if word.is_word)
+    if clause.is_question and words[:1] and words[0].key in {"any", "anything", "anybody", "anyone"}:
+        words = (Word("is", "is"), *turned(words, scene)[:1], *words)
+    if len(words) > 3 and words[1].key in lexicon().question_starts and lexicon().places.match(keys(words)):
+        # "In which box is the key?"
+        words = words[1:]
+    whole = recalled_fully(words, scene) if keys(words)[:1] in _WH else None
+    if whole is not None:
+        for item in whole[1]:
+            scene.use(item)
+        return Answer(whole[0])
+    knows_how = clause.is_question and keys(words)[:5] == KNOWING_HOW
+    found = (able(words, keys(words), scene) if knows_how else None) or _read(words, clause, scene)
+    if found is None or found.look or not found.text.startswith(_AT_A_LOSS):
+        return found
+    told = recalled(words, scene)
+    if told is None:
+        return found
+    for item in told[1]:
+        scene.use(item)
+    return Answer(told[0])
+
+
+_WH = frozenset({("what",), ("who",), ("whose",), ("which",), ("why",)})
+_AT_A_LOSS = "I do not know"
+
+
+def _read(words: Phrase, clause: Clause, scene: Scene) -> Answer | None:
     words, wrapped = _unwrapped(words)
     if wrapped and _to_be_done(keys(words), keys(clause.words), scene):
         return None
@@ -70,7 +100,7 @@ def answer(clause: Clause, scene: Scene) -> Answer | None:
     if not question:
         return None
     marked = clause.is_question
-    ready = (_planned(flat, scene) or _able(words, flat, scene)) if marked else None
+    ready = (_planned(flat, scene) or able(words, flat, scene)) if marked else None
     ready = ready or asked(words, flat, scene)
     if ready is not None:
         return ready
@@ -126,57 +156,6 @@ _WILL = (
 
 def _values(step: ActionCall) -> list[str]:
     return [p.value for p in step.input_parameters.values() if isinstance(p.value, str)]
-
-
-_ABLE = (
-    ("are", "you", "able", "to"),
-    ("can", "you"),
-    ("could", "you"),
-    ("do", "you", "know", "how", "to"),
-    ("are", "you", "capable", "of"),
-)
-_GENERIC = frozenset(
-    [
-        "thing",
-        "object",
-        "something",
-        "stuff",
-        "people",
-        "person",
-        "item",
-        "place",
-        "anything",
-        "someone",
-        "somebody",
-        "around",
-    ]
-)
-
-
-def _able(words: Phrase, flat: tuple[str, ...], scene: Scene) -> Answer | None:
-    """For "can you carry things?", "are you able to drive?": about abilities, not about doing it now."""
-    size = next((len(start) for start in _ABLE if flat[: len(start)] == start), 0)
-    if not size or size >= len(flat):
-        return None
-    base = (lemma(flat[size]), *flat[size + 1 :])
-    found = lexicon().verbs.match(base)
-    rest = flat[size + found[0] :] if found is not None else ()
-    if found is None:
-        return None
-    asks = flat[:size] not in {("can", "you"), ("could", "you")}
-    own = scene.catalogue.for_verb(base[0]) or scene.catalogue.by_description(base)
-    if asks and found[1].startswith("other:") and own is None:
-        return Answer(cannot(plain((Word(base[0], base[0]), *words[size + 1 :])), scene))
-    if any(singular(word) not in _GENERIC for word in rest):
-        return None
-    kind = found[1].partition(":")[0]
-    said = plain((Word(base[0], base[0]), *words[size + 1 :]))
-    roles = {"whether": {"look"}, "transfer": {"fetch", "grasp", "ask_operator"}, "back": {"motion"}}.get(
-        kind, {kind}
-    )
-    if scene.catalogue.with_role(*sorted(roles)) is not None or scene.catalogue.for_verb(base[0]) is not None:
-        return Answer(f"Yes, I can {said}. {abilities(scene)}")
-    return None if kind in {"look", "search", "motion"} and not rest else Answer(cannot(said, scene))
 
 
 def _unwrapped(words: Phrase) -> tuple[Phrase, bool]:

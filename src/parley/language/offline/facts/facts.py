@@ -80,9 +80,65 @@ _STATE_VERBS = frozenset(
         "feels",
         "looks",
     ]
+) | frozenset(
+    [
+        "owns",
+        "drives",
+        "rents",
+        "uses",
+        "eats",
+        "drinks",
+        "starts",
+        "ends",
+        "begins",
+        "speaks",
+        "plays",
+        "wears",
+        "gets",
+        "covers",
+        "leads",
+        "suffers",
+        "smokes",
+        "reads",
+        "sleeps",
+        "goes",
+        "leaves",
+        "arrives",
+        "serves",
+        "cleans",
+        "repairs",
+        "teaches",
+        "studies",
+        "manages",
+        "runs",
+    ]
+)
+_OF_SEVERAL = frozenset(
+    {"end", "start", "begin", "need", "have", "like", "close", "open", "belong", "last", "cost"}
 )
 _NOT_WHERE = frozenset({"of", "from", "with", "against"})
-_NOT_PLACES = frozenset(["time", "order", "charge", "trouble", "fire", "danger", "love", "pain", "use"])
+_NOT_PLACES = frozenset(
+    [
+        "repair",
+        "construction",
+        "maintenance",
+        "control",
+        "sale",
+        "duty",
+        "vacation",
+        "holiday",
+        "renovation",
+        "time",
+        "order",
+        "charge",
+        "trouble",
+        "fire",
+        "danger",
+        "love",
+        "pain",
+        "use",
+    ]
+)
 
 
 def strip_openers(phrase: Phrase, *, requests: bool = False, reporting: bool = False) -> Phrase:
@@ -103,7 +159,9 @@ def strip_openers(phrase: Phrase, *, requests: bool = False, reporting: bool = F
         if flat[0] == "no" and forbids is not None and forbids[0] > max(sizes):
             break
         verb = lex.verbs.match(flat)
-        if verb is not None and verb[0] > max(sizes) and not verb[1].startswith("other:"):
+        goes_on = lex.verbs.match(flat, max(sizes)) is None and requests
+        longer = verb is not None and (verb[0] > max(sizes) or (verb[0] == max(sizes) and goes_on))
+        if verb is not None and longer and not verb[1].startswith("other:"):
             break
         phrase = phrase[max(sizes) :]
     return phrase
@@ -286,6 +344,7 @@ def _said_of(phrase: Phrase) -> Fact | None:
                 and i + 2 < len(flat)
             )
             or flat[i] in _STATE_VERBS
+            or (flat[i] in _OF_SEVERAL and flat[i - 1].endswith("s") and flat[i - 1] not in lex.vocabulary)
         ),
         0,
     )

@@ -2,19 +2,31 @@
 
 from __future__ import annotations
 
+from collections.abc import Sequence
 from dataclasses import dataclass, field, replace
 
+from parley.language.offline.facts.declared import read_declared
 from parley.language.offline.facts.facts import Fact, read_statement, strip_openers
 from parley.language.offline.facts.remembering import memory_name
+from parley.language.offline.facts.worth import is_idle, worth_keeping
 from parley.language.offline.scene.scene import Scene
 from parley.language.offline.sentences.clauses import Clause
 from parley.language.offline.words.lexicon import lexicon
-from parley.language.offline.words.nouns import bare
+from parley.language.offline.words.nouns import bare, coordinated
 from parley.language.offline.words.saying import the, whole_sentence
-from parley.language.offline.words.text import keys, lemma, plain, singular, tokens
+from parley.language.offline.words.text import Phrase, keys, lemma, plain, singular, tokens
 from parley.messages.chat import SystemCommand
 
-__all__ = ["Noting"]
+__all__ = ["Noting", "mention_listed"]
+
+
+def mention_listed(told: Sequence[Fact], scene: Scene) -> None:
+    """What a message lists may be meant by "each of them"."""
+    for fact in told:
+        for part in coordinated(fact.state) if fact.relation == "are" else ():
+            if scene.ground(part).outcome == "match":
+                scene.mention(part)
+                scene.places.append(part)
 
 
 @dataclass
@@ -24,18 +36,47 @@ class Noting:
     scene: Scene
     commands: list[SystemCommand] = field(default_factory=list)
     replies: list[str] = field(default_factory=list)
+    told: tuple[Fact, ...] = ()
+    """What whole sentences, taken out of the message before, list or lay down for later."""
+    told_only: bool = False
+    """Whether something was told that is not worth keeping."""
 
     def state(self, clause: Clause) -> bool:
         """Keep what a clause states; False if it states nothing."""
         fact = None if clause.is_question else read_statement(clause.words)
         if fact is None:
-            return self._note(clause)
-        fact = self._about(fact)
-        if fact.negated and fact.is_location:
-            self.remember(replace(fact, sentence=fact.sentence))
-        else:
-            self.remember(fact)
+            return self._note(clause) or self._declared(clause)
+        if not self._asked_to_keep(clause.words) and not worth_keeping(fact, clause.words):
+            self.scene.trace.note("memory", f"not kept: {fact.sentence}")
+            self.scene.mention(fact.subject)
+            self.told_only = True
+            return True
+        self.remember(self._about(fact))
         return True
+
+    def _declared(self, clause: Clause) -> bool:
+        """Keep what is said of things that are known; pass over what is said of the time of day."""
+        fact = None if clause.is_question else read_declared(clause.words, self.scene)
+        if fact is not None and worth_keeping(fact, clause.words):
+            self.remember(fact)
+            return True
+        if fact is not None or (not clause.is_question and is_idle(clause.words)):
+            self.told_only = True
+            return True
+        return False
+
+    def keep_lists(self) -> None:
+        """Keep what sentences of the message listed or laid down."""
+        for fact in self.told:
+            self.remember(fact)
+        mention_listed(self.told, self.scene)
+
+    def _asked_to_keep(self, words: Phrase) -> bool:
+        """Whether it is to be remembered whatever it is."""
+        found = lexicon().reporting.match(keys(strip_openers(words)))
+        return found is not None and bool(
+            {"remember", "note", "keep", "memorize", "memorise"} & set(found[1].split())
+        )
 
     def _note(self, clause: Clause) -> bool:
         """For "Remember that <anything>": kept as it was said."""
@@ -71,7 +112,7 @@ class Noting:
 
     def remember(self, fact: Fact) -> None:
         """Keep a fact, use it at once, and say so."""
-        name = memory_name(fact, self.scene.facts)
+        name = self._own_name(fact, memory_name(fact, self.scene.facts))
         self.scene.trace.note("memory", f"kept as {name}: {fact.sentence}")
         where = (
             f"where {the(plain(fact.subject))} {'are' if _is_plural(fact.sentence) else 'is'}"
@@ -86,6 +127,8 @@ class Noting:
         self.scene.mention(fact.subject)
         if fact.place:
             self.scene.places.append(fact.place)
+        elif self.scene.ground(fact.subject).outcome == "match":
+            self.scene.places.append(fact.subject)
         said = fact.sentence
         first = said.split()[0] if said else ""
         known = bool(said) and singular(first.lower()) in lexicon().vocabulary
@@ -102,6 +145,15 @@ class Noting:
             .replace("you is", "you are", 1)
         )
         self.replies.append(f"I will remember that {said}.")
+
+    def _own_name(self, fact: Fact, name: str) -> str:
+        """Two things said of one in the same message ("A is called B and is allergic to C") are kept both."""
+        given = {c.arguments.get("name"): str(c.arguments.get("data")) for c in self.commands}
+        before = given.get(name, "")
+        words = [word.key for word in fact.state if word.is_word and word.key not in lexicon().vocabulary]
+        if fact.is_location or not before or " not " in f" {before} " or not words:
+            return name
+        return f"{name}_{words[-1]}"
 
     def learn(self) -> None:
         """Keep what answers to earlier questions stated."""

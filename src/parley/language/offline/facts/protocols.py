@@ -7,7 +7,7 @@ applies is decided by the failure's code and, where its condition names a thing,
 from __future__ import annotations
 
 import re
-from collections.abc import Iterator
+from collections.abc import Iterable, Iterator, Sequence, Set
 from dataclasses import dataclass
 from functools import cache, lru_cache
 from typing import Any
@@ -22,7 +22,10 @@ from parley.language.word_lists import load_data
 from parley.messages.chat import SystemCommand
 from parley.messages.memory import MemoryEntry
 
-__all__ = ["Act", "Protocol", "applying", "first_act", "protocol_memory", "read_protocol"]
+__all__ = [
+    "Act", "Protocol", "applying", "first_act", "may_matter", "protocol_memory", "read_protocol",
+    "read_sighting_rule", "sighted",
+]  # fmt: skip
 
 
 @dataclass(frozen=True, slots=True)
@@ -96,6 +99,35 @@ def applying(situation: ErrorSituation) -> Iterator[tuple[Protocol, MemoryEntry]
             found.append((not _names(protocol.condition), protocol, entry))
     for _, protocol, entry in sorted(found, key=lambda item: item[0]):
         yield protocol, entry
+
+
+def may_matter(text: str, said: Set[str]) -> bool:
+    """Whether a text teaches a rule that the words of what happened may call for."""
+    protocol = read_protocol(text)
+    if protocol is None:
+        return False
+    telling = {form for key in keys(protocol.condition) for form in (key, singular(key))}
+    return _has(protocol.condition, _phrases("any")) or bool((telling - set(_data()["generic"])) & said)
+
+
+def read_sighting_rule(text: str) -> Protocol | None:
+    """The rule that a message teaches about what may be seen ("if you see a crack, tell me"), or None."""
+    protocol = read_protocol(text)
+    if protocol is None or "not" in keys(protocol.condition) or not _names(protocol.condition):
+        return None
+    speaks_of_others = _codes(protocol.condition) - {FailureCode.ATTENTION}
+    return None if speaks_of_others or _has(protocol.condition, _phrases("any")) else protocol
+
+
+def sighted(protocol: Protocol, reports: Iterable[str]) -> str:
+    """The sentence of a report by which what the rule names is there, or an empty text."""
+    names = _names(protocol.condition)
+    for report in reports:
+        for sentence in re.split(r"(?<=[.!?;])\s+", report):
+            said = _words_in([sentence])
+            if names <= said and not said & set(_data()["denials"]):
+                return sentence.strip()
+    return ""
 
 
 # -- conditions --
@@ -193,7 +225,7 @@ def _texts(value: Any) -> list[str]:
     return [text for item in value for text in _texts(item)] if isinstance(value, list | tuple) else []
 
 
-def _words_in(texts: list[str]) -> frozenset[str]:
+def _words_in(texts: Sequence[str]) -> frozenset[str]:
     return frozenset(singular(word.key) for text in texts for word in tokens(text) if word.is_word)
 
 

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Sequence
 
+from parley.language.offline.facts.protocols import may_matter
 from parley.language.offline.facts.remembering import remembered
 from parley.language.offline.words.lexicon import lexicon
 from parley.language.offline.words.text import lemma, singular, split_name, tokens
@@ -20,6 +21,8 @@ def select_memories(query: str, index: Sequence[MemoryEntry]) -> list[str]:
         for entry in index
     }
     chosen = {name for name, words in about.items() if words & wanted}
+    said = {form for word in tokens(query) for form in (word.key, singular(word.key))}
+    chosen |= {entry.name for entry in index if entry.type == "text" and may_matter(entry.data, said)}
     # A place that a chosen fact leads to may have a fact of its own ("area A is closed").
     leads_to = [
         {singular(word.key) for word in item.fact.place if word.is_word}
@@ -27,8 +30,8 @@ def select_memories(query: str, index: Sequence[MemoryEntry]) -> list[str]:
         if item.fact.is_location
     ]
     for entry in index:
-        said = {singular(word.key) for word in tokens(entry.data[:500])}
-        if any(place and place <= said for place in leads_to):
+        own = {singular(word.key) for word in tokens(entry.data[:500])}
+        if any(place and place <= own for place in leads_to):
             chosen.add(entry.name)
     return [entry.name for entry in index if entry.name in chosen]
 

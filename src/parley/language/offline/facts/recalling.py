@@ -2,17 +2,22 @@
 
 from __future__ import annotations
 
-from dataclasses import dataclass
+from collections.abc import Sequence
+from dataclasses import dataclass, replace
 
 from parley.language.offline.facts.facts import read_statement, strip_openers
+from parley.language.offline.facts.owning import with_owners_named
 from parley.language.offline.facts.remembering import find_fact
+from parley.language.offline.facts.stated_first import stated_first
 from parley.language.offline.facts.stories import mentioned
 from parley.language.offline.sentences.clauses import Clause, clauses, opens_command
+from parley.language.offline.sentences.look_only import as_look, confirming, looking_in
+from parley.language.offline.sentences.rounds import watched_for
 from parley.language.offline.tasks.commands import read_command
 from parley.language.offline.tasks.doing import Doing
 from parley.language.offline.words.lexicon import lexicon
 from parley.language.offline.words.nouns import bare, noun_phrase
-from parley.language.offline.words.text import Phrase, plain, tokens
+from parley.language.offline.words.text import Phrase, keys, plain, tokens
 
 __all__ = ["Recalling"]
 
@@ -47,6 +52,7 @@ class Recalling(Doing):
         """What was spoken of before, for pronouns."""
         for turn in self.scene.situation.history[-6:]:
             if turn.role != "operator":
+                self._mention_seen(tokens(turn.content))
                 continue
             for part in clauses(tokens(turn.content), opens_command):
                 fact = read_statement(part.words)
@@ -63,6 +69,39 @@ class Recalling(Doing):
                         self.scene.places.append(fact.place)
                 else:
                     self._mention_names(part.words)
+
+    def _mention_seen(self, words: Phrase) -> None:
+        """What the robot reported that it saw: things on the map, before the place where they are."""
+        flat = keys(words)
+        at = next((i for i in range(len(flat)) if _reports(flat, i)), -1)
+        if at < 0 or "?" in flat:
+            return
+        end = next((i for i in range(at, len(flat)) if flat[i] in {".", "!"}), len(flat))
+        seen = mentioned(words[at:end], self.scene)
+        for phrase in [*seen[1:], *seen[:1]]:
+            self.scene.mention(phrase)
+
+    def with_owners(self, words: Phrase) -> Phrase:
+        """Owners of things by their names, as far as it is known whose the things are."""
+        named, used = with_owners_named(words, self.scene.facts)
+        for item in used:
+            self.scene.use(item)
+        return named
+
+    def arranged(self, parts: Sequence[Clause]) -> list[Clause]:
+        """Clauses put so that what is needed is known first, and that say plainly what is to be looked at."""
+        parts = [replace(part, words=as_look(part.words)) for part in parts]
+        parts = looking_in(stated_first(parts, self.scene.is_person), self.scene.is_person)
+        return watched_for(confirming(parts), lambda words: len(self.scene.several(words)) > 1)
+
+    def _mention_answer(self) -> None:
+        """Where something is that was asked for just now: "there" in what follows."""
+        turns = self.scene.situation.history[-2:]
+        if len(turns) < 2 or turns[1].role == "operator" or "?" in turns[1].content:
+            return
+        first = strip_openers(tokens(turns[0].content))[:1]
+        if turns[0].role == "operator" and first and first[0].key in lexicon().question_starts:
+            self.scene.places.extend(mentioned(tokens(turns[1].content), self.scene))
 
     def _mention_names(self, words: Phrase) -> None:
         """What a question or a fragment was about."""
@@ -81,3 +120,22 @@ class Recalling(Doing):
         for phrase in mentioned(words, self.scene):
             self.scene.mention(phrase)
             self.scene.places.append(phrase)
+
+
+_SEEING = (
+    ("there", "is"),
+    ("there", "are"),
+    ("i", "see"),
+    ("i", "saw"),
+    ("i", "found"),
+    ("i", "can", "see"),
+    ("i", "have", "found"),
+    ("i", "noticed"),
+    ("i", "spotted"),
+)
+
+
+def _reports(flat: tuple[str, ...], index: int) -> bool:
+    """Whether the robot says there what it saw; "no" and "nothing" name nothing."""
+    lead = next((lead for lead in _SEEING if flat[index : index + len(lead)] == lead), ())
+    return bool(lead) and not {"no", "nothing", "not"} & set(flat[index : index + len(lead) + 2])

@@ -9,6 +9,7 @@ from functools import lru_cache
 
 from parley.language.offline.facts.facts import Fact, read_statement
 from parley.language.offline.scene.grounding import ground_phrase
+from parley.language.offline.sentences.finite import verb_at
 from parley.language.offline.words.lexicon import lexicon
 from parley.language.offline.words.nouns import bare, noun_phrase
 from parley.language.offline.words.text import Phrase, Word, keys, plain, tokens
@@ -46,7 +47,11 @@ def _entry_fact(name: str, data: str) -> Fact | None:
     fact = read_statement(words)
     if fact is not None:
         return fact
+    verb = verb_at(words) if not first.endswith("?") else 0
     about, _, kind = name.rpartition("_")
+    if verb and verb < len(words) - 1 and kind not in {"location", "place", "position"}:
+        said = tuple(word for word in words if word.is_word)
+        return Fact(bare(said[:verb]), relation=said[verb].key, state=said[verb + 1 :], sentence=plain(said))
     if about and kind in {"location", "place", "position"} and words and len(words) < 12:
         noun = noun_phrase(words)
         place = noun.anchors[0] if not noun.core and noun.anchors else noun.phrase

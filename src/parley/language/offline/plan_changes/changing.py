@@ -120,6 +120,11 @@ class Changing(Reading):
         """Stop words among other clauses, and changes of the plan."""
         words = strip_openers(clause.words)
         control = None if clause.is_question else control_of(plain(words))
+        if control is not None and self.tasks.ends_own(words):
+            return False
+        if control == "stop" and not alone and {"until", "till"} & set(keys(words)):
+            # "Wait until I call you, then go to the desk": a step that waits.
+            control = None
         if control is not None:
             if control == "start" and not alone:
                 return True
@@ -146,9 +151,12 @@ class Changing(Reading):
 
     def _do_not(self, command: Command) -> None:
         for phrase in (command.place, command.theme):
+            # What is refused may be spoken of later, but what was wanted comes to mind first.
+            wanted = list(self.scene.things) if self.tasks.steps else []
             self.scene.mention(bare(phrase))
+            self.scene.things += wanted[-1:]
             if phrase:
-                self.scene.places.append(bare(phrase))
+                self.scene.places.insert(max(len(self.scene.places) - 1, 0), bare(phrase))
         words = " ".join([lemma(command.clause[0].key), plain(command.clause[1:])]).strip()
         dropped = edits.steps_of(command, self.scene)
         self.commands.extend(

@@ -38,7 +38,13 @@ _RESTARTS = frozenset(
         "start the plan over", "start the plan again", "start the whole thing over", "redo everything",
         "back to the start", "start all over", "start all over again", "let us start over",
         "start again from scratch", "start from the top", "restart everything", "redo the plan",
-        "restart the mission",
+        "restart the mission", "go back to the start", "go back to the start of the list",
+        "back to square one", "go back to the beginning", "back to the beginning",
+        "go back to the start of the plan", "do it all again", "do everything again",
+        "do the whole thing again", "begin anew", "start afresh", "start anew",
+        "again from the beginning", "once more from the beginning", "again from the top",
+        "from the beginning", "from the beginning again", "do the whole round again",
+        "start the round again",
     )
 )  # fmt: skip
 

@@ -22,7 +22,7 @@ from parley.language.offline.words.saying import listing, the
 from parley.language.offline.words.text import Phrase, keys, lemma, plain, singular, tokens
 from parley.messages.chat import ActionCall, SystemCommand
 
-__all__ = ["Visit", "inserted", "ordered", "read_replanning", "visit_of", "visits", "without"]
+__all__ = ["Visit", "inserted", "ordered", "read_replanning", "renamed", "visit_of", "visits", "without"]
 
 
 @dataclass(frozen=True, slots=True)
@@ -234,7 +234,7 @@ def _replaced(words: Phrase, scene: Scene) -> Edit | None:
     if at is None or target is None or target.outcome != "match":
         return None
     visit, words_of = visits(scene)[at], describe(target.candidates[0], scene.objects)
-    renamed = Visit(visit.start, tuple(_renamed(step, _noun(old), words_of, scene) for step in visit.steps))
+    renamed = Visit(visit.start, tuple(renamed(step, _noun(old), words_of, scene) for step in visit.steps))
     verb = lexicon().verbs.match(
         tuple(lemma(w) for w in keys(strip_openers(new))[:1]) + keys(strip_openers(new))[1:]
     )
@@ -258,7 +258,7 @@ def _find(flat: tuple[str, ...], markers: Sequence[tuple[str, ...]]) -> tuple[in
     return None
 
 
-def _renamed(step: ActionCall, old: Phrase, new: str, scene: Scene) -> ActionCall:
+def renamed(step: ActionCall, old: Phrase, new: str, scene: Scene) -> ActionCall:
     """The same step for something else."""
     inputs = dict(step.input_parameters)
     for name, parameter in inputs.items():

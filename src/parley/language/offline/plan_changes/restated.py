@@ -275,7 +275,8 @@ def as_added(words: Phrase, scene: Scene) -> Phrase:
         len(rest),
     )
     named, tail = tuple(rest[:end]), tuple(rest[end:])
-    planned = bool({word.key for word in tail} & _PLANS) or keys(tail[:1]) == ("in",) or not tail
+    slipped_in = keys(tail[:1]) == ("in",) and keys(tail[1:2]) in {(), ("before",), ("after",), ("between",)}
+    planned = bool({word.key for word in tail} & _PLANS) or slipped_in or not tail
     if scene.ground(named).outcome != "match" or not (planned or keys(tail[:1]) in {("before",), ("after",)}):
         return words
     where = next((i for i, word in enumerate(tail) if word.key in {"before", "after"}), len(tail))

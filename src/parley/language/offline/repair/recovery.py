@@ -52,11 +52,18 @@ __all__ = ["resolve"]
 
 _SUGGESTION = re.compile(r"^why (?:don['’]?t|do not|not) (?:you )?(?:just )?(?=\w)", re.IGNORECASE)
 """How an order may be put as a question."""
+_BLIND = "I cannot see what is in a picture."
 
 
 def resolve(situation: ErrorSituation) -> ChatAction:
     """Repair a failure, or ask."""
-    return with_order_behind(situation, _resolve, interpret) or _resolve(situation)
+    if situation.pictures and not (situation.reply or "").strip():
+        return ChatAction(success=None, message_response=f"{_BLIND} Please tell me in words.")
+    resolution = with_order_behind(situation, _resolve, interpret) or _resolve(situation)
+    if situation.pictures:
+        said = f"{_BLIND} {resolution.message_response}".rstrip()
+        resolution = resolution.model_copy(update={"message_response": said})
+    return resolution
 
 
 def _resolve(situation: ErrorSituation) -> ChatAction:

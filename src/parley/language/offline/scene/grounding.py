@@ -9,7 +9,7 @@ every step. Then what is said about the place, the size and the distance chooses
 from __future__ import annotations
 
 from collections.abc import Iterable, Sequence
-from dataclasses import dataclass, replace
+from dataclasses import dataclass, field, replace
 from functools import lru_cache
 
 from rapidfuzz import fuzz
@@ -17,10 +17,20 @@ from rapidfuzz.distance import OSA
 
 from parley.language.base import Grounding
 from parley.language.offline.scene import spatial
+from parley.language.offline.scene.marks import members_of
 from parley.language.offline.scene.viewing import COMPASS, by_view, is_view, rank_word
 from parley.language.offline.words.lexicon import lexicon
 from parley.language.offline.words.nouns import NounPhrase, bare, noun_phrase, number_of
-from parley.language.offline.words.text import Phrase, closest, keys, plain, singular, split_name, tokens
+from parley.language.offline.words.text import (
+    Phrase,
+    Word,
+    closest,
+    keys,
+    plain,
+    singular,
+    split_name,
+    tokens,
+)
 from parley.world.geometry import Pose2D
 from parley.world.object_map import MapObject
 
@@ -51,9 +61,50 @@ def ground_phrase(
         among: The only objects that may be meant, if given; the others may still be referred to.
         strict: Whether the object must be called so: no other word of its description, no typing error.
     """
+    if among or not isinstance(objects, tuple):
+        return _ground(phrase, objects, pose, among, strict=strict)
+    known = _LOOKED_UP.of(objects)
+    key = (phrase, pose, strict)
+    if key not in known:
+        known[key] = _ground(phrase, objects, pose, (), strict=strict)
+    return known[key]
+
+
+@dataclass(slots=True)
+class _LookedUp:
+    """What was found on the map that was asked about last: one message asks about the same words again and again."""
+
+    objects: tuple[MapObject, ...] = ()
+    found: dict[tuple[Phrase, Pose2D | None, bool], Grounding] = field(default_factory=dict)
+
+    def of(self, objects: tuple[MapObject, ...]) -> dict[tuple[Phrase, Pose2D | None, bool], Grounding]:
+        if objects is not self.objects or len(self.found) > _MOST_LOOKED_UP:
+            self.objects, self.found = objects, {}
+        return self.found
+
+
+_LOOKED_UP = _LookedUp()
+_MOST_LOOKED_UP = 10_000
+
+
+def _ground(
+    phrase: Phrase,
+    objects: Sequence[MapObject],
+    pose: Pose2D | None,
+    among: Sequence[MapObject],
+    *,
+    strict: bool,
+) -> Grounding:
     eligible = among or objects
+    written = plain(phrase).lower()
+    named = [item for item in eligible if item.description.lower() == written] if len(phrase) > 1 else []
+    if len(named) == 1:
+        return Grounding("match", (named[0],))
+    together = members_of(phrase, eligible) if len(bare(phrase)) == 1 else []
+    if together:
+        return _grounding(together)
     by_id = [item for item in eligible if item.id.lower() == plain(phrase).lower()]
-    if by_id:
+    if by_id and not _is_kind(plain(phrase).lower(), eligible):
         return Grounding("match", (by_id[0],))
     whole = bare(phrase)
     if not whole or not objects:
@@ -71,6 +122,13 @@ def ground_phrase(
     if not found:
         return Grounding("none", tuple(_near_misses(noun, eligible)))
     return _grounding(_narrow(noun, leftover, found, objects, pose))
+
+
+def _is_kind(word: str, objects: Sequence[MapObject]) -> bool:
+    """Whether a word is what several things are, and the description of none: an id, then, is no name."""
+    if any(item.description.lower() == word for item in objects):
+        return False
+    return sum(item.class_name.lower() == word for item in objects) > 1
 
 
 def matching(phrase: Phrase, objects: Sequence[MapObject], pose: Pose2D | None = None) -> list[MapObject]:
@@ -131,7 +189,10 @@ def _profile(item: MapObject) -> _Profile:
     id_words = tuple(number_of(singular(word)) for word in split_name(item.id))
     for text in (item.description, *item.aliases):
         noun = noun_phrase(tokens(text))
-        names.add(_comparable(bare(tokens(text))))
+        named = tokens(text)
+        while len(named) > 1 and named[0].key in lexicon().determiners:
+            named = named[1:]
+        names.add(_comparable(named))
         heads.update(
             {head_of(noun.core), head_of(noun.core[noun.core.index("of") + 1 :]) if "of" in noun.core else ""}
         )
@@ -150,14 +211,16 @@ def _comparable(phrase: Phrase) -> tuple[str, ...]:
     return tuple(
         number_of(singular(word.key))
         for index, word in enumerate(phrase)
-        if word.is_word and word.key not in articles and not (word.key == "a" and index < len(phrase) - 1)
+        if word.is_word
+        and word.key not in articles
+        and not (word.key == "a" and index < len(phrase) - 1 and (word.raw != "A" or not index))
     )
 
 
 def _exact(phrase: Phrase, profiles: Sequence[_Profile]) -> list[MapObject]:
     wanted = _comparable(phrase)
     same = [profile.item for profile in profiles if wanted in profile.names]
-    if same:
+    if same and not (len(wanted) == 1 and _is_kind(wanted[0], [profile.item for profile in profiles])):
         return same
     others = set(variants(wanted)[1:])
     return [profile.item for profile in profiles if others & profile.names and _labels_fit(wanted, profile)]
@@ -201,20 +264,29 @@ _SIDES: dict[tuple[str, ...], str] = {
     ("left",): "left", ("right",): "right", ("left", "side"): "left", ("right", "side"): "right",
     ("left", "hand", "side"): "left", ("right", "hand", "side"): "right", ("your", "left"): "left",
     ("your", "right"): "right", ("far", "left"): "leftmost", ("far", "right"): "rightmost",
+    ("left", "end"): "leftmost", ("right", "end"): "rightmost", ("left", "hand", "end"): "leftmost",
+    ("right", "hand", "end"): "rightmost", ("very", "left"): "leftmost", ("very", "right"): "rightmost",
     ("middle",): "middle", ("center",): "middle", ("centre",): "middle", ("corner",): "corner",
     **{(name,): name for name in COMPASS}, **{(name, "side"): name for name in COMPASS},
     **{(name, "corner"): name for name in COMPASS}, **{(name, "end"): name for name in COMPASS},
     **{(f"{name}ern", "side"): name for name in COMPASS},
     **{tuple(name.split("-")): name for name in COMPASS if "-" in name},
 }  # fmt: skip
+_HERE = frozenset({
+    ("you",), ("here",), ("where", "you", "are"), ("yourself",), ("position",),
+    ("where", "you", "are", "now"),
+    ("where", "you", "stand"), ("robot",), ("your", "position"),
+})  # fmt: skip
 _BEFORE_YOU = {"in front of": "ahead", "behind": "behind", "ahead of": "ahead"}
 
 
 def _side(noun: NounPhrase) -> NounPhrase:
     """For "the door on the right": the right door."""
     near = noun.relation in {"closest to", "nearest to", "nearest", "closest", "next to", "near", "close to"}
-    if near and len(noun.anchors) == 1 and noun.core and keys(noun.anchors[0]) == ("you",):
-        return replace(noun, core=("nearest", *noun.core), relation="", anchors=())
+    far = noun.relation.startswith(("far", "fur")) and noun.relation != "far from"
+    here = len(noun.anchors) == 1 and noun.core and keys(bare(noun.anchors[0])) in _HERE
+    if here and (near or far):
+        return replace(noun, core=("nearest" if near else "farthest", *noun.core), relation="", anchors=())
     if len(noun.anchors) != 1 or not noun.core:
         return noun
     anchor = keys(bare(noun.anchors[0]))
@@ -278,7 +350,7 @@ def _by_typo(words: tuple[str, ...], profiles: Sequence[_Profile]) -> list[_Prof
     mended = tuple(
         word
         if word in known or word in common or word in lexicon().nouns or _is_label(word)
-        else closest(word, known) or word
+        else closest(word, known, dropped=word not in lexicon().vocabulary) or word
         for word in words
     )
     if mended == words and len(words) > 1 and words[0] in known:
@@ -339,7 +411,7 @@ def _by_relation(
 ) -> list[MapObject]:
     items = [profile.item for profile in found]
     anchors: list[MapObject] = []
-    for anchor in noun.anchors:
+    for anchor in (_named_so(part, noun) for part in noun.anchors):
         where = ground_phrase(anchor, [o for o in objects if o not in items] or objects, pose)
         if where.outcome != "match" or not _is_called(where.candidates[0], anchor):
             where = ground_phrase(anchor, objects, pose)
@@ -353,7 +425,8 @@ def _by_relation(
         else [
             p.item
             for p in found
-            if any(set(other) <= p.words for other in variants(wanted)) and p.item not in anchors
+            if any(set(other) <= p.words for other in variants(wanted))
+            and (p.item not in anchors or noun.relation == "with")
         ]
     )
     if "between" in noun.relation and len(noun.anchors) == 1:
@@ -365,6 +438,15 @@ def _by_relation(
     if told or len(anchors) < len(noun.anchors):
         return told or items
     return spatial.by_anchor([i for i in items if i not in anchors] or items, noun.relation, anchors, pose)
+
+
+def _named_so(anchor: Phrase, noun: NounPhrase) -> Phrase:
+    """For "(the box between) the red one (and the blue one)": the red box."""
+    kind = next((word for word in reversed(noun.core) if not _is_label(word)), "")
+    at = next((i for i, word in enumerate(anchor) if word.key in {"one", "ones"}), -1)
+    if at < 0 or not kind or len(anchor) < 2:
+        return anchor
+    return (*anchor[:at], Word(kind, kind), *anchor[at + 1 :])
 
 
 def _uncounted(phrase: Phrase) -> Phrase:

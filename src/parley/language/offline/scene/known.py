@@ -10,6 +10,7 @@ from parley.language.offline.facts.facts import Fact
 from parley.language.offline.facts.remembering import Remembered
 from parley.language.offline.scene.grounding import ground_phrase
 from parley.language.offline.scene.relative import described_by_facts
+from parley.language.offline.scene.states import in_state
 from parley.language.offline.tasks.catalogue import Catalogue
 from parley.language.offline.words.explaining import Trace
 from parley.language.offline.words.lexicon import lexicon
@@ -27,8 +28,14 @@ OPERATOR = (Word("operator", "operator"),)
 class UnclearError(Exception):
     """Something has to be asked before anything is done; never leaves the offline engine."""
 
-    def __init__(self, question: str, choices: Sequence[str] = ()) -> None:
+    def __init__(
+        self, question: str, choices: Sequence[str] = (), *, about: Phrase = (), lost: bool = False
+    ) -> None:
         self.question, self.choices = question, tuple(choices)
+        self.about = about
+        """The words that are asked about, where it is some thing or place that is not known."""
+        self.lost = lost
+        """Whether nothing was understood at all."""
         super().__init__(question)
 
 
@@ -42,6 +49,41 @@ def _described_person(flat: tuple[str, ...]) -> bool:
     return following in {("with",), ("who",), ("whose",)} or (
         following[:1] != () and following[0].endswith("ing")
     )
+
+
+_TITLES = frozenset(
+    {
+        "mr",
+        "mrs",
+        "ms",
+        "miss",
+        "dr",
+        "doctor",
+        "nurse",
+        "professor",
+        "prof",
+        "uncle",
+        "aunt",
+        "sister",
+        "old",
+        "captain",
+    }
+)
+
+
+def _is_thing(phrase: Phrase) -> bool:
+    """Whether words name what somebody has, or an everyday thing ("A's pills", "apple juice")."""
+    lex = lexicon()
+    flat = keys(phrase)
+    if len(flat) > 1 and any(word.endswith("'s") for word in flat[:-1]):
+        return True
+    if any(word.isdigit() for word in flat):
+        return True
+    if len(flat) > 1 and not any(word.is_capital for word in phrase) and flat[0] not in _TITLES:
+        return True
+    last = singular(flat[-1])
+    everyday = last in lex.nouns or any(last in members for members in lex.kinds.values())
+    return everyday and not phrase[-1].is_capital
 
 
 @dataclass(frozen=True, slots=True)
@@ -80,6 +122,8 @@ class Known:
     places: list[Phrase] = field(default_factory=list)
     trace: Trace = field(default_factory=Trace)
     """What was decided, for those who ask why."""
+    served: set[tuple[str, ...]] = field(default_factory=set)
+    """Who gets something already, by the words for them."""
     _told: dict[tuple[tuple[str, ...], int], tuple[MapObject, tuple[Remembered, ...]] | None] = field(
         default_factory=dict
     )
@@ -112,7 +156,10 @@ class Known:
         """The object that is described by what is remembered of it, e.g. "the chair A is on"."""
         key = keys(phrase), len(self.facts)
         if key not in self._told:
-            self._told[key] = described_by_facts(phrase, self.objects, self.facts)
+            pose, message = self.situation.robot_pose, self.situation.message
+            self._told[key] = described_by_facts(phrase, self.objects, self.facts) or in_state(
+                phrase, self.objects, self.facts, pose, message
+            )
         found = self._told[key]
         if found is None:
             return None
@@ -139,6 +186,8 @@ class Known:
             return False
         if any(keys(person) == flat for person in self.persons):
             return True
+        if _is_thing(phrase):
+            return False
         if any(
             keys(f.fact.subject) == flat and f.fact.sentence.lower().startswith(flat[0]) for f in self.facts
         ):

@@ -21,6 +21,10 @@ from parley.world.object_map import MapObject
 __all__ = ["Placing"]
 
 _MAX_HOPS = 3
+_HOME = frozenset(
+    {("home",), ("base",), ("home", "base"), ("your", "place"), ("own", "place"), ("home", "position")}
+)
+_DOCK = tokens("charging dock")
 
 
 @dataclass
@@ -52,13 +56,18 @@ class Placing(Referring):
         if found.outcome == "ambiguous":
             # What a memory leaves open is found out on the way; only the operator's own words are asked.
             if remembered_words:
-                return Place(plain(bare(phrase)), None, via)
+                chosen = self._hinted(found.candidates) if self.hints else None
+                name = describe(chosen, self.objects) if chosen is not None else plain(bare(phrase))
+                return Place(name, chosen, via)
             item = self.pick(phrase, found.candidates)
             return Place(describe(item, self.objects), item)
         if hops < _MAX_HOPS:
             place = self.remembered_place(phrase, hops)
             if place is not None:
                 return place
+        other = self._beside_somebody(phrase) or self._home(phrase)
+        if other is not None:
+            return Place(describe(other, self.objects), other, via)
         if not remembered_words and self.objects:
             told = self.told_place(phrase, found.candidates)
             if told is not None:
@@ -66,6 +75,25 @@ class Placing(Referring):
         if remembered_words or not self.objects:
             return Place(plain(bare(phrase)), None, via)
         raise self.unknown(phrase, found.candidates)
+
+    def _beside_somebody(self, phrase: Phrase) -> MapObject | None:
+        """For "(next to) the man at the desk": the desk."""
+        noun = noun_phrase(phrase)
+        if not noun.core and len(noun.anchors) == 1:
+            noun = noun_phrase(noun.anchors[0])
+        if len(noun.anchors) != 1 or not noun.core or noun.core[-1] not in lexicon().person_words:
+            return None
+        found = self.ground(noun.anchors[0])
+        return found.candidates[0] if found.outcome == "match" else None
+
+    def _home(self, phrase: Phrase) -> MapObject | None:
+        """For "home", where that is no place of the map: where the robot charges, if that is one place."""
+        if keys(bare(phrase)) not in _HOME:
+            return None
+        docks = [
+            item for item in self.objects if ground_phrase(_DOCK, [item], strict=True).outcome == "match"
+        ]
+        return docks[0] if len(docks) == 1 else None
 
     def whole(self, phrase: Phrase) -> MapObject | None:
         """For "the handle of the door", the door: what is no object itself may be a part of one."""
@@ -168,8 +196,10 @@ class Placing(Referring):
             return UnclearError(
                 f"I do not know where {name} is. Do you mean {known}?",
                 [describe(i, self.objects) for i in near],
+                about=phrase,
             )
-        return UnclearError(f"I do not know where {name} is. Tell me where it is, and I will remember it.")
+        text = f"I do not know where {name} is. Tell me where it is, and I will remember it."
+        return UnclearError(text, about=phrase)
 
 
 def place_said(answer: Phrase) -> tuple[str, Phrase] | None:

@@ -7,11 +7,27 @@ from dataclasses import dataclass
 from parley.language.offline.scene.grounding import describe, ground_phrase
 from parley.language.offline.scene.known import OPERATOR, Known, UnclearError
 from parley.language.offline.words.lexicon import lexicon
-from parley.language.offline.words.nouns import bare
+from parley.language.offline.words.nouns import bare, noun_phrase
 from parley.language.offline.words.text import Phrase, Word, keys, tokens
 
 __all__ = ["Referring"]
 
+_PORTIONS = frozenset(
+    (word,)
+    for word in (
+        "glass",
+        "cup",
+        "mug",
+        "sip",
+        "drop",
+        "slice",
+        "piece",
+        "portion",
+        "bite",
+        "bowl",
+        "plate",
+    )
+)
 _SOME = frozenset({("some",), ("one",), ("a", "few"), ("some", "more"), ("another", "one"), ("one", "more")})
 
 
@@ -28,10 +44,11 @@ class Referring(Known):
         lex = lexicon()
         flat = keys(bare(phrase))
         said = keys(phrase)
-        if (said in _SOME or said[-2:] == ("of", "them")) and self.things and len(said) < 5:
+        some = (said in _SOME or said[-2:] == ("of", "them")) and len(said) < 5
+        if (some and self.things) or (flat[:1] in _PORTIONS and len(flat) == 1 and self._is_edible()):
             return self.things[-1]
         if len(flat) != 1:
-            return phrase
+            return self._where_somebody_is(phrase)
         word = flat[0]
         if word in lex.operator_pronouns:
             return OPERATOR
@@ -53,6 +70,18 @@ class Referring(Known):
                 return (self.places or self.things)[-1]
             raise UnclearError("Where do you mean? Please name the place.")
         return phrase
+
+    def _where_somebody_is(self, phrase: Phrase) -> Phrase:
+        """For "where he is" whoever is meant; other phrases come back unchanged."""
+        who = next((word for word in phrase if word.key in {"he", "she", "it", "they"}), None)
+        asks = keys(bare(phrase))[:1] in {("where",), ("wherever",)} and len(phrase) < 5
+        return self.referent((who,)) if asks and who is not None else phrase
+
+    def _is_edible(self) -> bool:
+        """Whether what was spoken of last can be had by the glass or the slice."""
+        last = noun_phrase(self.things[-1]).core[-1:] if self.things else ()
+        kinds = lexicon().kinds
+        return bool(last) and (last[0] in kinds.get("drink", ()) or last[0] in kinds.get("food", ()))
 
     def _only_person_told(self) -> Phrase:
         """The one remembered person whose name stands in this message or the one before."""

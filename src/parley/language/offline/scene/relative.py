@@ -6,9 +6,10 @@ from collections.abc import Sequence
 
 from parley.language.offline.facts.remembering import Remembered, find_fact
 from parley.language.offline.scene.grounding import ground_phrase, matching
+from parley.language.offline.scene.owned import owned_thing
 from parley.language.offline.words.lexicon import lexicon
 from parley.language.offline.words.nouns import bare, noun_phrase
-from parley.language.offline.words.text import Phrase, keys
+from parley.language.offline.words.text import Phrase, Word, keys
 from parley.world.object_map import MapObject
 
 __all__ = ["described_by_facts"]
@@ -23,10 +24,13 @@ def described_by_facts(
 ) -> tuple[MapObject, tuple[Remembered, ...]] | None:
     """The one object that a relative clause or a remembered thing in it singles out, and the facts used."""
     words = tuple(word for word in phrase if word.is_word)
+    if keys(words[:1]) == ("wherever",):
+        words = (Word("where", "where"), *words[1:])
     if not 2 < len(words) <= 14:
-        return _the_same(words, objects, facts)
+        return _the_same(words, objects, facts) or owned_thing(words, objects, facts)
     return (
         _the_same(words, objects, facts)
+        or owned_thing(words, objects, facts)
         or _with_adjective(words, objects)
         or _excluded(words, objects)
         or _where_something_is(words, objects, facts)
@@ -64,10 +68,12 @@ def _names_same(about: tuple[str, ...], name: tuple[str, ...], *, belongs: bool)
     """Whether two names mean the same: word by word, or as owner ("Ben's" and "to Ben" for "Ben's car")."""
     if about == name:
         return True
-    owner = next((word.removesuffix("'s") for word in about if word.endswith("'s")), "")
-    if not owner:
+    at = next((i for i, word in enumerate(about) if word.endswith("'s")), -1)
+    if at < 0:
         return False
-    return name == (f"{owner}'s",) or (belongs and name == ("to", owner))
+    owner = (*about[:at], about[at].removesuffix("'s"))
+    name = tuple(word for word in name if word not in {"the", "a", "an"})
+    return name == (*owner[:-1], f"{owner[-1]}'s") or (belongs and name == ("to", *owner))
 
 
 def _where_something_is(

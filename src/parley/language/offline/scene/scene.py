@@ -9,7 +9,9 @@ from parley.language.base import Situation
 from parley.language.offline.facts.remembering import remembered
 from parley.language.offline.scene.grounding import describe, ground_phrase
 from parley.language.offline.scene.known import OPERATOR, Place, UnclearError
+from parley.language.offline.scene.marks import members_of
 from parley.language.offline.scene.placing import Placing, place_said
+from parley.language.offline.scene.states import all_in_state
 from parley.language.offline.scene.subsets import part_of
 from parley.language.offline.tasks.catalogue import Catalogue
 from parley.language.offline.words.explaining import Trace
@@ -50,23 +52,23 @@ class Scene(Placing):
 
     def several(self, phrase: Phrase) -> list[Phrase]:
         """The things a phrase names one by one: "A and B", "all chairs", "both", "every X except Y"."""
+        together = members_of(phrase, self.objects) if len(bare(phrase)) == 1 else []
+        if together:
+            return [tokens(describe(item, self.objects)) for item in together]
         told = self.told_apart(phrase)
         if told is not None:
             return [tokens(describe(told, self.objects))]
         some = part_of(phrase, self.objects, self.situation.robot_pose)
         if some is not None:
             return [tokens(describe(item, self.objects)) for item in some]
+        so = self._by_state(phrase)
+        if so:
+            return so
         phrase = self._uncounted(phrase)
         phrase = _apposed(phrase)
-        series = self._series(phrase)
+        series = self._series(phrase) or self._all_as_answered(phrase)
         if series:
             return series
-        everything = next((h for h in self.hints if keys(bare(tokens(h.lower()))) in _ALL_OF_THEM), None)
-        if everything is not None:
-            found = self.ground(phrase)
-            if found.outcome == "ambiguous":
-                self.hints.remove(everything)
-                return [tokens(describe(item, self.objects)) for item in found.candidates]
         members: list[Phrase] = []
         whole = ground_phrase(phrase, self.objects, self.situation.robot_pose)
         if whole.outcome == "match" and not noun_phrase(phrase).quantifier:
@@ -91,6 +93,22 @@ class Scene(Placing):
             members.extend(self._expanded(part))
         gone = self._excepted(noun_phrase(phrase).excluded, ()) if exception and not whole_list else ()
         return [m for m in members if not gone or ground_phrase(m, self.objects).candidates != gone[:1]]
+
+    def _by_state(self, phrase: Phrase) -> list[Phrase]:
+        """For "every door that is not locked": those that are remembered not to be."""
+        so = all_in_state(phrase, self.objects, self.facts) if noun_phrase(phrase).quantifier else None
+        for fact in so[1] if so is not None else ():
+            self.use(fact)
+        return [tokens(describe(item, self.objects)) for item in so[0]] if so is not None else []
+
+    def _all_as_answered(self, phrase: Phrase) -> list[Phrase]:
+        """All that are meant, where the operator answered "both" or "all of them"."""
+        everything = next((h for h in self.hints if keys(bare(tokens(h.lower()))) in _ALL_OF_THEM), None)
+        found = self.ground(phrase) if everything is not None else None
+        if everything is None or found is None or found.outcome != "ambiguous":
+            return []
+        self.hints.remove(everything)
+        return [tokens(describe(item, self.objects)) for item in found.candidates]
 
     def _side_by_side(self, phrase: Phrase) -> list[Phrase]:
         """For "the desk the door the box": things named one after the other without any mark."""
@@ -158,6 +176,9 @@ class Scene(Placing):
         raise UnclearError(f"Which one do you mean: {listing([the(name) for name in names], 'or')}?", names)
 
     def _expanded(self, phrase: Phrase) -> list[Phrase]:
+        together = members_of(phrase, self.objects) if len(phrase) == 1 else []
+        if together:
+            return [tokens(describe(item, self.objects)) for item in together]
         noun = noun_phrase(phrase)
         plural = self._is_plural(noun)
         if not plural and noun.quantifier not in lexicon().quantifiers | {"rest"}:
@@ -172,6 +193,9 @@ class Scene(Placing):
         found = ground_phrase(noun.phrase or phrase, self.objects, self.situation.robot_pose)
         if found.outcome == "none":
             return [phrase]
+        pointless = not noun.quantifier and set(noun.core) <= {"one", "ones"}
+        if pointless and len(found.candidates) == len(self.objects) > 3:
+            raise UnclearError("Which ones do you mean? Please name them.")
         excluded = noun.excluded
         if keys(excluded[:1]) == ("one",) and noun_phrase(excluded).anchors:
             # "All lamps except the one in the hall": the lamp in the hall.

@@ -8,13 +8,16 @@ from collections.abc import Callable, Sequence
 from parley.world.geometry import Pose2D
 from parley.world.object_map import MapObject
 
-__all__ = ["by_anchor", "by_size", "nearest_to", "smallest"]
+__all__ = ["all_at", "by_anchor", "by_size", "nearest_to", "smallest"]
 
 _CLEARLY = 1.25
 """Something is clearly nearer if everything else is this much farther away."""
 _SLACK_M = 0.3
 _ROOM_M2 = 2.0
 """What is larger can have things inside on the map: a room, an area."""
+
+
+_COMPASS = {"north": (0.0, 1.0), "south": (0.0, -1.0), "east": (1.0, 0.0), "west": (-1.0, 0.0)}
 
 
 def nearest_to(items: Sequence[MapObject], x_m: float, y_m: float) -> list[MapObject]:
@@ -54,7 +57,13 @@ def by_anchor(
         inside = [item for item in items if _inside(item, first)]
         if inside:
             return inside
-    if "left" in relation or "right" in relation:
+    toward = next((vector for name, vector in _COMPASS.items() if name in relation.split()), None)
+    if toward is not None:
+        beyond = [
+            i for i in items if (i.x_m - first.x_m) * toward[0] + (i.y_m - first.y_m) * toward[1] > _SLACK_M
+        ]
+        items = beyond or list(items)
+    elif "left" in relation or "right" in relation:
         on_side = [item for item in items if _on_side(item, first, "left" in relation, pose)]
         items = on_side or list(items)
     elif relation in {"behind", "beyond", "in front of"} and pose is not None:
@@ -68,6 +77,26 @@ def by_anchor(
     near = nearest_to(items, first.x_m, first.y_m)
     # "The closest to" is a comparison: the nearest is meant even if others are not much farther.
     return near[:1] if "closest" in relation or "nearest" in relation else near
+
+
+def all_at(
+    items: Sequence[MapObject], relation: str, anchor: MapObject, pose: Pose2D | None
+) -> list[MapObject]:
+    """All items of a group that stand in `relation` to one thing; none if that cannot be told."""
+    if "left" in relation or "right" in relation:
+        return [item for item in items if _on_side(item, anchor, "left" in relation, pose)]
+    if relation in {"behind", "beyond", "in front of"}:
+        far_m = math.hypot(anchor.x_m - pose.x_m, anchor.y_m - pose.y_m) if pose is not None else 0.0
+        sign = -1.0 if relation == "in front of" else 1.0
+        gaps = [(item, _gap(item, pose.x_m, pose.y_m) - far_m) for item in items] if pose is not None else []
+        return [item for item, more_m in gaps if sign * more_m > 0]
+    inside = [item for item in items if _inside(item, anchor)]
+    if inside or relation in {"in", "inside", "within", "inside of"}:
+        return inside
+    if relation.startswith(("far", "fur", "away", "between")) or not items:
+        return []
+    nearest_m = min(_gap(item, anchor.x_m, anchor.y_m) for item in items)
+    return [i for i in items if _gap(i, anchor.x_m, anchor.y_m) <= max(1.6 * nearest_m, nearest_m + 1.0)]
 
 
 def _on_side(item: MapObject, anchor: MapObject, left: bool, pose: Pose2D | None) -> bool:

@@ -6,6 +6,7 @@ from collections.abc import Callable
 
 from parley.language.offline.sentences.clauses import opens_command
 from parley.language.offline.words.lexicon import lexicon
+from parley.language.offline.words.nouns import bare
 from parley.language.offline.words.text import Phrase, Word, keys, lemma
 
 __all__ = ["as_conditions"]
@@ -262,6 +263,9 @@ def _asked(parts: list[tuple[Phrase, Word | None]], is_stop: Names) -> list[tupl
         (thing, state), (then, end) = asked, parts[index + 1]
         then = _ordering(then, is_stop)
         other = not thing and (last, state) in _OPPOSITES
+        if then and thing and _looks_at(then, thing):
+            # "Is the door open? Go and check it": no condition, but what is to be looked at.
+            then = ()
         if not then:
             result.append((sentence, mark))
         elif other:
@@ -274,6 +278,14 @@ def _asked(parts: list[tuple[Phrase, Word | None]], is_stop: Names) -> list[tupl
 
 
 _OPPOSITES = frozenset((*_STATES, *((b, a) for a, b in _STATES)))
+
+
+def _looks_at(order: Phrase, thing: Phrase) -> bool:
+    """Whether an order is to look at the very thing that was asked about."""
+    flat = keys(order)
+    looks = {"check", "look", "see", "inspect", "verify"} & set(flat[:4])
+    rest = {word for word in flat if word not in lexicon().determiners}
+    return bool(looks) and (bool({"it", "them", "that"} & rest) or set(keys(bare(thing))) <= rest or len(flat) < 4)
 
 
 def _joined(parts: list[tuple[Phrase, Word | None]]) -> list[tuple[Phrase, Word | None]]:

@@ -39,7 +39,7 @@ _LEADS = _table(
         _ANY,
         "only then, second, secondly, third, thirdly, fourth, now, so, ok, okay, please, also, from there",
     ),
-    (_ANY, "only after that, only afterwards, later, after"),
+    (_ANY, "only after that, only afterwards, later, after, on the way back, on your way back, back to, back at, back in, home to, then home to, only after both, after both, only after all that, only after all of them"),
     (
         _BEFORE_LAST,
         "before that, before it, before this, but before that, on the way there, on the way, on your way",
@@ -323,7 +323,7 @@ def _stripped(piece: Phrase, rank: int) -> tuple[Phrase, int]:
 def _verb(piece: Phrase) -> tuple[str, Phrase]:
     """Whether it begins with going or looking, and the rest."""
     flat = keys(piece)
-    if flat[:1] in {("to",), ("do",), ("via",)} and len(flat) > 1:
+    if flat[:1] in {("to",), ("do",), ("via",), ("take",), ("cover",), ("tackle",)} and len(flat) > 1:
         return "motion", piece[1:]
     found = lexicon().verbs.match((lemma(flat[0]), *flat[1:])) if flat else None
     kind = found[1].partition(":")[0] if found is not None else ""

@@ -65,6 +65,7 @@ def _articled(words: Phrase) -> Phrase:
 def _short_check(words: Phrase, grounds: Grounds) -> Phrase:
     """For "desk check", "door status"."""
     body = tuple(word for word in words if word.is_word)
+    body = body[:-1] if keys(body[-1:]) == ("please",) else body
     if (
         not 2 <= len(body) <= 5
         or body[-1].key not in _CHECKS

@@ -8,6 +8,7 @@ from __future__ import annotations
 
 from collections.abc import Callable
 
+from parley.language.offline.scene.marks import marks_of
 from parley.language.offline.sentences.clauses import opens_command
 from parley.language.offline.sentences.laconic import SEEN, laconic
 from parley.language.offline.sentences.ranking import participle_order, ranked
@@ -30,12 +31,13 @@ _COMMA = Word(",", ",")
 _PAUSES = {",", "and", "but", "then"}
 
 
-def reworded(words: Phrase, grounds: Grounds) -> Phrase:
+def reworded(words: Phrase, grounds: Grounds, *, timed: bool = False) -> Phrase:
     """The same message in plainer order.
 
     Args:
         words: All words and punctuation.
         grounds: Whether words name something on the map.
+        timed: Whether actions of this robot take how long they last: then "for a minute" belongs to them.
     """
     for change in (
         _left_out,
@@ -49,7 +51,7 @@ def reworded(words: Phrase, grounds: Grounds) -> Phrase:
         participle_order,
         _until,
     ):
-        words = change(words)
+        words = words if timed and change is _until else change(words)
     return laconic(_or_if(_fallback(words, grounds)), grounds)
 
 
@@ -137,7 +139,7 @@ def _which_are(words: Phrase) -> Phrase:
             _word("are"),
             *words[link + 1 :],
         )
-    every = next((i for i in range(start) if flat[i] in lexicon().quantifiers), -1)
+    every = next((i for i in range(start) if flat[i] in lexicon().quantifiers or marks_of(words[i])), -1)
     end = next((i for i in range(every, start) if flat[i] in {"and", ",", "."}), start)
     if every < 0:
         return words

@@ -12,7 +12,7 @@ from parley.language.offline.sentences.clauses import opens_command
 from parley.language.offline.words.lexicon import lexicon
 from parley.language.offline.words.text import Phrase, Word, keys, lemma
 
-__all__ = ["in_order"]
+__all__ = ["in_order", "when_done"]
 
 IsStop = Callable[[Phrase], bool]
 
@@ -32,7 +32,7 @@ _AT_FIRST = tuple(
         "before all this", "before any of that", "before all else", "before everything",
         "before doing any of that", "before all", "before you do any of that", "before you do all that",
         "but before all that", "but before anything else", "ahead of all that", "prior to all that",
-        "first and foremost", "most urgently", "most important of all",
+        "right at the start", "at the very start", "right at the beginning", "at the very beginning", "first and foremost", "most urgently", "most important of all",
     )
 )  # fmt: skip
 _SAME = frozenset(
@@ -70,7 +70,7 @@ def in_order(words: Phrase, is_stop: IsStop) -> Phrase:
         words: All words and punctuation.
         is_stop: Whether words name something on the map.
     """
-    words = _each(_counted(_then(_without_remarks(words, is_stop))))
+    words = _each(_counted(when_done(_without_remarks(words, is_stop))))
     result: list[tuple[Phrase, Phrase]] = []
     front: list[tuple[Phrase, Phrase]] = []
     start = 0
@@ -100,7 +100,7 @@ def _orders(sentence: Phrase) -> bool:
     )
 
 
-def _then(words: Phrase) -> Phrase:
+def when_done(words: Phrase) -> Phrase:
     """For "when all that is done" "then"."""
     flat = keys(words)
     result: list[Word] = []

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 from dataclasses import replace
 
+from parley.language.offline.facts.facts import read_statement
 from parley.language.offline.facts.remembering import find_fact
 from parley.language.offline.scene.scene import Scene
 from parley.language.offline.tasks.commands import Command, read_command
@@ -67,7 +68,7 @@ _DUE = (
     ("needs", "to", "be"), ("need", "to", "be"), ("has", "to", "be"), ("have", "to", "be"), ("should", "be"),
     ("must", "be"), ("ought", "to", "be"), ("is", "to", "be"), ("are", "to", "be"), ("wants",),
     ("needs",), ("need",),
-    ("requires",), ("require",),
+    ("requires",), ("require",), ("gets",), ("get",),
 )  # fmt: skip
 
 
@@ -78,6 +79,7 @@ def due(words: Phrase, scene: Scene) -> Command | None:
         size = next((len(marker) for marker in _DUE if flat[index : index + len(marker)] == marker), 0)
         done = flat[index + size] if size and index + size < len(flat) else ""
         passive = flat[index + size - 1 : index + size] == ("be",)
+        passive = passive or flat[index] in {"gets", "get"}
         if not done or lemma(done) == done or not (passive or done.endswith("ing")):
             continue
         subject, rest = words[:index], words[index + size + 1 :]
@@ -124,6 +126,10 @@ def need(words: Phrase, scene: Scene) -> Command | None:
         0,
     )
     if state is None or not link or "not" in flat:
+        return None
+    told = read_statement(words)
+    if told is not None and told.is_location:
+        # "He is in the sick bay" says where.
         return None
     who = bare(words[:link])
     if not scene.is_person(who):

@@ -5,8 +5,9 @@ from __future__ import annotations
 from parley.language.offline.scene.scene import Scene
 from parley.language.offline.tasks.catalogue import text_inputs
 from parley.language.offline.words.lexicon import lexicon
+from parley.language.offline.words.naming import name_words
 from parley.language.offline.words.saying import a, listing, whole_sentence
-from parley.language.offline.words.text import lemma, singular, split_name
+from parley.language.offline.words.text import lemma, singular
 from parley.messages.status import ActionInfo
 
 __all__ = ["abilities", "can_list", "cannot"]
@@ -52,7 +53,7 @@ def _described(info: ActionInfo) -> str:
             lemma(word.lower()) if i == 0 or words[i - 1] == "and" else word for i, word in enumerate(words)
         ]
         return " ".join(words)
-    name = split_name(info.name)
+    name = name_words(info.name)
     verb, what = (name[0] if name else info.name), " ".join(name[1:])
     if what and name[-1] not in lexicon().goals_and_places:
         return f"{verb} {what if singular(name[-1]) != name[-1] else a(what)}"

@@ -22,6 +22,8 @@ _ANYTHING = frozenset((word,) for word in ("things", "objects", "something", "st
 
 
 _ON_BOARD = frozenset({"you", "your tray", "your back", "robot", "the robot", "your basket", "your shelf"})
+_TO_CARRY = ("motion", "grasp", "fetch", "handover", "place", "ask_operator", "guide")
+"""Without any of these nothing can be brought anywhere."""
 _WAYS = frozenset(
     [
         "lift",
@@ -56,6 +58,8 @@ class Carrying(Looking):
     """How to bring things."""
 
     def _fetch(self, command: Command) -> None:
+        if self.catalogue.with_role(*_TO_CARRY) is None:
+            raise UnableError(plain(command.clause))
         if not command.theme:
             raise UnclearError(f"What should I {command.verb}?")
         members = coordinated(command.theme) if "and" in keys(command.theme) else []
@@ -67,15 +71,7 @@ class Carrying(Looking):
         self._fetch_one(command)
 
     def _fetch_one(self, command: Command) -> None:
-        way = bool(_WAYS & set(keys(command.theme)))
-        leads = command.verb == "take" and way and not (command.recipient or command.place)
-        if leads and self._grounds(command.theme):
-            # "Take the left door": a way to go.
-            self._go(replace(command, kind="motion", verb="go", place=command.theme, theme=()))
-            return
-        if keys(command.theme) in {("me",), ("us",)} and (command.place or command.recipient):
-            where = command.place or command.recipient
-            self._lead(replace(command, kind="guide", theme=OPERATOR, place=where, recipient=()))
+        if self._way_taken(command) or self._taken_along(command):
             return
         command = self._from_where_it_is(command)
         only = (
@@ -92,6 +88,7 @@ class Carrying(Looking):
         if self.scene.is_person(theme):
             self._guide(command, theme)
             return
+        self._must_move(command, theme, source)
         if source is not None and source.value.lower() in _ON_BOARD:
             # "I have put it on you": it is there already.
             self.carried, source = theme, None
@@ -107,12 +104,60 @@ class Carrying(Looking):
                     self._stand_at(source)
                 self._look_for(theme)
             self._take(theme)
-        if goal.value and goal.value != self.here:
+        if goal.value and goal.value != self.here and self.catalogue.mover is not None:
             self.travel(goal, f"bring {the(name)} to {self._person(recipient) if recipient else goal.label}")
-        self._hand_over(theme, recipient, command)
-        self.carried = ()
+        if self.holds:
+            self.carried, self.holds = theme, False
+        else:
+            self._hand_over(theme, recipient, command)
+            self.carried = ()
         self.scene.mention(recipient)
         self.scene.mention(theme)
+
+    def _must_move(self, command: Command, theme: Phrase, source: Place | None) -> None:
+        """For "the rubbish to the rubbish bin": what goes there is not the bin.
+
+        Raises:
+            UnclearError: Where it is is not known.
+        """
+        if not command.place or command.source or source is None or source.item is None:
+            return
+        goal = self.scene.ground(command.place).candidates[:1]
+        if goal == (source.item,) and keys(theme) != keys(tokens(source.item.description)):
+            raise UnclearError(f"Where is {the(plain(theme))}?")
+
+    def _way_taken(self, command: Command) -> bool:
+        """For "take the left door": a way to go."""
+        way = bool(_WAYS & set(keys(command.theme)))
+        leads = command.verb == "take" and way and not (command.recipient or command.place)
+        if not (leads and self._grounds(command.theme)):
+            return False
+        self._go(replace(command, kind="motion", verb="go", place=command.theme, theme=()))
+        return True
+
+    def _taken_along(self, command: Command) -> bool:
+        """For "take me to A", "take the visitors to A": leading people there."""
+        if keys(command.theme) in {("me",), ("us",)} and (command.place or command.recipient):
+            where = command.place or command.recipient
+            self._lead(replace(command, kind="guide", theme=OPERATOR, place=where, recipient=()))
+            return True
+        if (
+            command.place
+            and self.catalogue.with_role("guide") is not None
+            and self._is_company(command.theme)
+        ):
+            self._guide(command, bare(self.scene.referent(command.theme)))
+            return True
+        return False
+
+    def _is_company(self, theme: Phrase) -> bool:
+        """Whether those who are to be taken somewhere are people."""
+        return self.scene.is_person(theme) or keys(theme[-1:]) in {
+            ("group",),
+            ("people",),
+            ("party",),
+            ("class",),
+        }
 
     @abstractmethod
     def _lead(self, command: Command) -> None:
@@ -180,7 +225,7 @@ class Carrying(Looking):
                 raise UnclearError(
                     f"I do not know of {lexicon().need_words[need]}. What should I bring, and where is it?"
                 )
-            raise UnclearError(f"Where is {the(plain(theme))}?")
+            raise UnclearError(f"Where is {the(plain(theme))}?", about=theme)
         return (place.via.fact.subject if place.via is not None and place.via.fact.subject else theme), place
 
     def _destination(self, command: Command, theme: Phrase) -> tuple[Phrase, Place]:
@@ -271,7 +316,7 @@ class Carrying(Looking):
             and not self.here
             and self.catalogue.with_role("grasp") is None
         ):
-            raise UnclearError(f"Where is {the(plain(theme))}?")
+            raise UnclearError(f"Where is {the(plain(theme))}?", about=theme)
         self._stand_at(place)
         self._take(theme)
         self.scene.mention(theme)

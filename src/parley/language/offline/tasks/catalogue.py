@@ -11,185 +11,24 @@ import re
 from collections.abc import Mapping, Sequence
 from typing import Any
 
+from parley.language.offline.tasks.roles import (
+    number_inputs,
+    parameter_role,
+    pose_inputs,
+    roles_of,
+    text_inputs,
+)
+from parley.language.offline.words.concepts import other_verbs
 from parley.language.offline.words.lexicon import lexicon
-from parley.language.offline.words.naming import role_by_any_word
-from parley.language.offline.words.text import lemma, singular, split_name
+from parley.language.offline.words.naming import name_words
+from parley.language.offline.words.quantities import taken_by
+from parley.language.offline.words.text import lemma, singular
 from parley.language.word_lists import load_data
 from parley.messages.chat import ActionCall
 from parley.messages.pvf import Parameter
 from parley.messages.status import ActionInfo
 
 __all__ = ["Catalogue", "call", "parameter_role", "roles_of", "templates", "text_inputs"]
-
-_PARAMETER_ROLES = {
-    "place": [
-        "target",
-        "location",
-        "place",
-        "destination",
-        "goal",
-        "position",
-        "where",
-        "room",
-        "area",
-        "waypoint",
-        "spot",
-        "point",
-        "loc",
-        "dest",
-        "surface",
-        "zone",
-        "hall",
-        "station",
-        "receptacle",
-        "site",
-    ],
-    "person": [
-        "person",
-        "who",
-        "name",
-        "recipient",
-        "human",
-        "people",
-        "user",
-        "patient",
-        "to",
-        "receiver",
-        "whom",
-    ],
-    "text": [
-        "text",
-        "message",
-        "utterance",
-        "sentence",
-        "speech",
-        "question",
-        "answer",
-        "words",
-        "content",
-        "say",
-        "what",
-        "query",
-        "prompt",
-        "topic",
-    ],
-    "object": ["object", "obj", "item", "thing", "things", "theme", "target", "inspect", "product", "entity"],
-}
-
-
-def parameter_role(name: str) -> str:
-    """What kind of words an input takes, by its name: place, person, text, object or empty."""
-    words = split_name(name.replace("::", "_"))
-    telling = [word for word in words if word not in _VAGUE_NAMES] or words
-    for role, known in _PARAMETER_ROLES.items():
-        if any(word in known for word in telling):
-            return role
-    return "person" if any(singular(word) in lexicon().person_words for word in telling) else ""
-
-
-_VAGUE_NAMES = frozenset({"name", "id", "to", "what", "description", "text", "string"})
-"""Words of a parameter's name that say little beside another: "item_name" is an item."""
-
-
-def text_inputs(info: ActionInfo) -> list[str]:
-    """The inputs that take words."""
-    return [name for name, kind in info.inputs.items() if kind == "string"]
-
-
-def roles_of(info: ActionInfo) -> frozenset[str]:
-    """What an action is good for."""
-    lex = lexicon()
-    declared = frozenset(lex.effects[effect] for effect in info.effects if effect in lex.effects)
-    if declared:
-        return declared
-    words = split_name(info.name)
-    if not words:
-        return frozenset()
-    if not info.inputs and set(words) & _HOMING and not set(words) & _NOT_HOMING:
-        return frozenset({"dock"})
-    numeric = [kind for kind in info.outputs.values() if kind in {"number", "numbers"}]
-    if text_inputs(info) and len(numeric) >= 2:
-        return frozenset({"locate"})
-    if words[0] == "ask" or (text_inputs(info) == ["question"] and not _ANSWERING & set(words)):
-        return frozenset({"ask_operator"})
-    by_name = _by_name(info, words)
-    return _by_phrases(info, words) if by_name is None else by_name
-
-
-def _by_name(info: ActionInfo, words: tuple[str, ...]) -> frozenset[str] | None:
-    """What an action is good for by its name; None if that tells nothing."""
-    roles = _by_words(words) - (frozenset() if text_inputs(info) else _PHYSICAL)
-    typed = {word for name in info.inputs for word in split_name(name.replace("::", "_"))}
-    by_any = role_by_any_word(info.name, {parameter_role(name) for name in text_inputs(info)})
-    if roles == {"locate"} and text_inputs(info) and not info.outputs:
-        return frozenset({"search"})
-    if by_any == {"follow"} and roles and roles <= {"motion", "wait", "guide"}:
-        return by_any
-    if roles & {"look", "search"} and not set(words[1:]) <= _ANY_SIGHT | typed:
-        # "CheckBattery" looks at one thing only: it is its own kind.
-        return by_any & {"search"} if _SOMEBODY & set(words) else frozenset()
-    if roles:
-        return roles
-    first = lexicon().verbs.match((lemma(words[0]), *words[1:]))
-    own_kind = first is not None and first[1].startswith("other:")
-    return None if own_kind else by_any or None
-
-
-def _by_phrases(info: ActionInfo, words: tuple[str, ...]) -> frozenset[str]:
-    """What an action is good for by its phrases and description, where its name tells nothing."""
-    named = lexicon().verbs.match((lemma(words[0]), *words[1:]))
-    if named is not None and named[1].startswith("other:"):
-        # Its own name says what it does; a phrase such as "put on {song}" must not make it another thing.
-        return frozenset()
-    phrase_words = [re.split(r"[^a-z]+", phrase.lower()) for phrase in info.phrases]
-    described = re.findall(r"[a-z]+", info.description.lower())[:3]
-    for candidate in (*phrase_words, described):
-        roles = _by_words(tuple(word for word in candidate if word))
-        roles -= frozenset() if text_inputs(info) else _PHYSICAL
-        if roles:
-            return roles
-    return frozenset()
-
-
-_ANSWERING = frozenset({"answer", "reply", "respond", "qa", "take", "handle"})
-_SOMEBODY = frozenset({"someone", "somebody", "person", "people", "human", "humans"})
-_HOMING = frozenset({"dock", "charger", "charge", "recharge", "charging", "home", "base"})
-_NOT_HOMING = frozenset(
-    {"undock", "leave", "battery", "status", "get", "check", "is", "set", "light", "lights"}
-)
-_FETCHING = frozenset(
-    {"bring", "fetch", "get", "carry", "deliver", "transport", "supply", "retrieve", "ship"}
-)
-_PHYSICAL = frozenset({"place", "fetch"})
-"""Roles that need something named: without an input for it, "set" or "release" mean something else."""
-
-
-_ANY_SIGHT = frozenset(load_data("names")["any_sight"])
-_TAKING = frozenset({"take", "capture", "snap", "get", "make", "shoot", "grab", "send"})
-_PICTURES = frozenset({"photo", "picture", "image", "photograph", "snapshot", "pic"})
-
-
-def _by_words(words: tuple[str, ...]) -> frozenset[str]:
-    lex = lexicon()
-    if not words:
-        return frozenset()
-    base = (lemma(words[0]), *words[1:])
-    if base[0] in _TAKING and set(base[1:]) & _PICTURES:
-        return frozenset({"look"})
-    found = lex.verbs.match(base)
-    kind = "" if found is None or found[1].startswith("other:") else found[1].partition(":")[0]
-    if found is not None and kind and found[0] > 1:
-        return frozenset({_transferring(base[0]) if kind == "transfer" else kind})
-    if base[0] in lex.action_words:
-        return frozenset({lex.action_words[base[0]]})
-    if kind:
-        return frozenset({_transferring(base[0]) if kind == "transfer" else kind})
-    return frozenset()
-
-
-def _transferring(verb: str) -> str:
-    """Getting something on board, bringing it from elsewhere, or handing it over."""
-    return "grasp" if verb in {"take", "grab"} else "fetch" if verb in _FETCHING else "handover"
 
 
 def templates(info: ActionInfo) -> tuple[str, ...]:
@@ -239,9 +78,39 @@ class Catalogue:
     def __init__(self, infos: Sequence[ActionInfo]) -> None:
         self.infos = tuple(infos)
         self._roles = {info.name: roles_of(info) for info in infos}
+        self._let_fetch_grasp()
         self._table = self._verb_table()
-        self.verbs = tuple(sorted(self._table, key=len, reverse=True))
+        self.of_own_kind = tuple(info for info in self.infos if self._is_own_kind(info))
+        """The actions that no task of a common kind is put together from, or not by them alone."""
+        also = {words for info in self.of_own_kind for words in other_verbs(name_words(info.name))}
+        self.verbs = tuple(sorted({*self._table, *also}, key=len, reverse=True))
         """First words by which actions of no common role can be asked for."""
+
+    @property
+    def times_itself(self) -> bool:
+        """Whether an action of its own kind takes how long it lasts."""
+        return any(
+            "time" in taken_by(name, info.description).dimensions
+            for info in self.of_own_kind
+            for name in number_inputs(info)
+        )
+
+    def _let_fetch_grasp(self) -> None:
+        """Where things are handed over by another action, one that only gets an item is how it is taken."""
+        roles = self._roles
+        if any("grasp" in role for role in roles.values()) or self.with_role("handover", "place") is None:
+            return
+        for info in self.infos:
+            if roles[info.name] == {"fetch"} and len(info.inputs) == 1 and self.mover is not None:
+                roles[info.name] = frozenset({"grasp"})
+
+    def _is_own_kind(self, info: ActionInfo) -> bool:
+        roles = self._roles[info.name]
+        if "motion" in roles:
+            return info is not self.mover
+        if roles == {"count"} and text_inputs(info):
+            return all(parameter_role(name) == "place" for name in text_inputs(info))
+        return not roles or (not info.inputs and not roles & {"look", "answer", "ask_operator"})
 
     def roles(self, info: ActionInfo) -> frozenset[str]:
         """What one of the actions is good for."""
@@ -274,8 +143,8 @@ class Catalogue:
             info
             for info in self.infos
             if not self._roles[info.name]
-            and len(split_name(info.name)) > 1
-            and {singular(word) for word in split_name(info.name)[1:]} <= said
+            and len(name_words(info.name)) > 1
+            and {singular(word) for word in name_words(info.name)[1:]} <= said
         ]
         return fitting[0] if len(fitting) == 1 else None
 
@@ -286,9 +155,9 @@ class Catalogue:
             info
             for info in self.infos
             if not info.inputs
-            and split_name(info.name)[:1]
-            and split_name(info.name)[0] in _TELLING
-            and (about := {singular(word) for word in split_name(info.name)[1:]} - _OF_READING)
+            and name_words(info.name)[:1]
+            and name_words(info.name)[0] in _TELLING
+            and (about := {singular(word) for word in name_words(info.name)[1:]} - _OF_READING)
             and about <= said
         ]
         return fitting[0] if len(fitting) == 1 else None
@@ -313,7 +182,7 @@ class Catalogue:
         scored: list[tuple[int, ActionInfo]] = []
         for info in self.infos:
             text = [
-                *split_name(info.name),
+                *name_words(info.name),
                 *re.findall(r"[a-z]+", f"{info.description} {' '.join(info.examples)}".lower()),
             ]
             about = {singular(lemma(word)) for word in text} - _EMPTY
@@ -329,10 +198,19 @@ class Catalogue:
     @property
     def mover(self) -> ActionInfo | None:
         """The action that brings the robot to a place."""
-        for info in self.all_with_role("motion"):
-            if text_inputs(info) or self.chain(info, {}, "?") is not None:
+        movers = self.all_with_role("motion")
+        plain_first = sorted(movers, key=lambda info: not _PLAIN_WAYS & set(name_words(info.name)))
+        for info in plain_first:
+            if text_inputs(info) or pose_inputs(info):
                 return info
         return None
+
+    def handed_over(self, info: ActionInfo, name: str) -> ActionInfo | None:
+        """The action that provides an input which nobody says in words ("object_id"); None for others."""
+        if info.inputs.get(name) is None or not set(name_words(name)[-1:]) & _HANDLES:
+            return None
+        kind = info.inputs[name]
+        return next((i for i in self.infos if i.name != info.name and i.outputs.get(name) == kind), None)
 
     def chain(
         self, info: ActionInfo, values: Mapping[str, Any], words: str, reason: str = ""
@@ -398,11 +276,35 @@ class Catalogue:
             for verb in _verbs_of(info):
                 found = lexicon().verbs.match(verb)
                 kind = found[1].partition(":")[0] if found is not None else ""
+                if kind == "motion" and not text_inputs(info):
+                    # "go_to_aisle (aisle: number)" goes nowhere else.
+                    continue
                 if not roles & _COVERED.get(kind, frozenset({kind})):
                     table.setdefault(verb, info)
         return table
 
 
+_HANDLES = frozenset(
+    {
+        "id",
+        "ids",
+        "handle",
+        "ref",
+        "pose",
+        "uuid",
+        "index",
+        "token",
+        "code",
+        "barcode",
+        "grasp",
+        "ticket",
+        "track",
+    }
+)
+"""Last words of names of what only programs know."""
+_PLAIN_WAYS = frozenset(
+    {"go", "drive", "navigate", "move", "travel", "fly", "walk", "head", "transit", "reach", "ride"}
+)
 _TELLING = frozenset({"get", "check", "read", "report", "measure", "query", "show", "request", "test"})
 _OF_READING = frozenset({"level", "status", "state", "value", "reading", "info", "current", "data", "report"})
 _EMPTY = frozenset(load_data("names")["empty"])
@@ -436,7 +338,7 @@ _COVERED = {
 def _verbs_of(info: ActionInfo) -> list[tuple[str, ...]]:
     """The words with which an order for an action may begin."""
     verbs: list[tuple[str, ...]] = []
-    words = split_name(info.name)
+    words = name_words(info.name)
     if words:
         base = (lemma(words[0]), *words[1:])
         verbs += [

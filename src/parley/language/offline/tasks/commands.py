@@ -6,6 +6,7 @@ from collections.abc import Callable, Sequence
 from dataclasses import dataclass, replace
 
 from parley.language.offline.facts.facts import strip_openers
+from parley.language.offline.tasks.sources import from_off, from_one_to_another
 from parley.language.offline.words.lexicon import lexicon
 from parley.language.offline.words.nouns import bare, noun_phrase
 from parley.language.offline.words.text import Phrase, Word, keys, lemma, plain
@@ -92,7 +93,8 @@ def read_command(
     if flat[0] != words[0].key and words[0].key.endswith("ed") and not requested:
         return None
     rest = words[found[0] :]
-    if verb == "move" and _moves_something(keys(rest)):
+    moved = verb in _MOVING_THINGS and keys(rest[:1]) and rest[0].key in lexicon().determiners | _THINGS
+    if (verb == "move" or moved) and _moves_something(keys(rest)):
         kind = "transfer"
     if rest and kind == "motion" and rest[0].key.endswith("ing"):
         doing = lex.verbs.match(_base(rest))
@@ -113,6 +115,10 @@ def _refused(clause: Phrase, words: Phrase) -> Command | None:
     if clause[0].key in {"avoid", "without"} and len(words) < 6:
         return Command("motion", "go", True, place=bare(words), words=words, clause=words)
     return None
+
+
+_MOVING_THINGS = frozenset({"run", "drive", "roll", "wheel", "head", "fly"})
+_THINGS = frozenset({"it", "them"})
 
 
 def _moves_something(flat: tuple[str, ...]) -> bool:
@@ -152,6 +158,8 @@ def _serial(verb: str, rest: Phrase, kind: str) -> Phrase | None:
         if rest[0].key == "to" and rest[1].key in lexicon().determiners:
             return None
         rest = rest[1:]
+    if keys(rest[:1]) in {("left",), ("right",)}:
+        return None
     found = lexicon().verbs.match(_base(rest)) if rest else None
     if _acts(rest):
         return rest
@@ -201,6 +209,9 @@ def _motion(command: Command) -> Command:
         adverb = lex.adverbs.match(flat)
         if adverb and adverb[0] < len(words) and not lex.places.match(flat):
             words = words[adverb[0] :]
+            continue
+        if flat[0] in {"left", "right", "straight"} and flat[1:2] == ("to",) and len(words) > 2:
+            words = words[1:]
             continue
         if flat[0] in {"back", "up", "over", "down", "out", "through"} and len(words) > 1:
             words = words[1:]
@@ -258,7 +269,7 @@ def _look(command: Command) -> Command:
         command = replace(command, words=words)
     if words and set(keys(words)) <= _DIRECTIONS:
         return replace(command, theme=words)
-    while len(words) > 1 and words[0].key in {"at", "on", "into", "in", "inside", "over", "around"}:
+    while len(words) > 1 and words[0].key in _LOOKING_ALONG:
         words = words[1:]
     flat = keys(words)
     if flat and flat[0] in _HERE and (anchors := noun_phrase(words).anchors) and anchors[0]:
@@ -291,6 +302,9 @@ def _look(command: Command) -> Command:
     return replace(command, theme=bare(words))
 
 
+_LOOKING_ALONG = frozenset({
+    "at", "on", "into", "in", "inside", "over", "around", "down", "along", "round", "through", "across", "up",
+})  # fmt: skip
 _VERIFYING = frozenset({"verify", "check", "double check", "assess", "see", "test"})
 _FINITE = frozenset(
     {"works", "functions", "runs", "opens", "closes", "needs", "looks", "smells", "leaks", "work", "has"}
@@ -354,6 +368,10 @@ def _trim_end(words: Phrase) -> Phrase:
 
 
 def _search(command: Command) -> Command:
+    flat = keys(command.words)
+    if command.verb in {"search", "scan", "comb"} and "for" in flat[1:-1]:
+        at = flat.index("for", 1)
+        return replace(command, place=bare(command.words[:at]), theme=bare(command.words[at + 1 :]))
     noun = noun_phrase(command.words)
     if noun.relation and noun.core and noun.anchors and noun.anchors[0]:
         core = command.words[: _at(keys(command.words), tuple(noun.relation.split()))]
@@ -370,11 +388,19 @@ def _transfer(command: Command, is_person: IsPerson) -> Command:
     words = _trim_end(command.words)
     if len(words) > 1 and words[0].key in {"up", "over", "back", "along", "out", "away"}:
         words = words[1:]
-    words = _as_kinds(words)
+    words = from_off(_as_kinds(words))
+    from_there = from_one_to_another(words) if command.kind == "place" else None
+    if from_there is not None:
+        theme, source, place = from_there
+        return replace(command, theme=bare(theme), source=bare(source), place=bare(place))
     parts = _cut_at(words, frozenset({"from", "to", "for", "into", "onto", "towards"}))
     theme = parts.pop("", ())
     recipient, theme = _double_object(theme, is_person)
     result = replace(command, recipient=recipient, source=bare(parts.get("from", ())))
+    placed = noun_phrase(recipient)
+    if placed.relation and placed.anchors:
+        who = recipient[: _at(keys(recipient), tuple(placed.relation.split()))]
+        result = replace(result, recipient=bare(who), place=placed.anchors[0])
     for marker in ("to", "for", "into", "onto", "towards"):
         goal = bare(parts.get(marker, ()))
         if not goal:
@@ -442,7 +468,13 @@ def _double_object(words: Phrase, is_person: IsPerson) -> tuple[Phrase, Phrase]:
             "of",
             "with",
         }
-        if starts_theme and is_person(bare(words[:index])) and noun_phrase(words[:index]).relation == "":
+        noun = noun_phrase(words[:index])
+        who = (
+            words[: _at(keys(words[:index]), tuple(noun.relation.split()))]
+            if noun.relation
+            else words[:index]
+        )
+        if starts_theme and who and is_person(bare(who)):
             return bare(words[:index]), words[index:]
     for index in range(1, min(3, len(words))):
         if is_person(words[:index]) and not is_person(words[: index + 1]):

@@ -5,7 +5,8 @@ from __future__ import annotations
 from abc import abstractmethod
 from dataclasses import dataclass, replace
 
-from parley.language.offline.facts.facts import Fact
+from parley.language.offline.facts.facts import Fact, strip_openers
+from parley.language.offline.scene.marks import marks_of
 from parley.language.offline.scene.scene import UnclearError
 from parley.language.offline.sentences.clauses import Clause
 from parley.language.offline.sentences.conditions import is_rule
@@ -14,10 +15,13 @@ from parley.language.offline.tasks.meaning import Meaning
 from parley.language.offline.words.lexicon import lexicon
 from parley.language.offline.words.nouns import bare
 from parley.language.offline.words.saying import the
-from parley.language.offline.words.text import Phrase, Word, keys, plain, tokens
+from parley.language.offline.words.text import Phrase, Word, keys, lemma, plain, tokens
 from parley.messages.chat import Flow, FlowIf
 
 __all__ = ["Doing"]
+
+
+_GIVING = frozenset({"give", "hand", "pass", "deliver", "bring", "serve", "offer"})
 
 
 @dataclass
@@ -36,7 +40,14 @@ class Doing(Meaning):
             # Said before what is wanted ("X is cold, get him Z"), the need only explains; alone it asks.
             self.last = command
             return
+        command = self._at_each(command)
+        if self._told_better(command):
+            steps, will = self._before_last
+            del self.tasks.steps[steps:]
+            del self.tasks.will[will:]
+            self.tasks.here = ""
         self.last = command
+        self.tasks.holds = self._handed_on(command)
         self._before_last = len(self.tasks.steps), len(self.tasks.will)
         if (
             command.kind == "transfer"
@@ -44,7 +55,7 @@ class Doing(Meaning):
             and not command.place
             and self._carried_on(command)
         ):
-            self.tasks.collect(command)
+            self._collect(command)
             return
         own = self.scene.catalogue.for_verb(command.verb)
         if own is not None and any(kind == "number" for kind in own.inputs.values()) and not own.outputs:
@@ -54,6 +65,68 @@ class Doing(Meaning):
             self.tasks.do(_without_times(command))
             if self._times(command) > 1:
                 self.tasks.here = ""
+
+    def _at_each(self, command: Command) -> Command:
+        """For "look into all rooms and see whether anybody is asleep": that is seen in each of them."""
+        before = self.last
+        unplaced = command.kind in {"whether", "search"} and not command.place and not command.negated
+        if before is None or not unplaced or before.kind not in {"look", "motion"} or not command.theme:
+            return command
+        group = next((w for p in (before.theme, before.place) for w in p if marks_of(w)), None)
+        here = group is not None and self.scene.ground(command.theme).outcome == "none"
+        pointed = keys(command.theme)[0] in lexicon().thing_pronouns | {"there"}
+        return replace(command, place=(group,)) if group is not None and here and not pointed else command
+
+    def _told_better(self, command: Command) -> bool:
+        """For "look at each box and tell me whether it is open": the second says what the first is for."""
+        before = self.last
+        looks = command.kind in {"look", "whether", "search"}
+        if before is None or not looks or before.kind not in {"look", "motion"}:
+            return False
+        groups = [
+            {word.key for phrase in (one.theme, one.place, one.words) for word in phrase if marks_of(word)}
+            for one in (before, command)
+        ]
+        return bool(groups[0]) and groups[0] == groups[1]
+
+    def _collect(self, command: Command) -> None:
+        """Get something on board, or whatever an action of its own kind makes of it."""
+        able = self.scene.catalogue.with_role("grasp", "ask_operator") is not None
+        match = None if able else self.tasks.own_match(command.clause, weak=True)
+        if match is None:
+            self.tasks.collect(command)
+            return
+        self.tasks.use_own(match, command.clause)
+        self.tasks.carried = bare(command.theme)
+        self.scene.mention(self.tasks.carried)
+
+    def _handed_on(self, command: Command) -> bool:
+        """For "take A to B and give it to C": not put down at B."""
+        following = self._parts[self._at + 1 : self._at + 2]
+        if command.kind != "transfer" or command.recipient or not command.place or not following:
+            return False
+        then = keys(strip_openers(following[0].words, requests=True))
+        return lemma(then[0]) in _GIVING and then[1:2] in {("it",), ("them",), ("that",)} if then else False
+
+    def _looked_for_nothing(self, clause: Clause) -> None:
+        """For "look into A and come back if somebody is in there": the condition says what is looked for."""
+        last, flat = self.last, keys(clause.condition)
+        general = flat[:1] in {
+            ("somebody",),
+            ("someone",),
+            ("anybody",),
+            ("anyone",),
+            ("there",),
+            ("something",),
+        }
+        plain_look = last is not None and last.kind == "look" and bool(last.theme) and not last.place
+        if not plain_look or not general or not clause.late or not self.tasks.steps or last is None:
+            return
+        step, here = self.tasks.steps[-1], plain(bare(last.theme)).lower()
+        said = [str(p.value).lower() for p in step.input_parameters.values() if p.has_data]
+        if step.flow is None and said and all(here in value or value in here for value in said):
+            del self.tasks.steps[-1:]
+            del self.tasks.will[-1:]
 
     def _carried_on(self, command: Command) -> bool:
         """Whether a later clause says where what is fetched goes ("get the box and bring it to A")."""
@@ -71,8 +144,11 @@ class Doing(Meaning):
 
     def _condition(self, clause: Clause) -> None:
         """Look first, then act or not."""
+        before = self._parts[self._at - 1] if 0 < self._at <= len(self._parts) else None
         if not clause.condition:
-            self._checked = ((), self._last_look())
+            # "If it is, V, otherwise W": W depends on the same look as V, which may look at something itself.
+            goes_on = clause.otherwise and before is not None and before.conditional and not before.condition
+            self._checked = self._checked if goes_on else ((), self._last_look())
         elif not self._same_condition(clause):
             if is_rule(clause.condition):
                 said = f"If {plain(clause.condition)}, {plain(clause.words)}"
@@ -86,9 +162,10 @@ class Doing(Meaning):
             )
             if look is None:
                 raise UnclearError(f"How can I tell whether {plain(clause.condition)}?")
-            before = len(self.tasks.steps)
+            self._looked_for_nothing(clause)
+            looked_from = len(self.tasks.steps)
             self.tasks.do(look)
-            self._one_look(before)
+            self._one_look(looked_from)
             self._checked = (clause.condition, len(self.tasks.steps) - 1)
         start, told = len(self.tasks.steps), len(self.tasks.will)
         self._clause(replace(clause, condition=(), conditional=False), alone=False, index=1)

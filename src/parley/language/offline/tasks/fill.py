@@ -10,10 +10,13 @@ from parley.language.offline.scene.grounding import describe, ground_phrase
 from parley.language.offline.scene.scene import Scene
 from parley.language.offline.tasks.catalogue import parameter_role, templates, text_inputs
 from parley.language.offline.tasks.commands import Command
+from parley.language.offline.tasks.slots import kind_on_map
 from parley.language.offline.words.durations import duration_s, without_duration
 from parley.language.offline.words.lexicon import lexicon
+from parley.language.offline.words.naming import kind_of, name_words
 from parley.language.offline.words.nouns import bare, noun_phrase
-from parley.language.offline.words.text import Phrase, keys, lemma, plain, singular, split_name, tokens
+from parley.language.offline.words.quantities import quantities
+from parley.language.offline.words.text import Phrase, keys, lemma, plain, singular, tokens
 from parley.messages.status import ActionInfo
 
 __all__ = ["arguments"]
@@ -26,7 +29,7 @@ _OF_TIME = frozenset({"duration", "time", "seconds", "second", "s", "sec", "secs
 
 def arguments(info: ActionInfo, command: Command, scene: Scene) -> dict[str, Any]:
     """What the command says for the inputs of `info`; inputs that nothing is said for are left out."""
-    spans = any(set(split_name(name)) & _OF_TIME for name in info.inputs)
+    spans = any(set(name_words(name)) & _OF_TIME for name in info.inputs)
     if spans:
         theme, place = without_duration(command.theme), without_duration(command.place)
         command = replace(command, theme=theme, place=place, clause=without_duration(command.clause))
@@ -45,7 +48,7 @@ def _states(info: ActionInfo, command: Command, values: dict[str, Any]) -> Comma
     """For "switch the light off": how it is to be afterwards; the rest of the command is returned."""
     said = [word.key for word in command.clause if word.key in _STATES]
     for name in text_inputs(info):
-        if name not in values and set(split_name(name)) & _OF_STATE and said:
+        if name not in values and set(name_words(name)) & _OF_STATE and said:
             values[name] = said[-1]
             command = _without_state(command, said[-1])
     return command
@@ -71,6 +74,8 @@ def _texts(info: ActionInfo, command: Command, scene: Scene, values: dict[str, A
     parts = (command.theme, command.place, command.recipient, command.words)
     # "Measure the temperature": what the action is about anyway is no value for it.
     spare = [w for w in parts if w and w not in used and not _is_topic(w, info, scene)]
+    if left and kind_on_map(left[0], scene.objects):
+        spare = [w for w in spare if scene.ground(w).outcome != "none" or {w[0].key} & _POINTING]
     if not values and left and spare:
         values[left[0]] = _named(spare[0], scene)
         used.append(spare[0])
@@ -83,18 +88,17 @@ def _texts(info: ActionInfo, command: Command, scene: Scene, values: dict[str, A
             used.append(unused[0])
 
 
+_POINTING = frozenset({"it", "that", "this", "there", "them", "here"})
+
+
 def _is_topic(words: Phrase, info: ActionInfo, scene: Scene) -> bool:
-    topic = {singular(n) for n in split_name(info.name)}
+    topic = {singular(n) for n in name_words(info.name)}
     return scene.ground(words).outcome == "none" and {singular(k) for k in keys(bare(words))} <= topic
 
 
 def _numbers(info: ActionInfo, command: Command, scene: Scene, values: dict[str, Any]) -> None:
     """Numbers for the inputs that take numbers: said now, or in answer to a question about it."""
-    numbers = [
-        float(lexicon().numbers.get(word.key, word.key))
-        for word in command.words
-        if word.key in lexicon().numbers or re.fullmatch(r"-?\d+(?:\.\d+)?", word.key)
-    ]
+    numbers = [quantity.value for quantity in quantities(command.words)]
     for hint in list(scene.hints) if not numbers else ():
         # "How many?" was asked about this before.
         said = [
@@ -105,9 +109,9 @@ def _numbers(info: ActionInfo, command: Command, scene: Scene, values: dict[str,
             scene.hints.remove(hint)
             break
     for name, kind in info.inputs.items():
-        if kind != "number" or "::" in name:
+        if kind_of(kind) != "number" or "::" in name:
             continue
-        span_s = duration_s(command.words) if set(split_name(name)) & _OF_TIME else None
+        span_s = duration_s(command.words) if set(name_words(name)) & _OF_TIME else None
         if span_s is not None:
             values[name] = span_s
         elif numbers:

@@ -10,9 +10,11 @@ from parley.language.offline.scene.scene import OPERATOR, Place, Scene, UnclearE
 from parley.language.offline.tasks.catalogue import Catalogue, call, parameter_role, text_inputs
 from parley.language.offline.tasks.commands import Command
 from parley.language.offline.tasks.fill import arguments
+from parley.language.offline.tasks.roles import number_inputs, pose_inputs
+from parley.language.offline.words.naming import name_words
 from parley.language.offline.words.nouns import bare, noun_phrase
 from parley.language.offline.words.saying import the
-from parley.language.offline.words.text import Phrase, keys, lemma, plain, singular, split_name, tokens
+from parley.language.offline.words.text import Phrase, keys, lemma, plain, singular, tokens
 from parley.messages.chat import ActionCall
 from parley.messages.status import ActionInfo
 from parley.world.geometry import Pose2D
@@ -45,6 +47,8 @@ class Going:
     """Where the steps so far have brought the robot."""
     carried: Phrase = ()
     """What the robot has on board by now."""
+    holds: bool = False
+    """Whether what is brought somewhere is handed to somebody there by the next order."""
     beside: bool = False
     """Whether what is added is to be done while driving: then nothing is driven to for it."""
     seen: Phrase = ()
@@ -56,13 +60,16 @@ class Going:
         return self.scene.catalogue
 
     def _go(self, command: Command) -> None:
+        if self.catalogue.mover is None:
+            raise UnableError(plain(command.clause))
+        if not command.place and self.scene.places and not self.steps:
+            # "The gym. Go."
+            command = replace(command, place=self.scene.places[-1])
         if not command.place:
-            if self.catalogue.mover is None:
-                raise UnableError("drive")
             raise UnclearError("Where should I go?")
         numbers = coordinates(command.place)
         if numbers is not None:
-            self._go_to_numbers(numbers)
+            self._go_to_numbers(numbers, _third(command.place))
             return
         if keys(command.place) in {("here",), ("me",), ("us",), ("operator",)}:
             self.travel(self._recipient_place(OPERATOR), "come to you")
@@ -96,9 +103,13 @@ class Going:
             return None
         return (items[0].x_m + items[1].x_m) / 2, (items[0].y_m + items[1].y_m) / 2
 
-    def _go_to_numbers(self, numbers: tuple[float, float]) -> None:
+    def _go_to_numbers(self, numbers: tuple[float, ...], third: str = "yaw") -> None:
         mover = self.catalogue.mover
-        values = None if mover is None else pose_values(mover, Pose2D(*numbers))
+        values = (
+            None
+            if mover is None
+            else _numbers_for(mover, dict(zip(("x", "y", third), numbers, strict=False)))
+        )
         if mover is None or values is None:
             raise UnableError("drive to coordinates")
         where = f"x {numbers[0]:g} m, y {numbers[1]:g} m"
@@ -120,6 +131,9 @@ class Going:
             steps: list[ActionCall] | None = [call(mover, {texts[0]: place.value}, why)]
         else:
             steps = self.catalogue.chain(mover, {}, place.value, why)
+        if steps is None and place.item is not None:
+            values = _numbers_for(mover, {"x": place.item.x_m, "y": place.item.y_m})
+            steps = None if values is None else [call(mover, values, why)]
         if steps is None:
             raise UnableError("drive there")
         self.steps += [s if s.reason else _with_reason(s, _reason(place, why)) for s in steps]
@@ -165,7 +179,7 @@ class Going:
             return place
         if keys(recipient) == ("operator",):
             raise UnclearError("Where are you? Tell me, and I will remember it.")
-        raise UnclearError(f"Where is {the(plain(recipient))}?")
+        raise UnclearError(f"Where is {the(plain(recipient))}?", about=recipient)
 
     def _place_or_here(self, phrase: Phrase) -> Place | None:
         """Where something is; None if it is said to be where the robot will be."""
@@ -183,6 +197,15 @@ class Going:
 
     def _said(self, info: ActionInfo, words: str, why: str) -> list[ActionCall]:
         texts = text_inputs(info)
+        provider = self.catalogue.handed_over(info, texts[0]) if texts else None
+        if provider is not None:
+            # "Grip (object_id)" after "detect (label)": what the words name has to be found first.
+            found = self.catalogue.chain(provider, {}, words, "") or []
+            last = self.steps[-len(found) :] if found else []
+            known = [(s.name, s.input_parameters) for s in last] == [
+                (s.name, s.input_parameters) for s in found
+            ]
+            return [*(() if known else found), call(info, {}, why)]
         steps = self.catalogue.chain(info, {texts[0]: words} if texts else {}, words, why)
         if steps is None:
             raise UnableError(why)
@@ -193,7 +216,7 @@ class Going:
         values = arguments(info, command, self.scene)
         words = plain(command.place or command.theme or command.words)
         missing = [name for name in text_inputs(info) if name not in values]
-        topic = {singular(word) for word in split_name(info.name)}
+        topic = {singular(word) for word in name_words(info.name)}
         about = {singular(word.key) for word in bare(tokens(words))}
         if words and about <= topic and not self._grounds(tokens(words)):
             words = ""
@@ -206,7 +229,7 @@ class Going:
         numbers = [n for n, k in info.inputs.items() if k == "number" and n not in values and "::" not in n]
         unsaid = [name for name in numbers if name not in info.optional]
         if steps is None and unsaid:
-            name = " ".join(split_name(unsaid[0]))
+            name = " ".join(name_words(unsaid[0]))
             raise UnclearError(f"What should the {name} be for “{plain(command.clause)}”? Please name it.")
         if steps is None:
             raise UnableError(plain(command.clause))
@@ -241,15 +264,11 @@ def _with_reason(step: ActionCall, reason: str) -> ActionCall:
     return step.model_copy(update={"reason": reason})
 
 
-def coordinates(phrase: Phrase) -> tuple[float, float] | None:
-    """Two numbers, if the phrase says nothing but where on the map they are."""
-    numbers = [
-        float(word.key.replace(",", ".")) for word in phrase if re.fullmatch(r"-?\d+(?:[.,]\d+)?", word.key)
-    ]
-    others = {word.key for word in phrase if word.is_word and not word.key.lstrip("-")[:1].isdigit()}
-    known = {
+_AROUND_NUMBERS = frozenset(
+    {
         "x",
         "y",
+        "z",
         "and",
         "coordinates",
         "coordinate",
@@ -260,10 +279,37 @@ def coordinates(phrase: Phrase) -> tuple[float, float] | None:
         "map",
         "m",
         "meters",
-        "the",
-        "is",
+        "metres",
     }
-    return (numbers[0], numbers[1]) if len(numbers) == 2 and others <= known else None
+    | {"the", "is", "facing", "heading", "theta", "yaw", "angle", "with", "an", "a", "of"}
+)
+
+
+def coordinates(phrase: Phrase) -> tuple[float, ...] | None:
+    """Two numbers, or three with a heading, if the phrase says nothing but where on the map they are."""
+    numbers = tuple(
+        float(word.key.replace(",", ".")) for word in phrase if re.fullmatch(r"-?\d+(?:[.,]\d+)?", word.key)
+    )
+    others = {word.key for word in phrase if word.is_word and not word.key.lstrip("-")[:1].isdigit()}
+    return numbers if len(numbers) in {2, 3} and others <= _AROUND_NUMBERS else None
+
+
+def _third(phrase: Phrase) -> str:
+    """What a third number is: a height if it is named so, else a heading."""
+    return "z" if any(word.key == "z" for word in phrase) else "yaw"
+
+
+def _numbers_for(mover: ActionInfo, place: dict[str, float]) -> dict[str, float] | None:
+    """A place as values of an action's numeric inputs; None if it has others as well."""
+    axes = pose_inputs(mover)
+    if set(number_inputs(mover)) - set(axes) - set(mover.optional):
+        return None
+    values = {
+        name: round(place.get(axis, 0.0), 4)
+        for name, axis in axes.items()
+        if axis in place or name not in mover.optional
+    }
+    return values or None
 
 
 def pose_values(mover: ActionInfo, pose: Pose2D) -> dict[str, float] | None:

@@ -10,9 +10,10 @@ from parley.language.offline.tasks.commands import Command
 from parley.language.offline.tasks.docking import Docking
 from parley.language.offline.tasks.going import FORWARD, UnableError
 from parley.language.offline.words.lexicon import lexicon
+from parley.language.offline.words.naming import name_words
 from parley.language.offline.words.nouns import bare, noun_phrase
 from parley.language.offline.words.saying import the
-from parley.language.offline.words.text import Phrase, Word, keys, plain, singular, split_name, tokens
+from parley.language.offline.words.text import Phrase, Word, keys, plain, singular, tokens
 from parley.messages.status import ActionInfo
 
 __all__ = ["ASKING", "Looking"]
@@ -27,6 +28,9 @@ def _start_of(flat: tuple[str, ...], relation: str) -> int:
 
 
 _PICTURES = frozenset({"picture", "pictures", "photo", "photos", "photograph", "image", "snapshot", "pic"})
+_SOMEBODY = frozenset({("he",), ("she",)})
+_PLAIN_LOOKS = frozenset({"check", "look", "inspect", "examine", "have a look", "take a look"})
+_HIDDEN_SIDES = frozenset({"behind", "under", "beneath", "underneath", "below"})
 _GENERAL = frozenset((word,) for word in (
     "things", "everything", "stuff", "anyone", "anybody", "someone", "somebody", "nobody", "everyone",
     "everybody", "anything", "something", "nothing", "all",
@@ -88,7 +92,8 @@ class Looking(Docking):
             return
         if not command.theme:
             request = "whether " + plain(command.words) if command.kind == "whether" else "what can be seen"
-            self._add_look(looker, request, "look around")
+            here = self.here if command.kind == "look" and command.verb in _PLAIN_LOOKS else ""
+            self._add_look(looker, here or request, f"look at {the(here)}" if here else "look around")
             return
         inner = self._inside(command)
         if inner is not None:
@@ -102,9 +107,9 @@ class Looking(Docking):
         """The action to look with: one that is called like the verb, for pictures one that takes them."""
         lookers = self.catalogue.all_with_role("look")
         pictures = bool(_PICTURES & set(keys(command.clause[:4])) or _PICTURES & set(command.verb.split()))
-        taking = [info for info in lookers if _PICTURES & set(split_name(info.name))]
+        taking = [info for info in lookers if _PICTURES & set(name_words(info.name))]
         others = [info for info in lookers if info not in taking]
-        named = (i for i in others if split_name(i.name)[:1] == tuple(command.verb.split()[:1]))
+        named = (i for i in others if name_words(i.name)[:1] == tuple(command.verb.split()[:1]))
         if pictures and taking:
             return taking[0]
         return next(named, None) or next(iter([*others, *taking]), None) or self.catalogue.with_role("search")
@@ -131,7 +136,14 @@ class Looking(Docking):
 
     def _look_there(self, command: Command, looker: ActionInfo) -> None:
         """Something in or at a place: "the shelf for leaks", "whether the cup is on the table"."""
+        members = self.scene.several(command.place)
+        if len(members) > 1 and self.scene.ground(command.place).outcome != "match":
+            for member in members:
+                self._look_there(replace(command, place=member), looker)
+            return
+        there = keys(command.words[:1]) == ("there",) and self._grounds(command.place)
         whole = command.kind == "whether" and self._grounds(command.theme) and not _in_general(command)
+        whole = whole and not there
         stand = self._place_or_here(command.theme if whole else command.place)
         theme = plain(self.scene.referent(command.theme)) if command.theme else ""
         request = self._whether(command) if command.kind == "whether" else theme
@@ -161,23 +173,41 @@ class Looking(Docking):
         part = owned and self.scene.whole(tokens(name)) is not None
         exact = place is not None and place.item is not None and place.via is None and not part
         request = place.value if place is not None and exact else name
+        side = command.verb.removeprefix("look ")
+        if side in _HIDDEN_SIDES and command.verb != side:
+            request = f"{side} {the(request)}"
+            self._stand_at(place)
+            self._add_look(looker, request, f"look {request}")
+            return
         self._stand_at(place)
         self._add_look(looker, request, f"look at {the(request)}")
 
     def _whether(self, command: Command) -> str:
         words, asking = command.words, "how" if command.verb.endswith("how") else "whether"
-        if command.theme and keys(bare(command.theme))[0] in ASKING:
+        somebody = keys(command.theme) in _SOMEBODY and bool(self.scene.persons)
+        if somebody or (command.theme and keys(bare(command.theme))[0] in ASKING):
             subject = the(plain(self.scene.referent(command.theme)))
             rest = words[len(command.theme) :]
             return f"{asking} {subject} {plain(rest)}".strip()
         return f"{asking} {plain(words)}"
 
     def _add_look(self, looker: ActionInfo, request: str, saying: str) -> None:
+        self._sharpen_look(looker, request)
         added = self._said(looker, request, saying)
         same = [step.input_parameters for step in self.steps[-len(added) :]]
         if same != [step.input_parameters for step in added] or self.steps[-1].name != looker.name:
             self.steps += added
             self.will.append(saying)
+
+    def _sharpen_look(self, looker: ActionInfo, request: str) -> None:
+        """Take back a mere look at the place when the next order says what to look for there."""
+        last = self.steps[-1] if self.steps else None
+        if last is None or not self.here or last.name != looker.name or last.flow is not None:
+            return
+        asked = {str(parameter.value).lower() for parameter in last.input_parameters.values()}
+        mere = asked == {self.here.lower()} and self.will[-1:] == [f"look at {the(self.here)}"]
+        if mere and not self._grounds(tokens(request)):
+            del self.steps[-1], self.will[-1]
 
     def _search(self, command: Command) -> None:
         command = self._where_last_said(command)
@@ -201,7 +231,7 @@ class Looking(Docking):
                         plain(known.via.fact.subject) if len(known.via.fact.subject) > len(theme) else words
                     )
             elif not (own or self.here):
-                raise UnclearError(f"Where should I look for {the(words)}?")
+                raise UnclearError(f"Where should I look for {the(words)}?", about=theme)
         self.scene.mention(theme)
         if self._is_somebody(theme) and keys(self.scene.persons[-1] if self.scene.persons else ()) != keys(
             theme
@@ -242,7 +272,12 @@ class Looking(Docking):
     def _wanted(self, theme: Phrase) -> Phrase:
         if not theme:
             raise UnclearError("What should I look for?")
-        return bare(self.scene.referent(theme))
+        meant = bare(self.scene.referent(theme))
+        if keys(bare(theme)) == ("it",) and self.here and plain(meant).lower() == self.here.lower():
+            # "Go to the desk and look for it": not for the desk.
+            others = [t for t in self.scene.things if plain(bare(t)).lower() != self.here.lower()]
+            meant = bare(others[-1]) if others else meant
+        return meant
 
     def _known_place(self, theme: Phrase) -> Place | None:
         if self._grounds(theme):

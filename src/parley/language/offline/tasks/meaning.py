@@ -11,6 +11,7 @@ from parley.language.offline.sentences.wishes import due, missing, need, wish
 from parley.language.offline.tasks.commands import Command, read_command
 from parley.language.offline.words.lexicon import lexicon
 from parley.language.offline.words.nouns import bare
+from parley.language.offline.words.quantities import quantities
 from parley.language.offline.words.saying import the
 from parley.language.offline.words.text import Phrase, Word, keys, lemma, plain, tokens
 
@@ -65,6 +66,39 @@ _NO_NAMES = frozenset({
 """With these no name of a thing begins."""
 
 
+_WANTING = (
+    ("wants", "to"), ("want", "to"), ("would", "like", "to"), ("needs", "to"), ("need", "to"), ("wishes", "to"),
+    ("is", "ready", "to"), ("are", "ready", "to"), ("is", "waiting", "to"), ("are", "waiting", "to"),
+)  # fmt: skip
+
+
+_OUR_WISHES = frozenset((who, verb) for who in ("i", "we") for verb in ("need", "want", "require"))
+
+
+def _what_others_want(words: Phrase) -> Phrase:
+    """For "table 3 wants to order": to order, for table 3; "the row needs 3 litres": to give it to the row."""
+    flat = keys(words)
+    if flat[:2] in _OUR_WISHES and len(flat) > 2 and flat[2] not in {"to", "you"}:
+        return (Word("get", "get"), *words[2:])
+    if flat[:1] in {("i",), ("we",), ("you",)}:
+        return words
+    for index in range(1, len(flat) - 1):
+        size = next((len(want) for want in _WANTING if flat[index : index + len(want)] == want), 0)
+        if size and index + size < len(flat):
+            return (*words[index + size :], Word("for", "for"), *words[:index])
+        if flat[index : index + 3] in {("needs", "to", "be"), ("wants", "to", "be"), ("has", "to", "be")}:
+            verb = lemma(flat[index + 3]) if index + 3 < len(flat) else ""
+            return (Word(verb, verb), *words[:index], *words[index + 4 :]) if verb else words
+        if flat[index] not in {"needs", "need", "wants", "gets", "could"}:
+            continue
+        doing = flat[index + 1]
+        if doing.endswith("ing") and lemma(doing) != doing:
+            return (Word(lemma(doing), lemma(doing)), *words[:index], *words[index + 2 :])
+        if any(quantity.units for quantity in quantities(words[index + 1 :])):
+            return (Word("give", "give"), *words[:index], *words[index + 1 :])
+    return words
+
+
 @dataclass
 class Meaning(Answering):
     """How a clause becomes a command."""
@@ -72,6 +106,9 @@ class Meaning(Answering):
     def _command(self, clause: Clause) -> Command | None:
         command = read_command(clause.words, self.scene.is_person, self.scene.catalogue.verbs)
         words = strip_openers(clause.words)
+        exact = None if command is not None and command.negated else self.tasks.own_match(words)
+        if exact is not None and exact.verb == 1.0 and exact.complete and not opens_command(words[1:]):
+            return Command("catalogue", words[0].key, theme=bare(words[1:]), words=words[1:], clause=words)
         told = lexicon().reporting.match(keys(words))
         if (
             told is not None
@@ -91,7 +128,8 @@ class Meaning(Answering):
             command = self._elliptical(plain_words) or command
         if command is None:
             command = (
-                due(words, self.scene)
+                self._own_deed(words)
+                or due(words, self.scene)
                 or wish(words, self.scene)
                 or need(words, self.scene)
                 or missing(words, self.scene)
@@ -108,13 +146,24 @@ class Meaning(Answering):
             return None
         return command
 
+    def _own_deed(self, words: Phrase) -> Command | None:
+        """For an order that only an action of its own kind understands ("warm the block to 40 degrees")."""
+        said = strip_openers(words, requests=True)
+        words = _what_others_want(said)
+        match = self.tasks.own_match(words, weak=words != said)
+        told = words == said and read_statement(words) is not None
+        if match is None or (told and not (match.complete and not match.filled.left)):
+            return None
+        return Command("catalogue", words[0].key, theme=bare(words[1:]), words=words[1:], clause=words)
+
     def _described(self, words: Phrase) -> Command | None:
         """For a verb that only a phrase, an example or a description of the catalogue knows."""
         flat = keys(strip_openers(words, requests=True))
         if not flat or flat[0] in lexicon().determiners | lexicon().question_starts | lexicon().be:
             return None
         catalogue = self.scene.catalogue
-        if catalogue.by_phrase(flat) is None and catalogue.by_description(flat) is None:
+        known = catalogue.by_phrase(flat) or catalogue.by_description(flat)
+        if known is None and self.tasks.own_match(words, weak=True) is None:
             return None
         words = strip_openers(words, requests=True)
         return Command("other", words[0].key, theme=bare(words[1:]), words=words[1:], clause=words)
@@ -147,6 +196,14 @@ class Meaning(Answering):
             return replace(
                 self.last, place=words, clause=(Word("go", "go"), Word("to", "to"), *words), negated=negated
             )
+        there = self.last.place and self.last.kind in {"look", "search", "count"}
+        if (
+            there
+            and self.scene.ground(words).outcome == "match"
+            and self.scene.ground(self.last.theme).outcome == "none"
+        ):
+            # "Check A for cracks, and B".
+            return replace(self.last, place=words, clause=words, negated=negated)
         place = self.last.place if self.last.kind == "transfer" else ()
         return replace(self.last, theme=words, place=place, source=(), clause=words, negated=negated)
 

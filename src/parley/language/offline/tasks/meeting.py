@@ -13,9 +13,10 @@ from parley.language.offline.tasks.catalogue import call, parameter_role, text_i
 from parley.language.offline.tasks.commands import Command
 from parley.language.offline.tasks.tasks import Tasks
 from parley.language.offline.words.lexicon import lexicon
+from parley.language.offline.words.naming import name_words
 from parley.language.offline.words.nouns import bare
 from parley.language.offline.words.saying import the
-from parley.language.offline.words.text import Phrase, keys, lemma, plain, singular, split_name
+from parley.language.offline.words.text import Phrase, Word, keys, lemma, plain, singular, tokens
 from parley.language.offline.words.wording import asked_directly
 from parley.language.word_lists import load_data
 from parley.messages.status import ActionInfo
@@ -47,9 +48,19 @@ class Meeting(Tasks):
             UnableError: There is no way to get there.
         """
         words = tuple(w for w in strip_openers(strip_openers(words), requests=True) if w.is_word)
-        if len(words) < 3 or self._finder() is None:
+        if self.here and keys(words[-1:]) == ("there",) and words[-2:-1] and words[-2].key.endswith("ing"):
+            words = (*words[:-1], Word("at", "at"), Word("the", "the"), *tokens(self.here))
+        if keys(words) in {("count",), ("count", "please")} and self.steps:
+            counter = self.catalogue.with_role("count")
+            return counter is not None and self.steps[-1].name == counter.name
+        if len(words) < 2 + (keys(words[:1]) != ("count",)):
             return False
         flat = (lemma(words[0].key), *keys(words[1:]))
+        if self._finder() is None:
+            found = lexicon().verbs.match(flat)
+            if self.catalogue.with_role("count") is not None and self._counted(words, flat):
+                return True
+            return found is not None and found[1].startswith("speak:") and self._deed(words, flat)
         return self._counted(words, flat) or self._most(words, flat) or self._deed(words, flat)
 
     def _deed(self, words: Phrase, flat: tuple[str, ...]) -> bool:
@@ -58,6 +69,9 @@ class Meeting(Tasks):
         rest = words[found[0] :] if found is not None else words
         if flat[:4] == ("show", "me", "the", "way"):
             return False
+        rest = self._plainer(verb, rest)
+        if flat[0] in {"have", "let"} and {"ask", "asks"} & set(flat):
+            return self._answered(rest[1:] if found is None else words[1:])
         match kind:
             case "search" | "meet":
                 return self._found(rest)
@@ -77,16 +91,26 @@ class Meeting(Tasks):
                 somebody is not None and not rest[somebody.size + 2 :] and self._found(rest[: somebody.size])
             )
         if flat[0] == "show":
-            return self._led(rest, of_things=False) if "way" in flat else False
+            leads = "way" in flat or ("to" in flat and self.catalogue.with_role("guide") is not None)
+            return self._led(rest, of_things=False) if leads else False
         return self._told("tell", rest[0:]) if flat[0] in {"give", "explain"} else False
+
+    def _plainer(self, verb: str, rest: Phrase) -> Phrase:
+        """What follows a verb, as it would follow "describe" or "look for" alone."""
+        if verb.endswith(" person") and not read_somebody(rest, self.scene):
+            # "Look for person sitting at the desk".
+            return (Word("person", "person"), *rest)
+        if verb.startswith("describe") and keys(rest[:2]) in {("to", "me"), ("to", "us"), ("for", "me")}:
+            return rest[2:]
+        return rest
 
     def _finder(self) -> ActionInfo | None:
         """The action that looks for people, else the one that looks for anything."""
         infos = [*self.catalogue.all_with_role("search"), *self.catalogue.all_with_role("meet")]
-        infos += [i for i in self.catalogue.all_with_role("look") if _PEOPLE & set(split_name(i.name))]
+        infos += [i for i in self.catalogue.all_with_role("look") if _PEOPLE & set(name_words(i.name))]
         people = lexicon().person_words | {"human", "people", "face"}
         for info in infos:
-            said = {singular(word) for word in split_name(info.name)}
+            said = {singular(word) for word in name_words(info.name)}
             if said & people or any(parameter_role(name) == "person" for name in text_inputs(info)):
                 return info
         return next((i for i in infos if not {parameter_role(n) for n in text_inputs(i)} & {"object"}), None)
@@ -298,9 +322,12 @@ class Meeting(Tasks):
         at = at or (1 if flat[:1] == ("count",) else 0)
         if not at:
             return False
-        kept = tuple(w for w in words[at:] if w.key not in {"are", "is", "there"})
+        kept = tuple(w for w in words[at:] if w.key not in {"are", "is", "there", "they"})
         kept = bare(kept[1:]) if keys(kept[:1]) == ("of",) else bare(kept)
         counter = self.catalogue.with_role("count")
+        if keys(kept) in {("them",), ("those",), ("these",)} and self.scene.persons and counter is not None:
+            self._with_counter(counter, Somebody(self.scene.persons[-1], tokens(self.here), 1))
+            return True
         somebody = read_somebody(kept, self.scene)
         if somebody is None or not self._is_worth_it(somebody):
             return False
@@ -318,8 +345,9 @@ class Meeting(Tasks):
 
     def _with_counter(self, counter: ActionInfo, somebody: Somebody) -> None:
         texts = text_inputs(counter)
-        values = {texts[0]: plain(somebody.who)} if texts else {}
-        places = [n for n in texts[1:] if parameter_role(n) == "place"]
+        places = [n for n in texts if parameter_role(n) == "place"]
+        things = [n for n in texts if n not in places]
+        values = {things[0]: plain(somebody.who)} if things else {}
         if places and somebody.where:
             values[places[0]] = self.scene.place(somebody.where).value
         self.steps.append(call(counter, values, f"count the {plain(somebody.who)}"))

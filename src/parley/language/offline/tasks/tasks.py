@@ -6,19 +6,22 @@ is matched against names, phrases and parameters of the catalogue. What cannot b
 
 from __future__ import annotations
 
-from collections.abc import Callable
+import re
 from dataclasses import dataclass, replace
 
 from parley.language.offline.scene.scene import UnclearError
-from parley.language.offline.tasks.carrying import Carrying
 from parley.language.offline.tasks.catalogue import call, parameter_role, text_inputs
-from parley.language.offline.tasks.commands import Command
+from parley.language.offline.tasks.commands import Command, read_command
 from parley.language.offline.tasks.going import UnableError
+from parley.language.offline.tasks.own_kind import OwnKind
+from parley.language.offline.tasks.said import amount, named_of, person_of, place_size, spoken
+from parley.language.offline.tasks.spreading import spread
 from parley.language.offline.words.durations import duration_s, without_duration
 from parley.language.offline.words.lexicon import lexicon
+from parley.language.offline.words.naming import name_words
 from parley.language.offline.words.nouns import bare, noun_phrase
 from parley.language.offline.words.saying import the
-from parley.language.offline.words.text import Phrase, Word, keys, plain, split_name, tokens
+from parley.language.offline.words.text import Phrase, Word, keys, lemma, plain, tokens
 from parley.language.offline.words.wording import asked_directly, turned
 from parley.messages.status import ActionInfo
 
@@ -31,7 +34,7 @@ _HANDING = frozenset(
 
 
 @dataclass
-class Tasks(Carrying):
+class Tasks(OwnKind):
     """The steps for one message, growing command by command."""
 
     def do(self, command: Command) -> None:
@@ -41,6 +44,11 @@ class Tasks(Carrying):
             UnclearError: Something has to be asked first.
             UnableError: Nothing in the catalogue does it.
         """
+        each = spread(command, self.scene.objects)
+        for one in each:
+            self.do(one)
+        if each:
+            return
         start = len(self.steps)
         why = self._add(command)
         names = [step.name for step in self.steps[start:]]
@@ -49,24 +57,50 @@ class Tasks(Carrying):
 
     def _add(self, command: Command) -> str:
         """Add the steps for a command; why just these is returned."""
-        command = self._about_people(command)
+        command = self._own_way(self._about_people(command))
         whole = self.catalogue.by_phrase(keys(command.clause))
         if whole is not None:
             self._invoke_each(whole, command)
             return "one of its phrases is what was said"
+        match = self.own_match(command.clause)
+        if match is not None:
+            self.use_own(match, command.clause)
+            return f"its name and inputs fit what was said ({match.score:.1f})"
         own = self.catalogue.for_verb(command.verb)
+        own = own if own is None or self._may_mean(own, command) else None
         special = own is not None and command.kind in {"catalogue", "other"}
         topical = command.kind in {"other", "transfer", "place", "count", "look", "catalogue", "motion"}
         handing = command.verb in _HANDING or bool(command.recipient)
         named = any(self._grounds(phrase) for phrase in (command.theme, command.place) if phrase)
         if not special and topical and not handing and not (named and command.kind != "other"):
             about = self.catalogue.by_topic(keys(command.clause))
+            about = about if about is None or self._may_mean(about, command) else None
             special, own = about is not None, about or own
         if special and own is not None:
             self._invoke_each(own, command)
             return f"its name, a phrase or an example knows “{command.verb}”"
-        self._by_kind(command)
+        self._by_kind_or_description(command)
         return f"the catalogue's way to do what “{command.verb}” asks for ({command.kind})"
+
+    def _may_mean(self, info: ActionInfo, command: Command) -> bool:
+        """Whether an action that only begins like what is said can be meant: what is named must fit."""
+        if info.phrases or info.examples or info not in self.catalogue.of_own_kind:
+            return True
+        match = self.own_match(command.clause, weak=True, among=(info,), incomplete=True)
+        if match is None or not match.plain:
+            return False
+        return not (match.filled.missing and any(part.grounded for part in match.filled.left))
+
+    def _own_way(self, command: Command) -> Command:
+        """For "fly to A", where that is how this robot gets about: going."""
+        mover = self.catalogue.mover
+        if command.kind not in {"other", "catalogue"} or mover is None or command.negated:
+            return command
+        told = {lemma(word) for word in re.findall(r"[a-z]+", mover.description.lower())}
+        if command.verb.split()[0] not in {*name_words(mover.name), *told}:
+            return command
+        went = read_command((Word("go", "go"), *command.words), self.scene.is_person)
+        return went if went is not None and went.kind == "motion" and went.place else command
 
     def _about_people(self, command: Command) -> Command:
         """Read "them" as somebody where only people can be meant."""
@@ -76,6 +110,24 @@ class Tasks(Carrying):
         them = keys(command.theme) in {("them",), ("they",)}
         return replace(command, theme=persons[-1]) if them else command
 
+    def _by_kind_or_description(self, command: Command) -> None:
+        """As its kind of task is done, else by an action whose description has all that is said.
+
+        Raises:
+            UnclearError: Something has to be asked first.
+            UnableError: Nothing in the catalogue does it.
+        """
+        kept = len(self.steps), len(self.will), len(self.notes), self.here, self.carried
+        try:
+            self._by_kind(command)
+        except (UnclearError, UnableError):
+            match = self.own_match(command.clause, weak=True)
+            if match is None:
+                raise
+            del self.steps[kept[0] :], self.will[kept[1] :], self.notes[kept[2] :]
+            self.here, self.carried = kept[3:]
+            self.use_own(match, command.clause)
+
     def _by_kind(self, command: Command) -> None:
         match command.kind:
             case "motion":
@@ -83,7 +135,7 @@ class Tasks(Carrying):
             case "back":
                 self._back(command)
             case "look" | "whether":
-                self._look(command)
+                self._look_or_tell(command)
             case "search" | "meet":
                 self._search(command)
             case "transfer":
@@ -103,6 +155,14 @@ class Tasks(Carrying):
             case _:
                 self._other(command)
 
+    def _look_or_tell(self, command: Command) -> None:
+        """Look, but for "say whether you saw them", where there is nothing to look at."""
+        tells = command.kind == "whether" and command.verb.split()[0] in {"say", "tell", "report", "let"}
+        if tells and keys(command.words[:1]) == ("you",) and self.catalogue.with_role("speak") is not None:
+            self._speak(replace(command, verb="say"))
+        else:
+            self._look(command)
+
     def _invoke_each(self, info: ActionInfo, command: Command) -> None:
         """An action of its own kind, once for everything that is named."""
         command = self._at_its_place(info, replace(command, theme=without_duration(command.theme)))
@@ -112,7 +172,7 @@ class Tasks(Carrying):
             self._invoke(info, command)
             return
         verb = command.clause[: len(command.clause) - len(command.words)]
-        tail = _amount(command.words)
+        tail = amount(command.words)
         for member in members:
             words = (*member, *tail)
             self._invoke(info, replace(command, theme=member, words=words, clause=(*verb, *words)))
@@ -127,8 +187,8 @@ class Tasks(Carrying):
         if self.catalogue.mover is None or command.verb not in keys(command.clause[:1]) or command.place:
             return command
         anchor = noun.anchors[0]
-        amount = _amount(anchor)
-        anchor = anchor[: len(anchor) - len(amount)] if amount else anchor
+        much = amount(anchor)
+        anchor = anchor[: len(anchor) - len(much)] if much else anchor
         if self._is_one(theme) or not self._grounds(anchor):
             return command
         left = bare(theme[: _start_of(keys(theme), noun.relation)])
@@ -137,9 +197,7 @@ class Tasks(Carrying):
             return replace(command, theme=left, place=anchor)
         self._stand_at(self.scene.place(anchor))
         said = command.words[: _start_of(keys(command.words), noun.relation)]
-        return replace(
-            command, theme=left, words=(*said, *amount), clause=(*command.clause[:1], *said, *amount)
-        )
+        return replace(command, theme=left, words=(*said, *much), clause=(*command.clause[:1], *said, *much))
 
     def _is_one(self, theme: Phrase) -> bool:
         """Whether words name something on the map, where it is said to be included."""
@@ -148,7 +206,15 @@ class Tasks(Carrying):
 
     def _other(self, command: Command) -> None:
         info = self.catalogue.for_verb(command.verb) or self.catalogue.for_verb(command.verb.split()[0])
+        info = info if info is not None and self._may_mean(info, command) else None
         info = info or self.catalogue.with_role(command.kind)
+        if command.kind == "answer":
+            if info is not None and self.steps and self.steps[-1].name == info.name:
+                # "Let A ask you something and answer it".
+                return
+            command = self._question_of(command, info)
+        if command.kind == "count" and info is not None:
+            command = self._counted_there(command, info)
         reads = command.verb == "read" and bool(self.here or self._grounds(command.theme[-2:]))
         if info is None and (command.kind == "count" or reads):
             self._look(replace(command, kind="look"))
@@ -156,10 +222,38 @@ class Tasks(Carrying):
         if info is None and command.kind == "wait":
             self._wait(command)
             return
+        match = self.own_match(command.clause, weak=True) if info is None else None
+        if match is not None:
+            self.use_own(match, command.clause)
+            return
         info = info or self.catalogue.by_description(keys(command.clause))
-        if info is None:
+        if info is None or not self._may_mean(info, command):
             raise UnableError(plain(command.clause))
         self._invoke_each(info, command)
+
+    def _counted_there(self, command: Command, info: ActionInfo) -> Command:
+        """For "how many cups are on the table", where the action takes the place apart."""
+        noun = noun_phrase(command.theme)
+        takes_place = any(parameter_role(name) == "place" for name in text_inputs(info))
+        if not takes_place or len(text_inputs(info)) < 2 or command.place or len(noun.anchors) != 1:
+            return command
+        if not noun.core or not self._grounds(noun.anchors[0]):
+            return command
+        self._stand_at(self.scene.place(noun.anchors[0]))
+        theme = bare(command.theme[: _start_of(keys(command.theme), noun.relation)])
+        return replace(command, theme=theme, words=theme, place=noun.anchors[0])
+
+    def _question_of(self, command: Command, info: ActionInfo | None) -> Command:
+        """What is to be answered, and whose question it is."""
+        question = tokens("question")
+        pointing = keys(command.theme) in {(), ("it",), ("them",), ("that",)}
+        command = replace(command, theme=question, words=question) if pointing else command
+        whose = (
+            any(parameter_role(name) == "person" for name in text_inputs(info)) if info is not None else False
+        )
+        if whose and self.scene.persons and not command.recipient:
+            return replace(command, recipient=self.scene.persons[-1])
+        return command
 
     def _with_somebody(self, command: Command) -> None:
         if command.kind == "guide":
@@ -173,7 +267,7 @@ class Tasks(Carrying):
         if info is None:
             self._other(command)
             return
-        person = _person_of(command.theme)
+        person = person_of(command.theme)
         where = command.source or next(iter(noun_phrase(command.theme).anchors), ())
         if where:
             self._stand_at(self.scene.place(where))
@@ -190,6 +284,8 @@ class Tasks(Carrying):
         if guide is not None or not goal or self.catalogue.mover is None:
             self._other(command)
             return
+        if command.theme and self.scene.is_person(command.theme):
+            self._stand_at_person(bare(self.scene.referent(command.theme)))
         self.notes.append("I go ahead; whoever comes along can follow me.")
         self.travel(self.scene.place(goal), f"lead the way to {plain(goal)}")
 
@@ -234,7 +330,7 @@ class Tasks(Carrying):
             said = self._find_out(bare(command.words[1:]))
         if all(parameter_role(name) == "person" for name in texts) and listener:
             # "Greet A" by an action of that name.
-            who = plain(_person_of(listener))
+            who = plain(person_of(listener))
             self.steps.append(call(speaker, {texts[0]: who}, plain(command.clause)))
             self.will.append(f"{command.verb} {the(who)}")
             return
@@ -245,7 +341,7 @@ class Tasks(Carrying):
         name = next((n for n in texts if parameter_role(n) == "text"), texts[0])
         values = {name: text}
         values |= {
-            n: plain(_person_of(listener))
+            n: plain(person_of(listener))
             for n in texts
             if n != name and parameter_role(n) == "person" and listener
         }
@@ -256,7 +352,7 @@ class Tasks(Carrying):
         """The action to speak with: the one that is called like the verb, else one that takes any text."""
         speakers = self.catalogue.all_with_role("speak")
         first = command.verb.split()[0]
-        named = next((info for info in speakers if split_name(info.name)[:1] == (first,)), None)
+        named = next((info for info in speakers if name_words(info.name)[:1] == (first,)), None)
         free = (i for i in speakers if any(parameter_role(n) != "person" for n in text_inputs(i)))
         return named or next(free, None)
 
@@ -267,7 +363,7 @@ class Tasks(Carrying):
         here = self.scene.persons[-1] if self.scene.persons and self.here and not listener else ()
         if here and self._speaker(command) is not None:
             # "Find P and ask their name".
-            self._speak(replace(command, words=(*here, *_named_of(command.words))))
+            self._speak(replace(command, words=(*here, *named_of(command.words))))
             return
         asker = self.catalogue.with_role("ask_operator")
         if self._speaker(command) is not None and listener and not operator:
@@ -294,13 +390,13 @@ class Tasks(Carrying):
             (
                 said[i + size :]
                 for i in range(len(flat))
-                if (size := _place_size(flat, i)) and self._grounds(said[i + size :])
+                if (size := place_size(flat, i)) and self._grounds(said[i + size :])
             ),
             (),
         )
         if place and noun.core:
             self._stand_at(self.scene.place(place))
-            who = _person_of(said[flat.index("of") + 1 :]) if "of" in flat else ()
+            who = person_of(said[flat.index("of") + 1 :]) if "of" in flat else ()
             start = len(said) - len(place)
             who = tuple(word for word in who if word in said[:start])
             if who and self.scene.is_person(who[:2] if len(who) > 1 else who):
@@ -326,96 +422,3 @@ _NO_PLACE = frozenset({"of", "with", "from", "for", "against"})
 def _start_of(flat: tuple[str, ...], relation: str) -> int:
     wanted = tuple(relation.split())
     return next((i for i in range(len(flat)) if flat[i : i + len(wanted)] == wanted), len(flat))
-
-
-def _named_of(words: Phrase) -> Phrase:
-    """For "(ask) their name": what their name is."""
-    if keys(words[:1]) in {("their",), ("his",), ("her",)}:
-        return (*tokens("what their"), *words[1:], *tokens("is"))
-    return words
-
-
-def _amount(words: Phrase) -> Phrase:
-    """How much is said behind what is acted on: "(every box) with 3 litres", "for ten seconds"."""
-    flat = keys(words)
-    counted = (i for i in range(1, len(flat)) if flat[i].isdigit() or flat[i] in lexicon().numbers)
-    at = next((i for i in counted if flat[i - 1] in {"with", "for", "to", "by", "at"}), 0)
-    return words[at - 1 :] if at > 1 else ()
-
-
-def _place_size(flat: tuple[str, ...], index: int) -> int:
-    found = lexicon().places.match(flat, index)
-    return (
-        found[0]
-        if found is not None and index and flat[index] != "of" and index + found[0] < len(flat)
-        else 0
-    )
-
-
-def _person_of(words: Phrase) -> Phrase:
-    """Without where the person is."""
-    relation = tuple(noun_phrase(words).relation.split())
-    flat = keys(words)
-    end = next(
-        (i for i in range(len(flat)) if relation and flat[i : i + len(relation)] == relation), len(flat)
-    )
-    return bare(words[:end])
-
-
-def _placed_listener(words: Phrase, size: int) -> int:
-    """For "P at the desk that S": where S begins; 0 if P stands alone."""
-    flat = keys(words)
-    if lexicon().places.match(flat, size) is None:
-        return 0
-    return next(
-        (
-            i
-            for i in range(size + 2, len(flat))
-            if flat[i] in {"that", "to", "about", "what", "how", "who", "when", "where"}
-        ),
-        0,
-    )
-
-
-def spoken(command: Command, is_person: Callable[[Phrase], bool]) -> tuple[Phrase, Phrase]:
-    """What is to be said and to whom: "tell P that S", "say S to P", "greet P"."""
-    marks = [i for i, word in enumerate(command.words) if word.key == '"']
-    if len(marks) > 1:
-        outside = tuple(w for w in (*command.words[: marks[0]], *command.words[marks[-1] + 1 :]) if w.is_word)
-        outside = outside[1:] if keys(outside[:1]) == ("to",) else outside
-        return tuple(w for w in command.words[marks[0] + 1 : marks[-1]] if w.key != '"'), outside
-    words = tuple(word for word in command.words if word.is_word)
-    hello = (Word("hello", "hello"),)
-    if command.verb in {
-        "greet",
-        "salute",
-        "welcome",
-        "say hello to",
-        "say hi to",
-        "introduce yourself to",
-        "talk to",
-        "speak to",
-        "speak with",
-        "talk with",
-        "chat with",
-        "have a word with",
-    }:
-        return hello, words
-    flat = keys(words)
-    if command.verb in {"ask", "tell", "inform", "notify", "remind", "warn", "alert"}:
-        for size in range(min(3, len(words)), 0, -1):
-            if is_person(words[:size]):
-                placed = _placed_listener(words, size)
-                if placed:
-                    rest = words[placed:]
-                    return (rest[1:] if keys(rest[:1]) in {("that",), ("about",), ("to",)} else rest), words[
-                        :placed
-                    ]
-                rest = words[size:]
-                return (rest[1:] if keys(rest[:1]) in {("that",), ("about",), ("to",)} else rest), words[
-                    :size
-                ]
-    for index in range(len(flat) - 2, 0, -1):
-        if flat[index] == "to" and is_person(_person_of(words[index + 1 :])):
-            return words[:index], words[index + 1 :]
-    return (words[1:] if flat[:1] == ("that",) and len(words) > 2 else words), ()

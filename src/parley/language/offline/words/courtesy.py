@@ -53,6 +53,9 @@ def _without_frame(sentence: Phrase) -> Phrase:
         at += 1
     for cut in range(min(at, len(flat) - 1), 2, -1):
         lead = flat[:cut]
+        if "not" in lead and not _COURTEOUS_DENIAL & set(lead):
+            # "I do not want you to V" is no courtesy.
+            continue
         if lead[-1] not in _LAST or not set(lead) & _MODAL or not {"you", "trouble", "bother"} & set(lead):
             continue
         found = lexicon().verbs.match(flat, cut)
@@ -62,6 +65,7 @@ def _without_frame(sentence: Phrase) -> Phrase:
     return sentence
 
 
+_COURTEOUS_DENIAL = frozenset({"mind", "trouble", "bother", "if", "too", "whether", "inconvenient", "suppose", "why", "disturb"})
 _TAKING_BACK = frozenset(
     (word, ",") for word in ("sorry", "oops", "no", "wait", "actually", "ah", "oh", "my")
 )
@@ -116,7 +120,8 @@ def _apart(words: Phrase) -> Phrase:
 def _tells(flat: tuple[str, ...], index: int) -> bool:
     """Whether a sentence about the speaker begins in words dictated without a mark."""
     starts = flat[index] in {"i", "we", "my", "there"} and flat[index + 1 : index + 2] != ()
-    link = flat[index + 1] in lexicon().be | {"have"} if starts else False
+    having = {"have"} - ({"have"} if flat[index] == "there" else set())
+    link = flat[index + 1] in lexicon().be | having if starts else False
     return starts and (link or flat[index] == "my") and flat[index - 1] not in _SUBORDINATE
 
 

@@ -14,7 +14,7 @@ class Decision:
 
     about: str
     """What was decided: `words`, `control`, `target`, `clause`, `recast`, `frame`, `action`, `argument`,
-    `answer`, `memory`, `edit`, `question`."""
+    `answer`, `memory`, `edit`, `question`, `reading` (how a way to read the message was judged)."""
     text: str
     """The decision as a readable line."""
 

@@ -18,6 +18,9 @@ class PhraseTable:
     def __init__(self, phrases: Mapping[str, str]) -> None:
         self._table = {tuple(phrase.split()): value for phrase, value in phrases.items()}
         self._longest = max((len(key) for key in self._table), default=0)
+        self._by_first: dict[str, int] = {}
+        for key in self._table:
+            self._by_first[key[0]] = max(self._by_first.get(key[0], 0), len(key))
 
     @classmethod
     def of(cls, phrases: Iterable[str]) -> PhraseTable:
@@ -29,7 +32,9 @@ class PhraseTable:
 
     def match(self, words: tuple[str, ...], start: int = 0) -> tuple[int, str] | None:
         """The longest phrase that begins at `start`: how many words, and its value."""
-        for length in range(min(self._longest, len(words) - start), 0, -1):
+        if start >= len(words) or words[start] not in self._by_first:
+            return None
+        for length in range(min(self._by_first[words[start]], len(words) - start), 0, -1):
             value = self._table.get(words[start : start + length])
             if value is not None:
                 return length, value
@@ -94,6 +99,8 @@ class Lexicon:
     """Words whose ``'s`` is always "is"."""
     after_is: frozenset[str]
     """Words before which ``'s`` is "is" and no possessive."""
+    states: frozenset[str]
+    """What things are said to be, after a short "is"."""
     foreign: frozenset[str]
     """Small words of other languages."""
     prohibitions: PhraseTable
@@ -187,6 +194,7 @@ def lexicon() -> Lexicon:
         contractions=words["contractions"]["words"],
         is_subjects=frozenset(words["contractions"]["subjects"]),
         after_is=frozenset(words["contractions"]["before"]),
+        states=frozenset(words["contractions"]["states"]),
         foreign=foreign,
         prohibitions=PhraseTable.of(words["prohibitions"]),
         everybody=PhraseTable.of(words["everybody"]),

@@ -4,8 +4,10 @@ from __future__ import annotations
 
 import re
 from functools import cache
+from itertools import pairwise
 
 from parley.language.base import Situation
+from parley.language.offline.words.inflecting import forms
 from parley.language.offline.words.lexicon import lexicon
 from parley.language.offline.words.text import Phrase, Word, mend, split_name, tokens
 from parley.language.word_lists import load_data
@@ -18,9 +20,16 @@ _LOOKS = frozenset(
 """Words about looks, which are no typing errors."""
 
 
+_INCIDENTS = load_data("incidents")
+_REPORTED = forms(_INCIDENTS["events"]) | frozenset(
+    word for kind in ("events", "happened", "states", "things") for word in _INCIDENTS[kind]
+)
+"""Words for what people report, which are no typing errors."""
+
+
 def mended(words: Phrase, situation: Situation) -> Phrase:
     """Typing errors in small words and verbs put right; nouns are compared loosely later."""
-    known = set(lexicon().vocabulary | _LOOKS)
+    known = set(lexicon().vocabulary | _LOOKS | _REPORTED)
     words = _apart(words, situation)
     for item in situation.objects:
         known.update(
@@ -84,6 +93,7 @@ def _apart(words: Phrase, situation: Situation) -> Phrase:
     """Words written together or cut in the wrong place ("box1", "tot he box"), and "2" for "to"."""
     texts = (f"{item.description} {item.class_name}" for item in situation.objects)
     named = {word.key for text in texts for word in tokens(text)}
+    compounds = _compounds(situation)
     result: list[Word] = []
     words = tuple(_unstretched(word) for word in words)
     for at in range(len(words) - 1):
@@ -99,14 +109,36 @@ def _apart(words: Phrase, situation: Situation) -> Phrase:
             result += [Word(word.key[:-1], word.raw[:-1]), Word("the", "the")]
             index += 2
             continue
-        if label and word.key not in named and label[1] in named and label[2] in named:
+        if word.key in compounds and word.key not in named:
+            result += [Word(part, part) for part in compounds[word.key]]
+        elif label and word.key not in named and label[1] in named and label[2] in named:
             result += [Word(label[1], label[1]), Word(label[2], label[2])]
-        elif word.key == "2" and index and (following in _ARTICLES or flat[index - 1] in _GOING):
+        elif word.key in _SHORTHAND and "n" not in named and 0 < index < len(words) - 1:
+            short = _SHORTHAND[word.key]
+            fits = word.key != "4" or flat[index - 1] in {"look", "search", "wait", "check"}
+            result.append(Word(short, short) if fits else word)
+        elif (
+            word.key == "2"
+            and index
+            and (following in _ARTICLES or flat[index - 1] in _GOING)
+            and not {"2", flat[index - 1]} <= set(named)
+        ):
             result.append(Word("to", "to"))
         else:
             result.append(word)
         index += 1
     return tuple(result)
+
+
+def _compounds(situation: Situation) -> dict[str, tuple[str, ...]]:
+    """Names of two words as they are written together: "livingroom"."""
+    found: dict[str, tuple[str, ...]] = {}
+    for item in situation.objects:
+        name = tuple(word.key for word in tokens(item.description))
+        for first, second in pairwise(name):
+            if len(first) > 2 and len(second) > 2:
+                found[first + second] = (first, second)
+    return found
 
 
 def _unstretched(word: Word) -> Word:
@@ -118,12 +150,47 @@ def _unstretched(word: Word) -> Word:
     return word
 
 
+_SHORTHAND = {"n": "and", "4": "for"}
 _GOING = frozenset({"go", "drive", "come", "move", "head", "walk", "navigate", "return", "back", "over"})
 _BEFORE_THE = frozenset({"to", "in", "on", "at", "a", "for", "of", "by", "from", "into", "near", "and"})
 _HASTE = frozenset(
-    ["quick", "brief", "short", "close", "closer", "good", "proper", "careful", "thorough", "little", "nice"]
+    [
+        "quick",
+        "brief",
+        "short",
+        "close",
+        "closer",
+        "good",
+        "proper",
+        "careful",
+        "thorough",
+        "little",
+        "nice",
+        "visual",
+        "full",
+        "complete",
+        "routine",
+        "detailed",
+        "rapid",
+    ]
 )
-_DEEDS = frozenset(["look", "peek", "glance", "visit", "picture", "photo", "trip", "stop", "check", "round"])
+_DEEDS = frozenset(
+    [
+        "look",
+        "peek",
+        "glance",
+        "visit",
+        "picture",
+        "photo",
+        "trip",
+        "stop",
+        "check",
+        "round",
+        "inspection",
+        "survey",
+        "scan",
+    ]
+)
 
 
 def _without_haste(words: Phrase) -> Phrase:

@@ -6,11 +6,29 @@
 from __future__ import annotations
 
 from collections.abc import Collection
+from functools import lru_cache
 
 from parley.language.offline.words.text import lemma, split_name
 from parley.language.word_lists import load_data
 
-__all__ = ["role_by_any_word"]
+__all__ = ["kind_of", "name_words", "role_by_any_word"]
+
+_SHORT: dict[str, list[str]] = {short: text.split() for short, text in load_data("names")["short"].items()}
+_KINDS: dict[str, str] = {
+    other: kind for kind, others in load_data("names")["types"].items() for other in (kind, *others)
+}
+
+
+@lru_cache(maxsize=4096)
+def name_words(name: str) -> tuple[str, ...]:
+    """The words of a name in any style, written out: "navGoal" is navigate, goal; "takeoff" take, off."""
+    return tuple(word for part in split_name(name) for word in _SHORT.get(part, [part]) if not part.isdigit())
+
+
+def kind_of(kind: str) -> str:
+    """The native type that a type's name stands for ("float" is "number"), else the name itself."""
+    return _KINDS.get(kind.lower(), kind)
+
 
 _ROLES = {
     role: (frozenset(entry["words"]), frozenset(entry["needs"]), frozenset(entry["without"]))
@@ -25,7 +43,7 @@ def role_by_any_word(name: str, inputs: Collection[str]) -> frozenset[str]:
         name: Of the action.
         inputs: What each of its inputs in words is for: place, person, text, object, or empty.
     """
-    words = {word for part in split_name(name) for word in (part, lemma(part))}
+    words = {word for part in name_words(name) for word in (part, lemma(part))}
     found = {
         role
         for role, (telling, needs, without) in _ROLES.items()

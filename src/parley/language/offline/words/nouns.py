@@ -72,7 +72,7 @@ def bare(phrase: Phrase) -> Phrase:
         if not size or size >= len(words):
             break
         sided = words[-1].key == "right" or words[-1].key in lex.ordinals
-        if size == 1 and sided and words[-2].key in lex.determiners - {"a"}:
+        if size == 1 and sided and words[-2].key in lex.determiners | {"far", "very"} - {"a"}:
             # "The door on the right": a side, no manner.
             break
         words = words[:-size]
@@ -213,7 +213,14 @@ def coordinated(phrase: Phrase) -> list[Phrase]:
             current.append(index)
     if current:
         members.append(bare(tuple(phrase[i] for i in current)))
-    return [member for member in members if member]
+    return [cleared for member in members if (cleared := _without_also(member))]
+
+
+def _without_also(member: Phrase) -> Phrase:
+    """For "(A and) also the desk" the desk."""
+    while len(member) > 1 and member[0].key in {"also", "then", "even", "maybe", "perhaps", "especially", "finally"}:
+        member = bare(member[1:])
+    return member
 
 
 def _first_relation(phrase: Phrase) -> tuple[int, int]:

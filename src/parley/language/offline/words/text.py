@@ -27,7 +27,8 @@ class Word:
     @property
     def is_word(self) -> bool:
         """Whether it is not punctuation."""
-        return self.key.lstrip("-")[:1].isalnum()
+        first = self.key[:1]
+        return first.isalnum() or (first == "-" and self.key.lstrip("-")[:1].isalnum())
 
     @property
     def is_capital(self) -> bool:
@@ -41,6 +42,8 @@ _TOKEN = re.compile(
     r"(?<![^\s(,;])-\d+(?:[.,]\d+)*|\d+(?:[.,]\d+)+|[^\W_]+(?:['-][^\W_]+)*'?|\.{2,}|[.,!?;:()\"]|\n",
     re.UNICODE,
 )
+_QUOTED = re.compile(r"(?<!\w)'(\S[^'\n]*\s[^'\n]*)'(?!\w)")
+"""Several words between single quotation marks."""
 _DASH = re.compile(r"\s+(?:[-=]+>|-+|[–—→])\s+")
 """Between words it parts them like a comma."""
 _SUFFIX = {"n't": "not", "'re": "are", "'m": "am", "'ve": "have", "'ll": "will", "'d": "would"}
@@ -54,16 +57,28 @@ def tokens(text: str) -> Phrase:
     """
     text = unicodedata.normalize("NFC", text).replace("’", "'").replace("‘", "'").replace("`", "'")
     text = text.replace("“", '"').replace("”", '"').replace("„", '"')
+    text = _QUOTED.sub(r'"\1"', text)
     text = _DASH.sub(" , ", text).replace(" & ", " and ")
     raw = [match.group() for match in _TOKEN.finditer(text)]
     result: list[Word] = []
     for index, piece in enumerate(raw):
         following = raw[index + 1].lower() if index + 1 < len(raw) else ""
-        result.extend(_expand(piece, following))
+        behind = raw[index + 2].lower() if index + 2 < len(raw) else "."
+        result.extend(_expand(piece, following, behind))
     return tuple(result)
 
 
-def _expand(piece: str, following: str) -> list[Word]:
+_ANYBODY = frozenset(
+    {"somebody", "someone", "everybody", "everyone", "nobody", "anybody", "something", "anyone"}
+)
+_BEHIND_STATE = frozenset({
+    "now", "so", "and", "but", "again", "because", "at", "in", "on", "by", "with", "to", "until", "since",
+    "today", "already", "too", "for", "please", "then", "or", "all", "as", "after", "before", "tonight", "up", "down", "anyway", "yet", "right",
+})  # fmt: skip
+"""What follows "the box's empty", as against "the box's empty lid"."""
+
+
+def _expand(piece: str, following: str, behind: str) -> list[Word]:
     low = piece.lower()
     if low in lexicon().contractions:
         parts = lexicon().contractions[low].split()
@@ -74,7 +89,10 @@ def _expand(piece: str, following: str) -> list[Word]:
             return [Word(stem.lower(), stem), Word(meaning, meaning)]
     if low.endswith("'s") and len(low) > 2:
         stem = piece[:-2]
-        if stem.lower() in lexicon().is_subjects or following in lexicon().after_is:
+        anybody = stem.lower() in _ANYBODY and (following.endswith("ing") or following in lexicon().states)
+        ends = behind in _BEHIND_STATE or not behind[0].isalnum()
+        said = anybody or (following in lexicon().states and ends)
+        if stem.lower() in lexicon().is_subjects or following in lexicon().after_is or said:
             return [Word(stem.lower(), stem), Word("is", "is")]
     # "The boxes' lids" keeps its mark where it is repeated to people.
     return [Word(low.rstrip("'"), piece if low.endswith("s'") else piece.rstrip("'"))]
@@ -82,7 +100,7 @@ def _expand(piece: str, following: str) -> list[Word]:
 
 def keys(phrase: Iterable[Word]) -> tuple[str, ...]:
     """What is compared, word by word."""
-    return tuple(word.key for word in phrase)
+    return tuple([word.key for word in phrase])
 
 
 def plain(phrase: Sequence[Word]) -> str:
@@ -148,11 +166,16 @@ def split_name(name: str) -> tuple[str, ...]:
     return tuple(re.findall(r"[a-z]+|\d+", spaced.lower()))
 
 
-def closest(word: str, vocabulary: Iterable[str]) -> str | None:
+def closest(word: str, vocabulary: Iterable[str], *, dropped: bool = False) -> str | None:
     """The one word that `word` is a typing error of, or None.
 
     Letters, digits and short words are never errors of one another; the first letter must be right unless two
     letters are swapped.
+
+    Args:
+        word: What was typed.
+        vocabulary: What may be meant.
+        dropped: Whether even in a word of four letters one may have been left out.
     """
     if len(word) < 3 or not word.isalpha():
         return None
@@ -162,7 +185,9 @@ def closest(word: str, vocabulary: Iterable[str]) -> str | None:
         if abs(len(known) - len(word)) > limit or len(known) < 3 or not known.isalpha():
             continue
         swapped = sorted(known) == sorted(word)
-        if min(len(word), len(known)) < 5 and not swapped and {len(word), len(known)} != {4, 5}:
+        lengths = {len(word), len(known)}
+        short = min(lengths) < 5 and lengths != {4, 5} and not (dropped and lengths == {3, 4})
+        if short and not swapped:
             continue
         if known[0] != word[0] and not swapped:
             continue
@@ -226,7 +251,7 @@ def mend(phrase: Phrase, known: frozenset[str], small: frozenset[str], verbs: fr
     """
     result: list[Word] = []
     for index, word in enumerate(phrase):
-        name = word.is_capital and index > 0 and not word.raw.isupper()
+        name = word.is_capital and not word.raw.isupper() and (index > 0 or _is_subject(phrase))
         if not word.is_word or word.key in known or name or _inflected(word.key, known):
             result.append(word)
             continue
@@ -237,6 +262,11 @@ def mend(phrase: Phrase, known: frozenset[str], small: frozenset[str], verbs: fr
             better = near[0] if len(near) == 1 else None
         result.append(replace(word, key=better, raw=better) if better else word)
     return tuple(result)
+
+
+def _is_subject(phrase: Phrase) -> bool:
+    """Whether a message begins with a name of which something is said ("Charly is in the hall")."""
+    return len(phrase) > 2 and phrase[1].key in lexicon().be | {"has", "wants", "needs", "would", "and"}
 
 
 def _inflected(word: str, known: frozenset[str]) -> bool:

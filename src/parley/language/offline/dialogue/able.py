@@ -1,0 +1,76 @@
+"""Questions about what the robot is able to do: "can you carry things?", "are you able to dance?"."""
+
+from __future__ import annotations
+
+from parley.language.offline.dialogue.about_map import Answer
+from parley.language.offline.scene.scene import Scene
+from parley.language.offline.tasks.abilities import abilities, cannot
+from parley.language.offline.words.lexicon import lexicon
+from parley.language.offline.words.text import Phrase, Word, lemma, plain, singular
+
+__all__ = ["KNOWING_HOW", "able"]
+
+KNOWING_HOW = ("do", "you", "know", "how", "to")
+"""How a question about a skill begins that would else be one about knowledge."""
+
+_ABLE = (
+    ("are", "you", "able", "to"),
+    ("can", "you"),
+    ("could", "you"),
+    ("do", "you", "know", "how", "to"),
+    ("are", "you", "capable", "of"),
+)
+_GENERIC = frozenset(
+    [
+        "thing",
+        "object",
+        "something",
+        "stuff",
+        "people",
+        "person",
+        "item",
+        "place",
+        "anything",
+        "someone",
+        "somebody",
+        "around",
+    ]
+)
+
+
+def able(words: Phrase, flat: tuple[str, ...], scene: Scene) -> Answer | None:
+    """For "can you carry things?", "are you able to drive?": about abilities, not about doing it now."""
+    size = next((len(start) for start in _ABLE if flat[: len(start)] == start), 0)
+    if not size or size >= len(flat):
+        return None
+    base = (lemma(flat[size]), *flat[size + 1 :])
+    found = lexicon().verbs.match(base)
+    rest = flat[size + found[0] :] if found is not None else ()
+    asks = flat[:size] not in {("can", "you"), ("could", "you")}
+    if found is None:
+        own = scene.catalogue.for_verb(base[0]) or scene.catalogue.by_description(base)
+        unable = asks and own is None and len(base) > 1
+        return Answer(cannot(plain((Word(base[0], base[0]), *words[size + 1 :])), scene)) if unable else None
+    own = scene.catalogue.for_verb(base[0]) or scene.catalogue.by_description(base)
+    if asks and found[1].startswith("other:") and own is None:
+        return Answer(cannot(plain((Word(base[0], base[0]), *words[size + 1 :])), scene))
+    indefinite = asks and (
+        not rest or rest[0] in {"a", "an", "any", "some"} or singular(rest[-1]) != rest[-1]
+    )
+    if any(singular(word) not in _GENERIC for word in rest) and not indefinite:
+        return None
+    kind = found[1].partition(":")[0]
+    said = plain((Word(base[0], base[0]), *words[size + 1 :]))
+    roles = {"whether": {"look"}, "transfer": {"fetch", "grasp", "ask_operator"}, "back": {"motion"}}.get(
+        kind, {kind}
+    )
+    if (
+        kind in {"transfer", "grasp", "place"}
+        and scene.catalogue.with_role("fetch", "grasp") is None
+        and own is None
+    ):
+        text = f"I cannot {said} by myself: somebody has to put things on me. {abilities(scene)}"
+        return Answer(text)
+    if scene.catalogue.with_role(*sorted(roles)) is not None or scene.catalogue.for_verb(base[0]) is not None:
+        return Answer(f"Yes, I can {said}. {abilities(scene)}")
+    return None if kind in {"look", "search", "motion"} and not rest else Answer(cannot(said, scene))

@@ -1,0 +1,72 @@
+"""Yes-or-no questions turned into what follows "whether": "is the door open" into "the door is open"."""
+
+from __future__ import annotations
+
+from parley.language.offline.scene.grounding import ground_phrase
+from parley.language.offline.scene.scene import Scene
+from parley.language.offline.words.lexicon import lexicon
+from parley.language.offline.words.nouns import noun_phrase
+from parley.language.offline.words.text import Phrase, Word, keys
+
+__all__ = ["turned"]
+
+_ANY = frozenset(
+    {"any", "anything", "anybody", "anyone", "some", "something", "somebody", "someone", "still", "anyone's"}
+)
+_HELD_BACK = frozenset({"you", "we", "i"})
+
+
+def turned(words: Phrase, scene: Scene) -> Phrase:
+    """What a yes-or-no question asks about, as a statement; empty if it is no such question.
+
+    Args:
+        words: The question.
+        scene: What is on the map.
+    """
+    words = tuple(word for word in words if word.is_word)
+    flat = keys(words)
+    if len(flat) < 3:
+        return ()
+    if flat[0] in _ANY:
+        return (Word("there", "there"), Word("is", "is"), *words)
+    if flat[0] not in lexicon().be | {"has", "have", "does", "do", "did", "can"} or flat[1] in _HELD_BACK:
+        return ()
+    verb, rest = words[0], words[1:]
+    if flat[1] in {"there", "it", "he", "she", "they", "that", "this"}:
+        return (rest[0], verb, *rest[1:])
+    size = _subject(rest, scene)
+    if flat[0] in {"does", "do", "did"}:
+        return (*rest[:size], _third(rest[size]), *rest[size + 1 :]) if size < len(rest) else ()
+    return (*rest[:size], verb, *rest[size:]) if 0 < size < len(rest) else ()
+
+
+def _subject(rest: Phrase, scene: Scene) -> int:
+    """How many of the first words are what the question is about."""
+    for size in range(len(rest) - 1, 0, -1):
+        if ground_phrase(rest[:size], scene.objects, strict=True).outcome == "match":
+            return size
+    for size in (3, 2, 1):
+        if size < len(rest) and scene.is_person(rest[:size]) and not scene.is_person(rest[: size + 1]):
+            return size
+    done = next((i for i in range(1, len(rest)) if rest[i].key in _DONE or rest[i].key.endswith("ed")), 0)
+    if done:
+        return done - 1 if done > 1 and rest[done - 1].key in _BETWEEN else done
+    noun = noun_phrase(rest)
+    if noun.relation:
+        wanted = tuple(noun.relation.split())
+        flat = keys(rest)
+        cut = next((i for i in range(len(flat)) if flat[i : i + len(wanted)] == wanted), len(flat))
+        ending = next((i for i in range(1, cut) if flat[i].endswith(("ed", "ing"))), cut)
+        return ending - 1 if ending < cut and flat[ending - 1] in _BETWEEN else ending
+    return len(rest) - 1
+
+
+_DONE = frozenset(
+    word for word, base in lexicon().irregular.items() if base != word and not word.endswith("ing")
+)
+_BETWEEN = frozenset({"still", "already", "now", "really", "been"})
+
+
+def _third(verb: Word) -> Word:
+    ending = "es" if verb.key.endswith(("s", "sh", "ch", "x")) else "s"
+    return Word(verb.key + ending, verb.key + ending)

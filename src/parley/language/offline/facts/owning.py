@@ -1,0 +1,344 @@
+"""What belongs to whom, from facts in any of the ways in which people say so."""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from dataclasses import dataclass
+
+from parley.language.offline.facts.remembering import Remembered
+from parley.language.offline.words.lexicon import lexicon
+from parley.language.offline.words.nouns import bare, noun_phrase
+from parley.language.offline.words.text import Phrase, Word, keys, lemma, singular, tokens
+
+__all__ = ["Belonging", "belongings", "owner_of", "with_owners_named"]
+
+_OWNING = frozenset({"owns", "own", "has", "have", "drives", "drive", "rents", "uses"})
+_GIVEN = frozenset(
+    {"sold", "given", "lent", "assigned", "rented", "handed", "leased", "let", "transferred", "passed"}
+)
+_KEPT = frozenset({"reserved", "kept", "meant", "intended", "assigned", "booked"})
+_HAVING = frozenset({"owned", "driven", "used", "rented"})
+_LONGEST = 8
+
+
+@dataclass(frozen=True, slots=True)
+class Belonging:
+    """That something is somebody's."""
+
+    owner: Phrase
+    thing: Phrase
+    kind: str
+    """What it is called as theirs ("car"); empty if only its own name is known."""
+    source: Remembered
+
+
+def belongings(facts: Sequence[Remembered]) -> list[Belonging]:
+    """What belongs to whom, newest first; for each thing the last word counts."""
+    result: list[Belonging] = []
+    seen: set[tuple[str, ...]] = set()
+    for item in facts:
+        found = _belonging(item)
+        if found is not None and (keys(found.thing) not in seen or found.kind):
+            seen.add(keys(found.thing))
+            result.append(found)
+    return result
+
+
+def owner_of(thing: Phrase, facts: Sequence[Remembered]) -> Belonging | None:
+    """Whose something is; None if that is not known, or if several things are meant."""
+    wanted = set(noun_phrase(thing).core)
+    if not wanted - lexicon().determiners:
+        return None
+    fitting = [b for b in belongings(facts) if wanted <= set(noun_phrase(b.thing).core) | {b.kind}]
+    exact = [b for b in fitting if wanted == set(noun_phrase(b.thing).core)]
+    chosen = exact or fitting
+    return chosen[0] if len({keys(b.owner) for b in chosen}) == 1 else None
+
+
+def with_owners_named(words: Phrase, facts: Sequence[Remembered]) -> tuple[Phrase, list[Remembered]]:
+    """A message with "the owner of A" and "whoever owns A" by the owner's name, and the facts used."""
+    flat = keys(words)
+    if _SOMEBODY & set(flat) and facts:
+        doer = _doer_named(words, flat, facts)
+        if doer is not None:
+            return doer
+    words = _by_their_names(words, facts)
+    flat = keys(words)
+    theirs = _belonging_said(words, flat, facts)
+    if theirs is not None:
+        return theirs
+    if not {"owner", "owns", "belongs", "driver", "owner's"} & set(flat) or not facts:
+        return words, []
+    used: list[Remembered] = []
+    result: list[Word] = []
+    index = 0
+    while index < len(words):
+        found = _owner_said(words, flat, index, facts)
+        if found is None:
+            result.append(words[index])
+            index += 1
+            continue
+        end, belonging = found
+        result += belonging.owner
+        used.append(belonging.source)
+        index = end
+    return tuple(result), used
+
+
+_SOMEBODY = frozenset({"whoever", "who", "that"})
+_GENERAL = frozenset(
+    {
+        "one",
+        "person",
+        "man",
+        "woman",
+        "lady",
+        "guy",
+        "gentleman",
+        "patient",
+        "resident",
+        "guest",
+        "colleague",
+        "visitor",
+        "customer",
+        "girl",
+        "boy",
+        "somebody",
+        "someone",
+        "employee",
+        "worker",
+        "driver",
+    }
+)
+
+
+def _doer_named(
+    words: Phrase, flat: tuple[str, ...], facts: Sequence[Remembered]
+) -> tuple[Phrase, list[Remembered]] | None:
+    """For "whoever has the key", "the patient who can not eat nuts": the one person remembered to."""
+    if flat[0] in {"who", "whoever"} or (flat[0] in lexicon().question_starts):
+        return None
+    for index in range(1, len(flat) - 1):
+        start = index
+        if flat[index] != "whoever":
+            if flat[index] not in {"who", "that"} or flat[index - 1] not in _GENERAL | lexicon().person_words:
+                continue
+            start = index - 1 - (index > 1 and flat[index - 2] in lexicon().determiners)
+        end = next(
+            (i for i in range(index + 1, len(flat)) if not words[i].is_word or flat[i] in {"and", "then"}),
+            len(flat),
+        )
+        wanted = _content(words[index + 1 : end])
+        scored = [
+            (len(wanted & _content((*f.fact.state, *f.fact.place))), f) for f in facts if _is_somebodys(f)
+        ]
+        best = max((score for score, _ in scored), default=0)
+        names = {keys(f.fact.subject): f for score, f in scored if score == best}
+        if best and len(names) == 1:
+            (known,) = names.values()
+            return (*words[:start], *known.fact.subject, *words[end:]), [known]
+    return None
+
+
+def _by_their_names(words: Phrase, facts: Sequence[Remembered]) -> Phrase:
+    """For "A's dog" its name, if it is remembered what it is called."""
+    if {"name", "called", "who"} & set(keys(words)):
+        return words
+    words = _by_their_roles(words, facts)
+    for known in facts:
+        state = known.fact.state
+        flat = keys(state)
+        at = next((i for i in range(1, len(flat) - 1) if flat[i] in {"called", "named"}), 0)
+        if not at or known.fact.relation not in {"has", "have", "owns"} or known.fact.negated:
+            continue
+        kind = tuple(word for word in flat[:at] if word not in {"a", "an", known.fact.relation, "the"})[-1:]
+        owner = keys(known.fact.subject)
+        wanted = (*owner[:-1], f"{owner[-1]}'s", *kind)
+        said = keys(words)
+        where = next((i for i in range(len(said)) if said[i : i + len(wanted)] == wanted), -1)
+        if kind and where >= 0:
+            return (*words[:where], *state[at + 1 :], *words[where + len(wanted) :])
+    return words
+
+
+def _by_their_roles(words: Phrase, facts: Sequence[Remembered]) -> Phrase:
+    """For "A's boss" the name of who is remembered to be that."""
+    for known in facts:
+        fact = known.fact
+        if fact.is_location or fact.negated or fact.relation not in lexicon().be or not fact.state:
+            continue
+        for role, name in ((bare(fact.state), fact.subject), (fact.subject, bare(fact.state))):
+            said, wanted = keys(words), keys(role)
+            person = (
+                bool(name)
+                and all(word.is_capital for word in name)
+                and not any("'s" in word.key for word in name)
+            )
+            theirs = len(wanted) > 1 and any(word.endswith("'s") for word in wanted[:-1])
+            post = bool(wanted) and bool(lexicon().person_words & set(wanted)) and len(name) < 4
+            if not person or not (theirs or post):
+                continue
+            at = next((i for i in range(len(said)) if said[i : i + len(wanted)] == wanted), -1)
+            if at >= 0 and not set(keys(name)) & set(said):
+                return (*words[:at], *name, *words[at + len(wanted) :])
+    return _by_what_they_are(words, facts)
+
+
+def _by_what_they_are(words: Phrase, facts: Sequence[Remembered]) -> Phrase:
+    """For "the left-handed guest" the name of the one person who is remembered to be left-handed."""
+    flat = keys(words)
+    for index in range(1, len(flat)):
+        start = index
+        while (
+            start and flat[start - 1] not in lexicon().determiners | lexicon().vocabulary - lexicon().states
+        ):
+            start -= 1
+        traits = set(flat[start:index])
+        if flat[index] not in lexicon().person_words or not traits or not start or flat[start - 1] != "the":
+            continue
+        fitting = {
+            keys(f.fact.subject): f.fact.subject
+            for f in facts
+            if _is_somebodys(f) and traits <= set(keys(f.fact.state))
+        }
+        if len(fitting) == 1:
+            (name,) = fitting.values()
+            return (*words[: start - 1], *name, *words[index + 1 :])
+    return words
+
+
+def _belonging_said(
+    words: Phrase, flat: tuple[str, ...], facts: Sequence[Remembered]
+) -> tuple[Phrase, list[Remembered]] | None:
+    """For "the thing that belongs to A" the one thing that is A's."""
+    at = next((i for i in range(1, len(flat) - 2) if flat[i : i + 2] == ("belongs", "to")), 0)
+    if at < 2 or flat[at - 1] not in {"that", "which", "what"} or flat[0] in lexicon().question_starts:
+        return None
+    start = at - 1 if flat[at - 1] == "what" else at - 2
+    start -= start > 0 and flat[start - 1] in lexicon().determiners
+    end = next(
+        (i for i in range(at + 2, len(flat)) if not words[i].is_word or flat[i] in {"and", "then"}), len(flat)
+    )
+    owner = set(noun_phrase(words[at + 2 : end]).core)
+    theirs = {
+        keys(b.thing): b for b in belongings(facts) if owner and owner <= set(noun_phrase(b.owner).core)
+    }
+    if len(theirs) != 1 or (flat[at - 2] not in {"thing", "one"} and flat[at - 1] != "what"):
+        return None
+    (belonging,) = theirs.values()
+    return (*words[:start], Word("the", "the"), *belonging.thing, *words[end:]), [belonging.source]
+
+
+def _is_somebodys(item: Remembered) -> bool:
+    subject = item.fact.subject
+    named = (
+        bool(subject) and all(word.is_capital for word in subject) and keys(subject)[0] not in lexicon().nouns
+    )
+    return bool(subject) and (named or keys(subject)[-1] in lexicon().person_words) and not item.fact.negated
+
+
+def _content(words: Phrase) -> frozenset[str]:
+    small = (
+        lexicon().be
+        | lexicon().auxiliaries
+        | lexicon().determiners
+        | {"not", "to", "in", "on", "at", "of", "for", "eat", "any"}
+    )
+    return frozenset(lemma(singular(word.key)) for word in words if word.is_word and word.key not in small)
+
+
+_OWNER = (
+    ("the", "owner", "of"),
+    ("owner", "of"),
+    ("whoever", "owns"),
+    ("the", "person", "who", "owns"),
+    ("the", "one", "who", "owns"),
+    ("the", "man", "who", "owns"),
+    ("the", "woman", "who", "owns"),
+    ("the", "driver", "of"),
+    ("the", "person", "that", "owns"),
+    ("whom", "belongs"),
+    ("the", "lady", "who", "owns"),
+    ("the", "guy", "who", "owns"),
+    ("the", "person", "owning"),
+)
+
+
+def _owner_said(
+    words: Phrase, flat: tuple[str, ...], index: int, facts: Sequence[Remembered]
+) -> tuple[int, Belonging] | None:
+    lead = next((lead for lead in _OWNER if flat[index : index + len(lead)] == lead), ())
+    if lead:
+        start = index + len(lead)
+        for end in range(min(len(words), start + _LONGEST), start, -1):
+            belonging = owner_of(bare(words[start:end]), facts) if words[end - 1].is_word else None
+            if belonging is not None:
+                return end, belonging
+        return None
+    for end in range(index + 1, min(index + 6, len(words))):
+        if flat[end] in {"owner", "driver"} and flat[end - 1].endswith("'s"):
+            last = words[end - 1]
+            stem = Word(last.key.removesuffix("'s"), last.raw.removesuffix("'s"))
+            belonging = owner_of(bare((*words[index : end - 1], stem)), facts)
+            if belonging is not None and flat[index] in lexicon().determiners | {stem.key} | set(
+                keys(belonging.thing)
+            ):
+                return end + 1, belonging
+    return None
+
+
+def _belonging(item: Remembered) -> Belonging | None:
+    fact = item.fact
+    if fact.negated or fact.is_location or not fact.state or not fact.subject:
+        return None
+    state = tuple(word for word in fact.state if word.is_word)
+    if keys(state[:1]) == (fact.relation,):
+        state = state[1:]
+    if not state:
+        return None
+    if fact.relation == "belongs" and keys(state[:1]) == ("to",):
+        return Belonging(bare(state[1:]), fact.subject, _head(fact.subject), item)
+    if fact.relation in _OWNING:
+        named = fact.subject[0].is_capital or keys(fact.subject)[-1] in lexicon().person_words
+        return Belonging(fact.subject, bare(state), _head(bare(state)), item) if named else None
+    if fact.relation in lexicon().be:
+        return _by_name(item, state)
+    return None
+
+
+def _by_name(item: Remembered, state: Phrase) -> Belonging | None:
+    """For "A is B's", "A is B's car", "B's car is A", "A is owned by B", "the owner of A is B"."""
+    subject = item.fact.subject
+    flat = keys(state)
+    if flat[:1] and flat[0] in _HAVING and flat[1:2] == ("by",):
+        return Belonging(bare(state[2:]), subject, _head(subject), item)
+    given = flat[:1] and flat[0] in _GIVEN and flat[1:2] == ("to",)
+    if given or (flat[:1] and flat[0] in _KEPT and flat[1:2] == ("for",)):
+        return Belonging(bare(state[2:]), subject, _head(subject), item)
+    if keys(subject)[:2] in {
+        ("owner", "of"),
+        ("driver", "of"),
+        ("keeper", "of"),
+        ("tenant", "of"),
+        ("user", "of"),
+    }:
+        owner = state[1:] if flat[:1] in {("called",), ("named",)} else state
+        return Belonging(bare(owner), bare(subject[2:]), _head(bare(subject[2:])), item)
+    if flat[:2] == ("owner", "of") or flat[:3] == ("the", "owner", "of"):
+        thing = bare(state[flat.index("of") + 1 :])
+        return Belonging(subject, thing, _head(thing), item)
+    if flat[0] in {"mine", "yours"} or flat[:1] == ("my",):
+        return Belonging(tokens("operator"), subject, _head(subject), item)
+    for side, other in ((state, subject), (subject, state)):
+        at = next((i for i, word in enumerate(side) if word.key.endswith("'s")), -1)
+        if at < 0:
+            continue
+        stem = Word(side[at].key.removesuffix("'s"), side[at].raw.removesuffix("'s"))
+        kind = _head(side[at + 1 :])
+        return Belonging(bare((*side[:at], stem)), bare(other), kind or _head(bare(other)), item)
+    return None
+
+
+def _head(phrase: Phrase) -> str:
+    core = noun_phrase(phrase).core if phrase else ()
+    return core[-1] if core else ""

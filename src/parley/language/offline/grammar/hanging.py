@@ -1,0 +1,208 @@
+"""Clauses that hang on others: conditions, what comes before or after what, what is waited for."""
+
+from __future__ import annotations
+
+from parley.language.offline.grammar.orders import Node, Order
+from parley.language.offline.grammar.small import is_past, small, verb_class
+from parley.language.offline.grammar.things import Item
+from parley.language.offline.grammar.topics import Topics
+from parley.language.offline.grammar.verbs import Head
+from parley.language.offline.words.lexicon import lexicon
+from parley.language.offline.words.text import Word
+
+__all__ = ["Hanging"]
+
+
+_CONDITIONS = {
+    ("if",): "if", ("unless",): "unless", ("in", "case"): "if", ("provided",): "if",
+    ("provided", "that"): "if",
+    ("should",): "if", ("otherwise",): "otherwise", ("else",): "otherwise", ("or", "else"): "otherwise",
+    ("if", "not"): "otherwise", ("if", "so"): "then", ("as", "long", "as"): "if", ("supposing",): "if",
+    ("assuming",): "if", ("only", "if"): "if", ("even", "if"): "if",
+}  # fmt: skip
+
+
+_BEFORE = frozenset({"before", "prior to"})
+
+
+_AFTER = frozenset({"after", "once", "when", "as soon as", "having", "following", "upon"})
+
+
+class Hanging(Topics):
+    """Reads the clauses that hang on orders."""
+
+    def _subordinate(self) -> bool:
+        flat = self.heads.flat(self.at)
+        if flat[:1] == ("only",) and small().subordinators.match(flat[1:]) is not None and flat[1] != "if":
+            self.at += 1
+            flat = flat[1:]
+        if flat[:2] in {
+            ("not", "before"),
+            ("not", "until"),
+            ("only", "after"),
+            ("only", "once"),
+            ("only", "when"),
+        }:
+            return self._temporal("after", self.at + 2)
+        found = small().subordinators.match(flat) if flat else None
+        opens = not self.parts or (
+            isinstance(self.parts[-1], Node) and self.parts[-1].mark in {"stop", "ask"}
+        )
+        if opens and flat[:1] in {("who",), ("which",), ("where",)}:
+            return False
+        if flat[:2] in {("that", "is"), ("that", "means")}:
+            self.at += 2
+            return True
+        if found is None or (found[1] == "should" and self.key(self.at + 1) == "you"):
+            return False
+        words = tuple(found[1].split())
+        if words in _CONDITIONS:
+            return self._condition(words, self.at + found[0])
+        if found[1] in _BEFORE | _AFTER:
+            return self._temporal("before" if found[1] in _BEFORE else "after", self.at + found[0])
+        if found[1] in {"that", "which", "who"} and self.heads.head(self.at) is not None:
+            return False
+        end = self._told_end(self.at + found[0])
+        self.parts.append(Node("told", list(self.items[self.at : end])))
+        self.at = end
+        return True
+
+    def _condition(self, words: tuple[str, ...], start: int) -> bool:
+        polite = lexicon().adverbs.match(self.heads.flat(self.at)) or lexicon().polite.match(
+            self.heads.flat(self.at)
+        )
+        if polite is not None and polite[0] > 1:
+            self.at += polite[0]
+            return True
+        if words == ("if",) and self._would_be_good(start):
+            return True
+        mark = _CONDITIONS[words]
+        if mark in {"otherwise", "then"}:
+            self.parts.append(Node("otherwise" if mark == "otherwise" else "if"))
+            self.at = start
+            return True
+        end = self._clause_of_condition(start)
+        items = list(self.items[start:end])
+        if words == ("should",):
+            items = [Item("is", (Word("is", "is"),)) if item.key == "be" else item for item in items]
+        also = self.key(self.at - 1) == "and"
+        node = Node("unless" if mark == "unless" else "if", items, reason=words[0] == "in", only=also)
+        self.parts.append(node)
+        self.at = end
+        return True
+
+    def _would_be_good(self, start: int) -> bool:
+        """For "it would be good if the door got checked", "... if somebody checked the door": an order."""
+        last = self.parts[-1] if self.parts else None
+        if (
+            not isinstance(last, Node)
+            or last.mark != "told"
+            or not small().sets["good"] & {item.key for item in last.items}
+        ):
+            return False
+        here, self.at = self.at, start
+        if self._topic():
+            return True
+        self.heads.past, past = True, self.heads.past
+        self.at = start + 1 if self.key(start) in {"you", "someone", "somebody", "anyone", "we"} else start
+        if self.at > start and self._order():
+            return True
+        self.at, self.heads.past = here, past
+        return False
+
+    def _clause_of_condition(self, start: int) -> int:
+        """Where a condition ends: at a comma or "then", or where an order begins behind its verb."""
+        end, seen = start, False
+        while end < len(self.items) and self.key(end) not in {",", ".", "!", "?", ";", ":", "then", "\n"}:
+            if seen and end > start + 1 and self._opens(end):
+                break
+            follows = self.items[end + 1] if end + 1 < len(self.items) else None
+            if seen and self.key(end) == "to" and follows is not None and follows.thing is not None:
+                break
+            seen = (
+                seen
+                or self.key(end) in lexicon().be | {"has", "have", "does", "you", "contains", "see"}
+                or (end > start and bool(verb_class(self.key(end))))
+            )
+            end += 1
+        return end
+
+    def _opens(self, at: int) -> bool:
+        head = self.heads.head(at)
+        if head is None:
+            return False
+        framed = self.key(at) in {"you", "please", "go", "do", "can", "could", "just"}
+        return framed or self.key(head.at) in small().always
+
+    def _temporal(self, mark: str, start: int) -> bool:
+        """For "Before A", "after visiting B", "once you have been to C"; what people do then is only told."""
+        if self.key(start) in small().sets["inverted"] and self.key(self.at) == "when":
+            return False
+        joins, self.args.joins = self.args.joins, frozenset({"and"})
+        orders, end = self._events(start, mark_is_after=mark == "after")
+        self.args.joins = joins
+        if not orders and end > start:
+            self.at = end
+        elif not orders and mark == "after" and (waits := self._happening(start)):
+            self.parts.append(waits)
+            end = start + len(waits.items)
+        elif not orders:
+            end = self._told_end(start)
+            self.parts.append(Node("told", list(self.items[self.at : end])))
+        else:
+            only = self.key() in {"only", "not"} or self.key(self.at - 1) == "only"
+            self.parts.append(Node("before" if mark == "before" else "after", orders=orders, only=only))
+        self.at = end
+        return True
+
+    def _happening(self, start: int) -> Node | None:
+        """What is waited for ("once A has left"), or has to be so ("when the door is shut")."""
+        end = self._clause_of_condition(start)
+        items = list(self.items[start:end])
+        words = [item.key for item in items]
+        if set(words) <= small().sets["done"]:
+            return Node("then", items)
+        past = any(is_past(word) for word in words[1:]) and not {"has", "have", "is", "are"} & set(words)
+        if len(words) < 2 or words[0] in {"you", "we", "i"} or past or {"was", "were", "had"} & set(words):
+            return None
+        thing = items[0].thing
+        if thing is not None and not thing.known and {"is", "are"} & set(words):
+            return Node("if", items)
+        finite = {"is", "are", "has", "have"} & set(words) or any(
+            w.endswith("s") and verb_class(w) for w in words[1:]
+        )
+        return Node("wait", items) if finite else None
+
+    def _events(self, start: int, *, mark_is_after: bool) -> tuple[list[Order], int]:
+        at = start
+        while self.key(at) in small().sets["having_been"]:
+            at += 1
+        if self.key(at - 1) == "both" and mark_is_after and self.parts:
+            # "Only after both, the door".
+            return [], at
+        if at < len(self.items) and self.items[at].thing is not None:
+            order = Order("named" if at == start else "go")
+            end = self.args.take(order, at)
+            if self.key(end) in {"comes", "follows"}:
+                return [order], end + 1
+            if verb_class(self.key(end)) and self.key(end).endswith("s"):
+                return [], start
+            if self.key(end) in lexicon().be | small().needs and self.key(end) not in {"please"}:
+                return [], start
+            return [order], end
+        refers = small().back_reference.match(self.heads.flat(at))
+        if refers and at == start and mark_is_after:
+            return [], at + refers[0]
+        if refers and at == start and self.items[at + refers[0] : at + refers[0] + 1]:
+            self.parts.append(Node("first"))
+            return [], at + refers[0]
+        if self.key(at - 1) in {"both", "of"} or (refers and at == start):
+            return [], start
+        head = self.heads.head(at) if verb_class(self.key(at)) == "" else None
+        if head is None and verb_class(self.key(at)):
+            size, kind = self.heads.kind(at)
+            head = Head(at, size, kind, False, True)
+        if head is None:
+            return [], start
+        order, end = self.args.read(head)
+        return ([order], end) if order.kind != "other" or order.things else ([], start)

@@ -1,0 +1,280 @@
+"""Parses a message from left to right into orders and what stands between them."""
+
+from __future__ import annotations
+
+from parley.language.offline.grammar.hanging import Hanging
+from parley.language.offline.grammar.orders import Node, Order, Part
+from parley.language.offline.grammar.small import base, small, verb_class
+from parley.language.offline.grammar.things import items_of
+from parley.language.offline.scene.scene import Scene
+from parley.language.offline.words.lexicon import lexicon
+from parley.language.offline.words.text import Phrase
+
+__all__ = ["parse"]
+
+
+_FRONT = (
+    ("first",),
+    ("to", "start", "with"),
+    ("to", "begin", "with"),
+    ("first", "of", "all"),
+    ("before", "anything", "else"),
+)
+_BACK = (
+    ("last",),
+    ("to", "finish"),
+    ("to", "finish", "with"),
+    ("at", "the", "end"),
+    ("in", "the", "end"),
+    ("last", "of", "all"),
+    ("at", "last"),
+    ("at", "the", "very", "end"),
+)
+
+
+def parse(words: Phrase, scene: Scene) -> list[Part]:
+    """The parts of a message in the order in which they were said."""
+    return _Parser(items_of(words, scene), scene).parse()
+
+
+class _Parser(Hanging):
+    """Reads one part after the other."""
+
+    def parse(self) -> list[Part]:
+        while self.at < len(self.items):
+            before = self.at
+            self._step()
+            if self.at <= before:
+                self.at = before + 1
+        return self.parts
+
+    def _step(self) -> None:
+        steps = (
+            self._manner,
+            self._but_first,
+            self._mark,
+            self._asked_of,
+            self._sequence,
+            self._correction,
+            self._subordinate,
+            self._give,
+            self._topic,
+            self._same,
+            self._order,
+            self._named,
+        )
+        for step in steps:
+            if step():
+                return
+        self._told()
+
+    def _mark(self) -> bool:
+        key = self.key()
+        if key in {".", "!", ";", "\n", "?", ":"} or key.startswith(".."):
+            self.parts.append(Node("ask" if key == "?" else "stop"))
+        elif key == ",":
+            self.parts.append(Node("comma"))
+        elif (
+            key in {"and", "but", "so", "plus", "&", "or", "well", "oh", "right"}
+            and self.key(self.at + 1) != "that"
+        ):
+            pass
+        else:
+            return False
+        self.at += 1
+        return True
+
+    def _manner(self) -> bool:
+        """What only says how or when, at the start of a clause ("at some point", "if you would")."""
+        flat = self.heads.flat(self.at)
+        found = lexicon().adverbs.match(flat) if flat else None
+        if found is None or found[0] < 2 or small().sequence.match(flat) or small().before_that.match(flat):
+            return False
+        self.at += found[0]
+        return True
+
+    def _but_first(self) -> bool:
+        flat = self.heads.flat(self.at)
+        before = small().before_that.match(flat) if flat else None
+        if before is None:
+            return False
+        self.parts.append(Node("first"))
+        self.at += before[0]
+        return True
+
+    def _sequence(self) -> bool:
+        flat = self.heads.flat(self.at)
+        found = small().sequence.match(flat) if flat else None
+        if found is None or (found[1] == "there" and self.key(self.at + 1) in lexicon().be):
+            return False
+        if flat[0] == "then":
+            self.parts.append(Node("then"))
+        self.at += found[0]
+        return True
+
+    def _correction(self) -> bool:
+        flat = self.heads.flat(self.at)
+        found = small().corrections.match(flat) if flat else None
+        if found is None or found[1] == "wait":
+            return False
+        behind = self.at + found[0]
+        strong = found[1] not in {"actually", "no", "rather", "better", "sorry", "hold on"}
+        if not strong and self.key(behind) == ",":
+            behind += 1
+        last = next((part for part in reversed(self.parts) if isinstance(part, Order)), None)
+        if last is None or not (strong or self.args.starts(behind) or self.items[behind : behind + 1]):
+            return False
+        self.parts.append(Node("correct"))
+        self.at = behind
+        return True
+
+    # Clauses that hang on others.
+
+    # What is to be done with something named first.
+
+    def _asked_of(self) -> bool:
+        """For "and how many there are", "..., whether it is shut": more of the look before."""
+        flat = self.heads.flat(self.at, 2)
+        before = next((part for part in reversed(self.parts) if isinstance(part, Order)), None)
+        if (
+            (flat[:1] != ("whether",) and flat != ("how", "many"))
+            or before is None
+            or before.kind not in {"look", "go", "named"}
+        ):
+            return False
+        if not (isinstance(self.parts[-1], Node) and self.parts[-1].mark == "comma"):
+            return False
+        order = Order("whether", refers=True)
+        self.at = self.args.state(order, self.at)
+        self.parts.append(order)
+        return True
+
+    def _same(self) -> bool:
+        """For "The same for B", "B as well", "do that at B"."""
+        flat = self.heads.flat(self.at)
+        found = small().same.match(flat) if flat else None
+        if found is None or found[1] in {"too", "also", "as well", "do that", "do it"}:
+            return False
+        at = self.at + found[0]
+        while self.key(at) in small().prepositions | small().adverbs | {"goes", "again", "thing", "please"}:
+            at += 1
+        order = Order("again")
+        named = self.parts and isinstance(self.parts[-1], Node) and self.parts[-1].mark == "comma"
+        if named and self.args.ends(at):
+            self.at, order.refers = at, True
+            self.parts.append(order)
+            return True
+        if at >= len(self.items) or self.items[at].thing is None:
+            return False
+        self.at = self.args.take(order, at)
+        self.parts.append(order)
+        return True
+
+    # Orders, and what is only named or told.
+
+    def _named(self) -> bool:
+        """Things and nothing said of them, "not" and the like before them."""
+        at, negated = self.at, False
+        while self.key(at) in small().sets["before_names"]:
+            negated = negated or self.key(at) in {"not", "never"}
+            at += 1
+        if at >= len(self.items) or self.items[at].thing is None:
+            return False
+        towards = bool(small().sets["towards"] & set(self.heads.flat(self.at, at - self.at)))
+        order = Order("go" if towards and not negated else "named", negated=negated)
+        end = self.args.take(order, at)
+        end += self.key(end) == "one" and self.key(end + 1) == "for"
+        if self.key(end) == "for" and self.key(end + 1) not in {"me", "us", "now"} and not negated:
+            order.kind = "search"
+            end = self.args.sought(order, end + 1)
+        same = small().same.match(self.heads.flat(end))
+        if same is not None and same[0] > 1 and same[1] != "as well":
+            order.kind, order.also = "again", True
+            end += same[0]
+        order.also = order.also or "also" in self.heads.flat(self.at, at - self.at)
+        end = self._position(order, end)
+        if self._says_of_it(end):
+            return False
+        while self.key(end) in small().adverbs | {
+            "'s",
+            "you",
+            "go",
+            "must",
+            "should",
+            "shall",
+            "can",
+            "will",
+        }:
+            order.also = order.also or self.key(end) in {"too", "also", "well"}
+            end += 1
+        self.parts.append(order)
+        self.at = end
+        return True
+
+    def _counted(self, order: Order, at: int) -> int:
+        """For "to start with", "... at the end": where that ends; 0 if it does not stand here."""
+        flat = self.heads.flat(at)
+        for phrases, where in ((_FRONT, "first"), (_BACK, "last")):
+            size = next((len(p) for p in phrases if flat[: len(p)] == p and len(p) > 1), 0)
+            if size:
+                order.where = "first" if where == "first" else "last"
+                return at + size
+        return 0
+
+    def _position(self, order: Order, at: int) -> int:
+        """For "first", "comes last", "before that" behind a name: where in the plan it belongs."""
+        start = at
+        ordered = self._counted(order, at)
+        if ordered:
+            return ordered
+        while self.key(at) in {"comes", "goes", "is", "should", "to", "come", "be", ","} and at - start < 3:
+            at += 1
+        for phrases, where in ((_FRONT, "first"), (_BACK, "last")):
+            if at > start and self.key(at) in {"next", "then"}:
+                order.also = True
+                return at + 1
+            size = next((len(p) for p in phrases if self.heads.flat(at)[: len(p)] == p), 0)
+            but = self.parts and self.key(self.at - 1) == "but"
+            if size and (where == "last" or but or size > 1 or at > start):
+                order.where = "first" if where == "first" else "last"
+                return at + size
+        before = small().before_that.match(self.heads.flat(start))
+        if before is not None:
+            order.where = "before"
+            return start + before[0]
+        return start
+
+    def _says_of_it(self, at: int) -> bool:
+        """Whether something is said of what was named."""
+        key = self.key(at)
+        behind = small().sets["behind_names"] | small().adverbs | set(lexicon().ordinals) | {"and"}
+        return not self.args.ends(at) and key not in behind
+
+    def _told(self) -> None:
+        end = self._told_end(self.at + 1)
+        if self.key() in small().questions | {
+            "what",
+            "why",
+            "how",
+            "did",
+            "do",
+            "does",
+            "have",
+            "has",
+            "are",
+            "were",
+            "was",
+            "is",
+        }:
+            end = next(
+                (i for i in range(self.at, len(self.items)) if self.key(i) in {".", "!", "?", ";"}), end
+            )
+        verb = (
+            self.key() != "be"
+            and verb_class(self.key())
+            and base(self.key()) == self.key()
+            and not self.heads.is_talk(self.at)
+        )
+        opens = not self.parts or not (isinstance(self.parts[-1], Node) and self.parts[-1].mark == "told")
+        self.parts.append(Node("told", list(self.items[self.at : end]), unread=bool(verb and opens)))
+        self.at = end

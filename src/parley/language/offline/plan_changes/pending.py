@@ -1,0 +1,150 @@
+"""Which of the pending visits a phrase means: by name, by place in the row, as a group."""
+
+from __future__ import annotations
+
+from parley.language.offline.plan_changes.replanning import visit_of, visits
+from parley.language.offline.scene.group_words import read_lead
+from parley.language.offline.scene.groups import GroupReader
+from parley.language.offline.scene.marks import members_of
+from parley.language.offline.scene.members import in_order
+from parley.language.offline.scene.scene import Scene
+from parley.language.offline.words.lexicon import lexicon
+from parley.language.offline.words.nouns import bare, coordinated
+from parley.language.offline.words.text import Phrase, keys, singular, tokens
+from parley.world.object_map import MapObject
+
+__all__ = ["pending_visits"]
+
+_STEP_WORDS = frozenset({
+    "stop", "visit", "place", "one", "item", "job", "part", "entry", "thing", "leg", "room",
+    "destination", "waypoint", "station",
+})  # fmt: skip
+_CURRENT = frozenset(
+    tuple(text.split())
+    for text in (
+        "this", "this one", "this stop", "this visit", "the current one", "the current stop",
+        "the current visit",
+        "the current step", "the one you are doing", "what you are doing", "where you are now",
+        "the one you are at",
+        "the one you are on", "that one", "this step", "this place", "it", "this room",
+    )
+)  # fmt: skip
+_BOTH = frozenset(
+    {
+        ("both",),
+        ("both", "of", "them"),
+        ("the", "two"),
+        ("them",),
+        ("the", "two", "of", "them"),
+        ("those", "two"),
+    }
+)
+
+
+def pending_visits(phrase: Phrase, scene: Scene) -> list[int]:
+    """The places among the pending visits of what a phrase names, in order; empty if a part names none."""
+    listed = visits(scene)
+    phrase = tuple(word for word in phrase if word.is_word or word.key == ",")
+    flat = keys(phrase)
+    if not flat or not listed:
+        return []
+    if flat in _CURRENT:
+        return [0] if flat[0] != "it" or len(listed) == 1 else []
+    if flat in _BOTH:
+        return [0, 1] if len(listed) == 2 else []
+    ranked = _by_rank(phrase, scene)
+    if ranked:
+        return ranked
+    one = visit_of(phrase, scene) if _is_name(phrase) else None
+    if one is not None:
+        return [one]
+    return _together(phrase, scene) or _listed(phrase, scene)
+
+
+def _is_name(phrase: Phrase) -> bool:
+    """Whether a phrase may be a name: no order and no more than its words."""
+    flat = keys(phrase)
+    verb = lexicon().verbs.match(flat)
+    return (
+        len(phrase) <= 7
+        and not (verb is not None and len(flat) > verb[0] and flat[0] not in {"stop", "visit"})
+        and not ({",", "and"} & set(flat))
+    )
+
+
+def _by_rank(phrase: Phrase, scene: Scene) -> list[int]:
+    """For "the second stop", "the last two", "number three", "the next one", "the first and the last"."""
+    count = len(visits(scene))
+    lead, at = read_lead(phrase, 0)
+    flat = keys(phrase)
+    rest = flat[at:]
+    if lead.end and set(map(singular, rest)) <= _STEP_WORDS | {"of", "them", "these", "those"}:
+        size = lead.count
+        if size > count:
+            return []
+        return list(range(size)) if lead.end == "first" else list(range(count - size, count))
+    if lead.ordinals and set(map(singular, rest)) <= _STEP_WORDS:
+        found = [place - 1 if place > 0 else count - 1 for place in lead.ordinals]
+        return found if all(0 <= place < count for place in found) else []
+    words = keys(bare(phrase))
+    stepwise = any(len(visit.steps) > 3 for visit in visits(scene))
+    if stepwise and (words in {("next", "one"), ("next",), ("following", "one")} or words[:1] == ("number",)):
+        # Where a stop is many steps, a step is meant.
+        return []
+    if len(words) == 2 and singular(words[0]) in _STEP_WORDS | {"number", "no"} and words[0] != "room":
+        number = int(words[1]) if words[1].isdigit() else lexicon().numbers.get(words[1], 0)
+        return [number - 1] if 0 < number <= count else []
+    if not words or len(words) > 2 or (words[1:] and singular(words[1]) not in _STEP_WORDS):
+        return []
+    if words[0] in {"last", "final"}:
+        return [count - 1]
+    if words[0] in {"next", "following"}:
+        return [1] if count > 1 else []
+    place = lexicon().ordinals.get(words[0], 0)
+    return [place - 1] if 0 < place <= count and (len(words) > 1 or flat[0] == "the") else []
+
+
+def _together(phrase: Phrase, scene: Scene) -> list[int]:
+    """For "aisles 2 and 3", "all doors", "both rooms": those that are pending."""
+    named = list(range(len(visits(scene))))
+    places = {index: _item(index, scene) for index in named}
+    objects = [item for item in places.values() if item is not None]
+    read = GroupReader(objects, scene.situation.robot_pose, scene.facts, lambda said: ()).read(phrase)
+    members = members_of(read, objects) if len(bare(read)) == 1 else []
+    if not members:
+        return _of_kind(phrase, scene)
+    order = [next(i for i, item in places.items() if item == member) for member in members]
+    return sorted(order) if in_order(members) else order
+
+
+def _item(index: int, scene: Scene) -> MapObject | None:
+    visit = visits(scene)[index]
+    for name in visit.names:
+        found = scene.ground(tokens(name))
+        if found.outcome == "match":
+            return found.candidates[0]
+    return None
+
+
+def _of_kind(phrase: Phrase, scene: Scene) -> list[int]:
+    """For "the doors": every visit of that kind."""
+    words = bare(phrase)
+    while words and words[0].key in {"any", "all", "more", "other", "further", "both", "of", "the"}:
+        words = bare(words[1:])
+    if not words or singular(words[-1].key) == words[-1].key or not all(word.is_word for word in words):
+        return []
+    wanted = {singular(word.key) for word in words}
+    return [
+        index
+        for index, visit in enumerate(visits(scene))
+        if any(wanted <= {singular(word.key) for word in tokens(name)} for name in visit.names)
+    ]
+
+
+def _listed(phrase: Phrase, scene: Scene) -> list[int]:
+    """For "A and B": both."""
+    parts = coordinated(phrase)
+    if len(parts) < 2 or {"or"} & set(keys(phrase)):
+        return []
+    found = [pending_visits(part, scene) for part in parts]
+    return [index for one in found for index in one] if all(found) else []

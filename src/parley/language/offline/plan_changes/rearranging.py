@@ -1,0 +1,390 @@
+"""Changes of what is pending, read by patterns whose open phrases are pending visits or new orders."""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Iterable, Sequence
+from dataclasses import dataclass, replace
+from functools import cache
+
+from parley.language.control import control_of
+from parley.language.offline.facts.facts import strip_openers
+from parley.language.offline.plan_changes.edits import Edit
+from parley.language.offline.plan_changes.patterns import Part, matches, parsed
+from parley.language.offline.plan_changes.pending import pending_visits
+from parley.language.offline.plan_changes.replanning import renamed, visits
+from parley.language.offline.scene.grounding import describe
+from parley.language.offline.scene.scene import Scene
+from parley.language.offline.sentences.clauses import opens_command
+from parley.language.offline.tasks.catalogue import Catalogue
+from parley.language.offline.words.lexicon import lexicon
+from parley.language.offline.words.saying import listing, the
+from parley.language.offline.words.text import Phrase, Word, keys, tokens
+from parley.language.word_lists import load_data
+from parley.messages.chat import ActionCall, SystemCommand
+from parley.messages.status import ActionInfo
+
+__all__ = ["Change", "rearranged"]
+
+_LONGEST = 24
+_LEADS = tuple(tuple(text.split()) for line in load_data("plan_changes")["leads"] for text in line.split(","))
+_KINDS = (
+    "reverse", "copy", "nth", "no_look", "between", "keep", "until", "from", "swap", "instead",
+    "before", "after", "first", "last", "drop",
+    "before_all", "then_after", "then_before",
+)  # fmt: skip
+
+
+@dataclass(frozen=True, slots=True)
+class Change:
+    """What becomes of the plan."""
+
+    edit: Edit | None = None
+    order: Phrase = ()
+    """A new order, to be done at `at`."""
+    at: int = 0
+    """The first pending step that comes after it."""
+
+
+@cache
+def _patterns() -> tuple[tuple[str, tuple[Part, ...]], ...]:
+    data = load_data("plan_changes")
+    return tuple((kind, parsed(text)) for kind in _KINDS for text in data[kind])
+
+
+def rearranged(words: Phrase, scene: Scene) -> Change | None:
+    """The change of what is pending that a message asks for; None if it asks for none.
+
+    Args:
+        words: All words and punctuation.
+        scene: What is known, with its pending steps.
+    """
+    if not scene.situation.queue or len(words) > _LONGEST or "?" in keys(words):
+        return None
+    body = _bare(words)
+    if len(body) < 2 or control_of(" ".join(keys(body))) is not None:
+        return None
+    return _read(body, scene) or _one_by_one(body, scene)
+
+
+def _read(body: Phrase, scene: Scene) -> Change | None:
+    for kind, parts in _patterns():
+        for slots in matches(parts, body):
+            change = _CHANGES[kind](slots, scene)
+            if change is not None:
+                return change
+    return None
+
+
+def _one_by_one(body: Phrase, scene: Scene) -> Change | None:
+    """For "A can wait, do B first": one change after the other; what only tells why is passed over."""
+    parts: list[Phrase] = [()]
+    for word in body:
+        if word.key in {",", ".", ";"}:
+            parts.append(())
+        else:
+            parts[-1] = (*parts[-1], word)
+    if not 1 < len(parts) <= 4:
+        return None
+    listed = list(scene.situation.queue)
+    replies: list[str] = []
+    for part in filter(None, parts):
+        now = Scene.of(replace(scene.situation, queue=tuple(listed)))
+        change = _read(_bare(part), now) if listed else None
+        if change is None and not opens_command(part) and _only_tells(part):
+            continue
+        if change is None or change.edit is None or change.order:
+            return None
+        gone = {command.pop_index for command in change.edit.commands}
+        listed = [*(s for i, s in enumerate(listed) if i not in gone), *change.edit.queue]
+        replies.append(change.edit.reply)
+    if not replies:
+        return None
+    queue = scene.situation.queue
+    same = next(
+        (i for i, (a, b) in enumerate(zip(queue, listed, strict=False)) if a != b),
+        min(len(queue), len(listed)),
+    )
+    return Change(Edit(_pops(range(same, len(queue))), " ".join(replies), tuple(listed[same:])))
+
+
+def _only_tells(words: Phrase) -> bool:
+    """Whether a part says why, and asks for nothing."""
+    flat = keys(words)
+    return bool(set(flat) & (lexicon().be | {"has", "have", "had", "did", "was"})) or flat[:1] in {
+        ("because",),
+        ("since",),
+    }
+
+
+def _bare(words: Phrase) -> Phrase:
+    body = tuple(Word(",", ",") if word.key in {".", ";", "!", ":"} else word for word in words)
+    while body:
+        lead = next((lead for lead in _LEADS if keys(body[: len(lead)]) == lead), ())
+        if (lead == ("no",) and keys(body[1:2]) != (",",)) or not (lead or body[0].key == ","):
+            break
+        body = body[len(lead) or 1 :]
+    while body and not body[-1].is_word:
+        body = body[:-1]
+    return body
+
+
+def _named(slots: dict[str, Phrase], scene: Scene, *names: str) -> list[list[int]] | None:
+    found = [pending_visits(slots[name], scene) for name in names if name in slots]
+    return found if len(found) == len(names) and all(found) else None
+
+
+def _drop(slots: dict[str, Phrase], scene: Scene) -> Change | None:
+    found = _named(slots, scene, "a")
+    if found is None:
+        return None
+    gone = sorted(set(found[0]))
+    return _left(
+        scene, [i for i in range(len(visits(scene))) if i not in gone], f"I leave out {_names(gone, scene)}."
+    )
+
+
+def _keep(slots: dict[str, Phrase], scene: Scene) -> Change | None:
+    found = _named(slots, scene, "a")
+    return (
+        None if found is None else _left(scene, sorted(found[0]), f"I keep only {_names(found[0], scene)}.")
+    )
+
+
+def _until(slots: dict[str, Phrase], scene: Scene) -> Change | None:
+    found = _named(slots, scene, "a")
+    if found is None:
+        return None
+    last = max(found[0])
+    return _left(scene, list(range(last + 1)), f"I leave out everything after {_names([last], scene)}.")
+
+
+def _from(slots: dict[str, Phrase], scene: Scene) -> Change | None:
+    found = _named(slots, scene, "a")
+    if found is None or min(found[0]) == 0:
+        return None
+    first = min(found[0])
+    rest = list(range(first, len(visits(scene))))
+    return _left(scene, rest, f"I go on with {_names([first], scene)} and leave out what comes before.")
+
+
+def _swap(slots: dict[str, Phrase], scene: Scene) -> Change | None:
+    found = _named(slots, scene, "a", "b") if "b" in slots else _named(slots, scene, "a")
+    if found is None:
+        return None
+    one, other = (found[0], found[1]) if len(found) == 2 else (found[0][:1], found[0][1:])
+    if len(one) != 1 or len(other) != 1 or one == other:
+        return None
+    order = list(range(len(visits(scene))))
+    order[one[0]], order[other[0]] = other[0], one[0]
+    return _left(scene, order)
+
+
+def _first(slots: dict[str, Phrase], scene: Scene) -> Change | None:
+    found = _named(slots, scene, "a", "b") if "b" in slots else _named(slots, scene, "a")
+    if found is None:
+        return None
+    moved = found[0]
+    rest = [i for i in range(len(visits(scene))) if i not in moved]
+    now = rest[:1] if scene.situation.status == "running" and 0 not in moved else []
+    return _left(scene, [*now, *moved, *(i for i in rest if i not in now)])
+
+
+def _last(slots: dict[str, Phrase], scene: Scene) -> Change | None:
+    found = _named(slots, scene, "a")
+    if found is None:
+        return None
+    return _left(scene, [*(i for i in range(len(visits(scene))) if i not in found[0]), *found[0]])
+
+
+def _moved(after: bool) -> Callable[[dict[str, Phrase], Scene], Change | None]:
+    def change(slots: dict[str, Phrase], scene: Scene) -> Change | None:
+        found = _named(slots, scene, "a", "b")
+        if found is None or set(found[0]) & set(found[1]):
+            return None
+        rest = [i for i in range(len(visits(scene))) if i not in found[0]]
+        at = rest.index(max(found[1])) + 1 if after else rest.index(min(found[1]))
+        return _left(scene, [*rest[:at], *found[0], *rest[at:]])
+
+    return change
+
+
+def _instead(slots: dict[str, Phrase], scene: Scene) -> Change | None:
+    found = _named(slots, scene, "a")
+    if found is None or len(found[0]) != 1:
+        return None
+    listed, at = visits(scene), found[0][0]
+    names = listed[at].names
+    kind = tokens(names[0])[-1:] if names else ()
+    said = tuple(
+        part for word in slots.get("x", ()) for part in (kind if word.key == "one" and kind else (word,))
+    )
+    order = _new(said, scene)
+    if not order:
+        return None
+    if keys(order[:1]) == ("visit",) and keys(said[:1]) != ("visit",):
+        return _renamed(at, order[1:], scene)
+    looked = any(scene.catalogue.roles(info) & {"look"} for info in _infos(at, scene))
+    if looked and keys(order[:1]) == ("visit",):
+        order = (Word("inspect", "inspect"), *order[1:])
+    gone = _pops(range(listed[at].start, listed[at].start + len(listed[at].steps)))
+    edit = Edit(gone, f"I leave out {_names([at], scene)}.")
+    return Change(edit, order, listed[at].start)
+
+
+def _renamed(at: int, named: Phrase, scene: Scene) -> Change | None:
+    """What was to be done at one visit, done at another thing."""
+    listed, found = visits(scene), scene.ground(named)
+    if found.outcome != "match" or not listed[at].names:
+        return None
+    name = describe(found.candidates[0], scene.objects)
+    old = tokens(listed[at].names[0])
+    steps = [renamed(step, old, name, scene) for step in listed[at].steps]
+    after = scene.situation.queue[listed[at].start + len(steps) :]
+    again = (*steps, *after)
+    if any(step.flow is not None for step in again):
+        return None
+    text = f"I will go to {the(name)} instead of {the(listed[at].names[0])}."
+    return Change(Edit(_pops(range(listed[at].start, len(scene.situation.queue))), text, again))
+
+
+def _infos(at: int, scene: Scene) -> list[ActionInfo]:
+    infos = (scene.catalogue.get(step.name) for step in visits(scene)[at].steps)
+    return [info for info in infos if info is not None]
+
+
+def _insert(after: bool, needs_b: bool = False) -> Callable[[dict[str, Phrase], Scene], Change | None]:
+    def change(slots: dict[str, Phrase], scene: Scene) -> Change | None:
+        found = _named(slots, scene, "a", "b") if needs_b else _named(slots, scene, "a")
+        order = _new(slots.get("x", ()), scene)
+        if found is None or not order:
+            return None
+        listed = visits(scene)
+        at = max(found[0]) + 1 if after else min(found[0])
+        return Change(None, order, listed[at].start if at < len(listed) else len(scene.situation.queue))
+
+    return change
+
+
+def _before_all(slots: dict[str, Phrase], scene: Scene) -> Change | None:
+    order = _new(slots.get("x", ()), scene)
+    said = keys(order[:1]) in {("visit",), ("inspect",)} or opens_command(slots["x"])
+    return Change(None, order, 0) if order and said else None
+
+
+def _no_look(slots: dict[str, Phrase], scene: Scene) -> Change | None:
+    gone = [
+        index
+        for index, step in enumerate(scene.situation.queue)
+        if (info := scene.catalogue.get(step.name)) is not None
+        and scene.catalogue.roles(info) & {"look", "search"}
+    ]
+    return Change(Edit(_pops(gone), "I will go there without looking.")) if gone else None
+
+
+def _reverse(slots: dict[str, Phrase], scene: Scene) -> Change | None:
+    order = list(range(len(visits(scene))))
+    now = 1 if scene.situation.status == "running" else 0
+    return _left(scene, [*order[:now], *order[now:][::-1]])
+
+
+def _copy(slots: dict[str, Phrase], scene: Scene) -> Change | None:
+    found = _named(slots, scene, "a")
+    if found is None:
+        return None
+    listed = visits(scene)
+    steps = tuple(step for index in found[0] for step in listed[index].steps if step.flow is None)
+    return Change(Edit((), f"I do {_names(found[0], scene)} once more at the end.", steps)) if steps else None
+
+
+def _nth(slots: dict[str, Phrase], scene: Scene) -> Change | None:
+    order, listed = _new(slots.get("x", ()), scene), visits(scene)
+    place = lexicon().ordinals.get(" ".join(keys(slots.get("n", ()))), 0)
+    if not order or not 0 < place <= len(listed) + 1:
+        return None
+    at = listed[place - 1].start if place <= len(listed) else len(scene.situation.queue)
+    return Change(None, order, at)
+
+
+_CHANGES: dict[str, Callable[[dict[str, Phrase], Scene], Change | None]] = {
+    "drop": _drop,
+    "keep": _keep,
+    "until": _until,
+    "from": _from,
+    "swap": _swap,
+    "first": _first,
+    "last": _last,
+    "before": _moved(False),
+    "after": _moved(True),
+    "instead": _instead,
+    "between": _insert(True, True),
+    "then_after": _insert(True),
+    "then_before": _insert(False),
+    "before_all": _before_all,
+    "no_look": _no_look,
+    "reverse": _reverse,
+    "copy": _copy,
+    "nth": _nth,
+}
+
+_ADDING = frozenset({
+    "add", "insert", "squeeze", "fit", "slot", "include", "throw", "slip", "stick", "put", "do",
+    "visit", "go",
+    "have",
+    "pop", "work", "schedule", "plan", "take",
+})  # fmt: skip
+_LOOKS = tuple(
+    tuple(text.split())
+    for text in ("an inspection of", "a look at", "a check of", "a quick look at", "a look into")
+)
+_VISITS = (("a", "visit", "to"), ("a", "stop", "at"), ("a", "trip", "to"), ("to",), ("by",), ("at",))
+
+
+def _new(words: Phrase, scene: Scene) -> Phrase:
+    """A new order: as said, or a visit to what is named; empty if it is neither, or is pending already."""
+    rest = strip_openers(words, requests=True)
+    rest = tuple(word for word in rest if word.is_word)
+    while rest and keys(rest[-1:]) in {("in",), ("too",), ("also",), ("instead",), ("please",)}:
+        rest = rest[:-1]
+    if not rest:
+        return ()
+    body = rest[1:] if rest[0].key in _ADDING else rest
+    body = body[1:] if keys(body[:1]) in {("in",), ("over",), ("also",)} else body
+    look = next((m for m in _LOOKS if keys(body[: len(m)]) == m), ())
+    visit = next((m for m in _VISITS if keys(body[: len(m)]) == m), ())
+    named = body[len(look or visit) :]
+    if 0 < len(named) <= 8 and scene.ground(named).outcome == "match":
+        if pending_visits(named, scene) and rest is body:
+            return ()
+        return (Word("inspect" if look else "visit", "inspect" if look else "visit"), *named)
+    verbs = Catalogue(scene.situation.catalogue).verbs
+    return rest if opens_command(rest, verbs) and len(rest) > 1 and rest[0].key != "do" else ()
+
+
+def _left(scene: Scene, order: Sequence[int], text: str = "") -> Change | None:
+    """The visits in this order, and no others; what stays in front is left alone."""
+    listed, queue = visits(scene), scene.situation.queue
+    kept = list(order)
+    if kept == sorted(kept):
+        gone = [i for i in range(len(listed)) if i not in kept]
+        pops = _pops(listed[i].start + n for i in gone for n in range(len(listed[i].steps)))
+        return Change(Edit(pops, text or f"All right, in this order: {_names(kept, scene)}."))
+    same = next(i for i, index in enumerate([*kept, -1]) if index != i)
+    again: list[ActionCall] = [step for index in kept[same:] for step in listed[index].steps]
+    if any(step.flow is not None for step in again):
+        text = "Some of these steps depend on others, so I leave the order as it is. Cancel and tell me anew?"
+        return Change(Edit((), text))
+    first = listed[same].start
+    text = text or f"All right, in this order: {_names(kept, scene)}."
+    return Change(Edit(_pops(range(first, len(queue))), text, tuple(again)))
+
+
+def _pops(indices: Iterable[int]) -> tuple[SystemCommand, ...]:
+    return tuple(
+        SystemCommand(command="pop", arguments={"parameters": index})
+        for index in sorted(indices, reverse=True)
+    )
+
+
+def _names(indices: Sequence[int], scene: Scene) -> str:
+    listed = visits(scene)
+    return listing([the(listed[i].names[0]) if listed[i].names else "this step" for i in indices])

@@ -1,0 +1,82 @@
+"""The plan changed by a message, and the last order carried out once more but differently."""
+
+from __future__ import annotations
+
+from abc import abstractmethod
+from dataclasses import dataclass, replace
+
+from parley.language.offline.facts.recalling import Recalling
+from parley.language.offline.plan_changes.edits import Edit
+from parley.language.offline.plan_changes.once_more import changed_again
+from parley.language.offline.plan_changes.rearranging import Change, rearranged
+from parley.language.offline.plan_changes.replanning import visit_of
+from parley.language.offline.scene.grouping import grouped, names_things
+from parley.language.offline.scene.scene import Scene
+from parley.language.offline.sentences.branching import branched
+from parley.language.offline.sentences.scoping import scoped
+from parley.language.offline.words.text import Phrase, keys, tokens
+from parley.messages.chat import ChatAction, SystemCommand
+
+__all__ = ["Rereading"]
+
+
+@dataclass
+class Rereading(Recalling):
+    """How what is pending or was asked for last becomes another plan."""
+
+    @abstractmethod
+    def read(self, words: Phrase) -> ChatAction:
+        """Understand a whole message."""
+
+    def changed_plan(self, words: Phrase) -> ChatAction | None:
+        """What a message changes of the plan as it stands, if that is all that it asks for."""
+        self._mention_history()
+        change = rearranged(words, self.scene)
+        return None if change is None else self._rearranged(change)
+
+    def _changed_again(self, words: Phrase) -> ChatAction | None:
+        """The last order once more, in another order or with other stops; None if that is not asked for."""
+        different = () if self.scene.situation.queue else changed_again(words)
+        if keys(different[:1]) in {("with",), ("for",), ("at",), ("in",), ("to",), ("on",)}:
+            different = (*tokens("replace this one with"), *different[1:])
+        orders = [turn.content for turn in self.scene.situation.history if turn.role == "operator"]
+        if not different or not orders:
+            return None
+        situation = replace(self.scene.situation, history=(), status="idle")
+        last = type(self)(Scene.of(situation)).read(tokens(orders[-1]))
+        scene = Scene.of(replace(situation, queue=last.queue))
+        change = rearranged(different, scene) if last.queue else None
+        if change is None:
+            return None
+        action = type(self)(scene)._rearranged(change)
+        gone = {command.pop_index for command in action.system_cmd}
+        kept = [step for index, step in enumerate(last.queue) if index not in gone]
+        return self._result(action.message_response, (*kept, *action.queue))
+
+    def _rearranged(self, change: Change) -> ChatAction:
+        """Change what is pending, and do what is new in its place."""
+        edit, queue = change.edit or Edit((), ""), self.scene.situation.queue
+        if not change.order:
+            self.scene.trace.note("edit", edit.reply)
+            self.commands.extend(edit.commands)
+            return self._result(edit.reply, edit.queue)
+        gone = {command.pop_index for command in edit.commands}
+        after = tuple(step for index, step in enumerate(queue) if index >= change.at and index not in gone)
+        if any(step.flow is not None for step in after):
+            after = ()
+        taken = [i for i in range(len(queue)) if i in gone or (after and i >= change.at)]
+        plain_scene = replace(self.scene, situation=replace(self.scene.situation, queue=()))
+        new = type(self)(plain_scene, targets=self.targets).read(change.order)
+        if not new.queue:
+            return new
+        pops = [SystemCommand(command="pop", arguments={"parameters": i}) for i in reversed(taken)]
+        self.commands.extend(pops)
+        reply = f"{edit.reply} {new.message_response}".strip()
+        self.scene.trace.note("edit", reply)
+        return self._result(reply, (*new.queue, *after))
+
+    def _grouped(self, words: Phrase) -> Phrase:
+        """The message with one word for each group, and without what is only denied."""
+        read = grouped(words, self.scene)
+        names = names_things(self.scene)
+        return branched(scoped(read, names, lambda part: visit_of(part, self.scene) is not None), names)

@@ -1,0 +1,256 @@
+"""How much sense one reading of a message makes, by what it explains and what it leaves over."""
+
+from __future__ import annotations
+
+import re
+from collections.abc import Sequence
+from dataclasses import dataclass
+
+from parley.language.offline.facts.remembering import find_fact
+from parley.language.offline.readings.plausible import is_request, names_something
+from parley.language.offline.scene.scene import Scene, UnclearError
+from parley.language.offline.sentences.laconic import SEEN
+from parley.language.offline.sentences.units import Unit
+from parley.language.offline.tasks.catalogue import parameter_role
+from parley.language.offline.tasks.tasks import UnableError
+from parley.language.offline.words.lexicon import lexicon
+from parley.language.offline.words.nouns import bare
+from parley.language.offline.words.text import Phrase, keys, lemma, singular, tokens
+from parley.messages.chat import ActionCall, ChatAction
+
+__all__ = ["Judgement", "is_odd", "judge", "texts_of"]
+
+_SAID = frozenset({"text", "question", "person"})
+"""Inputs that may hold any words."""
+_PARTLY = "did not understand"
+_WEIGHTS = {
+    "lost": 4.0,
+    "nonsense": 3.0,
+    "unable": 1.5,
+    "partly": 2.0,
+    "unused": 1.5,
+    "strayed": 1.0,
+    "asks": 1.0,
+    "left": 0.4,
+}
+
+
+@dataclass(frozen=True, slots=True)
+class Judgement:
+    """What speaks against a reading; nothing is best."""
+
+    lost: int = 0
+    """It ends in not having understood."""
+    nonsense: int = 0
+    """Things to do something about that nothing can be called."""
+    unable: int = 0
+    """It ends in something that the robot cannot do."""
+    partly: int = 0
+    """Parts that it says it did not understand."""
+    unused: int = 0
+    """Things on the map that an order names, and that are not in the plan."""
+    strayed: int = 0
+    """Things that the plan is about, though nothing but a story names them."""
+    asks: int = 0
+    """It ends in a question."""
+    left: int = 0
+    """Words of orders that carry meaning and are neither in the plan nor in the reply."""
+
+    @property
+    def cost(self) -> float:
+        """All of it, weighed; 0 is best."""
+        return float(sum(weight * getattr(self, name) for name, weight in _WEIGHTS.items()))
+
+    def __str__(self) -> str:
+        """For people: what is counted, and the sum."""
+        parts = [f"{name} {getattr(self, name)}" for name in _WEIGHTS if getattr(self, name)]
+        return f"{self.cost:g} ({', '.join(parts) or 'nothing against it'})"
+
+
+def judge(
+    action: ChatAction, trouble: UnclearError | UnableError | None, units: Sequence[Unit], scene: Scene
+) -> Judgement:
+    """Judge one reading.
+
+    Args:
+        action: What the reading comes to.
+        trouble: What ended it early, if anything.
+        units: The parts of the message.
+        scene: What is known.
+    """
+    unclear = trouble if isinstance(trouble, UnclearError) else None
+    asked = unclear is not None and bool(unclear.about) and not _can_be(unclear.about, units, scene)
+    wrong = sum(_nonsense(step, scene) for step in action.queue) + _kept_orders(action, units)
+    ordered = _named_in(units, {"order", "wish", "name", "idle", "condition"}, scene)
+    told = _named_in(units, {"told", "reason"}, scene) - _named_in(
+        units, {"order", "wish", "name", "asked"}, scene
+    )
+    used = _used(action, units, scene)
+    return Judgement(
+        lost=int(unclear is not None and unclear.lost),
+        nonsense=wrong + asked,
+        unable=int(isinstance(trouble, UnableError) and sum(unit.kind == "order" for unit in units) > 1),
+        partly=action.message_response.count(_PARTLY) + _missed(action, trouble, units),
+        unused=0
+        if _changes_plan(action) or (unclear is not None and unclear.choices)
+        else len(ordered - used),
+        strayed=len(told & used) + _from_stories(action, units, scene)
+        if ordered and not _points(units)
+        else 0,
+        asks=_asks(unclear, ordered, scene),
+        left=0 if _changes_plan(action) or trouble is not None else _left(action, units, scene),
+    )
+
+
+def _missed(action: ChatAction, trouble: UnclearError | UnableError | None, units: Sequence[Unit]) -> int:
+    """Whether nothing comes of an order that stands among stories."""
+    if action.queue or trouble is not None or any(c.command != "add_memory" for c in action.system_cmd):
+        return 0
+    stories = any(unit.kind in {"told", "reason"} for unit in units)
+    orders = (keys(unit.words) for unit in units if unit.kind == "order" and len(unit.words) > 2)
+    return int(stories and any(not {"not", "never", "tell"} & set(words[:3]) for words in orders))
+
+
+def _asks(unclear: UnclearError | None, ordered: set[str], scene: Scene) -> int:
+    """How odd it is to ask: which of several is meant is fair, unless the message names one of them."""
+    if unclear is None or unclear.lost:
+        return 0
+    if not unclear.choices:
+        return 1
+    named = {item.description for item in scene.objects if item.id in ordered}
+    either = "or" in keys(tokens(scene.situation.message.lower()))
+    return 2 * bool(named & set(unclear.choices) and not either)
+
+
+def _left(action: ChatAction, units: Sequence[Unit], scene: Scene) -> int:
+    """How many words that carry meaning an order has and neither the plan nor the reply."""
+    text = " ".join([*texts_of(action.queue), action.message_response])
+    there = {part for word in keys(tokens(text.lower())) for part in (word, singular(word), lemma(word))}
+    robots = {key for name in scene.situation.robots for key in keys(tokens(name))}
+    count = 0
+    for unit in units:
+        if unit.kind not in {"order", "wish"} or not action.queue:
+            continue
+        named = {key for name in unit.names for key in keys(name)} | robots
+        said = {key for key in keys(unit.words) if _means_something(key)} - named
+        count += sum(not {key, singular(key), lemma(key)} & there for key in said)
+    return count
+
+
+def _means_something(key: str) -> bool:
+    lex = lexicon()
+    if not key.isalpha() or len(key) < 3:
+        return False
+    telling = lex.nouns | lex.meaningful | lex.hazards | lex.incidents | SEEN
+    return key in telling or (key not in lex.vocabulary and lemma(key) not in lex.vocabulary)
+
+
+def _changes_plan(action: ChatAction) -> bool:
+    """Whether more than new steps come of it: then the reply names what is not to be done."""
+    return any(command.command != "add_memory" for command in action.system_cmd)
+
+
+def _points(units: Sequence[Unit]) -> bool:
+    """Whether an order points at what was told before it, for nothing was asked for yet."""
+    for unit in units:
+        if unit.kind in {"order", "wish"} and _POINTING & set(keys(unit.words)):
+            return True
+        if unit.kind in {"order", "wish", "name"} and unit.names:
+            return False
+    return False
+
+
+_POINTING = frozenset({"it", "them", "there", "that", "this", "those", "these", "him", "her", "one", "ones"})
+
+
+def _from_stories(action: ChatAction, units: Sequence[Unit], scene: Scene) -> int:
+    """How many things that are not on the map only a story names."""
+    told = {key for unit in units if unit.kind in {"told", "reason"} for key in keys(unit.words)}
+    asked = {key for unit in units if unit.kind not in {"told", "reason"} for key in keys(unit.words)}
+    count = 0
+    for value in texts_of(action.queue):
+        words = {key for key in keys(tokens(value)) if key.isalnum()}
+        known = any(value.lower() in {item.description.lower(), item.id.lower()} for item in scene.objects)
+        count += not known and words <= told and not words & asked
+    return count
+
+
+def texts_of(steps: Sequence[ActionCall]) -> list[str]:
+    """The inputs in words of some steps."""
+    return [
+        str(parameter.value)
+        for step in steps
+        for parameter in step.input_parameters.values()
+        if parameter.has_data and isinstance(parameter.value, str)
+    ]
+
+
+def _kept_orders(action: ChatAction, units: Sequence[Unit]) -> int:
+    """How many memories hold an order."""
+    orders = [" ".join(keys(unit.words)) for unit in units if unit.kind == "order" and len(unit.words) > 2]
+    kept = [
+        " ".join(keys(tokens(str(command.arguments.get("data", "")))))
+        for command in action.system_cmd
+        if command.command == "add_memory"
+    ]
+    return sum(any(order in text for order in orders) for text in kept)
+
+
+def _can_be(words: Phrase, units: Sequence[Unit], scene: Scene) -> bool:
+    """Whether words that are asked about can be a name; what holds the name of something known is none."""
+    flat = " ".join(keys(bare(words)))
+    names = (" ".join(keys(bare(name))) for unit in units for name in unit.names)
+    if any(f" {name} " in f" {flat} " and name != flat for name in names):
+        return False
+    return scene.ground(words).outcome != "none" or names_something(words)
+
+
+def is_odd(step: ActionCall, scene: Scene) -> bool:
+    """Whether a step looks at or for something that nothing can be called."""
+    roles = {
+        role
+        for info in scene.catalogue.infos
+        if info.name == step.name
+        for role in scene.catalogue.roles(info)
+    }
+    return bool(roles & {"look", "search"}) and _nonsense(step, scene) > 0
+
+
+def _nonsense(step: ActionCall, scene: Scene) -> int:
+    """How many inputs of a step nothing can be called."""
+    values = [
+        str(parameter.value)
+        for name, parameter in step.input_parameters.items()
+        if parameter.has_data and isinstance(parameter.value, str) and parameter_role(name) not in _SAID
+    ]
+    return sum(not _makes_sense(tokens(value), scene) for value in values if value)
+
+
+def _makes_sense(words: Phrase, scene: Scene) -> bool:
+    if is_request(words):
+        return True
+    text = " ".join(keys(words))
+    if any(text in {item.id.lower(), item.description.lower()} for item in scene.objects):
+        return True
+    return find_fact(words, scene.facts)[0] is not None and names_something(words)
+
+
+def _named_in(units: Sequence[Unit], kinds: set[str], scene: Scene) -> set[str]:
+    """The ids of what the parts of some kinds name."""
+    phrases = (phrase for unit in units if unit.kind in kinds for phrase in unit.names)
+    return {item.id for phrase in phrases for item in scene.ground(phrase).candidates[:1]}
+
+
+def _used(action: ChatAction, units: Sequence[Unit], scene: Scene) -> set[str]:
+    """The ids of what the plan or the reply names, by its own words or by the operator's."""
+    values = [
+        str(parameter.value).lower()
+        for step in action.queue
+        for parameter in step.input_parameters.values()
+        if parameter.has_data
+    ]
+    said = re.sub(r"I (?:will )?remember[^.]*\.", "", action.message_response)
+    text = " | ".join([*values, said.lower()])
+    return {
+        item.id for item in scene.objects if item.description.lower() in text or item.id.lower() in values
+    }

@@ -1,0 +1,253 @@
+"""Names of kinds of things in a message, and which of these an exception or a number means."""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Sequence
+from dataclasses import dataclass, field
+
+from parley.language.offline.facts.remembering import Remembered
+from parley.language.offline.scene import spatial
+from parley.language.offline.scene.grounding import ground_phrase
+from parley.language.offline.scene.group_words import (
+    Lead,
+    labels_at,
+    read_lead,
+    stops,
+)
+from parley.language.offline.scene.members import chosen, labelled
+from parley.language.offline.words.lexicon import lexicon
+from parley.language.offline.words.nouns import bare, coordinated
+from parley.language.offline.words.text import Phrase, Word, keys, singular
+from parley.world.geometry import Pose2D
+from parley.world.object_map import MapObject
+
+__all__ = ["LONGEST_NOUN", "NO_NOUN", "Found", "GroupNouns"]
+
+LONGEST_NOUN = 5
+
+_WHICH_GOES = frozenset({"that", "which", "is", "goes", "going", "called", "named", "marked", "with", "the"})
+NO_NOUN = (
+    lexicon().determiners
+    | lexicon().be
+    | frozenset(
+        {
+            "and",
+            "or",
+            "but",
+            "to",
+            "of",
+            "then",
+            "not",
+            "except",
+            "for",
+            "you",
+            "i",
+            "we",
+            "me",
+            "from",
+            "than",
+            "nor",
+        }
+    )
+)
+_GENERIC = frozenset({"place", "point", "spot", "way", "side", "end"})
+
+
+@dataclass(frozen=True)
+class Found:
+    """A group and where its words end."""
+
+    items: tuple[MapObject, ...]
+    end: int
+    each: bool = False
+    cut: tuple[int, int] = (0, 0)
+    """Words farther on that said what is left out."""
+
+
+@dataclass
+class GroupNouns:
+    """What names kinds of things and members of them."""
+
+    objects: Sequence[MapObject]
+    pose: Pose2D | None
+    facts: Sequence[Remembered]
+    named: Callable[[Phrase], Sequence[MapObject]]
+    """The things that words before a group have named, for "the others"."""
+    _known: dict[tuple[str, ...], tuple[MapObject, ...]] = field(default_factory=dict)
+    _last: tuple[MapObject, ...] = ()
+    """The group that was named last."""
+    _each: bool = False
+    _kind: tuple[MapObject, ...] = ()
+    """All things of the kind that was named last, for "only the first two"."""
+    _kinds_said: frozenset[str] = field(init=False)
+    """Words with which the name of a kind of thing may begin."""
+
+    def __post_init__(self) -> None:
+        said = {
+            singular(part)
+            for item in self.objects
+            for part in (*item.description.lower().split(), *item.class_name.lower().split())
+        }
+        lex = lexicon()
+        alike = {other.split()[0] for word in said for other in lex.synonyms.get(word, ())}
+        kinds = {kind for kind, members in lex.kinds.items() if members & said}
+        self._kinds_said = frozenset(said | {singular(word) for word in alike} | kinds)
+
+    def _noun(self, words: Phrase, at: int, lead: Lead) -> tuple[int, tuple[MapObject, ...]]:
+        """The longest name of a kind of thing, and all things it fits."""
+        for size in range(min(LONGEST_NOUN, len(words) - at), 0, -1):
+            part = words[at : at + size]
+            if any(not w.is_word or w.key in NO_NOUN for w in part) or len(part[-1].key) < 3:
+                continue
+            if bare(part)[-1:] != part[-1:] or part[0].key in lexicon().goals_and_places:
+                continue
+            items = self._things(part)
+            if len(items) > 1 or (items and lead.other and size == 1):
+                return at + size, items
+        return at, ()
+
+    def _things(self, noun: Phrase) -> tuple[MapObject, ...]:
+        flat = keys(noun)
+        if flat not in self._known:
+            last = noun[-1].key
+            generic = last in lexicon().generic_things or last.isdigit() or singular(last) in _GENERIC
+            found = None if generic else ground_phrase(noun, self.objects, self.pose, strict=True)
+            items = () if found is None or found.outcome == "none" else found.candidates
+            self._known[flat] = (
+                items if len(items) != 1 or singular(last) == last else self._kinds(noun, items)
+            )
+        return self._known[flat]
+
+    def _kinds(self, noun: Phrase, found: tuple[MapObject, ...]) -> tuple[MapObject, ...]:
+        """All things of a kind whose plural names one of them by chance."""
+        kind, rest = singular(noun[-1].key), set(keys(noun[:-1]))
+        several = tuple(
+            item
+            for item in self.objects
+            if kind in {item.class_name, *item.description.lower().split()[-1:]}
+            and rest <= set(item.description.lower().split())
+        )
+        return several if len(several) > 1 else found
+
+    def _alike(self, named: Sequence[MapObject]) -> tuple[MapObject, ...]:
+        """All things of the kind of what was named last."""
+        kind = named[-1].class_name if named else ""
+        return tuple(item for item in self.objects if kind and item.class_name == kind)
+
+    def _labelled(self, noun: Phrase, parts: Sequence[tuple[str, ...]]) -> tuple[MapObject, ...]:
+        """The things of a kind with these numbers or letters; empty unless each part of the row has one."""
+        last = noun[-1]
+        kind = (*noun[:-1], Word(singular(last.key), singular(last.raw)))
+        items: list[MapObject] = []
+        for part in parts:
+            listed = [labelled(kind, label, self.objects) for label in part]
+            there = [item for item in listed if item is not None]
+            if not there:
+                return ()
+            items += there
+        return tuple(dict.fromkeys(items)) if len(items) > 1 else ()
+
+    def _placed(
+        self, words: Phrase, at: int, items: tuple[MapObject, ...]
+    ) -> tuple[tuple[MapObject, ...], int]:
+        """Those of a group that are where the words behind it say, and where these end."""
+        flat = keys(words)
+        end = at + 1 if flat[at : at + 1] in {("that",), ("which",)} else at
+        end += flat[end : end + 1] in {("are",), ("is",)} and end > at
+        found = lexicon().places.match(flat, end)
+        if found is None or found[1] in {"of", "from", "with"}:
+            return items, at
+        start = end + found[0]
+        for size in range(min(LONGEST_NOUN + 1, len(words) - start), 0, -1):
+            part = words[start : start + size]
+            if any(not word.is_word for word in part) or not bare(part):
+                continue
+            where = ground_phrase(part, [o for o in self.objects if o not in items], self.pose, strict=True)
+            if where.outcome != "match":
+                continue
+            there = spatial.all_at(items, found[1], where.candidates[0], self.pose)
+            return (tuple(there), start + size) if there else (items, at)
+        return items, at
+
+    def _left_out(
+        self, words: Phrase, at: int, items: Sequence[MapObject], noun: Phrase
+    ) -> tuple[tuple[MapObject, ...], int]:
+        """What an exception names, and where it ends; nothing if that cannot be told."""
+        flat = keys(words)
+        counted = flat[at : at + 1] and flat[at][0].isdigit()
+        lead, start = (Lead(), at) if counted else read_lead(words, at)
+        if lead.end or lead.ordinals:
+            return chosen(items, lead, self.pose), start
+        place = (
+            -1
+            if flat[start : start + 1] == ("last",)
+            else lexicon().ordinals.get("".join(flat[start : start + 1]), 0)
+        )
+        if place and (stops(words, start + 1) or flat[start + 1] == "one"):
+            end = start + 1 + (flat[start + 1 : start + 2] == ("one",))
+            return (tuple(items[place - 1 : place]) if place > 0 else tuple(items[-1:])), end
+        parts, end = labels_at(words, start)
+        if parts:
+            kind = (*noun[:-1], Word(singular(noun[-1].key), singular(noun[-1].raw)))
+            named = [labelled(kind, label, items) for part in parts for label in part]
+            gone = tuple(item for item in named if item is not None)
+            return (gone, end) if gone else ((), at)
+        return self._named_out(words, start, items, noun)
+
+    def _named_out(
+        self, words: Phrase, at: int, items: Sequence[MapObject], noun: Phrase
+    ) -> tuple[tuple[MapObject, ...], int]:
+        """For "except the red one and the hall": things by their names or by what tells them apart."""
+        gone: list[MapObject] = []
+        end = at
+        while True:
+            size, found = self._one_of(words, end, items, noun)
+            if not size:
+                break
+            gone, end = [*gone, *found], end + size
+            joint = end
+            while keys(words[joint : joint + 1]) in {(",",), ("and",), ("or",), ("the",), ("nor",)}:
+                joint += 1
+            if joint == end or not self._one_of(words, joint, items, noun)[0]:
+                break
+            end = joint
+        return tuple(gone), end
+
+    def _one_of(
+        self, words: Phrase, at: int, items: Sequence[MapObject], noun: Phrase
+    ) -> tuple[int, tuple[MapObject, ...]]:
+        kind = Word(singular(noun[-1].key), singular(noun[-1].raw))
+        for size in range(min(LONGEST_NOUN + 2, len(words) - at), 0, -1):
+            part = words[at : at + size]
+            if any(not word.is_word for word in part) or part[-1].key in NO_NOUN:
+                continue
+            body = bare(part)
+            ends = body and body[-1].key in {"one", "ones"}
+            # "The red one", and "the one by the window".
+            pointed = next((i for i, w in enumerate(body) if w.key in {"one", "ones"}), -1)
+            behind = tuple(word for word in body[pointed + 1 :] if word.key not in _WHICH_GOES)
+            named = (*body[:pointed], kind, *behind) if pointed >= 0 else body
+            if size == 1 and len(named) == 1 and not pointed >= 0:
+                alike = [i for i in items if named[0].key in i.description.lower().split()]
+                if alike and len(alike) < len(items) and named[0].key not in keys(noun):
+                    return 1, tuple(alike)
+            for phrase in (named,) if pointed >= 0 or ends else (named, (*body, kind)):
+                found = ground_phrase(phrase, self.objects, self.pose, among=items, strict=True)
+                if found.outcome == "match" and phrase:
+                    return size, found.candidates[:1]
+        return 0, ()
+
+    def _remembered_so(self, words: Phrase, at: int) -> Found | None:
+        """For "the rooms with oxygen", where it is remembered which these are."""
+        for known in self.facts:
+            fact = known.fact
+            about = keys(bare(fact.subject))
+            if fact.relation not in lexicon().be or len(about) < 2 or not fact.state or fact.negated:
+                continue
+            if keys(words[at : at + len(about)]) != about:
+                continue
+            found = [ground_phrase(part, self.objects, strict=True) for part in coordinated(fact.state)]
+            items = tuple(one.candidates[0] for one in found if one.outcome == "match")
+            if len(items) == len(found) > 1:
+                return Found(items, at + len(about), True)
+        return None

@@ -1,0 +1,174 @@
+"""Groups and things that are pointed at: by a pronoun, by what is beside them, by a number behind them."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+
+from parley.language.offline.scene.grounding import ground_phrase
+from parley.language.offline.scene.group_nouns import LONGEST_NOUN, NO_NOUN, Found, GroupNouns
+from parley.language.offline.scene.group_words import (
+    Lead,
+    labels_at,
+    read_lead,
+    stops,
+)
+from parley.language.offline.scene.members import chosen, in_order, neighbour
+from parley.language.offline.words.lexicon import lexicon
+from parley.language.offline.words.nouns import coordinated
+from parley.language.offline.words.text import Phrase, keys, singular
+from parley.world.object_map import MapObject
+
+__all__ = ["GroupPointing"]
+
+
+_PRONOUNS = frozenset({"them", "those", "these"})
+_AFTER_PRONOUN = frozenset({"all", "both", "each"})
+
+
+@dataclass
+class GroupPointing(GroupNouns):
+    """How groups are pointed at."""
+
+    def _pointed(self, words: Phrase, start: int) -> Found | None:
+        """For "them", "each of them", "both" and "one of them" behind a group."""
+        flat = keys(words)
+        if self._kind and (some := self._elided(words, start)) is not None:
+            return some
+        group = self._last or self._kind
+        if not group:
+            return None
+        if flat[start] == "they":
+            link = keys(words[start + 1 : start + 2])
+            return Found(group, start + 1, True) if self._last and link and link[0] in lexicon().be else None
+        if flat[start] in {"them", "those"}:
+            more = flat[start + 1 : start + 2]
+            ends = more == () or more[0] not in {"who", "that", "which", "with"}
+            noun = flat[start] == "those" and not stops(words, start + 1)
+            size = 1 + (more[:1] != () and more[0] in _AFTER_PRONOUN)
+            return Found(group, start + size, self._each) if self._last and ends and not noun else None
+        if flat[start] == "it" and self._last and self._each:
+            return Found(self._last, start + 1, True)
+        lead, at = read_lead(words, start)
+        if not (lead.everything or lead.count or lead.free):
+            return None
+        if start and words[start - 1].key in _NOT_BEFORE_ALL and words[start].key == "all":
+            return None
+        of = lead.of or flat[at - 1] == "of"
+        pronoun = of and flat[at : at + 1] and flat[at] in _PRONOUNS
+        alone = lead.everything and not lead.definite and stops(words, at)
+        one = flat[at : at + 1] == ("one",) and lead.everything and stops(words, at + 1)
+        if not (pronoun or alone or one):
+            return None
+        picked = chosen(group, lead, self.pose)
+        return Found(picked, at + bool(pronoun or one), True) if picked else None
+
+    def _elided(self, words: Phrase, start: int) -> Found | None:
+        """For "the first two" and "only the outer ones" behind "doors"."""
+        lead, at = read_lead(words, start)
+        told = self._told_apart(words, start) if words[start].key == "the" else None
+        if told is not None:
+            return told
+        if not lead.definite or not (lead.end or lead.where or lead.ordinals or lead.parity >= 0):
+            return None
+        end = at + (keys(words[at : at + 1]) in {("ones",), ("one",)})
+        some = chosen(self._kind, lead, self.pose) if stops(words, end) else ()
+        return Found(some, end) if some else None
+
+    def _told_apart(self, words: Phrase, start: int) -> Found | None:
+        """For "the new" behind "tractors": the one of them that is called so."""
+        for size in (1, 2):
+            part = keys(words[start + 1 : start + 1 + size])
+            ends = start + 1 + size >= len(words) or not words[start + 1 + size].is_word
+            if len(part) < size or not ends or not all(word.isalpha() for word in part):
+                continue
+            alike = [i for i in self._kind if set(part) <= set(i.description.lower().split()[:-1])]
+            if len(alike) == 1 and not self._things(words[start + 1 : start + 1 + size]):
+                return Found((alike[0],), start + 1 + size)
+        return None
+
+    def _neighbour(self, words: Phrase, start: int) -> Found | None:
+        """For "the room after room 12": the next of its kind, by number or in the row they stand in."""
+        if words[start].key not in {"the", "that"}:
+            return None
+        end, items = self._noun(words, start + 1, Lead())
+        flat = keys(words)
+        step = end + (flat[end : end + 1] in {("right",), ("just",), ("directly",), ("immediately",)})
+        way = _STEPS_ALONG.get(flat[step] if step < len(flat) else "", 0)
+        if not items or not way:
+            return None
+        for size in range(min(LONGEST_NOUN, len(words) - step - 1), 0, -1):
+            part = words[step + 1 : step + 1 + size]
+            if any(not word.is_word for word in part):
+                continue
+            size_of, found = self._one_of(words, step + 1, items, words[start + 1 : end])
+            if not size_of or len(found) != 1:
+                return None
+            other = neighbour(items, found[0], way)
+            return Found((other,), step + 1 + size_of) if other is not None else None
+        return None
+
+    def _where_it_is(self, words: Phrase, start: int) -> Found | None:
+        """For "the valve next to boiler 3": the one thing that is meant, whatever is to be done with it."""
+        if words[start].key not in {"the", "that"}:
+            return None
+        end, items = self._noun(words, start + 1, Lead())
+        flat = keys(words)
+        link = end + 2 if flat[end : end + 2] in {("that", "is"), ("which", "is")} else end
+        found = lexicon().places.match(flat, link) if items else None
+        if found is None or found[1] in _NOT_TELLING or singular(words[end - 1].key) != words[end - 1].key:
+            return None
+        first = link + found[0]
+        for size in range(min(10, len(words) - first), 0, -1):
+            part = words[first : first + size]
+            if any(not word.is_word for word in part) or not self._anchors(part, found[1]):
+                continue
+            phrase = (*words[start + 1 : end], *words[link : first + size])
+            meant = ground_phrase(phrase, self.objects, self.pose)
+            if meant.outcome == "match" and meant.candidates[0] in items:
+                return Found(meant.candidates[:1], first + size)
+            return None
+        return None
+
+    def _anchors(self, part: Phrase, relation: str) -> bool:
+        """Whether words name what something is said to be beside, and nothing more."""
+        parts = coordinated(part) if "between" in relation else [part]
+        if "between" in relation and len(parts) != 2:
+            return False
+        found = [ground_phrase(one, self.objects, self.pose, strict=True) for one in parts]
+        return all(one.outcome == "match" for one in found)
+
+    def _numbers_behind(
+        self, words: Phrase, at: int, end: int, items: tuple[MapObject, ...], lead: Lead
+    ) -> Found | None:
+        """For "the two rooms, 11 and 13" and "all patient rooms, 11 to 14": those with these numbers."""
+        if not items and at + 1 < len(words) and words[at].is_word and words[at].key not in NO_NOUN:
+            end, items = self._noun(words, at + 1, lead)
+            at += 1
+        if not items or not (lead.everything or lead.count > 1 or lead.definite):
+            return None
+        flat = keys(words)
+        start = end + (flat[end : end + 1] == ("please",))
+        if flat[start : start + 1] not in {(",",), (":",)}:
+            return None
+        parts, after = labels_at(words, start + 1)
+        numbers = [label for part in parts for label in part]
+        fitting = self._labelled(words[at:end], parts) if len(numbers) > 1 and stops(words, after) else ()
+        counted = lead.count in {0, len(fitting)}
+        return Found(fitting, after, lead.each) if fitting and counted else None
+
+    def _nth(self, words: Phrase, end: int, items: tuple[MapObject, ...], start: int) -> Found | None:
+        """For "the last aisle": of things that have numbers."""
+        flat = keys(words)
+        if flat[start] != "the" or flat[start + 1 : start + 2] != ("last",) or items:
+            return None
+        end, items = self._noun(words, start + 2, Lead())
+        places = lexicon().places.match(flat, end) if items else None
+        numbered = items and all(item.description.split()[-1].isdigit() for item in items)
+        return Found((in_order(items)[-1],), end) if numbered and places is None else None
+
+
+_STEPS_ALONG = {"after": 1, "following": 1, "past": 1, "before": -1, "preceding": -1}
+_NOT_BEFORE_ALL = frozenset({"of", "after", "at", "is", "in", "above", "for", "first", "last", "that"})
+_NOT_TELLING = frozenset(
+    {"on", "in", "at", "into", "onto", "inside", "of", "with", "from", "upon", "around", "along"}
+)

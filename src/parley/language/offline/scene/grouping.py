@@ -1,0 +1,162 @@
+"""A message with one word for each group of things it names, seen against what was spoken of before."""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Sequence
+
+from parley.language.offline.facts.stories import mentioned
+from parley.language.offline.scene.grounding import ground_phrase
+from parley.language.offline.scene.groups import GroupReader
+from parley.language.offline.scene.marks import marks_of
+from parley.language.offline.scene.scene import Scene
+from parley.language.offline.scene.subsets import with_exception_behind
+from parley.language.offline.words.lexicon import lexicon
+from parley.language.offline.words.nouns import bare
+from parley.language.offline.words.text import Phrase, Word, keys, plain, singular, tokens
+from parley.world.object_map import MapObject
+
+__all__ = ["grouped", "names_things"]
+
+_LAST_TURNS = 4
+
+
+def grouped(words: Phrase, scene: Scene) -> Phrase:
+    """The message with one word for each group of things that it names.
+
+    Args:
+        words: All words and punctuation.
+        scene: What is known; "the others" are other than what this message or the last ones named.
+    """
+
+    def named(said: Phrase) -> Sequence[MapObject]:
+        here = _named(said, scene)
+        if here:
+            return here
+        turns = (t for t in scene.situation.history[-_LAST_TURNS:] if t.role == "operator")
+        return [item for turn in turns for item in _named(tokens(turn.content), scene)]
+
+    words = with_exception_behind(words)
+    words = _without_stand_in(_which_then(_wrong_one(words)), scene)
+    read = GroupReader(scene.objects, scene.situation.robot_pose, scene.facts, named).read(words)
+    if keys(read) != keys(words):
+        scene.trace.note("words", f"groups found in “{plain(words)}”")
+    return read
+
+
+def names_things(scene: Scene) -> Callable[[Phrase], bool]:
+    """Whether words name one thing of the map, or all of a kind, and say nothing else."""
+    known: dict[tuple[str, ...], bool] = {}
+    described = (f"{item.description} {item.class_name}".lower().split() for item in scene.objects)
+    said = frozenset(part for parts in described for part in parts)
+
+    def names(words: Phrase) -> bool:
+        flat = keys(words)
+        if flat not in known:
+            known[flat] = _names(words, scene, said)
+        return known[flat]
+
+    return names
+
+
+def _names(words: Phrase, scene: Scene, said: frozenset[str]) -> bool:
+    flat = keys(words)
+    if len(words) == 1 and marks_of(words[0]):
+        return True
+    body = bare(words)
+    if not body or len(words) > _LONGEST_NAME or not all(word.is_word for word in words):
+        return False
+    strange = [key for key in keys(body) if key not in said and singular(key) not in said]
+    if len(strange) > 1 or (flat[0] in lexicon().vocabulary - lexicon().determiners and flat[0] not in said):
+        return False
+    found = ground_phrase(body, scene.objects, strict=True)
+    plural = singular(body[-1].key) != body[-1].key
+    return found.outcome == "match" or (plural and found.outcome == "ambiguous")
+
+
+_LONGEST_NAME = 7
+_BETTER = {
+    "nearer": "nearest", "closer": "closest", "farther": "farthest", "further": "furthest",
+    "bigger": "biggest",
+    "larger": "largest", "smaller": "smallest",
+}  # fmt: skip
+_POINTING = (("that", "one"), ("to", "it"), ("it",), ("that",), ("there",), ("this", "one"))
+
+
+def _which_then(words: Phrase) -> Phrase:
+    """For "which door is nearer to the desk? check that one": check the door nearest to the desk."""
+    flat = keys(words)
+    link = next((i for i in range(2, min(6, len(flat))) if flat[i] in {"is", "stands", "lies"}), 0)
+    end = next((i for i in range(link, len(flat)) if flat[i] in {"?", "."}), 0)
+    if flat[:1] not in {("which",), ("what",)} or not link or not end or end + 2 > len(flat):
+        return words
+    rest = words[end + 1 :]
+    at, size = next(
+        ((i, len(m)) for i in range(len(rest)) for m in _POINTING if keys(rest[i : i + len(m)]) == m), (-1, 0)
+    )
+    start = link + 1 + (flat[link + 1] == "the")
+    if at < 1 or start >= end:
+        return words
+    better = _BETTER.get(flat[start])
+    told = (Word(better, better), *words[start + 1 : end]) if better else words[start:end]
+    to = (
+        tokens("to")
+        if keys(rest[at : at + size]) == ("there",)
+        else rest[at : at + 1]
+        if size == 2 and rest[at].key == "to"
+        else ()
+    )
+    return (*rest[:at], *to, *tokens("the"), *words[1:link], *told, *rest[at + size :])
+
+
+_NOT_THAT = frozenset(
+    {
+        ("not", "that", "one"),
+        ("not", "this", "one"),
+        ("not", "that"),
+        ("not", "there"),
+        ("not", "it"),
+        ("not", "him"),
+        ("no", "not", "that", "one"),
+        ("no", "not", "there"),
+        ("not", "those"),
+        ("not", "these"),
+        ("not", "them"),
+    }
+)
+
+
+def _wrong_one(words: Phrase) -> Phrase:
+    """For "you went to the wrong one, I wanted A": no, A."""
+    flat = keys(words)
+    cut = next((i for i in range(2, min(10, len(flat))) if flat[i] in {",", ".", "!", ";"}), 0)
+    if flat[:cut] in _NOT_THAT and cut + 1 < len(flat):
+        return (*tokens("no ,"), *words[cut + 1 :])
+    if not cut or "wrong" not in flat[:cut] or cut + 2 > len(flat) or "not" in flat[:cut]:
+        return words
+    rest = words[cut + 1 :]
+    wished = keys(rest[:2]) in {
+        ("i", w) for w in ("wanted", "meant", "mean", "want", "said", "needed", "asked")
+    }
+    return (*tokens("no , i meant"), *rest[2:]) if wished else words
+
+
+def _without_stand_in(words: Phrase, scene: Scene) -> Phrase:
+    """For "the thing beside the desk, the printer": the printer."""
+    flat = keys(words)
+    for index in range(len(flat) - 4):
+        if flat[index] != "the" or flat[index + 1] not in {"thing", "object", "place", "spot", "item", "one"}:
+            continue
+        comma = next((i for i in range(index + 2, min(index + 10, len(flat))) if flat[i] == ","), 0)
+        if not comma or {"and", "or"} & set(flat[index:comma]):
+            continue
+        end = next(
+            (i for i in range(comma + 1, len(flat)) if flat[i] in {",", ".", "!", "?", "and", "then"}),
+            len(flat),
+        )
+        if scene.ground(words[comma + 1 : end]).outcome == "match":
+            return (*words[:index], *words[comma + 1 :])
+    return words
+
+
+def _named(words: Phrase, scene: Scene) -> list[MapObject]:
+    return [item for phrase in mentioned(words, scene) for item in scene.ground(phrase).candidates[:1]]

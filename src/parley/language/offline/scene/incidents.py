@@ -1,0 +1,291 @@
+"""Situations that people report so that somebody has a look ("water is dripping at A", "B never arrived").
+
+A report names a place of the map, and something happens there, is heard or seen there, or is missing. What is
+usually so ("the lift is broken") is no such report but a fact. The words are data (`data/incidents.yaml`).
+"""
+
+from __future__ import annotations
+
+from functools import cache
+from itertools import pairwise
+
+from parley.language.offline.facts.facts import strip_openers
+from parley.language.offline.scene.missing import left_by_somebody, missing_at, missing_from
+from parley.language.offline.scene.report_words import (
+    TELLERS,
+    phrase_of,
+    place_named,
+    words_for,
+)
+from parley.language.offline.scene.scene import Scene
+from parley.language.offline.sentences.finite import verb_at
+from parley.language.offline.words.inflecting import forms
+from parley.language.offline.words.lexicon import lexicon
+from parley.language.offline.words.nouns import bare
+from parley.language.offline.words.text import Phrase, Word, keys, singular
+
+__all__ = ["happened"]
+
+_MOST_WORDS = 26
+_MOST_SOUGHT = 4
+
+
+def happened(words: Phrase, scene: Scene, *, alone: bool = True) -> Phrase | None:
+    """The order to have a look that a report means; None if a clause reports nothing of the kind."""
+    said = tuple(word for word in strip_openers(words) if word.is_word)
+    flat = keys(said)
+    if not 3 <= len(said) <= _MOST_WORDS or flat[0] in _NO_REPORTS or _denies(flat):
+        return None
+    said = _without_teller(said)
+    if keys(said[-2:]) in {("i", "think"), ("i", "guess"), ("i", "believe"), ("i", "suppose"), ("i", "fear")}:
+        said = said[:-2]
+    if said[0].key in {"smells", "sounds", "stinks", "reeks"}:
+        said = (Word("it", "it"), *said)
+    flat = keys(said)
+    lost = left_by_somebody(said, scene) or missing_from(said, scene)
+    if lost is not None:
+        return lost
+    if not (_alarming(said) or (alone and _seems_so(said))):
+        return None
+    where = place_named(said, scene)
+    if where is None:
+        return None
+    start, end = where
+    place = bare(said[start:end])
+    left = _left_so(flat, end)
+    if left:
+        return phrase_of("check whether the", place, f"is {left}")
+    what = _sought(said, start)
+    return phrase_of("inspect the", place, "for", what) if what else phrase_of("inspect the", place)
+
+
+_NO_REPORTS = (
+    lexicon().question_starts | lexicon().auxiliaries | lexicon().be | {"if", "when", "unless", "you"}
+)
+
+
+@cache
+def _events() -> frozenset[str]:
+    """Each verb of an event as it is used of what goes on now."""
+    return forms(words_for("events"))
+
+
+def _without_teller(words: Phrase) -> Phrase:
+    """Without "somebody has just rung to say" before what is reported."""
+    flat = keys(words)
+    at = next((i for i in range(1, min(9, len(flat) - 3)) if flat[i] in words_for("reporting")), 0)
+    if not at:
+        return words
+    end = at + 1
+    while end < len(flat) and flat[end] in {
+        "to",
+        "say",
+        "that",
+        "and",
+        "said",
+        "says",
+        "me",
+        "us",
+        "report",
+        "there",
+        "tell",
+    } - {"there"}:
+        end += 1
+    rest = words[end:]
+    return rest if len(rest) > 3 and verb_at(rest) else words
+
+
+def _denies(flat: tuple[str, ...]) -> bool:
+    return bool({"no", "nothing", "nobody", "without"} & set(flat)) and not any(missing_at(flat))
+
+
+def _alarming(said: Phrase) -> bool:
+    """Whether something goes on, or is perceived, that somebody should see to."""
+    flat = keys(said)
+    events, happened_ = _events() & set(flat), words_for("happened") & set(flat)
+    ordinary = {f"{one} {other}" for one, other in pairwise(flat)} & _ordinary()
+    heads = [word for word in flat if not any(pair.startswith(f"{word} ") for pair in ordinary)]
+    things = words_for("things") & ({singular(word) for word in heads} | set(heads))
+    perceived = any(
+        flat[i] in words_for("perceiving")
+        and flat[i - 1] in TELLERS | {"can", "could", "just", "also", "have"}
+        for i in range(1, min(8, len(flat)))
+        if flat[0] in TELLERS
+    )
+    told = bool(words_for("reporting") & set(flat[1:5])) and flat[0] not in {"you"}
+    found = words_for("states") & set(flat)
+    fragment = not verb_at(said) and bool(things & set(flat[:3]))
+    pairs = {f"{one} {other}" for one, other in pairwise(flat)}
+    if pairs & words_for("accidents"):
+        return True
+    off = {"gone", "went", "going", "goes"} & set(flat) and "off" in flat
+    if off and {
+        "alarm",
+        "siren",
+        "bell",
+        "light",
+        "lights",
+        "power",
+        "sensor",
+        "beeper",
+        "buzzer",
+        "detector",
+    } & set(flat):
+        return True
+    if {"yesterday"} & set(flat) or (flat[0] in {"i", "we"} and not perceived and not _there_is(flat)):
+        return False
+    if things and words_for("making") & set(flat):
+        return True
+    left = _left_so(flat, 0) and {"left", "forgot", "forgotten"} & set(flat)
+    if left or fragment or happened_:
+        return True
+    if events and (flat[0] in _SOME | {"there", "it"} or perceived or told or _goes_on(flat, events)):
+        return True
+    return bool((found or things) and (perceived or told or flat[0] in _SOME | {"it"} or _there_is(flat)))
+
+
+def _seems_so(said: Phrase) -> bool:
+    """For "A looks dry": how something seems, unless it seems to be all right."""
+    flat = keys(said)
+    verb = verb_at(said)
+    seeming = bool(verb) and flat[verb] in {"looks", "seems", "appears", "sounds"} and len(flat) > verb + 1
+    return seeming and not _FINE & set(flat[verb + 1 :]) and flat[0] not in TELLERS | {"it", "that", "this"}
+
+
+def _there_is(flat: tuple[str, ...]) -> bool:
+    """Whether something is said to be there, or to be had that nobody wants ("we have water coming in")."""
+    having = flat[:2] in {("we", "have"), ("i", "have"), ("they", "have")}
+    return flat[:2] in {("there", "is"), ("there", "are")} or (
+        having and "been" not in flat[:4] and any(word.endswith("ing") for word in flat[3:])
+    )
+
+
+_FINE = frozenset(
+    {
+        "nice",
+        "good",
+        "fine",
+        "great",
+        "lovely",
+        "beautiful",
+        "ok",
+        "okay",
+        "right",
+        "clean",
+        "perfect",
+        "wonderful",
+        "ready",
+        "like",
+        "happy",
+        "to",
+    }
+)
+_SOME = frozenset({"something", "somebody", "someone", "some", "somewhere", "people"})
+
+
+def _goes_on(flat: tuple[str, ...], events: set[str] | frozenset[str]) -> bool:
+    """Whether an event is said to go on: "is leaking", "keeps beeping"."""
+    return any(
+        word in events and word.endswith("ing") and index and flat[index - 1] in _GOING_ON
+        for index, word in enumerate(flat)
+    )
+
+
+_GOING_ON = lexicon().be | {
+    "keeps",
+    "keep",
+    "starts",
+    "started",
+    "still",
+    "just",
+    "constantly",
+    "kept",
+    "been",
+}
+
+
+def _left_so(flat: tuple[str, ...], end: int) -> str:
+    """How something was left that should not be so: "open", "on"."""
+    if not {"left", "forgot", "forgotten", "still", "wide", "stands", "standing"} & set(flat):
+        return ""
+    rest = flat[end:]
+    return next((word for word in rest if word in words_for("left") and word not in {"off", "out"}), "")
+
+
+def _leads(flat: tuple[str, ...], index: int) -> bool:
+    """Whether a word comes before what is perceived; "smell" only as a verb."""
+    if flat[index] in {"smell", "got"} and index:
+        return flat[index] == "got" or flat[index - 1] in TELLERS | {"can", "you", "could"}
+    return flat[index] in _LEADS
+
+
+def _sought(words: Phrase, place_at: int) -> Phrase:
+    """What is to be looked for: a few words before the place that name what was perceived."""
+    flat = keys(words)
+    end = place_at
+    while end and (
+        flat[end - 1]
+        in lexicon().determiners
+        | {"somewhere", "coming", "from", "right", "around", "over", "out", "of", "in"}
+        or any(
+            (found := lexicon().places.match(flat, start)) is not None and start + found[0] == end
+            for start in range(max(0, end - 4), end)
+        )
+    ):
+        end -= 1
+    start = next((i for i in range(end - 1, -1, -1) if _leads(flat, i)), -1) + 1
+    if start > 1 and flat[start - 1] in lexicon().be and flat[start - 2] not in {"there", "it"}:
+        # "Water is dripping": what drips is looked for.
+        start, end = next((i + 1 for i in range(start - 2, -1, -1) if _leads(flat, i)), 0), start - 1
+    what = tuple(word for word in words[start:end] if word.key not in _LIGHT)
+    goes_on = _events() | words_for("happened")
+    what = what[
+        : next((i for i in range(1, len(what)) if what[i].key in goes_on and i == len(what) - 1), len(what))
+    ]
+    while what and what[0].key in lexicon().determiners:
+        what = what[1:]
+    named = {singular(word.key) for word in what} | set(keys(what))
+    known = named & words_for("things")
+    if what and known and len(what) <= _MOST_SOUGHT:
+        return what
+    verb = verb_at(words)
+    new = flat[0] in {"a", "an", "some", "one", "two", "three", "several"} and 1 < verb <= _MOST_SOUGHT
+    return bare(words[:verb]) if new and verb < place_at else ()
+
+
+_LEADS = (
+    lexicon().be
+    | lexicon().auxiliaries
+    | TELLERS
+    | {
+        "hear",
+        "heard",
+        "see",
+        "saw",
+        "seen",
+        "smell",
+        "smelled",
+        "smelt",
+        "notice",
+        "noticed",
+        "feel",
+        "felt",
+        "that",
+        "says",
+        "said",
+        "reports",
+        "reported",
+        "told",
+        "me",
+        "us",
+        "complains",
+        "of",
+        "about",
+        "like",
+        "spotted",
+        "think",
+        "thought",
+        "found",
+    }
+)
+_LIGHT = frozenset({"some", "sort", "kind", "of", "very", "quite", "really", "just", "still", "now", "again"})

@@ -1,0 +1,88 @@
+"""Where a report is about, and the words that reports are made of."""
+
+from __future__ import annotations
+
+from functools import cache
+
+from parley.language.offline.scene.scene import Scene
+from parley.language.offline.words.lexicon import lexicon
+from parley.language.offline.words.nouns import bare
+from parley.language.offline.words.text import Phrase, Word, keys, singular
+from parley.language.word_lists import load_data
+
+__all__ = ["TELLERS", "follows_preposition", "phrase_of", "place_named", "words_for"]
+
+_LONGEST_NAME = 6
+
+
+@cache
+def words_for(kind: str) -> frozenset[str]:
+    return frozenset(load_data("incidents")[kind])
+
+
+@cache
+def _ordinary() -> frozenset[str]:
+    """Things of two words that are usual, whatever their first word may mean alone ("a water glass")."""
+    return frozenset(name for members in lexicon().kinds.values() for name in members if name.count(" ") == 1)
+
+
+TELLERS = frozenset({"i", "we", "they", "somebody", "someone", "people", "he", "she", "everybody"})
+
+
+def place_named(words: Phrase, scene: Scene) -> tuple[int, int] | None:
+    """Where the place that a report is about stands: the longest name, best behind a preposition."""
+    found: list[tuple[int, int]] = []
+    index = 0
+    while index < len(words):
+        sizes = range(min(_LONGEST_NAME, len(words) - index), 0, -1)
+        size = next((n for n in sizes if _is_place(words[index : index + n], scene)), 0)
+        if size:
+            found.append((index, index + size))
+        index += size or 1
+    behind = [one for one in found if follows_preposition(keys(words), one[0])]
+    chosen = behind or found
+    return chosen[-1] if chosen else None
+
+
+def _is_place(words: Phrase, scene: Scene) -> bool:
+    part = bare(words)
+    if not part or part != words or keys(part)[-1] in lexicon().determiners:
+        return False
+    if len(part) == 1 and part[0].key in lexicon().vocabulary - lexicon().nouns - _names_on(scene):
+        return False
+    if scene.told_apart(part) is not None:
+        return True
+    found = scene.ground(part)
+    if found.outcome != "match":
+        return False
+    return set(keys(part)) <= _names_on(scene) or scene.situation.objects == () or _by_synonym(part, scene)
+
+
+def _by_synonym(part: Phrase, scene: Scene) -> bool:
+    names = _names_on(scene)
+    return all(
+        word.key in names
+        or singular(word.key) in names
+        or lexicon().synonyms.get(word.key, frozenset()) & names
+        for word in part
+    )
+
+
+def _names_on(scene: Scene) -> frozenset[str]:
+    return frozenset(part for item in scene.objects for part in item.description.lower().split())
+
+
+def follows_preposition(flat: tuple[str, ...], at: int) -> bool:
+    while at and flat[at - 1] in lexicon().determiners:
+        at -= 1
+    return any(
+        (found := lexicon().places.match(flat, start)) is not None and start + found[0] == at
+        for start in range(max(0, at - 4), at)
+    ) or (at > 0 and flat[at - 1] in {"from", "about"})
+
+
+def phrase_of(*parts: str | Phrase) -> Phrase:
+    result: list[Word] = []
+    for part in parts:
+        result += (Word(text, text) for text in part.split()) if isinstance(part, str) else part
+    return tuple(result)

@@ -1,0 +1,213 @@
+"""Orders that change the place of others: "A, but on the way there B" is B, A; "A. B instead" is B."""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+
+from parley.language.offline.sentences.units import Unit
+from parley.language.offline.words.lexicon import PhraseTable
+from parley.language.offline.words.text import Phrase, Word, keys
+from parley.language.word_lists import load_data
+
+__all__ = ["arranged", "each_in_turn", "without_end"]
+
+_DATA = load_data("units")
+_STOP = Word(".", ".")
+_EARLIER = PhraseTable.of(_DATA["earlier"])
+_PLACES = frozenset({"to", "back", "home", "from"})
+_REFUSED = frozenset({"bother", "worry", "mind", "care", "do", "need", "trouble", "concern"})
+_POINTING = frozenset({"that", "it", "this", "them", "about", "with", "yourself"})
+
+
+def arranged(units: Sequence[Unit]) -> Phrase | None:
+    """The message with each order where it is meant to come; None if all are.
+
+    Args:
+        units: The parts of the message, in their order.
+    """
+    parts = list(units)
+    changed = False
+    index = len(parts)
+    while index > 1:
+        index = min(index, len(parts)) - 1
+        unit = parts[index]
+        if unit.kind not in {"order", "name"}:
+            continue
+        before = _ordered_before(parts, index)
+        if before < 0:
+            continue
+        early = _early(unit.words)
+        if early and len(unit.words) > early:
+            end = _joined_end(parts, index)
+            moved = [_said(unit, unit.words[early:]), *parts[index + 1 : end]]
+            parts[before:end] = [*moved, *parts[before:index]]
+            changed = True
+        elif _instead(unit.words):
+            parts[index] = _said(unit, tuple(word for word in unit.words if word.key != "instead"))
+            del parts[before:index]
+            changed = True
+    parts, moved_ends = _ranked(parts)
+    changed = changed or moved_ends
+    kept = [u for i, u in enumerate(parts) if not _cancels(u, parts, i) and not _cancelled(parts, i)]
+    if not changed and len(kept) == len(parts):
+        return None
+    return tuple(word for unit in kept if unit.words for word in (*unit.words, _mark(unit)))
+
+
+_PLURAL = frozenset({"each", "all", "both", "them", "every", "everyone"})
+_COUNTED = frozenset(_DATA["counted"])
+
+
+_ASIDES = PhraseTable.of(_DATA["asides"])
+_ENDS = tuple(tuple(text.split()) for text in _DATA["ends"])
+
+
+def without_end(words: Phrase) -> Phrase:
+    """A message without "that is it" at the end of its sentences."""
+    result: list[Word] = []
+    flat = keys(words)
+    index = 0
+    while index < len(words):
+        aside = _ASIDES.match(flat, index)
+        if aside is not None:
+            index += aside[0] + (flat[index + aside[0] : index + aside[0] + 1] in {(":",), (",",)})
+            while result and result[-1].key in {",", "and"}:
+                result.pop()
+            result += (Word(",", ","),) if result and result[-1].is_word and index < len(words) else ()
+            continue
+        end = next((e for e in _ENDS if flat[index : index + len(e)] == e), ())
+        behind = index + len(end)
+        ends = end and (
+            behind == len(flat) or not words[behind].is_word or flat[behind] in {"thanks", "thank", "please"}
+        )
+        if ends and sum(word.is_word for word in result) > 3:
+            index = behind
+            while result and result[-1].key in {",", "and", "so"}:
+                result.pop()
+            continue
+        result.append(words[index])
+        index += 1
+    return tuple(result)
+
+
+def each_in_turn(units: Sequence[Unit]) -> Phrase | None:
+    """For "A, B, C. Look at each of them": look at A, look at B, look at C; None if it is not like that."""
+    at = next((i for i, unit in enumerate(units) if unit.kind in {"order", "wish"}), 0)
+    start = at
+    while start and (units[start - 1].kind == "name" or (start > 1 and _is_aside(units[start - 1]))):
+        start -= 1
+    start = at - 1 if start == at and at and len(units[at - 1].names) > 1 else start
+    names = [name for unit in units[start:at] for name in unit.names]
+    words = units[at].words if at else ()
+    flat = keys(words)
+    cut = next((i for i in range(1, len(flat)) if flat[i] in _PLURAL), 0)
+    if len(names) < 2 or not cut or units[at].names or not set(flat[cut + 1 :]) <= _COUNTED:
+        return None
+    if any(set(keys(unit.words)) & {"after", "before", "not", "except", "or"} for unit in units[start:at]):
+        return None
+    before = [(*unit.words, _mark(unit)) for unit in units[:start] if unit.words]
+    orders = [(*words[:cut], *name, _STOP) for name in names]
+    after = [(*unit.words, _mark(unit)) for unit in units[at + 1 :] if unit.words]
+    return tuple(word for part in (*before, *orders, *after) for word in part)
+
+
+def _is_aside(unit: Unit) -> bool:
+    """For "in that order" between names and what is to be done with them."""
+    return unit.kind == "idle" and not unit.names and len(unit.words) < 5
+
+
+_LAST = tuple(tuple(text.split()) for text in _DATA["said_last"])
+_FIRST = tuple(tuple(text.split()) for text in _DATA["said_first"])
+
+
+def _ranked(parts: list[Unit]) -> tuple[list[Unit], bool]:
+    """Orders that end in "first" or "last" where they belong; whether any was moved."""
+    orders = [i for i, unit in enumerate(parts) if unit.kind == "order" and unit.names]
+    if len(orders) < 2:
+        return parts, False
+    front, middle, back = [], [], []
+    changed = False
+    for index, unit in enumerate(parts):
+        flat = keys(unit.words)
+        last = next((t for t in _LAST if flat[-len(t) :] == t), ()) if index in orders else ()
+        first = next((t for t in _FIRST if flat[-len(t) :] == t), ()) if index in orders else ()
+        hedged = {"if", "unless", "but", "when", "second"} & set(flat)
+        if last and not hedged and len(flat) > len(last) + 1:
+            back.append(_said(unit, unit.words[: -len(last)]))
+            changed = True
+        elif first and not hedged and index != orders[0] and len(flat) > len(first) + 1:
+            front.append(_said(unit, unit.words[: -len(first)]))
+            changed = True
+        else:
+            middle.append(unit)
+    at = next((i for i, unit in enumerate(middle) if unit.kind == "order"), len(middle))
+    return [*middle[:at], *front, *middle[at:], *back], changed
+
+
+def _mark(unit: Unit) -> Word:
+    return Word("?", "?") if unit.kind == "asked" else _STOP
+
+
+def _said(unit: Unit, words: Phrase) -> Unit:
+    while words and not words[0].is_word:
+        words = words[1:]
+    return Unit("order", unit.start, unit.end, words, unit.free, unit.names)
+
+
+def _ordered_before(parts: Sequence[Unit], index: int) -> int:
+    """The order before another one in a message that names something itself; -1 if there is none."""
+    kinds = {"order", "name", "wish"}
+    return next((i for i in range(index - 1, -1, -1) if parts[i].kind in kinds and parts[i].names), -1)
+
+
+def _early(words: Phrase) -> int:
+    """How many words say that this comes before what was said last."""
+    found = _EARLIER.match(keys(words))
+    if found is None or keys(words[found[0] : found[0] + 1])[:1] in {(word,) for word in _PLACES}:
+        return 0
+    return found[0]
+
+
+def _joined_end(parts: Sequence[Unit], index: int) -> int:
+    """Where what belongs to an order ends: "and look ..." behind "stop at the desk"."""
+    end = index + 1
+    while end < len(parts) and parts[end].kind == "order" and keys(parts[end].words[:1]) == ("and",):
+        if parts[end].names and keys(parts[end].words[1:2]) != ("look",):
+            break
+        end += 1
+    return end
+
+
+def _instead(words: Phrase) -> bool:
+    flat = keys(words)
+    if (
+        not flat
+        or flat[0] in {"if", "unless", "in", "when", "not", "do", "otherwise", "should"}
+        or "if" in flat
+    ):
+        return False
+    return flat[-1] == "instead" and "of" not in flat
+
+
+def _refuses(unit: Unit) -> bool:
+    """Whether it says "do not bother with that"."""
+    flat = keys(unit.words)
+    while flat[:1] in {("but",), ("so",), ("and",)}:
+        flat = flat[1:]
+    rest = set(flat[3:])
+    return (
+        unit.kind == "order"
+        and flat[:2] == ("do", "not")
+        and flat[2:3] != ()
+        and (flat[2] in _REFUSED and rest <= _POINTING and not unit.names)
+    )
+
+
+def _cancels(unit: Unit, parts: Sequence[Unit], index: int) -> bool:
+    return _refuses(unit) and index > 0 and _cancelled(parts, index - 1)
+
+
+def _cancelled(parts: Sequence[Unit], index: int) -> bool:
+    """Whether a wish is taken back at once ("X needs Y, but do not bother with that")."""
+    following = parts[index + 1 : index + 2]
+    return parts[index].kind == "wish" and bool(following) and _refuses(following[0])

@@ -1,0 +1,80 @@
+"""Names of things that begin like an order ("lift B", "copy room") get their article."""
+
+from __future__ import annotations
+
+from collections.abc import Callable
+
+from parley.language.offline.sentences.units import spans
+from parley.language.offline.words.lexicon import lexicon
+from parley.language.offline.words.text import Phrase, Word, keys, lemma
+
+__all__ = ["verb_first", "with_articles"]
+
+IsStop = Callable[[Phrase], bool]
+
+_BEFORE = frozenset(
+    {
+        "and",
+        "then",
+        "or",
+        "but",
+        ",",
+        ".",
+        "!",
+        ";",
+        ":",
+        "\n",
+        "also",
+        "first",
+        "next",
+        "finally",
+        "to",
+        "at",
+    }
+)
+
+
+def with_articles(words: Phrase, is_stop: IsStop) -> Phrase:
+    """The same message with "the" before names that begin with a verb, where a clause may begin."""
+    flat = keys(words)
+    starts = {
+        start
+        for start, end in spans(words, is_stop)
+        if end - start > 1
+        and lexicon().verbs.match((lemma(flat[start]), *flat[start + 1 :])) is not None
+        and (start == 0 or flat[start - 1] in _BEFORE)
+    }
+    the = Word("the", "the")
+    return tuple(part for i, word in enumerate(words) for part in ((the, word) if i in starts else (word,)))
+
+
+_SMALL = frozenset(
+    {"just", "only", "please", "it", "there", "this", "that", "one", "to", "also", "again", "quickly", "a"}
+)
+_ENDS = frozenset({".", "!", "?", ";", "\n"})
+
+
+def verb_first(words: Phrase, is_stop: IsStop) -> Phrase:
+    """For lists like "the desk: inspect": "inspect the desk"."""
+    result: list[Word] = []
+    start = 0
+    for index in range(len(words) + 1):
+        if index < len(words) and words[index].key not in _ENDS:
+            continue
+        result += (*_turned(words[start:index], is_stop), *words[index : index + 1])
+        start = index + 1
+    return tuple(result)
+
+
+def _turned(sentence: Phrase, is_stop: IsStop) -> Phrase:
+    flat = keys(sentence)
+    at = next((i for i in range(1, len(flat) - 1) if flat[i] in {",", ":"}), 0)
+    if not at or not is_stop(sentence[:at]):
+        return sentence
+    deed = tuple(word for word in sentence[at + 1 :] if word.key not in _SMALL)
+    found = lexicon().verbs.match(keys(deed)) if deed else None
+    kind = found[1].partition(":")[0] if found is not None else ""
+    if found is None or found[0] != len(deed) or kind not in {"look", "motion"}:
+        return sentence
+    verb = ("inspect",) if kind == "look" else ("go", "to")
+    return (*(Word(part, part) for part in verb), *sentence[:at])

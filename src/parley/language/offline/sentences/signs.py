@@ -1,0 +1,328 @@
+"""Signs by which the parts of a message are told apart: where an order, a condition, something told begins.
+
+Nothing is looked up but whether words name a thing on the map, and which verbs there are.
+"""
+
+from __future__ import annotations
+
+import re
+from collections.abc import Callable
+from dataclasses import dataclass, field
+
+from parley.language.offline.facts.facts import strip_openers
+from parley.language.offline.words.lexicon import PhraseTable, lexicon
+from parley.language.offline.words.text import Phrase, keys, lemma
+from parley.language.word_lists import load_data
+
+__all__ = ["BE", "HELPING", "JOINTS", "LEADING", "MARKS", "OPEN", "REASONS", "Kind", "Signs", "spans"]
+
+IsStop = Callable[[Phrase], bool]
+Opens = Callable[[Phrase], bool]
+Kind = str
+"""`order`, `wish`, `name`, `told`, `asked`, `reason`, `condition` or `idle`."""
+
+MARKS = frozenset({".", "!", "?", ";", "\n", "(", ")"})
+
+_DATA = load_data("units")
+JOINTS = frozenset(_DATA["joints"])
+REASONS = PhraseTable.of(_DATA["reasons"])
+_CONDITIONS = PhraseTable.of(_DATA["conditions"])
+LEADING = PhraseTable.of(_DATA["leading"])
+_IDLE = PhraseTable.of(_DATA["idle"])
+_PAST = frozenset(_DATA["past"])
+_PRESENT = frozenset(_DATA["present"])
+_SUBJECTS = frozenset(_DATA["subjects"])
+OPEN = frozenset(_DATA["open"])
+_RANKS = frozenset(_DATA["ranks"])
+BE = frozenset({"is", "are", "was", "were", "am"})
+HELPING = frozenset({
+    "has", "have", "had", "do", "does", "did", "will", "would", "can", "could", "must", "should", "may",
+    "might",
+})  # fmt: skip
+_STRONG = frozenset({
+    "motion", "back", "look", "whether", "search", "transfer", "grasp", "place", "speak", "follow", "guide",
+    "meet", "count", "dock", "wait", "ask", "answer",
+})  # fmt: skip
+_POINTING = frozenset({
+    "it", "them", "there", "here", "him", "her", "me", "us", "back", "whether", "if", "everything",
+    "around", "straight", "over", "up", "for", "everybody", "everyone", "somebody", "each", "every", "both",
+    "all", "any", "to", "into", "what", "who", "how", "where", "that", "those", "these",
+})  # fmt: skip
+_FRAME = re.compile(
+    r"(?:so )?"
+    r"(?:(?:(?:i|we) (?:(?:would|will|do|am|are|was|were|just|really|also|only|must|have|to|going|not) )*"
+    r"(?:like|love|need|want|prefer|expect|ask|asking|wondering|wonder|hoping|hope|wish|appreciate|beg|"
+    r"grateful|glad|happy|suggest|propose|request|mind)"
+    r"(?: it| if| whether| that| for| perhaps| maybe)* )?"
+    r"(?:(?:can|could|would|will|may|might|should|do) )?you"
+    r"(?: (?:can|could|would|will|may|might|should|must|to|have(?= to| got to)|need(?= to)|ought|had|better|"
+    r"please|just|then|also|perhaps|maybe|kindly|possibly|quickly|first|now|mind|be|able|so|kind|as|gonna|"
+    r"going|are|think|still))*"
+    r"|let us|why do not you|how about you"
+    r"|the robot(?: first| then| now)? (?:is to|shall|should|must|will|has to|needs to|is supposed to)"
+    r"(?: first| then)?"
+    r"|(?:your|the) (?:\w+ )?(?:job|task|mission|order|next thing)(?: \w+)? is to"
+    r"|(?:i|we) (?:just |only |really |also )*(?:need|want|would like|would love|have) to"
+    r"(?= (?:know|see|check|find|make sure))) "
+)
+_LONGEST_NAME = 6
+_LONGEST_SUBJECT = 9
+
+
+def spans(words: Phrase, is_stop: IsStop) -> list[tuple[int, int]]:
+    """Where things on the map are named, longest names first, in their order."""
+    found: list[tuple[int, int]] = []
+    index = 0
+    while index < len(words):
+        sizes = range(min(_LONGEST_NAME, len(words) - index), 0, -1)
+        end = next((index + size for size in sizes if is_stop(words[index : index + size])), index)
+        if end > index:
+            found.append((index, end))
+        index = max(end, index + 1)
+    return found
+
+
+@dataclass
+class Signs:
+    """The words of a message, and what may begin at each of them."""
+
+    words: Phrase
+    is_stop: IsStop
+    opens: Opens
+    flat: tuple[str, ...] = field(init=False)
+    found: list[tuple[int, int]] = field(init=False)
+    named: frozenset[int] = field(init=False)
+    """The words that are part of a name."""
+    begun: frozenset[int] = field(init=False)
+
+    def __post_init__(self) -> None:
+        self.flat = keys(self.words)
+        self.found = spans(self.words, self.is_stop)
+        self.named = frozenset(i for start, end in self.found for i in range(start, end))
+        self.begun = frozenset(start for start, _ in self.found)
+
+    def _order_behind(self, index: int, end: int) -> bool:
+        return any(self._order_at(i, end) >= 0 for i in range(index + 2, end))
+
+    def _strong(self, index: int) -> bool:
+        return self.flat[index - 1] not in OPEN
+
+    def _clearly(self, verb: int) -> bool:
+        """Whether nothing but an order can be meant by the verb here."""
+        found = lexicon().verbs.match(self.flat, verb)
+        if found is None or found[1].partition(":")[0] not in _STRONG:
+            return False
+        behind = verb + found[0]
+        rest = self.flat[behind : behind + 1]
+        if not rest or found[0] > 2:
+            return found[0] > 1
+        look = lexicon().verbs.match(self.flat, behind)
+        if (
+            self.flat[verb] in _SERIAL
+            and look is not None
+            and look[1].startswith(("look:", "whether:", "search:"))
+        ):
+            return True
+        if rest[0] == "and":
+            return self.flat[verb] in _SERIAL and self._order_at(behind + 1, len(self.flat)) >= 0
+        return rest[0] in lexicon().determiners | _POINTING or behind in self.named
+
+    def _behind_leading(self, index: int) -> int:
+        """Past what stands in front of an order."""
+        while index < len(self.flat):
+            sizes = [t.match(self.flat, index) for t in (LEADING, _IDLE, lexicon().sequence)]
+            size = max((found[0] for found in sizes if found is not None), default=0)
+            if not size and not self.words[index].is_word:
+                size = 1
+            if not size or index + size > len(self.flat):
+                return index
+            index += size
+        return index
+
+    def _conditional(self, index: int) -> bool:
+        return _CONDITIONS.match(self.flat, index) is not None
+
+    def _order_at(self, index: int, end: int) -> int:
+        """Where the verb of an order stands that begins here; -1 if none does."""
+        at = self._behind_leading(index)
+        if at >= end or self.flat[at] in MARKS:
+            return -1
+        if self._participial(at, end):
+            return at
+        framed = self._frame_end(at, end)
+        if framed < end and self._doing(framed):
+            return framed
+        if framed < end and self._commands(framed, framed > at, first=framed == at > index):
+            return framed
+        return -1
+
+    def _wanted_at(self, at: int) -> bool:
+        """For "(I need you) at the desk"."""
+        link = at + (self.flat[at] in {"over", "down", "up", "back"})
+        places = {"at", "in", "by", "near", "on", "outside"}
+        return (
+            self.flat[at - 1] == "you"
+            and self.flat[link : link + 1] != ()
+            and (self.flat[link] in places and link + 1 in self.begun)
+        )
+
+    def _doing(self, at: int) -> bool:
+        """For "(would you mind) going there"."""
+        word = self.flat[at]
+        asked = self.flat[at - 1] == "mind" and self.flat[at - 2] in {"you", "not"}
+        found = lexicon().verbs.match((lemma(word), *self.flat[at + 1 : at + 5]))
+        return bool(asked and word.endswith("ing") and found is not None)
+
+    def _participial(self, at: int, end: int) -> int:
+        """For "(I want) the desk checked": where the verb stands; 0 if there is none."""
+        start = at
+        if self.flat[at : at + 1] in {("i",), ("we",)} and self.flat[at + 1 : at + 2] in {
+            ("want",),
+            ("need",),
+        }:
+            start = at + 2
+        stop = next((b for a, b in self.found if a == start), 0)
+        if not stop or stop >= end or not self.flat[stop].endswith("ed"):
+            return 0
+        base = lemma(self.flat[stop])
+        found = lexicon().verbs.match((base, *self.flat[stop + 1 : end]))
+        after = self.flat[stop + found[0] : stop + found[0] + 1] if found is not None else ()
+        ends = after in {(), (",",), (".",), ("and",), ("please",), ("too",), ("first",), ("again",)}
+        return stop if found is not None and found[1].startswith("look:") and ends else 0
+
+    def _frame_end(self, at: int, end: int) -> int:
+        text = " ".join(self.flat[at : min(end, at + 16)]) + " "
+        found = _FRAME.match(text)
+        skipped = at + found.group().count(" ") if found is not None else at
+        doing = next((i for i in range(at + 2, min(skipped + 1, end)) if self._doing(i)), 0)
+        if doing:
+            return doing
+        asked = strip_openers(self.words[skipped:end], requests=True)
+        return end - len(asked) if asked and self._asks(asked, skipped, end) else skipped
+
+    def _asks(self, asked: Phrase, skipped: int, end: int) -> bool:
+        return len(asked) < end - skipped and self.opens(asked)
+
+    def _commands(self, at: int, framed: bool, *, first: bool) -> bool:
+        """Whether a verb in its base form stands here, as an order."""
+        word = self.flat[at]
+        if framed and self._wanted_at(at):
+            return True
+        before = self.flat[at - 1] if at and not first else ""
+        if at in self.named or lemma(word) != word or before in lexicon().determiners | {"to"}:
+            return framed and lemma(word) == word and self.opens(self.words[at : at + 6])
+        if word in {"do", "not"} and self.flat[at : at + 2] in {("do", "not"), ("not", "to")}:
+            return self.flat[at + 2 : at + 3] not in {("know",), ("have",), ("mind",), ("worry",), ()}
+        if not self.opens(self.words[at : at + 8]):
+            return False
+        found = lexicon().verbs.match(self.flat, at)
+        if word in {"know", "see", "mean", "remember"} and framed and self.flat[at - 1] == "you":
+            return word == "see" and self.flat[at + 1 : at + 2] not in {(",",), ()}
+        if framed and word in _FOUND and self.flat[at - 2] == "you" and self.flat[at - 1] in HELPING:
+            # "You will find the keys in the drawer" tells where they are.
+            return False
+        if found is None or found[1].startswith("other:"):
+            behind = at + (found[0] if found is not None else 1)
+            rest = self.flat[behind : behind + 1]
+            return (
+                framed
+                or bool(rest and (rest[0] in lexicon().determiners | _POINTING))
+                or behind in self.named
+            )
+        finite = self.flat[at + found[0] : at + found[0] + 1]
+        return not (finite and finite[0] in BE | {"has", "was"})
+
+    def _told(self, index: int, end: int) -> bool:
+        """Whether a subject with its finite verb stands here."""
+        at = index
+        while at < end - 1 and self.flat[at] in {"then", "and", "but", "also"}:
+            at += 1
+        if self.flat[at] == "to":
+            return False
+        if self.flat[at] in lexicon().question_starts or self.flat[at] in BE | HELPING:
+            return False
+        if self.flat[at] == "you":
+            modal = self.flat[at + 1 : at + 2] in _MODALS and self.flat[at + 2 : at + 3] in _FINDING
+            return modal or self.flat[at + 1 : at + 2] in _YOU_TOLD
+        stop = min(end, at + _LONGEST_SUBJECT)
+        comma = next((i for i in range(at, stop) if self.flat[i] == ","), stop)
+        if self.flat[at] in _SUBJECTS - {"some", "both", "all", "that", "this", "these", "those", "most"}:
+            return self.flat[at + 1 : at + 2] not in {(",",), ("and",), ("or",), ()} and at + 1 < end
+        return any(self._finite(i) for i in range(at + 1, comma))
+
+    def _finite(self, index: int) -> bool:
+        word, before = self.flat[index], self.flat[index - 1]
+        if index in self.named or before in lexicon().determiners or before in {"to", "you", "that", "which"}:
+            return False
+        if word in BE or word in HELPING - {"do", "have"} or word in _PRESENT:
+            return True
+        if word in {"do", "have"}:
+            return before not in {"to", "and"}
+        return (word in _PAST or (word.endswith("ed") and len(word) > 4)) and before not in {
+            "be",
+            "is",
+            "are",
+        }
+
+    def _ranked(self, start: int, end: int) -> bool:
+        """For "the desk comes first"."""
+        left = {self.flat[i] for i in range(start, end) if i not in self.named}
+        return (
+            start in self.begun | {i - 1 for i in self.begun}
+            and bool(left & _RANKING)
+            and left <= _RANKS | _RANKING
+        )
+
+    def _due(self, start: int, end: int) -> bool:
+        """For "the desk has to be checked"."""
+        flat = self.flat[start:end]
+        at = flat.index("be") if "be" in flat else 0
+        gets = next((i for i in range(1, len(flat)) if flat[i] in {"gets", "get"}), 0)
+        at = at or gets
+        done = flat[at + 1 : at + 2]
+        modal = gets or {"must", "should", "needs", "need", "has", "have", "ought"} & set(flat[:at])
+        return bool(modal and at and done and lemma(done[0]) != done[0] and flat[0] not in _PRONOUNS)
+
+    def _only_names(self, index: int, end: int) -> bool:
+        """Whether names and words of order are all that follows, up to the next comma."""
+        stop = next((i for i in range(index, end) if self.flat[i] in {",", ":"}), end)
+        left = [self.flat[i] for i in range(index, stop) if i not in self.named]
+        return bool(self.named & set(range(index, stop))) and set(left) <= _RANKS
+
+    def _kind(self, start: int, end: int) -> Kind:
+        at = self._behind_leading(start)
+        if at >= end:
+            return "idle"
+        if any(REASONS.match(self.flat, i) is not None for i in range(start, at + 1)) and (
+            self._order_at(start, end) < 0
+        ):
+            return "reason"
+        if self._order_at(start, end) >= 0:
+            return "order"
+        if self._conditional(at):
+            return "order" if self._order_behind(at, end) else "condition"
+        if self.flat[at] in lexicon().question_starts | BE | HELPING:
+            return "asked"
+        if self._ranked(at, end):
+            return "name"
+        if self._told(at, end):
+            return "wish" if _WISHING & set(self.flat[at + 1 : at + 6]) or self._due(at, end) else "told"
+        return "name" if self._only_names(at, end) or self._mostly_names(at, end) else "idle"
+
+    def _mostly_names(self, start: int, end: int) -> bool:
+        left = [
+            i for i in range(start, end) if i not in self.named and self.flat[i] not in _RANKS | {",", ":"}
+        ]
+        return start in self.begun and len(left) <= 2
+
+
+_MODALS = frozenset((word,) for word in _DATA["modals"])
+_FINDING = frozenset((word,) for word in _DATA["finding"])
+_YOU_TOLD = frozenset((word,) for word in _DATA["you_told"])
+_FOUND = frozenset(_DATA["finding"])
+_RANKING = frozenset({"comes", "goes", "is", "are", "come", "go", "follows", "should", "be", "must"})
+_WISHING = frozenset({"wants", "needs"})
+_PRONOUNS = frozenset({"i", "we", "you", "he", "she", "they", "it", "somebody", "someone", "people"})
+_SERIAL = frozenset(
+    {"go", "come", "run", "please", "just", "and", "head", "drive", "you", "now", "then", "hurry"}
+)

@@ -1,0 +1,184 @@
+"""Steps by actions of a kind of their own: found by their names, filled with what is said."""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from dataclasses import dataclass
+from typing import Any
+
+from parley.language.offline.scene.grounding import describe, ground_phrase
+from parley.language.offline.scene.scene import OPERATOR, UnclearError
+from parley.language.offline.tasks.carrying import Carrying
+from parley.language.offline.tasks.catalogue import call, text_inputs
+from parley.language.offline.tasks.looking import ASKING
+from parley.language.offline.tasks.matching import Match, best_match
+from parley.language.offline.tasks.roles import number_inputs, parameter_role
+from parley.language.offline.words.naming import name_words
+from parley.language.offline.words.nouns import bare, noun_phrase
+from parley.language.offline.words.text import Phrase, keys, plain
+from parley.messages.chat import ActionCall
+from parley.messages.status import ActionInfo
+
+__all__ = ["OwnKind"]
+
+_AT = frozenset({"in", "at", "on", "to", "near", "inside", "by", "from", "into", "onto", "beside", "behind"})
+
+
+_ENDING = frozenset({"stop", "end", "finish", "cancel", "abort"})
+_BEGINNING = frozenset({"start", "begin", "launch", "run", "turn"})
+
+
+@dataclass
+class OwnKind(Carrying):
+    """How actions that belong to no common kind are used."""
+
+    def own_match(
+        self, words: Phrase, *, weak: bool = False, among: Sequence[ActionInfo] = (), incomplete: bool = False
+    ) -> Match | None:
+        """The action of its own kind that a clause asks for; None if its name does not say so clearly.
+
+        Args:
+            words: The clause.
+            weak: Whether a fitting description is enough.
+            among: The only actions that may be meant, if given.
+            incomplete: Whether what is missing may be asked for even so.
+        """
+        spoken = tuple(word for word in words if word.is_word)
+        infos = among or self.catalogue.of_own_kind
+        match = best_match(infos, spoken, self.scene) if spoken and infos else None
+        return (
+            match
+            if match is not None and (match.strong or (weak and (incomplete or match.complete)))
+            else None
+        )
+
+    def ends_own(self, words: Phrase) -> bool:
+        """Whether "stop recording" ends what another action of this robot begins, and is no stop of all."""
+        if len(words) < 2 or words[0].key not in _ENDING:
+            return False
+        match = self.own_match(words)
+        if match is None or match.verb < 1.0 or not match.complete:
+            return False
+        about = name_words(match.info.name)[1:]
+        names = (name_words(info.name) for info in self.catalogue.infos)
+        return bool(about) and any(name[1:] == about and name[0] in _BEGINNING for name in names)
+
+    def use_own(self, match: Match, words: Phrase) -> None:
+        """Add the steps for a matched action.
+
+        Args:
+            match: The action and what is said for its inputs.
+            words: The clause, for the operator.
+
+        Raises:
+            UnclearError: A needed input is not said.
+            UnableError: What it needs cannot be had.
+        """
+        info, filled = match.info, match.filled
+        place = next((p for p in filled.left if p.grounded and (p.before in _AT or not info.inputs)), None)
+        if place is not None and self.catalogue.mover is not None:
+            self._stand_at(self.scene.place(place.words))
+        spread = self._members(info, filled.phrases)
+        for member in spread or [()]:
+            values = {
+                name: self._value(info, name, value, filled.phrases) for name, value in filled.values.items()
+            }
+            if member:
+                name, phrase = next(iter(member))
+                values[name] = plain(phrase)
+            self._use_once(info, values, filled.phrases, list(filled.missing), words)
+        self.will.append(_said(words))
+        for phrase in filled.phrases.values():
+            self.scene.mention(bare(phrase))
+
+    def _members(self, info: ActionInfo, phrases: dict[str, Phrase]) -> list[tuple[tuple[str, Phrase], ...]]:
+        """One use for each of several things ("both plates", "A and B")."""
+        for name, phrase in phrases.items():
+            if parameter_role(name) == "text":
+                continue
+            if not ("and" in keys(phrase) or noun_phrase(phrase).quantifier):
+                continue
+            members = self.scene.several(phrase)
+            if len(members) > 1 and all(self._grounds(member) for member in members):
+                return [((name, member),) for member in members]
+        return []
+
+    def _value(self, info: ActionInfo, name: str, value: Any, phrases: dict[str, Phrase]) -> Any:
+        if name not in phrases or parameter_role(name) == "text" or not isinstance(value, str):
+            return value
+        return self._called(phrases[name])
+
+    def _called(self, phrase: Phrase) -> str:
+        """The words for something: an object of the map by its description, pronouns resolved."""
+        words = bare(self.scene.referent(phrase))
+        if keys(words) in {("me",), ("us",), ("operator",)}:
+            return plain(OPERATOR)
+        found = ground_phrase(
+            words, self.scene.objects, self.scene.situation.robot_pose, strict=len(words) < 2
+        )
+        if found.outcome == "match":
+            return describe(found.candidates[0], self.scene.objects)
+        if found.outcome == "ambiguous":
+            return describe(self.scene.pick(words, found.candidates), self.scene.objects)
+        return plain(words)
+
+    def _use_once(
+        self,
+        info: ActionInfo,
+        values: dict[str, Any],
+        phrases: dict[str, Phrase],
+        missing: list[str],
+        words: Phrase,
+    ) -> None:
+        before: list[ActionCall] = []
+        for name in list(info.inputs):
+            handed = self.catalogue.handed_over(info, name)
+            if handed is None:
+                continue
+            said = values.pop(name, "")
+            pointing = not said or bool(ASKING & set(keys(phrases.get(name, ()))))
+            if pointing and any(step.name == handed.name for step in self.steps):
+                missing = [one for one in missing if one != name]
+                continue
+            steps = self.catalogue.chain(handed, {}, said, "") if said else None
+            if steps is not None:
+                before += steps
+                missing = [one for one in missing if one != name]
+        missing = self._from_here(info, values, missing)
+        for name in missing:
+            if any(name in step.output_parameters for step in self.steps):
+                continue
+            raise UnclearError(_question(info, name, words))
+        step = call(info, values, plain(words))
+        same = [
+            one
+            for one in self.steps[-1:]
+            if (one.name, one.input_parameters) == (step.name, step.input_parameters)
+        ]
+        if not same or not values:
+            self.steps += [*before, step]
+
+    def _from_here(self, info: ActionInfo, values: dict[str, Any], missing: list[str]) -> list[str]:
+        """Where the robot is by then, for a place that is not said."""
+        texts = [n for n in missing if n in text_inputs(info) and parameter_role(n) not in {"text", "person"}]
+        if not texts:
+            return missing
+        there = self.here
+        if not there and self.scene.things and self._grounds(self.scene.things[-1]):
+            there = self._called(self.scene.things[-1])
+        if not there:
+            return missing
+        values[texts[0]] = there
+        return [name for name in missing if name != texts[0]]
+
+
+def _question(info: ActionInfo, name: str, words: Phrase) -> str:
+    what = " ".join(word for word in name_words(name) if len(word) > 1) or name
+    if name in number_inputs(info):
+        return f"What should the {what} be for “{plain(words)}”? Please name it."
+    return f"Which {what} do you mean for “{plain(words)}”? Please name it."
+
+
+def _said(words: Phrase) -> str:
+    text = plain(words)
+    return text[:1].lower() + text[1:] if words[0].is_capital and not words[0].raw.isupper() else text

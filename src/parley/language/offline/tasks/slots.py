@@ -1,0 +1,324 @@
+"""What a clause says for the inputs of one action: numbers, choices, things, places, people, words.
+
+The clause is cut into parts by its prepositions; every part goes to the input that it fits best.
+"""
+
+from __future__ import annotations
+
+import re
+from collections.abc import Iterable, Sequence
+from dataclasses import dataclass, field
+from typing import Any
+
+from parley.language.offline.scene.scene import Scene
+from parley.language.offline.tasks.parts import Part, map_spans, parts_of
+from parley.language.offline.tasks.roles import number_inputs, parameter_role, pose_inputs, text_inputs
+from parley.language.offline.words.concepts import contrary
+from parley.language.offline.words.lexicon import lexicon
+from parley.language.offline.words.naming import kind_of, name_words
+from parley.language.offline.words.quantities import Quantity, quantities, taken_by
+from parley.language.offline.words.text import Phrase, keys, lemma, plain, singular
+from parley.language.word_lists import load_data
+from parley.messages.status import ActionInfo
+from parley.world.object_map import MapObject
+
+__all__ = [
+    "Filled",
+    "choices_of",
+    "fill_slots",
+    "kind_on_map",
+    "says_choice",
+]
+
+_OF_PLACE = frozenset(
+    {"to", "into", "onto", "in", "on", "at", "near", "inside", "by", "towards", "toward", "over"}
+)
+_TRUE = frozenset({"on", "true", "yes", "with", "enabled", "open"})
+_FALSE = frozenset({"off", "false", "no", "without", "disabled", "closed"})
+
+
+@dataclass
+class Filled:
+    """The outcome: values, what is still missing, and what was said for no input."""
+
+    values: dict[str, Any] = field(default_factory=dict)
+    phrases: dict[str, Phrase] = field(default_factory=dict)
+    """The words behind each value in words."""
+    missing: list[str] = field(default_factory=list)
+    left: list[Part] = field(default_factory=list)
+    numbers_left: int = 0
+    measured: list[frozenset[str]] = field(default_factory=list)
+    """For each number whose unit fits its input, what such inputs are called."""
+    of_kind: bool = False
+    """Whether a thing of the map is of the kind that an input is called by."""
+    chosen: bool = False
+    """Whether one of the values that the description lists is said."""
+    fit: float = 0.0
+    """How well what is said fits the inputs."""
+
+
+def fill_slots(info: ActionInfo, words: Phrase, explained: Iterable[int], scene: Scene) -> Filled:
+    """Find values for the inputs of an action.
+
+    Args:
+        info: The action.
+        words: The clause, verb first.
+        explained: Which of its words say what is to be done, and are no values.
+        scene: What is known.
+    """
+    filled = Filled()
+    gone = set(explained)
+    spans = map_spans(words, scene)
+    gone |= _choices(info, words, gone, filled)
+    gone |= _numbers(info, words, spans, filled)
+    gone |= _switches(info, words, gone, filled)
+    parts = parts_of(words, gone, spans, scene)
+    if not _place_in_numbers(info, parts, filled):
+        _words_for(info, parts, filled, scene)
+    else:
+        _words_for(info, [part for part in parts if part.item is None], filled, scene)
+    filled.missing = [
+        name
+        for name in info.inputs
+        if name not in filled.values and name not in info.optional and "::" not in name
+    ]
+    return filled
+
+
+def choices_of(info: ActionInfo) -> dict[str, str]:
+    """The values that a description lists ("level is slow, normal or fast"), by their lower case words."""
+    found: dict[str, str] = {}
+    for listed in re.finditer(r"(?:\w+(?:, | \| |/)){1,9}\w+(?:,? or \w+)?|\w+ or \w+", info.description):
+        text = listed[0]
+        values = [value for value in re.split(r"\s*(?:,|\||/|\bor\b)\s*", text) if value]
+        if len(values) > 1 and ("or" in text.split() or "|" in text or "/" in text):
+            found.update({value.lower(): value for value in values if not value.isdigit()})
+    for listed in re.finditer(r"\((\w+(?:,\s*\w+)+)\)|one of:?\s*(\w+(?:,\s*\w+)+)", info.description):
+        found.update({v.lower(): v for v in re.split(r"\s*,\s*", listed[1] or listed[2])})
+    return found
+
+
+def _listed(info: ActionInfo) -> dict[str, str]:
+    """The values that an action chooses among: those that its description lists, or languages."""
+    listed = choices_of(info) if text_inputs(info) else {}
+    if any({"language", "lang"} & set(name_words(name)) for name in text_inputs(info)):
+        listed = listed | {word: word.capitalize() for word in _LANGUAGES if word not in listed}
+    return listed
+
+
+def says_choice(info: ActionInfo, words: Phrase) -> bool:
+    """Whether one of the values that an action chooses among is said."""
+    return bool(set(keys(words)) & _listed(info).keys())
+
+
+def _choices(info: ActionInfo, words: Phrase, gone: set[int], filled: Filled) -> set[int]:
+    listed = _listed(info)
+    texts = [name for name in text_inputs(info) if parameter_role(name) not in {"person", "place"}]
+    for index, word in enumerate(words):
+        if not listed or not texts:
+            break
+        value = listed.get(word.key) or listed.get(word.key.removesuffix("ly")) or listed.get(lemma(word.key))
+        value = value or next(
+            (listed[other] for other in lexicon().synonyms.get(word.key, ()) if other in listed), None
+        )
+        if value is None or (index == 0 and len(words) > 1 and lexicon().verbs.match((lemma(word.key),))):
+            continue
+        told = [n for n in texts if re.search(rf"\b{re.escape(n)}\b", info.description, re.IGNORECASE)]
+        name = next((n for n in (*told, *texts) if n not in filled.values), None)
+        if name is not None:
+            filled.values[name], filled.phrases[name] = value, (word,)
+            filled.fit += 2
+            filled.chosen = True
+            return {index}
+    return set()
+
+
+def _is_listed(name: str, info: ActionInfo) -> bool:
+    """Whether the description lists the values of one input among others."""
+    told = re.search(rf"\b{re.escape(name)}\b is ", info.description, re.IGNORECASE)
+    listed = choices_of(info)
+    closed = len(listed) > _FEW and len(text_inputs(info)) == 1 and parameter_role(name) in {"", "object"}
+    return closed or (told is not None and len(text_inputs(info)) > 1 and bool(listed))
+
+
+_FEW = 2
+
+
+def _numbers(
+    info: ActionInfo, words: Phrase, spans: Sequence[tuple[int, int, MapObject | None]], filled: Filled
+) -> set[int]:
+    """Numbers for the inputs that take numbers; of one in the name of a thing only if an input is named so."""
+    names = number_inputs(info)
+    if not names:
+        return set()
+    takes = {name: taken_by(name, info.description) for name in names}
+    said = [
+        q
+        for q in (*quantities(words), *_ordinals(words))
+        if not _in_name(q, spans) or any(q.before in t.words for t in takes.values())
+    ]
+    axes = {axis: name for name, axis in pose_inputs(info).items()}
+    used: set[int] = set()
+    if axes and len(said) >= 2 and not any(q.units and q.dimensions - {"length"} for q in said[:2]):
+        order = iter(axis for axis in ("x", "y", "yaw", "z") if axis in axes)
+        for quantity in said:
+            axis = quantity.before if quantity.before in axes else next(order, "")
+            if axis and axes[axis] not in filled.values:
+                filled.values[axes[axis]] = quantity.value
+                used |= set(range(quantity.start - (quantity.before in axes), quantity.end))
+        filled.fit += 2
+        return used
+    left = list(said)
+    told = re.findall(r"[a-z]+", info.description.lower())
+    for wanted in (3, 2, 1):
+        for name in names:
+            best = next((q for q in left if takes[name].fit(q) >= wanted), None)
+            if name in filled.values or best is None or (name in axes.values()):
+                continue
+            if wanted == 1 and takes[name].words & {"seconds", "minutes", "hours"} and len(names) > len(left):
+                continue
+            filled.values[name] = takes[name].value_of(best)
+            filled.fit += wanted / 2
+            if best.units and wanted > 1:
+                filled.measured.append(takes[name].names)
+            if best.value > 0 and contrary(keys(words), (*name_words(info.name), *told)):
+                filled.values[name] = -filled.values[name]
+            left.remove(best)
+            named = best.start - 1 if best.before in takes[name].words else best.start
+            used |= set(range(named, best.end))
+    filled.numbers_left = len(left)
+    return used
+
+
+def _ordinals(words: Phrase) -> list[Quantity]:
+    """For "the third floor": floor 3."""
+    ranks = lexicon().ordinals
+    return [
+        Quantity(float(ranks[word.key]), (), index, index + 2, words[index + 1].key)
+        for index, word in enumerate(words[:-1])
+        if word.key in ranks
+    ]
+
+
+def _in_name(quantity: Quantity, spans: Sequence[tuple[int, int, MapObject | None]]) -> bool:
+    return any(start <= quantity.start < end for start, end, _ in spans)
+
+
+def _switches(info: ActionInfo, words: Phrase, gone: set[int], filled: Filled) -> set[int]:
+    """Inputs that are on or off, in a type of their own or in words."""
+    used: set[int] = set()
+    for name, kind in info.inputs.items():
+        states = set(name_words(name)) & {
+            "state",
+            "power",
+            "status",
+            "on",
+            "enabled",
+            "enable",
+            "switch",
+            "mode",
+        }
+        if name in filled.values or not (kind_of(kind) == "bool" or (kind_of(kind) == "string" and states)):
+            continue
+        for index, word in enumerate(words):
+            if word.key in _TRUE | _FALSE and (
+                kind_of(kind) == "bool" or word.key in {"on", "off", "open", "closed"}
+            ):
+                filled.values[name] = word.key in _TRUE if kind_of(kind) == "bool" else word.key
+                used.add(index)
+                break
+    return used
+
+
+def _place_in_numbers(info: ActionInfo, parts: Sequence[Part], filled: Filled) -> bool:
+    """A thing of the map for inputs that take coordinates, where no numbers are said."""
+    axes = pose_inputs(info)
+    if not axes or any(name in filled.values for name in axes):
+        return False
+    item = next((part.item for part in parts if part.item is not None), None)
+    if item is None:
+        return False
+    for name, axis in axes.items():
+        if axis in {"x", "y"}:
+            filled.values[name] = item.x_m if axis == "x" else item.y_m
+        elif name not in info.optional:
+            filled.values[name] = 0.0
+    return True
+
+
+def _words_for(info: ActionInfo, parts: Sequence[Part], filled: Filled, scene: Scene) -> None:
+    """The parts of a clause for the inputs that take words, best fits first."""
+    names = [name for name in text_inputs(info) if name not in filled.values and not _is_listed(name, info)]
+    left = list(parts)
+    while names and left:
+        fits = [
+            (_fit(name, part, number, scene), -names.index(name), -number, name, part)
+            for name in names
+            for number, part in enumerate(left)
+        ]
+        score, _, _, name, part = max(fits, key=lambda fit: fit[:3])
+        if score <= 0:
+            break
+        filled.values[name], filled.phrases[name] = plain(part.words), part.words
+        filled.fit += min(score, 3) / 3
+        filled.of_kind = filled.of_kind or bool(part.kinds & {singular(word) for word in name_words(name)})
+        names.remove(name)
+        left.remove(part)
+    filled.left = left
+
+
+def _of_kind(part: Part, words: set[str], core: set[str]) -> bool:
+    """Whether a part may be one of the things that an input is called by."""
+    same = {other for word in words for other in lexicon().synonyms.get(word, ())} | words
+    return bool(same & (part.kinds | core)) or (part.grounded and not part.kinds)
+
+
+def kind_on_map(name: str, objects: Sequence[MapObject]) -> bool:
+    """Whether an input is called by a kind of things that the map has: then it takes one of those."""
+    words = {singular(word) for word in name_words(name)}
+    return any(words & {singular(word) for word in name_words(item.class_name)} for item in objects)
+
+
+_LANGUAGES = frozenset(load_data("names")["languages"])
+_COLOURS = frozenset(load_data("names")["colours"])
+_PRONOUNS = frozenset({("it",), ("there",), ("them",), ("that",)})
+_POINTING = frozenset({"it", "that", "this", "there", "them", "here"})
+_SOURCES = frozenset({"source", "origin", "start"})
+_GOALS = frozenset({"destination", "goal", "target", "to", "end"})
+
+
+def _fit(name: str, part: Part, number: int, scene: Scene) -> float:
+    """How well a part of a clause fits an input."""
+    role = parameter_role(name)
+    words = {singular(word) for word in name_words(name)}
+    core = {singular(word) for word in keys(part.words)}
+    score = 3.0 if words & (core | part.kinds) and role != "text" else 0.0
+    if words & {"color", "colour"}:
+        score += 3 if core & _COLOURS else -1
+    if words & _SOURCES:
+        score += {"from": 3, "to": -4}.get(part.before, 0)
+    elif part.before == "from":
+        score -= 1
+    if words & _GOALS:
+        score += 1 if part.before in _OF_PLACE else 0
+    if kind_on_map(name, scene.objects) and not _of_kind(part, words, core):
+        score -= 3 * (part.words[0].key not in _POINTING)
+    person = scene.is_person(part.words)
+    match role:
+        case "place":
+            score += (
+                (2 if part.grounded or keys(part.words) in _PRONOUNS else -1)
+                + (1 if part.before in _OF_PLACE else 0)
+                - (2 if person else 0)
+            )
+        case "person":
+            score += (3 if person else -1) + (1 if part.before in {"to", "for"} else 0)
+        case "text":
+            score += 3 if part.before in {"that", "saying", "about"} else 1
+        case "object":
+            score += (1.5 if part.before in {"", "of", "and"} else 0.5) - (2 if person else 0)
+        case _:
+            score += (
+                (1.0 if part.before in {"", "of", "and"} else 0.6) - 0.1 * number - (0.5 if person else 0)
+            )
+    return score

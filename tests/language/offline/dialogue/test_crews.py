@@ -1,0 +1,54 @@
+"""Orders to robots by name, in other shapes than "A, V"."""
+
+from __future__ import annotations
+
+import pytest
+
+from parley.language.base import Situation
+from parley.language.offline.dialogue.addressing import addressed
+from parley.language.offline.dialogue.crews import plainly_called
+from parley.language.offline.words.text import plain, tokens
+from parley.world.object_map import MapObject
+
+OBJECTS = (MapObject("gate", "gate", 1.0, 0.0, "gate"), MapObject("hall", "hall", 5.0, 0.0, "hall"))
+CREW = Situation(message="", objects=OBJECTS, robot="Tim", robots=("Tim", "Sue", "Bobby"))
+
+
+@pytest.mark.parametrize(
+    ("message", "robots", "order"),
+    [
+        ("Sue should go to the gate", ("Sue",), "go to the gate"),
+        ("both Tim and Sue to the gate", ("Tim", "Sue"), "go to the gate"),
+        ("I want all three of you at the hall", ("Tim", "Sue", "Bobby"), "go to the hall"),
+        ("send Bobby to the hall", ("Bobby",), "go to the hall"),
+        ("Boby, check the hall", ("Bobby",), "check the hall"),
+        ("not you, Tim: Sue takes the gate", ("Sue",), "visit the gate"),
+        ("the hall needs a visit, Sue will do it", ("Sue",), "the hall needs a visit"),
+        ("it is Sue's turn to check the gate", ("Sue",), "check the gate"),
+        ("the others can stay, Sue goes to the gate", ("Sue",), "go to the gate"),
+        ("everyone to the gate, except Sue", ("Tim", "Bobby"), "go to the gate"),
+        ("Tim, tell Sue to go to the hall", ("Sue",), "go to the hall"),
+        ("go to the gate, Sue, and look", ("Sue",), "go to the gate and look"),
+    ],
+)
+def test_the_robots_and_their_order_are_found(message: str, robots: tuple[str, ...], order: str) -> None:
+    words, targets = addressed(plainly_called(tokens(message), CREW), CREW)
+    assert set(targets) == set(robots)
+    assert plain(words).strip(" ,.") == order
+
+
+@pytest.mark.parametrize(
+    ("message", "order"),
+    [
+        ("whoever is nearest, check the gate", "check the gate"),
+        ("somebody check the gate", "check the gate"),
+        ("could one of you check the gate?", "check the gate."),
+    ],
+)
+def test_whoever_may_do_it_is_left_out(message: str, order: str) -> None:
+    assert plain(plainly_called(tokens(message), CREW)) == order
+
+
+@pytest.mark.parametrize("message", ["go to the gate", "Sue and I are at the gate", "where is Sue?"])
+def test_what_calls_nobody_stays_as_it_is(message: str) -> None:
+    assert plain(plainly_called(tokens(message), CREW)) == message

@@ -1,0 +1,80 @@
+"""What a denial covers, and conditions in plainer shape."""
+
+from __future__ import annotations
+
+import pytest
+
+from parley.language.offline.sentences.branching import branched
+from parley.language.offline.sentences.scoping import scoped
+from parley.language.offline.words.nouns import bare
+from parley.language.offline.words.text import Phrase, keys, plain, tokens
+
+STOPS = {("gate",), ("hall",), ("yard",), ("gate", "2"), ("gates",)}
+
+
+def is_stop(words: Phrase) -> bool:
+    return keys(bare(words)) in STOPS and all(word.is_word for word in words)
+
+
+def scope(text: str) -> str:
+    return plain(scoped(tokens(text), is_stop, lambda part: False)).rstrip(" ,.").lower()
+
+
+@pytest.mark.parametrize(
+    ("text", "meant"),
+    [
+        ("do not go to the gate but to the hall", "go to the hall"),
+        ("don't inspect the gate, inspect the hall", "inspect the hall"),
+        ("not the gate, the hall", "go to the hall"),
+        ("go to the hall rather than the gate", "go to the hall"),
+        ("check the hall, not the gate", "check the hall"),
+        ("neither the gate nor the yard today, just the hall", "go to the hall"),
+        ("i do not want the gates checked, i want the hall checked", "i want the hall checked"),
+        ("ignore the gate and check the hall", "check the hall"),
+        ("stay away from the gate and go to the hall", "go to the hall"),
+        ("the gate does not need checking but the hall does", "the hall needs checking"),
+        ("check the hall, nothing else", "check the hall"),
+    ],
+)
+def test_what_is_denied_gives_way_to_what_is_wanted(text: str, meant: str) -> None:
+    assert scope(text) == meant
+
+
+@pytest.mark.parametrize(
+    "text", ["do not go to the gate", "the gate is not open", "go to the hall but do not stop"]
+)
+def test_a_denial_alone_stays(text: str) -> None:
+    assert scope(text) == text
+
+
+def test_a_denial_of_what_is_pending_stays_for_the_plan() -> None:
+    text = "not the gate, the hall"
+    assert plain(scoped(tokens(text), is_stop, is_stop)) == text
+
+
+@pytest.mark.parametrize(
+    ("text", "meant"),
+    [
+        ("if nobody is in the hall go to the gate", "unless somebody is in the hall go to the gate"),
+        ("if there is no light in the hall, go to the gate", "unless there is a light in the hall, go to the gate"),
+        ("go to the hall unless somebody is in it", "go to the hall unless somebody is in the hall"),
+        ("go to the hall if it is open and to the gate if it is shut",
+         "if it is open, go to the hall, otherwise go to the gate"),
+        ("is it wet? yes, go to the hall. no, go to the gate",
+         "is it wet? if so, go to the hall. if not, go to the gate"),
+        ("check whether the gate is shut and go to the hall if not",
+         "check whether the gate is shut. if not, go to the hall"),
+        ("if the gate is shut use the yard", "if the gate is shut, go to the yard"),
+        ("depending on whether the gate is shut go to the hall or to the yard",
+         "if the gate is shut, go to the hall, otherwise go to the yard"),
+    ],
+)  # fmt: skip
+def test_conditions_are_put_in_plain_shape(text: str, meant: str) -> None:
+    assert plain(branched(tokens(text), is_stop)) == meant
+
+
+def test_a_message_without_a_condition_stays() -> None:
+    assert (
+        plain(branched(tokens("go to the hall and there to the gate"), is_stop))
+        == "go to the hall and there to the gate"
+    )

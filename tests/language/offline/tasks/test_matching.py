@@ -1,0 +1,90 @@
+"""Which action of a catalogue nobody has seen is meant, and with what values."""
+
+from collections.abc import Sequence
+from typing import Any
+
+import pytest
+
+from parley.language.base import Situation
+from parley.language.offline.interpreter import interpret
+from parley.messages.status import ActionInfo
+from parley.world.object_map import MapObject
+
+PLANTS = (
+    MapObject("row_a", "tomato row", 0.0, 4.0, "row"),
+    MapObject("row_b", "pepper row", 3.0, 4.0, "row"),
+    MapObject("door", "main door", 9.0, 9.0, "door"),
+    MapObject("window", "window", 9.0, 4.0, "window"),
+)
+
+
+def steps(
+    say: str, *infos: ActionInfo, objects: Sequence[MapObject] = PLANTS
+) -> list[tuple[str, dict[str, Any]]]:
+    action = interpret(
+        Situation(message=say, catalogue=infos, objects=tuple(objects), robot="Fern", robots=("Fern",))
+    )
+    return [
+        (call.name, {n: p.value for n, p in call.input_parameters.items() if p.has_data})
+        for call in action.queue
+    ]
+
+
+WATER = ActionInfo(name="waterPlants", inputs={"row": "string", "litres": "number"})
+VENTS = ActionInfo(name="openVents")
+CLOSE = ActionInfo(name="closeVents")
+SIREN = (ActionInfo(name="siren_on"), ActionInfo(name="siren_off"))
+MOVE = ActionInfo(name="driveXY", inputs={"x": "float", "y": "float"})
+LANGUAGE = ActionInfo(name="setLang", inputs={"lang": "string"})
+DOOR = ActionInfo(name="openDoor", inputs={"door": "string"})
+RECORD = (ActionInfo(name="startRecording"), ActionInfo(name="stopRecording"))
+DETECT = ActionInfo(name="detect_object", inputs={"label": "string"}, outputs={"object_id": "string"})
+SCAN = ActionInfo(name="scan_qr", inputs={"object_id": "string"}, outputs={"code": "string"})
+
+
+@pytest.mark.parametrize(
+    ("say", "infos", "right"),
+    [
+        ("turn the siren off", SIREN, [("siren_off", {})]),
+        ("sound the alarm", SIREN, [("siren_on", {})]),
+        ("give the tomato row 40 litres", (WATER,), [("waterPlants", {"row": "tomato row", "litres": 40.0})]),
+        ("the pepper row needs 5 litres", (WATER,), [("waterPlants", {"row": "pepper row", "litres": 5.0})]),
+        ("shut the vents", (VENTS, CLOSE), [("closeVents", {})]),
+        ("drive to (4.5, -2)", (MOVE,), [("driveXY", {"x": 4.5, "y": -2.0})]),
+        ("go over to the tomato row", (MOVE,), [("driveXY", {"x": 0.0, "y": 4.0})]),
+        ("switch to French", (LANGUAGE,), [("setLang", {"lang": "French"})]),
+        ("open the main door", (DOOR,), [("openDoor", {"door": "main door"})]),
+        ("stop recording", RECORD, [("stopRecording", {})]),
+    ],
+)
+def test_an_action_is_found_by_what_its_name_and_inputs_say(
+    say: str, infos: tuple[ActionInfo, ...], right: list[tuple[str, dict[str, Any]]]
+) -> None:
+    assert steps(say, *infos) == right
+
+
+def test_what_only_programs_know_is_fetched_first() -> None:
+    assert steps("scan the code on the blue crate", DETECT, SCAN) == [
+        ("detect_object", {"label": "blue crate"}),
+        ("scan_qr", {}),
+    ]
+
+
+@pytest.mark.parametrize(
+    ("say", "info"), [("open the window", DOOR), ("open the main door", VENTS), ("play football", VENTS)]
+)
+def test_an_action_is_not_used_on_what_is_not_its_business(say: str, info: ActionInfo) -> None:
+    assert steps(say, info) == []
+
+
+def test_a_number_that_is_needed_and_not_said_is_asked_for() -> None:
+    action = interpret(Situation(message="water the pepper row", catalogue=(WATER,), objects=PLANTS))
+
+    assert not action.queue
+    assert "litres" in action.message_response
+
+
+def test_standing_still_is_no_action_of_its_own() -> None:
+    action = interpret(Situation(message="stop", catalogue=RECORD, objects=PLANTS))
+
+    assert [command.command for command in action.system_cmd] == ["stop"]
