@@ -12,7 +12,7 @@ PIP := $(BIN)/python -m pip --disable-pip-version-check --no-input
 
 NPM := frontend/npm
 PAGE := src/parley/web/static/index.html
-PAGE_SOURCES := $(shell find frontend/src frontend/public -type f) frontend/index.html frontend/vite.config.ts
+PAGE_SOURCES := $(shell find frontend/src frontend/public -type f ! -name api-types.ts) frontend/index.html frontend/vite.config.ts
 
 help: ## Show what there is
 	@sed -n 's/^\([a-z-]*\):.*## \(.*\)/  make \1	\2/p' $(firstword $(MAKEFILE_LIST)) | expand -t 18
@@ -22,12 +22,13 @@ demo: $(VENV)/.runtime ## Talk to a simulated robot in the browser
 	@$(BIN)/parley demo nursing-home
 
 page: $(PAGE) ## Build the operator's page, if its sources changed
+	@:
 
 types: $(VENV)/.runtime frontend/node_modules/.installed ## Renew the page's types from the server's
 	@$(BIN)/parley web openapi > frontend/openapi.json
 	@$(NPM) run --silent types
 
-test: $(VENV)/.dev ## All tests that take seconds
+test: $(VENV)/.dev $(PAGE) ## All tests that take seconds
 	@$(BIN)/python -m pytest -q -m "not soak and not ros"
 	@$(MAKE) --no-print-directory test-page
 
@@ -46,7 +47,6 @@ check: $(VENV)/.dev frontend/node_modules/.installed ## Format, lint, types and 
 	@$(BIN)/mypy
 	@$(BIN)/python -m pytest -q tests/test_house_rules.py tests/test_imports.py
 	@$(BIN)/parley web openapi | cmp -s - frontend/openapi.json || { echo "frontend/openapi.json is not what the server says: run make types" >&2; exit 1; }
-	@$(NPM) run --silent types:check
 	@$(NPM) run --silent lint
 	@$(NPM) run --silent typecheck
 
@@ -58,7 +58,7 @@ bench: $(VENV)/.runtime ## Measure
 	@$(BIN)/parley bench engine
 	@$(BIN)/parley bench demo
 	@$(MAKE) --no-print-directory page
-	@PARLEY_COMMAND="$(abspath $(BIN)/parley)" $(NPM) run --silent measure
+	@$(BIN)/parley bench web
 
 soak: $(VENV)/.dev ## The long tests: ten minutes, or PARLEY_SOAK_S seconds, and a server killed twenty times
 	@$(BIN)/python -m pytest -s -m soak tests/soak

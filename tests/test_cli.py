@@ -59,6 +59,32 @@ def test_memories_of_a_demonstration_are_found_by_meaning_where_a_server_is_name
     assert "sesame" not in done.stdout + done.stderr
 
 
+def test_file_with_settings_is_followed(tmp_path: Path) -> None:
+    (tmp_path / "key").write_text("sesame", encoding="utf-8")
+    settings = tmp_path / "parley.yaml"
+    with EmbeddingServer(key="sesame") as server:
+        settings.write_text(
+            f"embeddings: {{url: '{server.address}', model: small, key_file: key}}\n"
+            "data_dir: data\nmemory: known.db\napproval: ask_first\n",
+            encoding="utf-8",
+        )
+        said = "John is on the sofa.\ngo to the bookshelf\n"
+        done = parley("demo", "--terminal", "--config", str(settings), text=said)
+    assert done.returncode == 0, done.stderr
+    assert any("sofa" in text for texts in server.asked for text in texts)
+    assert "Shall I" in done.stdout
+    assert (tmp_path / "known.db").is_file() and (tmp_path / "data" / "journal.db").is_file()
+    assert not (tmp_path / "data" / "memory.db").exists()
+
+
+def test_wrong_file_with_settings_is_one_line_and_exit_code_2(tmp_path: Path) -> None:
+    settings = tmp_path / "parley.yaml"
+    settings.write_text("seed: 1\nmodle: {}\n", encoding="utf-8")
+    done = parley("demo", "nursing-home", "--config", str(settings))
+    assert done.returncode == 2
+    assert done.stderr.splitlines() == ["parley: parley.yaml, line 2: modle: there is no such setting"]
+
+
 @pytest.mark.parametrize("named", ["small", "@http://localhost", "small@localhost:1"])
 def test_server_for_embeddings_is_named_by_model_and_address(named: str) -> None:
     done = parley("demo", "nursing-home", "--script", "--embeddings", named)

@@ -14,6 +14,7 @@ import pytest
 from typer.testing import CliRunner
 
 from parley.cli import app
+from parley.config import EmbeddingSettings
 from parley.doctor import Finding, Subject, examine
 from parley.memory.store import MemoryStore
 from parley.messages.memory import MemoryEntry
@@ -149,3 +150,31 @@ def test_the_exit_code_says_whether_something_needed_is_missing(tmp_path: Path) 
     ill = runner.invoke(app, ["doctor", "--data", str(tmp_path / "file"), "--port", port])
     assert ill.exit_code == 1
     assert "✗ data folder" in ill.stdout
+
+
+def test_settings_are_read_and_what_they_name_is_looked_for(tmp_path: Path) -> None:
+    settings = tmp_path / "parley.yaml"
+    nobody = free_port()
+    settings.write_text(
+        f"language: local:some@http://127.0.0.1:{nobody}/v1\ndata_dir: data\n"
+        f"embeddings: {{url: 'http://127.0.0.1:{nobody}', model: small}}\n",
+        encoding="utf-8",
+    )
+    runner, port = CliRunner(), str(free_port())
+    told = runner.invoke(app, ["doctor", "--json", "--config", str(settings), "--port", port])
+    findings = {line["subject"]: line for line in map(json.loads, told.stdout.splitlines())}
+    assert findings["settings"]["state"] == "ok"
+    assert str(tmp_path / "data") in findings["data folder"]["text"]
+    for subject in ("language", "embeddings"):
+        assert (findings[subject]["state"], str(nobody) in findings[subject]["text"]) == ("wrong", True)
+    settings.write_text("langauge: offline\n", encoding="utf-8")
+    broken = runner.invoke(app, ["doctor", "--config", str(settings), "--port", port])
+    assert broken.exit_code == 1
+    assert "line 1: langauge: there is no such setting" in broken.stdout
+
+
+def test_embeddings_without_their_key_file_hinder(machine: Subject, tmp_path: Path) -> None:
+    gone = EmbeddingSettings(url="http://127.0.0.1:1", model="m", key_file=tmp_path / "gone")
+    finding = found(replace(machine, embeddings=gone), "embeddings")
+    assert (finding.state, finding.hinders) == ("wrong", True)
+    assert found(machine, "embeddings").state == "unused"

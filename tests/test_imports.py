@@ -15,7 +15,7 @@ import parley
 SOURCE = Path(parley.__file__).parent
 
 LAYERS: tuple[frozenset[str], ...] = (
-    frozenset({"errors", "clock", "messages", "config", "files"}),
+    frozenset({"errors", "clock", "messages", "config", "files", "sentences"}),
     frozenset({"transport", "umrf", "memory", "world"}),
     frozenset({"sim"}),
     frozenset({"language", "robots", "engine", "actions"}),

@@ -49,6 +49,14 @@ const post = (stage: Stage, path: string, body: object) =>
     body: JSON.stringify(body),
   });
 
+/** Whether something else lies over the lower edge of what is on the page. */
+const covered = (what: Locator): Promise<boolean> =>
+  what.evaluate((element) => {
+    const box = element.getBoundingClientRect();
+    const top = document.elementFromPoint(box.left + box.width / 2, box.bottom - 3);
+    return top !== element;
+  });
+
 /** Collects what is found, by where. */
 class Findings {
   readonly all: string[] = [];
@@ -71,7 +79,7 @@ describe.skipIf(!hasBrowser)('nobody meets a barrier', () => {
     await stage.close();
   });
 
-  it('where a plan waits for a yes', async () => {
+  it('where a plan waits for a yes and is changed', async () => {
     const first = await stage.open(sizes.desktop);
     await say(first, 'John is on the sofa.');
     await first.getByText('I will remember that John').waitFor();
@@ -85,6 +93,10 @@ describe.skipIf(!hasBrowser)('nobody meets a barrier', () => {
       await go(stage, page, 'plan');
       await findings.look('proposal', page.getByRole('button', { name: words('plan', 'approve') }));
       await page.getByRole('button', { name: words('plan', 'change'), exact: true }).first().click();
+      const last = page.getByRole('textbox').last();
+      await last.focus();
+      expect(await covered(last), 'what has the keyboard is in sight').toBe(false);
+      await last.evaluate((input) => input.scrollIntoView({ block: 'center' })); // not half behind the buttons
       await findings.look('changing it', page.getByText(words('plan', 'editHelp')));
       await go(stage, page, '');
       await findings.look('chat beside it');

@@ -56,6 +56,23 @@ describe.skipIf(!hasBrowser)('a page whose server goes away', () => {
     expect((await log()).filter((message) => message === 'what can you do?')).toHaveLength(1);
   });
 
+  it('keeps the map that was seen last, with its age, and renews it', async () => {
+    const page = await stage.open(sizes.tablet, '#/map');
+    const map = page.getByRole('application');
+    await map.waitFor();
+    await stage.system.kill();
+    await page.getByText(/^Not connected. This is how it was/).waitFor();
+    await page.goto(`${stage.system.address}#/settings`);
+    await page.getByRole('heading', { name: 'Settings' }).waitFor();
+    await page.goto(`${stage.system.address}#/map`);
+    await page.getByText(/^Not connected. This is how it was/).waitFor();
+    await map.waitFor();
+    await stage.system.start();
+    await page.getByText(/^Not connected. This is how it was/).waitFor({ state: 'detached' });
+    await map.waitFor();
+    expect(await page.getByText('There is no map yet.').count()).toBe(0);
+  });
+
   it(`shows what the server kept after ${KILLS} kills at any moment`, { timeout: 60_000 + KILLS * 40_000 }, async () => {
     const page = await stage.open(sizes.desktop);
     const random = numbers(SEED);

@@ -4,7 +4,7 @@ import { mkdirSync } from 'node:fs';
 import type { Page } from 'playwright-core';
 import { afterAll, beforeAll, describe, expect, it } from 'vitest';
 
-import { barriers, hasBrowser, say, sizes, startStage, type Stage } from './stage';
+import { barriers, hasBrowser, PATIENCE_MS, say, sizes, startStage, type Stage } from './stage';
 
 const FOLDER = 'screenshots';
 const SETTLED_MS = 700;
@@ -51,6 +51,7 @@ describe.skipIf(!hasBrowser)('every page', () => {
       await page.goto(`${stage.system.address}#/${name === 'chat' ? '' : name}`);
       if (name === pages[0]) await page.reload();
       await page.getByRole('heading', { level: 2 }).first().waitFor();
+      await page.waitForFunction(() => !/Loading…|Waiting for the first picture/.test(document.body.innerText), undefined, { timeout: PATIENCE_MS });
       await page.waitForTimeout(SETTLED_MS);
       await page.screenshot({ path: `${FOLDER}/${size}-${look}-${name}.png` });
       found.push(...(await barriers(page)).map((barrier) => `${name}: ${barrier}`));

@@ -3,11 +3,30 @@
 from __future__ import annotations
 
 from pathlib import Path
-from typing import Literal
+from typing import Annotated, Any, Literal, Self
 
-from pydantic import BaseModel, ConfigDict, Field
+from pydantic import AfterValidator, BaseModel, ConfigDict, Field, ValidationInfo
 
-__all__ = ["EmbeddingSettings", "FeedSettings", "ModelPrice", "ModelSettings", "SystemConfig"]
+from parley.files import TextFile, read_text, validated_yaml
+from parley.sentences import SpokenLanguage
+
+__all__ = [
+    "ApprovalPolicy", "EmbeddingSettings", "FeedSettings", "ModelPrice", "ModelSettings", "SystemConfig",
+]  # fmt: skip
+
+ApprovalPolicy = Literal["run_at_once", "ask_when_risky", "ask_first"]
+"""Which plans wait for a person's yes: none, those with a step of high risk, all."""
+
+_FOLDER = "folder"
+
+
+def _beside(path: Path, info: ValidationInfo) -> Path:
+    """A path in a file of settings counts from that file's folder."""
+    folder = (info.context or {}).get(_FOLDER)
+    return path if folder is None else folder / path.expanduser()
+
+
+FilePath = Annotated[Path, AfterValidator(_beside)]
 
 
 class ModelPrice(BaseModel):
@@ -26,7 +45,7 @@ class ModelSettings(BaseModel):
 
     base_url: str = ""
     """Address of an OpenAI-compatible server, for the first model."""
-    key_file: Path | None = None
+    key_file: FilePath | None = None
     """File with the first model's key; None: from the environment, as the provider names it."""
     temperature: float | None = Field(default=0.1, ge=0, le=2)
     """None leaves it to the model, as for `top_p`; some models take only one of them."""
@@ -57,7 +76,7 @@ class ModelSettings(BaseModel):
     max_usd_per_hour: float | None = Field(default=None, gt=0)
     prices: dict[str, ModelPrice] = Field(default_factory=dict)
     """By model; wins over the price list that comes with the libraries."""
-    record_file: Path | None = None
+    record_file: FilePath | None = None
     """Every exchange is added to this file (JSON lines), for bug reports and replays."""
 
 
@@ -69,7 +88,7 @@ class EmbeddingSettings(BaseModel):
     url: str
     """Address of any server with OpenAI's ``POST /embeddings``, up to and without that."""
     model: str
-    key_file: Path | None = None
+    key_file: FilePath | None = None
     """File with the key; None: from the environment (``PARLEY_EMBEDDINGS_KEY``), or no key."""
     timeout_s: float = Field(default=2.0, gt=0)
     """Wall time an answer may take; then words alone decide."""
@@ -90,16 +109,21 @@ class FeedSettings(BaseModel):
     """Wider pictures are made smaller."""
 
 
-class SystemConfig(BaseModel):
-    """What may be chosen about a system; the defaults are the thesis's and the design's."""
+class SystemConfig(BaseModel, TextFile):
+    """What may be chosen about a system; the defaults are the thesis's and the design's.
+
+    A file of settings (`load`) is YAML with these names; paths in it count from its own folder.
+    """
 
     model_config = ConfigDict(frozen=True, extra="forbid")
 
-    data_dir: Path | None = None
+    data_dir: FilePath | None = None
     """Where the memory file lives; None keeps memories only while the system runs."""
+    memory: FilePath | None = None
+    """Another file for the memories than `memory.db` in `data_dir`."""
     embeddings: EmbeddingSettings | None = None
     """How memories are found by what they mean; None: by their words alone."""
-    actions_dir: Path | None = None
+    actions_dir: FilePath | None = None
     """Folder with more actions, watched while the system runs."""
     language: str = Field(default="offline", pattern=r"^(offline|[A-Za-z0-9_.-]+:.+)$")
     """Which language engine understands people: `offline`, `provider:model`, `provider:model@address`."""
@@ -107,12 +131,16 @@ class SystemConfig(BaseModel):
     """Asked in this order when a model gives no answer."""
     model: ModelSettings = Field(default_factory=ModelSettings)
     """How language models are asked."""
-    approval: Literal["run_at_once", "ask_when_risky", "ask_first"] = "run_at_once"
+    approval: ApprovalPolicy = "run_at_once"
     """Whether plans wait for a person's yes: none, those with a step of high risk, all."""
+    approval_of: dict[str, ApprovalPolicy] = Field(default_factory=dict)
+    """Robots for which that is otherwise, by name."""
     speed: float | None = Field(default=1.0, gt=0)
     """Simulated time per wall time; None: as fast as the machine can."""
     seed: int = 0
     """For everything random in the simulation."""
+    speaks: SpokenLanguage = "en"
+    """The language of what robots say of their own accord; what the language engine words stays as it is."""
     history_exchanges: int = Field(default=10, ge=0, le=1000)
     """Exchanges of a conversation that are context for the next message."""
     max_attempts: int = Field(default=3, ge=1, le=20)
@@ -128,9 +156,46 @@ class SystemConfig(BaseModel):
     display_feeds: dict[str, FeedSettings] = Field(default_factory=dict)
     """What differs for single feeds: by `robot/feed`, or by `feed` for that of every robot."""
 
+    @classmethod
+    def load(cls, path: Path) -> Self:
+        """Read a file of settings.
+
+        Raises:
+            FileFormatError: Names the file, the line and the setting that is wrong or unknown.
+        """
+        return validated_yaml(cls, read_text(path), path.name, {_FOLDER: path.parent})
+
+    @classmethod
+    def parse(cls, text: str, file: str = "settings") -> Self:
+        """Read the text of a file of settings; paths in it count from where the process runs.
+
+        Raises:
+            FileFormatError: Names the file, the line and the setting that is wrong or unknown.
+        """
+        return validated_yaml(cls, text, file)
+
+    def changed(self, changes: dict[str, Any]) -> Self:
+        """These settings with others on top, section by section; what was not set before stays unset.
+
+        A model's address and key are meant for the model they stand beside: another model gets neither.
+
+        Raises:
+            pydantic.ValidationError: One of the changes cannot be.
+        """
+        known = self.model_dump(exclude_unset=True)
+        if changes.get("language", self.language) != self.language:
+            known["model"] = {
+                name: value
+                for name, value in known.get("model", {}).items()
+                if name not in ("base_url", "key_file")
+            }
+        return self.model_validate(_merged(known, changes))
+
     @property
     def memory_file(self) -> Path | None:
         """The memory's database file, None for a memory that is not kept."""
+        if self.memory is not None:
+            return self.memory
         return self.data_dir / "memory.db" if self.data_dir is not None else None
 
     @property
@@ -147,3 +212,12 @@ class SystemConfig(BaseModel):
     def journal_file(self) -> Path | None:
         """The journal of what ran, None if it is not kept."""
         return self.data_dir / "journal.db" if self.data_dir is not None else None
+
+
+def _merged(below: dict[str, Any], above: dict[str, Any]) -> dict[str, Any]:
+    both = {
+        name: _merged(below[name], value)
+        for name, value in above.items()
+        if isinstance(value, dict) and isinstance(below.get(name), dict)
+    }
+    return below | above | both

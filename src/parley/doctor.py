@@ -20,9 +20,11 @@ from collections.abc import Callable, Iterable
 from dataclasses import dataclass
 from pathlib import Path
 from typing import Final, Literal
-from urllib.parse import urlsplit
+from urllib.parse import SplitResult, urlsplit
 
+from parley.config import EmbeddingSettings
 from parley.errors import ConfigError
+from parley.memory.embedder import configured_embedder
 
 __all__ = ["Finding", "Subject", "examine"]
 
@@ -69,12 +71,18 @@ class Subject:
     language: str = "offline"
     """`offline` or `provider:model`."""
     key_file: Path | None = None
+    base_url: str = ""
+    """Address of the model's server, where it is not in `language`."""
+    memory: Path | None = None
+    """The file with the memories, if not `memory.db` in `data_dir`."""
+    embeddings: EmbeddingSettings | None = None
 
 
 def examine(subject: Subject) -> Iterable[Finding]:
     """Check everything, one finding after the other."""
     checks: tuple[Callable[[Subject], Finding], ...] = (
-        _python, _packages, _page, _browser, _node, _port, _folder, _space, _memory, _language, _ros, _zenoh,
+        _python, _packages, _page, _browser, _node, _port, _folder, _space, _memory, _language,
+        _embeddings, _ros, _zenoh,
     )  # fmt: skip
     for check in checks:
         yield check(subject)
@@ -192,7 +200,7 @@ def _nearest(path: Path) -> Path:
 
 def _memory(subject: Subject) -> Finding:
     """Whether the memory file is whole; it is only read."""
-    file = subject.data_dir / "memory.db"
+    file = subject.memory or subject.data_dir / "memory.db"
     if not file.is_file():
         return Finding("memory", "ok", "nothing is remembered yet")
     try:
@@ -216,22 +224,48 @@ def _language(subject: Subject) -> Finding:
     from parley.language.llm.models import ModelSpec, make_model, read_key
 
     try:
-        spec = ModelSpec.parse(subject.language)
+        spec = ModelSpec.parse(subject.language, subject.base_url)
         model = make_model(spec, read_key(subject.key_file))
     except ConfigError as error:
         return Finding("language", "missing", str(error), "Or use --language offline.", needed=True)
     address = urlsplit(spec.base_url or str(getattr(model, "base_url", "") or ""))
     if not address.hostname:
         return Finding("language", "ok", f"{spec.name}; its address is not known here", needed=True)
-    port = address.port or (443 if address.scheme == "https" else 80)
-    try:
-        socket.create_connection((address.hostname, port), timeout=TIMEOUT_S).close()
-    except OSError as error:
+    place, problem = _listens(address)
+    if problem:
         return Finding(
-            "language", "wrong", f"{spec.name}: nobody answers at {address.hostname}:{port} ({error}).",
+            "language", "wrong", f"{spec.name}: nobody answers at {place} ({problem}).",
             "Start the server or check the network. Until then what is built in answers.",
         )  # fmt: skip
-    return Finding("language", "ok", f"{spec.name} at {address.hostname}:{port}", needed=True)
+    return Finding("language", "ok", f"{spec.name} at {place}", needed=True)
+
+
+def _listens(address: SplitResult) -> tuple[str, str]:
+    """Host and port of an address, and why nobody can be reached there; empty if somebody can."""
+    port = address.port or (443 if address.scheme == "https" else 80)
+    place = f"{address.hostname}:{port}"
+    try:
+        socket.create_connection((address.hostname or "", port), timeout=TIMEOUT_S).close()
+    except OSError as error:
+        return place, str(error)
+    return place, ""
+
+
+def _embeddings(subject: Subject) -> Finding:
+    settings = subject.embeddings
+    if settings is None:
+        return Finding("embeddings", "unused", "Memories are found by their words.")
+    try:
+        configured_embedder(settings)
+        place, problem = _listens(urlsplit(settings.url))
+    except (ConfigError, ValueError) as error:
+        return Finding("embeddings", "wrong", str(error), "Mend the settings.", needed=True)
+    if problem:
+        return Finding(
+            "embeddings", "wrong", f"{settings.model}: nobody answers at {place} ({problem}).",
+            "Start the server or check the network. Until then memories are found by their words.",
+        )  # fmt: skip
+    return Finding("embeddings", "ok", f"{settings.model} at {place}")
 
 
 def _ros(_: Subject) -> Finding:

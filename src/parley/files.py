@@ -12,7 +12,7 @@ from pydantic import BaseModel, ValidationError
 
 from parley.errors import FileFormatError
 
-__all__ = ["TextFile", "field_path", "parse_json", "parse_yaml", "read_text", "validated"]
+__all__ = ["TextFile", "field_path", "parse_json", "parse_yaml", "read_text", "validated", "validated_yaml"]
 
 M = TypeVar("M", bound=BaseModel)
 
@@ -88,6 +88,57 @@ def validated(model: type[M], raw: Any, file: str) -> M:
     except ValidationError as error:
         first = error.errors(include_url=False, include_input=False)[0]
         raise FileFormatError(file, field_path(first["loc"]), first["msg"]) from error
+
+
+def validated_yaml(model: type[M], text: str, file: str, context: dict[str, Any] | None = None) -> M:
+    """A YAML text as a `model`; an empty one has no fields. What is wrong is said with its line.
+
+    Args:
+        model: What it should be.
+        text: YAML.
+        file: Its name, for messages.
+        context: For the model's validators.
+
+    Raises:
+        FileFormatError: Names the file, the line, and the first field that is wrong, unknown or said twice.
+    """
+    raw = parse_yaml(text, file)
+    root = yaml.compose(text, Loader=yaml.SafeLoader)
+    if root is not None:
+        _refuse_twice(root, file)
+    try:
+        return model.model_validate({} if raw is None else raw, context=context)
+    except ValidationError as error:
+        first = error.errors(include_url=False, include_input=False)[0]
+        where = f"{file}, line {_line(root, first['loc'])}"
+        problem = "there is no such setting" if first["type"] == "extra_forbidden" else first["msg"]
+        raise FileFormatError(where, field_path(first["loc"]), problem) from error
+
+
+def _refuse_twice(node: yaml.Node, file: str) -> None:
+    """What stands in a file twice has no meaning; YAML takes the last without a word."""
+    names: set[str] = set()
+    for key, value in node.value if isinstance(node, yaml.MappingNode) else ():
+        if key.value in names:
+            raise FileFormatError(f"{file}, line {key.start_mark.line + 1}", str(key.value), "is said twice")
+        names.add(key.value)
+        _refuse_twice(value, file)
+
+
+def _line(node: yaml.Node | None, location: tuple[int | str, ...]) -> int:
+    """The line of a field, or of the nearest thing around it that is there; the first is 1."""
+    line = node.start_mark.line + 1 if node is not None else 1
+    for part in location:
+        if isinstance(node, yaml.SequenceNode) and isinstance(part, int):
+            node = node.value[part]
+            line = node.start_mark.line + 1
+            continue
+        pairs = node.value if isinstance(node, yaml.MappingNode) else ()
+        found = next(((key, value) for key, value in pairs if key.value == str(part)), None)
+        if found is None:
+            return int(line)
+        line, node = found[0].start_mark.line + 1, found[1]
+    return int(line)
 
 
 def field_path(location: tuple[int | str, ...]) -> str:

@@ -6,7 +6,7 @@ from collections.abc import Mapping, Sequence
 from contextlib import AbstractAsyncContextManager, AsyncExitStack
 from dataclasses import dataclass
 from types import TracebackType
-from typing import Literal, Self
+from typing import Literal, Self, TypeVar
 
 import structlog
 
@@ -27,6 +27,7 @@ from parley.memory.incidents import IncidentStore
 from parley.memory.meanings import Meanings
 from parley.memory.proposals import ProposalStore
 from parley.memory.store import MemoryStore
+from parley.nodes.base import Node
 from parley.nodes.camera_feed import CameraFeed
 from parley.nodes.chat_interface import ChatInterface
 from parley.nodes.display_interface import DisplayInterface
@@ -55,6 +56,8 @@ from parley.world.object_map import MapObject, ObjectMap
 from parley.world.occupancy import OccupancyMap
 
 __all__ = ["System", "WorldView"]
+
+N = TypeVar("N", bound=Node)
 
 log = structlog.get_logger(__name__)
 
@@ -157,33 +160,37 @@ class System:
             )
         )
         proposals = await enter(await ProposalStore.open(config.proposals_file or ":memory:", clock))
-        planner = await enter(
-            UmrfPlanner(transport, clock, approval=config.approval, proposals=proposals, tell=self._tell_for)
+        planner = UmrfPlanner(
+            transport,
+            clock,
+            approval=config.approval,
+            policies=config.approval_of,
+            proposals=proposals,
+            tell=self._tell_for,
         )
+        await enter(self._speaking(planner))
         incidents = await enter(await IncidentStore.open(config.incidents_file or ":memory:", clock))
-        recovery = await enter(
-            ErrorHandler(
-                transport,
-                self.language,
-                clock,
-                objects=self._objects_of,
-                max_attempts=config.max_attempts,
-                language_timeout_s=config.language_timeout_s,
-                incidents=incidents,
-            )
+        recovery = ErrorHandler(
+            transport,
+            self.language,
+            clock,
+            objects=self._objects_of,
+            max_attempts=config.max_attempts,
+            language_timeout_s=config.language_timeout_s,
+            incidents=incidents,
         )
-        await enter(
-            ChatInterface(
-                transport,
-                self.language,
-                clock,
-                objects=self._objects_of,
-                history_exchanges=config.history_exchanges,
-                language_timeout_s=config.language_timeout_s,
-            )
+        await enter(self._speaking(recovery))
+        chat = ChatInterface(
+            transport,
+            self.language,
+            clock,
+            objects=self._objects_of,
+            history_exchanges=config.history_exchanges,
+            language_timeout_s=config.language_timeout_s,
         )
-        await enter(Lookout(transport, clock))
-        notices = self._notices = await enter(Notices(transport))
+        await enter(self._speaking(chat))
+        await enter(self._speaking(Lookout(transport, clock)))
+        notices = self._notices = await enter(self._speaking(Notices(transport)))
         for text in (self.store.notice, *self._early):
             self._tell_all(text, "error")
         await self._open_actions(notices)
@@ -197,6 +204,11 @@ class System:
         for incident in recovery.left_over:
             if incident.robot in engines and incident.robot not in told:
                 notices.tell(left_over_text(incident), [incident.robot])
+
+    def _speaking(self, node: N) -> N:
+        """Let a node say its own sentences in the language that was chosen."""
+        node.speaks = self.config.speaks
+        return node
 
     def _meanings(self, store: MemoryStore) -> Meanings | None:
         settings = self.config.embeddings

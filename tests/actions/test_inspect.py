@@ -8,7 +8,7 @@ from dataclasses import replace
 import numpy as np
 import pytest
 
-from parley.actions.inspect import FEED, Inspection, inspect
+from parley.actions.inspect import FEED, inspect
 from parley.errors import ActionFailure, FailureCode, LanguageError
 from parley.language.base import InspectionReport
 from parley.robots.base import CameraImage, Detection
@@ -39,7 +39,9 @@ async def test_picture_is_shown_with_the_request_and_the_report_is_told_and_give
     async with room() as here:
         here.script.will("inspect", SEEN)
         result = await inspect(here.context, "the crate")
-        assert result == Inspection("I can see a green crate.")
+        assert result == Outcome(
+            True, {"inspection_result": "I can see a green crate."}, {"seen": ["green crate"]}
+        )
         assert here.person.told == ["I can see a green crate."]
         ((feed, image, info),) = here.person.shown
         assert (feed, info) == (FEED, {"request": "the crate"})
@@ -95,7 +97,9 @@ async def test_what_is_not_there_is_an_answer_where_the_plan_asks_for_it() -> No
         here.run.result_asked = True
         here.script.will("inspect", MISSING)
         answer = await inspect(here.context, "the cup")
-        assert answer == Outcome(False, {"inspection_result": "I cannot see a cup."})
+        assert answer == Outcome(
+            False, {"inspection_result": "I cannot see a cup."}, {"seen": ["green crate"]}
+        )
         assert here.person.told == ["I cannot see a cup."]
 
 
@@ -143,7 +147,9 @@ async def test_what_a_person_should_decide_is_a_failure_of_its_own() -> None:
 async def test_looking_at_nothing_in_particular_never_misses_anything() -> None:
     async with room() as here:
         here.script.will("inspect", InspectionReport("I can see a wall."))
-        assert await inspect(here.context, "around") == Inspection("I can see a wall.")
+        looked = await inspect(here.context, "around")
+        assert isinstance(looked, Outcome)
+        assert (looked.result, looked.outputs) == (True, {"inspection_result": "I can see a wall."})
 
 
 async def test_broken_camera_is_a_hardware_failure_and_nothing_is_shown() -> None:

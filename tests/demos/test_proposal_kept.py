@@ -155,3 +155,16 @@ async def test_what_is_not_possible_any_more_is_dropped_and_said(data: Path) -> 
         )
         assert home.observer.state(home.robot) == "idle"
     assert kept(data) == 0
+
+
+def test_the_terminal_shows_it_again_and_takes_the_yes(data: Path) -> None:
+    command = [
+        sys.executable, "-m", "parley", "demo", "nursing-home", "--terminal", "--ask-first",
+        "--speed", "20", "--data", str(data),
+    ]  # fmt: skip
+    done = subprocess.run(command, input="yes\n", capture_output=True, text=True, timeout=100, check=False)
+    told = " ".join(done.stdout.split())
+    order = ["David would do this:", "Answer yes or no.", "I will go to the dining table.", "I have finished"]
+    places = [told.find(text) for text in order]
+    assert places == sorted(places), done.stdout
+    assert places[0] >= 0, done.stdout

@@ -112,6 +112,39 @@ async def test_vectors_are_kept_in_the_file_and_made_once(server: EmbeddingServe
         assert len(await found.alike("crate", 200)) == 150
 
 
+async def test_nobody_waits_for_the_vectors_that_are_read_at_the_start(
+    server: EmbeddingServer, tmp_path: Path
+) -> None:
+    path = tmp_path / "memory.db"
+    async with await MemoryStore.open(path) as store:
+        await fill(store, **{f"m{n}": f"box {n}" for n in range(150)})
+        async with meanings(store, server):
+            pass
+    server.asked.clear()
+    embedder = Embedder(server.address, "words", timeout_s=5.0)
+    async with await MemoryStore.open(path) as store, Meanings(store, embedder, Watch()) as found:
+        assert not found.settled.is_set()
+        assert await found.alike("crate", 5) == []
+        assert len(await store.search("box")) == 20
+        await settled(found)
+        assert len(await found.alike("crate", 5)) == 5
+
+
+async def test_vectors_of_another_length_in_the_file_are_passed_over(
+    server: EmbeddingServer, tmp_path: Path
+) -> None:
+    path = tmp_path / "memory.db"
+    async with await MemoryStore.open(path) as store:
+        await fill(store, a="a box", b="another box")
+        async with meanings(store, server):
+            pass
+        await store.database.run(
+            lambda db: db.execute("UPDATE memory_vector SET vector = zeroblob(8) WHERE memory = 2")
+        )
+        async with meanings(store, server) as found:
+            assert names(await found.alike("crate", 5)) == ["a"]
+
+
 async def test_another_model_gets_vectors_of_its_own(server: EmbeddingServer) -> None:
     async with await MemoryStore.open(":memory:") as store:
         await fill(store, a="a box")

@@ -29,7 +29,7 @@ from parley.messages.pvf import Parameter
 from parley.messages.status import ActionInfo, ActorStatus, PlanStep, PlanUpdate, StopCommand
 from parley.nodes.base import Node
 from parley.nodes.chat_interface import ChatInterface
-from parley.nodes.chat_texts import MAX_CHARS
+from parley.nodes.chat_texts import MAX_CHARS, is_never_mind
 from parley.transport.local import LocalTransport
 
 LOOK = ActionInfo(name="Look", inputs={"what": "string"}, description="Look at something.")
@@ -417,3 +417,53 @@ async def test_stop_stops_whatever_it_answers(room: Room) -> None:
     room.observer.publish(topics.CHAT_INPUT, answer)
     (order,) = await room.orders()
     assert [command.command for command in order.system_cmd] == ["stop"]
+
+
+async def test_newer_message_is_told_that_it_waits_and_the_older_one_can_be_let_go_without_stopping() -> None:
+    async with opened(patience_s=0.0) as room:
+        never = asyncio.Event()
+        room.language.will("interpret", never, ChatAction(message_response="Here I am."))
+        room.observer.say("look at the box", "A")
+        assert "say “never mind”" in await room.reply()
+        room.observer.say("where are you?", "A")
+        text = "I am still thinking about “look at the box”. “where are you?” comes next."
+        assert text in await room.reply(2)
+        assert [said.choices for said in room.observer.said] == [("never mind",)] * 2
+        room.observer.say("Never mind!", "A")
+        await room.reply(5)
+        said = [each.message for each in room.observer.said[2:5]]
+        assert said[:2] == ["All right.", "I leave this: “look at the box”"]
+        assert room.planner.orders == [], "nobody said stop"
+        await room.observer.until(
+            lambda: any(each.message == "Here I am." for each in room.observer.said), timeout_s=5
+        )
+
+
+async def test_never_mind_is_an_ordinary_message_while_nothing_takes_long(room: Room) -> None:
+    room.language.will("interpret", ChatAction(message_response="Fine."))
+    room.observer.say("never mind", "A")
+    assert await room.reply() == "Fine."
+
+
+async def test_letting_go_concerns_one_robot() -> None:
+    async with opened(patience_s=0.0) as room:
+        gate = asyncio.Event()
+        room.language.will("interpret", gate, ChatAction(message_response="I see."))
+        room.observer.say("look at the box", "A")
+        await room.reply()
+        room.language.will("interpret", ChatAction(message_response="Hm?"))
+        gate.set()
+        await room.reply(2)
+        room.observer.say("never mind", "B")
+        await room.observer.until(lambda: any(s.targets == ("B",) for s in room.observer.said), timeout_s=5)
+        assert "All right." not in [said.message for said in room.observer.said]
+
+
+@pytest.mark.parametrize("text", ["never mind", "Nevermind.", "forget it", "please forget that", "drop it!"])
+def test_words_that_let_go_are_known(text: str) -> None:
+    assert is_never_mind(text)
+
+
+@pytest.mark.parametrize("text", ["forget the box", "never mind the dog, go on", "mind the step", ""])
+def test_words_that_mean_more_do_not_let_go(text: str) -> None:
+    assert not is_never_mind(text)

@@ -28,7 +28,7 @@ class Follower:
 
     def plan(self, state: State, *steps: tuple[str, str], graph: str = "g1", **more: Any) -> None:
         shown = tuple(
-            PlanStep(action=ActionCall(name=name, reason=name.lower(), **more), state=state_of)  # type: ignore[arg-type]
+            PlanStep(action=ActionCall(name=name, reason=name.lower(), **more), state=state_of)
             for name, state_of in steps
         )
         update = PlanUpdate(target="Ada", graph_name=graph, state=state, steps=shown)
@@ -102,6 +102,16 @@ def test_after_a_repair_that_left_the_failed_step_out_nothing_is_claimed(ada: Fo
     ada.plan("held", ("Drive", "finished"), ("Look", "failed"))
     ada.plan("idle", ("Drive", "finished"))
     assert ada.told == []
+
+
+def test_an_order_in_the_place_of_what_was_given_up_is_named_alone(ada: Follower) -> None:
+    ada.finishing.on_order("Ada", "go to the box")
+    ada.plan("running", ("Find", "running"), ("Drive", "queued"))
+    ada.plan("held", ("Find", "finished"), ("Drive", "failed"))
+    ada.finishing.on_order("Ada", "go to the door", instead=True)
+    ada.plan("running", ("Find", "finished"), ("Find", "queued"), ("Drive", "queued"))
+    ada.plan("idle", ("Find", "finished"), ("Find", "finished"), ("Drive", "finished"))
+    assert ada.told == ["I have finished: “go to the door”."]
 
 
 def test_after_a_repair_that_helped_it_is_told(ada: Follower) -> None:

@@ -134,3 +134,21 @@ async def test_a_cancelled_order_is_not_called_finished() -> None:
         await party.state("idle")
         await party.settled()
         assert not any("finished" in text for text in party.texts())
+
+
+async def test_where_only_risky_things_are_asked_about_the_rest_is_announced() -> None:
+    async with crew("A", talking=True) as party:
+        decision = {"target": "A", "decision": "policy", "policy": "ask_when_risky"}
+        party.observer.publish(topics.PLAN_DECISION, PlanDecision.model_validate(decision))
+        await party.until(
+            lambda: "A" in party.observer.plans and party.observer.plans["A"].policy == "ask_when_risky"
+        )
+        press = look("bell").model_copy(update={"name": "Press"})
+        for number, (text, call) in enumerate([("I will look.", look("box")), ("I will press it.", press)]):
+            party.language.will("interpret", ChatAction(message_response=text, queue=(call,)))
+            said = ChatInput(message=f"do it, part {number}", targets=("A",), id=str(number))
+            party.observer.publish(topics.CHAT_INPUT, said)
+        await party.hears("I would press it. Shall I?")
+        assert "I will look." in party.texts()
+        assert "I will press it." not in party.texts()
+        await party.until(lambda: party.body.did == ["look box"])

@@ -10,7 +10,7 @@ from hypothesis import given
 from hypothesis import strategies as st
 
 from parley.errors import FailureCode
-from parley.messages.chat import ActionCall
+from parley.messages.chat import ActionCall, Flow
 from parley.messages.failure import FailureReport
 from parley.messages.pvf import Parameter
 from parley.nodes.plan import KEEP_DONE, TargetPlan
@@ -324,6 +324,26 @@ def test_what_ended_before_a_stop_took_hold_is_not_done_again() -> None:
     (start,) = other.report()
     assert isinstance(start, StartGraph)
     assert [n.input_parameters["what"].value for n in start.graph.nodes] == ["lid"]
+
+
+def test_what_ran_on_beside_a_step_that_failed_during_a_pause_is_not_done_again() -> None:
+    plan = TargetPlan("A", new_graph_name=lambda: "graph_0", can_end_step=lambda: False)
+    other = Engine(plan)
+    beside = look("door").model_copy(update={"flow": Flow(together_with=0)})
+    other.take(list(plan.append([look(), beside])))
+    other.states = {"Look_0": NodeState.RUNNING, "Look_1": NodeState.RUNNING}
+    other.report()
+    plan.pause()
+    other.graph_state = GraphState.PAUSED
+    other.states = {"Look_0": NodeState.ERROR, "Look_1": NodeState.PAUSED}
+    other.report()
+    other.take(list(plan.start()))
+    other.graph_state = GraphState.RUNNING
+    other.states = {"Look_1": NodeState.RUNNING}
+    other.report()
+    other.states["Look_1"] = NodeState.FINISHED
+    other.report()
+    assert [step.state for step in plan.steps] == ["queued", "finished"]
 
 
 def test_pause_keeps_the_plan_and_changes_wait_for_going_on(plan: TargetPlan, engine: Engine) -> None:

@@ -351,3 +351,13 @@ async def test_asking_for_everything_shows_the_language_engine_all_the_robot_kno
     ((question, situation),) = house.language.asked
     assert question == "interpret"
     assert [entry.name for entry in situation.memory] == ["a", "b"]
+
+
+async def test_picture_that_is_all_of_an_answer_is_kept_without_another_question(house: House) -> None:
+    ask = ChatFeedback(message="Where is it?", targets=("A",), type="request", id="q1")
+    house.observer.publish(topics.CHAT_FEEDBACK, ask)
+    await house.observer.until(lambda: bool(house.observer.said), timeout_s=5)
+    reply = await house.say("", photo(), file="IMG_1234.jpg", answers="q1")
+    assert reply.type == "response"
+    (kept,) = await house.store.all(kind="image")
+    assert kept.info == "Shown when I asked: Where is it?"

@@ -15,9 +15,10 @@ from parley.errors import TransportError
 from parley.language.scripted import ScriptedLanguage
 from parley.memory.incidents import IncidentStore
 from parley.messages import topics
-from parley.messages.chat import ChatAction, ChatInput, SystemCommand
+from parley.messages.chat import ChatAction, ChatImage, ChatInput, SystemCommand
 from parley.messages.incident import GetIncidents, Incident, IncidentList
-from parley.messages.ros import ChatRequest
+from parley.messages.memory import GetMemory, MemoryEntry, MemoryReply
+from parley.messages.ros import ChatRequest, ChatResponse
 from parley.messages.status import PlanStep, PlanUpdate, StopCommand, StopReport
 from parley.messages.wire import decode, encode
 from parley.nodes.base import Node
@@ -25,6 +26,7 @@ from parley.nodes.error_handler import ErrorHandler
 from parley.nodes.incident_log import UNSETTLED
 from parley.nodes.repair import MAX_NOTED
 from parley.transport.local import LocalTransport
+from tests.memory.photos import photo
 from tests.nodes.test_error_handler import ASK, SOLVED, Corrections, Room, look
 
 ASIDE = ChatAction(message_response="Because of the box.")
@@ -537,3 +539,46 @@ async def test_record_of_an_endless_talk_stays_bounded(place: Place) -> None:
         await place.said(3 + 2 * count)
     (incident,) = await place.incidents()
     assert (len(incident.attempts), incident.questions) == (MAX_NOTED, MAX_NOTED + 1)
+
+
+async def test_picture_in_an_answer_goes_along_with_it(place: Place) -> None:
+    place.language.will("resolve", ASK, ASIDE, SOLVED)
+    place.fail()
+    await place.said()
+    image = ChatImage(name="here.jpg", data=photo())
+    for text in ("", "this one"):
+        said = ChatInput(message=text, targets=("A",), type="response", images=(image,))
+        place.observer.publish(topics.CHAT_INPUT, said)
+        if not text:
+            await place.said(3)  # the answer aside, and the question again
+    await place.corrected()
+    bare, worded = (situation for _, situation in place.language.asked[-2:])
+    assert (bare.reply, worded.reply) == ("", "this one")
+    for situation in (bare, worded):
+        (picture,) = situation.pictures
+        assert (picture.name, picture.sent) == ("here.jpg", True)
+        assert picture.jpeg.startswith(b"\xff\xd8")
+    assert worded.dialogue[1].content == "(a picture)"
+    (incident,) = await place.incidents()
+    assert [attempt.answered for attempt in incident.attempts][-1] == "this one"
+
+
+async def test_memory_is_asked_again_with_the_answer(place: Place) -> None:
+    asked: list[str] = []
+    known = MemoryEntry(name="key_location", data="Kim has the key.", info="where the key is")
+
+    async def remember(request: ChatRequest) -> ChatResponse:
+        asked.append(decode(GetMemory, request.message).request)
+        return ChatResponse(encode(MemoryReply.of([known] if "key" in asked[-1] else [])))
+
+    server = await place.transport.serve(topics.GET_MEMORY, remember)
+    place.language.will("resolve", ASK, SOLVED)
+    place.fail()
+    await place.said()
+    place.answer("the one whose key we lost", "A")
+    await place.corrected()
+    await server.close()
+    before, after = (situation for _, situation in place.language.asked[-2:])
+    assert "There are two boxes." in asked[0] and "key" not in asked[0]
+    assert "There are two boxes." in asked[1] and "the one whose key we lost" in asked[1]
+    assert (before.memory, [entry.name for entry in after.memory]) == ((), ["key_location"])

@@ -277,3 +277,12 @@ def test_reply_that_is_being_written_stands_in_the_live_view_until_it_is_whole(v
     assert len(toolbar(view)) == 2
     view.on_feedback(ChatFeedback(message="I will go.", targets=("Ada",), reply_to="m1"))
     assert toolbar(view) == [" Ada: ready"]
+
+
+def test_a_notice_may_offer_something_until_the_next_reply(view: OperatorView) -> None:
+    notice = ChatFeedback(message="Still thinking.", targets=("Ada",), type="info", choices=("never mind",))
+    view.on_feedback(notice)
+    view.on_feedback(ChatFeedback(message="By the way.", targets=("Ada",), type="info"))
+    assert view.robots["Ada"].offered == ("never mind",)
+    view.on_feedback(ChatFeedback(message="Done.", targets=("Ada",)))
+    assert not view.robots["Ada"].offered

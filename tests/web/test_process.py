@@ -78,7 +78,8 @@ def test_the_demo_serves_a_page_and_the_robot_drives(tmp_path: Path) -> None:
             time.sleep(0.1)
         assert client.get("/api/feeds/David/camera.jpg").content.startswith(b"\xff\xd8")
         process.send_signal(signal.SIGINT)
-        _, errors = process.communicate(timeout=ENDS_WITHIN_S)
+        told, errors = process.communicate(timeout=ENDS_WITHIN_S)
+        assert "start it with --lan" in told
         assert process.returncode == 130
         assert "Traceback" not in errors
 

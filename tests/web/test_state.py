@@ -84,6 +84,15 @@ def stop_state(book: RobotBook) -> str:
     return book.views["Ada"].stop.state
 
 
+def test_the_policy_that_was_told_before_the_robot_came_holds() -> None:
+    book, _ = robots()
+    book.on_plan(PlanUpdate(target="Ada", policy="ask_first"))
+    book.on_status(ActorStatus(actor="Ada"), now_s=0.0, unix_ms=0)
+    assert book.views["Ada"].policy == "ask_first"
+    book.remove("Ada")
+    assert book.add("Ada").policy == "ask_first"
+
+
 def test_a_silent_robot_is_lost_and_comes_back() -> None:
     book, changes = robots()
     beat(book)

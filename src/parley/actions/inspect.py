@@ -54,13 +54,19 @@ async def inspect(ctx: ActionContext, inspect: str) -> Inspection | Outcome:
     if report.found is False:
         failure = _not_seen(image, report.wanted or inspect, report.text, ctx.world.objects)
         if failure.code is FailureCode.NO_MATCH and ctx.run.result_asked:  # then it is an answer
-            return Outcome(False, {"inspection_result": report.text})
+            return Outcome(False, {"inspection_result": report.text}, _facts(image))
         raise failure
     if report.attention:
         raise ActionFailure(FailureCode.ATTENTION, report.text, {"wanted": report.wanted})
     if report.found and report.wanted:
         _note_sighting(ctx, report.wanted, image)
-    return Inspection(report.text)
+    return Outcome(True, {"inspection_result": report.text}, _facts(image))
+
+
+def _facts(image: CameraImage) -> dict[str, list[str]]:
+    """All that was recognised, whatever was asked for: somebody may have said what to do about it."""
+    seen = dict.fromkeys(detection.label for detection in image.detections or ())
+    return {"seen": list(seen)} if seen else {}
 
 
 def _note_sighting(ctx: ActionContext, wanted: str, image: CameraImage) -> None:

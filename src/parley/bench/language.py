@@ -81,18 +81,17 @@ async def _measure_clients(
 ) -> list[LanguageFigures]:
     """The same questions without anything of Parley around them."""
     import httpx2
-    from openai import AsyncOpenAI
 
-    async with (
-        httpx2.AsyncClient() as bare,
-        AsyncOpenAI(base_url=server.url, api_key="none", max_retries=0) as client,
-    ):
+    from parley.language.llm.models import ModelSpec, make_model
+
+    model: Any = make_model(ModelSpec.parse(f"local:scripted@{server.url}"), "")
+    async with httpx2.AsyncClient() as bare, model:
 
         async def post(body: Mapping[str, Any]) -> None:
             (await bare.post(f"{server.url}/chat/completions", json=body)).json()
 
         async def create(body: Mapping[str, Any]) -> None:
-            await client.chat.completions.create(**body)
+            await model.client.chat.completions.create(**body)
 
         return [
             await _measure("of_it_server_and_http", post, bodies),

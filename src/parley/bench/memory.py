@@ -116,6 +116,7 @@ async def _meaning(
         await meanings.settled.wait()
     filled = clock.wall_s()
     async with Meanings(store, _MadeUp(), clock, min_alike=-1.0) as meanings:
+        await meanings.settled.wait()
         opened = clock.wall_s()
         taken: list[float] = []
         for text in texts:

@@ -11,6 +11,7 @@ from typing import Annotated, Any
 import typer
 
 from parley.cli.language import (
+    ConfigOption,
     EmbeddingsKeyOption,
     EmbeddingsOption,
     KeyFileOption,
@@ -69,7 +70,8 @@ def demo(
         float | None,
         typer.Option(help="Simulated seconds per second; default: 1 when chatting, full speed for scripts."),
     ] = None,
-    seed: Annotated[int, typer.Option(help="Seed of the simulation's noise.")] = 0,
+    seed: Annotated[int | None, typer.Option(help="Seed of the simulation's noise.")] = None,
+    config: ConfigOption = None,
     data: Annotated[
         Path | None, typer.Option(help="Folder for memories; default: kept for chatting, fresh for scripts.")
     ] = None,
@@ -79,7 +81,7 @@ def demo(
     ask_first: Annotated[
         bool, typer.Option("--ask-first", help="Show each plan and wait for your yes.")
     ] = False,
-    language: LanguageOption = "offline",
+    language: LanguageOption = "",
     key_file: KeyFileOption = None,
     embeddings: EmbeddingsOption = "",
     embeddings_key_file: EmbeddingsKeyOption = None,
@@ -91,18 +93,20 @@ def demo(
     loaded = load_demo(name)
     if speed is not None and speed <= 0:
         raise ConfigError("--speed must be a positive number")
-    settings: dict[str, Any] = {"seed": seed, "approval": "ask_first" if ask_first else "run_at_once"}
-    settings["actions_dir"] = actions
+    wished = {"seed": seed, "approval": "ask_first" if ask_first else None, "actions_dir": actions}
+    settings: dict[str, Any] = {name: value for name, value in wished.items() if value is not None}
     settings |= language_settings(language, key_file)
     settings |= embedding_settings(embeddings, embeddings_key_file)
+    given = SystemConfig() if config is None else SystemConfig.load(config)
+    chosen = given.changed(settings)
     if script:
-        raise typer.Exit(_script(loaded, story, variant, settings | {"speed": speed}, data, json))
+        raise typer.Exit(_script(loaded, story, variant, chosen.changed({"speed": speed}), data, json))
     if story is not None or variant:
         raise ConfigError("a story file and --variant go with --script")
-    folder = data or data_folder(name)
-    config = SystemConfig(**settings, speed=speed or 1.0, data_dir=folder)
+    folder = data or chosen.data_dir or data_folder(name)
+    chosen = chosen.changed({"data_dir": folder} | ({} if speed is None else {"speed": speed}))
     if terminal:
-        asyncio.run(_chat(loaded, config, lang))
+        asyncio.run(_chat(loaded, chosen, lang))
         return
     page = page_settings(
         port=port,
@@ -114,16 +118,17 @@ def demo(
         without=without,
     )
     page |= {"examples": loaded.story.examples, "data_dir": folder, "fresh_robots": True}
-    page |= language_label(language)
-    asyncio.run(_serve(loaded, config, page, port_is_wish=port is None, opens=not no_open))
+    page |= language_label(chosen.language)
+    asyncio.run(_serve(loaded, chosen, page, port_is_wish=port is None, opens=not no_open))
 
 
 def _script(
-    demo: Demo, file: Path | None, variant: str, settings: dict[str, Any], data: Path | None, as_json: bool
+    demo: Demo, file: Path | None, variant: str, settings: SystemConfig, data: Path | None, as_json: bool
 ) -> int:
     story = Story.load(file) if file is not None else demo.story
     with tempfile.TemporaryDirectory(prefix="parley-") as fresh:
-        config = SystemConfig(**settings, data_dir=data or Path(fresh))
+        # A story begins with nothing that an earlier run left, whatever the settings say.
+        config = settings.changed({"data_dir": data or Path(fresh), "memory": None})
 
         def make_system(different: Variant) -> System:
             return demo.system_for(story, config, different)

@@ -10,10 +10,12 @@ import typer
 
 import parley.web
 from parley.cli.demo import data_folder
-from parley.cli.language import KeyFileOption, LanguageOption, language_settings
+from parley.cli.language import ConfigOption, KeyFileOption, LanguageOption, language_settings
 from parley.cli.output import emit_json, quiet_logs
 from parley.cli.web import PORT
+from parley.config import SystemConfig
 from parley.doctor import Finding, Subject, examine
+from parley.errors import ConfigError
 
 __all__ = ["register"]
 
@@ -31,28 +33,44 @@ def doctor(
         Path | None, typer.Option(help="Folder for memories; default: the demonstration's.")
     ] = None,
     port: Annotated[int, typer.Option(min=1, max=65535, help="Port of the page.")] = PORT,
-    language: LanguageOption = "offline",
+    config: ConfigOption = None,
+    language: LanguageOption = "",
     key_file: KeyFileOption = None,
     json: Annotated[bool, typer.Option("--json", help="One JSON object per line.")] = False,
 ) -> None:
     """Check this machine. Exit code 1: something is missing without which Parley does not work."""
     quiet_logs()
-    language_settings(language, key_file)
+    chosen, broken = _settings(config)
+    chosen = chosen.changed(language_settings(language, key_file))
     subject = Subject(
-        data_dir=data or data_folder("nursing-home"),
+        data_dir=data or chosen.data_dir or data_folder("nursing-home"),
         static_dir=Path(parley.web.__file__).parent / "static",
         port=port,
-        language=language,
-        key_file=key_file,
+        language=chosen.language,
+        key_file=chosen.model.key_file,
+        base_url=chosen.model.base_url,
+        memory=chosen.memory_file,
+        embeddings=chosen.embeddings,
     )
     hindered = False
-    for finding in examine(subject):
+    for finding in (*broken, *examine(subject)):
         hindered |= finding.hinders
         if json:
             emit_json(asdict(finding))
         else:
             _tell(finding)
     raise typer.Exit(1 if hindered else 0)
+
+
+def _settings(file: Path | None) -> tuple[SystemConfig, list[Finding]]:
+    """The settings in a file, and what there is to say about it."""
+    if file is None:
+        return SystemConfig(), []
+    try:
+        return SystemConfig.load(file), [Finding("settings", "ok", str(file), needed=True)]
+    except ConfigError as error:
+        remedy = "Mend it; what follows is about the settings without it."
+        return SystemConfig(), [Finding("settings", "wrong", str(error), remedy, needed=True)]
 
 
 def _tell(finding: Finding) -> None:

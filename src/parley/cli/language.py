@@ -11,6 +11,7 @@ from parley.errors import ConfigError
 from parley.memory.embedder import KEY_VARIABLE
 
 __all__ = [
+    "ConfigOption",
     "EmbeddingsKeyOption",
     "EmbeddingsOption",
     "KeyFileOption",
@@ -19,6 +20,10 @@ __all__ = [
     "language_settings",
 ]
 
+ConfigOption = Annotated[
+    Path | None,
+    typer.Option(help="File with settings (YAML): language model, memory, pictures, whether to ask first."),
+]
 LanguageOption = Annotated[
     str, typer.Option(help="What understands you: offline, provider:model, or provider:model@address.")
 ]
@@ -50,9 +55,15 @@ def embedding_settings(embeddings: str, key_file: Path | None) -> dict[str, Any]
 def language_settings(language: str, key_file: Path | None) -> dict[str, Any]:
     """The settings of `parley.config.SystemConfig` that the options stand for.
 
+    Args:
+        language: Empty: whatever is set elsewhere.
+        key_file: With the key of that model.
+
     Raises:
         ConfigError: No engine has a name like that.
     """
+    if not language:
+        return {} if key_file is None else {"model": {"key_file": key_file}}
     if language != "offline" and ":" not in language:
         raise ConfigError(f"there is no language engine {language!r}; use offline or provider:model")
     return {"language": language, "model": {"key_file": key_file}}

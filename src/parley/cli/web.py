@@ -112,6 +112,8 @@ async def serve_until_interrupted(server: WebServer, *, opens: bool) -> None:
         server.backend.sessions.on_code = lambda new: _show_code(server, new)
     elif server.backend.addresses:
         _show_qr(server.backend.addresses[0])
+    elif not server.backend.config.lan:
+        typer.echo("For a phone or tablet in the same network, start it with --lan.")
     typer.echo("Ctrl-C ends it.")
     sys.stdout.flush()
     if opens:

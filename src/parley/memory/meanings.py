@@ -36,7 +36,8 @@ GONE: Final = (
 
 _BATCH: Final = 64
 _LOOKED_AT: Final = 2000
-"""So many memories at a time are looked through for some without a vector."""
+"""So many memories or vectors at a time are read from the file: others wait for it."""
+_FLOAT_BYTES: Final = 4
 _MAX_CHARS: Final = 2000
 """Of one memory: what it is about stands at its beginning."""
 _SPARE: Final = 1000
@@ -67,7 +68,7 @@ class Meanings:
     ) -> None:
         self._store, self._embedder, self._clock, self._tell = store, embedder, clock, tell
         self._retry_s, self._min_alike = retry_s, min_alike
-        self._table = VectorTable()
+        self._table, self._loaded = VectorTable(), False
         self._seen_id = 0
         self._most = 0
         """So many may stand in working memory before what was forgotten is cleared out."""
@@ -79,7 +80,6 @@ class Meanings:
         """Set while every memory that can have a vector has one, or the server is gone."""
 
     async def __aenter__(self) -> Self:
-        await self._load()
         self.wake()
         self._task = asyncio.create_task(self._work(), name="meanings of memories")
         return self
@@ -137,6 +137,8 @@ class Meanings:
                 self.settled.set()
 
     async def _embed_missing(self) -> None:
+        if not self._loaded:
+            await self._load()
         if self._clock.wall_s() < self._retry_at_s:
             return
         model = self._embedder.model
@@ -159,7 +161,7 @@ class Meanings:
         if done:
             model = self._embedder.model
             await self._store.database.run(lambda db: _keep(db, model, done, vectors))
-            self._table.extend(done, vectors)
+            self._table = await asyncio.to_thread(self._table.extended, done, vectors)
             if len(self._table) > self._most:
                 await self._load()  # what was forgotten goes
             await self._make_sieve()
@@ -182,14 +184,14 @@ class Meanings:
             return done, np.concatenate(rows) if rows else np.zeros((0, 1), np.float32)
 
     async def _load(self) -> None:
-        model = self._embedder.model
-        rows = await self._store.database.run(
-            lambda db: db.execute(
-                "SELECT memory, vector FROM memory_vector WHERE model = ? ORDER BY memory", (model,)
-            ).fetchall()
-        )
-        self._table = await asyncio.to_thread(_table, rows)
-        self._most = 2 * len(self._table) + _SPARE
+        """Read what stands in the file, a little at a time: nobody waits for it."""
+        model, table, after = self._embedder.model, VectorTable(), -1
+        while rows := await self._store.database.run(lambda db, a=after: _kept(db, model, a)):  # type: ignore[misc]
+            table = await asyncio.to_thread(_extended, table, rows)
+            after = rows[-1][0]
+        self._table = table
+        self._most = 2 * len(table) + _SPARE
+        self._loaded = True
         await self._make_sieve()
 
     async def _make_sieve(self) -> None:
@@ -267,14 +269,22 @@ def _keep(db: sqlite3.Connection, model: str, ids: Sequence[int], vectors: Vecto
     db.execute("COMMIT")
 
 
-def _table(rows: Sequence[tuple[int, bytes]]) -> VectorTable:
-    """What stood in the file; vectors of another length than the first are passed over."""
-    length = len(rows[0][1]) if rows else 0
-    fitting = [(identity, vector) for identity, vector in rows if len(vector) == length]
+def _kept(db: sqlite3.Connection, model: str, after: int) -> list[tuple[int, bytes]]:
+    """Some vectors behind that of the memory with the number `after`."""
+    return db.execute(
+        "SELECT memory, vector FROM memory_vector WHERE model = ? AND memory > ? ORDER BY memory LIMIT ?",
+        (model, after, _LOOKED_AT),
+    ).fetchall()
+
+
+def _extended(table: VectorTable, rows: Sequence[tuple[int, bytes]]) -> VectorTable:
+    """With what stood in the file; vectors of another length than the first are passed over."""
+    length = table.length or len(rows[0][1]) // _FLOAT_BYTES
+    fitting = [(identity, vector) for identity, vector in rows if len(vector) == length * _FLOAT_BYTES]
     if not fitting:
-        return VectorTable()
+        return table
     joined = np.frombuffer(b"".join(vector for _, vector in fitting), np.float32)
-    return VectorTable([identity for identity, _ in fitting], joined.reshape(len(fitting), -1))
+    return table.extended([identity for identity, _ in fitting], joined.reshape(-1, length))
 
 
 def _holding(

@@ -7,6 +7,7 @@ have no such directions, all are compared after all.
 
 from __future__ import annotations
 
+import copy
 from collections.abc import Sequence
 from dataclasses import dataclass
 from typing import Final
@@ -78,6 +79,11 @@ class VectorTable:
         return len(self._ids)
 
     @property
+    def length(self) -> int:
+        """Of each vector; 0 while there is none."""
+        return self._full.rows.shape[1] if len(self) else 0
+
+    @property
     def view(self) -> VectorView:
         """What stands now, for another thread."""
         sieve = None if self._axes is None else Sieve(self._axes, self._short.rows)
@@ -97,6 +103,13 @@ class VectorTable:
         self._ids = np.concatenate([self._ids, np.asarray(ids, np.int64)])
         if self._axes is not None:
             self._short.extend(vectors @ self._axes)
+
+    def extended(self, ids: Sequence[int], vectors: Vectors) -> VectorTable:
+        """A table with more vectors; this one stays as it is, so that a thread may make it."""
+        more = copy.copy(self)
+        more._full, more._short = copy.copy(self._full), copy.copy(self._short)
+        more.extend(ids, vectors)
+        return more
 
     def adopt(self, sieve: Sieve | None) -> None:
         """Take over what `make_sieve` made of a view of this; vectors may have come since."""

@@ -10,12 +10,22 @@ from typing import Final
 
 from parley.messages.chat import ActionCall
 from parley.messages.status import PlanDecision, PlanProposal, PlanUpdate, PoseInfo
+from parley.sentences import sentence, together
 
 __all__ = ["CHANGED", "REFUSED", "SHALL_I", "Offered", "as_wish", "assent_of", "offered_again", "past_offer"]
 
-SHALL_I: Final = "Shall I?"
+SHALL_I: Final = sentence("Shall I?")
 REFUSED: Final = "All right, I will not do it."
 CHANGED: Final = "All right, I will do it the way you changed it."
+
+_PLAN_LEFT: Final = sentence(
+    "I was started anew while a plan waited for your yes. Nothing of it has been done, and things may have "
+    "changed since, so please look at it again."
+)
+_REPAIR_LEFT: Final = sentence(
+    "I was started anew while a way out of what failed waited for your yes. Nothing of it has been done, and "
+    "things may have changed since, so please look at it again."
+)
 
 _MOVED_M: Final = 0.5
 """Farther from where it was, a robot counts as being somewhere else."""
@@ -36,7 +46,7 @@ def as_wish(message: str, calls: Sequence[ActionCall]) -> str:
     if count:
         return wish.strip()
     steps = "; ".join(dict.fromkeys(call.reason or call.name for call in calls))
-    return f"This is what I would do: {steps.rstrip('.')}."
+    return sentence("This is what I would do: {steps}.", steps=steps.rstrip("."))
 
 
 def offered_again(wish: str, before: PoseInfo | None, now: PoseInfo | None, *, repairs: bool) -> str:
@@ -49,19 +59,16 @@ def offered_again(wish: str, before: PoseInfo | None, now: PoseInfo | None, *, r
         repairs: Whether it is about a step that failed.
     """
     away = before is not None and now is not None and _apart_m(before, now) > _MOVED_M
-    moved = " I am not where I was then." if away else ""
-    what = "a way out of what failed" if repairs else "a plan"
-    return (
-        f"I was started anew while {what} waited for your yes. Nothing of it has been done, and things may "
-        f"have changed since, so please look at it again.{moved} {wish} {SHALL_I}"
-    )
+    moved = sentence("I am not where I was then.") if away else ""
+    return together(_REPAIR_LEFT if repairs else _PLAN_LEFT, moved, wish, SHALL_I)
 
 
 def past_offer(wish: str) -> str:
     """About a plan that waited when the earlier process ended and cannot be carried out any more."""
-    return (
+    return sentence(
         "I was started anew while a plan waited for your yes. It is not possible any more, so I dropped it: "
-        f"“{wish}” Please give the order again if it still holds."
+        "“{wish}” Please give the order again if it still holds.",
+        wish=wish,
     )
 
 

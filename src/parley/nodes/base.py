@@ -34,6 +34,7 @@ from parley.messages.ros import String
 from parley.messages.status import Rejection, RejectionProblem
 from parley.messages.topics import Topic
 from parley.messages.wire import decode, to_string
+from parley.sentences import SpokenLanguage, in_language
 from parley.transport.base import Handler, Publisher, Subscription, Transport
 
 __all__ = ["Mailboxes", "Node"]
@@ -53,6 +54,8 @@ class Node:
 
     name: ClassVar[str] = "node"
     """Who speaks, in rejections and logs."""
+    speaks: SpokenLanguage = "en"
+    """The language of the sentences it says of its own accord; set before it is opened."""
 
     def __init__(self, transport: Transport) -> None:
         self.transport = transport
@@ -126,6 +129,10 @@ class Node:
         if publisher is None:
             publisher = self._publishers[topic.name] = self.transport.publisher(topic)
         publisher.publish(message)
+
+    def spoken(self, text: str) -> str:
+        """One of our own sentences as it is said to operators."""
+        return in_language(text, self.speaks)
 
     def refuse(self, what: str, error: InvalidMessageError, *, target: str = "") -> None:
         """Tell everybody that a message was refused, and why.

@@ -7,7 +7,6 @@ from __future__ import annotations
 
 import asyncio
 import uuid
-from collections import OrderedDict
 from collections.abc import Awaitable, Callable, Sequence
 from typing import ClassVar, Final
 
@@ -33,38 +32,31 @@ from parley.messages.status import (
     StopCommand,
 )
 from parley.messages.wire import decode_plan
+from parley.nodes import chat_texts as texts
 from parley.nodes.asking import SHALL_I, Offered, as_wish
 from parley.nodes.base import Mailboxes, Node
 from parley.nodes.chat_memories import Confirmations, Keeping, keeping_order, memory_query
-from parley.nodes.chat_texts import (
-    AFTERWARDS,
-    CONTROL_REPLIES,
-    NOTHING_TO_DO,
-    left,
-    settled,
-    still_thinking,
-    unreadable,
-)
 from parley.nodes.conversation import Conversation
 from parley.nodes.drafts import Drafts
 from parley.nodes.finishing import Finishing
 from parley.nodes.plan_approval import waits_for_yes
 from parley.nodes.plan_check import check_calls, complete_calls
 from parley.nodes.plan_flow import pending_calls
+from parley.nodes.plan_orders import no_robot
 from parley.nodes.plan_steps import LATCHED
 from parley.nodes.presence import Presence
-from parley.nodes.questions import OpenQuestions, SeenIds
+from parley.nodes.questions import LastAsked, OpenQuestions, SeenIds
 from parley.nodes.recollections import Recollections
 from parley.nodes.repair import failed_situation
 from parley.nodes.shown_pictures import remembered_pictures, sent_pictures
-from parley.nodes.thinking import PATIENCE_S, Thinking
+from parley.nodes.thinking import PATIENCE_S, DroppedError, Thinking
+from parley.sentences import together
 from parley.transport.base import Transport
 from parley.world.geometry import Pose2D
 from parley.world.object_map import MapObject
 
 __all__ = ["ChatInterface"]
 
-_KEPT_QUESTIONS: Final = 100
 _HALTING: Final = ("stop", "clear", "emergency_stop")
 """Controls after which nothing that was said before may still set a robot in motion."""
 
@@ -108,8 +100,7 @@ class ChatInterface(Node):
         self._plans: dict[str, PlanUpdate] = {}
         self._failures: dict[str, ErrorHandlingMessage] = {}
         """The last failed step of each robot, for questions about it."""
-        self._asked: OrderedDict[str, str] = OrderedDict()
-        """The words of the last questions of robots, by id."""
+        self._asked = LastAsked()
         self._offered, self._finishing = Offered(), Finishing(clock.now_s)
         self._seen_ids = SeenIds()
         self._confirmations = Confirmations()
@@ -134,12 +125,12 @@ class ChatInterface(Node):
     def _on_input(self, said: ChatInput) -> None:
         if not self._seen_ids.is_new(said.id):
             return
-        if problem := unreadable(said.message, bare=bool(said.images)):
+        if problem := texts.unreadable(said.message, bare=bool(said.images)):
             self._say(said.targets, problem, "error", said.id)
             return
         control = control_of(said.message, self._presence.names())
         if control not in _HALTING and self._questions.is_late(said):
-            self._say(said.targets, settled(said.message), "response", said.id)
+            self._say(said.targets, texts.settled(said.message), "response", said.id)
             return
         if control is None and said.type == "response" and not said.targets and self._questions.robots():
             self._questions.on_input(said)
@@ -152,21 +143,43 @@ class ChatInterface(Node):
             if control is not None and not self._answers(target, question, control):
                 self._control(target, control, said)
             elif not self._presence.is_there(target):
-                text = f"{target} is not there at the moment, so I cannot ask it."
+                text = texts.not_there(target)
                 self._say((target,), text, "error", said.id)
             else:
-                names = self._presence.names()
-                decision = self._offered.decided(target, said.message, names) if question is None else None
-                if decision is not None:
-                    self.publish(topics.PLAN_DECISION, decision)
-                    continue
-                about = said.reply_to or (question.id if question else "")
-                ours = about if said.type == "response" and self._recollections.asked(about) else ""
-                if question is None or ours:
-                    self._mailboxes.post(target, self._work(target, said, ours))
-                elif said.images:
-                    self._mailboxes.post(target, self._keep_pictures(target, said))
+                self._hear(target, said, question)
         self._questions.on_input(said)
+
+    def _hear(self, target: str, said: ChatInput, question: ChatFeedback | None) -> None:
+        """Have something understood, unless it answers `question` or is about what waits or takes long."""
+        names = self._presence.names()
+        decision = self._offered.decided(target, said.message, names) if question is None else None
+        if decision is not None:
+            self.publish(topics.PLAN_DECISION, decision)
+            return
+        if question is None and self._set_aside(target, said):
+            return
+        about = said.reply_to or (question.id if question else "")
+        ours = about if said.type == "response" and self._recollections.asked(about) else ""
+        if question is None or ours:
+            self._mailboxes.post(target, self._work(target, said, ours))
+        elif said.images:
+            self._mailboxes.post(target, self._keep_pictures(target, said, question.message))
+
+    def _set_aside(self, target: str, said: ChatInput) -> bool:
+        """Whether a message is only about an older one that takes long; else tell that it waits behind it."""
+        if texts.is_never_mind(said.message) and self._thinking.drop(target):
+            self._say((target,), "All right.", "response", said.id)
+            return True
+        if slow := self._thinking.slow_message(target):
+            self._say_thinking(target, slow, said.message)
+        return False
+
+    def _say_thinking(self, target: str, message: str, newer: str = "") -> None:
+        text = texts.still_thinking(message, newer)
+        feedback = ChatFeedback(
+            message=self.spoken(text), targets=(target,), type="info", choices=(texts.NEVER_MIND,)
+        )
+        self.publish(topics.CHAT_FEEDBACK, feedback)
 
     def _answers(self, target: str, question: ChatFeedback | None, control: Control) -> bool:
         """Whether "go on" answers a question; while the robot is paused it means to go on."""
@@ -182,11 +195,11 @@ class ChatInterface(Node):
 
         return work
 
-    def _keep_pictures(self, target: str, said: ChatInput) -> Callable[[], Awaitable[None]]:
+    def _keep_pictures(self, target: str, said: ChatInput, question: str) -> Callable[[], Awaitable[None]]:
         """Of an answer with pictures: whoever asked gets the words."""
 
         async def work() -> None:
-            await self._recollections.handles(target, said)
+            await self._recollections.keep_with_answer(target, said, question)
 
         return work
 
@@ -197,12 +210,12 @@ class ChatInterface(Node):
         if not said.targets and len(names) == 1:
             return [names[0]]
         if not said.targets:
-            self._say((), f"Which robot do you mean? {self._presence.known_text()}", "error", said.id)
+            self._say((), texts.which_robot(self._presence.known_text()), "error", said.id)
         found: list[str] = []
         for name in said.targets:
             known = self._presence.resolve(name)
             if known is None:
-                text = f"There is no robot called {name}. {self._presence.known_text()}"
+                text = no_robot(name, self._presence.known_text())
                 self._say((name,), text, "error", said.id)
                 problem = RejectionProblem(
                     path="targets", message=f"unknown robot {name!r}", code="unknown_robot"
@@ -239,10 +252,7 @@ class ChatInterface(Node):
 
     def _on_feedback(self, feedback: ChatFeedback) -> None:
         self._questions.on_feedback(feedback)
-        if feedback.type == "request" and feedback.id:
-            self._asked[feedback.id] = feedback.message
-            while len(self._asked) > _KEPT_QUESTIONS:
-                self._asked.popitem(last=False)
+        self._asked.on_feedback(feedback)
 
     def _on_failure(self, failure: ErrorHandlingMessage) -> None:
         self._failures[failure.target] = failure
@@ -269,7 +279,7 @@ class ChatInterface(Node):
         nothing = state == "idle" or (state == "awaiting_approval" and control in ("stop", "skip"))
         if state == "idle" and status is not None and status.state == "paused":
             nothing = False  # its engine holds a graph that is no plan of ours
-        reply = NOTHING_TO_DO.get(control, "") if nothing else ""
+        reply = texts.NOTHING_TO_DO.get(control, "") if nothing else ""
         if control == "start" and status is not None and status.state == "stopped":
             reply = LATCHED
         elif control == "emergency_stop":
@@ -279,14 +289,17 @@ class ChatInterface(Node):
         ):  # stopping is sent in any case: the plan may be newer than known
             command = SystemCommand(command=control)
             self.publish(topics.CHAT_ACTION, ChatAction(system_cmd=(command,), targets=(target,)))
-        reply = reply or CONTROL_REPLIES[control]
+        reply = reply or texts.CONTROL_REPLIES[control]
         self._conversation(target).operator(said.message)
         self._conversation(target).assistant(reply)
         asked = self._questions.first(target) if state == "held" else None
         self.publish(
             topics.CHAT_FEEDBACK,
             ChatFeedback(
-                message=reply, targets=(target,), closes=asked.id if asked else "", reply_to=said.id
+                message=self.spoken(reply),
+                targets=(target,),
+                closes=asked.id if asked else "",
+                reply_to=said.id,
             ),
         )
 
@@ -304,24 +317,24 @@ class ChatInterface(Node):
             self._clock,
         )
         try:
-            async with self._thinking.about(
-                target, lambda: self._say((target,), still_thinking(message), "info")
-            ):
+            async with self._thinking.about(target, lambda: self._say_thinking(target, message), message):
                 situation = await self._situation(target, own or message, said)
                 understood = keeping_order(situation) or await self._language.interpret(
                     situation, on_draft=drafts
                 )
         except (LanguageError, TimeoutError) as error:
+            if isinstance(error, DroppedError):
+                self._say((target,), texts.dropped(message), "response", said.id)
+                return
             if isinstance(error, TimeoutError) and halts != self._halts.get(target, 0):
-                self._say((target,), left(message), "response", said.id)
+                self._say((target,), texts.left(message), "response", said.id)
                 return
             self.log.warning("not understood", target=target, error=repr(error))
             plain = error.plain if isinstance(error, LanguageError) else ""
-            text = f"{plain or 'I could not work that out just now.'} Nothing was started; please try again."
-            self._say((target,), text, "error", said.id)
+            self._say((target,), texts.nothing_started(plain), "error", said.id)
             return
         if halts != self._halts.get(target, 0) and (understood.queue or understood.system_cmd):
-            self._say((target,), left(message), "response", said.id)
+            self._say((target,), texts.left(message), "response", said.id)
             return
         order = self._trusted(target, understood)
         if order is None:
@@ -330,7 +343,7 @@ class ChatInterface(Node):
             return
         order = self._own_share(order, target, said)
         if not order.targets:
-            self._say((target,), f"That is for {' and '.join(understood.targets)}.", "response", said.id)
+            self._say((target,), texts.that_is_for(understood.targets), "response", said.id)
             return
         kept = Keeping(target if own else "", said.author or OPERATOR, situation.memory)
         order, confirmations = self._name_memories(order, kept)
@@ -338,22 +351,23 @@ class ChatInterface(Node):
             self._order(order, message)
         failed = await self._confirmations.confirmed(confirmations)
         reply = failed or understood.message_response or "Done."
-        if not failed and self._asks_first(order):
-            reply = f"{as_wish(reply, order.queue)} {SHALL_I}"
+        asks_first = not failed and self._asks_first(order)
+        if asks_first:
+            reply = as_wish(reply, order.queue)
         if not failed and self._waits_behind_a_question(target, order):
-            reply = f"{reply} {AFTERWARDS}"
+            reply = together(reply, texts.AFTERWARDS)
         conversation = self._conversation(target)
         conversation.operator(message)
         conversation.assistant(reply)
         told = {str(command.arguments.get("name")) for command in order.system_cmd}
         sources = tuple(name for name in understood.sources if name not in told)
         why = "" if failed else self._recollections.why(target, said, sources, situation.memory)
-        reply = f"{reply} {why}".strip()
+        reply = together(reply, why, SHALL_I if asks_first else "")
         asks = bool(understood.choices) and not understood.queue
         self.publish(
             topics.CHAT_FEEDBACK,
             ChatFeedback(
-                message=reply,
+                message=self.spoken(reply),
                 targets=(target,),
                 type="error" if failed else "response",
                 sources=understood.sources,
@@ -364,7 +378,9 @@ class ChatInterface(Node):
 
     def _order(self, order: ChatAction, words: str) -> None:
         for name in order.targets if order.queue else ():
-            self._finishing.on_order(name, words)
+            plan = self._plans.get(name)
+            given_up = plan is not None and plan.state == "held" and self._questions.first(name) is None
+            self._finishing.on_order(name, words, instead=given_up)
         self.publish(topics.CHAT_ACTION, order)
 
     def _asks_first(self, order: ChatAction) -> bool:
@@ -398,7 +414,7 @@ class ChatInterface(Node):
             pictures += tuple(each for each in known if each.jpeg not in [sent.jpeg for sent in pictures])
         objects, failure = tuple(self._objects(target)), self._failures.get(target)
         asked = self._questions.first(target)
-        question = asked.message if asked is not None else self._asked.get(said.reply_to, "")
+        question = asked.message if asked is not None else self._asked.words(said.reply_to)
         return Situation(
             message=message,
             memory=memory,
@@ -472,7 +488,7 @@ class ChatInterface(Node):
 
     def _say(self, targets: Sequence[str], text: str, kind: str, reply_to: str = "") -> None:
         feedback = ChatFeedback.model_validate(
-            {"message": text, "targets": tuple(targets), "type": kind, "reply_to": reply_to}
+            {"message": self.spoken(text), "targets": tuple(targets), "type": kind, "reply_to": reply_to}
         )
         self.publish(topics.CHAT_FEEDBACK, feedback)
 

@@ -11,6 +11,7 @@ from parley.language.base import Situation, Turn
 from parley.memory.sayings import keeping_action
 from parley.messages.chat import ActionCall, ChatAction
 from parley.messages.memory import MemoryEntry, MemoryEvent
+from parley.sentences import sentence
 
 __all__ = ["Confirmations", "Keeping", "keeping_order", "memory_query"]
 
@@ -68,7 +69,7 @@ class Confirmations:
         finally:
             self._waits = {name: wait for name, wait in self._waits.items() if wait not in waits}
         failed = next((event for event in events if event.kind == "failed"), None)
-        return f"I could not store that: {failed.message}" if failed else ""
+        return sentence("I could not store that: {why}", why=failed.message) if failed else ""
 
 
 def keeping_order(situation: Situation) -> ChatAction | None:

@@ -2,25 +2,35 @@
 
 from __future__ import annotations
 
+import re
+from collections.abc import Sequence
 from typing import Final
 
 from parley.language.control import Control
+from parley.sentences import sentence
 
 __all__ = [
     "AFTERWARDS",
     "CONTROL_REPLIES",
     "MAX_CHARS",
+    "NEVER_MIND",
     "NOTHING_TO_DO",
+    "dropped",
+    "is_never_mind",
     "left",
+    "not_there",
+    "nothing_started",
     "settled",
     "still_thinking",
+    "that_is_for",
     "unreadable",
+    "which_robot",
 ]
 
 MAX_CHARS: Final = 10_000
 """A longer message is not a request that a person wrote."""
 _QUOTED_CHARS: Final = 200
-AFTERWARDS: Final = "I will do that afterwards; first I need your answer to my question."
+AFTERWARDS: Final = sentence("I will do that afterwards; first I need your answer to my question.")
 """Added to the reply to an order that has to wait until a failed step is settled."""
 
 CONTROL_REPLIES: Final[dict[Control, str]] = {
@@ -38,19 +48,46 @@ NOTHING_TO_DO: Final[dict[Control, str]] = {
 }
 
 
-def still_thinking(message: str) -> str:
-    """While an answer takes long."""
-    return f"I am still thinking about “{_short(message)}”. If I should leave it, say “stop”."
+NEVER_MIND: Final = "never mind"
+"""What lets go of a message that takes long, and nothing else; "stop" stops the robot as well."""
+_NEVER_MIND: Final = re.compile(
+    r"(?:please )?(?:never ?mind(?: it| that| this)?|(?:forget|drop) (?:it|that|this))(?: please)?"
+)
+
+
+def still_thinking(message: str, newer: str = "") -> str:
+    """While an answer takes long; `newer`: what was said meanwhile, and waits."""
+    if newer:
+        return sentence(
+            "I am still thinking about “{words}”. “{newer}” comes next. If I should leave it, "
+            "say “{never_mind}”.",
+            words=_short(message), newer=_short(newer), never_mind=NEVER_MIND,
+        )  # fmt: skip
+    return sentence(
+        "I am still thinking about “{words}”. If I should leave it, say “{never_mind}”.",
+        words=_short(message), never_mind=NEVER_MIND,
+    )  # fmt: skip
+
+
+def is_never_mind(message: str) -> bool:
+    """Whether a message says that an answer is not wanted any more."""
+    words = " ".join(re.findall(r"[a-z]+", message.lower()))
+    return _NEVER_MIND.fullmatch(words) is not None
+
+
+def dropped(message: str) -> str:
+    """About what the operator does not want to be thought about any more."""
+    return sentence("I leave this: “{words}”", words=_short(message))
 
 
 def left(message: str) -> str:
     """About what was asked for before the robot was stopped."""
-    return f"You told me to stop, so I leave this: “{_short(message)}”"
+    return sentence("You told me to stop, so I leave this: “{words}”", words=_short(message))
 
 
 def settled(message: str) -> str:
     """About an answer that comes too late."""
-    return f"My question is settled already, so I leave this: “{_short(message)}”"
+    return sentence("My question is settled already, so I leave this: “{words}”", words=_short(message))
 
 
 def unreadable(message: str, *, bare: bool = False) -> str:
@@ -58,8 +95,32 @@ def unreadable(message: str, *, bare: bool = False) -> str:
     if not message.strip() and not bare:
         return "I did not get any words. Please write what I should do."
     if len(message) > MAX_CHARS:
-        return f"That message is too long for me ({len(message)} characters). Please use fewer words."
+        return sentence(
+            "That message is too long for me ({count} characters). Please use fewer words.",
+            count=len(message),
+        )
     return ""
+
+
+def which_robot(known: str) -> str:
+    """Where a message names no robot and there are several; `known`: who is there."""
+    return sentence("Which robot do you mean? {known}", known=known)
+
+
+def that_is_for(robots: Sequence[str]) -> str:
+    """To a message that another robot was meant to get."""
+    return sentence("That is for {names}.", names=" and ".join(robots))
+
+
+def not_there(robot: str) -> str:
+    """About a robot that cannot be asked."""
+    return sentence("{robot} is not there at the moment, so I cannot ask it.", robot=robot)
+
+
+def nothing_started(plain: str) -> str:
+    """Why a message was not understood; `plain`: the engine's own words, perhaps none."""
+    why = plain or sentence("I could not work that out just now.")
+    return sentence("{plain} Nothing was started; please try again.", plain=why)
 
 
 def _short(message: str) -> str:

@@ -14,7 +14,14 @@ from parley.language.control import Control, control_of
 from parley.memory.client import recall
 from parley.memory.incidents import IncidentStore
 from parley.messages import topics
-from parley.messages.chat import ActionCall, ChatAction, ChatFeedback, ChatInput, SystemCommand
+from parley.messages.chat import (
+    ActionCall,
+    ChatAction,
+    ChatFeedback,
+    ChatImage,
+    ChatInput,
+    SystemCommand,
+)
 from parley.messages.failure import ErrorHandlingMessage
 from parley.messages.incident import GetIncidents, Incident
 from parley.messages.ros import ChatRequest, ChatResponse, String
@@ -33,8 +40,10 @@ from parley.nodes.repair import (
     memory_query,
     steps_left,
 )
+from parley.nodes.shown_pictures import sent_pictures
 from parley.nodes.thinking import PATIENCE_S, Thinking
 from parley.nodes.which_robot import WhichRobot
+from parley.sentences import sentence
 from parley.transport.base import Transport
 from parley.world.object_map import MapObject
 
@@ -172,7 +181,10 @@ class ErrorHandler(Node):
                 self._say(target, _STOPPED, "response")
             else:
                 repair.question_id = ""
-                self._mailboxes.post(target, lambda r=repair: self._attempt(r, said.message))  # type: ignore[misc]
+                self._mailboxes.post(
+                    target,
+                    lambda r=repair: self._attempt(r, said.message, said.images),  # type: ignore[misc]
+                )
         if not answered and self._which.needed(said, self._questions.robots()):
             self._ask_which(said)
 
@@ -216,7 +228,7 @@ class ErrorHandler(Node):
 
     def _ask_which(self, said: ChatInput) -> None:
         robots = self._questions.robots()
-        question = self._which.ask(said, robots, uuid.uuid4().hex)
+        question = self._which.ask(said, robots, uuid.uuid4().hex, self.spoken)
         self.publish(topics.CHAT_FEEDBACK, question)
 
     def _on_plan(self, message: String) -> None:
@@ -250,17 +262,18 @@ class ErrorHandler(Node):
 
     # -- repairing -------------------------------------------------------------------------------------
 
-    async def _attempt(self, repair: Repair, reply: str | None) -> None:
+    async def _attempt(self, repair: Repair, reply: str | None, images: Sequence[ChatImage] = ()) -> None:
         if not self._is_current(repair):
             return  # settled otherwise in the meantime
+        said = reply or ("(a picture)" if images else "")
         if reply is not None:
-            repair.note_answered(reply)
+            repair.note_answered(said)
             self._record(repair)
-        resolution = await self._resolve(repair, reply)
+        resolution = await self._resolve(repair, reply, images)
         if not self._is_current(repair):
             return
         if reply is not None:
-            repair.note_turn(Turn("operator", reply))
+            repair.note_turn(Turn("operator", said))
         if resolution.success and reply is None and self._is_used_up(repair, resolution):
             resolution = _plain_question(repair.failure)
         if resolution.success:
@@ -280,23 +293,33 @@ class ErrorHandler(Node):
         latched = repair.failure.target in self._latched
         return latched or repair.alone >= MAX_ALONE or repair.is_known(correction)
 
-    async def _resolve(self, repair: Repair, reply: str | None) -> ChatAction:
+    async def _resolve(
+        self, repair: Repair, reply: str | None, images: Sequence[ChatImage] = ()
+    ) -> ChatAction:
         """Ask the language engine; when it cannot answer, fall back to the failure's own sentence."""
         target = repair.failure.target
         try:
             async with self._thinking.about(target, lambda: self._say(target, _THINKING, "info")):
-                return await self._language.resolve(await self._situation(repair, reply))
+                return await self._language.resolve(await self._situation(repair, reply, images))
         except (LanguageError, TimeoutError) as error:
             self.log.warning("no resolution", target=repair.failure.target, error=repr(error))
             return _plain_question(repair.failure)
 
-    async def _situation(self, repair: Repair, reply: str | None) -> ErrorSituation:
+    async def _situation(
+        self, repair: Repair, reply: str | None, images: Sequence[ChatImage]
+    ) -> ErrorSituation:
         failure = repair.failure
         status = self._presence.get(failure.target)
         memory = await recall(self.transport, memory_query(failure, reply), scope=failure.target)
         objects = self._objects(failure.target)
         known = failed_situation(failure, memory=memory, objects=objects, status=status)
-        return replace(known, dialogue=tuple(repair.dialogue), reply=reply, tried=tuple(repair.tried))
+        return replace(
+            known,
+            dialogue=tuple(repair.dialogue),
+            reply=reply,
+            tried=tuple(repair.tried),
+            pictures=await sent_pictures(images),
+        )
 
     def _solve(self, repair: Repair, resolution: ChatAction, *, alone: bool) -> None:
         target = repair.failure.target
@@ -377,9 +400,11 @@ class ErrorHandler(Node):
         self._end(repair, "held")
         self._hold(target)
         left = steps_left([repair.failure.action_called, *repair.failure.umrf_queue])
-        text = (
-            f"I could not solve this, so I am waiting here. {repair.failure.error_message} "
-            f"{left} Say “try again”, “skip it” or “cancel everything”, or give me another order."
+        text = sentence(
+            "I could not solve this, so I am waiting here. {problem} {left} Say “try again”, “skip it” or "
+            "“cancel everything”, or give me another order.",
+            problem=repair.failure.error_message,
+            left=left,
         )
         self._say(target, text, "info")
 
@@ -411,7 +436,8 @@ class ErrorHandler(Node):
         closes: str = "",
     ) -> None:
         feedback = ChatFeedback(
-            message=text, targets=(target,), type=kind, choices=tuple(choices), sources=tuple(sources),
+            message=self.spoken(text), targets=(target,), type=kind, choices=tuple(choices),
+            sources=tuple(sources),
             id=question_id, closes=closes,
         )  # fmt: skip
         self.publish(topics.CHAT_FEEDBACK, feedback)

@@ -8,6 +8,7 @@ from typing import Final
 
 from parley.messages.chat import ActionCall
 from parley.messages.status import ActionInfo, PlanDecision, PlanProposal, PlanStep, PlanUpdate
+from parley.sentences import listed, sentence
 
 __all__ = ["Finishing"]
 
@@ -34,6 +35,8 @@ class _Job:
     """A person changed the steps, so the words do not tell any more what is done."""
     asked: str = ""
     """What was asked for last and is not in the plan yet."""
+    instead: bool = False
+    """Whether that takes the place of what was asked for before."""
     offered: dict[str, str] = field(default_factory=dict)
     """What was asked for and waits for a yes, by proposal."""
 
@@ -52,9 +55,16 @@ class Finishing:
         self._now_s = now_s
         self._jobs: dict[str, _Job] = {}
 
-    def on_order(self, target: str, words: str) -> None:
-        """An order goes to the planner; `words` are the operator's."""
-        self._job(target).asked = words
+    def on_order(self, target: str, words: str, *, instead: bool = False) -> None:
+        """An order goes to the planner.
+
+        Args:
+            target: The robot.
+            words: The operator's.
+            instead: Whether it takes the place of what failed and was given up.
+        """
+        job = self._job(target)
+        job.asked, job.instead = words, instead
 
     def on_proposal(self, proposal: PlanProposal) -> None:
         """What was asked for last waits for a yes."""
@@ -86,8 +96,9 @@ class Finishing:
                 job.words += [words for words in job.offered.values() if words]
                 job.offered.clear()
         if job.asked and (update.graph_name != job.graph_name or len(update.steps) > job.steps):
-            job.words.append(job.asked)
-            job.asked = ""
+            job.words = [*([] if job.instead else job.words), job.asked]
+            job.failed = [] if job.instead else job.failed
+            job.asked, job.instead = "", False
         job.graph_name, job.steps = update.graph_name, len(update.steps)
         if update.state == "held":
             job.failed = [step.action.name for step in update.steps]
@@ -101,7 +112,7 @@ class Finishing:
         if len(steps) < 2 and self._now_s() - job.began_s < _SHORT_S:
             return ""
         finding = {info.name for info in catalogue if set(info.effects) == {"locates"}}
-        return f"I have finished: {_named(job, done, finding)}."
+        return sentence("I have finished: {what}.", what=_named(job, done, finding))
 
     def _job(self, target: str) -> _Job:
         return self._jobs.setdefault(target, _Job())
@@ -126,10 +137,14 @@ def _named(job: _Job, done: Sequence[ActionCall], finding: Collection[str]) -> s
     words = list(dict.fromkeys(_short(text) for text in job.words))
     if job.edited or not words:
         words = list(dict.fromkeys(c.reason or c.name for c in done if c.name not in finding))
-    named = [f"“{text.strip().rstrip('.')}”" for text in words[:_NAMED]]
+    named = [sentence("“{words}”", words=text.strip().rstrip(".")) for text in words[:_NAMED]]
     if len(words) > _NAMED:
-        return f"{', '.join(named)} and {len(words) - _NAMED} more"
-    return named[0] if len(named) == 1 else f"{', '.join(named[:-1])} and {named[-1]}"
+        return sentence("{first} and {count} more", first=listed(named), count=len(words) - _NAMED)
+    return (
+        named[0]
+        if len(named) == 1
+        else sentence("{first} and {last}", first=listed(named[:-1]), last=named[-1])
+    )
 
 
 def _short(text: str) -> str:

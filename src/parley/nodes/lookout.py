@@ -23,6 +23,7 @@ from parley.messages.status import GraphEvent, PlanUpdate
 from parley.messages.wire import decode_plan
 from parley.nodes.base import Node
 from parley.nodes.plan_steps import OPEN_STATES
+from parley.sentences import sentence, together
 from parley.transport.base import Transport
 
 __all__ = ["Lookout"]
@@ -121,20 +122,21 @@ class Lookout(Node):
         orders = [act.words for act in rule.acts if act.kind == "order"]
         if not orders and not any(rule.has(kind) for kind in ("stop", "tell", "cancel", "wait")):
             return
-        then = ""
+        then = sentence("")
         if rule.has("cancel"):
             self._command(robot, "clear")
-            then = " So I drop the rest of the plan."
+            then = sentence("So I drop the rest of the plan.")
         elif rule.has("stop"):
-            then = f" {_STOPPED if has_more else _WAITING}"
+            then = sentence(_STOPPED if has_more else _WAITING)
             self._command(robot, "stop")
         elif rule.delay_s and has_more:
             self._command(robot, "stop")
             self._waits[robot] = self.spawn(self._go_on_later(robot, rule.delay_s), name=f"waiting {robot}")
-            then = " So I wait, and then go on."
+            then = sentence("So I wait, and then go on.")
         elif orders:
-            then = " I do so now."
-        told = f"{seen.rstrip('.')}. You told me: “{rule.sentence}”.{then}"
+            then = sentence("I do so now.")
+        taught = sentence("{seen}. You told me: “{rule}”.", seen=seen.rstrip("."), rule=rule.sentence)
+        told = self.spoken(together(taught, then))
         self.publish(
             topics.CHAT_FEEDBACK,
             ChatFeedback(message=told, targets=(robot,), type="info", sources=(entry.name,)),

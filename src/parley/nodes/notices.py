@@ -35,7 +35,7 @@ class Notices(Node):
 
     def tell(self, text: str, targets: Sequence[str], kind: Literal["info", "error"] = "info") -> None:
         """Say `text` on behalf of the robots `targets`."""
-        self._waiting.append(ChatFeedback(message=text, targets=tuple(targets), type=kind))
+        self._waiting.append(ChatFeedback(message=self.spoken(text), targets=tuple(targets), type=kind))
         if self._heard:
             self._say()
 

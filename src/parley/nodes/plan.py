@@ -20,6 +20,7 @@ from parley.nodes.plan_effects import Effect, PauseGraph, ResumeGraph, Say, Stop
 from parley.nodes.plan_flow import shifted, steps_of
 from parley.nodes.plan_reports import ReportedPlan
 from parley.nodes.plan_steps import ACTIVE_STATES, OPEN_STATES, Step, When, with_givers
+from parley.sentences import sentence
 
 __all__ = ["KEEP_DONE", "TargetPlan"]
 
@@ -133,8 +134,7 @@ class TargetPlan(ReportedPlan):
         pending = self.pending
         if index is None or not 0 <= index < len(pending):
             left = len(pending)
-            what = "There is no such step" if index is None else f"There is no step number {index + 1}"
-            return [Say(f"{what}; {left} {'step is' if left == 1 else 'steps are'} left.", "error")]
+            return [Say(_no_step(index, left), "error")]
         step = pending[index]
         if step is self.current:
             return self.skip()
@@ -219,3 +219,14 @@ class TargetPlan(ReportedPlan):
         for step in self.steps:
             if step.when is not None and step.when.step is failed:
                 step.when = When(heir, step.when.result)
+
+
+def _no_step(index: int | None, left: int) -> str:
+    """That a step cannot be meant, and how many there are."""
+    if index is None:
+        several = sentence("There is no such step; {left} steps are left.", left=left)
+        return sentence("There is no such step; one step is left.") if left == 1 else several
+    number = index + 1
+    if left == 1:
+        return sentence("There is no step number {number}; one step is left.", number=number)
+    return sentence("There is no step number {number}; {left} steps are left.", number=number, left=left)

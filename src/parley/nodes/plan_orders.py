@@ -8,18 +8,26 @@ from typing import Final
 from parley.messages.chat import ActionCall, SystemCommand
 from parley.nodes.plan import TargetPlan
 from parley.nodes.plan_effects import Effect
+from parley.sentences import sentence
 
 __all__ = [
-    "LEFT", "NOTHING_DONE", "PLAN_CHANGED", "WAITING", "WAITING_HELPLESS", "in_order", "is_same",
+    "LEFT", "NOTHING_DONE", "PLAN_CHANGED", "WAITING", "WAITING_HELPLESS", "in_order", "is_same", "no_robot",
     "take_repair",
 ]  # fmt: skip
 
-_HELP: Final = "Say “try again”, “skip it” or “cancel everything”, or give me another order."
-WAITING: Final = f"Then I am waiting here. {_HELP}"
-WAITING_HELPLESS: Final = f"What I worked out would not help, so I am waiting here. {_HELP}"
+_HELP: Final = sentence("Say “try again”, “skip it” or “cancel everything”, or give me another order.")
+WAITING: Final = sentence("Then I am waiting here. {help}", help=_HELP)
+WAITING_HELPLESS: Final = sentence(
+    "What I worked out would not help, so I am waiting here. {help}", help=_HELP
+)
 NOTHING_DONE: Final = "I worked out a plan that I cannot carry out, so I did nothing."
 LEFT: Final = "I cannot carry out these steps, so I left everything as it is."
 PLAN_CHANGED: Final = "The plan has changed in the meantime, so I left it as it is. Please look at it again."
+
+
+def no_robot(name: str, known: str) -> str:
+    """That nobody is called `name`, and who is there."""
+    return sentence("There is no robot called {name}. {known}", name=name, known=known)
 
 
 def take_repair(plan: TargetPlan, calls: Sequence[ActionCall]) -> list[Effect]:

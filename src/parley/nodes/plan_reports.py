@@ -13,6 +13,7 @@ from parley.nodes.plan_steps import (
     ACTIVE_NODES,
     ACTIVE_STATES,
     GONE_CODES,
+    KEPT_LATCHED,
     LATCHED,
     OPEN_STATES,
     Step,
@@ -20,10 +21,12 @@ from parley.nodes.plan_steps import (
     stages,
     verdict,
 )
+from parley.sentences import sentence
 from parley.umrf.model import Graph, GraphState, Node, NodeState, Response, Result
 
 __all__ = ["ReportedPlan"]
 
+_UNCHANGED: Final = "I could not do that, so I changed nothing."
 _BUSY: Final = ACTIVE_NODES | {NodeState.STOPPING}
 
 
@@ -54,6 +57,7 @@ class ReportedPlan(PlanCore):
             if step.node in by_name
         ]
         self._note_dropped(graph, found)
+        self._note_unharmed(graph, found)
         for step, node in found:
             if step.node == node.full_name:
                 was = step.result
@@ -127,7 +131,12 @@ class ReportedPlan(PlanCore):
                 return []  # a step began just before it was dropped; it is ended
         elif command == "pause":
             self._pause_wanted = False
-        return [Say(LATCHED if latched else "I could not do that, so I changed nothing.", "error")]
+        return self._kept(command) if latched else [Say(_UNCHANGED, "error")]
+
+    def _kept(self, command: str) -> list[Effect]:
+        """After an emergency stop nothing is sent, and refused, again before somebody says to go on."""
+        self._pause_wanted = bool(self.pending)
+        return [Say(LATCHED if command == "resume" else KEPT_LATCHED, "error")]
 
     def on_return(self, graphs: Collection[str]) -> list[Effect]:
         """The robot is back after its contact was lost, with these graphs."""
@@ -141,7 +150,9 @@ class ReportedPlan(PlanCore):
             return []
         self._abandon_start()
         self._abandoned = graph_name
-        text = f"{self.target} does not answer. The plan is kept; say “carry on” to try again."
+        text = sentence(
+            "{robot} does not answer. The plan is kept; say “carry on” to try again.", robot=self.target
+        )
         return [Say(text, "error")]
 
     def on_no_progress(self, graph_name: str, node: str) -> list[Effect]:
@@ -314,7 +325,9 @@ class ReportedPlan(PlanCore):
         if not left or state is GraphState.FINISHED:
             return []
         undone = "; ".join(step.call.reason for step in left if step.call.reason)
-        return [Say(f"The plan was stopped. Not done: {undone}." if undone else "The plan was stopped.")]
+        if not undone:
+            return [Say("The plan was stopped.")]
+        return [Say(sentence("The plan was stopped. Not done: {undone}.", undone=undone))]
 
     def _note_dropped(self, graph: Graph, found: Sequence[tuple[Step, Node]]) -> None:
         """A step that was dropped when it had begun already may fail yet, and stop what ran beside it."""
@@ -329,6 +342,13 @@ class ReportedPlan(PlanCore):
             )
             if failed and any(stops):
                 step.upset = step.upset or (step.state in OPEN_STATES and step.result is None)
+
+    def _note_unharmed(self, graph: Graph, found: Sequence[tuple[Step, Node]]) -> None:
+        """What ran on beside a step that failed while all stood still was not stopped: its end counts."""
+        if self._can_end_step() or any(node.state is NodeState.ERROR for node in graph.nodes):
+            return
+        for step, node in found:
+            step.upset = step.upset and node.state is not NodeState.RUNNING
 
     def _on_stopping(self, graph: Graph) -> list[Effect]:
         if graph.state is GraphState.RUNNING:

@@ -9,6 +9,7 @@ from parley.engine.journal import Interrupted
 from parley.messages.chat import ActionCall
 from parley.nodes.plan_graph import FLOW_KEY
 from parley.nodes.plan_steps import Step, When, handed_over, previous, with_givers
+from parley.sentences import sentence
 from parley.umrf.model import Node, NodeState
 
 __all__ = ["adopted_steps", "interruption_text", "restored_steps"]
@@ -94,15 +95,20 @@ def interruption_text(was: Interrupted, goes_on: Sequence[Step] | bool) -> str:
     current = next(iter(was.going_on or was.remaining))
     words = current.description or current.name
     if was.shared:
-        return (
-            f"I was interrupted while I was at “{words}”. The other robots have gone on without me, "
-            "so please give the order again if it still holds."
+        return sentence(
+            "I was interrupted while I was at “{step}”. The other robots have gone on without me, "
+            "so please give the order again if it still holds.",
+            step=words,
         )
     if not goes_on:
-        return f"I was interrupted while I was at “{words}”. Please give the order again if it still holds."
-    return (
-        f"I was interrupted while I was at “{words}”. "
-        "Say “carry on” to go on with the rest, or “cancel everything”."
+        return sentence(
+            "I was interrupted while I was at “{step}”. Please give the order again if it still holds.",
+            step=words,
+        )
+    return sentence(
+        "I was interrupted while I was at “{step}”. Say “carry on” to go on with the rest, or “cancel "
+        "everything”.",
+        step=words,
     )
 
 

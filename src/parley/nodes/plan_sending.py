@@ -113,7 +113,8 @@ class PlanSender(Node):
         self.spawn(wait(), name=f"deadline {plan.target}")
 
     def _say(self, target: str, text: str, kind: Literal["info", "error"]) -> None:
-        self.publish(topics.CHAT_FEEDBACK, ChatFeedback(message=text, targets=(target,), type=kind))
+        said = ChatFeedback(message=self.spoken(text), targets=(target,), type=kind)
+        self.publish(topics.CHAT_FEEDBACK, said)
 
     def _refuse(self, what: str, target: str, problems: Sequence[Problem]) -> None:
         self.log.warning("refused", what=what, target=target, problems=[str(p) for p in problems])

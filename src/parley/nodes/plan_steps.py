@@ -11,9 +11,9 @@ from parley.messages.failure import ErrorHandlingMessage, FailureReport
 from parley.umrf.model import NodeState
 
 __all__ = [
-    "ACTIVE_NODES", "ACTIVE_STATES", "GONE_CODES", "LATCHED", "OPEN_STATES", "RunState", "Step", "StepState",
-    "When", "failure_message", "fill_inputs", "handed_over", "known_outputs", "previous", "stages", "verdict",
-    "with_givers", "with_values", "without_orphans",
+    "ACTIVE_NODES", "ACTIVE_STATES", "GONE_CODES", "KEPT_LATCHED", "LATCHED", "OPEN_STATES", "RunState",
+    "Step", "StepState", "When", "failure_message", "fill_inputs", "handed_over", "known_outputs", "previous",
+    "stages", "verdict", "with_givers", "with_values", "without_orphans",
 ]  # fmt: skip
 
 StepState = Literal["queued", "running", "finished", "failed", "stopped", "skipped", "paused", "waiting"]
@@ -34,6 +34,11 @@ GONE_CODES: Final = frozenset({"unknown_graph", "graph_ended"})
 
 LATCHED: Final = "I was stopped for safety. Release the stop first, then say “carry on”."
 """What the operator is told when an emergency stop is in force."""
+
+KEPT_LATCHED: Final = (
+    "I was stopped for safety, so I keep that for later. Release the stop first, then say “carry on”."
+)
+"""The same, when there is something new to do."""
 
 
 @dataclass(frozen=True, slots=True, eq=False)

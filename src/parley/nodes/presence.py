@@ -8,6 +8,7 @@ from typing import Final
 
 from parley.clock import Clock
 from parley.messages.status import ActorStatus
+from parley.sentences import sentence
 
 __all__ = ["LOST_AFTER_S", "Presence"]
 
@@ -88,7 +89,9 @@ class Presence:
     def known_text(self) -> str:
         """Who is there, as a sentence for the operator."""
         names = self.names()
-        return f"I know {', '.join(names)}." if names else "No robot is there at the moment."
+        if not names:
+            return sentence("No robot is there at the moment.")
+        return sentence("I know {names}.", names=", ".join(names))
 
     def _leave(self, name: str) -> None:
         if self._seen.pop(name, None) is None:

@@ -8,9 +8,10 @@ from typing import Final
 
 from parley.messages.chat import ChatFeedback, ChatInput
 
-__all__ = ["OpenQuestions", "SeenIds"]
+__all__ = ["LastAsked", "OpenQuestions", "SeenIds"]
 
 _KEPT: Final = 500
+_KEPT_QUESTIONS: Final = 100
 
 
 class SeenIds:
@@ -107,3 +108,21 @@ def _calls(message: str, name: str) -> bool:
 def _key(target: str) -> str:
     """Robots are found whatever the capitals."""
     return target.strip().casefold()
+
+
+class LastAsked:
+    """The words of the last questions of robots."""
+
+    def __init__(self) -> None:
+        self._words: OrderedDict[str, str] = OrderedDict()
+
+    def on_feedback(self, feedback: ChatFeedback) -> None:
+        """A robot speaks, and may ask."""
+        if feedback.type == "request" and feedback.id:
+            self._words[feedback.id] = feedback.message
+            while len(self._words) > _KEPT_QUESTIONS:
+                self._words.popitem(last=False)
+
+    def words(self, identity: str) -> str:
+        """The question of that id; empty if it is too long ago or there is none."""
+        return self._words.get(identity, "")

@@ -113,9 +113,9 @@ class Recollections:
 
     # -- pictures that come ----------------------------------------------------------------------------
 
-    async def _take(self, target: str, said: ChatInput) -> bool:
-        """Keep the pictures of a message, once however many robots it is for."""
-        if any(said is other for other in self._taken):
+    async def _take(self, target: str, said: ChatInput, *, asks: bool = True) -> bool:
+        """Keep the pictures of a message, once however many robots it is for; `asks` what they are."""
+        if any(said is other or said.id == other.id != "" for other in self._taken):
             return True
         self._taken.append(said)
         targets = said.targets or (target,)
@@ -133,7 +133,7 @@ class Recollections:
         entries = await self._keep(target, said, data, titles)
         if entries is None:
             return True
-        if all(titles):
+        if all(titles) or not asks:
             shown = " and ".join(f"“{entry.name}”" for entry in entries)
             self._tell(targets, f"I will remember what you showed me as {shown}.", said)
             return bool(name) or not said.message.strip()
@@ -147,6 +147,11 @@ class Recollections:
             ChatFeedback(message=text, targets=tuple(targets), type="request", id=question, reply_to=said.id),
         )
         return not said.message.strip()
+
+    async def keep_with_answer(self, target: str, said: ChatInput, question: str) -> None:
+        """Store the pictures of an answer to somebody's question, without asking what they show."""
+        about = said.message.strip() or f"Shown when I asked: {question}"
+        await self._take(target, said.model_copy(update={"message": about}), asks=False)
 
     async def _keep(
         self, target: str, said: ChatInput, data: Sequence[str], titles: Sequence[str]

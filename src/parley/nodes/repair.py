@@ -13,6 +13,7 @@ from parley.messages.failure import ErrorHandlingMessage
 from parley.messages.incident import Incident, IncidentAttempt
 from parley.messages.memory import MemoryEntry
 from parley.messages.status import ActorStatus, PlanUpdate
+from parley.sentences import sentence
 from parley.world.geometry import Pose2D
 from parley.world.object_map import MapObject
 
@@ -199,9 +200,10 @@ def failed_situation(
 
 def left_over_text(incident: Incident) -> str:
     """About a failure that was not settled when the program ended, for the operator."""
-    return (
-        f"I was started anew before this was settled: {incident.message} "
-        "Please give the order again if it still holds."
+    return sentence(
+        "I was started anew before this was settled: {problem} Please give the order again if it still "
+        "holds.",
+        problem=incident.message,
     )
 
 
@@ -217,8 +219,9 @@ def steps_left(calls: Sequence[ActionCall]) -> str:
     """What is still to be done, for the operator."""
     reasons = [call.reason for call in calls if call.reason]
     if not reasons:
-        return f"{len(calls)} steps are left." if len(calls) != 1 else "One step is left."
-    return f"Left to do: {'; '.join(reasons)}."
+        several = sentence("{count} steps are left.", count=len(calls))
+        return several if len(calls) != 1 else sentence("One step is left.")
+    return sentence("Left to do: {steps}.", steps="; ".join(reasons))
 
 
 def _key(step: ActionCall) -> tuple[object, ...]:

@@ -18,6 +18,7 @@ from parley.messages import ros, topics
 from parley.messages.chat import ActionCall, ChatAction, ChatFeedback, ChatInput, SystemCommand
 from parley.messages.memory import AddToMemory, RemoveMemory
 from parley.messages.status import ActionInfo, ActorStatus, GraphEvent, PlanDecision, Rejection
+from parley.nodes import plan_orders as orders
 from parley.nodes.asking import CHANGED, REFUSED
 from parley.nodes.left_graphs import LeftGraphs
 from parley.nodes.offers import Offers
@@ -27,21 +28,12 @@ from parley.nodes.plan_check import check_calls, complete_calls
 from parley.nodes.plan_effects import Effect
 from parley.nodes.plan_flow import listed, rebased
 from parley.nodes.plan_memory import memory_change
-from parley.nodes.plan_orders import (
-    LEFT,
-    NOTHING_DONE,
-    PLAN_CHANGED,
-    WAITING,
-    WAITING_HELPLESS,
-    in_order,
-    is_same,
-    take_repair,
-)  # fmt: skip
 from parley.nodes.plan_sending import Patience, PlanSender
 from parley.nodes.plan_steps import Step
 from parley.nodes.presence import LOST_AFTER_S, Presence
 from parley.nodes.proposal_log import ProposalLog
 from parley.nodes.questions import OpenQuestions
+from parley.sentences import sentence
 from parley.transport.base import Transport
 from parley.umrf.io import read_graph
 
@@ -146,7 +138,7 @@ class UmrfPlanner(PlanSender):
         for target in targets:
             plan = self._plan(target)
             calls = self._accept(plan, order.queue)
-            commands = in_order(order.system_cmd)
+            commands = orders.in_order(order.system_cmd)
             if calls is None:  # nothing of such an order is done, but stopping is never refused
                 commands = [item for item in commands if item.command in ("stop", "pause")]
             for command in commands:
@@ -170,7 +162,7 @@ class UmrfPlanner(PlanSender):
             if calls is None:
                 self._send(plan, plan.give_up())
                 continue
-            for command in in_order(control):
+            for command in orders.in_order(control):
                 self._send(plan, self._command(plan, command))
             if clears:
                 self._take_anew(plan, order.message_response, calls)
@@ -187,7 +179,7 @@ class UmrfPlanner(PlanSender):
     def _correct(self, plan: TargetPlan, message: str, calls: list[ActionCall]) -> None:
         """Repair, unless new steps that nobody asked for wait for a yes first; it is held till then."""
         failed = plan.failed
-        new = failed is not None and [call for call in calls if not is_same(call, failed.call)]
+        new = failed is not None and [call for call in calls if not orders.is_same(call, failed.call)]
         if new and not plan.given_up and self._asks_for_repair(plan, calls):
             self._propose(plan, message, calls, failed, announced=True)
             self._say(plan.target, "I wait for your yes before I do this.", "info")
@@ -219,7 +211,7 @@ class UmrfPlanner(PlanSender):
         if decision.decision == "reject":
             self._approvals.drop(decision.id)
             self._send(plan, plan.give_up() if repairs else [])
-            self._say(plan.target, WAITING if repairs else REFUSED, "info")
+            self._say(plan.target, orders.WAITING if repairs else REFUSED, "info")
             return
         calls: list[ActionCall] | None = list(proposal.steps)
         if decision.decision == "edit":
@@ -236,7 +228,7 @@ class UmrfPlanner(PlanSender):
         if agreed:
             self._say(plan.target, agreed, "info")
         if repairs:
-            self._send(plan, take_repair(plan, calls))
+            self._send(plan, orders.take_repair(plan, calls))
         else:
             self._append(plan, calls)
 
@@ -248,7 +240,7 @@ class UmrfPlanner(PlanSender):
                 "revision", "the plan is another by now", "edit it as it is now", "past_revision"
             )
             self._refuse(topics.PLAN_DECISION.name, target, [problem])
-            self._say(target, PLAN_CHANGED, "error")
+            self._say(target, orders.PLAN_CHANGED, "error")
             return
         free = {id(step) for step in plan.not_begun}
         begun = [index for index, step in enumerate(plan.steps) if id(step) not in free]
@@ -294,7 +286,7 @@ class UmrfPlanner(PlanSender):
         repair = self._approvals.repair(plan.target)
         if repair is not None:
             self._approvals.drop(repair.id)
-            return take_repair(plan, repair.steps)
+            return orders.take_repair(plan, repair.steps)
         effects: list[Effect] = []
         for proposal in [] if plan.pending else self._approvals.of(plan.target):
             self._approvals.drop(proposal.id)
@@ -350,7 +342,7 @@ class UmrfPlanner(PlanSender):
         problems = check_calls(put, catalogue, path="steps" if decided else "queue")
         if not problems:
             return calls
-        text = WAITING_HELPLESS if correcting and not decided else ""
+        text = orders.WAITING_HELPLESS if correcting and not decided else ""
         self._refuse_plan(plan, problems, decided=decided, text=text)
         return None
 
@@ -359,7 +351,7 @@ class UmrfPlanner(PlanSender):
     ) -> None:
         topic = topics.PLAN_DECISION if decided else topics.CHAT_ACTION
         self._refuse(topic.name, plan.target, problems)
-        self._say(plan.target, text or (LEFT if decided else NOTHING_DONE), "error")
+        self._say(plan.target, text or (orders.LEFT if decided else orders.NOTHING_DONE), "error")
 
     def _catalogue(self, target: str) -> Sequence[ActionInfo]:
         status = self._presence.get(target)
@@ -375,12 +367,14 @@ class UmrfPlanner(PlanSender):
                     "targets", f"no robot is called {name!r}", self._presence.known_text(), "unknown_robot"
                 )
                 self._refuse(what, name, [problem])
-                self._say(name, f"There is no robot called {name}. {self._presence.known_text()}", "error")
+                self._say(name, orders.no_robot(name, self._presence.known_text()), "error")
             elif known not in found:
                 found.append(known)
         if not order.targets:
             self._refuse(
-                what, "", [Problem("targets", "no robot is named", self._presence.known_text(), "no_robot")]
+                what,
+                "",
+                [Problem("targets", "no robot is named", self._presence.known_text(), "no_robot")],
             )
         return found
 
@@ -448,7 +442,8 @@ class UmrfPlanner(PlanSender):
         if plan is None or not plan.pending:
             return
         if not joined:
-            self._say(robot, f"I have lost contact with {robot}. Its plan is kept.", "error")
+            text = sentence("I have lost contact with {robot}. Its plan is kept.", robot=robot)
+            self._say(robot, text, "error")
         elif (status := self._presence.get(robot)) is not None:
             self._send(plan, plan.on_return(status.graphs))
 

@@ -3,9 +3,10 @@
 from __future__ import annotations
 
 import uuid
-from collections.abc import Sequence
+from collections.abc import Callable, Sequence
 
 from parley.messages.chat import ChatFeedback, ChatInput
+from parley.sentences import sentence
 
 __all__ = ["WhichRobot"]
 
@@ -22,12 +23,14 @@ class WhichRobot:
         """Whether nobody can tell which of the robots that wait is meant."""
         return said.type == "response" and not said.targets and not said.reply_to and len(waiting) > 1
 
-    def ask(self, said: ChatInput, waiting: Sequence[str], question_id: str) -> ChatFeedback:
-        """Keep the answer; the question to put."""
+    def ask(
+        self, said: ChatInput, waiting: Sequence[str], question_id: str, spoken: Callable[[str], str] = str
+    ) -> ChatFeedback:
+        """Keep the answer; the question to put, as `spoken` says it."""
         self._answer, self._question_id = said, question_id
         names = f"{', '.join(waiting[:-1])} or {waiting[-1]}"
-        text = f"Which robot do you mean, {names}?"
-        return ChatFeedback(message=text, type="request", choices=tuple(waiting), id=question_id)
+        text = sentence("Which robot do you mean, {names}?", names=names)
+        return ChatFeedback(message=spoken(text), type="request", choices=tuple(waiting), id=question_id)
 
     def addressed(self, said: ChatInput, waiting: Sequence[str]) -> ChatInput | None:
         """The kept answer with its robot, if `said` only names one; it is kept no longer in any case."""

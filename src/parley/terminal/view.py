@@ -307,5 +307,5 @@ def _hear(robot: RobotView, feedback: ChatFeedback) -> None:
     ]
     if feedback.type == "request":
         robot.pending.append(Question(feedback.id, feedback.message, feedback.choices))
-    if feedback.type in ("request", "response"):
-        robot.offered = feedback.choices if feedback.type == "response" else ()
+    if feedback.type in ("request", "response") or feedback.choices:
+        robot.offered = feedback.choices if feedback.type != "request" else ()

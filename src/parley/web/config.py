@@ -45,6 +45,10 @@ class WebConfig(BaseModel):
     """Where the conversation and a made certificate are kept; None: only while the server runs."""
     static_dir: Path | None = None
     """The built page; None: the one that comes with the package."""
+    head_within_s: float = Field(default=10.0, gt=0)
+    """Wall time in which the head of a request must have come; then the connection is closed."""
+    body_idle_s: float = Field(default=30.0, gt=0)
+    """Wall time without any byte of a body that is still to come; then the connection is closed."""
     fresh_robots: bool = False
     """The robots start together with this server: what they asked before is void."""
 

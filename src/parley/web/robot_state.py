@@ -6,7 +6,7 @@ from collections.abc import Callable, Iterable
 from typing import Final
 
 from parley.messages.status import ActorStatus, PlanUpdate, StopCommand, StopReport
-from parley.web.models import Change, RobotChange, RobotGone, RobotView, StopView
+from parley.web.models import Change, Policy, RobotChange, RobotGone, RobotView, StopView
 
 __all__ = ["LOST_AFTER_S", "STOP_DEADLINE_S", "RobotBook"]
 
@@ -31,6 +31,8 @@ class RobotBook:
         self._stop_s: dict[str, float] = {}
         self._received: set[str] = set()
         """Whose engine confirmed the stop that is on."""
+        self._policies: dict[str, Policy] = {}
+        """What the planner told, of robots too that were not heard of yet."""
 
     def resolve(self, name: str) -> str | None:
         """The robot that `name` means, whatever its capitals."""
@@ -42,8 +44,11 @@ class RobotBook:
         known = self.resolve(name)
         if known is not None:
             return self.views[known]
-        self._put(RobotView(name=name))
+        self._put(self._new(name))
         return self.views[name]
+
+    def _new(self, name: str) -> RobotView:
+        return RobotView(name=name, policy=self._policies.get(name, "run_at_once"))
 
     def remove(self, name: str) -> None:
         """Take a robot off the list; it comes back with its next heartbeat."""
@@ -65,7 +70,7 @@ class RobotBook:
             Whether the robot was started anew since its last heartbeat.
         """
         name = status.actor
-        view = self.views.get(name) or RobotView(name=name)
+        view = self.views.get(name) or self._new(name)
         if status.state == "leaving":
             self._seen_s.pop(name, None)
             self._put(view.model_copy(update={"connection": "left", "state": "leaving"}))
@@ -92,6 +97,7 @@ class RobotBook:
 
     def on_plan(self, update: PlanUpdate) -> None:
         """Take over the policy that the planner tells with each plan."""
+        self._policies[update.target] = update.policy
         view = self.views.get(update.target)
         if view is not None:
             self._put(view.model_copy(update={"policy": update.policy}))

@@ -23,6 +23,7 @@ from parley.web.app import create_app
 from parley.web.backend import Backend
 from parley.web.config import WebConfig
 from parley.web.live import MAX_MESSAGE_BYTES, Live
+from parley.web.patience import PatientConfig
 from parley.web.tls import fingerprint, made_certificate
 
 __all__ = ["WebServer"]
@@ -97,7 +98,7 @@ class WebServer:
         self.live = live = await self._stack.enter_async_context(Live(self.backend))
         app = create_app(self.backend, live, hosts=names, origins=config.origins, https=files is not None)
         server = _Server(
-            uvicorn.Config(
+            PatientConfig(
                 self._around(app),
                 log_config=None,
                 access_log=False,
@@ -109,6 +110,8 @@ class WebServer:
                 ws_per_message_deflate=False,  # it cost more than all the rest; pictures are packed already
                 limit_concurrency=1000,
                 timeout_keep_alive=15,
+                head_within_s=config.head_within_s,
+                body_idle_s=config.body_idle_s,
                 timeout_graceful_shutdown=END_WITHIN_S,
                 ssl_certfile=files[0] if files else None,
                 ssl_keyfile=files[1] if files else None,

@@ -54,6 +54,35 @@ describe('the chat', () => {
     expect(sent).toMatchObject([{ text: 'come here', targets: ['Ada', 'Bob'] }]);
   });
 
+  it('brings the tab of a robot that asks into sight', () => {
+    const seen: unknown[] = [];
+    vi.spyOn(Element.prototype, 'scrollIntoView').mockImplementation(function (this: Element) {
+      seen.push(this);
+    });
+    show({ chat: [entry({ id: 'q', type: 'request', question: 'open', message: 'Which box?', targets: ['Bob'] })] });
+    expect(seen).toContain(tab('Bob'));
+    vi.restoreAllMocks();
+  });
+
+  it('says who is not connected before one writes to them', () => {
+    show({ robots: [robot({ name: 'Ada', connection: 'lost' })] });
+    expect(screen.getAllByText('Ada is not connected')).toHaveLength(2); // at the tab and above the line one writes in
+  });
+
+  it('speaks of missing robots only when it knows', () => {
+    render(<ChatPanel />);
+    screen.getByText('Loading…');
+    expect(screen.queryByText('Waiting for a robot')).toBeNull();
+  });
+
+  it('ends a search with Escape and goes back to writing', async () => {
+    const user = show({});
+    await user.click(screen.getByRole('button', { name: 'Search the conversation' }));
+    await user.keyboard('{Escape}');
+    expect(screen.queryByRole('search')).toBeNull();
+    expect(document.activeElement).toBe(screen.getByRole('textbox', { name: 'Write to Ada' }));
+  });
+
   it('sends one message after the other, in the order in which they were written', async () => {
     let answer: (response: Response) => void = () => undefined;
     vi.stubGlobal('fetch', (_path: string, options: RequestInit) => {

@@ -2,6 +2,7 @@ import { useEffect } from 'react';
 import { FileTrigger } from 'react-aria-components';
 import { useTranslation } from 'react-i18next';
 
+import { useWorld } from '@/live/store';
 import { draftKey, emptyDraft, useDrafts } from '@/state/drafts';
 import { useToasts } from '@/state/toasts';
 import { Button } from '@/ui/button';
@@ -63,6 +64,7 @@ export function Composer({ chosen, answering, lastSaid, input }: Props) {
         submit();
       }}
     >
+      <AwayNote chosen={chosen} />
       <AnswerNote answering={answering} />
       {draft.photo && (
         <p className={css.photo}>
@@ -90,6 +92,15 @@ export function Composer({ chosen, answering, lastSaid, input }: Props) {
       </div>
     </form>
   );
+}
+
+/** Who will not hear it now. */
+function AwayNote({ chosen }: { chosen: readonly string[] }) {
+  const { t, i18n } = useTranslation('chat');
+  const robots = useWorld((world) => world.robots);
+  const away = chosen.filter((name) => robots[name] && robots[name].connection !== 'here');
+  if (away.length === 0) return null;
+  return <p className={css.away}>{t('notHere', { name: nameList(away, i18n.language), count: away.length })}</p>;
 }
 
 function AnswerNote({ answering }: { answering: Answering }) {

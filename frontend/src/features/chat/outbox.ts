@@ -1,5 +1,6 @@
 /** Messages on their way. One leaves as soon as the server tells of it under the same key. */
-import { create } from 'zustand';
+import { create, type StateCreator } from 'zustand';
+import { createJSONStorage, persist } from 'zustand/middleware';
 
 import { sendMessage, type OutgoingMessage } from '@/live/api';
 import { useLive } from '@/live/store';
@@ -23,7 +24,7 @@ const LONGEST_TURN_MS = 2000;
 
 const pause = (ms: number) => new Promise((resolve) => setTimeout(resolve, ms));
 
-export const useOutbox = create<Outbox>()((set, get) => {
+const outbox: StateCreator<Outbox> = (set, get) => {
   const change = (id: string, part: Partial<Outgoing>) =>
     set((now) => ({ messages: now.messages.map((one) => (one.id === id ? { ...one, ...part } : one)) }));
 
@@ -60,7 +61,20 @@ export const useOutbox = create<Outbox>()((set, get) => {
     },
     discard: (id) => set((now) => ({ messages: now.messages.filter((one) => one.id !== id) })),
   };
-});
+};
+
+/** What was on its way when the page was loaded again may not have arrived: it can be sent again, under the same key. */
+const unsure = (message: Outgoing): Outgoing => ({ ...message, state: 'failed', reason: '' });
+
+export const useOutbox = create<Outbox>()(
+  persist(outbox, {
+    name: 'parley.outbox',
+    version: 1,
+    storage: createJSONStorage(() => sessionStorage), // it goes with the tab; photos are too large for it
+    partialize: ({ messages }) => ({ messages: messages.filter((one) => one.images.length === 0) }),
+    merge: (kept, now) => ({ ...now, messages: ((kept as Partial<Outbox> | undefined)?.messages ?? []).map(unsure) }),
+  }),
+);
 
 // What the conversation has held once is delivered, also when that part of it is no longer held here.
 useLive.subscribe((live, before) => {

@@ -1,4 +1,4 @@
-import { useState } from 'react';
+import { useEffect, useRef, useState } from 'react';
 import { useTranslation } from 'react-i18next';
 
 import { useWorld } from '@/live/store';
@@ -22,8 +22,14 @@ function Tab({ name, chosen, awaitsAnswer, onOnly, onToggle }: TabProps) {
   const { t } = useTranslation('chat');
   const here = useWorld((world) => world.robots[name]?.connection === 'here');
   const press = useLongPress(onToggle);
+  const tab = useRef<HTMLButtonElement>(null);
+  useEffect(() => {
+    // With many robots on a phone it may be out of sight.
+    if (awaitsAnswer || chosen) tab.current?.scrollIntoView({ block: 'nearest', inline: 'nearest' });
+  }, [awaitsAnswer, chosen]);
   return (
     <button
+      ref={tab}
       type="button"
       className={css.tab}
       aria-pressed={chosen}
@@ -38,7 +44,7 @@ function Tab({ name, chosen, awaitsAnswer, onOnly, onToggle }: TabProps) {
     >
       <span className={css.dot} aria-hidden="true" />
       <span>{name}</span>
-      {!here && <span className="hidden">{t('notHere', { name })}</span>}
+      {!here && <span className="hidden">{t('notHere', { name, count: 1 })}</span>}
       {awaitsAnswer && (
         <span className={css.asks}>
           <span aria-hidden="true">?</span>

@@ -1,6 +1,6 @@
 import { useTranslation } from 'react-i18next';
 
-import { useWorld } from '@/live/store';
+import { useLive, useWorld } from '@/live/store';
 import { Button } from '@/ui/button';
 import { Empty } from '@/ui/panel';
 import { nameList } from '@/ui/words';
@@ -17,9 +17,11 @@ const SHOWN = 3;
 
 /** What is there before anything was said: sentences to begin with, one tap each. */
 export function Welcome({ chosen, onSay }: Props) {
-  const { t, i18n } = useTranslation('chat');
+  const { t, i18n } = useTranslation(['chat', 'common']);
   const examples = useWorld((world) => world.info?.examples ?? NO_EXAMPLES);
   const foreign = useWorld((world) => world.info?.offline_language ?? false) && !i18n.language.startsWith('en');
+  const known = useLive((live) => live.world.run !== '');
+  if (!known) return <Empty title={t('common:loading')} />;
   if (chosen.length === 0) {
     return (
       <Empty title={t('emptyNobody')}>

@@ -1,6 +1,8 @@
 import { useTranslation } from 'react-i18next';
 
+import { useWorld } from '@/live/store';
 import type { ParameterView, StepView } from '@/live/types';
+import type { World } from '@/live/world';
 import { clockTime, inWords } from '@/ui/words';
 
 import css from './details.module.css';
@@ -9,14 +11,21 @@ import { rowsOf, type Row } from './parameters';
 /** What a step was given, what it found out, and under what circumstances. */
 export function Details({ step }: { step: StepView }) {
   const { t } = useTranslation('plan');
+  const description = useWorld((world) => descriptionOf(world, step.action));
   return (
     <div className={css.details}>
-      <p className={css.action}>{inWords(step.action)}</p>
+      <p className={css.action}>{description || inWords(step.action)}</p>
       <Values title={t('given')} parameters={step.inputs} />
       <Values title={t('found')} parameters={step.outputs} />
       <Circumstances step={step} />
     </div>
   );
+}
+
+/** What robots say of an action, in a sentence; empty if none of them does. */
+function descriptionOf(world: World, action: string): string {
+  const known = Object.values(world.robots).flatMap((robot) => robot.catalogue);
+  return known.find((one) => one.name === action)?.description ?? '';
 }
 
 /** Under what circumstances it was done. */

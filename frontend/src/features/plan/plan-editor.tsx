@@ -114,8 +114,10 @@ export function PlanEditor({ robot, steps: initial, saveLabel, onSave, onCancel 
 function useInView() {
   const box = useRef<HTMLDivElement>(null);
   useEffect(() => {
-    box.current?.scrollIntoView({ block: 'start' });
     box.current?.focus({ preventScroll: true });
+    // The rows are drawn a moment later, and without them there is nowhere to scroll to.
+    const frame = requestAnimationFrame(() => box.current?.scrollIntoView({ block: 'start' }));
+    return () => cancelAnimationFrame(frame);
   }, []);
   return box;
 }

@@ -51,6 +51,32 @@ describe('the plan', () => {
     expect(screen.getByText('3 m left')).toBeTruthy();
   });
 
+  it('says how far the whole of it has come', () => {
+    show();
+    screen.getByText('Working, step 2 of 4');
+  });
+
+  it('says that what it shows may be past while the robot is not connected', () => {
+    useLive.getState().takeSnapshot(snapshot({ robots: [robot({ name: 'Ada', connection: 'lost' })], plans: [plan({ robot: 'Ada', steps })] }));
+    render(<PlanPanel />);
+    screen.getByText(/^Ada is not connected/);
+  });
+
+  it('takes the reader to what is opened for changing, however long the list', async () => {
+    const user = show();
+    await user.click(screen.getByRole('button', { name: 'Change' }));
+    expect(document.activeElement).toBe(screen.getByRole('group', { name: 'Change the plan' }));
+  });
+
+  it('says in the words of the robot what a step is, rather than its name', async () => {
+    const action = { name: 'GoTo', description: 'Drive to a place.', inputs: {}, outputs: {}, phrases: [], optional: [], effects: [], risk: 'low' as const, capabilities: [], examples: [], duration_s: null, timeout_s: null };
+    useLive.getState().takeSnapshot(snapshot({ robots: [robot({ name: 'Ada', catalogue: [action] })], plans: [plan({ robot: 'Ada', steps })] }));
+    render(<PlanPanel />);
+    await userEvent.setup().click(screen.getAllByRole('button', { name: 'Show details' })[0] as HTMLElement);
+    screen.getByText('Drive to a place.');
+    expect(screen.queryByText('Go to')).toBeNull();
+  });
+
   it('cancels everything only after a second yes', async () => {
     const user = show();
     await user.click(screen.getByRole('button', { name: 'Cancel all' }));

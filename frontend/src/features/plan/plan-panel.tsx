@@ -57,6 +57,7 @@ const partKey = (plan: PlanView) => (plan.kind === 'plan' ? plan.robot : planKey
 function PlanOf({ plan }: { plan: PlanView }) {
   const { t } = useTranslation(['plan', 'common']);
   const proposals = useWorld((world) => world.proposals);
+  const here = useWorld((world) => world.robots[plan.robot]?.connection === 'here');
   const [editing, setEditing] = useState<PlanView | null>(null);
   const waiting = plan.kind === 'plan' ? proposalsOf(proposals, plan.robot) : [];
   const current = plan.steps.findIndex((step) => BUSY.includes(step.state));
@@ -73,6 +74,7 @@ function PlanOf({ plan }: { plan: PlanView }) {
           {t(`state.${plan.state}`)}
           {current >= 0 && plan.steps.length > 1 && t('stateStep', { number: current + 1, all: plan.steps.length })}
         </p>
+        {!here && <p className={css.away}>{t('away', { robot: plan.robot })}</p>}
         <PlanControls plan={plan} onEdit={pending.length > 0 && !editing ? () => setEditing(plan) : null} />
       </div>
       {/* eslint-disable-next-line jsx-a11y/no-noninteractive-tabindex -- what scrolls must be reachable by keys */}

@@ -25,7 +25,7 @@ export function ProposalCard({ proposal }: { proposal: ProposalView }) {
   return (
     <section className={css.card} aria-label={title}>
       <h3>{title}</h3>
-      {proposal.message && <p>{proposal.message}</p>}
+      {proposal.message && <p className={css.message}>{proposal.message}</p>}
       {editing ? (
         <PlanEditor
           robot={proposal.robot}

@@ -2,7 +2,8 @@ import { useTranslation } from 'react-i18next';
 
 import { removeRobot } from '@/live/api';
 import { onServerClock } from '@/live/server-time';
-import type { RobotView } from '@/live/types';
+import { useWorld } from '@/live/store';
+import type { PlanView, RobotView } from '@/live/types';
 import { attempt } from '@/state/do';
 import { useSelectionStore } from '@/state/selection';
 import { Button } from '@/ui/button';
@@ -15,12 +16,15 @@ import { Abilities } from './abilities';
 import css from './robots.module.css';
 
 const SEEN_STEP_MS = 10_000;
+/** In these a plan goes on only when a person has said something. */
+const NEEDS: readonly PlanView['state'][] = ['held', 'awaiting_approval'];
 
 /** One robot. */
 export function RobotCard({ robot }: { robot: RobotView }) {
   const { t } = useTranslation('robots');
   const only = useSelectionStore((state) => state.only);
   const here = robot.connection === 'here';
+  const waits = useWorld((world) => Object.values(world.plans).some((plan) => plan.robot === robot.name && NEEDS.includes(plan.state)));
   const talk = () => {
     only(robot.name);
     goTo('/');
@@ -43,7 +47,7 @@ export function RobotCard({ robot }: { robot: RobotView }) {
           <dt>{t('now')}</dt>
           <dd className={css.state} data-connection={robot.connection}>
             <span aria-hidden="true" />
-            {here ? t(`state.${robot.state}`) : t(`connection.${robot.connection}`)}
+            {here ? t(`state.${waits && robot.state === 'idle' ? 'waiting' : robot.state}`) : t(`connection.${robot.connection}`)}
           </dd>
         </div>
         {robot.stop.state !== 'none' && (

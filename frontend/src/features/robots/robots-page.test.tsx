@@ -1,9 +1,9 @@
-import { render, screen } from '@testing-library/react';
+import { act, render, screen } from '@testing-library/react';
 import userEvent from '@testing-library/user-event';
 import { beforeEach, describe, expect, it, vi } from 'vitest';
 
 import { network, type Asked } from '@/gallery/network';
-import { robot, snapshot } from '@/live/samples';
+import { plan, robot, snapshot } from '@/live/samples';
 import { useLive } from '@/live/store';
 import type { ActionInfo } from '@/live/types';
 import { useDrafts } from '@/state/drafts';
@@ -43,6 +43,14 @@ describe('the page of robots', () => {
     expect(screen.queryByText(/LookAt/)).toBeNull();
     await user.click(screen.getByRole('button', { name: 'Look at …' }));
     expect(useDrafts.getState().drafts.Ada?.text).toBe('Look at ');
+  });
+
+  it('does not call a robot free that waits for a person', () => {
+    screen.getByText('Free');
+    const waiting = snapshot({ robots: [robot({ name: 'Ada' })], plans: [plan({ robot: 'Ada', state: 'held' })] });
+    act(() => useLive.getState().takeSnapshot(waiting));
+    screen.getByText('Waiting for you');
+    expect(screen.queryByText('Free')).toBeNull();
   });
 
   it('shows the battery where it is known', () => {

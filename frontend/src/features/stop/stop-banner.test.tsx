@@ -26,7 +26,7 @@ beforeEach(() => {
 const stop = (state: StopView['state']): StopView => ({ state, id: 's', sent_unix_ms: 1000, at_rest_unix_ms: 0 });
 
 const show = (...states: StopView['state'][]) => {
-  const robots = states.map((state, index) => robot({ name: ['Ada', 'Bob'][index] ?? '', stop: stop(state) }));
+  const robots = states.map((state, index) => robot({ name: ['Ada', 'Bob', 'Cleo'][index] ?? '', stop: stop(state) }));
   useLive.getState().takeSnapshot(snapshot({ robots }));
   render(
     <>
@@ -70,6 +70,25 @@ describe('stopping', () => {
   it('warns when standing still was not confirmed', () => {
     show('overdue');
     expect(screen.getByText(/Not confirmed/)).toBeTruthy();
+  });
+
+  it('tells of many in one line, and of each when wanted', async () => {
+    const user = show('at_rest', 'overdue', 'received');
+    screen.getByText(/^3 robots are stopped/);
+    screen.getByText('Standing still: 1 of 3');
+    screen.getByText(/^Not confirmed: Bob!/);
+    expect(screen.queryByText(/^Ada is stopped/)).toBeNull();
+    await user.click(screen.getByRole('button', { name: 'Each of them' }));
+    expect(screen.getAllByText(/ is stopped and stays so/)).toHaveLength(3);
+  });
+
+  it('releases many at once after a second yes that names them', async () => {
+    const user = show('at_rest', 'at_rest', 'at_rest');
+    await user.click(screen.getByRole('button', { name: 'Release all…' }));
+    screen.getByText(/Ada, Bob,? and Cleo/);
+    expect(sent).toEqual([]);
+    await user.click(screen.getByRole('button', { name: 'Yes, it is safe' }));
+    expect(sent).toMatchObject([{ command: 'reset', targets: ['Ada', 'Bob', 'Cleo'] }]);
   });
 
   it('releases a robot only after a second yes', async () => {

@@ -1,0 +1,45 @@
+import { beforeEach, describe, expect, it, vi } from 'vitest';
+
+import { useOutbox } from './outbox';
+
+const keys: string[] = [];
+let reachable = false;
+
+beforeEach(() => {
+  sessionStorage.clear();
+  keys.length = 0;
+  reachable = false;
+  useOutbox.setState({ messages: [] });
+  vi.stubGlobal('fetch', (_path: string, options: RequestInit) => {
+    keys.push((JSON.parse(String(options.body)) as { id: string }).id);
+    return reachable ? Promise.resolve(new Response('{}')) : Promise.reject(new TypeError('no network'));
+  });
+});
+
+/** What a page that is loaded again begins with. */
+async function loadAgain() {
+  const kept = sessionStorage.getItem('parley.outbox') ?? '';
+  useOutbox.setState({ messages: [] });
+  sessionStorage.setItem('parley.outbox', kept);
+  await useOutbox.persist.rehydrate();
+}
+
+describe('a message that did not get through', () => {
+  it('can be sent again under the same key after the page was loaded again', async () => {
+    await useOutbox.getState().send({ text: 'come here', targets: ['Ada'], reply_to: '', images: [] });
+    await loadAgain();
+    const [message] = useOutbox.getState().messages;
+    expect(message).toMatchObject({ text: 'come here', state: 'failed' });
+    reachable = true;
+    await useOutbox.getState().retry(message?.id ?? '');
+    expect(keys).toEqual([message?.id, message?.id]);
+    expect(useOutbox.getState().messages).toMatchObject([{ state: 'sent' }]);
+  });
+
+  it('is forgotten when it is discarded', async () => {
+    await useOutbox.getState().send({ text: 'come here', targets: ['Ada'], reply_to: '', images: [] });
+    useOutbox.getState().discard(useOutbox.getState().messages[0]?.id ?? '');
+    await loadAgain();
+    expect(useOutbox.getState().messages).toEqual([]);
+  });
+});

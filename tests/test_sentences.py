@@ -1,0 +1,105 @@
+"""What robots say of their own accord: one catalogue, every sentence in every language."""
+
+from __future__ import annotations
+
+import ast
+import re
+from collections.abc import Iterator
+from pathlib import Path
+from string import Formatter
+
+import pytest
+import yaml
+
+import parley
+from parley.config import SystemConfig
+from parley.demos.catalogue import load_demo
+from parley.sentences import in_language, listed, sentence, together
+from tests.demos.house import running
+
+SOURCE = Path(parley.__file__).parent
+ESTONIAN: dict[str, str] = {
+    pair["en"]: pair["et"]
+    for pair in yaml.safe_load((SOURCE / "sentences" / "et.yaml").read_text(encoding="utf-8"))
+}
+WITHOUT = {
+    "recollections.py", "memory.py", "incident_log.py",  # in English only, see docs/language.md
+}  # fmt: skip
+FOR_PROGRAMS = {
+    "The step before gave no result that I could go on with.",  # the report of a failure
+    "It failed without saying why.",
+    "Another step failed in the meantime.",  # a note in a record
+}
+
+
+def names(template: str) -> set[str]:
+    return {name for _, name, _, _ in Formatter().parse(template) if name}
+
+
+def said() -> Iterator[tuple[str, str]]:
+    """Every whole sentence that stands in a node, and where: a text of its own or a template."""
+    for file in sorted((SOURCE / "nodes").glob("*.py")):
+        if file.name in WITHOUT:
+            continue
+        tree = ast.parse(file.read_text(encoding="utf-8"))
+        passed_over = {id(node.value) for node in ast.walk(tree) if isinstance(node, ast.Expr)}
+        for node in ast.walk(tree):
+            if isinstance(node, ast.JoinedStr):
+                passed_over |= {id(part) for part in node.values}
+        for node in ast.walk(tree):
+            text = node.value if isinstance(node, ast.Constant) and id(node) not in passed_over else None
+            if isinstance(text, str) and re.fullmatch(r"[A-Z“{].* .*[.?!”]", text.strip(), re.DOTALL):
+                yield file.name, text
+
+
+def test_every_sentence_of_the_nodes_is_there_in_estonian() -> None:
+    missing = [(file, text) for file, text in said() if text not in ESTONIAN and text not in FOR_PROGRAMS]
+    assert missing == []
+
+
+def test_no_sentence_is_put_together_where_nobody_can_translate_it() -> None:
+    found: list[tuple[str, int]] = []
+    for file in sorted((SOURCE / "nodes").glob("*.py")):
+        for node in ast.walk(ast.parse(file.read_text(encoding="utf-8"))):
+            if not isinstance(node, ast.JoinedStr) or file.name in WITHOUT:
+                continue
+            text = "".join(
+                part.value if isinstance(part, ast.Constant) and isinstance(part.value, str) else "…"
+                for part in node.values
+            )
+            if re.search(r"[a-z] [a-z].*[.?!]$", text.strip()):
+                found.append((file.name, node.lineno))
+    allowed = {"plan_reports.py", "error_handler.py"}  # the reports of failures, which language engines read
+    assert [place for place in found if place[0] not in allowed] == []
+
+
+@pytest.mark.parametrize(("english", "estonian"), list(ESTONIAN.items()))
+def test_both_fill_in_the_same(english: str, estonian: str) -> None:
+    assert names(english) == names(estonian)
+    assert estonian.strip()
+
+
+def test_a_sentence_is_english_text_and_can_be_said_otherwise() -> None:
+    text = sentence("{robot} does not answer. The plan is kept; say “carry on” to try again.", robot="Ada")
+    assert text == "Ada does not answer. The plan is kept; say “carry on” to try again."
+    assert in_language(text, "et").startswith("Ada ei vasta.")
+    assert in_language(text, "en") == text
+
+
+def test_parts_are_said_one_by_one_and_foreign_words_stay() -> None:
+    text = together("I would go to the box.", "", sentence("Shall I?"))
+    assert text == "I would go to the box. Shall I?"
+    assert in_language(text, "et") == "I would go to the box. Kas teen nii?"
+    quoted = sentence("I have finished: {what}.", what=listed(["One step is left.", "{b}"]))
+    assert in_language(quoted, "et") == "Tehtud: One step is left., {b}."
+
+
+async def test_a_robot_speaks_the_language_that_is_set() -> None:
+    config = SystemConfig(speed=None, speaks="et")
+    async with running(load_demo("nursing-home").system(config)) as home:
+        assert (await home.say("jätka")).message == "Pole midagi, millega jätkata."
+        await home.say("go to the dining table")
+        await home.observer.until(
+            lambda: any(said.message.startswith("Tehtud: „go to") for said in home.observer.said)
+        )
+        assert (await home.say("peatu")).message == "Seisan paigal."
