@@ -24,6 +24,9 @@ _WEAK = frozenset({"wait", "hold", "hang", "one", "just", "stay", "moment"})
 """With these a sentence may also go on ("wait, the red one")."""
 
 
+_THIS_FIRST = frozenset({"this", "that", "it", "and", "go", "on", "move", "jump", "to", "do", "current", "what"})
+
+
 @cache
 def _data() -> dict[str, Any]:
     data: dict[str, Any] = load_data("control_grammar")
@@ -82,6 +85,9 @@ def _is_made_of(words: Words, kind: Composed) -> bool:
         return False
     if verb in {("move",), ("finish",)}:
         return bool(rest & {"again", "on", "now", "off", "it", "this", "round", "job", "started"})
+    if kind == "skip" and "next" in rest and not rest & _THIS_FIRST:
+        # "Skip the next one": what is done now is not meant.
+        return False
     needed = _data()[kind].get("needs")
     return needed is None or bool(rest & frozenset(needed))
 

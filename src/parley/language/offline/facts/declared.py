@@ -176,7 +176,7 @@ _HABIT = frozenset(
 
 
 def _habit(words: Phrase, scene: Scene) -> Fact | None:
-    """For "A naps in the bed after lunch": what somebody does again and again, told without any order."""
+    """For "A naps in the chair after lunch": what somebody does again and again, told without any order."""
     said = tuple(word for word in strip_openers(words, reporting=True) if word.is_word)
     at = verb_at(said)
     flat = keys(said)

@@ -223,12 +223,17 @@ class Draft:
         return not order.things and not self.current and self.is_person(order.what)
 
     def _put(self, step: Step) -> None:
+        if step.kind == "other" and not step.words:
+            return
         self.plan.steps.append(hung(step, self.hang))
 
     def _go(self, order: Order) -> None:
         things = order.things
         if not things and order.refers:
             things = self._there(order)
+        if not things and not order.refers and len(order.words) == 1 and not self.plan.steps:
+            # "She is waiting for you, off you go".
+            things = self.told[-1:]
         if not things and not order.refers and not (self.plan.steps and len(order.words) == 1):
             self._put(Step("other", words=order.words))
         for thing in things:

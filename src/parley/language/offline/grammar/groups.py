@@ -110,7 +110,7 @@ class Groups:
                 continue
             repeated = keys(self.words[start : start + len(named)]) == keys(named)
             start += len(named) if repeated else 0
-            if start >= len(self.words) or not self._is_label(start):
+            if start >= len(self.words) or not self._is_label(start) or (found and start == end):
                 break
             member = (*named, self.words[start])
             if not self._is_one(member):

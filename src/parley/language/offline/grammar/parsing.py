@@ -117,6 +117,8 @@ class _Parser(Hanging):
         found = small().corrections.match(flat) if flat else None
         if found is None or found[1] == "wait":
             return False
+        if found[1] == "no" and self.key(self.at + 1) != ",":
+            return False
         behind = self.at + found[0]
         strong = found[1] not in {"actually", "no", "rather", "better", "sorry", "hold on"}
         if not strong and self.key(behind) == ",":

@@ -96,7 +96,7 @@ class Topics:
         behind = self.args.take(order, wants)
         if lead[max(0, wants - at - 2) : wants - at] == ("it", "is"):
             return self._cleft(order, behind)
-        if "you" in lead and wants > at and self.key(wants - 1) in {"at", "in", "by", "near", "on", "over"}:
+        if self._wants_there(lead[: wants - at]):
             self.parts.append(order)
             self.at = behind
             return True
@@ -110,6 +110,12 @@ class Topics:
         if needs == behind and not framed:
             return False
         return self._needed(order, behind, needs)
+
+    def _wants_there(self, lead: tuple[str, ...]) -> bool:
+        """Whether the words before a thing only want the robot there ("I need you over at ...")."""
+        if lead[-1:] not in {("at",), ("in",), ("by",), ("near",), ("on",), ("over",)}:
+            return False
+        return lead[-2:-1] == ("you",) or lead[-3:-1] in {("you", "over"), ("you", "back"), ("you", "up")}
 
     def _wants(self, lead: tuple[str, ...]) -> bool:
         """Whether the words before a thing ask for something to be done with it."""

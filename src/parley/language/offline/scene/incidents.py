@@ -13,6 +13,7 @@ from parley.language.offline.facts.facts import strip_openers
 from parley.language.offline.scene.missing import left_by_somebody, missing_at, missing_from
 from parley.language.offline.scene.report_words import (
     TELLERS,
+    ordinary_words,
     phrase_of,
     place_named,
     words_for,
@@ -103,7 +104,7 @@ def _alarming(said: Phrase) -> bool:
     """Whether something goes on, or is perceived, that somebody should see to."""
     flat = keys(said)
     events, happened_ = _events() & set(flat), words_for("happened") & set(flat)
-    ordinary = {f"{one} {other}" for one, other in pairwise(flat)} & _ordinary()
+    ordinary = {f"{one} {other}" for one, other in pairwise(flat)} & ordinary_words()
     heads = [word for word in flat if not any(pair.startswith(f"{word} ") for pair in ordinary)]
     things = words_for("things") & ({singular(word) for word in heads} | set(heads))
     perceived = any(

@@ -17,6 +17,7 @@ from parley.language.offline.words.lexicon import lexicon
 from parley.language.offline.words.nouns import bare
 from parley.language.offline.words.saying import the
 from parley.language.offline.words.text import Phrase, Word, keys, singular
+from parley.language.word_lists import load_data
 from parley.messages.memory import MemoryEntry
 from parley.world.object_map import MapObject
 
@@ -51,24 +52,7 @@ def _described_person(flat: tuple[str, ...]) -> bool:
     )
 
 
-_TITLES = frozenset(
-    {
-        "mr",
-        "mrs",
-        "ms",
-        "miss",
-        "dr",
-        "doctor",
-        "nurse",
-        "professor",
-        "prof",
-        "uncle",
-        "aunt",
-        "sister",
-        "old",
-        "captain",
-    }
-)
+_TITLES = frozenset(load_data("people")["titles"])
 
 
 def _is_thing(phrase: Phrase) -> bool:

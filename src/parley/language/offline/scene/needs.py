@@ -101,7 +101,7 @@ def _who(words: Phrase, scene: Scene) -> Phrase | None:
 
 
 def _somebody_at(words: Phrase, scene: Scene) -> Phrase | None:
-    """For "the lady in bed 2" the place where she is."""
+    """For "the lady in room 2" the place where she is."""
     noun = noun_phrase(words)
     if not noun.core or noun.core[-1] not in lexicon().person_words or len(noun.anchors) != 1:
         return None
@@ -110,7 +110,7 @@ def _somebody_at(words: Phrase, scene: Scene) -> Phrase | None:
 
 
 def _handed(words: Phrase, scene: Scene) -> tuple[Phrase, Phrase] | None:
-    """For "tea to bed 2" and "water for A": something known to be somewhere else, and where it goes."""
+    """For "tea to room 2" and "water for A": something known to be somewhere else, and where it goes."""
     flat = keys(words)
     at = next((i for i in range(1, len(flat) - 1) if flat[i] in {"to", "for"}), 0)
     what = bare(words[:at])

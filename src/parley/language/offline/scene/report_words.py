@@ -10,18 +10,19 @@ from parley.language.offline.words.nouns import bare
 from parley.language.offline.words.text import Phrase, Word, keys, singular
 from parley.language.word_lists import load_data
 
-__all__ = ["TELLERS", "follows_preposition", "phrase_of", "place_named", "words_for"]
+__all__ = ["TELLERS", "follows_preposition", "ordinary_words", "phrase_of", "place_named", "words_for"]
 
 _LONGEST_NAME = 6
 
 
 @cache
 def words_for(kind: str) -> frozenset[str]:
+    """The words of a kind (`data/incidents.yaml`)."""
     return frozenset(load_data("incidents")[kind])
 
 
 @cache
-def _ordinary() -> frozenset[str]:
+def ordinary_words() -> frozenset[str]:
     """Things of two words that are usual, whatever their first word may mean alone ("a water glass")."""
     return frozenset(name for members in lexicon().kinds.values() for name in members if name.count(" ") == 1)
 
@@ -73,6 +74,7 @@ def _names_on(scene: Scene) -> frozenset[str]:
 
 
 def follows_preposition(flat: tuple[str, ...], at: int) -> bool:
+    """Whether a preposition of place stands before `at`, articles aside."""
     while at and flat[at - 1] in lexicon().determiners:
         at -= 1
     return any(
@@ -82,6 +84,7 @@ def follows_preposition(flat: tuple[str, ...], at: int) -> bool:
 
 
 def phrase_of(*parts: str | Phrase) -> Phrase:
+    """Words out of texts and phrases, in their order."""
     result: list[Word] = []
     for part in parts:
         result += (Word(text, text) for text in part.split()) if isinstance(part, str) else part

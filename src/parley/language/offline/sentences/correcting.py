@@ -46,7 +46,7 @@ def corrected(words: Phrase, is_stop: IsStop, opens: Opens) -> Phrase:
         end, sure = _taken_back(words, index)
         if not end or end >= len(words):
             continue
-        said, rest = _ended(words[:index]), words[end:]
+        said, rest = _ended(words[:index]), _meant(words[end:], opens)
         said_flat = keys(words[index:end])
         held = {"hold", "wait", "hang"} & set(said_flat) and "actually" not in said_flat
         if held and not any(_TAKING_BACK.match(said_flat, i) for i in range(end - index)):
@@ -93,6 +93,9 @@ def _dropped(words: Phrase, start: int, is_stop: IsStop, opens: Opens) -> Phrase
     if listed is not None and end <= len(words):
         return (*_ended(listed), *(words[end:] if not set(flat[end:]) & _ENOUGH - {"is"} else words[-1:]))
     starts = [*_orders(words[:start], opens), start]
+    tail = words[end + 1 :]
+    if len(starts) == 2 and name in {keys(_bare(words[a:b])) for a, b in spans(words[:start], is_stop)}:
+        return tail if opens(tail) else None
     for first, last in pairwise(starts):
         named = spans(words[first:last], is_stop)
         said = [keys(_bare(words[first + a : first + b])) for a, b in named]
@@ -205,6 +208,18 @@ def _ordered_anew(said: Phrase, rest: Phrase, opens: Opens) -> Phrase | None:
     return (*said[: starts[-1]], *rest)
 
 
+def _meant(rest: Phrase, opens: Opens) -> Phrase:
+    """What is wanted in "I said A but I meant B" and in "do not go there, go to B"."""
+    flat = keys(rest)
+    at = next((i for i in range(2, min(10, len(flat) - 1)) if flat[i] in {"meant", "mean"}), 0)
+    if flat[:2] == ("i", "said") and at:
+        return rest[at + 1 :]
+    cut = next((i for i in range(2, min(8, len(flat) - 1)) if flat[i] in {",", "."}), 0)
+    if flat[:2] == ("do", "not") and cut and opens(rest[cut + 1 :]):
+        return rest[cut + 1 :]
+    return rest
+
+
 def _explained_anew(said: Phrase, rest: Phrase, is_stop: IsStop, opens: Opens) -> Phrase | None:
     """For "go to A, hold on, it is locked, go to B": why it is taken back stands between."""
     flat = keys(rest)
@@ -234,6 +249,11 @@ def _named_anew(said: Phrase, rest: Phrase, is_stop: IsStop, *, sure: bool) -> P
     named = spans(said, is_stop)
     if not named:
         return _said_anew(said, rest) if sure else None
+    if rest[0].key in {"only", "just"} and len(named) > 1:
+        only = next((n for n in range(min(6, len(rest) - 1), 0, -1) if is_stop(rest[1 : 1 + n])), 0)
+        listed = {keys(_bare(said[c:d])) for c, d in named}
+        if only and keys(_bare(rest[1 : 1 + only])) in listed:
+            return (*said[: named[0][0]], *rest[1:])
     if rest[0].key == "not":
         rest = _rest_of_denied(rest, is_stop)
     if not rest:

@@ -111,7 +111,7 @@ class Names:
     def _shortened(self, named: Phrase) -> bool:
         """Whether two or more words of one description, and of no other, stand for it."""
         said = set(keys(named))
-        if len(said) < 2 or any(not word.isalpha() or len(word) < 2 for word in said):
+        if len(said) < 2 or not any(word.isalpha() and len(word) > 2 for word in said):
             return False
         return sum(said <= set(item.description.lower().split()) for item in self.scene.objects) == 1
 

@@ -177,6 +177,9 @@ class _Message(Signs):
         if index - 1 in self.named and word in lexicon().determiners and index not in self.begun:
             # "Go to the desk the guests are waiting".
             return any(self._finite(i) for i in range(index + 2, min(index + 5, end)))
+        if index - 1 in self.named and word.endswith("'s") and index not in self.named:
+            # "Go to the desk somebody's box is in the way".
+            return any(self._finite(i) for i in range(index + 2, min(index + 5, end)))
         subject = self.flat[index] in _RUN_SUBJECTS
         following = self.flat[index + 1 : index + 2]
         finite = following and (following[0] in BE or following[0] in HELPING - {"have", "do"})

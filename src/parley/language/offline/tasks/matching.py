@@ -58,7 +58,8 @@ class Match:
         """Whether all that it needs is said, and nothing else."""
         if self.filled.missing and any(part.grounded for part in self.filled.left):
             return False
-        used = not self.filled.left or self.verb >= _LEAST
+        known = all(part.before in {"", "of"} and not part.grounded for part in self.filled.left)
+        used = known or self.verb >= _LEAST
         return self.plain and used and not self.filled.missing and not self.filled.numbers_left
 
 

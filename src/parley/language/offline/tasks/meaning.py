@@ -66,17 +66,28 @@ _NO_NAMES = frozenset({
 """With these no name of a thing begins."""
 
 
-_WANTING = (
-    ("wants", "to"), ("want", "to"), ("would", "like", "to"), ("needs", "to"), ("need", "to"), ("wishes", "to"),
-    ("is", "ready", "to"), ("are", "ready", "to"), ("is", "waiting", "to"), ("are", "waiting", "to"),
-)  # fmt: skip
+_WANTING = tuple(
+    tuple(text.split())
+    for text in (
+        "wants to",
+        "want to",
+        "would like to",
+        "needs to",
+        "need to",
+        "wishes to",
+        "is ready to",
+        "are ready to",
+        "is waiting to",
+        "are waiting to",
+    )
+)
 
 
 _OUR_WISHES = frozenset((who, verb) for who in ("i", "we") for verb in ("need", "want", "require"))
 
 
 def _what_others_want(words: Phrase) -> Phrase:
-    """For "table 3 wants to order": to order, for table 3; "the row needs 3 litres": to give it to the row."""
+    """For "table 3 wants to order": to order, for table 3; "the row needs 3 litres": to give it that."""
     flat = keys(words)
     if flat[:2] in _OUR_WISHES and len(flat) > 2 and flat[2] not in {"to", "you"}:
         return (Word("get", "get"), *words[2:])

@@ -147,7 +147,7 @@ _FEW = 2
 def _numbers(
     info: ActionInfo, words: Phrase, spans: Sequence[tuple[int, int, MapObject | None]], filled: Filled
 ) -> set[int]:
-    """Numbers for the inputs that take numbers; of one in the name of a thing only if an input is named so."""
+    """Numbers for the inputs that take them; one in the name of a thing only if an input is named so."""
     names = number_inputs(info)
     if not names:
         return set()

@@ -73,7 +73,8 @@ _ANYBODY = frozenset(
 )
 _BEHIND_STATE = frozenset({
     "now", "so", "and", "but", "again", "because", "at", "in", "on", "by", "with", "to", "until", "since",
-    "today", "already", "too", "for", "please", "then", "or", "all", "as", "after", "before", "tonight", "up", "down", "anyway", "yet", "right",
+    "today", "already", "too", "for", "please", "then", "or", "all", "as", "after", "before", "tonight",
+    "up", "down", "anyway", "yet", "right",
 })  # fmt: skip
 """What follows "the box's empty", as against "the box's empty lid"."""
 
