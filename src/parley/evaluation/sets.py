@@ -35,7 +35,7 @@ SET_NAMES: Final = ("development", "held-out", "blind", "gpsr", "all")
 def own_set(name: str) -> CaseSet:
     """One of the files in `eval/` of Parley's sources, by its name without ending.
 
-    They are no part of what is installed: blind cases do not belong on machines of people who work on an engine.
+    They are no part of what is installed: blind cases do not belong where people work on an engine.
 
     Raises:
         ConfigError: Parley was installed without its sources.
@@ -44,7 +44,7 @@ def own_set(name: str) -> CaseSet:
     path = _DATA / f"{name}.yaml"
     if not path.is_file():
         raise ConfigError(
-            f"the set {name!r} is in Parley's sources only (eval/): run it from there, or name a file with --set"
+            f"the set {name!r} is in Parley's sources only (eval/): run it there, or name a file with --set"
         )
     return CaseSet.load(path)
 

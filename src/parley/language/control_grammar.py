@@ -24,7 +24,9 @@ _WEAK = frozenset({"wait", "hold", "hang", "one", "just", "stay", "moment"})
 """With these a sentence may also go on ("wait, the red one")."""
 
 
-_THIS_FIRST = frozenset({"this", "that", "it", "and", "go", "on", "move", "jump", "to", "do", "current", "what"})
+_THIS_FIRST = frozenset(
+    {"this", "that", "it", "and", "go", "on", "move", "jump", "to", "do", "current", "what"}
+)
 
 
 @cache

@@ -69,8 +69,9 @@ def _controlled(message: str, situation: Situation, trace: Trace) -> ChatAction 
 _GIVING_UP = frozenset(
     tuple(text.split())
     for text in (
-        "forget it", "forget about it", "never mind", "do not bother", "forget about that", "let it go", "it is all off",
-        "i changed my mind", "i have changed my mind", "changed my mind", "never mind then", "forget it then",
+        "forget it", "forget about it", "never mind", "do not bother", "forget about that", "let it go",
+        "it is all off", "i changed my mind", "i have changed my mind", "changed my mind", "never mind then",
+        "forget it then",
     )
 )  # fmt: skip
 

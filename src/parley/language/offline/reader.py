@@ -101,7 +101,6 @@ class Reader(Rereading):
         answer = self._about_plan(words, asks=asks)
         if answer is not None:
             return answer
-        words = words if self.scene.situation.queue else self._grouped(words)
         stated = restated(words, self.scene)
         if stated is not None:
             return self._edited(stated)

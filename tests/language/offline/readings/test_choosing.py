@@ -33,9 +33,9 @@ def steps(message: str) -> list[str]:
     ("message", "plan"),
     [
         (
-            "I hardly slept, two people called in sick and the boss is in a mood. Anyway, would you first run "
-            "over to the store room and see if the ladder is there, and after that go to the front desk, they "
-            "expect you.",
+            "I hardly slept, two people called in sick and the boss is in a mood. Anyway, would you first "
+            "run over to the store room and see if the ladder is there, and after that go to the front "
+            "desk, they expect you.",
             ["go store room", "look whether the ladder is there", "go front desk"],
         ),
         (

@@ -19,8 +19,8 @@ def test_names_of_things_and_people_are_names(text: str) -> None:
 @pytest.mark.parametrize(
     "text",
     [
-        "only", "they are expecting you", "ready", "it", "somebody", "the box and go to the door", "she comes",
-        "so off you go", "box first of all the", "way to the door", "neither",
+        "only", "they are expecting you", "ready", "it", "somebody", "the box and go to the door",
+        "she comes", "so off you go", "box first of all the", "way to the door", "neither",
     ],
 )  # fmt: skip
 def test_what_nobody_would_call_a_thing_is_no_name(text: str) -> None:

@@ -29,7 +29,7 @@ def scope(text: str) -> str:
         ("go to the hall rather than the gate", "go to the hall"),
         ("check the hall, not the gate", "check the hall"),
         ("neither the gate nor the yard today, just the hall", "go to the hall"),
-        ("i do not want the gates checked, i want the hall checked", "i want the hall checked"),
+        ("i do not want the gates checked, i want the hall checked", "check the hall"),
         ("ignore the gate and check the hall", "check the hall"),
         ("stay away from the gate and go to the hall", "go to the hall"),
         ("the gate does not need checking but the hall does", "the hall needs checking"),
@@ -56,7 +56,7 @@ def test_a_denial_of_what_is_pending_stays_for_the_plan() -> None:
     ("text", "meant"),
     [
         ("if nobody is in the hall go to the gate", "unless somebody is in the hall go to the gate"),
-        ("if there is no light in the hall, go to the gate", "unless there is a light in the hall, go to the gate"),
+        ("if there is no light in the hall, stop", "unless there is a light in the hall, stop"),
         ("go to the hall unless somebody is in it", "go to the hall unless somebody is in the hall"),
         ("go to the hall if it is open and to the gate if it is shut",
          "if it is open, go to the hall, otherwise go to the gate"),

@@ -43,5 +43,7 @@ def test_numbers_are_chained_to_the_action_that_provides_them() -> None:
 
 
 def test_without_a_provider_there_is_no_chain() -> None:
-    alone = Catalogue([ActionInfo(name="NavigateTo", inputs={"x": "number", "y": "number"})])
-    assert alone.mover is None
+    info = ActionInfo(name="NavigateTo", inputs={"x": "number", "y": "number"})
+    alone = Catalogue([info])
+    assert alone.chain(info, {}, "door", "go") is None
+    assert Catalogue([ActionInfo(name="NavigateTo", inputs={"speed": "number"})]).mover is None

@@ -338,6 +338,7 @@ def _said_of(phrase: Phrase) -> Fact | None:
                 and lex.places.match(flat, i + 1) is not None
             )
             or (flat[i] in lex.transition_verbs and flat[i + 1 : i + 2] in {("to",), ("into",), ("onto",)})
+            or (flat[i] in lex.transition_verbs and flat[i + 1 : i + 3] in {("over", "to"), ("back", "to")})
             or (
                 flat[i] in lex.location_verbs
                 and lex.places.match(flat, i + 1) is not None

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Sequence
 from dataclasses import dataclass
+from functools import cache
 
 from parley.language.offline.facts.remembering import Remembered
 from parley.language.offline.words.lexicon import lexicon
@@ -184,17 +185,23 @@ def _by_their_roles(words: Phrase, facts: Sequence[Remembered]) -> Phrase:
     return _by_what_they_are(words, facts)
 
 
+@cache
+def _small() -> frozenset[str]:
+    """Words that say nothing about somebody."""
+    return lexicon().determiners | lexicon().vocabulary - lexicon().states
+
+
 def _by_what_they_are(words: Phrase, facts: Sequence[Remembered]) -> Phrase:
     """For "the left-handed guest" the name of the one person who is remembered to be left-handed."""
     flat = keys(words)
     for index in range(1, len(flat)):
         start = index
-        while (
-            start and flat[start - 1] not in lexicon().determiners | lexicon().vocabulary - lexicon().states
-        ):
+        if flat[index] not in lexicon().person_words:
+            continue
+        while start and flat[start - 1] not in _small():
             start -= 1
         traits = set(flat[start:index])
-        if flat[index] not in lexicon().person_words or not traits or not start or flat[start - 1] != "the":
+        if not traits or not start or flat[start - 1] != "the":
             continue
         fitting = {
             keys(f.fact.subject): f.fact.subject

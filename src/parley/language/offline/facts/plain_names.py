@@ -14,7 +14,7 @@ from parley.language.offline.scene.missing import left_by_somebody
 from parley.language.offline.scene.owned import owned_thing
 from parley.language.offline.scene.scene import Scene
 from parley.language.offline.sentences.clauses import opens_command
-from parley.language.offline.sentences.finite import dislocated, has_verb, verb_at
+from parley.language.offline.sentences.finite import dislocated, has_verb, joined_lines, verb_at
 from parley.language.offline.sentences.rounds import as_round
 from parley.language.offline.words.lexicon import lexicon
 from parley.language.offline.words.saying import the
@@ -88,7 +88,7 @@ def plainly_named(words: Phrase, scene: Scene) -> Phrase:
     """
     before = [turn.content for turn in scene.situation.history[-4:]]
     words = _without_neither(_without_tail(_without_left_out(words, scene)))
-    words = _perhaps_there(without_hesitation(_without_never_mind(words)))
+    words = _perhaps_there(without_hesitation(_without_never_mind(joined_lines(words))))
     words = _able(_forgetting(_where_first(_noted(dislocated(words)))))
     words, used = with_owners_named(_each_state(words), scene.facts)
     for fact in used:

@@ -13,6 +13,27 @@ from parley.language.offline.words.text import Phrase
 __all__ = ["parse"]
 
 
+_SUBJECTS = frozenset(
+    {
+        "i",
+        "we",
+        "they",
+        "he",
+        "she",
+        "it",
+        "who",
+        "to",
+        "will",
+        "would",
+        "you",
+        "is",
+        "are",
+        "was",
+        "were",
+        "has",
+        "had",
+    }
+)
 _FRONT = (
     ("first",),
     ("to", "start", "with"),
@@ -96,7 +117,8 @@ class _Parser(Hanging):
     def _but_first(self) -> bool:
         flat = self.heads.flat(self.at)
         before = small().before_that.match(flat) if flat else None
-        if before is None:
+        longer = small().sequence.match(flat) if flat else None
+        if before is None or (longer is not None and longer[0] > before[0]):
             return False
         self.parts.append(Node("first"))
         self.at += before[0]
@@ -195,7 +217,8 @@ class _Parser(Hanging):
             end += same[0]
         order.also = order.also or "also" in self.heads.flat(self.at, at - self.at)
         end = self._position(order, end)
-        if self._says_of_it(end):
+        leaves = "from" in self.heads.flat(self.at, at - self.at) and self.heads.head(end) is not None
+        if self._says_of_it(end) and not leaves:
             return False
         while self.key(end) in small().adverbs | {
             "'s",
@@ -278,5 +301,9 @@ class _Parser(Hanging):
             and not self.heads.is_talk(self.at)
         )
         opens = not self.parts or not (isinstance(self.parts[-1], Node) and self.parts[-1].mark == "told")
-        self.parts.append(Node("told", list(self.items[self.at : end]), unread=bool(verb and opens)))
+        told = {item.key for item in self.items[self.at : end]}
+        ordered = bool(told & small().always) and "<thing>" in told and not told & _SUBJECTS
+        self.parts.append(
+            Node("told", list(self.items[self.at : end]), unread=bool(verb and opens) or ordered)
+        )
         self.at = end

@@ -324,6 +324,8 @@ class _Finder(Groups):
 
     def _ends_name(self, end: int) -> bool:
         last = self.words[end - 1].key
+        if last in {"one", "ones"} and end > 1:
+            last = self.words[end - 2].key
         return number_of(singular(last)) in self.names or self._is_label(end - 1)
 
     def _tells_where(self, stop: int, end: int) -> bool:

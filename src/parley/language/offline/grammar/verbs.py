@@ -43,6 +43,7 @@ class Heads:
     catalogue: Catalogue
 
     def __post_init__(self) -> None:
+        self._found: dict[tuple[int, bool], Head | None] = {}
         self.past = False
         """Whether an order was put in the past ("I would love it if you went"): others go on with it."""
         self._own = {verb[0] for verb in self.catalogue.verbs if verb}
@@ -63,6 +64,12 @@ class Heads:
 
     def head(self, at: int) -> Head | None:
         """The verb of the order that begins at a position; None if none does."""
+        key = at, self.past
+        if key not in self._found:
+            self._found[key] = self._head(at)
+        return self._found[key]
+
+    def _head(self, at: int) -> Head | None:
         found: Head | None = None
         j = at
         while j < len(self.items) and j - at < 16:

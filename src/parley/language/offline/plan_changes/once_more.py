@@ -29,6 +29,13 @@ def changed_again(words: Phrase) -> Phrase:
     if (at < 0 and not turned) or len(flat) > 18:
         return ()
     rest = body if at < 0 else (*body[:at], *body[at + size :])
+    if at >= 0:
+        # "Again, but this time only A".
+        flat = keys(rest)
+        more = next(
+            ((i, len(m)) for i in range(len(flat)) for m in _AGAIN if flat[i : i + len(m)] == m), (0, 0)
+        )
+        rest = (*rest[: more[0]], *rest[more[0] + more[1] :])
     only = at >= 0 or turned
     while rest:
         lead = next((lead for lead in _LEADS if keys(rest[: len(lead)]) == lead), ())

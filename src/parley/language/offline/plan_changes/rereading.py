@@ -43,7 +43,8 @@ class Rereading(Recalling):
         if not different or not orders:
             return None
         situation = replace(self.scene.situation, history=(), status="idle")
-        last = type(self)(Scene.of(situation)).read(tokens(orders[-1]))
+        reader = type(self)(Scene.of(situation))
+        last = reader.read(reader._grouped(tokens(orders[-1])))
         scene = Scene.of(replace(situation, queue=last.queue))
         change = rearranged(different, scene) if last.queue else None
         if change is None:
@@ -66,7 +67,7 @@ class Rereading(Recalling):
             after = ()
         taken = [i for i in range(len(queue)) if i in gone or (after and i >= change.at)]
         plain_scene = replace(self.scene, situation=replace(self.scene.situation, queue=()))
-        new = type(self)(plain_scene, targets=self.targets).read(change.order)
+        new = type(self)(plain_scene, targets=self.targets).read(self._grouped(change.order))
         if not new.queue:
             return new
         pops = [SystemCommand(command="pop", arguments={"parameters": i}) for i in reversed(taken)]

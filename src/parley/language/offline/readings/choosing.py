@@ -22,7 +22,7 @@ from parley.language.offline.sentences.branching import branched
 from parley.language.offline.sentences.clauses import opens_command
 from parley.language.offline.sentences.correcting import corrected
 from parley.language.offline.sentences.distilling import context, distilled
-from parley.language.offline.sentences.named import verb_first, with_articles
+from parley.language.offline.sentences.named import back_to_first, verb_first, with_articles
 from parley.language.offline.sentences.numbering import unnumbered
 from parley.language.offline.sentences.orderings import in_sequence
 from parley.language.offline.sentences.passives import done_first
@@ -78,9 +78,12 @@ def best_reading(
     settled = keys(raw) != keys(words)
     words = plainly_named(with_members(words, told), scene)
     said, words = words, _plainer(words, scene)
+    parts = _units(words, scene)
+    placed = arranged(parts)
+    if placed is not None:
+        words, parts = placed, _units(placed, scene)
     if keys(said) != keys(words):
         trace.note("words", f"taken as “{plain(words)}”")
-    parts = _units(words, scene)
     best = _read(words, (), situation, hints, targets, parts, told, "as it is said")
     readings = [best]
     changes = bool(best.action.queue and best.action.system_cmd)
@@ -179,7 +182,7 @@ def _units(words: Phrase, scene: Scene) -> list[Unit]:
 def _settled(words: Phrase, scene: Scene) -> Phrase:
     """With what is taken back gone, and lists as sentences."""
     is_stop = Names(scene).is_stop
-    words = verb_first(unnumbered(when_done(without_end(words))), is_stop)
+    words = back_to_first(verb_first(unnumbered(when_done(without_end(words))), is_stop), is_stop)
     if {"each", "all", "both", "them"} & set(keys(words)):
         words = each_in_turn(_units(words, scene)) or words
     return corrected(words, is_stop, lambda part: opens_command(part, scene.catalogue.verbs))
@@ -194,8 +197,7 @@ def _plainer(words: Phrase, scene: Scene) -> Phrase:
 
     words = waiting_there(words, is_stop)
     words = done_first(words, is_stop, opens)
-    words = in_sequence(words, is_stop) or with_articles(words, is_stop)
-    return arranged(_units(words, scene)) or words
+    return in_sequence(words, is_stop) or with_articles(words, is_stop)
 
 
 def _others(

@@ -72,7 +72,7 @@ def ground_phrase(
 
 @dataclass(slots=True)
 class _LookedUp:
-    """What was found on the map that was asked about last: one message asks about the same words again and again."""
+    """What was found on the map that was asked about last; one message asks about the same words often."""
 
     objects: tuple[MapObject, ...] = ()
     found: dict[tuple[Phrase, Pose2D | None, bool], Grounding] = field(default_factory=dict)

@@ -7,6 +7,7 @@ meant where nothing is named comes from what it would be used for. The words are
 from __future__ import annotations
 
 from functools import cache
+from typing import Any
 
 from parley.language.offline.facts.facts import strip_openers
 from parley.language.offline.facts.remembering import find_fact
@@ -76,13 +77,18 @@ def _order(who: Phrase, what: Phrase) -> Phrase | None:
 
 
 @cache
+def _data() -> Any:
+    return load_data("needs")
+
+
+@cache
 def _table(kind: str) -> PhraseTable:
-    return PhraseTable.of(load_data("needs")[kind])
+    return PhraseTable.of(_data()[kind])
 
 
 @cache
 def _uses() -> PhraseTable:
-    return PhraseTable({verb: kind or "-" for verb, kind in load_data("needs")["uses"].items()})
+    return PhraseTable({verb: kind or "-" for verb, kind in _data()["uses"].items()})
 
 
 def _who(words: Phrase, scene: Scene) -> Phrase | None:
@@ -223,7 +229,7 @@ def _desired(said: str, rest: Phrase, scene: Scene) -> Phrase | None:
 
 def _lacked(said: str, rest: Phrase, scene: Scene) -> Phrase:
     """What somebody has not had, also if only the use of it is said."""
-    kind = next((k for w, k in load_data("needs")["lacking_kind"].items() if w in said), "")
+    kind = next((k for w, k in _data()["lacking_kind"].items() if w in said), "")
     use = _uses().match(keys(rest))
     if use is not None and use[1] != "-":
         rest, kind = rest[use[0] :], use[1]
@@ -254,7 +260,7 @@ def _shown(words: Phrase, scene: Scene) -> tuple[Phrase, Phrase] | None:
     said = set(flat) | {singular(word) for word in flat}
     if {"not", "no", "never"} & said:
         return None
-    kind = next((kind for signs, kind in load_data("needs")["signs"] if set(signs) <= said), "")
+    kind = next((kind for signs, kind in _data()["signs"] if set(signs) <= said), "")
     if not kind:
         return None
     at = next((i for i in range(min(4, len(words))) if words[i].key.endswith("'s")), -1)

@@ -65,7 +65,12 @@ def read_somebody(words: Phrase, scene: Scene) -> Somebody | None:
             if size:
                 who, stop = words[:end], end + at[0] + size
                 rest = _said_behind(words, stop)
-                return Somebody(bare((*who, *words[stop:rest])), bare(words[end + at[0] : stop]), rest, named)
+                return Somebody(
+                    _without_link(bare((*who, *words[stop:rest]))),
+                    bare(words[end + at[0] : stop]),
+                    rest,
+                    named,
+                )
             size = _of_looks(flat, end + at[0])
             if not size:
                 return None
@@ -76,6 +81,13 @@ def read_somebody(words: Phrase, scene: Scene) -> Somebody | None:
             continue
         end += 1
     return Somebody(bare(words[:end]), (), end, named)
+
+
+def _without_link(who: Phrase) -> Phrase:
+    """Without "is" at the end of "whoever is (in the hall)"."""
+    while len(who) > 1 and who[-1].key in lexicon().be | {"who", "that"}:
+        who = who[:-1]
+    return who
 
 
 def map_name_end(words: Phrase, scene: Scene) -> int:

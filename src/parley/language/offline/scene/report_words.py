@@ -47,7 +47,7 @@ def place_named(words: Phrase, scene: Scene) -> tuple[int, int] | None:
 
 def _is_place(words: Phrase, scene: Scene) -> bool:
     part = bare(words)
-    if not part or part != words or keys(part)[-1] in lexicon().determiners:
+    if not part or part != words or (keys(part)[-1] in lexicon().determiners and not part[-1].raw.isupper()):
         return False
     if len(part) == 1 and part[0].key in lexicon().vocabulary - lexicon().nouns - _names_on(scene):
         return False

@@ -271,7 +271,9 @@ def _before_after(sentence: Phrase, opens: Opens) -> list[Clause]:
             if flat[index - 1] == "one" and flat[index + 1] in {"another", "the"}:
                 # "One after another".
                 continue
-            then = marker == "after" and flat[index - 1] in {"and", ","} and _opens_verb(sentence[index + 1 :])
+            then = (
+                marker == "after" and flat[index - 1] in {"and", ","} and _opens_verb(sentence[index + 1 :])
+            )
             if then and not flat[index + 1].endswith("ing"):
                 # "A and after do B".
                 done = _cut(_trim(sentence[: index - 1]), opens)

@@ -285,7 +285,9 @@ def _looks_at(order: Phrase, thing: Phrase) -> bool:
     flat = keys(order)
     looks = {"check", "look", "see", "inspect", "verify"} & set(flat[:4])
     rest = {word for word in flat if word not in lexicon().determiners}
-    return bool(looks) and (bool({"it", "them", "that"} & rest) or set(keys(bare(thing))) <= rest or len(flat) < 4)
+    return bool(looks) and (
+        bool({"it", "them", "that"} & rest) or set(keys(bare(thing))) <= rest or len(flat) < 4
+    )
 
 
 def _joined(parts: list[tuple[Phrase, Word | None]]) -> list[tuple[Phrase, Word | None]]:

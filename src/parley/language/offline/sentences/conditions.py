@@ -96,7 +96,10 @@ def is_rule(condition: Phrase) -> bool:
         return False
     # "Somebody is at the desk" can be looked at now; "you see smoke" is about whatever comes.
     flat = keys(condition)
-    there = any(lexicon().places.match(flat, at) is not None or flat[at] == "there" for at in range(2, min(5, len(flat))))
+    there = any(
+        lexicon().places.match(flat, at) is not None or flat[at] == "there"
+        for at in range(2, min(5, len(flat)))
+    )
     placed = len(flat) > 2 and flat[1] in lexicon().be | {"has", "stands", "sits", "lies"} and there
     return flat[0] in {"you", "i", "we"} or not placed
 

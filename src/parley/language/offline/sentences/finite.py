@@ -10,7 +10,7 @@ from parley.language.offline.sentences.clauses import opens_command
 from parley.language.offline.words.lexicon import lexicon
 from parley.language.offline.words.text import Phrase, Word, keys, lemma
 
-__all__ = ["dislocated", "has_verb", "parted", "verb_at"]
+__all__ = ["dislocated", "has_verb", "joined_lines", "parted", "verb_at"]
 
 _STOP = Word(".", ".")
 _MARKS = frozenset({".", "!", "?", ";", "\n", ":"})
@@ -198,7 +198,7 @@ _FURTHEST_VERB = 7
 
 def parted(words: Phrase) -> Phrase:
     """A message with a full stop between statements that only a comma or a line end parts."""
-    words = dislocated(_lines(words))
+    words = dislocated(joined_lines(words))
     flat = keys(words)
     result: list[Word] = []
     start = 0
@@ -378,7 +378,7 @@ def _follows(words: Phrase, flat: tuple[str, ...], start: int, at: int) -> bool:
     return begins and has_verb(after) and keys(after)[0] != "that"
 
 
-def _lines(words: Phrase) -> Phrase:
+def joined_lines(words: Phrase) -> Phrase:
     """Line ends put right: none within a statement, a full stop between two."""
     flat = keys(words)
     if "\n" not in flat:

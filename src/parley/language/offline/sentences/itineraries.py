@@ -39,7 +39,11 @@ _LEADS = _table(
         _ANY,
         "only then, second, secondly, third, thirdly, fourth, now, so, ok, okay, please, also, from there",
     ),
-    (_ANY, "only after that, only afterwards, later, after, on the way back, on your way back, back to, back at, back in, home to, then home to, only after both, after both, only after all that, only after all of them"),
+    (
+        _ANY,
+        "only after that, only afterwards, later, after, on the way back, on your way back, back to, back at, back in, "
+        "home to, then home to, only after both, after both, only after all that, only after all of them",
+    ),
     (
         _BEFORE_LAST,
         "before that, before it, before this, but before that, on the way there, on the way, on your way",
@@ -204,7 +208,8 @@ def _stops(words: Phrase, is_stop: IsStop) -> tuple[list[_Stop], bool, str]:
 
 def _put(stop: _Stop, stops: list[_Stop], *, early: bool) -> None:
     same = next((i for i, other in enumerate(stops) if keys(bare(other.words)) == keys(bare(stop.words))), -1)
-    if same >= 0:
+    round_trip = same >= 0 and stops[same].rank == _FIRST and len(stops) > same + 2
+    if same >= 0 and not round_trip:
         # "A and B, start with B".
         kind = stops.pop(same).kind
         stop = replace(stop, kind=kind or stop.kind)

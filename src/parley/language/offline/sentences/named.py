@@ -8,7 +8,7 @@ from parley.language.offline.sentences.units import spans
 from parley.language.offline.words.lexicon import lexicon
 from parley.language.offline.words.text import Phrase, Word, keys, lemma
 
-__all__ = ["verb_first", "with_articles"]
+__all__ = ["back_to_first", "verb_first", "with_articles"]
 
 IsStop = Callable[[Phrase], bool]
 
@@ -78,3 +78,33 @@ def _turned(sentence: Phrase, is_stop: IsStop) -> Phrase:
         return sentence
     verb = ("inspect",) if kind == "look" else ("go", "to")
     return (*(Word(part, part) for part in verb), *sentence[:at])
+
+
+_BEGAN = tuple(
+    ("where", "you", *verb)
+    for verb in (
+        ("began",),
+        ("started",),
+        ("set", "off"),
+        ("set", "out"),
+        ("started", "from"),
+        ("were", "first"),
+    )
+)
+
+
+def back_to_first(words: Phrase, is_stop: IsStop) -> Phrase:
+    """For "begin at A, ... and finish where you began": the first name again."""
+    flat = keys(words)
+    at = next((i for i in range(3, len(flat)) if any(flat[i : i + len(m)] == m for m in _BEGAN)), 0)
+    named = spans(words[:at], is_stop) if at else []
+    if not named or flat[at - 1] in {"look", "check", "remember", "ask"}:
+        return words
+    size = next(len(m) for m in _BEGAN if flat[at : at + len(m)] == m)
+    first = words[named[0][0] : named[0][1]]
+    start = next((i for i in range(at - 1, max(at - 7, 0), -1) if flat[i] in {",", "and", "then", "."}), 0)
+    said = words[:start]
+    while said and (not said[-1].is_word or said[-1].key in {"and", "then"}):
+        said = said[:-1]
+    go = tuple(Word(part, part) for part in (".", "go", "to"))
+    return (*said, *go, *first, *words[at + size :]) if said else words

@@ -353,6 +353,9 @@ def _wanted(words: Phrase, verb: Phrase, is_stop: IsStop) -> Phrase:
     rest = words
     while (found := _RATHER.match(keys(rest))) is not None and found[0] < len(rest):
         rest = rest[found[0] :]
+    done = _wished_done(rest, is_stop)
+    if done:
+        return done
     if keys(rest[:2]) == ("it", "is") or _says(rest, is_stop):
         rest = rest[2:]
     while keys(rest[-1:]) in {("instead",), ("rather",)}:
@@ -386,6 +389,16 @@ def _the_one(words: Phrase) -> Phrase | None:
         return None
     rest = words[4:] if flat[3:4] == ("to",) else ()
     return rest if rest and opens_command(rest) else ()
+
+
+def _wished_done(words: Phrase, is_stop: IsStop) -> Phrase:
+    """For "I want the desks checked": check the desks; empty if it is no such wish."""
+    if keys(words[:1]) not in {("i",), ("we",)} or len(words) < 4 or words[1].key not in {"want", "need"}:
+        return ()
+    end, verb = _stop_end(words, 2, is_stop), lemma(words[-1].key)
+    if end != len(words) - 1 or end == 2 or verb == words[-1].key:
+        return ()
+    return (*_words(verb), *words[2:end])
 
 
 def _says(words: Phrase, is_stop: IsStop) -> bool:

@@ -32,7 +32,8 @@ _AT_FIRST = tuple(
         "before all this", "before any of that", "before all else", "before everything",
         "before doing any of that", "before all", "before you do any of that", "before you do all that",
         "but before all that", "but before anything else", "ahead of all that", "prior to all that",
-        "right at the start", "at the very start", "right at the beginning", "at the very beginning", "first and foremost", "most urgently", "most important of all",
+        "right at the start", "at the very start", "right at the beginning", "at the very beginning",
+        "first and foremost", "most urgently", "most important of all",
     )
 )  # fmt: skip
 _SAME = frozenset(

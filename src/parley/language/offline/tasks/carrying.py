@@ -14,6 +14,7 @@ from parley.language.offline.words.lexicon import lexicon
 from parley.language.offline.words.nouns import bare, coordinated, noun_phrase
 from parley.language.offline.words.saying import the
 from parley.language.offline.words.text import Phrase, keys, plain, singular, tokens
+from parley.language.word_lists import load_data
 from parley.messages.status import ActionInfo
 
 __all__ = ["Carrying"]
@@ -22,6 +23,8 @@ _ANYTHING = frozenset((word,) for word in ("things", "objects", "something", "st
 
 
 _ON_BOARD = frozenset({"you", "your tray", "your back", "robot", "the robot", "your basket", "your shelf"})
+_DEEDS_GIVEN = frozenset((word,) for word in load_data("names")["deeds_given"])
+"""What is given by doing something, not by handing something over."""
 _TO_CARRY = ("motion", "grasp", "fetch", "handover", "place", "ask_operator", "guide")
 """Without any of these nothing can be brought anywhere."""
 _WAYS = frozenset(
@@ -59,6 +62,8 @@ class Carrying(Looking):
 
     def _fetch(self, command: Command) -> None:
         if self.catalogue.with_role(*_TO_CARRY) is None:
+            raise UnableError(plain(command.clause))
+        if command.verb == "give" and keys(command.theme[-1:]) in _DEEDS_GIVEN:
             raise UnableError(plain(command.clause))
         if not command.theme:
             raise UnclearError(f"What should I {command.verb}?")

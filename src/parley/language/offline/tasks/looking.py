@@ -81,7 +81,7 @@ class Looking(Docking):
             and len(command.theme) < 3
         ):
             raise UnableError("turn my camera")
-        looked = bool(self.steps) and self.steps[-1].name == looker.name and command.verb != "look around"
+        looked = any(step.name == looker.name for step in self.steps[-2:]) and command.verb != "look around"
         if not command.theme and command.kind == "look" and looked:
             # "Something fell off the shelf, please have a look": that is planned already.
             return
@@ -210,7 +210,7 @@ class Looking(Docking):
             del self.steps[-1], self.will[-1]
 
     def _search(self, command: Command) -> None:
-        command = self._where_last_said(command)
+        command = self._where_last_said(self._searched_for(command))
         theme = self._wanted(command.theme)
         searcher = self._searcher(theme)
         if searcher is None:
@@ -239,6 +239,15 @@ class Looking(Docking):
             self.scene.persons.append(theme)
         self.seen = theme
         self._add_look(searcher, words, f"look for {the(words)}")
+
+    def _searched_for(self, command: Command) -> Command:
+        """For "search the hall for a key": where, and what."""
+        flat = keys(command.theme)
+        at = flat.index("for", 1) if "for" in flat[1:-1] else 0
+        if not at or command.place or not self._grounds(command.theme[:at]) or self._grounds(command.theme):
+            return command
+        theme = bare(command.theme[at + 1 :])
+        return replace(command, place=bare(command.theme[:at]), theme=theme, words=theme)
 
     def _where_last_said(self, command: Command) -> Command:
         """For "the person in the red coat in the hall": where is what is said last and is on the map."""

@@ -30,6 +30,7 @@ _TOLD = frozenset(_DATA["told"])
 
 _OPERATOR = frozenset({"me", "us"})
 _PEOPLE = frozenset({"person", "people", "human", "humans", "someone", "somebody"})
+_WHOEVER = frozenset((word,) for word in ("whoever", "whomever", "anyone", "anybody", "somebody", "someone"))
 _ALL = frozenset({("everyone",), ("everybody",), ("all",)})
 
 
@@ -279,7 +280,8 @@ class Meeting(Tasks):
     def _brought(self, verb: str, words: Phrase, rest: Phrase) -> bool:
         """For "bring it to the man in the red coat in the hall"."""
         person, what = self._listener_behind(rest)
-        if person is None or not person.described or not person.where or not what:
+        whoever = person is not None and keys(person.who) in _WHOEVER
+        if person is None or not (person.described or whoever) or not person.where or not what:
             return False
         flat = keys(what)
         source = bare(what[flat.index("from") + 1 :]) if "from" in flat else ()

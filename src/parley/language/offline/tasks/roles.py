@@ -133,8 +133,13 @@ def roles_of(info: ActionInfo) -> frozenset[str]:
     if " ".join(words[:2]) in _OWN_PHRASES:
         return frozenset()
     by_name = _by_name(info, words)
-    roles = _by_phrases(info, words) if by_name is None else by_name
-    return _fitting(info, words, roles)
+    if by_name is not None:
+        return _fitting(info, words, by_name)
+    told = _by_phrases(info, words)
+    if told == {"speak"} and info.outputs:
+        # "Tells how many packs are left".
+        return frozenset()
+    return frozenset() if told == {"motion"} and not (text_inputs(info) or pose_inputs(info)) else told
 
 
 _OWN_PHRASES = frozenset(load_data("names")["own_phrases"])

@@ -9,7 +9,7 @@ __all__ = ["from_off", "from_one_to_another"]
 
 
 def from_off(words: Phrase) -> Phrase:
-    """For "the milk out of the fridge", "the keys off the shelf": from there."""
+    """For "the milk out of the locker", "the keys off the shelf": from there."""
     flat = keys(words)
     for index in range(1, len(flat) - 1):
         size = next((len(way) for way in _OUT_OF if flat[index : index + len(way)] == way), 0)

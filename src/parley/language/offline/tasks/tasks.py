@@ -271,10 +271,12 @@ class Tasks(OwnKind):
         where = command.source or next(iter(noun_phrase(command.theme).anchors), ())
         if where:
             self._stand_at(self.scene.place(where))
-        if info is not None:
-            self._invoke(
-                info, replace(command, theme=person or command.theme, recipient=(), place=(), source=())
-            )
+        elif keys(command.theme) in {("her",), ("him",), ("them",)} and not self.here:
+            self._stand_at_person(bare(self.scene.referent(command.theme)))
+        if command.verb == "accompany" and command.place:
+            self._lead(replace(command, kind="guide", source=()))
+            return
+        self._invoke(info, replace(command, theme=person or command.theme, recipient=(), place=(), source=()))
 
     def _lead(self, command: Command) -> None:
         """Lead somebody somewhere: by an action, else by going ahead."""

@@ -65,7 +65,9 @@ def _without_frame(sentence: Phrase) -> Phrase:
     return sentence
 
 
-_COURTEOUS_DENIAL = frozenset({"mind", "trouble", "bother", "if", "too", "whether", "inconvenient", "suppose", "why", "disturb"})
+_COURTEOUS_DENIAL = frozenset(
+    {"mind", "trouble", "bother", "if", "too", "whether", "inconvenient", "suppose", "why", "disturb"}
+)
 _TAKING_BACK = frozenset(
     (word, ",") for word in ("sorry", "oops", "no", "wait", "actually", "ah", "oh", "my")
 )

@@ -218,7 +218,15 @@ def coordinated(phrase: Phrase) -> list[Phrase]:
 
 def _without_also(member: Phrase) -> Phrase:
     """For "(A and) also the desk" the desk."""
-    while len(member) > 1 and member[0].key in {"also", "then", "even", "maybe", "perhaps", "especially", "finally"}:
+    while len(member) > 1 and member[0].key in {
+        "also",
+        "then",
+        "even",
+        "maybe",
+        "perhaps",
+        "especially",
+        "finally",
+    }:
         member = bare(member[1:])
     return member
 

@@ -78,7 +78,10 @@ def reply(words: Phrase, *, alone: bool = True) -> str | None:
         and flat[0] in {"do", "what", "how", "tell", "who", "is", "are", "sing", "can", "which", "should"}
         and len(flat) <= 10
     ):
-        return "I am no good at small talk: I drive, look and help. What can I do for you?"
+        return (
+            "I am no good at small talk: I drive, look and help. I cannot chat, joke or sing. "
+            "What can I do for you?"
+        )
     if _is_foreign(words):
         return "I understand only English, except for stop words. Please say it in English."
     return None
