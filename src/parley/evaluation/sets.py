@@ -24,8 +24,13 @@ _DEVELOPED: Final = (
     "fresh_days",
     "fresh_nights",
     "fresh_scenes",
+    "logic",
+    "needs",
+    "readings",
+    "unseen_actions",
+    "wordings",
 )
-_BLIND: Final = ("blind_people", "blind_voices")
+_BLIND: Final = ("blind_people", "blind_voices", "blind_round")
 
 SET_NAMES: Final = ("development", "held-out", "blind", "gpsr", "all")
 """`held-out`: the half of the second set that nobody developed on; `blind` holds `gpsr`."""

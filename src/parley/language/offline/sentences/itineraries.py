@@ -41,8 +41,9 @@ _LEADS = _table(
     ),
     (
         _ANY,
-        "only after that, only afterwards, later, after, on the way back, on your way back, back to, back at, back in, "
-        "home to, then home to, only after both, after both, only after all that, only after all of them",
+        "only after that, only afterwards, later, after, on the way back, on your way back, back to, "
+        "back at, back in, home to, then home to, only after both, after both, only after all that, "
+        "only after all of them",
     ),
     (
         _BEFORE_LAST,
