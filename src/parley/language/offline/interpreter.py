@@ -17,6 +17,7 @@ from parley.language.offline.readings.choosing import best_reading
 from parley.language.offline.scene.grounding import ground_phrase
 from parley.language.offline.scene.scene import Scene
 from parley.language.offline.sentences.intentions import without_own_plans
+from parley.language.offline.sentences.moved import where_it_was_put
 from parley.language.offline.sentences.spoken import orders_among_talk
 from parley.language.offline.tasks.meeting import Meeting
 from parley.language.offline.words import social
@@ -84,7 +85,7 @@ def _gives_up(message: str) -> bool:
 
 
 def _read(message: str, situation: Situation, trace: Trace) -> ChatAction:
-    words = without_own_plans(plainly(mended(tokens(message), situation)))
+    words = where_it_was_put(without_own_plans(plainly(mended(tokens(message), situation))))
     if plain(words) != plain(tokens(message)):
         trace.note("words", f"read as “{plain(words)}”")
     words = plainly_called(words, situation)
