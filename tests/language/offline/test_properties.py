@@ -5,6 +5,7 @@ from __future__ import annotations
 import asyncio
 from dataclasses import replace
 
+import pytest
 from hypothesis import given, settings
 from hypothesis import strategies as st
 
@@ -77,3 +78,12 @@ def test_the_story_holds_with_words_nobody_has_seen(names: list[str]) -> None:
     assert commands(said[0]) == [f"add {person.lower()}_location"]
     assert commands(said[1]) == [f"add {thing}_location"]
     assert plan(said[2]) == [f"go {store}", f"look {thing}", "ask", f"go {seat}"]
+
+
+@pytest.mark.parametrize(
+    "message", ["mind", "you mind", "going", "mind going", "not", "?", "and", "if", "instead of"]
+)
+def test_a_word_alone_is_answered(message: str) -> None:
+    answer = asyncio.run(ENGINE.interpret(situation("home", message)))
+    assert answer.message_response
+    assert not answer.queue

@@ -169,7 +169,7 @@ class Signs:
     def _doing(self, at: int) -> bool:
         """For "(would you mind) going there"."""
         word = self.flat[at]
-        asked = self.flat[at - 1] == "mind" and self.flat[at - 2] in {"you", "not"}
+        asked = at > 1 and self.flat[at - 1] == "mind" and self.flat[at - 2] in {"you", "not"}
         found = lexicon().verbs.match((lemma(word), *self.flat[at + 1 : at + 5]))
         return bool(asked and word.endswith("ing") and found is not None)
 
