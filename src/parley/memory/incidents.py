@@ -3,12 +3,9 @@
 from __future__ import annotations
 
 import sqlite3
-from pathlib import Path
-from types import TracebackType
-from typing import Final, Self
+from typing import Final
 
-from parley.clock import Clock
-from parley.memory.database import Database
+from parley.memory.on_file import RecordStore
 from parley.messages.incident import Incident
 
 __all__ = ["KEPT", "IncidentStore"]
@@ -26,39 +23,11 @@ _SCHEMA: Final = """
 """
 
 
-class IncidentStore:
-    """Made by `open`; all methods raise `parley.errors.StoreError` when the file cannot be used."""
+class IncidentStore(RecordStore):
+    """Made by `open`."""
 
-    def __init__(self, database: Database) -> None:
-        self._database = database
-
-    @classmethod
-    async def open(cls, path: Path | str, clock: Clock) -> Self:
-        """Open or create the file; use as ``async with await IncidentStore.open(...)``.
-
-        A damaged file is put aside and a new one begun.
-
-        Args:
-            path: The file, or ``:memory:`` for records that end with the process.
-            clock: For the name of a damaged file.
-
-        Raises:
-            StoreError: The file cannot be created, read or written.
-        """
-        database = await Database.open(path, prepare=_prepare, unix_ms=clock.unix_ms(), what="incidents")
-        return cls(database)
-
-    async def __aenter__(self) -> Self:
-        return self
-
-    async def __aexit__(
-        self, kind: type[BaseException] | None, error: BaseException | None, trace: TracebackType | None
-    ) -> None:
-        await self.close()
-
-    async def close(self) -> None:
-        """Close the file. Idempotent."""
-        await self._database.close()
+    SCHEMA = _SCHEMA
+    WHAT = "incidents"
 
     async def save(self, incident: Incident) -> None:
         """Keep `incident` in place of its earlier form; when this returns, it is durable."""
@@ -78,10 +47,6 @@ class IncidentStore:
     async def still_open(self) -> tuple[Incident, ...]:
         """Records that no end was written to, oldest first."""
         return await self._database.run(lambda db: _read(db, "WHERE ending = 'open' ORDER BY number"))
-
-
-def _prepare(db: sqlite3.Connection) -> None:
-    db.executescript(_SCHEMA)
 
 
 def _save(db: sqlite3.Connection, incident: Incident) -> None:

@@ -2,15 +2,11 @@
 
 from __future__ import annotations
 
-import sqlite3
-from pathlib import Path
-from types import TracebackType
-from typing import Final, Self
+from typing import Final
 
 from pydantic import BaseModel, ConfigDict
 
-from parley.clock import Clock
-from parley.memory.database import Database
+from parley.memory.on_file import RecordStore
 from parley.messages.status import PlanProposal, PoseInfo
 
 __all__ = ["KeptProposal", "ProposalStore"]
@@ -38,39 +34,11 @@ class KeptProposal(BaseModel):
     """Where the robot was then."""
 
 
-class ProposalStore:
-    """Made by `open`; all methods raise `parley.errors.StoreError` when the file cannot be used."""
+class ProposalStore(RecordStore):
+    """Made by `open`."""
 
-    def __init__(self, database: Database) -> None:
-        self._database = database
-
-    @classmethod
-    async def open(cls, path: Path | str, clock: Clock) -> Self:
-        """Open or create the file; use as ``async with await ProposalStore.open(...)``.
-
-        A damaged file is put aside and a new one begun.
-
-        Args:
-            path: The file, or ``:memory:`` for proposals that end with the process.
-            clock: For the name of a damaged file.
-
-        Raises:
-            StoreError: The file cannot be created, read or written.
-        """
-        database = await Database.open(path, prepare=_prepare, unix_ms=clock.unix_ms(), what="proposals")
-        return cls(database)
-
-    async def __aenter__(self) -> Self:
-        return self
-
-    async def __aexit__(
-        self, kind: type[BaseException] | None, error: BaseException | None, trace: TracebackType | None
-    ) -> None:
-        await self.close()
-
-    async def close(self) -> None:
-        """Close the file. Idempotent."""
-        await self._database.close()
+    SCHEMA = _SCHEMA
+    WHAT = "proposals"
 
     async def keep(self, kept: KeptProposal) -> None:
         """Keep a proposal; when this returns, it is durable."""
@@ -89,7 +57,3 @@ class ProposalStore:
             lambda db: db.execute("SELECT record FROM proposal ORDER BY number").fetchall()
         )
         return tuple(KeptProposal.model_validate_json(record) for (record,) in rows)
-
-
-def _prepare(db: sqlite3.Connection) -> None:
-    db.executescript(_SCHEMA)

@@ -4,12 +4,12 @@ from __future__ import annotations
 
 from collections.abc import Sequence
 from pathlib import Path
-from types import TracebackType
 from typing import Any, Self
 
 from parley.clock import Clock, WallClock
 from parley.memory.database import Database
 from parley.memory.migrations import migrate
+from parley.memory.on_file import OnFile
 from parley.memory.retrieval import name_key
 from parley.memory.rows import COLUMNS, COLUMNS_WITHOUT_PICTURES, read_entry
 from parley.memory.search import search_words
@@ -19,7 +19,7 @@ from parley.messages.memory import MemoryEntry
 __all__ = ["MemoryStore"]
 
 
-class MemoryStore:
+class MemoryStore(OnFile):
     """The memory of all robots, with a scope for what concerns one robot only. Made by `open`.
 
     A `scope` argument of the reading methods means: None, everything; a robot's name, everybody's memories
@@ -28,7 +28,8 @@ class MemoryStore:
     """
 
     def __init__(self, database: Database, clock: Clock) -> None:
-        self._database, self._clock = database, clock
+        super().__init__(database)
+        self._clock = clock
 
     @property
     def database(self) -> Database:
@@ -52,18 +53,6 @@ class MemoryStore:
         now = clock.unix_ms()
         database = await Database.open(path, prepare=lambda db: migrate(db, unix_ms=now), unix_ms=now)
         return cls(database, clock)
-
-    async def __aenter__(self) -> Self:
-        return self
-
-    async def __aexit__(
-        self, kind: type[BaseException] | None, error: BaseException | None, trace: TracebackType | None
-    ) -> None:
-        await self.close()
-
-    async def close(self) -> None:
-        """Close the file. Idempotent."""
-        await self._database.close()
 
     @property
     def notice(self) -> str:
