@@ -5,6 +5,7 @@ Files are read as plain text values: in them ``no`` and ``on`` are words, not tr
 
 from __future__ import annotations
 
+from functools import cache
 from importlib import resources
 from typing import Any
 
@@ -16,7 +17,8 @@ __all__ = ["load_data"]
 _LOADER = getattr(yaml, "CBaseLoader", yaml.BaseLoader)
 
 
+@cache
 def load_data(name: str) -> Any:
-    """The content of one data file, every scalar as text."""
+    """The content of one data file, every scalar as text; read once, so nobody may change it."""
     path = resources.files("parley.language") / "offline" / "data" / f"{name}.yaml"
     return yaml.load(path.read_text(encoding="utf-8"), Loader=_LOADER)

@@ -87,3 +87,13 @@ def test_a_word_alone_is_answered(message: str) -> None:
     answer = asyncio.run(ENGINE.interpret(situation("home", message)))
     assert answer.message_response
     assert not answer.queue
+
+
+@pytest.mark.parametrize(
+    "message",
+    ["John is thirsty", "I need some tea", "go to the desk", "look at the desk", "follow me"],
+)
+def test_a_robot_that_can_do_nothing_says_so(message: str) -> None:
+    answer = asyncio.run(ENGINE.interpret(situation("home", message, catalogue=())))
+    assert answer.message_response
+    assert not answer.queue

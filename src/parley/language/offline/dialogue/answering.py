@@ -13,8 +13,9 @@ from parley.language.offline.plan_changes.changing import Changing
 from parley.language.offline.repair.replies import agrees
 from parley.language.offline.scene.scene import UnclearError
 from parley.language.offline.sentences.clauses import Clause
-from parley.language.offline.tasks.abilities import abilities
+from parley.language.offline.tasks.abilities import abilities, cannot
 from parley.language.offline.tasks.commands import Command, read_command
+from parley.language.offline.tasks.going import UnableError
 from parley.language.offline.words import social
 from parley.language.offline.words.saying import in_turn, whole_sentence
 from parley.language.offline.words.text import Phrase, Word, keys, plain
@@ -138,6 +139,8 @@ class Answering(Changing):
             self.tasks.do(replace(need, kind="transfer", verb="bring"))
         except UnclearError as unclear:
             self.replies.append(unclear.question)
+        except UnableError:
+            self.replies.append(cannot("bring anything", self.scene))
 
     def _result(self, text: str, steps: Sequence[ActionCall], choices: Sequence[str] = ()) -> ChatAction:
         given = {c.arguments.get("name") for c in self.commands if c.command == "add_memory"}
