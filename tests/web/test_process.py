@@ -78,8 +78,11 @@ def test_the_demo_serves_a_page_and_the_robot_drives(tmp_path: Path) -> None:
             time.sleep(0.1)
         assert client.get("/api/feeds/David/camera.jpg").content.startswith(b"\xff\xd8")
         process.send_signal(signal.SIGINT)
-        told, errors = process.communicate(timeout=ENDS_WITHIN_S)
-        assert "start it with --lan" in told
+        process.wait(ENDS_WITHIN_S)
+        assert process.stdout is not None and process.stderr is not None
+        # Not `communicate`: it would miss what `readline` had already taken from the pipe.
+        assert "start it with --lan" in process.stdout.read()
+        errors = process.stderr.read()
         assert process.returncode == 130
         assert "Traceback" not in errors
 
