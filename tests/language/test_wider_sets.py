@@ -20,8 +20,10 @@ from parley.language.offline import OfflineLanguage
         ("fresh_scenes", 0.66),
         ("logic", 0.88),
         ("needs", 0.94),
+        ("people", 0.79),
         ("readings", 0.90),
         ("unseen_actions", 0.92),
+        ("voices", 0.61),
         ("wordings", 0.70),
     ],
 )

@@ -26,11 +26,13 @@ _DEVELOPED: Final = (
     "fresh_scenes",
     "logic",
     "needs",
+    "people",
     "readings",
     "unseen_actions",
+    "voices",
     "wordings",
 )
-_BLIND: Final = ("blind_people", "blind_voices", "blind_round")
+_BLIND: Final = ("blind_round",)
 
 SET_NAMES: Final = ("development", "held-out", "blind", "gpsr", "all")
 """`held-out`: the half of the second set that nobody developed on; `blind` holds `gpsr`."""
