@@ -60,6 +60,23 @@ def test_what_was_asked_for_meanwhile_is_named_too(ada: Follower) -> None:
     assert ada.told == ["I have finished: “go to the box” and “then to the door”."]
 
 
+def test_an_order_that_had_to_be_asked_about_is_named_with_the_answer(ada: Follower) -> None:
+    ada.finishing.on_answer("Ada", "go to the box.", asks_back=True)
+    ada.finishing.on_order("Ada", "the small one")
+    ada.plan("running", ("Find", "running"), ("Drive", "queued"))
+    ada.plan("idle", ("Find", "finished"), ("Drive", "finished"))
+    assert ada.told == ["I have finished: “go to the box – the small one”."]
+
+
+def test_an_order_that_nobody_made_clear_is_not_named(ada: Follower) -> None:
+    ada.finishing.on_answer("Ada", "go to the box", asks_back=True)
+    ada.finishing.on_answer("Ada", "what is the time?", asks_back=False)
+    ada.finishing.on_order("Ada", "go to the door")
+    ada.plan("running", ("Find", "running"), ("Drive", "queued"))
+    ada.plan("idle", ("Find", "finished"), ("Drive", "finished"))
+    assert ada.told == ["I have finished: “go to the door”."]
+
+
 def test_one_short_move_is_not_worth_a_word_but_a_long_one_is(ada: Follower) -> None:
     for seconds in (1.0, 10.0):
         ada.finishing.on_order("Ada", f"move for {seconds:g}")

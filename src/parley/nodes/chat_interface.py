@@ -364,6 +364,8 @@ class ChatInterface(Node):
         why = "" if failed else self._recollections.why(target, said, sources, situation.memory)
         reply = together(reply, why, SHALL_I if asks_first else "")
         asks = bool(understood.choices) and not understood.queue
+        if not order.queue:
+            self._finishing.on_answer(target, message, asks_back=asks)
         self.publish(
             topics.CHAT_FEEDBACK,
             ChatFeedback(

@@ -31,6 +31,8 @@ class _Job:
     """Actions of which as many were in the plan when one failed as are listed here."""
     words: list[str] = field(default_factory=list)
     """What was asked for."""
+    unclear: str = ""
+    """What was asked for and had to be asked back about."""
     edited: bool = False
     """A person changed the steps, so the words do not tell any more what is done."""
     asked: str = ""
@@ -64,7 +66,19 @@ class Finishing:
             instead: Whether it takes the place of what failed and was given up.
         """
         job = self._job(target)
-        job.asked, job.instead = words, instead
+        job.asked = _together(job.unclear, words)
+        job.unclear, job.instead = "", instead
+
+    def on_answer(self, target: str, words: str, *, asks_back: bool) -> None:
+        """A message was answered with words alone.
+
+        Args:
+            target: The robot.
+            words: The operator's.
+            asks_back: Whether they were an order that is not clear yet: what is said next belongs to it.
+        """
+        job = self._job(target)
+        job.unclear = _together(job.unclear, words) if asks_back else ""
 
     def on_proposal(self, proposal: PlanProposal) -> None:
         """What was asked for last waits for a yes."""
@@ -145,6 +159,11 @@ def _named(job: _Job, done: Sequence[ActionCall], finding: Collection[str]) -> s
         if len(named) == 1
         else sentence("{first} and {last}", first=listed(named[:-1]), last=named[-1])
     )
+
+
+def _together(order: str, answer: str) -> str:
+    """An order and what was answered when it was asked about."""
+    return f"{order.strip().rstrip('.')} – {answer}" if order else answer
 
 
 def _short(text: str) -> str:
