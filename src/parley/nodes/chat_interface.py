@@ -12,11 +12,10 @@ from typing import ClassVar, Final
 
 from parley.clock import Clock
 from parley.errors import InvalidMessageError, LanguageError
-from parley.language.base import Language, Situation
+from parley.language.base import Language
 from parley.language.control import Control, control_of
 from parley.memory.because import OPERATOR
-from parley.memory.client import recall, recall_newest
-from parley.memory.sayings import asks_for_all, for_oneself
+from parley.memory.sayings import for_oneself
 from parley.messages import topics
 from parley.messages.chat import ChatAction, ChatFeedback, ChatInput, SystemCommand
 from parley.messages.failure import ErrorHandlingMessage
@@ -26,7 +25,6 @@ from parley.messages.status import (
     ActorStatus,
     PlanDecision,
     PlanProposal,
-    PlanUpdate,
     Rejection,
     RejectionProblem,
     StopCommand,
@@ -35,24 +33,19 @@ from parley.messages.wire import decode_plan
 from parley.nodes import chat_texts as texts
 from parley.nodes.asking import SHALL_I, Offered, as_wish
 from parley.nodes.base import Mailboxes, Node
-from parley.nodes.chat_memories import Confirmations, Keeping, keeping_order, memory_query
-from parley.nodes.conversation import Conversation
+from parley.nodes.chat_memories import Confirmations, Keeping, keeping_order
 from parley.nodes.drafts import Drafts
 from parley.nodes.finishing import Finishing
-from parley.nodes.plan_approval import waits_for_yes
 from parley.nodes.plan_check import check_calls, complete_calls
-from parley.nodes.plan_flow import pending_calls
 from parley.nodes.plan_orders import no_robot
 from parley.nodes.plan_steps import LATCHED
 from parley.nodes.presence import Presence
-from parley.nodes.questions import LastAsked, OpenQuestions, SeenIds
+from parley.nodes.questions import SeenIds
 from parley.nodes.recollections import Recollections
-from parley.nodes.repair import failed_situation
-from parley.nodes.shown_pictures import remembered_pictures, sent_pictures
+from parley.nodes.situations import Situations
 from parley.nodes.thinking import PATIENCE_S, DroppedError, Thinking
 from parley.sentences import together
 from parley.transport.base import Transport
-from parley.world.geometry import Pose2D
 from parley.world.object_map import MapObject
 
 __all__ = ["ChatInterface"]
@@ -90,17 +83,12 @@ class ChatInterface(Node):
         patience_s: float = PATIENCE_S,
     ) -> None:
         super().__init__(transport)
-        self._language, self._objects, self._clock = language, objects, clock
-        self._history_exchanges = history_exchanges
+        self._language, self._clock = language, clock
         self._thinking = Thinking(language_timeout_s, patience_s)
         self._presence = Presence(clock, tuple(known_robots))
-        self._questions = OpenQuestions()
+        self._known = Situations(transport, self._presence, objects, history_exchanges)
+        self._questions = self._known.questions
         self._mailboxes: Mailboxes[str] = Mailboxes(self._on_defect)
-        self._conversations: dict[str, Conversation] = {}
-        self._plans: dict[str, PlanUpdate] = {}
-        self._failures: dict[str, ErrorHandlingMessage] = {}
-        """The last failed step of each robot, for questions about it."""
-        self._asked = LastAsked()
         self._offered, self._finishing = Offered(), Finishing(clock.now_s)
         self._seen_ids = SeenIds()
         self._confirmations = Confirmations()
@@ -112,10 +100,10 @@ class ChatInterface(Node):
         """See `Node.open`."""
         await self.opened.enter_async_context(self._mailboxes)
         await self.subscribe(topics.ACTOR_STATUS, ActorStatus, self._presence.on_status)
-        await self.subscribe(topics.CHAT_FEEDBACK, ChatFeedback, self._on_feedback)
+        await self.subscribe(topics.CHAT_FEEDBACK, ChatFeedback, self._known.on_feedback)
         await self.subscribe(topics.MEMORY_EVENT, MemoryEvent, self._confirmations.on_event)
         await self.subscribe(topics.STOP, StopCommand, self._on_emergency)
-        await self.subscribe(topics.ERROR_HANDLING, ErrorHandlingMessage, self._on_failure)
+        await self.subscribe(topics.ERROR_HANDLING, ErrorHandlingMessage, self._known.on_failure)
         await self.subscribe_raw(topics.PLAN, self._on_plan)
         await self.subscribe(topics.PLAN_DECISION, PlanDecision, self._on_decision)
         await self.subscribe(topics.CHAT_INPUT, ChatInput, self._on_input)
@@ -183,8 +171,7 @@ class ChatInterface(Node):
 
     def _answers(self, target: str, question: ChatFeedback | None, control: Control) -> bool:
         """Whether "go on" answers a question; while the robot is paused it means to go on."""
-        plan = self._plans.get(target)
-        return question is not None and control == "start" and not (plan and plan.state == "paused")
+        return question is not None and control == "start" and self._known.state(target) != "paused"
 
     def _work(self, target: str, said: ChatInput, ours: str = "") -> Callable[[], Awaitable[None]]:
         halts = self._halts.get(target, 0)
@@ -240,7 +227,7 @@ class ChatInterface(Node):
             self._offered.on_proposal(told)
             self._finishing.on_proposal(told)
             return
-        self._plans[told.target] = told
+        self._known.plans[told.target] = told
         self._offered.on_update(told)
         status = self._presence.get(told.target)
         if done := self._finishing.on_update(told, status.catalogue if status else ()):
@@ -249,13 +236,6 @@ class ChatInterface(Node):
     def _on_decision(self, decision: PlanDecision) -> None:
         self._offered.on_decision(decision)
         self._finishing.on_decision(decision)
-
-    def _on_feedback(self, feedback: ChatFeedback) -> None:
-        self._questions.on_feedback(feedback)
-        self._asked.on_feedback(feedback)
-
-    def _on_failure(self, failure: ErrorHandlingMessage) -> None:
-        self._failures[failure.target] = failure
 
     def _on_emergency(self, command: StopCommand) -> None:
         """The stop button: what was asked for before it is dropped, as if it had been said."""
@@ -273,8 +253,7 @@ class ChatInterface(Node):
         """Act at once, ahead of anything that is still being understood."""
         if control in _HALTING:
             self._halt(target)
-        plan, status = self._plans.get(target), self._presence.get(target)
-        state = plan.state if plan is not None else "idle"
+        state, status = self._known.state(target), self._presence.get(target)
         # A plan that waits for approval has no step yet: only approving or dropping it does anything.
         nothing = state == "idle" or (state == "awaiting_approval" and control in ("stop", "skip"))
         if state == "idle" and status is not None and status.state == "paused":
@@ -290,8 +269,8 @@ class ChatInterface(Node):
             command = SystemCommand(command=control)
             self.publish(topics.CHAT_ACTION, ChatAction(system_cmd=(command,), targets=(target,)))
         reply = reply or texts.CONTROL_REPLIES[control]
-        self._conversation(target).operator(said.message)
-        self._conversation(target).assistant(reply)
+        self._known.conversation(target).operator(said.message)
+        self._known.conversation(target).assistant(reply)
         asked = self._questions.first(target) if state == "held" else None
         self.publish(
             topics.CHAT_FEEDBACK,
@@ -308,17 +287,18 @@ class ChatInterface(Node):
     async def _answer(self, target: str, said: ChatInput, halts: int) -> None:
         message = said.message
         own = for_oneself(message)
-        asks = target in self._plans and self._plans[target].policy != "run_at_once"
         # What may have to wait for a yes is not announced while it is being worked out.
         drafts = Drafts(
-            "" if asks else said.id,
+            "" if self._known.may_have_to_ask(target) else said.id,
             target,
             lambda draft: self.publish(topics.REPLY_DRAFT, draft),
             self._clock,
         )
         try:
             async with self._thinking.about(target, lambda: self._say_thinking(target, message), message):
-                situation = await self._situation(target, own or message, said)
+                situation = await self._known.of(
+                    target, own or message, said, sees_pictures=self._language.sees_pictures
+                )
                 understood = keeping_order(situation) or await self._language.interpret(
                     situation, on_draft=drafts
                 )
@@ -351,12 +331,12 @@ class ChatInterface(Node):
             self._order(order, message)
         failed = await self._confirmations.confirmed(confirmations)
         reply = failed or understood.message_response or "Done."
-        asks_first = not failed and self._asks_first(order)
+        asks_first = not failed and self._known.asks_first(order.targets, order.queue)
         if asks_first:
             reply = as_wish(reply, order.queue)
         if not failed and self._waits_behind_a_question(target, order):
             reply = together(reply, texts.AFTERWARDS)
-        conversation = self._conversation(target)
+        conversation = self._known.conversation(target)
         conversation.operator(message)
         conversation.assistant(reply)
         told = {str(command.arguments.get("name")) for command in order.system_cmd}
@@ -380,62 +360,13 @@ class ChatInterface(Node):
 
     def _order(self, order: ChatAction, words: str) -> None:
         for name in order.targets if order.queue else ():
-            plan = self._plans.get(name)
-            given_up = plan is not None and plan.state == "held" and self._questions.first(name) is None
-            self._finishing.on_order(name, words, instead=given_up)
+            self._finishing.on_order(name, words, instead=self._known.gave_up(name))
         self.publish(topics.CHAT_ACTION, order)
-
-    def _asks_first(self, order: ChatAction) -> bool:
-        """Whether a person is asked before a robot begins with it: then it only says what it would do."""
-        for name in order.targets:
-            plan, status = self._plans.get(name), self._presence.get(name)
-            catalogue = status.catalogue if status is not None else ()
-            if plan is not None and waits_for_yes(plan.policy, order.queue, catalogue):
-                return True
-        return False
 
     def _waits_behind_a_question(self, target: str, order: ChatAction) -> bool:
         """Whether an order is kept until the robot's question about a failed step is answered."""
-        plan = self._plans.get(target)
         control = {command.command for command in order.system_cmd} - {"add_memory", "remove_memory"}
-        held = plan is not None and plan.state == "held" and self._questions.first(target) is not None
-        return held and bool(order.queue) and not control
-
-    async def _situation(self, target: str, message: str, said: ChatInput) -> Situation:
-        turns = self._conversation(target).turns
-        if asks_for_all(message):
-            memory = await recall_newest(self.transport, scope=target)
-        else:
-            memory = await recall(self.transport, memory_query(message, turns), scope=target)
-        status, plan = self._presence.get(target), self._plans.get(target)
-        pending = pending_calls(plan) if plan else []
-        state = plan.state if plan else "idle"
-        pictures = await sent_pictures(said.images)
-        if self._language.sees_pictures:
-            known = await remembered_pictures(self.transport, memory, target)
-            pictures += tuple(each for each in known if each.jpeg not in [sent.jpeg for sent in pictures])
-        objects, failure = tuple(self._objects(target)), self._failures.get(target)
-        asked = self._questions.first(target)
-        question = asked.message if asked is not None else self._asked.words(said.reply_to)
-        return Situation(
-            message=message,
-            memory=memory,
-            history=turns,
-            queue=tuple(pending),
-            status="paused" if state in ("paused", "held") else "running" if state == "running" else "idle",
-            objects=objects,
-            robot_pose=Pose2D(status.pose.x, status.pose.y, status.pose.yaw)
-            if status and status.pose
-            else None,
-            robot=target,
-            robots=self._presence.names(),
-            catalogue=status.catalogue if status else (),
-            failure=failed_situation(failure, memory=memory, objects=objects, status=status)
-            if failure is not None and asked is not None and state == "held"
-            else None,
-            question=question,
-            pictures=pictures,
-        )
+        return self._known.waits_for_answer(target) and bool(order.queue) and not control
 
     def _trusted(self, target: str, understood: ChatAction) -> ChatAction | None:
         """The order with its addressees, if each robot named can carry it out; None if not."""
@@ -484,9 +415,6 @@ class ChatInterface(Node):
         return await self._confirmations.confirmed([wait])
 
     # -- helpers ---------------------------------------------------------------------------------------
-
-    def _conversation(self, target: str) -> Conversation:
-        return self._conversations.setdefault(target, Conversation(self._history_exchanges))
 
     def _say(self, targets: Sequence[str], text: str, kind: str, reply_to: str = "") -> None:
         feedback = ChatFeedback.model_validate(
