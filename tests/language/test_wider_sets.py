@@ -15,6 +15,7 @@ from parley.language.offline import OfflineLanguage
     [
         ("fifth_set", 0.93),
         ("scenes", 0.88),
+        ("fresh_calls", 0.67),
         ("fresh_days", 0.92),
         ("fresh_nights", 0.78),
         ("fresh_scenes", 0.66),

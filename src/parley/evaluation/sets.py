@@ -21,6 +21,7 @@ _DEVELOPED: Final = (
     "fourth_set",
     "fifth_set",
     "scenes",
+    "fresh_calls",
     "fresh_days",
     "fresh_nights",
     "fresh_scenes",
