@@ -50,5 +50,5 @@ export default ts.config(
     },
   },
   { files: ['src/worker/**'], languageOptions: { globals: { self: 'readonly', caches: 'readonly', fetch: 'readonly', URL: 'readonly' } } },
-  { files: ['scripts/**', 'e2e/**', '*.ts', '*.js'], languageOptions: { globals: { process: 'readonly', console: 'readonly', setTimeout: 'readonly', URL: 'readonly', fetch: 'readonly', document: 'readonly', window: 'readonly', performance: 'readonly', requestAnimationFrame: 'readonly' } }, rules: { 'no-console': 'off' } },
+  { files: ['scripts/**', 'e2e/**', '*.ts', '*.js'], languageOptions: { globals: { process: 'readonly', console: 'readonly', setTimeout: 'readonly', URL: 'readonly', fetch: 'readonly', document: 'readonly', window: 'readonly', navigator: 'readonly', performance: 'readonly', requestAnimationFrame: 'readonly' } }, rules: { 'no-console': 'off' } },
 );

@@ -5,14 +5,14 @@
  */
 import { readdir, readFile } from 'node:fs/promises';
 import { join } from 'node:path';
+import { setTimeout as sleep } from 'node:timers/promises';
 import { gzipSync } from 'node:zlib';
 
-import { chromium } from 'playwright-core';
+import { launch } from './browser.mjs';
 
-const CHROMIUM = process.env.PARLEY_CHROMIUM ?? '/usr/bin/chromium';
-const ARGUMENTS = ['--headless', '--no-sandbox', '--disable-gpu', '--disable-quic', '--no-first-run', '--disable-background-networking'];
 const FILES = '../src/parley/web/static/assets';
 const OPENINGS = 5;
+const WINDOW = { width: 1280, height: 720 };
 /** Large enough for all pictures to be seen at once. */
 const SCREEN = { width: 1920, height: 1080 };
 const WARM_UP_MS = 1000;
@@ -20,7 +20,15 @@ const PATIENCE_MS = 60_000;
 
 const [address, seconds, feeds] = process.argv.slice(2);
 
-/** Runs in the page before anything else: notes how old pictures are when they come, and when they are painted. */
+/** Runs in the page before anything else: its files come from the server each time. */
+function withoutWorker() {
+  if (navigator.serviceWorker) navigator.serviceWorker.register = () => new Promise(() => undefined);
+}
+
+/**
+ * Runs in the page before anything else: notes how old pictures are when they come, and when they are painted. It asks
+ * nothing of the browser that the page does not, or it would measure itself.
+ */
 function watchPictures() {
   const found = { socket: [], painted: [], drawn: new Set() };
   window.measured = found;
@@ -34,11 +42,31 @@ function watchPictures() {
       });
     }
   };
+  // When a picture was taken goes from its bytes to what is made of them, up to the bitmap that is drawn.
   const taken = new WeakMap();
+  window.Blob = class extends window.Blob {
+    constructor(parts, options) {
+      super(parts, options);
+      const [first] = parts ?? [];
+      if (first instanceof ArrayBuffer && first.byteLength > 8) taken.set(this, takenMs(first));
+    }
+  };
+  if (window.ImageDecoder) {
+    window.ImageDecoder = class extends window.ImageDecoder {
+      constructor(options) {
+        taken.set(super(options), takenMs(options.data));
+      }
+      async decode(options) {
+        const decoded = await super.decode(options);
+        taken.set(decoded.image, taken.get(this));
+        return decoded;
+      }
+    };
+  }
   const read = window.createImageBitmap.bind(window);
-  window.createImageBitmap = async (blob) => {
-    const [bitmap, made] = await Promise.all([read(blob), blob.slice(-8).arrayBuffer().then(takenMs)]);
-    taken.set(bitmap, made);
+  window.createImageBitmap = async (source, ...options) => {
+    const bitmap = await read(source, ...options);
+    taken.set(bitmap, taken.get(source));
     return bitmap;
   };
   const canvas = window.ImageBitmapRenderingContext.prototype;
@@ -54,32 +82,29 @@ function watchPictures() {
 
 /** Milliseconds from the beginning of an opening until one can write. */
 async function open(browser) {
-  const context = await browser.newContext({ serviceWorkers: 'block' });
-  const page = await context.newPage();
-  await page.goto(address, { waitUntil: 'commit' });
-  const canWrite = () => document.querySelector('textarea:enabled') && performance.now();
-  const took = await (await page.waitForFunction(canWrite, undefined, { polling: 'raf', timeout: PATIENCE_MS })).jsonValue();
-  await context.close();
+  const page = await browser.open(WINDOW, withoutWorker);
+  await page.goTo(address);
+  const took = await page.until(() => document.querySelector('textarea:enabled') && performance.now(), PATIENCE_MS);
+  await page.close();
   return took;
 }
 
 async function watch(browser) {
-  const page = await (await browser.newContext({ viewport: SCREEN, serviceWorkers: 'block' })).newPage();
-  await page.addInitScript(watchPictures);
-  await page.goto(`${address}#/display`);
-  await page.waitForFunction((wanted) => window.measured.drawn.size >= wanted, Number(feeds), { timeout: PATIENCE_MS });
-  await page.waitForTimeout(WARM_UP_MS);
+  const page = await browser.open(SCREEN, withoutWorker, watchPictures);
+  await page.goTo(`${address}#/display`);
+  await page.until((wanted) => window.measured?.drawn.size >= wanted, PATIENCE_MS, Number(feeds));
+  await sleep(WARM_UP_MS);
   const inSight = await page.evaluate(() => {
     const { drawn } = window.measured;
     Object.assign(window.measured, { socket: [], painted: [] });
     return [...drawn].filter((canvas) => canvas.getBoundingClientRect().bottom <= window.innerHeight).length;
   });
-  await page.waitForTimeout(Number(seconds) * 1000);
-  const { socket, painted } = await page.evaluate(() => window.measured);
+  await sleep(Number(seconds) * 1000);
+  const { socket, painted } = await page.evaluate(() => ({ ...window.measured, drawn: [] }));
   return { socket, painted, inSight };
 }
 
-const browser = await chromium.launch({ executablePath: CHROMIUM, args: ARGUMENTS });
+const browser = await launch();
 try {
   const interactive = [];
   while (interactive.length < OPENINGS) interactive.push(await open(browser));

@@ -56,9 +56,7 @@ async def test_what_was_found_is_remembered_for_all_with_where_the_robot_stood()
         entry, _ = here.person.memories
         assert (entry.name, entry.source, entry.scope) == ("green_crate_sighting", "A/Inspect", "")
         assert entry.info == "Where A saw the green crate"
-        pose = here.robot.pose()
-        assert entry.data.startswith("I saw the green crate from where I stood, ")
-        assert f"x {pose.x_m:.1f} m, y {pose.y_m:.1f} m" in entry.data
+        assert entry.data == f"I saw the green crate from where I stood, {here.context.whereabouts()}."
 
 
 async def test_picture_of_what_was_found_is_kept_under_its_name() -> None:

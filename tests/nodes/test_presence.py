@@ -59,6 +59,26 @@ def test_who_is_silent_for_too_long_is_gone_and_who_beats_is_not(clock: ManualCl
     assert presence.names() == ("B",)
 
 
+def test_nobody_is_gone_for_the_time_in_which_nobody_could_be_heard(clock: ManualClock) -> None:
+    presence = Presence(clock)
+    beat(presence, "A")
+    clock.time_s += 3 * LOST_AFTER_S
+    presence.expire(late_s=2.5 * LOST_AFTER_S)
+    assert presence.names() == ("A",)
+    clock.time_s += LOST_AFTER_S / 2 + 0.1
+    presence.expire()
+    assert presence.names() == ()
+
+
+def test_lateness_never_counts_as_a_heartbeat_to_come(clock: ManualClock) -> None:
+    presence = Presence(clock)
+    beat(presence, "A")
+    presence.expire(late_s=10 * LOST_AFTER_S)
+    clock.time_s += LOST_AFTER_S + 0.1
+    presence.expire()
+    assert presence.names() == ()
+
+
 def test_configured_robot_is_never_gone(clock: ManualClock) -> None:
     presence = Presence(clock, ("Z",))
     clock.time_s += 10 * LOST_AFTER_S

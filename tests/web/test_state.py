@@ -105,6 +105,17 @@ def test_a_silent_robot_is_lost_and_comes_back() -> None:
     assert len(changes) == 3
 
 
+def test_no_robot_is_lost_for_the_time_in_which_the_server_heard_nothing_but_its_stop_is_overdue() -> None:
+    book, _ = robots()
+    beat(book)
+    stop(book)
+    late_s = max(LOST_AFTER_S, STOP_DEADLINE_S) + 1.0
+    book.tick(now_s=late_s + 0.25, late_s=late_s)
+    assert (connection(book), stop_state(book)) == ("here", "overdue")
+    book.tick(now_s=late_s + LOST_AFTER_S + 0.1)
+    assert connection(book) == "lost"
+
+
 def test_heartbeats_alone_are_no_news() -> None:
     book, changes = robots()
     for number in range(10):

@@ -12,14 +12,14 @@ export interface FrameMeta {
 }
 
 /** Shows a picture; what it returns is waited for before the next one is asked for. */
-type FrameHandler = (picture: Blob, meta: FrameMeta) => void | Promise<void>;
+type FrameHandler = (picture: ArrayBuffer, meta: FrameMeta) => void | Promise<void>;
 
 const REFUSED_DELAY_MS = 1000;
 
 let socket: Socket | null = null;
 const watchers = new Map<string, Set<FrameHandler>>();
 /** The last picture of each feed that is looked at, for who looks at it as well. */
-const newest = new Map<string, { picture: Blob; meta: FrameMeta }>();
+const newest = new Map<string, { picture: ArrayBuffer; meta: FrameMeta }>();
 
 const keyOf = (feed: { robot: string; name: string }) => `${feed.robot}\n${feed.name}`;
 
@@ -102,10 +102,9 @@ function sendWatched(): void {
 }
 
 async function onFrame(meta: FrameMeta, picture: ArrayBuffer, acknowledge?: () => void): Promise<void> {
-  const blob = new Blob([picture], { type: meta.type ?? 'image/jpeg' });
   const key = keyOf(meta);
   const handlers = [...(watchers.get(key) ?? [])];
-  if (handlers.length > 0) newest.set(key, { picture: blob, meta });
-  await Promise.allSettled(handlers.map((handler) => handler(blob, meta)));
+  if (handlers.length > 0) newest.set(key, { picture, meta });
+  await Promise.allSettled(handlers.map((handler) => handler(picture, meta)));
   acknowledge?.();
 }

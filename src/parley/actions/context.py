@@ -101,17 +101,18 @@ class ActionContext:
         return f"{self.actor}/{re.sub(r'_[0-9]+$', '', self.run.node)}"
 
     def whereabouts(self) -> str:
-        """Where the robot stands, in words: near what, and at which metres of the map."""
+        """Where the robot stands, in words; by the metres of the map only where no object is known."""
         pose = self.robot.pose()
         distances = [
             (math.hypot(item.x_m - pose.x_m, item.y_m - pose.y_m), item)
             for item in self.world.objects.objects
         ]
         distance_m, nearest = min(distances, key=lambda pair: pair[0], default=(math.inf, None))
-        at = f"x {pose.x_m:.1f} m, y {pose.y_m:.1f} m"
-        near = nearest is not None and distance_m <= NEAR_M
+        if nearest is None:
+            return f"at x {pose.x_m:.1f} m, y {pose.y_m:.1f} m"
+        name = nearest.description or nearest.class_name
         return (
-            f"near the {nearest.description or nearest.class_name} ({at})" if nearest and near else f"at {at}"
+            f"near the {name}" if distance_m <= NEAR_M else f"about {distance_m:.0f} metres from the {name}"
         )
 
     def remember(self, name: str, text: str, *, info: str = "", own: bool = False) -> None:

@@ -1,7 +1,7 @@
-"""A page in a real browser, for measuring: Chromium, driven by the tools that build the page.
+"""A page in a real browser, for measuring: Chromium, steered from `frontend/e2e/measure.mjs`.
 
-They are there in a source tree in which the page has been built and a Chromium is installed; anywhere else
-it is said what is missing, and nothing is measured.
+That is there in a source tree; where the page has not been built or no Chromium is installed it is said what
+is missing, and nothing is measured.
 """
 
 from __future__ import annotations
@@ -57,8 +57,6 @@ def find_browser() -> tuple[Path, str]:
         raise ParleyError("the page's sources are not here, only the built page")
     if not (FRONTEND.parent / "src/parley/web/static/index.html").is_file():
         raise ParleyError("the page is not built: run make page")
-    if not (FRONTEND / "node_modules/playwright-core").is_dir():
-        raise ParleyError("what drives the browser is not installed: run make page")
     names = [name for name in (os.environ.get("PARLEY_CHROMIUM"), *CHROMIUMS) if name]
     browser = next((found for name in names if (found := shutil.which(name))), None)
     if browser is None:

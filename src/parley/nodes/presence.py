@@ -52,9 +52,17 @@ class Presence:
         if joined and self._on_change is not None:
             self._on_change(status.actor, True)
 
-    def expire(self) -> None:
-        """Forget who was silent for too long; called now and then."""
-        limit = self._clock.wall_s() - LOST_AFTER_S
+    def expire(self, *, late_s: float = 0.0) -> None:
+        """Forget who was silent for too long; called now and then.
+
+        Args:
+            late_s: How much later than it wanted the caller comes, in wall time. So long nothing was heard
+                here, whoever spoke, and nobody is blamed for it.
+        """
+        now_s = self._clock.wall_s()
+        for seen in self._seen.values():
+            seen.at_s = min(now_s, seen.at_s + max(0.0, late_s))
+        limit = now_s - LOST_AFTER_S
         for name in [name for name, seen in self._seen.items() if seen.at_s < limit]:
             self._leave(name)
 

@@ -449,8 +449,9 @@ class UmrfPlanner(PlanSender):
 
     async def _watch_presence(self) -> None:
         while True:
+            due_s = self._clock.wall_s() + LOST_AFTER_S / 4
             await asyncio.sleep(LOST_AFTER_S / 4)
-            self._presence.expire()
+            self._presence.expire(late_s=self._clock.wall_s() - due_s)
 
     def _speaks_parley(self, target: str) -> bool:
         return self._presence.get(target) is not None

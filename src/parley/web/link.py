@@ -242,8 +242,10 @@ class Link:
 
     async def _tick(self) -> None:
         while True:
+            due_s = self._clock.wall_s() + TICK_S
             await asyncio.sleep(TICK_S)
-            self._state.robots.tick(now_s=self._clock.wall_s())
+            now_s = self._clock.wall_s()
+            self._state.robots.tick(now_s=now_s, late_s=now_s - due_s)
 
     async def _fetch_incidents(self) -> None:
         """What happened before this server came; what happens from now on comes by itself."""

@@ -133,9 +133,17 @@ class RobotBook:
                 stop = stop.model_copy(update={"state": "received"})
         self._put(view.model_copy(update={"stop": stop}))
 
-    def tick(self, *, now_s: float) -> None:
-        """Time passes: notice who is silent and which stops are overdue. `now_s` is wall time."""
+    def tick(self, *, now_s: float, late_s: float = 0.0) -> None:
+        """Time passes: notice who is silent and which stops are overdue.
+
+        Args:
+            now_s: Wall time.
+            late_s: How much later than it wanted the caller comes. So long no robot was heard here, and none
+                counts as silent for it; a stop is overdue all the same.
+        """
         for name, view in list(self.views.items()):
+            if name in self._seen_s:
+                self._seen_s[name] = min(now_s, self._seen_s[name] + max(0.0, late_s))
             if view.connection == "here" and now_s - self._seen_s.get(name, now_s) > LOST_AFTER_S:
                 view = view.model_copy(update={"connection": "lost"})
             waits = view.stop.state in ("sent", "received")

@@ -7,10 +7,9 @@ import { useNow } from '@/ui/use-now';
 import { ago } from '@/ui/words';
 
 import css from './display.module.css';
-import { Drawn } from './drawn';
 import { isStale } from './shown-feeds';
 import { useFeedName } from './use-feed-name';
-import { useNewestPicture } from './use-newest-picture';
+import { useFilm } from './use-film';
 
 interface Props {
   feed: FeedInfo;
@@ -25,19 +24,20 @@ export function FeedPicture({ feed, onEnlarge }: Props) {
   const { t, i18n } = useTranslation('display');
   const name = useFeedName(feed.name);
   const now = useNow(AGE_STEP_MS);
-  const picture = useNewestPicture(feed.robot, feed.name);
-  const taken = picture?.unixMs || feed.last_unix_ms;
+  const { takenUnixMs, screen } = useFilm(feed.robot, feed.name);
+  const has = takenUnixMs !== null;
+  const taken = takenUnixMs || feed.last_unix_ms;
   const ageMs = taken > 0 ? Math.max(0, onServerClock(now) - taken) : 0;
-  const stale = picture !== null && isStale(feed, ageMs);
-  const shown = picture ? (
-    <Drawn picture={picture} label={t('alt', { name, robot: feed.robot })} />
+  const stale = has && isStale(feed, ageMs);
+  const shown = has ? (
+    <canvas ref={screen} role="img" aria-label={t('alt', { name, robot: feed.robot })} />
   ) : (
     <span className={css.waiting}>{t('waiting')}</span>
   );
   return (
     <figure className={css.feed} data-stale={stale}>
       <div className={css.frame}>
-        {onEnlarge && picture ? (
+        {onEnlarge && has ? (
           <button type="button" className={css.enlarge} onClick={onEnlarge} aria-label={t('enlarge', { name, robot: feed.robot })}>
             {shown}
             <span className={css.corner}>
@@ -51,7 +51,7 @@ export function FeedPicture({ feed, onEnlarge }: Props) {
       </div>
       <figcaption>
         <strong>{feed.robot}</strong> <span>{name}</span>
-        {picture && taken > 0 && !stale && <Freshness live={feed.continuous} ageMs={ageMs} />}
+        {has && taken > 0 && !stale && <Freshness live={feed.continuous} ageMs={ageMs} />}
       </figcaption>
     </figure>
   );

@@ -4,7 +4,6 @@ import { useTranslation } from 'react-i18next';
 
 import { useWorld } from '@/live/store';
 import type { ActionCall, ActionInfo } from '@/live/types';
-import { useToasts } from '@/state/toasts';
 import { Button } from '@/ui/button';
 import { Choice } from '@/ui/choice';
 import { inWords } from '@/ui/words';
@@ -21,6 +20,12 @@ interface Props {
   onCancel: () => void;
 }
 
+interface Removed {
+  step: DraftStep;
+  /** Where it stood. */
+  index: number;
+}
+
 const NO_ACTIONS: readonly ActionInfo[] = [];
 
 /** Steps to be put in order, changed, removed and added. */
@@ -29,8 +34,8 @@ export function PlanEditor({ robot, steps: initial, saveLabel, onSave, onCancel 
   const [steps, setSteps] = useState(initial);
   const [added, setAdded] = useState(0);
   const [busy, setBusy] = useState(false);
+  const [removed, setRemoved] = useState<Removed | null>(null);
   const catalogue = useWorld((world) => world.robots[robot]?.catalogue ?? NO_ACTIONS);
-  const show = useToasts((state) => state.show);
 
   const box = useInView();
 
@@ -43,13 +48,13 @@ export function PlanEditor({ robot, steps: initial, saveLabel, onSave, onCancel 
   });
 
   const remove = (step: DraftStep) => {
-    const before = steps;
     setSteps(steps.filter((one) => one.id !== step.id));
-    show({
-      tone: 'info',
-      message: t('removed', { step: step.label }),
-      action: { label: t('common:undo'), run: () => setSteps(before) },
-    });
+    setRemoved({ step, index: steps.indexOf(step) });
+  };
+
+  const putBack = ({ step, index }: Removed) => {
+    setSteps(steps.toSpliced(index, 0, step));
+    setRemoved(null);
   };
 
   const add = (name: string) => {
@@ -101,6 +106,14 @@ export function PlanEditor({ robot, steps: initial, saveLabel, onSave, onCancel 
         />
       )}
       <div className={css.buttons}>
+        <div className={css.removed} role="status">
+          {removed && (
+            <>
+              <p>{t('removed', { step: removed.step.label })}</p>
+              <Button onPress={() => putBack(removed)}>{t('common:undo')}</Button>
+            </>
+          )}
+        </div>
         <Button onPress={onCancel}>{t('common:cancel')}</Button>
         <Button tone="main" isDisabled={busy} onPress={() => void save()}>
           {saveLabel}

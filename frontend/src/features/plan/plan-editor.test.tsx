@@ -1,0 +1,28 @@
+import { render, screen, within } from '@testing-library/react';
+import userEvent from '@testing-library/user-event';
+import { describe, expect, it, vi } from 'vitest';
+
+import type { DraftStep } from './editing';
+import { PlanEditor } from './plan-editor';
+
+const draft = (label: string): DraftStep => ({ id: label, label, action: label, inputs: [], call: { [label]: {} } });
+
+const edit = (...labels: string[]) => {
+  const onSave = vi.fn(() => Promise.resolve());
+  render(<PlanEditor robot="Ada" steps={labels.map(draft)} saveLabel="Save" onSave={onSave} onCancel={vi.fn()} />);
+  return { user: userEvent.setup(), saved: () => (onSave.mock.calls.flat(2) as object[]).flatMap(Object.keys) };
+};
+
+describe('editing a plan', () => {
+  it('offers a step that was taken out beside the other buttons, and puts it back where it stood', async () => {
+    const { user, saved } = edit('wash', 'dry', 'fold');
+    const editor = within(screen.getByRole('group'));
+    await user.click(editor.getByLabelText(/^Remove.*dry/));
+    editor.getByText('“dry” was removed.');
+    expect(editor.queryByLabelText(/^Remove.*dry/)).toBeNull();
+    await user.click(editor.getByText('Undo'));
+    expect(editor.queryByText('“dry” was removed.')).toBeNull();
+    await user.click(editor.getByText('Save'));
+    expect(saved()).toEqual(['wash', 'dry', 'fold']);
+  });
+});
