@@ -19,6 +19,7 @@ from parley.language.offline import OfflineLanguage
         ("fresh_days", 0.92),
         ("fresh_nights", 0.78),
         ("fresh_scenes", 0.66),
+        ("long_calls", 0.70),
         ("logic", 0.88),
         ("needs", 0.94),
         ("people", 0.79),

@@ -73,10 +73,33 @@ def _in_full(text: str, words: tuple[str, ...], called: set[str]) -> Control | N
 
     def meant(part: tuple[str, ...]) -> str | None:
         bare = _strip(_without_span(part), called)
+        foreign = tuple(word for word in part if word not in _around())
+        if foreign and foreign != part and foreign in _table():
+            return _table()[foreign]
         return "clear" if _clears(bare) else _look_up(part) or _look_up(bare) or composed(bare)
 
+    corrected = next((size for size in range(len(parts) - 1, 0, -1) if _takes_back(parts[size])), 0)
+    if corrected and len(parts) < 5 and meant(parts[0]) is not None:
+        # "Stop, no, I mean carry on": the last word counts.
+        rest = tuple(word for part in parts[corrected:] for word in part)
+        rest = rest[_takes_back(rest) :]
+        last = meant(rest) if rest else None
+        return next((control for control in _CONTROLS if control == last), None)
     among = among_talk([part for part in parts if not part or not set(part) <= called], meant)
     return next((control for control in _CONTROLS if control == among), None)
+
+
+_TAKING_BACK = (
+    ("no", "i", "mean"), ("i", "mean"), ("i", "meant"), ("no", "wait"), ("or", "rather"), ("rather",),
+    ("no", "actually"),
+    ("actually",), ("on", "second", "thoughts"), ("sorry", "i", "mean"), ("sorry", "i", "meant"),
+    ("no", "sorry"),
+)  # fmt: skip
+
+
+def _takes_back(words: tuple[str, ...]) -> int:
+    """How many words at the start take back what was said; 0 if none do."""
+    return next((len(lead) for lead in _TAKING_BACK if words[: len(lead)] == lead), 0)
 
 
 def _words(text: str) -> tuple[str, ...]:

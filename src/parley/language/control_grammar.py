@@ -54,6 +54,10 @@ def composed(words: Words) -> Composed | None:
     if not words or len(words) > _LONGEST:
         return None
     words = _unasked(words)
+    half = len(words) // 2
+    if half and words[:half] == words[half:]:
+        # "Hang on, hang on".
+        words = words[:half]
     for kind in _ORDER:
         if kind != "skip" and words in _phrases(f"{kind}_phrases"):
             return kind
@@ -109,7 +113,8 @@ def among_talk(parts: Sequence[Words], control: Callable[[Words], str | None]) -
     strongest = next(
         (kind for kind in ("emergency_stop", "clear", "stop", "skip", "start") if kind in said), None
     )
-    if strongest is None or (len(said) > 1 and not said <= {"stop", strongest}):
+    beside = {"stop", "skip"} if strongest == "clear" else {"stop"}
+    if strongest is None or (len(said) > 1 and not said <= {*beside, strongest}):
         return None
     weak = all(part[0] in _WEAK for part, meant in found if meant == strongest)
     rest = [part for part, meant in found if meant is None]

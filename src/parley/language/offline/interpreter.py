@@ -8,15 +8,19 @@ from dataclasses import replace
 from parley.language.base import Situation
 from parley.language.control import control_of
 from parley.language.offline.dialogue import addressing
+from parley.language.offline.dialogue.amending import amended
 from parley.language.offline.dialogue.crews import plainly_called
-from parley.language.offline.dialogue.followup import declines, pending_request
+from parley.language.offline.dialogue.elsewhere import elsewhere
+from parley.language.offline.dialogue.followup import Request, declines, pending_request
 from parley.language.offline.facts.facts import strip_openers
 from parley.language.offline.facts.protocols import protocol_memory, read_protocol
+from parley.language.offline.facts.stories import mentioned
 from parley.language.offline.plan_changes.changing import CONTROL_REPLIES
+from parley.language.offline.plan_changes.rearranging import rearranged
 from parley.language.offline.readings.choosing import best_reading
 from parley.language.offline.scene.grounding import ground_phrase
 from parley.language.offline.scene.scene import Scene
-from parley.language.offline.sentences.intentions import without_own_plans
+from parley.language.offline.sentences.intentions import straight_on, without_own_plans
 from parley.language.offline.sentences.moved import where_it_was_put
 from parley.language.offline.sentences.spoken import orders_among_talk
 from parley.language.offline.tasks.meeting import Meeting
@@ -25,9 +29,10 @@ from parley.language.offline.words.courtesy import plainly
 from parley.language.offline.words.explaining import Trace
 from parley.language.offline.words.lexicon import lexicon
 from parley.language.offline.words.mending import mended
-from parley.language.offline.words.quantities import plain_coordinates
+from parley.language.offline.words.quantities import plain_coordinates, plain_units
 from parley.language.offline.words.saying import listing
 from parley.language.offline.words.text import Phrase, keys, plain, tokens
+from parley.language.offline.words.wording import counted_plainly, shared_out
 from parley.messages.chat import ChatAction, SystemCommand
 
 __all__ = ["interpret"]
@@ -43,7 +48,7 @@ def interpret(situation: Situation, trace: Trace | None = None) -> ChatAction:
         trace: Collects what was decided, for those who ask why.
     """
     trace = Trace() if trace is None else trace
-    message = plain_coordinates(situation.message.strip())
+    message = plain_units(plain_coordinates(situation.message.strip()))
     if not any(char.isalnum() for char in message):
         return _say(situation, "I did not get any words. What can I do for you?")
     if len(message) > _LONGEST_CHARS:
@@ -54,6 +59,9 @@ def interpret(situation: Situation, trace: Trace | None = None) -> ChatAction:
 def _controlled(message: str, situation: Situation, trace: Trace) -> ChatAction | None:
     """The answer to what is nothing but "stop" or one of its kin; None if it is more."""
     control = control_of(message, situation.robots)
+    if control is None and _goes_on(message, situation):
+        again = (SystemCommand(command="start"),) if situation.status == "paused" else ()
+        return _say(situation, "All right, I go on.", commands=again)
     if control == "skip" and declines(message, situation):
         return _say(situation, "All right, I leave it.")
     if control is None and situation.queue and not declines(message, situation) and _gives_up(message):
@@ -68,6 +76,21 @@ def _controlled(message: str, situation: Situation, trace: Trace) -> ChatAction 
     return _say(situation, reply, commands=(SystemCommand(command=command),), targets=called)
 
 
+def _goes_on(message: str, situation: Situation) -> bool:
+    """Whether a message says that the robot is not to stop, and nothing else."""
+    words = tuple(word for word in strip_openers(tokens(message)) if word.is_word)
+    flat = keys(words)
+    lead = next((lead for lead in _NEVER if flat[: len(lead)] == lead), ())
+    return bool(lead) and control_of(plain(words[len(lead) :]), situation.robots) == "stop"
+
+
+_NEVER = (
+    ("do", "not", "you", "dare"),
+    ("do", "not", "ever"),
+    ("you", "must", "not"),
+    ("do", "not"),
+    ("never",),
+)
 _GIVING_UP = frozenset(
     tuple(text.split())
     for text in (
@@ -85,9 +108,12 @@ def _gives_up(message: str) -> bool:
 
 
 def _read(message: str, situation: Situation, trace: Trace) -> ChatAction:
-    words = where_it_was_put(without_own_plans(plainly(mended(tokens(message), situation))))
+    words = _plain_words(message, situation)
     if plain(words) != plain(tokens(message)):
         trace.note("words", f"read as “{plain(words)}”")
+    if situation.queue and {"rest", "others"} & set(keys(words)) and rearranged(words, Scene.of(situation)):
+        # "..., the rest stays": the rest of the plan, not of the robots.
+        return best_reading(words, situation, (), trace, ())
     words = plainly_called(words, situation)
     others = addressing.other_robots(words, situation)
     if others:
@@ -101,7 +127,7 @@ def _read(message: str, situation: Situation, trace: Trace) -> ChatAction:
         return mine.model_copy(
             update={"message_response": f"{mine.message_response} {theirs}", "targets": (own[2],)}
         )
-    words, targets = addressing.addressed(words, situation)
+    called, (words, targets) = words, addressing.addressed(words, situation)
     if targets:
         trace.note("target", f"addressed to {listing(targets)}")
     unknown = "" if targets else addressing.stranger(words, situation)
@@ -111,6 +137,7 @@ def _read(message: str, situation: Situation, trace: Trace) -> ChatAction:
         text = f"I do not know a robot called {unknown}. Which one do you mean: {listing(robots, 'or')}?"
         return _say(situation, text).model_copy(update={"choices": situation.robots})
     situation = replace(situation, robot=targets[0] if targets else situation.robot)
+    words, targets = _or_elsewhere(words, targets, called, situation)
     if not any(word.is_word for word in words):
         return _say(situation, "Yes? What can I do for you?", targets=targets)
     taught = read_protocol(plain(words))
@@ -118,20 +145,85 @@ def _read(message: str, situation: Situation, trace: Trace) -> ChatAction:
         text = f"I will remember that: {taught.sentence}."
         return _say(situation, text, commands=(protocol_memory(taught),), targets=targets)
     request = pending_request(words, situation)
-    answer = social.reply(words) or social.reply(strip_openers(words)) if request is None else None
-    if answer is not None and orders_among_talk(words, Scene.of(situation)):
-        answer = None
+    answer = _sociable(words, situation) if request is None else None
     if answer is not None:
         trace.note("answer", "small talk, a greeting, thanks, or another language")
         return _say(situation, answer, targets=targets)
-    if request is not None and request.declined:
-        return _say(situation, "All right, I leave it.", targets=targets)
     if request is not None:
-        hints = listing([f"“{hint}”" for hint in request.hints])
-        trace.note("words", f"an answer to a question about “{request.message}”: {hints}")
-        words, targets = addressing.addressed(mended(tokens(request.message), situation), situation)
-        situation = replace(situation, history=request.history)
-    return best_reading(words, situation, request.hints if request else (), trace, targets)
+        return _answered(request, situation, trace, targets)
+    return _following_up(words, situation, trace, targets)
+
+
+def _sociable(words: Phrase, situation: Situation) -> str | None:
+    """The answer to small talk, greetings and other languages; None if anything is asked for besides."""
+    answer = social.reply(words) or social.reply(strip_openers(words))
+    asks = answer is not None and orders_among_talk(words, Scene.of(situation))
+    return None if asks else answer
+
+
+def _plain_words(message: str, situation: Situation) -> Phrase:
+    """The words of a message, mended, without courtesy and what is told of the operator's own plans."""
+    words = shared_out(counted_plainly(mended(tokens(message), situation)))
+    return where_it_was_put(straight_on(without_own_plans(plainly(words))))
+
+
+def _answered(request: Request, situation: Situation, trace: Trace, targets: tuple[str, ...]) -> ChatAction:
+    """Understand the message that was asked about, now that the question is answered."""
+    if request.declined:
+        return _say(situation, "All right, I leave it.", targets=targets)
+    hints = listing([f"“{hint}”" for hint in request.hints])
+    trace.note("words", f"an answer to a question about “{request.message}”: {hints}")
+    words, targets = addressing.addressed(_plain_words(request.message, situation), situation)
+    situation = replace(situation, history=request.history)
+    action = best_reading(words, situation, request.hints, trace, targets)
+    return _or_small_talk(action, words, situation, trace)
+
+
+def _following_up(words: Phrase, situation: Situation, trace: Trace, targets: tuple[str, ...]) -> ChatAction:
+    """Understand a message that may be about the last order."""
+    again = () if situation.queue else elsewhere(words, situation)
+    if again:
+        trace.note("words", f"the last order for another thing: “{plain(again)}”")
+        words = again
+    change = None if again else amended(words, situation)
+    if change is not None:
+        trace.note("words", f"the last order with another value: “{plain(change.words)}”")
+        if change.instead and situation.queue:
+            return _in_its_place(change.words, situation, trace, targets)
+        words = change.words
+    action = best_reading(words, situation, (), trace, targets)
+    return _or_small_talk(action, words, situation, trace)
+
+
+def _in_its_place(words: Phrase, situation: Situation, trace: Trace, targets: tuple[str, ...]) -> ChatAction:
+    """An order in the place of what is left of the last one."""
+    idle = replace(situation, queue=(), status="idle")
+    order = best_reading(words, idle, (), trace, targets)
+    names = [call.name for call in order.queue]
+    pending = [call.name for call in situation.queue]
+    left = next((n for n in range(min(len(names), len(pending)), 0, -1) if pending[-n:] == names[-n:]), 0)
+    taken = range(len(pending) - 1, len(pending) - 1 - left, -1) if order.queue else ()
+    pops = tuple(SystemCommand(command="pop", arguments={"parameters": i}) for i in taken)
+    return order.model_copy(update={"system_cmd": (*pops, *order.system_cmd)})
+
+
+def _or_small_talk(action: ChatAction, words: Phrase, situation: Situation, trace: Trace) -> ChatAction:
+    """What was made of a message; if that is nothing and it is small talk, an answer to that."""
+    if action.queue or action.system_cmd or action.sources or action.choices:
+        return action
+    talk = social.small_talk(words, action.message_response)
+    if talk is None or mentioned(words, Scene.of(situation)):
+        return action
+    trace.note("answer", "small talk, of which nothing else was made")
+    return action.model_copy(update={"message_response": talk})
+
+
+def _or_elsewhere(
+    words: Phrase, targets: tuple[str, ...], called: Phrase, situation: Situation
+) -> tuple[Phrase, tuple[str, ...]]:
+    """For "and the others?": other things, not the other robots, if the last order was about a thing."""
+    again = elsewhere(called, situation) if not any(word.is_word for word in words) else ()
+    return (again, ()) if again else (words, targets)
 
 
 def _can_be_looked_at(words: Phrase, condition: Phrase, situation: Situation) -> bool:

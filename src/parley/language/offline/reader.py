@@ -6,13 +6,14 @@ from collections.abc import Sequence
 from dataclasses import dataclass, replace
 
 from parley.language.offline.dialogue.asked import asked
+from parley.language.offline.dialogue.plain_question import plain_question
 from parley.language.offline.facts.facts import read_statement, strip_openers
 from parley.language.offline.facts.stories import mentioned, told_around
-from parley.language.offline.plan_changes.edits import Edit, several_steps
-from parley.language.offline.plan_changes.keeping import kept_part, restarts
+from parley.language.offline.plan_changes.edits import Edit
+from parley.language.offline.plan_changes.keeping import restarts
 from parley.language.offline.plan_changes.rearranging import rearranged
 from parley.language.offline.plan_changes.repeating import counted_times, repetition, without_recurrence
-from parley.language.offline.plan_changes.replanning import inserted, read_replanning
+from parley.language.offline.plan_changes.replanning import inserted
 from parley.language.offline.plan_changes.rereading import Rereading
 from parley.language.offline.plan_changes.restated import as_added, restated
 from parley.language.offline.scene.marks import marks_of
@@ -28,6 +29,7 @@ from parley.language.offline.sentences.remarks import (
     hurries,
     is_deed,
     is_span,
+    is_strange_order,
     says_something,
     says_where_i_am,
     without_frame,
@@ -37,12 +39,14 @@ from parley.language.offline.sentences.spoken import Names, spoken
 from parley.language.offline.tasks.abilities import abilities, cannot
 from parley.language.offline.tasks.catalogue import call
 from parley.language.offline.tasks.commands import Command, read_command
+from parley.language.offline.tasks.matching import Match
 from parley.language.offline.tasks.tasks import UnableError
 from parley.language.offline.words import social
 from parley.language.offline.words.durations import duration_s
 from parley.language.offline.words.lexicon import lexicon
+from parley.language.offline.words.naming import name_words
 from parley.language.offline.words.nouns import noun_phrase
-from parley.language.offline.words.saying import the, whole_sentence
+from parley.language.offline.words.saying import listing, the, whole_sentence
 from parley.language.offline.words.text import Phrase, Word, keys, plain, split_name, tokens
 from parley.messages.chat import ActionCall, ChatAction, SystemCommand
 
@@ -77,6 +81,7 @@ _NOTHING_MORE = frozenset(
 )
 
 
+_ASKING = frozenset({"has", "does", "did", "may", "should", "must", "will", "can", "could"})
 _MOST_TIMES = 20
 _LEADING_ON = frozenset({"and", "now", "then", "next", "also", "no", "nope"})
 
@@ -110,13 +115,6 @@ class Reader(Rereading):
         words = order[0] if order is not None else words
         if restarts(words) and self._restart():
             return self._result(self._reply(), self.tasks.steps)
-        edit = (
-            kept_part(words, self.scene)
-            or several_steps(words, self.scene)
-            or read_replanning(words, self.scene)
-        )
-        if edit is not None:
-            return self._edited(edit)
         words = self._grouped(words) if self.scene.situation.queue else words
         words, often = without_recurrence(words)
         words, times = counted_times(words) if often else (words, 1)
@@ -125,7 +123,10 @@ class Reader(Rereading):
 
     def _about_plan(self, words: Phrase, *, asks: bool) -> ChatAction | None:
         """The answer to what is about pending steps: a question, or that they are to be done another way."""
-        about_plan = asked(*_flat(words), self.scene) if asks and self.scene.situation.queue else None
+        queue = self.scene.situation.queue
+        asking = plain_question(words, marked=keys(words[-1:]) == ("?",))
+        asks = asks or keys(asking)[:1] in {(start,) for start in lexicon().question_starts}
+        about_plan = asked(asking, keys(asking), self.scene) if asks and queue else None
         if about_plan is not None and not about_plan.look:
             return self._result(about_plan.text, ())
         once_more = self._changed_again(words)
@@ -133,6 +134,26 @@ class Reader(Rereading):
             return once_more
         change = rearranged(words, self.scene)
         return self._rearranged(change) if change is not None else None
+
+    def help_with(self, match: Match, words: Phrase) -> ChatAction:
+        """What helps with something that is only told.
+
+        Args:
+            match: The action that helps, and what is said for its inputs.
+            words: What is told.
+        """
+        try:
+            self.tasks.use_own(match, words)
+        except UnclearError as unclear:
+            self.trouble = unclear
+            return self._result(unclear.question, (), choices=unclear.choices)
+        except UnableError as unable:
+            self.trouble = unable
+            return self._result(cannot(unable.what, self.scene), ())
+        does = match.info.description.rstrip(".") or " ".join(name_words(match.info.name))
+        about = listing([plain(phrase) for phrase in match.filled.phrases.values()])
+        self.tasks.will[-1:] = [f"{does[:1].lower()}{does[1:]}{f' ({about})' if about else ''}"]
+        return self._result(self._reply(), self.tasks.steps)
 
     def _edited(self, edit: Edit) -> ChatAction:
         """A change of the plan."""
@@ -316,6 +337,10 @@ class Reader(Rereading):
         if situation.queue:
             self.commands.append(SystemCommand(command="clear"))
         self.replies.append("I start over.")
+        again = self.last_order()
+        if again:
+            self.tasks.steps += again
+            return True
         try:
             self._last_order_again()
         except UnclearError:
@@ -343,7 +368,7 @@ class Reader(Rereading):
         """For "how warm is it in the hall?", where an action measures just that."""
         words = strip_openers(clause.words)
         asks = keys(words[:1])
-        if not asks or asks[0] not in lexicon().question_starts | lexicon().be | {"tell"}:
+        if not asks or asks[0] not in lexicon().question_starts | lexicon().be | {"tell", "has", "have"}:
             return False
         match = self.tasks.own_match(words, weak=True)
         counts = match is not None and "count" in self.scene.catalogue.roles(match.info)
@@ -365,6 +390,8 @@ class Reader(Rereading):
             (i for i in range(2, len(words) - 1) if words[i].key == "in" and is_span(words[i + 1 :])), 0
         )
         if at and opens_command(words) and not says_something(words):
+            if self._takes_time(words):
+                return False
             words = (*words[at:], *words[:at])
         if keys(words[:1]) not in {("in",), ("after",)}:
             return False
@@ -381,6 +408,13 @@ class Reader(Rereading):
         if end < len(words):
             self._clause(replace(clause, words=words[end:]), alone=False, index=1)
         return True
+
+    def _takes_time(self, words: Phrase) -> bool:
+        """Whether an action of its own kind takes when it is due ("remind A in ten minutes")."""
+        match = self.tasks.own_match(words, weak=True)
+        return (
+            match is not None and match.complete and any("timer" in names for names in match.filled.measured)
+        )
 
     def _last_order_again(self) -> None:
         """What the operator's last message that asked for something asked for.
@@ -452,12 +486,9 @@ class Reader(Rereading):
             self.replies.append(whole_sentence(f"I did not understand “{plain(words)[:80]}”"))
             return
         wanted = strip_openers(words, requests=True)
-        if len(wanted) < len(words) and is_deed(wanted):
+        if (len(wanted) < len(words) and is_deed(wanted)) or (alone and is_strange_order(wanted)):
             raise UnableError(plain(wanted))
+        if clause.is_question and alone and words[0].key in lexicon().be | _ASKING:
+            self.replies.append("I do not know that. Tell me, and I will remember it.")
+            return
         raise UnclearError(f"{social.not_understood(words)} {abilities(self.scene)}", lost=True)
-
-
-def _flat(words: Phrase) -> tuple[Phrase, tuple[str, ...]]:
-    """The words without punctuation, and what is compared of them."""
-    body = tuple(word for word in strip_openers(words) if word.is_word)
-    return body, keys(body)

@@ -29,6 +29,13 @@ CREW = Situation(message="", objects=OBJECTS, robot="Tim", robots=("Tim", "Sue",
         ("everyone to the gate, except Sue", ("Tim", "Bobby"), "go to the gate"),
         ("Tim, tell Sue to go to the hall", ("Sue",), "go to the hall"),
         ("go to the gate, Sue, and look", ("Sue",), "go to the gate and look"),
+        ("Tim you stay out of this one, Sue can go and check the gate", ("Sue",), "go and check the gate"),
+        ("Sue, go to the gate. Bobby does not need to come", ("Sue",), "go to the gate"),
+        ("nobody but Sue goes to the gate", ("Sue",), "go to the gate"),
+        ("tell Sue that she should check the gate", ("Sue",), "check the gate"),
+        ("let Sue deal with the gate", ("Sue",), "visit the gate"),
+        ("Sue and Bobby both to the gate", ("Sue", "Bobby"), "go to the gate"),
+        ("you other two, check the gate", ("Sue", "Bobby"), "check the gate"),
     ],
 )
 def test_the_robots_and_their_order_are_found(message: str, robots: tuple[str, ...], order: str) -> None:

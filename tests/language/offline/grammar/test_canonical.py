@@ -159,3 +159,46 @@ def test_an_order_in_a_verb_of_its_own_is_kept_as_it_was_said() -> None:
     found = read("Could you replace the fan in bay 3?")
     assert found is not None
     assert plain(found.unable) == "replace the fan in bay 3"
+
+
+@pytest.mark.parametrize(
+    ("message", "plainly"),
+    [
+        ("start at bay 3, work your way down to bay 1", ["go to bay 3", "go to bay 2", "go to bay 1"]),
+        ("The last stop is the big press. Start with bay 2.", ["go to the bay 2", "go to the big press"]),
+        (
+            "Wind up at the front desk, having been to the big press and, before that, bay 1",
+            ["go to the bay 1", "go to the big press", "go to the front desk"],
+        ),
+        (
+            "Once bay 1 is done and bay 2 is done you may carry on to the big press",
+            ["go to the bay 1", "go to the bay 2", "go to the big press"],
+        ),
+        ("The big press wants looking at, only do bay 1 first", ["go to the bay 1", "look at the big press"]),
+    ],
+)
+def test_stops_come_in_the_order_that_is_meant(message: str, plainly: list[str]) -> None:
+    def bare(order: str) -> str:
+        return order.replace("the bay", "bay")
+
+    assert [bare(order) for order in orders(message)] == [bare(order) for order in plainly]
+
+
+@pytest.mark.parametrize(
+    ("message", "plainly"),
+    [
+        ("what you will do is you go to the big press", "go to the big press"),
+        ("Look, the phones never stop, so could you go to the big press", "go to the big press"),
+        ("it is wet at the big press if you ask me, so leave bay 2 alone and go to bay 3", "go to bay 3"),
+        ("to top it all I am late, so drive to the big press if you can", "go to the big press"),
+    ],
+)
+def test_talk_around_an_order_is_passed_over(message: str, plainly: str) -> None:
+    assert [order.replace("the bay", "bay") for order in orders(message)] == [plainly]
+
+
+def test_what_a_story_brings_up_is_looked_for_in_all_places_it_names() -> None:
+    found = orders(
+        "I was at bay 1 and later I was at bay 2 and now my grey hat is gone. Look for it at both places."
+    )
+    assert [order.split(" for ")[1] for order in found] == ["grey hat at bay 1", "grey hat at bay 2"]

@@ -17,7 +17,7 @@ def is_stop(words: Phrase) -> bool:
 
 
 def scope(text: str) -> str:
-    return plain(scoped(tokens(text), is_stop, lambda part: False)).rstrip(" ,.").lower()
+    return plain(scoped(tokens(text), is_stop, lambda part: False).words).rstrip(" ,.").lower()
 
 
 @pytest.mark.parametrize(
@@ -49,7 +49,7 @@ def test_a_denial_alone_stays(text: str) -> None:
 
 def test_a_denial_of_what_is_pending_stays_for_the_plan() -> None:
     text = "not the gate, the hall"
-    assert plain(scoped(tokens(text), is_stop, is_stop)) == text
+    assert plain(scoped(tokens(text), is_stop, is_stop).words) == text
 
 
 @pytest.mark.parametrize(

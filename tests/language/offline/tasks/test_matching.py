@@ -39,6 +39,19 @@ LANGUAGE = ActionInfo(name="setLang", inputs={"lang": "string"})
 DOOR = ActionInfo(name="openDoor", inputs={"door": "string"})
 RECORD = (ActionInfo(name="startRecording"), ActionInfo(name="stopRecording"))
 DETECT = ActionInfo(name="detect_object", inputs={"label": "string"}, outputs={"object_id": "string"})
+LID = ActionInfo(name="lid", inputs={"open": "bool"}, description="Open or close the lid.")
+FLEET = (
+    ActionInfo(name="wh_fly", inputs={"height_m": "number"}),
+    ActionInfo(name="wh_scan", inputs={"row": "string", "mode": "plain|infrared"}),
+    ActionInfo(name="wh_blink"),
+)
+BELT = ActionInfo(name="setBeltSpeed", inputs={"mps": "number"})
+BELL = ActionInfo(name="ringBell", inputs={"times": "number"})
+SNAILS = ActionInfo(name="countSnails", inputs={"row": "string"}, outputs={"snails": "number"})
+SOIL = ActionInfo(name="testSoil", inputs={"row": "string"}, outputs={"ph": "number"})
+SHADE = ActionInfo(name="setShade", inputs={"row": "number", "pct": "number"}, description="Shade a row.")
+SNAILS_ON_BOTH = [("countSnails", {"row": row}) for row in ("tomato row", "pepper row")]
+SOIL_OF_BOTH = [("testSoil", {"row": row}) for row in ("tomato row", "pepper row")]
 SCAN = ActionInfo(name="scan_qr", inputs={"object_id": "string"}, outputs={"code": "string"})
 
 
@@ -55,6 +68,13 @@ SCAN = ActionInfo(name="scan_qr", inputs={"object_id": "string"}, outputs={"code
         ("switch to French", (LANGUAGE,), [("setLang", {"lang": "French"})]),
         ("open the main door", (DOOR,), [("openDoor", {"door": "main door"})]),
         ("stop recording", RECORD, [("stopRecording", {})]),
+        ("shut the lid", (LID,), [("lid", {"open": False})]),
+        ("scan the tomato row in infrared", FLEET, [("wh_scan", {"row": "tomato row", "mode": "infrared"})]),
+        ("set the belt speed to 1.5 metres per second", (BELT,), [("setBeltSpeed", {"mps": 1.5})]),
+        ("ring the bell twice", (BELL,), [("ringBell", {"times": 2.0})]),
+        ("count the snails on every row", (SNAILS,), SNAILS_ON_BOTH),
+        ("test the soil in the tomato row and in the pepper row", (SOIL,), SOIL_OF_BOTH),
+        ("shade row 5 by eighty per cent", (SHADE,), [("setShade", {"row": 5.0, "pct": 80.0})]),
     ],
 )
 def test_an_action_is_found_by_what_its_name_and_inputs_say(
@@ -88,3 +108,19 @@ def test_standing_still_is_no_action_of_its_own() -> None:
     action = interpret(Situation(message="stop", catalogue=RECORD, objects=PLANTS))
 
     assert [command.command for command in action.system_cmd] == ["stop"]
+
+
+def test_an_action_that_tells_something_is_used_to_look_whether_it_is_so() -> None:
+    dry = ActionInfo(name="is_dry", inputs={"row": "string"}, outputs={"dry": "boolean"})
+    action = interpret(
+        Situation(
+            message="If the tomato row is dry, open the vents.",
+            catalogue=(dry, VENTS),
+            objects=PLANTS,
+            robot="Fern",
+            robots=("Fern",),
+        )
+    )
+    assert [call.name for call in action.queue] == ["is_dry", "openVents"]
+    flow = action.queue[1].flow
+    assert flow is not None and flow.if_ is not None and flow.if_.result

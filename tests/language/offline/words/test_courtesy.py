@@ -18,6 +18,10 @@ from parley.language.offline.words.text import keys, tokens
         "have you got time to check the box",
         "check the box, thank you so much, you are a star",
         "sorry if I am disturbing you but could you check the box",
+        "sorry to be a nuisance, but do you think you might manage to check the box",
+        "I hate to ask, but could you check the box? Only when it suits you, of course.",
+        "if it isn't too much trouble, dear, might you check the box",
+        "it would be very much appreciated if you were to check the box, thank you in advance",
     ],
 )
 def test_courtesy_is_taken_off(said: str) -> None:

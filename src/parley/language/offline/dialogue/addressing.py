@@ -41,7 +41,7 @@ def addressed(words: Phrase, situation: Situation) -> tuple[Phrase, tuple[str, .
 _OTHERS = (
     ("the", "other", "robots"), ("the", "other", "robot"), ("the", "other", "two"), ("your", "colleague"),
     ("your", "colleagues"), ("the", "others"), ("one", "of", "you"), ("any", "of", "you"),
-    ("either", "of", "you"),
+    ("either", "of", "you"), ("you", "other", "two"), ("you", "others"), ("you", "other", "robots"),
 )  # fmt: skip
 _BEFORE_OTHERS = frozenset({"let", "tell", "have", "send", "ask", "get", "make", "should", "could", "and"})
 
@@ -166,6 +166,10 @@ def _further_names(rest: Phrase, robots: tuple[str, ...]) -> tuple[Phrase, tuple
 
 def stranger(words: Phrase, situation: Situation) -> str:
     """The name of a robot that is called ("X, go to the door") but that nobody knows; empty if none is."""
+    while len(words) > 4 and (
+        words[0].key in _CALLS | {"oi", "yo"} or keys(words[:2]) == ("good", "morning")
+    ):
+        words = words[1:]
     if len(words) > 5 and words[1].key.isdigit() and words[2].key in {",", ":"}:
         # "Robot 2, go to the door".
         words = (words[0], *words[2:])
@@ -183,7 +187,8 @@ def stranger(words: Phrase, situation: Situation) -> str:
     known = lexicon().vocabulary | {part for robot in situation.robots for part in keys(tokens(robot))}
     told = {word.key for entry in situation.memory for word in tokens(entry.data[:400])}
     mapped = {word.key for item in situation.objects for word in tokens(item.description)}
-    orders = _is_verb(next((w.key for w in words[2:] if w.key not in {"please", "can", "you", "could"}), ""))
+    ordered = next((w.key for w in words[2:] if w.key not in {"please", "can", "you", "could"}), "")
+    orders = _is_verb(ordered) or ordered in {"back", "to", "over", "off", "into", "straight"}
     named = len(name) > 2 or any(char.isdigit() for char in name)
     return words[0].raw if orders and name not in known | told | mapped and named else ""
 

@@ -10,19 +10,20 @@ import math
 from collections.abc import Callable
 
 from parley.language.offline.dialogue.about_map import Answer
-from parley.language.offline.dialogue.own_state import step_words
+from parley.language.offline.dialogue.own_state import step_words, told_about
 from parley.language.offline.dialogue.progress import progress
-from parley.language.offline.facts.remembering import Remembered
+from parley.language.offline.facts.remembering import newest
 from parley.language.offline.plan_changes.replanning import Visit, visit_of, visits
 from parley.language.offline.scene.grounding import describe, ground_phrase
 from parley.language.offline.scene.scene import Scene
+from parley.language.offline.scene.states import all_in_state
 from parley.language.offline.tasks.abilities import abilities
 from parley.language.offline.words.lexicon import lexicon
 from parley.language.offline.words.nouns import bare, noun_phrase
 from parley.language.offline.words.saying import listing, the, whole_sentence
 from parley.language.offline.words.text import Phrase, keys, lemma, singular, tokens
 
-__all__ = ["asked"]
+__all__ = ["asked", "told_of"]
 
 _Reader = Callable[[Phrase, tuple[str, ...], Scene], Answer | None]
 
@@ -141,8 +142,11 @@ def _order_of(words: Phrase, flat: tuple[str, ...], scene: Scene) -> Answer | No
     if not listed or flat[0] not in {"what", "where", "when", "which", "how", "who"}:
         return None
     at = next((i for i in range(1, len(flat) - 1) if flat[i] in {"after", "before", "following"}), 0)
-    small = not at or set(flat[:at]) <= _COMING
+    kind = flat[1:2] if flat[0] in {"what", "which"} else ()
+    small = not at or set(flat[:at]) - set(kind) <= _COMING
+    present = at and set(flat[at + 1 :]) <= _PRESENT
     index = next((i for s in range(1, len(flat)) if (i := visit_of(words[s:], scene)) is not None), None)
+    index = 0 if present else index
     if index is None or not small:
         return None
     if at:
@@ -165,6 +169,24 @@ _COMING = frozenset({
     "driving", "the", "planned", "follows", "heading", "your", "straight", "immediately", "doing",
     "stands", "up", "off", "after", "following", "plan", "would", "should", "supposed", "have",
 })  # fmt: skip
+
+
+def _last_stop(words: Phrase, flat: tuple[str, ...], scene: Scene) -> Answer | None:
+    """For "what do you do last?", "where will you end up?"."""
+    listed = visits(scene)
+    last = {"last", "finally", "lastly"} & set(flat) or flat[-2:] == ("end", "up") or flat[-1] == "finish"
+    if not listed or flat[0] not in {"what", "where", "which"} or not last or _SPEAKING & set(flat):
+        return None
+    return Answer(whole_sentence(f"{_name(listed[-1])} comes last"))
+
+
+_SPEAKING = frozenset({"i", "told", "said", "asked", "ordered", "saw", "see", "seen", "found", "did", "was"})
+_PRESENT = frozenset({
+    "this", "that", "it", "the", "one", "you", "are", "on", "at", "now", "current", "present", "right",
+    "moment", "stop", "step", "task", "job", "place", "doing", "currently", "here", "your", "of", "going",
+    "to", "in", "visiting", "checking", "is",
+})  # fmt: skip
+"""What names the stop that the robot is at."""
 
 
 def _far(words: Phrase, flat: tuple[str, ...], scene: Scene) -> Answer | None:
@@ -221,7 +243,7 @@ def _somewhere(words: Phrase, flat: tuple[str, ...], scene: Scene) -> Answer | N
     }:
         tail = tail[:-1]
     wanted = set(noun_phrase(bare(tail)).core)
-    hits = [f for f in _newest(scene) if wanted and wanted <= set(noun_phrase(f.fact.place).core)]
+    hits = [f for f in newest(scene.facts) if wanted and wanted <= set(noun_phrase(f.fact.place).core)]
     persons = [f for f in hits if scene.is_person(f.fact.subject)]
     hits = persons if who and not what else [f for f in hits if f not in persons] or hits
     if not hits:
@@ -230,15 +252,6 @@ def _somewhere(words: Phrase, flat: tuple[str, ...], scene: Scene) -> Answer | N
         scene.use(item)
     lead = "Yes: " if flat[0] in lexicon().be | {"do", "does"} else ""
     return Answer(lead + " ".join(whole_sentence(item.fact.sentence) for item in hits))
-
-
-def _newest(scene: Scene) -> list[Remembered]:
-    """Where things are as far as is known, the last word on each."""
-    last: dict[tuple[str, ...], Remembered] = {}
-    for item in scene.facts:
-        if item.fact.is_location and not item.fact.negated:
-            last[keys(item.fact.subject)] = item
-    return list(last.values())
 
 
 def _all_told(words: Phrase, flat: tuple[str, ...], scene: Scene) -> Answer | None:
@@ -274,6 +287,63 @@ def _all_told(words: Phrase, flat: tuple[str, ...], scene: Scene) -> Answer | No
     entries = scene.situation.memory[-20:]
     told = [whole_sentence(entry.data[:200] if entry.type == "text" else entry.info) for entry in entries]
     return Answer("I remember: " + " ".join(told))
+
+
+_ABOUT = frozenset({"about", "on", "regarding", "concerning"})
+_ON = frozenset({"anything", "something", "information", "info", "details", "what", "notes"})
+_ASKS_ABOUT = _ON - {"what"} | frozenset({
+    "all", "everything", "more", "news", "facts", "know", "tell", "heard", "told", "mention", "mentioned",
+    "hear", "have", "got",
+})  # fmt: skip
+_AROUND_ABOUT = frozenset({
+    "tell", "me", "us", "got", "have", "has", "do", "did", "you", "i", "we", "know", "any", "give", "is",
+    "there", "can", "what", "could", "a", "bit", "little", "the", "been", "ever", "of", "please", "again",
+    "that", "for", "to", "show", "remember", "in", "your", "memory", "else", "so", "far", "now", "already",
+})  # fmt: skip
+
+
+def told_of(words: Phrase, flat: tuple[str, ...], scene: Scene) -> Answer | None:
+    """For "got anything on A?", "tell me all about A", "did I tell you about A?": all that was told of A.
+
+    Args:
+        words: The words of the question, or of the request to tell.
+        flat: The same, as they are compared.
+        scene: What is known.
+    """
+    at = next((i for i in range(1, len(flat) - 1) if flat[i] in _ABOUT), 0)
+    lead = set(flat[:at])
+    if not at or not lead & _ASKS_ABOUT or not lead <= _ASKS_ABOUT | _AROUND_ABOUT:
+        return None
+    if flat[at] == "on" and not lead & {
+        "anything",
+        "something",
+        "information",
+        "info",
+        "details",
+        "what",
+        "notes",
+    }:
+        return None
+    about = bare(words[at + 1 :])
+    found = told_about(scene.referent(about), scene) if about else []
+    for item in found:
+        scene.use(item)
+    text = " ".join(dict.fromkeys(whole_sentence(item.fact.sentence) for item in found))
+    return Answer(text) if text else None
+
+
+def _in_what_state(words: Phrase, flat: tuple[str, ...], scene: Scene) -> Answer | None:
+    """For "which rooms are taken?": those that are remembered to be so."""
+    link = next((i for i in range(2, len(flat) - 1) if flat[i] in lexicon().be), 0)
+    if flat[0] not in {"which", "what"} or not link or len(flat) - link > 3:
+        return None
+    found = all_in_state((*words[link + 1 :], *words[1:link]), scene.objects, scene.facts)
+    if found is None:
+        return None
+    for fact in found[1]:
+        scene.use(fact)
+    names = listing([the(describe(item, scene.objects)) for item in found[0]])
+    return Answer(f"As far as I know: {names}.")
 
 
 def _saw(words: Phrase, flat: tuple[str, ...], scene: Scene) -> Answer | None:
@@ -369,10 +439,13 @@ _READERS: tuple[_Reader, ...] = (
     progress,
     _why,
     _order_of,
+    _last_stop,
     _left,
     _far,
     _saw,
     _all_told,
+    _in_what_state,
+    told_of,
     _talents,
     _somewhere,
 )

@@ -13,6 +13,7 @@ from parley.language.word_lists import load_data
 
 __all__ = [
     "DUTY",
+    "idles",
     "is_verb",
     "lead_size",
     "only_greets",
@@ -20,6 +21,7 @@ __all__ = [
     "spelled",
     "turn_of",
     "vocative_first",
+    "without_only",
     "without_whoever",
 ]
 
@@ -29,6 +31,11 @@ DUTY = PhraseTable.of(_DATA["duty"])
 _ANYBODY = PhraseTable.of(_DATA["anybody"])
 _WHOEVER = PhraseTable.of(_DATA["whoever"])
 _CALLING = PhraseTable.of(_DATA["calling"])
+_ONLY = PhraseTable.of(_DATA["only"])
+_SENDING = PhraseTable.of(_DATA["sending"])
+_RESTING = frozenset(_DATA["resting"])
+_AROUND_REST = frozenset(_DATA["around_rest"])
+_NEEDLESS = frozenset(_DATA["needless"])
 _MARKS = frozenset({".", "!", "?", ";", "\n"})
 
 
@@ -55,9 +62,52 @@ def spelled(words: Phrase, situation: Situation) -> Phrase:
     return tuple(result)
 
 
+def idles(flat: tuple[str, ...]) -> bool:
+    """Whether a robot is to do nothing, or need not ("stay out of this one", "does not need to come").
+
+    Args:
+        flat: What is said behind its name, lower case.
+    """
+    words = tuple(key for key in flat if key.isalnum() or "'" in key)
+    while words[:1] and words[0] in {
+        "you",
+        "can",
+        "just",
+        "should",
+        "please",
+        "may",
+        "could",
+        "will",
+        "then",
+        "now",
+    }:
+        words = words[1:]
+    if not words:
+        return False
+    if words[0] in _RESTING:
+        return set(words[1:]) <= _AROUND_REST
+    return (
+        "not" in words and set(words) <= _NEEDLESS and bool({"need", "needed", "have", "bother"} & set(words))
+    )
+
+
+def without_only(words: Phrase) -> Phrase:
+    """Without "only" and "nobody but" in front: whoever is named then."""
+    found = _ONLY.match(keys(words))
+    return words[found[0] :] if found is not None else words
+
+
 def without_whoever(words: Phrase) -> Phrase:
     """Without "whoever is nearest", and without "somebody" before an order."""
     flat = keys(words)
+    sent = _SENDING.match(flat)
+    found = _WHOEVER.match(flat, sent[0]) if sent is not None else None
+    if found is not None and sent is not None and flat[sent[0] + found[0] : sent[0] + found[0] + 1] in _TO:
+        # "Send whoever is closest to the door".
+        return (Word("go", "go"), *words[sent[0] + found[0] :])
+    comma = flat.index(",") if "," in flat[:10] else 0
+    if flat[:1] in {("whoever",), ("whichever",)} and comma and is_verb(lemma(flat[comma + 1])):
+        return words[comma + 1 :]
     found = _WHOEVER.match(flat)
     if found is not None and found[0] < len(words):
         rest = words[found[0] :]
@@ -107,6 +157,9 @@ def without_whoever(words: Phrase) -> Phrase:
     if verb and rest[-1].key == "?":
         rest = (*rest[:-1], Word(".", "."))
     return rest if verb and (asked or rest[0].key == lemma(rest[0].key)) else words
+
+
+_TO = frozenset({("to",), ("into",), ("over",)})
 
 
 def lead_size(flat: tuple[str, ...]) -> int:

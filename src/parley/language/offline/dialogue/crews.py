@@ -12,6 +12,7 @@ from dataclasses import dataclass, replace
 from parley.language.base import Situation
 from parley.language.offline.dialogue.crew_words import (
     DUTY,
+    idles,
     is_verb,
     lead_size,
     only_greets,
@@ -19,11 +20,12 @@ from parley.language.offline.dialogue.crew_words import (
     spelled,
     turn_of,
     vocative_first,
+    without_only,
     without_whoever,
 )
 from parley.language.offline.scene.grounding import ground_phrase
 from parley.language.offline.words.lexicon import PhraseTable, lexicon
-from parley.language.offline.words.text import Phrase, Word, keys, lemma, tokens
+from parley.language.offline.words.text import Phrase, Word, keys, lemma, singular, tokens
 from parley.language.word_lists import load_data
 
 __all__ = ["plainly_called"]
@@ -38,7 +40,10 @@ _BOUNDS = frozenset({"and", "while", "but", "whereas", "meanwhile", "then", ",",
 _ALL_ELSE = frozenset(
     {("the", "others"), ("the", "rest"), ("everyone", "else"), ("everybody", "else"), ("all", "others")}
 )
-_TAKING = frozenset({"take", "get", "do", "cover", "handle", "serve", "have", "want"})
+_TAKING = PhraseTable.of(_DATA["taking"])
+_TOGETHER = PhraseTable.of(_DATA["together"])
+_FILLERS = PhraseTable.of(_DATA["fillers"])
+_NEEDED = PhraseTable.of(load_data("needs")["wanted"])
 _TOWARDS = frozenset({"to", "at", "in", "into", "for", "towards", "over"})
 
 
@@ -144,7 +149,10 @@ def _bounded(words: Phrase, start: int) -> bool:
 
 
 def _without_refused(words: Phrase, situation: Situation) -> tuple[Phrase, bool]:
-    """Without "not you, A:" and "leave it to A" in front."""
+    """Without "not you, A:", "only" and "leave it to A" in front."""
+    alone = without_only(words)
+    if alone != words and _names_at(alone, 0, situation.robots)[0]:
+        return alone, True
     flat = keys(words)
     if flat[:2] == ("not", "you"):
         end = next((i for i in range(2, min(6, len(flat))) if flat[i] in {":", ","} and i > 2), 0)
@@ -174,6 +182,10 @@ def _calls(words: Phrase, situation: Situation) -> list[_Call]:
             continue
         start = _sender(words, index)
         names, end = _names_at(words, start, situation.robots)
+        spoken_to = bool(result) and words[index - 1].key == "," and flat[index] == "you" and not names
+        if spoken_to and _order(words[index + 1 :], situation) and situation.robot not in result[-1].names:
+            # "A does X, you do Y".
+            names, end = (situation.robots[0],), index + 1
         told = keys(words[end : end + 2]) in {("and", "i"), ("and", "me")} or (
             keys(words[end : end + 1]) in {("was",), ("has",), ("were",)}
             and keys(words[end + 1 : end + 2]) != ("to",)
@@ -317,6 +329,13 @@ def _order(rest: Phrase, situation: Situation) -> Phrase | None:
     flat = keys(rest)
     if not rest:
         return None
+    if idles(flat):
+        return ()
+    rest = _as_told(rest)
+    flat = keys(rest)
+    if flat[0] in lexicon().be and any(_NEEDED.match(flat, i) for i in range(1, min(5, len(flat)))):
+        # "A is wanted at the door".
+        return (*tokens("you"), *rest)
     duty = DUTY.match(flat)
     towards = flat[0] in _TOWARDS and not (
         rest[1:] and is_verb(rest[1].key) and not _is_place(rest[1:], situation)
@@ -328,10 +347,11 @@ def _order(rest: Phrase, situation: Situation) -> Phrase | None:
         rest, flat = rest[duty[0] :], flat[duty[0] :]
         duty = DUTY.match(flat)
     base = lemma(flat[0])
-    if _IDLING.match((base, *flat[1:])) == (len(flat), " ".join((base, *flat[1:]))):
+    if _IDLING.match((base, *flat[1:])) == (len(flat), " ".join((base, *flat[1:]))) or idles(flat):
         return ()
-    if base in _TAKING and _is_place(rest[1:], situation):
-        return (*tokens("visit"), *rest[1:])
+    taken = _TAKING.match((base, *flat[1:])) or _TAKING.match((flat[0].removesuffix("s"), *flat[1:]))
+    if taken is not None and _is_place(rest[taken[0] :], situation):
+        return (*tokens("visit"), *rest[taken[0] :])
     if _is_place(rest, situation):
         return (*tokens("go to"), *rest)
     if base != flat[0] and flat[0].endswith("s") and is_verb(base) and not had_duty:
@@ -339,11 +359,42 @@ def _order(rest: Phrase, situation: Situation) -> Phrase | None:
     return rest if had_duty or is_verb(flat[0]) or flat[0] in {"do", "please", "never", "not"} else None
 
 
+def _as_told(rest: Phrase) -> Phrase:
+    """Without "both", and without "that she" in what somebody is to be told ("that she should V")."""
+    flat = keys(rest)
+    filler = _FILLERS.match(flat)
+    end = filler[0] if filler is not None else 0
+    if end and flat[end : end + 1] in {(":",), (",",)} and end + 1 < len(rest):
+        rest = rest[end + 1 :]
+        flat = keys(rest)
+    together = _TOGETHER.match(flat)
+    if together is not None and together[0] < len(rest):
+        rest, flat = rest[together[0] :], flat[together[0] :]
+    if flat[:1] == ("that",) and len(flat) > 3:
+        rest, flat = rest[1:], flat[1:]
+    who = flat[:1] in {("he",), ("she",), ("it",), ("they",)}
+    return rest[1:] if who and DUTY.match(flat, 1) is not None else rest
+
+
 def _is_place(words: Phrase, situation: Situation) -> bool:
     body = tuple(word for word in words if word.is_word)
     if not body or len(body) > 7 or body[0].key in {"and", "then"}:
         return False
-    return ground_phrase(body, situation.objects, strict=True).outcome == "match"
+    one = ground_phrase(body, situation.objects, strict=True).outcome == "match"
+    return one or _are_places(body, situation)
+
+
+def _are_places(body: Phrase, situation: Situation) -> bool:
+    """Whether words are nothing but names of several things ("lines 1 and 2")."""
+    flat = keys(body)
+    named = {part for item in situation.objects for part in keys(tokens(item.description))}
+    joined = {"and", "to", "through", "the", "both", "all"}
+    first = next((key for key in flat if key not in joined), "")
+    return (
+        bool({"and", "to", "through"} & set(flat))
+        and singular(first) in named
+        and all(key in joined or key in named or singular(key) in named for key in flat)
+    )
 
 
 def _trimmed(words: Phrase) -> Phrase:

@@ -10,7 +10,7 @@ from parley.language.offline.scene.scene import Scene
 from parley.language.offline.tasks.abilities import abilities
 from parley.language.offline.words.nouns import bare, noun_phrase
 from parley.language.offline.words.saying import listing, the, whole_sentence
-from parley.language.offline.words.text import Phrase, keys, plain, split_name
+from parley.language.offline.words.text import Phrase, keys, plain, singular, split_name
 from parley.messages.chat import ActionCall
 
 __all__ = ["ABOUT_ITSELF", "step_words", "told_about"]
@@ -24,7 +24,7 @@ def _say_status(scene: Scene, _: Phrase) -> str:
     situation = scene.situation
     if not situation.queue:
         return (
-            "I am waiting for your instructions."
+            "I have nothing to do at the moment: I am free and waiting for your instructions."
             if situation.status != "paused"
             else "I am standing still; say “carry on” when I may go on."
         )
@@ -119,7 +119,12 @@ def told_about(about: Phrase, scene: Scene) -> list[Remembered]:
     related = [
         i
         for i in scene.facts
-        if i.entry.name not in names and wanted and wanted <= set(noun_phrase(i.fact.place).core)
+        if i.entry.name not in names
+        and wanted
+        and (
+            wanted <= set(noun_phrase(i.fact.place).core)
+            or wanted <= {singular(k) for k in keys(i.fact.state)}
+        )
     ]
     return [*direct, *related]
 

@@ -7,12 +7,13 @@ from functools import cache
 from parley.language.offline.dialogue import about_map
 from parley.language.offline.dialogue.able import KNOWING_HOW, able
 from parley.language.offline.dialogue.about_map import Answer
-from parley.language.offline.dialogue.asked import asked
+from parley.language.offline.dialogue.asked import asked, told_of
 from parley.language.offline.dialogue.own_state import ABOUT_ITSELF, told_about
-from parley.language.offline.dialogue.retrieval import recalled, recalled_fully
+from parley.language.offline.dialogue.plain_question import plain_question
+from parley.language.offline.dialogue.retrieval import condition_of, known_of, recalled, recalled_fully
 from parley.language.offline.dialogue.turning import turned
-from parley.language.offline.facts.facts import strip_openers
-from parley.language.offline.facts.remembering import find_fact
+from parley.language.offline.facts.facts import NO_PLACES
+from parley.language.offline.facts.remembering import find_fact, newest
 from parley.language.offline.scene.grounding import describe, ground_phrase
 from parley.language.offline.scene.scene import Scene
 from parley.language.offline.sentences.clauses import Clause, opens_command
@@ -48,23 +49,22 @@ def answer(clause: Clause, scene: Scene) -> Answer | None:
     Raises:
         UnclearError: It can be read in several ways.
     """
-    words = strip_openers(clause.words)
-    words = tuple(word for word in words if word.is_word)
+    words = plain_question(clause.words, marked=clause.is_question)
     if clause.is_question and words[:1] and words[0].key in {"any", "anything", "anybody", "anyone"}:
         words = (Word("is", "is"), *turned(words, scene)[:1], *words)
-    if len(words) > 3 and words[1].key in lexicon().question_starts and lexicon().places.match(keys(words)):
-        # "In which box is the key?"
-        words = words[1:]
     whole = recalled_fully(words, scene) if keys(words)[:1] in _WH else None
     if whole is not None:
         for item in whole[1]:
             scene.use(item)
         return Answer(whole[0])
     knows_how = clause.is_question and keys(words)[:5] == KNOWING_HOW
-    found = (able(words, keys(words), scene) if knows_how else None) or _read(words, clause, scene)
-    if found is None or found.look or not found.text.startswith(_AT_A_LOSS):
+    found = able(words, keys(words), scene) if knows_how else told_of(words, keys(words), scene)
+    found = found or _read(words, clause, scene)
+    if found is None and not _asks_of_others(clause, keys(words)):
+        return None
+    if found is not None and (found.look or not found.text.startswith(_AT_A_LOSS)):
         return found
-    told = recalled(words, scene)
+    told = recalled(words, scene) or known_of(words, scene)
     if told is None:
         return found
     for item in told[1]:
@@ -73,6 +73,8 @@ def answer(clause: Clause, scene: Scene) -> Answer | None:
 
 
 _WH = frozenset({("what",), ("who",), ("whose",), ("which",), ("why",)})
+_MAY = frozenset({"can", "could", "may", "should", "must", "will", "would"})
+"""How questions begin that ask whether something may or will be done, by whomever but the robot."""
 _AT_A_LOSS = "I do not know"
 
 
@@ -123,6 +125,12 @@ def _read(words: Phrase, clause: Clause, scene: Scene) -> Answer | None:
         if found is not None:
             return found
     return about_map.told(words, flat, scene, marked or wrapped) or _open_question(words, clause.is_question)
+
+
+def _asks_of_others(clause: Clause, flat: tuple[str, ...]) -> bool:
+    """For "can the guests use the pool?": not about what the robot is to do."""
+    others = flat[:1] and flat[0] in _MAY and flat[1:2] not in {("you",), ("we",)}
+    return bool(clause.is_question and others and lexicon().wants.match(flat) is None)
 
 
 def _to_be_done(asked: tuple[str, ...], said: tuple[str, ...], scene: Scene) -> bool:
@@ -204,7 +212,8 @@ def _open_question(words: Phrase, marked: bool) -> Answer | None:
         and flat[1:3] != ("you", "mind")
     ):
         return Answer("I do not know that. Tell me, and I will remember it.")
-    if flat[0] in lexicon().question_starts and not (flat[0] == "when" and not marked):
+    inverted = flat[1:2] and flat[1] in lexicon().be | lexicon().auxiliaries
+    if flat[0] in lexicon().question_starts and (flat[0] != "when" or marked or inverted):
         if flat[1:2] == ("about",) or opens_command(words):
             # "Why don't you go to ..." asks for it.
             return None
@@ -276,16 +285,14 @@ def _what_in(words: Phrase, flat: tuple[str, ...], scene: Scene, _: bool) -> Ans
         return None
     at = 3 if flat[2] in lexicon().location_verbs | {"there"} else 2
     found = lexicon().places.match(flat, at)
-    if found is None:
+    if found is None or set(flat[at + found[0] :][:1]) & NO_PLACES:
         return None
     place = bare(words[at + found[0] :])
     wanted = set(noun_phrase(place).core)
     hits = [
         f
-        for f in scene.facts
-        if f.fact.is_location
-        and not f.fact.negated
-        and wanted
+        for f in newest(scene.facts)
+        if wanted
         and wanted <= set(noun_phrase(f.fact.place).core)
         and (flat[0] != "who" or scene.is_person(f.fact.subject))
     ]
@@ -411,6 +418,9 @@ def _state(rest: Phrase, scene: Scene, words: Phrase) -> Answer:
             return Answer(
                 ("Yes: " if agrees_ else "As far as I know, no: ") + whole_sentence(known.fact.sentence)
             )
+    told_so = _so_told(rest, size or len(rest) - 1, scene)
+    if told_so is not None:
+        return told_so
     if size:
         turned = (*rest[:size], words[0], *rest[size:])
         return Answer(
@@ -431,6 +441,9 @@ def _does(words: Phrase, flat: tuple[str, ...], scene: Scene, asked: bool) -> An
     size = _grounded_prefix(rest, scene)
     if not size or lexicon().places.match(keys(rest), size) is not None:
         return None
+    told_so = _so_told(rest, size, scene)
+    if told_so is not None:
+        return told_so
     verb = rest[size]
     third = f"{verb.key}es" if verb.key.endswith(("s", "sh", "ch", "x")) else f"{verb.key}s"
     said = (words[0], *rest[size:]) if flat[0] in {"has", "have"} else (Word(third, third), *rest[size + 1 :])
@@ -438,6 +451,15 @@ def _does(words: Phrase, flat: tuple[str, ...], scene: Scene, asked: bool) -> An
         f"I do not know. Shall I go to {the(plain(bare(rest[:size])))} and have a look?",
         (*rest[:size], *said),
     )
+
+
+def _so_told(rest: Phrase, size: int, scene: Scene) -> Answer | None:
+    """What was told of how it is, where a question asks whether it is in order."""
+    known = condition_of(rest[:size], rest[size:], scene)
+    if known is None:
+        return None
+    scene.use(known)
+    return Answer(f"I remember: {whole_sentence(known.fact.sentence)}")
 
 
 def _grounded_prefix(rest: Phrase, scene: Scene) -> int:

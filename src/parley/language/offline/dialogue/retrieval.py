@@ -6,109 +6,20 @@ which) chooses among facts that share as much.
 
 from __future__ import annotations
 
-from collections.abc import Iterable, Sequence
-from functools import cache
+from collections.abc import Iterable
 
 from parley.language.offline.facts.owning import owner_of
-from parley.language.offline.facts.remembering import Remembered
+from parley.language.offline.facts.remembering import Remembered, newest
+from parley.language.offline.facts.sharing import alike, content_of, is_small, shared, words_of
 from parley.language.offline.scene.scene import Scene
 from parley.language.offline.words.lexicon import lexicon
 from parley.language.offline.words.nouns import bare
 from parley.language.offline.words.saying import whole_sentence
-from parley.language.offline.words.text import Phrase, keys, lemma, singular
+from parley.language.offline.words.text import Phrase, keys
 
-__all__ = ["recalled", "recalled_fully"]
+__all__ = ["condition_of", "known_of", "recalled", "recalled_fully"]
 
 _OWNERSHIP = frozenset({"whose", "own", "owns", "owner", "belong", "belongs", "owned", "driver"})
-_EMPTY = frozenset(
-    {
-        "say",
-        "said",
-        "tell",
-        "told",
-        "know",
-        "remember",
-        "mention",
-        "mentioned",
-        "think",
-        "mean",
-        "sit",
-        "stand",
-        "lie",
-        "be",
-        "put",
-        "keep",
-        "find",
-        "get",
-        "thing",
-        "one",
-        "exactly",
-        "again",
-        "actually",
-        "here",
-        "there",
-        "see",
-        "sitting",
-        "supposed",
-        "currently",
-        "right",
-        "now",
-        "still",
-        "anybody",
-        "anyone",
-        "somebody",
-        "someone",
-        "place",
-        "spot",
-        "happen",
-        "idea",
-        "remind",
-        "please",
-        "moment",
-        "name",
-        "person",
-        "called",
-        "go",
-        "need",
-        "like",
-        "you",
-        "robot",
-        "house",
-        "building",
-        "left",
-        "last",
-        "heard",
-        "hear",
-        "kept",
-        "stored",
-        "located",
-        "information",
-        "anything",
-        "something",
-        "everything",
-        "about",
-        "so",
-        "far",
-        "today",
-        "usually",
-        "normally",
-        "meant",
-        "kind",
-        "sort",
-        "type",
-        "number",
-        "many",
-        "much",
-        "reason",
-        "way",
-        "have",
-        "do",
-        "can",
-        "will",
-        "was",
-        "were",
-    }
-)
 _MOST_TOLD = 3
 
 
@@ -127,7 +38,7 @@ def recalled(words: Phrase, scene: Scene) -> tuple[str, list[Remembered]] | None
         owned = _owned(words, scene)
         if owned is not None:
             return whole_sentence(owned.fact.sentence), [owned]
-    wanted = _content(words)
+    wanted = content_of(words)
     if not wanted:
         return None
     labels = {
@@ -135,10 +46,12 @@ def recalled(words: Phrase, scene: Scene) -> tuple[str, list[Remembered]] | None
         for word in words
         if word.key.isdigit() or (len(word.key) == 1 and word.raw.isupper() and word.raw != "I")
     }
-    scored = [(_score(wanted, item), item) for item in scene.facts if labels <= _words_of(item)]
+    here = newest(scene.facts)
+    current = [item for item in scene.facts if not item.fact.is_location or item.fact.negated or item in here]
+    scored = [(shared(wanted, item), item) for item in current if labels <= words_of(item)]
     best = max((score for score, _ in scored), default=0.0)
-    known = {word for item in scene.facts for word in _words_of(item)}
-    about = [word for word in wanted if _alike(word) & known]
+    known = {word for item in scene.facts for word in words_of(item)}
+    about = [word for word in wanted if alike(word) & known]
     if not about or best < 1.0 or len(about) < len(wanted) / 2:
         return None
     hits = _last_words(item for score, item in scored if score == best)
@@ -164,11 +77,71 @@ _KNOWING = frozenset(
 
 def recalled_fully(words: Phrase, scene: Scene) -> tuple[str, list[Remembered]] | None:
     """As `recalled`, but only if one fact has every word that a question is about, and they are several."""
-    wanted = _content(words)
+    wanted = content_of(words)
     found = recalled(words, scene) if len(wanted) > 1 else None
-    if found is None or len(found[1]) != 1 or _score(wanted, found[1][0]) < len(wanted):
+    if found is None or len(found[1]) != 1 or shared(wanted, found[1][0]) < len(wanted):
         return None
     return found
+
+
+def known_of(words: Phrase, scene: Scene) -> tuple[str, list[Remembered]] | None:
+    """What is remembered of the one thing that a question names, if it says nothing closer to it.
+
+    Args:
+        words: The question.
+        scene: What is known.
+    """
+    said = tuple(key.removesuffix("'s") for key in keys(words))
+    flat = f" {' '.join(said)} "
+    subjects = {keys(item.fact.subject) for item in scene.facts if item.fact.subject}
+    named = {subject for subject in subjects if f" {' '.join(subject)} " in flat}
+    longest = max((len(name) for name in named), default=0)
+    named = {name for name in named if len(name) == longest}
+    # "The lift" for the service lift, if no other lift is spoken of.
+    named = named or {subject for subject in subjects if subject[-1] in said and not is_small(subject[-1])}
+    if len(named) != 1:
+        return None
+    subjects = named
+    hits = _last_words(item for item in scene.facts if keys(item.fact.subject) in subjects)[:_MOST_TOLD]
+    text = " ".join(dict.fromkeys(whole_sentence(item.fact.sentence) for item in hits))
+    return f"I only know this: {text}", hits
+
+
+def condition_of(about: Phrase, asked: Phrase, scene: Scene) -> Remembered | None:
+    """What was told last of how something is, if a question asks whether it is in order or may be used.
+
+    Args:
+        about: The words that name it.
+        asked: What else the question says.
+        scene: What is known.
+    """
+    said = {key for key in keys(asked) if key not in _AROUND_CONDITION}
+    named = set(keys(bare(about)))
+    if not said or not said <= _CONDITIONS or not named:
+        return None
+    for item in scene.facts:
+        fact, flat = item.fact, keys(item.fact.state)
+        subject = set(keys(fact.subject))
+        if fact.is_location or not flat or not (named <= subject or subject <= named):
+            continue
+        if fact.relation in lexicon().be | {"works", "work", "has", "needs", "have", "need"} and (
+            flat[0] not in lexicon().determiners | {"called", "named", "from", "for", "owned"}
+        ):
+            return item
+    return None
+
+
+_CONDITIONS = frozenset({
+    "ok", "okay", "fine", "work", "works", "working", "functional", "functioning", "usable", "available",
+    "alright", "right", "good", "order", "broken", "fixed", "repaired", "running", "safe", "free", "well",
+    "operational", "accessible", "open", "closed", "shut", "use", "used", "function", "defective", "run",
+    "damaged", "occupied", "busy", "taken", "ready", "back", "up", "mended", "reachable", "intact",
+})  # fmt: skip
+_AROUND_CONDITION = frozenset({
+    "in", "all", "again", "now", "already", "yet", "still", "be", "to", "today", "at", "the", "moment",
+    "really", "out", "of", "properly", "or", "not", "currently", "for", "me", "us", "guests", "people",
+    "been", "is", "are", "was", "any",
+})  # fmt: skip
 
 
 def _owned(words: Phrase, scene: Scene) -> Remembered | None:
@@ -176,76 +149,12 @@ def _owned(words: Phrase, scene: Scene) -> Remembered | None:
     for size in range(min(6, len(words)), 0, -1):
         for start in range(len(words) - size + 1):
             part = bare(words[start : start + size])
-            if not part or (size == 1 and _is_small(part[0].key)):
+            if not part or (size == 1 and is_small(part[0].key)):
                 continue
             belonging = owner_of(part, scene.facts)
             if belonging is not None and keys(part)[0] not in _OWNERSHIP | {"who", "which"}:
                 return belonging.source
     return None
-
-
-def _content(words: Iterable[object]) -> list[str]:
-    result: list[str] = []
-    for word in words:
-        key = getattr(word, "key", "")
-        base = singular(lemma(key.removesuffix("'s")))
-        small = _is_small(key)
-        if getattr(word, "is_word", False) and not small and base not in _EMPTY and key not in _EMPTY:
-            result.append(base)
-    return list(dict.fromkeys(result))
-
-
-@cache
-def _names() -> frozenset[str]:
-    """Words of the lists that name something."""
-    lex = lexicon()
-    kinds = frozenset(word for members in lex.kinds.values() for word in members)
-    said = frozenset(lex.synonyms) | frozenset(lex.needs) | lex.person_words | lex.nouns
-    return said | lex.meaningful | lex.states | kinds | _ALSO
-
-
-_ALSO = frozenset(
-    {
-        "like",
-        "likes",
-        "allergic",
-        "drive",
-        "drives",
-        "driving",
-        "key",
-        "closed",
-        "close",
-        "open",
-        "work",
-        "works",
-    }
-)
-
-
-def _is_small(word: str) -> bool:
-    """Whether a word carries no meaning of its own."""
-    return word in lexicon().vocabulary and word not in _names() and singular(word) not in _names()
-
-
-def _alike(word: str) -> set[str]:
-    """A word and others that may stand for it."""
-    lex = lexicon()
-    same = {word} | {singular(part) for other in lex.synonyms.get(word, ()) for part in other.split()}
-    same |= {singular(part) for other in lex.kinds.get(word, ()) for part in other.split()}
-    return same
-
-
-def _words_of(item: Remembered) -> set[str]:
-    fact = item.fact
-    phrases = (*fact.subject, *fact.place, *fact.state)
-    found = {singular(lemma(word.key.removesuffix("'s"))) for word in phrases if word.is_word}
-    found |= {singular(word.key.removesuffix("'s")) for word in phrases if word.is_word}
-    return found | {lemma(fact.relation)}
-
-
-def _score(wanted: Sequence[str], item: Remembered) -> float:
-    words = _words_of(item)
-    return float(sum(bool(_alike(word) & words) for word in wanted))
 
 
 def _last_words(items: Iterable[Remembered]) -> list[Remembered]:

@@ -2,10 +2,12 @@
 
 from __future__ import annotations
 
+from parley.language.offline.facts.remembering import find_fact
+from parley.language.offline.facts.sharing import is_small
 from parley.language.offline.scene.grounding import ground_phrase
 from parley.language.offline.scene.scene import Scene
 from parley.language.offline.words.lexicon import lexicon
-from parley.language.offline.words.nouns import noun_phrase
+from parley.language.offline.words.nouns import bare, noun_phrase
 from parley.language.offline.words.text import Phrase, Word, keys
 
 __all__ = ["turned"]
@@ -46,6 +48,10 @@ def _subject(rest: Phrase, scene: Scene) -> int:
         if ground_phrase(rest[:size], scene.objects, strict=True).outcome == "match":
             return size
     for size in (3, 2, 1):
+        named = size < len(rest) and not is_small(rest[size - 1].key) and rest[size].key not in _TIED
+        if named and bare(rest[:size]) and find_fact(rest[:size], scene.facts)[0] is not None:
+            return size
+    for size in (3, 2, 1):
         if size < len(rest) and scene.is_person(rest[:size]) and not scene.is_person(rest[: size + 1]):
             return size
     done = next((i for i in range(1, len(rest)) if rest[i].key in _DONE or rest[i].key.endswith("ed")), 0)
@@ -61,6 +67,7 @@ def _subject(rest: Phrase, scene: Scene) -> int:
     return len(rest) - 1
 
 
+_TIED = frozenset({"of", "in", "on", "at", "with", "from", "for", "to", "and", "or", "by"})
 _DONE = frozenset(
     word for word, base in lexicon().irregular.items() if base != word and not word.endswith("ing")
 )

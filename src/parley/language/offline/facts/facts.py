@@ -2,143 +2,16 @@
 
 from __future__ import annotations
 
-from dataclasses import dataclass, replace
+from dataclasses import replace
 
+from parley.language.offline.facts.fact import Fact
+from parley.language.offline.facts.said_of import NO_PLACES, NOT_SUBJECTS, said_of
 from parley.language.offline.words.lexicon import lexicon
 from parley.language.offline.words.nouns import bare, noun_phrase
 from parley.language.offline.words.text import Phrase, Word, keys, plain
+from parley.language.word_lists import load_data
 
-__all__ = ["Fact", "read_statement", "strip_openers"]
-
-
-@dataclass(frozen=True, slots=True)
-class Fact:
-    """Something that is said to be so."""
-
-    subject: Phrase
-    """What it is about, without determiner."""
-    place: Phrase = ()
-    """Where the subject is, without determiner; empty if it is not about a place."""
-    relation: str = ""
-    """Preposition of the place, or the word that links subject and state."""
-    state: Phrase = ()
-    """What else is said of the subject."""
-    negated: bool = False
-    sentence: str = ""
-    """The whole, as a sentence."""
-    another: bool = False
-    """Said of one more thing of that kind, beside those already known."""
-
-    @property
-    def is_location(self) -> bool:
-        """Whether it says where something is."""
-        return bool(self.place)
-
-
-_NOT_SUBJECTS = frozenset(
-    [
-        "what",
-        "where",
-        "who",
-        "when",
-        "why",
-        "how",
-        "which",
-        "there",
-        "you",
-        "let",
-        "if",
-        "whether",
-        "please",
-        "can",
-        "could",
-        "would",
-        "will",
-        "do",
-        "does",
-        "did",
-    ]
-)
-_STATE_VERBS = frozenset(
-    [
-        "has",
-        "needs",
-        "likes",
-        "wants",
-        "prefers",
-        "hates",
-        "loves",
-        "means",
-        "takes",
-        "weighs",
-        "costs",
-        "belongs",
-        "opens",
-        "closes",
-        "works",
-        "lives",
-        "feels",
-        "looks",
-    ]
-) | frozenset(
-    [
-        "owns",
-        "drives",
-        "rents",
-        "uses",
-        "eats",
-        "drinks",
-        "starts",
-        "ends",
-        "begins",
-        "speaks",
-        "plays",
-        "wears",
-        "gets",
-        "covers",
-        "leads",
-        "suffers",
-        "smokes",
-        "reads",
-        "sleeps",
-        "goes",
-        "leaves",
-        "arrives",
-        "serves",
-        "cleans",
-        "repairs",
-        "teaches",
-        "studies",
-        "manages",
-        "runs",
-    ]
-)
-_OF_SEVERAL = frozenset(
-    {"end", "start", "begin", "need", "have", "like", "close", "open", "belong", "last", "cost"}
-)
-_NOT_WHERE = frozenset({"of", "from", "with", "against"})
-_NOT_PLACES = frozenset(
-    [
-        "repair",
-        "construction",
-        "maintenance",
-        "control",
-        "sale",
-        "duty",
-        "vacation",
-        "holiday",
-        "renovation",
-        "time",
-        "order",
-        "charge",
-        "trouble",
-        "fire",
-        "danger",
-        "love",
-        "pain",
-        "use",
-    ]
-)
+__all__ = ["NO_PLACES", "Fact", "read_statement", "strip_openers", "where_only"]
 
 
 def strip_openers(phrase: Phrase, *, requests: bool = False, reporting: bool = False) -> Phrase:
@@ -185,9 +58,21 @@ def read_statement(phrase: Phrase) -> Fact | None:
         or _placed(phrase)
         or _place_first(phrase)
         or _found(phrase)
-        or _said_of(phrase)
+        or said_of(phrase)
     )
-    return None if fact is None else replace(fact, sentence=_sentence(phrase))
+    if fact is None:
+        return None
+    return replace(fact, place=where_only(fact.place), sentence=_sentence(phrase))
+
+
+_TIMES = tuple(tuple(text.split()) for text in load_data("telling")["when"])
+
+
+def where_only(place: Phrase) -> Phrase:
+    """Where something is, without when or since when."""
+    flat = keys(place)
+    at = next((i for i in range(1, len(flat)) if any(flat[i : i + len(t)] == t for t in _TIMES)), len(flat))
+    return place[:at]
 
 
 _LEAVING = (("has", "left"), ("have", "left"), ("just", "left"), ("left",))
@@ -199,7 +84,7 @@ def _left(phrase: Phrase) -> Fact | None:
     flat = keys(phrase)
     for index in range(1, min(6, len(flat) - 1)):
         size = next((len(verb) for verb in _LEAVING if flat[index : index + len(verb)] == verb), 0)
-        if not size or flat[0] in {"i", "we", "they", "he", "she"} | _NOT_SUBJECTS:
+        if not size or flat[0] in {"i", "we", "they", "he", "she"} | NOT_SUBJECTS:
             continue
         if flat[index - 1] in lexicon().determiners | lexicon().be or lexicon().places.match(flat, index - 1):
             continue
@@ -218,7 +103,7 @@ def _holds(phrase: Phrase) -> Fact | None:
         phrase, flat = (*phrase[: link + 1], *phrase[link + 2 :]), (*flat[: link + 1], *flat[link + 2 :])
     if link and flat[link - 1] == "now":
         phrase, link = (*phrase[: link - 1], *phrase[link:]), link - 1
-    if not link or flat[0] in _NOT_SUBJECTS or link >= len(phrase) - 1:
+    if not link or flat[0] in NOT_SUBJECTS or link >= len(phrase) - 1:
         return None
     return Fact(bare(phrase[link + 1 :]), bare(phrase[:link]), "in", another=True)
 
@@ -315,135 +200,6 @@ def _found(phrase: Phrase) -> Fact | None:
     if not noun.core or not noun.anchors:
         return None
     return Fact(bare(rest[: _core_length(rest, noun.relation)]), _place(rest, noun.relation), noun.relation)
-
-
-def _said_of(phrase: Phrase) -> Fact | None:
-    """For "X is on the Y", "X has moved to the Y", "X stands by the Y", "X is locked"."""
-    lex = lexicon()
-    flat = keys(phrase)
-    if flat[0] in _NOT_SUBJECTS:
-        return None
-    link = next(
-        (
-            i
-            for i in range(1, len(flat))
-            if flat[i] in lex.be
-            or (
-                flat[i] in {"has", "have", "can", "will", "should"}
-                and set(flat[i + 1 : i + 3]) & (lex.be | lex.transition_verbs | lex.location_verbs)
-            )
-            or (
-                flat[i] in lex.location_verbs | lex.transition_verbs
-                and lex.goals.match(flat, i + 1) is None
-                and lex.places.match(flat, i + 1) is not None
-            )
-            or (flat[i] in lex.transition_verbs and flat[i + 1 : i + 2] in {("to",), ("into",), ("onto",)})
-            or (flat[i] in lex.transition_verbs and flat[i + 1 : i + 3] in {("over", "to"), ("back", "to")})
-            or (
-                flat[i] in lex.location_verbs
-                and lex.places.match(flat, i + 1) is not None
-                and i + 2 < len(flat)
-            )
-            or flat[i] in _STATE_VERBS
-            or (flat[i] in _OF_SEVERAL and flat[i - 1].endswith("s") and flat[i - 1] not in lex.vocabulary)
-        ),
-        0,
-    )
-    subject = bare(phrase[:link])
-    if not link or not subject or link > 9 or any(not word.is_word for word in phrase[:link]):
-        return None
-    subject = _operator(subject)
-    at, negated = _after_link(flat, link)
-    if keys(subject[-2:]) == ("used", "to") and len(subject) > 2:
-        # What used to be so is so no more.
-        subject, negated = subject[:-2], True
-    but = flat.index("but", at) if negated and "but" in flat[at:-1] else 0
-    if but:
-        # "Not on the desk but on the shelf".
-        at, negated = but + 1, False
-    if flat[at : at + 1] == ("from",) and "to" in flat[at + 1 : -1] and link < at + 1:
-        # "Went from the desk to the shelf".
-        goal = flat.index("to", at)
-        if set(flat[link : at + 1]) & lex.transition_verbs:
-            return Fact(subject, bare(phrase[goal + 1 :]), "at", negated=negated)
-    if flat[at : at + 1] == ("with",) and at + 1 < len(flat) and phrase[at + 1].is_capital:
-        return Fact(subject, bare(phrase[at + 1 :]), "with", negated=negated)
-    found = lex.places.match(flat, at)
-    moved = bool(set(flat[link:at]) & lex.transition_verbs) or flat[at - 1] in lex.transition_verbs
-    if found is None and moved and flat[at : at + 1] in {("to",), ("into",), ("onto",)}:
-        found = 1, {"to": "at", "into": "in", "onto": "on"}[flat[at]]
-    if (
-        found is not None
-        and at + found[0] < len(flat)
-        and flat[at + found[0]] not in _NOT_PLACES
-        and found[1] not in _NOT_WHERE
-    ):
-        return Fact(subject, bare(phrase[at + found[0] :]), found[1], negated=negated)
-    if subject[-1].key in {"location", "place", "position"} and len(subject) > 1 and at < len(flat):
-        return Fact(_possessor(subject[:-1]), bare(phrase[at:]), "at", negated=negated)
-    if keys(subject) in {("it",), ("that",), ("this",), ("these",), ("those",)}:
-        # "That is good" says nothing worth keeping.
-        return None
-    state = phrase[at:]
-    return Fact(subject, relation=flat[link], state=state, negated=negated) if state else None
-
-
-def _possessor(phrase: Phrase) -> Phrase:
-    last = phrase[-1]
-    return (*phrase[:-1], Word(last.key.removesuffix("'s"), last.raw.removesuffix("'s")))
-
-
-def _after_link(flat: tuple[str, ...], link: int) -> tuple[int, bool]:
-    """Where what is said begins, and whether it is denied."""
-    lex = lexicon()
-    at, negated = link, False
-    fillers = {
-        "now",
-        "currently",
-        "still",
-        "always",
-        "usually",
-        "already",
-        "just",
-        "right",
-        "again",
-        "actually",
-        "also",
-        "there",
-        "over",
-        "recently",
-        "all",
-        "both",
-    }
-    while at < len(flat):
-        if flat[at] in {"not", "never"} or flat[at : at + 2] == ("no", "longer"):
-            negated = True
-            at += 2 if flat[at] == "no" else 1
-        elif (
-            flat[at] in lex.be | fillers
-            or (flat[at] in lex.auxiliaries and at == link and flat[at] not in {"has", "have"})
-            or (
-                flat[at] in {"has", "have"}
-                and set(flat[at + 1 : at + 3])
-                & (lex.be | lex.transition_verbs | lex.location_verbs | {"not"})
-            )
-            or (
-                flat[at] in lex.location_verbs | lex.transition_verbs
-                and (
-                    lex.places.match(flat, at + 1) or flat[at + 1 : at + 2] in {("to",), ("into",), ("onto",)}
-                )
-            )
-        ):
-            at += 1
-        else:
-            break
-    return at, negated
-
-
-def _operator(subject: Phrase) -> Phrase:
-    if keys(subject) in {("i",), ("we",)}:
-        return (Word("operator", "operator"),)
-    return subject
 
 
 def _sentence(phrase: Phrase) -> str:

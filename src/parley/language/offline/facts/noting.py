@@ -9,6 +9,7 @@ from parley.language.offline.facts.declared import read_declared
 from parley.language.offline.facts.facts import Fact, read_statement, strip_openers
 from parley.language.offline.facts.remembering import memory_name
 from parley.language.offline.facts.worth import is_idle, worth_keeping
+from parley.language.offline.scene.known import ONLY_NOW
 from parley.language.offline.scene.scene import Scene
 from parley.language.offline.sentences.clauses import Clause
 from parley.language.offline.words.lexicon import lexicon
@@ -51,8 +52,18 @@ class Noting:
             self.scene.mention(fact.subject)
             self.told_only = True
             return True
+        if clause.passing and not self._asked_to_keep(clause.words):
+            self._use_once(fact)
+            return True
         self.remember(self._about(fact))
         return True
+
+    def _use_once(self, fact: Fact) -> None:
+        """Use where somebody is said to be for the order that it explains."""
+        self.scene.trace.note("memory", f"only for this order: {fact.sentence}")
+        self.scene.add_fact(fact, ONLY_NOW)
+        self.scene.mention(fact.subject)
+        self.scene.places.append(fact.place)
 
     def _declared(self, clause: Clause) -> bool:
         """Keep what is said of things that are known; pass over what is said of the time of day."""

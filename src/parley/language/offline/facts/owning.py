@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Sequence
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from functools import cache
 
 from parley.language.offline.facts.remembering import Remembered
@@ -42,6 +42,18 @@ def belongings(facts: Sequence[Remembered]) -> list[Belonging]:
         if found is not None and (keys(found.thing) not in seen or found.kind):
             seen.add(keys(found.thing))
             result.append(found)
+    return [*result, *_by_other_names(result, facts)]
+
+
+def _by_other_names(known: Sequence[Belonging], facts: Sequence[Remembered]) -> list[Belonging]:
+    """What belongs to A, for B too where A is remembered to be called B."""
+    result: list[Belonging] = []
+    for item in facts:
+        fact = item.fact
+        called = keys(fact.state[:1]) in {("called",), ("named",)} and not fact.negated
+        name = _called(fact.state) if called and fact.relation in lexicon().be else ()
+        if name:
+            result += (replace(one, owner=name) for one in known if keys(one.owner) == keys(fact.subject))
     return result
 
 
@@ -168,7 +180,7 @@ def _by_their_roles(words: Phrase, facts: Sequence[Remembered]) -> Phrase:
         fact = known.fact
         if fact.is_location or fact.negated or fact.relation not in lexicon().be or not fact.state:
             continue
-        for role, name in ((bare(fact.state), fact.subject), (fact.subject, bare(fact.state))):
+        for role, name in ((bare(fact.state), fact.subject), (fact.subject, _called(fact.state))):
             said, wanted = keys(words), keys(role)
             person = (
                 bool(name)
@@ -176,13 +188,30 @@ def _by_their_roles(words: Phrase, facts: Sequence[Remembered]) -> Phrase:
                 and not any("'s" in word.key for word in name)
             )
             theirs = len(wanted) > 1 and any(word.endswith("'s") for word in wanted[:-1])
-            post = bool(wanted) and bool(lexicon().person_words & set(wanted)) and len(name) < 4
+            named = role is fact.subject and keys(fact.state[:1]) in {("called",), ("named",)}
+            post = bool(wanted) and (named or bool(lexicon().person_words & set(wanted))) and len(name) < 4
             if not person or not (theirs or post):
                 continue
-            at = next((i for i in range(len(said)) if said[i : i + len(wanted)] == wanted), -1)
-            if at >= 0 and not set(keys(name)) & set(said):
-                return (*words[:at], *name, *words[at + len(wanted) :])
+            at = next((i for i in range(len(said)) if _same_role(said[i : i + len(wanted)], wanted)), -1)
+            end = at + len(wanted)
+            told = at < 2 and said[end : end + 1] and said[end] in lexicon().be | {"has", "moved", "left"}
+            if at >= 0 and not told and not set(keys(name)) & set(said):
+                start = at - (at > 0 and said[at - 1] in {"the", "our"})
+                return (*words[:start], *name, *words[end:])
     return _by_what_they_are(words, facts)
+
+
+def _called(state: Phrase) -> Phrase:
+    """A name, without "called" before it."""
+    return bare(state[1:] if keys(state[:1]) in {("called",), ("named",)} else state)
+
+
+def _same_role(said: tuple[str, ...], role: tuple[str, ...]) -> bool:
+    """Whether words name a role, if need be by another word for it ("A's boss")."""
+    alike = lexicon().synonyms.get(role[-1], frozenset()) if role else frozenset()
+    return said == role or (
+        len(role) > 1 and said[:-1] == role[:-1] and said[-1:] != () and said[-1] in alike
+    )
 
 
 @cache

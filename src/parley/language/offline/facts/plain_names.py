@@ -8,7 +8,7 @@ from __future__ import annotations
 
 from parley.language.offline.facts.facts import read_statement
 from parley.language.offline.facts.owning import with_owners_named
-from parley.language.offline.scene.grounding import describe
+from parley.language.offline.scene.grounding import describe, ground_phrase
 from parley.language.offline.scene.labels import with_kinds
 from parley.language.offline.scene.missing import left_by_somebody
 from parley.language.offline.scene.owned import owned_thing
@@ -62,21 +62,6 @@ _SEARCHING = (
     ("we", "are", "after"),
     ("what", "i", "am", "looking", "for", "is"),
 )
-_NOTED = frozenset(
-    {
-        "remember",
-        "note",
-        "memory",
-        "memorise",
-        "memorize",
-        "info",
-        "information",
-        "fact",
-        "know",
-        "fyi",
-        "reminder",
-    }
-)
 
 
 def plainly_named(words: Phrase, scene: Scene) -> Phrase:
@@ -88,12 +73,12 @@ def plainly_named(words: Phrase, scene: Scene) -> Phrase:
     """
     before = [turn.content for turn in scene.situation.history[-4:]]
     words = _without_neither(_without_tail(_without_left_out(words, scene)))
-    words = _perhaps_there(without_hesitation(_without_never_mind(joined_lines(words))))
-    words = _able(_forgetting(_where_first(_noted(dislocated(words)))))
+    words = without_hesitation(_without_never_mind(joined_lines(words)))
+    words = _able(_forgetting(_where_first(dislocated(words))))
     words, used = with_owners_named(_each_state(words), scene.facts)
     for fact in used:
         scene.use(fact)
-    words = _owned(words, scene)
+    words = _owned(_his_own(words, scene), scene)
     words = with_kinds(as_round(words), scene.objects, before)
     return _as_names(_left(_reporting(_searching(words)), scene), scene)
 
@@ -120,6 +105,9 @@ def _without_tail(words: Phrase) -> Phrase:
     cut = body[: -len(tail)]
     if flat[:2] in {("could", "you"), ("can", "you"), ("would", "you")}:
         cut = (*_words("are you able to"), *cut[2:])
+    elif "you" in tail and opens_command(cut):
+        # "(Could you) lift a box if you had to": what only could be is asked about.
+        cut = (*_words("are you able to"), *cut)
     return (*(cut[:-1] if cut[-1].key == "," else cut), *words[len(body) :])
 
 
@@ -148,33 +136,28 @@ def _where_first(words: Phrase) -> Phrase:
     return (*_words("go to where"), *words[1:comma], *behind)
 
 
-def _noted(words: Phrase) -> Phrase:
-    """For "I say this to you for remembering: S" "remember that S"."""
-    flat = keys(words)
-    at = flat.index(":") if ":" in flat else 0
-    if not 0 < at < 10 or len(flat) < at + 4 or not {lemma(word) for word in flat[:at]} & _NOTED:
-        return words
-    if flat[:at] == ("remember",) or not has_verb(words[at + 1 :]):
-        return words
-    return (*_words("remember that"), *words[at + 1 :])
-
-
 _DROPPING = frozenset(
-    {"scrap", "disregard", "ignore", "drop", "cancel", "delete", "erase", "dismiss", "strike", "discard"}
+    {
+        "scrap",
+        "disregard",
+        "ignore",
+        "drop",
+        "cancel",
+        "delete",
+        "erase",
+        "dismiss",
+        "strike",
+        "discard",
+        "wipe",
+        "remove",
+        "unlearn",
+        "scratch",
+        "clear",
+        "bin",
+        "lose",
+        "cross",
+    }
 )
-_TOLD = (
-    ("what", "i"),
-    ("everything", "i"),
-    ("all", "i"),
-    ("anything", "i"),
-    ("whatever", "i"),
-    ("what", "we"),
-    ("all", "that", "i"),
-    ("the", "thing", "i"),
-    ("that", "thing", "i"),
-)
-
-
 _NEEDLESS = tuple(
     tuple(text.split())
     for text in (
@@ -207,6 +190,18 @@ _NOTES = frozenset(
         "entry",
         "knowledge",
         "data",
+        "bit",
+        "thing",
+        "things",
+        "stuff",
+        "part",
+        "story",
+        "news",
+        "line",
+        "point",
+        "remark",
+        "detail",
+        "details",
     }
 )
 _NO_LONGER = (("any", "longer"), ("any", "more"), ("anymore",), ("now",))
@@ -243,58 +238,75 @@ def without_hesitation(words: Phrase) -> Phrase:
     return rest if fact is not None and not opens_command(rest) else words
 
 
-_MISSED = (
-    ("can", "not", "find"),
-    ("could", "not", "find"),
-    ("have", "lost"),
-    ("lost",),
-    ("am", "missing"),
-    ("are", "missing"),
-    ("miss",),
-    ("must", "have", "lost"),
-)
-_PERHAPS = frozenset({"maybe", "perhaps", "probably", "possibly", "might", "could", "may"})
-
-
-def _perhaps_there(words: Phrase) -> Phrase:
-    """For "I can not find A, maybe it is in B" the order to look for A in B."""
-    flat = keys(words)
-    if flat[:1] not in {("i",), ("we",)} or not _PERHAPS & set(flat):
-        return words
-    lead = next((lead for lead in _MISSED if flat[1 : 1 + len(lead)] == lead), ())
-    end = next((i for i in range(2, len(flat)) if not words[i].is_word or flat[i] in {"anywhere", "and"}), 0)
-    doubt = next((i for i in range(end, len(flat)) if flat[i] in _PERHAPS), 0) if lead and end else 0
-    at = next((i for i in range(doubt, len(flat) - 1) if lexicon().places.match(flat, i)), 0) if doubt else 0
-    if not at or at > doubt + 4:
-        return words
-    what = words[1 + len(lead) : end]
-    found = lexicon().places.match(flat, at)
-    stop = next((i for i in range(at, len(flat)) if not words[i].is_word), len(flat))
-    where = words[at + (found[0] if found else 1) : stop]
-    return (*_words("inspect"), *where, *_words("for"), *what, *words[stop:]) if what and where else words
-
-
 def _forgetting(words: Phrase) -> Phrase:
-    """For "scrap what I said about A" "forget what I said about A"."""
+    """For "scrap what I said about A" and "drop that bit about A" "forget what I told you about A"."""
     flat = keys(words)
     needless = next((lead for lead in _NEEDLESS if flat[: len(lead)] == lead), ())
     if needless and len(flat) > len(needless):
         rest = words[len(needless) :]
         tail = next((tail for tail in _NO_LONGER if keys(rest)[-len(tail) :] == tail), ())
         return (*_words("forget about"), *(rest[: len(rest) - len(tail)] if tail else rest))
-    for index in range(len(flat) - 4):
-        noted = flat[index + 1] in {"the", "all", "your"} and flat[index + 2] in _NOTES
-        if flat[index] in _DROPPING | {"forget"} and noted and flat[index + 3] in {"about", "on", "of"}:
-            return (*words[:index], *_words("forget what i told you about"), *words[index + 4 :])
-        told = next((lead for lead in _TOLD if flat[index + 1 : index + 1 + len(lead)] == lead), ())
-        if (
-            flat[index] in _DROPPING
-            and told
-            and {"said", "told", "mentioned", "say"} & set(flat[index + 1 + len(told) :][:3])
-        ):
+    words = _told_and_forgotten(words)
+    flat = keys(words)
+    listed = next(
+        (i for i in range(2, len(flat) - 2) if flat[i : i + 2] in _YOUR and flat[i + 2] in _FROM_MEMORY), 0
+    )
+    if listed and flat[0] in _DROPPING and not {"step", "steps", "stop", "stops"} & set(flat):
+        return (*_words("forget what i told you about"), *words[1:listed])
+    for index in range(len(flat) - 3):
+        if flat[index] not in _DROPPING | {"forget"}:
+            continue
+        about = next((i for i in range(index + 2, min(index + 12, len(flat) - 1)) if flat[i] in _ABOUT), 0)
+        between = set(flat[index + 1 : about])
+        noted = bool(between & (_NOTES | _SAID)) or (flat[index] in _WIPING and bool(between & _EVERYTHING))
+        if about and noted and between <= _NOTES | _SAID | _EVERYTHING | _AROUND_NOTES:
             lead = words[:index] if keys(words[:index]) not in _ALLOWING else ()
-            return (*lead, Word("forget", "forget"), *words[index + 1 :])
+            end = next((i for i in range(about + 1, len(flat)) if not words[i].is_word), len(flat))
+            rest = _without_from_memory(words[about + 1 : end])
+            return (*lead, *_words("forget what i told you about"), *rest, *words[end:])
     return words
+
+
+def _told_and_forgotten(words: Phrase) -> Phrase:
+    """For "A was fetched, so you can delete that" "forget what I told you about A"."""
+    body = _without_from_memory(words[:-1] if words and not words[-1].is_word else words)
+    flat = keys(body)
+    verb = len(flat) - 2
+    if verb < 4 or flat[verb] not in _DROPPING | {"forget"} or flat[-1] not in {"that", "it", "this"}:
+        return words
+    cut = verb
+    while cut and flat[cut - 1] in _ALLOWED:
+        cut -= 1
+    head = body[:cut]
+    if "about" in keys(head) and {"told", "said"} & set(keys(head)):
+        return head
+    fact = read_statement(head) if cut < verb or flat[cut - 1] == "," else None
+    if fact is None or opens_command(head):
+        return words
+    return (*_words("forget what i told you about"), *fact.subject)
+
+
+_ALLOWED = frozenset(
+    {"so", ",", "you", "can", "may", "please", "and", "just", "should", "now", "kindly", "therefore"}
+)
+_ABOUT = frozenset({"about", "on", "regarding", "concerning", "of"})
+_SAID = frozenset({"said", "told", "mentioned", "say", "know", "remember", "heard", "learned", "wrote"})
+_EVERYTHING = frozenset({"everything", "all", "anything", "whatever"})
+_WIPING = frozenset({"wipe", "erase", "delete", "forget"})
+_AROUND_NOTES = frozenset({
+    "the", "that", "this", "your", "my", "of", "what", "i", "we", "you", "were", "was", "have", "has", "had",
+    "been", "just", "earlier", "ever", "out", "off", "away", "those", "these", "any", "in", "memory", "to",
+    "they", "he", "she", "somebody", "whole", "from",
+})  # fmt: skip
+_YOUR = (("off", "your"), ("from", "your"), ("off", "the"), ("out", "of"))
+_FROM_MEMORY = frozenset({"memory", "notes", "records", "list", "brain", "head", "books", "files"})
+
+
+def _without_from_memory(words: Phrase) -> Phrase:
+    """Without "from your notes" at the end."""
+    flat = keys(words)
+    at = next((i for i in range(1, len(flat) - 1) if flat[i] in {"from", "off", "in"}), 0)
+    return words[:at] if at and flat[-1] in _FROM_MEMORY and len(flat) - at < 5 else words
 
 
 _ALLOWING = frozenset(
@@ -383,6 +395,35 @@ def _left(words: Phrase, scene: Scene) -> Phrase:
         result += (*(order or sentence), *((Word(".", "."),) if order and mark else mark))
         start = index + 1
     return tuple(result)
+
+
+def _his_own(words: Phrase, scene: Scene) -> Phrase:
+    """For "A wants it in his room" "A wants it in A's room", if it is known which room that is."""
+    for index in range(1, len(words) - 1):
+        if words[index].key not in {"his", "her", "their"}:
+            continue
+        name = _name_before(words[:index], scene)
+        if not name:
+            continue
+        whose = (*name[:-1], Word(f"{name[-1].key}'s", f"{name[-1].raw}'s"))
+        for size in (3, 2, 1):
+            thing = (*whose, *words[index + 1 : index + 1 + size])
+            known = ground_phrase(thing, scene.objects, strict=True).outcome == "match"
+            if known or owned_thing(thing, scene.objects, scene.facts) is not None:
+                return (*words[:index], *whose, *words[index + 1 :])
+    return words
+
+
+def _name_before(words: Phrase, scene: Scene) -> Phrase:
+    """The last name of somebody; empty if none is said."""
+    end = next((i for i in range(len(words), 0, -1) if words[i - 1].is_capital and i > 0), 0)
+    start = end
+    while start and words[start - 1].is_capital and words[start - 1].is_word:
+        start -= 1
+    name = words[start:end]
+    if len(name) > 1 and opens_command(name):
+        name = name[1:]
+    return name if name and scene.is_person(name) else ()
 
 
 def _owned(words: Phrase, scene: Scene) -> Phrase:

@@ -4,19 +4,20 @@ from __future__ import annotations
 
 import re
 from collections.abc import Iterable, Sequence
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from functools import lru_cache
 
+from parley.language.offline.facts.by_rule import placed_by_rule, without_time
 from parley.language.offline.facts.facts import Fact, read_statement
 from parley.language.offline.scene.grounding import ground_phrase
 from parley.language.offline.sentences.finite import verb_at
 from parley.language.offline.words.lexicon import lexicon
 from parley.language.offline.words.nouns import bare, noun_phrase
-from parley.language.offline.words.text import Phrase, Word, keys, plain, tokens
+from parley.language.offline.words.text import Phrase, Word, keys, plain, singular, tokens
 from parley.messages.memory import MemoryEntry
 from parley.world.object_map import MapObject
 
-__all__ = ["Remembered", "find_fact", "memory_name", "remembered"]
+__all__ = ["Remembered", "find_fact", "memory_name", "newest", "remembered"]
 
 
 @dataclass(frozen=True, slots=True)
@@ -36,14 +37,48 @@ def remembered(memory: Iterable[MemoryEntry]) -> list[Remembered]:
         fact = _entry_fact(entry.name, entry.data)
         if fact is not None:
             result.append(Remembered(fact, entry))
-    newest = result[::-1]
-    return sorted(newest, key=lambda item: "/" in item.entry.source)
+    newest_first = result[::-1]
+    ordered = sorted(newest_first, key=lambda item: "/" in item.entry.source)
+    placed = {keys(item.fact.subject) for item in ordered if item.fact.is_location}
+    by_work = (by for item in ordered if (by := _by_work(item, placed)) is not None)
+    return [*ordered, *by_work, *placed_by_rule(ordered, placed)]
+
+
+_WORKING = frozenset({"drives", "operates", "runs", "mans", "minds", "tends", "steers", "staffs"})
+_BUSY = frozenset({
+    "sells", "serves", "helps", "teaches", "cooks", "guards", "watches", "plays", "trains", "studies", "eats",
+    "reads", "repairs", "paints", "cleans", "manages", "gives", "checks",
+})  # fmt: skip
+_WHERE = frozenset({"at", "in", "by", "behind"})
+_ON_DUTY = frozenset({("on", "duty"), ("on", "shift"), ("on", "call"), ("in", "charge")})
+
+
+def _by_work(item: Remembered, placed: set[tuple[str, ...]]) -> Remembered | None:
+    """For "A drives the truck": A is found at the truck, if nothing better is known."""
+    fact = item.fact
+    if fact.negated or fact.is_location or not fact.subject[:1] or not fact.subject[0].is_capital:
+        return None
+    if keys(fact.subject) in placed:
+        return None
+    if fact.relation in _BUSY or keys(fact.state[:2]) in _ON_DUTY:
+        # "A sells tea at the kiosk".
+        flat = keys(fact.state)
+        at = next((i for i in range(1, len(flat) - 1) if flat[i] in _WHERE), 0)
+        place = bare(fact.state[at + 1 :]) if at else ()
+        return Remembered(replace(fact, place=place, relation="at", state=()), item.entry) if place else None
+    if fact.relation not in _WORKING:
+        return None
+    at = next((i for i, word in enumerate(fact.state) if word.key in lexicon().determiners), -1)
+    place = bare(fact.state[at:]) if at >= 0 else ()
+    return Remembered(replace(fact, place=place, relation="at", state=()), item.entry) if place else None
 
 
 @lru_cache(maxsize=4096)
 def _entry_fact(name: str, data: str) -> Fact | None:
-    first = re.split(r"(?<=[.!;])\s", data.strip(), maxsplit=1)[0][:400]
-    words = tokens(first)
+    first = re.split(r"(?<=[.!;])(?<!\bMr\.)(?<!\bMs\.)(?<!\bDr\.)(?<!\bMrs\.)\s", data.strip(), maxsplit=1)[
+        0
+    ][:400]
+    words = without_time(tokens(first))
     fact = read_statement(words)
     if fact is not None:
         return fact
@@ -69,6 +104,14 @@ def find_fact(
         facts: Newest first.
         locations: Only where things are.
     """
+    found = _find_fact(about, facts, locations=locations)
+    meant = _described(about, facts) if locations and found == (None, []) else ()
+    return _find_fact(meant, facts, locations=True) if meant else found
+
+
+def _find_fact(
+    about: Phrase, facts: Sequence[Remembered], *, locations: bool
+) -> tuple[Remembered | None, list[Remembered]]:
     usable = [f for f in facts if f.fact.is_location and not f.fact.negated] if locations else list(facts)
     denied = {
         keys(f.fact.subject) + keys(f.fact.place) for f in facts if f.fact.is_location and f.fact.negated
@@ -93,6 +136,44 @@ def find_fact(
         return None, []
     hits = [listed[stand_ins.index(item)] for item in found.candidates]
     return (hits[0], []) if len(hits) == 1 else (None, hits)
+
+
+_LINKING = frozenset({"for", "from", "with", "to", "of", "by"})
+
+
+def _described(about: Phrase, facts: Sequence[Remembered]) -> Phrase:
+    """For "the order for A" the subject of the one fact that says that it is for A; empty if none does."""
+    wanted = {singular(word.key) for word in bare(about) if word.key not in lexicon().determiners}
+    flat = keys(bare(about))
+    cut = next((i for i in range(1, len(flat)) if flat[i] in _LINKING), 0)
+    head = (singular(flat[cut - 1]),) if cut else ()
+    if len(wanted) < 3 or not head or keys(about)[0] in lexicon().question_starts:
+        return ()
+    subjects: dict[tuple[str, ...], Phrase] = {}
+    for item in facts:
+        fact = item.fact
+        named = {singular(word.key) for word in fact.subject}
+        said = named | {singular(word.key) for word in fact.state} | {fact.relation}
+        if not fact.is_location and not fact.negated and wanted <= said and set(head) <= named:
+            subjects[keys(fact.subject)] = fact.subject
+    (meant,) = subjects.values() if len(subjects) == 1 else ((),)
+    return meant if meant and keys(meant) != keys(bare(about)) else ()
+
+
+def newest(facts: Sequence[Remembered]) -> list[Remembered]:
+    """Where things are as far as is known: the last word on each, newest first."""
+    last: dict[tuple[str, ...], Remembered] = {}
+    gone: set[tuple[str, ...]] = set()
+    for item in facts:
+        if not item.fact.is_location:
+            continue
+        name = item.entry.name if item.fact.another else ""
+        key = (*keys(item.fact.subject), name)
+        if item.fact.negated:
+            gone.add((*keys(item.fact.subject), *keys(item.fact.place)))
+        elif (*keys(item.fact.subject), *keys(item.fact.place)) not in gone:
+            last.setdefault(key, item)
+    return list(last.values())
 
 
 def _compounds(about: Phrase) -> list[Phrase]:

@@ -54,7 +54,8 @@ def _about(part: Clause, before: Sequence[Clause], is_person: IsPerson) -> tuple
             words = strip_openers(part.words, reporting=True)
             size = len(words) - len(words[len(fact.subject) :])
             told = (*named, *words[size:]) if keys(words[:size]) == keys(fact.subject) else part.words
-            return at, replace(part, words=told)
+            passing = keys(fact.subject)[0] in lexicon().person_pronouns and is_person(named)
+            return at, replace(part, words=told, passing=passing)
     return None
 
 

@@ -17,6 +17,11 @@ def _set(kind: str) -> frozenset[str]:
     return frozenset(load_data("telling")[kind])
 
 
+_REASONS = frozenset({"because", "since", "although", "though", "whereas", "while", "so"})
+_WITHOUT_SUBJECT = frozenset(load_data("units")["present"]) | {
+    "complained", "told", "said", "swore", "claimed", "thought", "asked", "called", "insisted",
+}  # fmt: skip
+"""Statements that begin with such a verb lost their subject."""
 _PLANNING = frozenset({"will", "would", "shall", "might", "could"})
 _OPINIONS = frozenset(
     {
@@ -42,6 +47,9 @@ _OPINIONS = frozenset(
         "silly",
         "crazy",
     }
+)
+_YOU_LOT = frozenset(
+    {("you", "lot"), ("you", "robots"), ("you", "machines"), ("you", "guys"), ("you", "two")}
 )
 _PASSING = frozenset(
     {
@@ -78,7 +86,8 @@ def worth_keeping(fact: Fact, words: Phrase) -> bool:
     subject = keys(fact.subject)
     if not flat or not subject:
         return True
-    if _set("never_subjects") & set(subject) and not fact.is_location:
+    nobody = flat[0] in _REASONS or _WITHOUT_SUBJECT & {flat[0], subject[0]}
+    if nobody or (_set("never_subjects") & set(subject) and not fact.is_location):
         return False
     if not fact.is_location and any(
         flat[i] in {"i", "we"} and flat[i + 1] in _PLANNING for i in range(len(flat) - 1)
@@ -88,6 +97,8 @@ def worth_keeping(fact: Fact, words: Phrase) -> bool:
         return False
     if fact.relation in {"is", "are"} and not fact.is_location and set(keys(fact.state)[-2:]) & _OPINIONS:
         return False
+    if {"you"} == set(subject[:1]) or any(flat[i : i + 2] in _YOU_LOT for i in range(min(4, len(flat)))):
+        return fact.is_location
     first = flat[0] in {"i", "we"} or subject == ("operator",)
     if first:
         return _about_operator(fact, flat)
@@ -124,6 +135,8 @@ def _about_operator(fact: Fact, flat: tuple[str, ...]) -> bool:
         return not said & _set("moods")
     if flat[1:2] and flat[1] in lexicon().be:
         state = keys(fact.state)
+        if state[:1] and state[0] in {"closed", "open", "shut"}:
+            return True
         if not state or state[0].endswith("ing") or set(state) & _set("moods"):
             return False
         return (

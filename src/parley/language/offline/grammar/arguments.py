@@ -9,18 +9,15 @@ from parley.language.offline.grammar.small import is_past, small, verb_class
 from parley.language.offline.grammar.things import Item
 from parley.language.offline.grammar.verbs import Head, Heads
 from parley.language.offline.words.lexicon import lexicon
-from parley.language.offline.words.text import Phrase
+from parley.language.offline.words.text import Phrase, Word
 
 __all__ = ["Arguments", "words_of"]
 
 _HARD = frozenset({".", "!", "?", ";", "\n", ":"})
 _LISTS = frozenset({",", "nor", "and", "plus", "&", "then", "or"})
-_BACKWARDS = tuple(
-    tuple(text.split())
-    for text in ("in reverse order", "in the reverse order", "in reverse", "backwards", "in descending order",
-                 "the other way round", "from last to first", "in the opposite order",
-                 "from the last to the first")
-)  # fmt: skip
+
+_NO_CLAUSES = frozenset({"that", "who", "which", "where", "as", "following", "upon"})
+_RANKS = frozenset({"there", "last", "first", "next", "second"})
 
 
 def words_of(items: Sequence[Item]) -> Phrase:
@@ -45,9 +42,19 @@ class Arguments:
         """The order that a verb makes with what follows it, and where that ends."""
         order = Order("go", negated=head.negated)
         match head.kind:
+            case "other" | "go" | "leave_out" if self._leaves_alone(head):
+                order.kind = "leave_out"
+                back = small().back_reference.match(self.heads.flat(head.end))
+                if back is not None:
+                    self.refer(order, back[1])
+                end = (head.end + back[0] if back is not None else self.take(order, head.end)) + 1
             case "other" if self._picks(head):
                 order.kind = "named"
                 end = self.take(order, head.end)
+            case "go" if self.key(head.end).endswith("ing") and verb_class(self.key(head.end)) == "other":
+                # "Go charging".
+                order.kind = "other"
+                end = self.clause_end(head.end)
             case "go":
                 order.kind = "go"
                 end = self._places(order, head.end)
@@ -74,6 +81,20 @@ class Arguments:
                 end = self.clause_end(head.end)
         order.words = words_of(self.items[head.at : end])
         return order, end
+
+    def _leaves_alone(self, head: Head) -> bool:
+        """For "leave the door alone", "let the others be"."""
+        following = self.items[head.end] if head.end < len(self.items) else None
+        if self.key(head.at) not in {"leave", "let", "give"} or following is None:
+            return False
+        back = small().back_reference.match(self.heads.flat(head.end))
+        if back is not None:
+            return self.key(head.end + back[0]) in {"alone", "be", "out"}
+        return following.thing is not None and self.key(self.take(Order("leave_out"), head.end)) in {
+            "alone",
+            "be",
+            "out",
+        }
 
     def _picks(self, head: Head) -> bool:
         """For "choose any of the doors (and go there)": it is only named."""
@@ -102,27 +123,13 @@ class Arguments:
             while self.key(behind) in {"and", "then", "but"}:
                 behind += 1
             hangs = small().subordinators.match(self.heads.flat(behind))
-            if hangs is not None and hangs[1] not in {
-                "that",
-                "who",
-                "which",
-                "where",
-                "as",
-                "following",
-                "upon",
-            }:
+            if hangs is not None and hangs[1] not in _NO_CLAUSES:
                 return True
             then = "then" in {self.key(i) for i in range(at, behind)}
             if then and behind < len(self.items) and self.items[behind].thing is not None:
                 return True
             return flat[0] == "but" or self.starts(behind) or self._subject(behind)
-        if small().sequence.match(flat) is not None and flat[0] not in {
-            "there",
-            "last",
-            "first",
-            "next",
-            "second",
-        }:
+        if small().sequence.match(flat) is not None and flat[0] not in _RANKS:
             return True
         if small().before_that.match(flat) is not None:
             return True
@@ -145,7 +152,7 @@ class Arguments:
         flat = self.heads.flat(at, 3)
         return (
             bool(flat)
-            and flat[0] in small().subjects | {"we", "you", "the", "there", "my"}
+            and flat[0] in small().subjects | {"we", "you", "the", "there", "my", "that", "this"}
             and any(word in small().sets["links"] or is_past(word) for word in flat[1:])
         )
 
@@ -205,7 +212,8 @@ class Arguments:
     def _backwards(self, at: int) -> int:
         """Where "in reverse order" ends; 0 if it does not stand here."""
         flat = self.heads.flat(at)
-        return next((at + len(m) for m in _BACKWARDS if flat[: len(m)] == m), 0)
+        found = small().backwards.match(flat)
+        return at + found[0] if found is not None else 0
 
     def _is_subject(self, at: int) -> bool:
         """Whether a thing is what the next clause is about ("..., and the door needs checking")."""
@@ -223,6 +231,12 @@ class Arguments:
                 continue
             if self._leads_to_order(at, order):
                 return at
+            if order.things and key.endswith("ing") and verb_class(key) in small().sets["looks"]:
+                # "Go along A looking for B".
+                size, kind = self.heads.kind(at)
+                inner, end = self.read(Head(at, size, kind, False, True))
+                order.kind, order.what = inner.kind, inner.what
+                return end
             manner = lexicon().adverbs.match(self.heads.flat(at))
             if manner is not None and manner[0] > 1:
                 at += manner[0]
@@ -271,6 +285,11 @@ class Arguments:
 
     def looked(self, order: Order, at: int) -> int:
         """Behind "look": at what, for what, whether what."""
+        where = small().back_reference.match(self.heads.flat(at + 1))
+        if self.key(at) in small().sets["hiding"] and where is not None:
+            order.kind, order.what = "search", (Word("anything", "anything"), *self.items[at].words)
+            self.refer(order, where[1])
+            return at + 1 + where[0]
         while not self.ends(at, asking=True):
             passed = self._past_small(order, at)
             if passed:
@@ -345,14 +364,7 @@ class Arguments:
             | small().frame
             | small().sets["whether"]
         )
-        closed |= small().always | small().sets["no_parts"]
         if verb_class(key) and self.key(at + 1) in {"to", "at", "into", "over", "back"}:
-            return False
-        if (
-            verb_class(key)
-            and self.key(at + 1) in {"to", "at", "into", "over"}
-            and self.heads.head(at) is not None
-        ):
             return False
         closed |= small().always | small().sets["no_parts"]
         return key not in closed and key not in lexicon().be and not self.heads.flat(at)[0].endswith("ly")
@@ -392,6 +404,8 @@ class Arguments:
             where = self.key(end - 1) in small().prepositions and self.key(end - 1) != "of"
             if self.items[end].thing is not None and (end > start or order.refers) and where:
                 break
+            if key in small().prepositions and small().back_reference.match(self.heads.flat(end + 1)):
+                break
             if key in small().stop_what or (key in {"to", "in"} and self.heads.head(end + 1) is not None):
                 break
             if end > start and key in small().always and self.heads.head(end) is not None:
@@ -399,14 +413,20 @@ class Arguments:
             end += 1
         stop = end
         while stop > start and self.key(stop - 1) in small().prepositions | small().adverbs | {","}:
+            if self.key(stop - 1) == "way" and self.key(stop - 2) in small().determiners:
+                break
             stop -= 1
         order.what = _plain_what(words_of(self.items[start:stop])) or order.what
         if end < len(self.items) and self.items[end].thing is not None:
             end = self.take(order, end)
-        while not self.ends(end) and self.key(end) in small().adverbs | {"at", "in"}:
+        while not self.ends(end) and self.key(end) in small().adverbs | small().prepositions | {
+            "both",
+            "all",
+        }:
             back = small().back_reference.match(self.heads.flat(end))
-            order.refers = order.refers or back is not None
-            end += 1
+            if back is not None:
+                self.refer(order, back[1])
+            end += back[0] if back is not None else 1
         return end
 
     def _more_what(self, at: int) -> bool:
@@ -446,6 +466,10 @@ class Arguments:
             start += 1
         order.what = words_of(self.items[start:end])
         order.things += self._things(start, end)
+        for i in range(start, end):
+            back = small().back_reference.match(self.heads.flat(i))
+            if back is not None and back[0] > 1 and i + back[0] == end:
+                self.refer(order, back[1])
         if order.what and all(
             item.thing is not None or item.key in small().sets["at_large"] for item in self.items[start:end]
         ):

@@ -25,6 +25,8 @@ class Plainly:
     words: Phrase
     unable: Phrase = ()
     """What is asked for, where nothing but things are asked for that nobody here knows how to do."""
+    certain: bool = False
+    """Whether nothing else reads it as well."""
     against: tuple[str, ...] = ()
     """Why it may be wrong; nothing if every word of an order was understood."""
 
@@ -42,7 +44,7 @@ def plainly_ordered(words: Phrase, scene: Scene) -> Plainly | None:
     if "no order" in plan.against:
         return None
     against = [*plan.against, *(["pending steps are named"] if _edits(plan, scene) else [])]
-    return Plainly(_written(plan), _strange(plan), tuple(against))
+    return Plainly(_written(plan), _strange(plan), plan.certain and not against, tuple(against))
 
 
 def _strange(plan: Plan) -> Phrase:

@@ -41,9 +41,13 @@ class _Composer(Draft):
             self.at = at
             if isinstance(part, Order):
                 self._order(part)
+                self.fresh = []
             else:
                 self._node(part)
         self._end_sentence(asked=False)
+        self.plan.steps = [
+            s for s in self.plan.steps if not any(same_place(s.place, t) for t in self.left_out)
+        ]
         ending = [s for s in self.plan.steps if any(same_place(s.place, t) for t in self.at_end)]
         self.plan.steps = [s for s in self.plan.steps if s not in ending] + ending
         self._check()
@@ -83,7 +87,8 @@ class _Composer(Draft):
         before = self.parts[self.at - 1] if self.at else None
         if isinstance(before, Order) and before.kind == "other" and self._asks_for(before):
             return
-        if isinstance(before, Order) and before.kind in {"named", "search", "again"} and self.at > 1:
+        asked = isinstance(before, Order) and (before.kind in {"named", "again"} or _is_short(before))
+        if asked and self.at > 1:
             self.plan.against.append("a question")
         if not isinstance(before, Node) or before.mark != "told":
             return
@@ -101,10 +106,8 @@ class _Composer(Draft):
                 self._order(Order("whether", what=words))
             elif not things:
                 self.plan.against.append("a question")
-        elif len(words) <= 3 and singular(words[-1].key) != words[-1].key and self.current and is_what(words):
-            self._order(Order("search", what=words, refers=True))
-        elif words[0].key == "any" and self.current and len(words) > 1 and not things:
-            self._order(Order("search", what=words[1:], refers=True))
+        elif not things and self.current and (sought := _sought(words)) is not None:
+            self._order(sought)
         elif words[0].key == "how" and things:
             self.asked = (words, things)
         elif words[0].key not in lexicon().question_starts | small().subjects | {"we", "you"}:
@@ -131,10 +134,13 @@ class _Composer(Draft):
         plain_look = isinstance(previous, Order) and previous.kind == "look" and len(mainly) < len(words)
         named = isinstance(previous, Order) and previous.kind in {"named", "go"}
         if (named or plain_look) and not things and is_what(mainly):
+            self.plan.certain = self.plan.certain or words[-1].key == "please"
             self.own = False
             self._order(Order("search", what=mainly, refers=True))
             return
         self.told += things
+        about = next((item.thing for item in node.items[:3] if item.thing is not None), None)
+        self.fresh = list(about.members) if about is not None else self.fresh
         self.told_group = next(
             (list(i.thing.members) for i in reversed(node.items) if i.thing is not None), self.told_group
         )
@@ -161,6 +167,7 @@ class _Composer(Draft):
             if node.mark == "after" and leading:
                 self._unless_planned(order)
             elif node.mark == "before" and leading:
+                self.plan.certain = True
                 self.later.append(order)
             elif node.mark == "after":
                 self._insert(order, self.last_start)
@@ -188,7 +195,7 @@ class _Composer(Draft):
         else:
             self._order(order)
         self.plan.steps += behind
-        self.current = current
+        self.current, self.last_start = current, at
 
     def _condition(self, node: Node) -> None:
         self._begin_condition(node)
@@ -239,7 +246,8 @@ class _Composer(Draft):
             self.plan.against.append("a rule")
         looked = next((s for s in reversed(self.plan.steps) if s.kind in small().sets["looks"]), None)
         if not things and looked is not None and looked.kind != "look" and about_find(words):
-            return Hang((), True, otherwise != bool(set(keys(words)) & small().existence))
+            flat, gone = set(keys(words)), small().sets["gone"] - set(keys(looked.what))
+            return Hang((), True, otherwise != (bool(flat & small().existence) != bool(flat & gone)))
         if set(keys(words)) <= small().sets["same_again"]:
             if not self._answered() and looked is None and not self.last_hang.hangs:
                 self.plan.against.append("it depends on nothing")
@@ -271,6 +279,22 @@ class _Composer(Draft):
             self.plan.against.append("only a name")
         if self.later:
             self.plan.against.append("left over")
+
+
+def _sought(words: Phrase) -> Order | None:
+    """For "Any leaks?", "Open windows?", "Open or shut?", said of a place: what is looked for there."""
+    if len(words) <= 3 and singular(words[-1].key) != words[-1].key and is_what(words):
+        return Order("search", what=words, refers=True)
+    if "or" in keys(words) and len(words) < 7:
+        return Order("whether", what=words, refers=True)
+    if words[0].key == "any" and len(words) > 1:
+        return Order("search", what=words[1:], refers=True)
+    return None
+
+
+def _is_short(order: Order) -> bool:
+    """Whether it may ask for what was found rather than for a search ("Any keys there?")."""
+    return order.kind == "search" and len(order.words) < 4
 
 
 def _is_light(part: Part) -> bool:

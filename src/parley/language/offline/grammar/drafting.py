@@ -10,7 +10,7 @@ from parley.language.offline.grammar.phrases import (
     moved,
     same_place,
 )
-from parley.language.offline.grammar.small import small
+from parley.language.offline.grammar.small import base, small
 from parley.language.offline.words.text import Phrase, keys
 
 __all__ = ["Draft", "Hang", "Plan", "Step", "hung"]
@@ -77,6 +77,8 @@ class Plan:
     steps: list[Step] = field(default_factory=list)
     against: list[str] = field(default_factory=list)
     """Why it may be wrong."""
+    certain: bool = False
+    """Whether it says in which order, or for what, in a way that is read best here ("the last stop is A")."""
 
 
 @dataclass(frozen=True, slots=True)
@@ -113,6 +115,10 @@ class Draft:
         self.current: list[Phrase] = []
         """The places that "it" and "there" mean."""
         self.told: list[Phrase] = []
+        self.left_out: list[Phrase] = []
+        """What is to be left out of all that follows."""
+        self.fresh: list[Phrase] = []
+        """What was told of since the last order."""
         self.told_group: list[Phrase] = []
         """What a story named last, all of it."""
         self.about: list[str] = []
@@ -140,6 +146,7 @@ class Draft:
             self._correct(order)
         if self.put_first:
             self.put_first, order.where = False, "before"
+        self.plan.certain = self.plan.certain or order.ranked
         if order.where:
             self._place(order)
         elif not self._moves(order):
@@ -193,7 +200,14 @@ class Draft:
         self.plan.against = [why for why in self.plan.against if why != "a look at nothing"]
         if last is None:
             return
-        del self.plan.steps[self.last_start :]
+        if order.kind == "named" and len(last.things) > 1 and last.kind in {"go", "named"}:
+            # "A, then B, no, C": only the last of them is taken back.
+            wrong = last.things[-1]
+            at = next((i for i, s in enumerate(self.plan.steps) if same_place(s.place, wrong)), 0)
+            del self.plan.steps[at or self.last_start :]
+            order.things[:0] = last.things[:-1] if not at else []
+        else:
+            del self.plan.steps[self.last_start :]
         if order.kind == "named" and last.kind != "named":
             order.kind, order.what = last.kind, last.what
 
@@ -234,8 +248,17 @@ class Draft:
         if not things and not order.refers and len(order.words) == 1 and not self.plan.steps:
             # "She is waiting for you, off you go".
             things = self.told[-1:]
-        if not things and not order.refers and not (self.plan.steps and len(order.words) == 1):
+        deed = bool(order.words) and order.words[0].key in small().deeds and not things
+        if not things and not order.refers and not deed and not (self.plan.steps and len(order.words) == 1):
             self._put(Step("other", words=order.words))
+        if (
+            things
+            and order.words
+            and base(order.words[0].key) in small().sets["last"]
+            and not self.plan.steps
+        ):
+            self.at_end += things
+            self.plan.certain = len(self.parts) > 2
         for thing in things:
             self._put(Step("go", thing))
         if things:
@@ -266,13 +289,25 @@ class Draft:
             # "..., and A after B": A is planned already.
             self.last_start, self.current = planned[0], list(order.things)
             return
-        if last is not None and last.kind in small().sets["looks"]:
+        if last is not None and last.kind in small().sets["looks"] and not self._is_topic():
             self._again(order)
             return
         for thing in order.things:
             self._put(Step("go", thing, named=True))
         self.current = list(order.things)
         self.last = last if last is not None and last.kind in small().sets["looks"] else order
+
+    def _is_topic(self) -> bool:
+        """For "and the gate, check that it is shut": an order about what is named follows."""
+        comma, order = self.parts[self.at + 1 : self.at + 2], self.parts[self.at + 2 : self.at + 3]
+        marked = bool(comma) and isinstance(comma[0], Node) and comma[0].mark == "comma"
+        follows = order[0] if order else None
+        return (
+            marked
+            and isinstance(follows, Order)
+            and follows.kind in small().sets["looks"]
+            and not follows.things
+        )
 
     def _is_list(self, order: Order) -> bool:
         """For "we have three places here, A, B and C": they are told of."""
@@ -291,6 +326,7 @@ class Draft:
         self._add(again)
 
     def _look(self, order: Order) -> None:
+        self._as_before(order)
         what = order.what
         if not what and not order.things and self.asked[0] and order.kind in {"whether", "look", "search"}:
             order.kind, what, order.things = "whether", self.asked[0], self.asked[1]
@@ -304,7 +340,7 @@ class Draft:
         if keys(order.words[:1]) in _TELLING and order.kind == "look" and not order.things:
             self._put(Step("other", words=order.words))
             return
-        if order.refers and not self.current and self.about:
+        if order.refers and not self.current and self.about and not order.plural:
             self.plan.against.append("it may be what is told of")
         if order.kind == "whether" and len(order.things) > 1:
             places = order.things[:1] if not self.current else self.current[-1:]
@@ -321,12 +357,38 @@ class Draft:
         self.last = Order(order.kind, list(places), what)
         self.noun = what if order.kind == "search" else self.noun
 
+    def _as_before(self, order: Order) -> None:
+        """For "B for the same": what was looked for before."""
+        same = order.what and set(keys(order.what)) <= {"the", "same", "thing", "things", "too"}
+        if not same or self.last is None:
+            return
+        order.what, order.kind = self.last.what, self.last.kind
+        if order.kind == "whether":
+            order.what = moved(self.last.what, self.last.things, order.things)
+
     def _meant(self, order: Order) -> list[Phrase]:
+        if len(self.fresh) == 1 and self.current and not order.plural and not self.is_person(self.fresh[0]):
+            # "The skip should be away, see if it is".
+            return list(self.fresh)
         if self.current:
-            return list(self.current)
-        if order.plural and self.told_group:
+            return self._all_meant() if order.plural else list(self.current)
+        if order.plural and len(self.told_group) != 1:
             return self.told_group
-        return self.told[-1:]
+        places = self._told_places()
+        return places if order.plural else places[-1:]
+
+    def _all_meant(self) -> list[Phrase]:
+        """What "any of them" means: every place gone to since something was looked at."""
+        steps = self.plan.steps
+        first = next((i + 1 for i in range(len(steps) - 1, -1, -1) if steps[i].kind != "go"), 0)
+        places = list({keys(step.place): step.place for step in steps[first:]}.values())
+        return places if len(places) > len(self.current) else list(self.current)
+
+    def _told_places(self) -> list[Phrase]:
+        """What stories name, once each; people only if they name nothing else."""
+        once = {keys(phrase): phrase for phrase in self.told}
+        places = [phrase for phrase in once.values() if not self.is_person(phrase)]
+        return places or list(once.values())
 
     def _look_at(self, kind: str, place: Phrase, what: Phrase) -> None:
         """Behind the step that goes there, if that was the last thing done there."""
@@ -369,6 +431,8 @@ class Draft:
 
     def _leave_out(self, order: Order) -> None:
         """What is not to be done: it is taken out of what was asked for."""
+        if order.kind == "leave_out" and order.refers and not order.things:
+            order.things = self.fresh[-1:] or self.current[-1:]
         self.current = self.current or list(order.things)
         if order.kind == "leave_out" and not order.things:
             self.plan.against.append("nothing to leave out")
@@ -381,6 +445,6 @@ class Draft:
             ]
             self.current = [c for c in self.current if not any(same_place(c, t) for t in order.things)]
             if before == len(self.plan.steps) and order.kind == "leave_out" and not self.plan.steps:
-                self.plan.against.append("nothing to leave out")
+                self.left_out += order.things
         elif order.kind == "other":
             self.plan.against += ["unread"] * order.unread

@@ -128,13 +128,23 @@ class Groups:
         return (*head[:-1], Word(singular(last.key), singular(last.raw)))
 
     def _range(self, head: Phrase, first: str, last: str) -> Iterable[Phrase]:
-        if not (first.isdigit() and last.isdigit()) or abs(int(first) - int(last)) > 50:
+        digits = first.isdigit() and last.isdigit()
+        if not digits and not (len(first) == len(last) == 1 and first.isalpha() and last.isalpha()):
             return
-        step = 1 if int(last) > int(first) else -1
-        for number in range(int(first) + step, int(last) + step, step):
-            member = (*head, Word(str(number), str(number)))
+        start, end = (int(first), int(last)) if digits else (ord(first), ord(last))
+        step = 1 if end > start else -1
+        for number in range(start + step, end + step, step) if abs(start - end) <= 50 else ():
+            label = str(number) if digits else chr(number)
+            member = (*head, Word(label, label if digits else label.upper()))
             if self._is_one(member):
                 yield member
+
+    def between(self, first: Phrase, last: Phrase) -> list[Phrase]:
+        """For "tank 4" and "tank 1": both and those between; nothing if they are of two kinds."""
+        if len(first) < 2 or len(first) != len(last) or keys(first[:-1]) != keys(last[:-1]):
+            return []
+        behind = list(self._range(first[:-1], first[-1].key, last[-1].key))
+        return [first, *behind] if behind else []
 
     def _is_one(self, phrase: Phrase) -> bool:
         return ground_phrase(phrase, self.scene.objects, strict=True).outcome == "match"

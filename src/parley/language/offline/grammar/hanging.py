@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from parley.language.offline.grammar.orders import Node, Order
-from parley.language.offline.grammar.small import is_past, small, verb_class
+from parley.language.offline.grammar.small import base, is_past, small, verb_class
 from parley.language.offline.grammar.things import Item
 from parley.language.offline.grammar.topics import Topics
 from parley.language.offline.grammar.verbs import Head
@@ -114,7 +114,8 @@ class Hanging(Topics):
         """Where a condition ends: at a comma or "then", or where an order begins behind its verb."""
         end, seen = start, False
         while end < len(self.items) and self.key(end) not in {",", ".", "!", "?", ";", ":", "then", "\n"}:
-            if seen and end > start + 1 and self._opens(end):
+            denied = self.key(end) == "not" and self.key(end - 1) in lexicon().be | lexicon().auxiliaries
+            if seen and end > start + 1 and not denied and self._opens(end):
                 break
             follows = self.items[end + 1] if end + 1 < len(self.items) else None
             if seen and self.key(end) == "to" and follows is not None and follows.thing is not None:
@@ -132,7 +133,20 @@ class Hanging(Topics):
         if head is None:
             return False
         framed = self.key(at) in {"you", "please", "go", "do", "can", "could", "just"}
-        return framed or self.key(head.at) in small().always
+        gives = head.gives and base(self.key(at)) in small().light
+        return framed or gives or self.key(head.at) in small().always or self._directed(at, head)
+
+    def _directed(self, at: int, head: Head) -> bool:
+        """Whether a verb without any mark before it has to be an order: "pop over", "check the door"."""
+        if head.at != at or base(self.key(at)) != self.key(at) or self.key(at - 1) in lexicon().determiners:
+            return False
+        following = self.items[head.end] if head.end < len(self.items) else None
+        if following is None:
+            return False
+        if head.kind == "go":
+            return following.thing is not None or self.key(at + 1) in small().sets["directions"]
+        named = following.thing is not None or following.key in lexicon().determiners
+        return head.kind in small().sets["looks"] and named
 
     def _temporal(self, mark: str, start: int) -> bool:
         """For "Before A", "after visiting B", "once you have been to C"; what people do then is only told."""
@@ -150,7 +164,7 @@ class Hanging(Topics):
             end = self._told_end(start)
             self.parts.append(Node("told", list(self.items[self.at : end])))
         else:
-            only = self.key() in {"only", "not"} or self.key(self.at - 1) == "only"
+            only = self.key() in {"only", "not", "having"} or self.key(self.at - 1) == "only"
             self.parts.append(Node("before" if mark == "before" else "after", orders=orders, only=only))
         self.at = end
         return True
@@ -173,6 +187,38 @@ class Hanging(Topics):
         )
         return Node("wait", items) if finite else None
 
+    def _done_there(self, order: Order, done: int) -> tuple[list[Order], int]:
+        """For "A is done and B is done": both are gone to."""
+        order.kind = "go"
+        behind = done + 1 if self.key(done) == "and" else done
+        more, stop = self._events(behind, mark_is_after=True) if behind > done else ([], done)
+        return [order, *more], (stop if more else done)
+
+    def _only_named(self, order: Order, end: int, start: int) -> tuple[list[Order], int]:
+        """What is only named; nothing if something is said of it."""
+        says = verb_class(self.key(end)) and self.key(end).endswith("s")
+        if says or self.key(end) in lexicon().be | small().needs - {"please"}:
+            return [], start
+        return [order], end
+
+    def _deed_done(self, at: int) -> tuple[list[Order], int]:
+        """For "once you have had a look (at A)": what was done, and where that ends."""
+        order, end = Order("go" if small().deeds[self.key(at)] == "go" else "look"), at + 1
+        behind = self.items[end + 1] if end + 1 < len(self.items) else None
+        if self.key(end) in small().prepositions and behind is not None and behind.thing is not None:
+            return [order], self.args.take(order, end + 1)
+        return [], end
+
+    def _dealt_with(self, at: int) -> int:
+        """For "is done", "has been seen to" behind a name: where that ends; 0 if it does not stand here."""
+        end = at
+        while self.key(end) in lexicon().be | {"'s", "has", "have", "been", "all"}:
+            end += 1
+        if end == at or self.key(end) not in small().sets["dealt_with"]:
+            return 0
+        end += 1
+        return end + 1 if self.key(end) in {"to", "with"} and self.items[end + 1 : end + 2] else end
+
     def _events(self, start: int, *, mark_is_after: bool) -> tuple[list[Order], int]:
         at = start
         while self.key(at) in small().sets["having_been"]:
@@ -180,16 +226,15 @@ class Hanging(Topics):
         if self.key(at - 1) == "both" and mark_is_after and self.parts:
             # "Only after both, the door".
             return [], at
+        if at > start and self.key(at) in {"a", "another"} and small().deeds.get(self.key(at + 1)):
+            return self._deed_done(at + 1)
         if at < len(self.items) and self.items[at].thing is not None:
             order = Order("named" if at == start else "go")
             end = self.args.take(order, at)
             if self.key(end) in {"comes", "follows"}:
                 return [order], end + 1
-            if verb_class(self.key(end)) and self.key(end).endswith("s"):
-                return [], start
-            if self.key(end) in lexicon().be | small().needs and self.key(end) not in {"please"}:
-                return [], start
-            return [order], end
+            done = self._dealt_with(end) if mark_is_after else 0
+            return self._done_there(order, done) if done else self._only_named(order, end, start)
         refers = small().back_reference.match(self.heads.flat(at))
         if refers and at == start and mark_is_after:
             return [], at + refers[0]

@@ -43,6 +43,8 @@ class Order:
     refers: bool = False
     where: Literal["", "first", "before", "last"] = ""
     """Where in the plan it belongs: before everything, before the order before it, at the end."""
+    ranked: bool = False
+    """Whether it is only said to be the first or last stop."""
     also: bool = False
     """Whether it goes on with what the order before it did ("... too")."""
     plural: bool = False

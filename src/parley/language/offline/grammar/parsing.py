@@ -2,13 +2,16 @@
 
 from __future__ import annotations
 
+from collections.abc import Sequence
+
+from parley.language.offline.grammar.groups import Groups
 from parley.language.offline.grammar.hanging import Hanging
 from parley.language.offline.grammar.orders import Node, Order, Part
 from parley.language.offline.grammar.small import base, small, verb_class
-from parley.language.offline.grammar.things import items_of
+from parley.language.offline.grammar.things import Item, items_of
 from parley.language.offline.scene.scene import Scene
 from parley.language.offline.words.lexicon import lexicon
-from parley.language.offline.words.text import Phrase
+from parley.language.offline.words.text import Phrase, keys
 
 __all__ = ["parse"]
 
@@ -61,6 +64,10 @@ def parse(words: Phrase, scene: Scene) -> list[Part]:
 class _Parser(Hanging):
     """Reads one part after the other."""
 
+    def __init__(self, items: Sequence[Item], scene: Scene) -> None:
+        super().__init__(items, scene)
+        self.scene = scene
+
     def parse(self) -> list[Part]:
         while self.at < len(self.items):
             before = self.at
@@ -75,6 +82,7 @@ class _Parser(Hanging):
             self._but_first,
             self._mark,
             self._asked_of,
+            self._ranked_stop,
             self._sequence,
             self._correction,
             self._subordinate,
@@ -122,6 +130,30 @@ class _Parser(Hanging):
             return False
         self.parts.append(Node("first"))
         self.at += before[0]
+        return True
+
+    def _ranked_stop(self) -> bool:
+        """For "the last stop is A", "first port of call: A"."""
+        at = self.at + (self.key() in {"the", "your", "and"})
+        rank = self.key(at)
+        if rank not in {"first", "last", "final", "next"}:
+            return False
+        end = at + 1
+        while self.key(end) in small().sets["stops"]:
+            end += 1
+        linked = end
+        while (
+            self.key(linked) in {"is", "will", "be", "should", "would", "to", ":", ","} and linked - end < 3
+        ):
+            linked += 1
+        if end == at + 1 or linked == end or linked >= len(self.items) or self.items[linked].thing is None:
+            return False
+        order = Order("go", words=self.items[at].words)
+        self.at = self.args.take(order, linked)
+        if rank != "next":
+            order.where = "first" if rank == "first" else "last"
+        order.ranked = True
+        self.parts.append(order)
         return True
 
     def _sequence(self) -> bool:
@@ -196,11 +228,58 @@ class _Parser(Hanging):
 
     # Orders, and what is only named or told.
 
+    def _order(self) -> bool:
+        start = self.at
+        if not super()._order():
+            return False
+        order = self.parts[-1]
+        if self._is_call(start, order):
+            self.parts[-1] = Node("told", list(self.items[start : self.at]))
+            return True
+        if isinstance(order, Order):
+            self._stretched(order)
+        only = bool({"only", "but"} & {self.key(start), self.key(start - 1)})
+        if isinstance(order, Order) and only and order.things and not order.where:
+            ends = keys(order.words)
+            order.where = "first" if any(ends[-len(p) :] == p for p in _FRONT) else ""
+        return True
+
+    def _is_call(self, start: int, order: Part) -> bool:
+        """Whether words at the start of a sentence only call somebody: "Look, ...", "dock office here"."""
+        last = self.parts[-2] if len(self.parts) > 1 else None
+        opens = last is None or (isinstance(last, Node) and last.mark in {"stop", "ask", "told", "comma"})
+        if not opens or not isinstance(order, Order) or order.things or not self.args.ends(self.at):
+            return False
+        flat = keys(order.words)
+        called = self.key(self.at) == "," and flat in {("look",), ("see",), ("listen",), ("come", "on")}
+        return called or (order.kind == "other" and flat[-1:] == ("here",) and len(flat) <= 4 and start <= 6)
+
+    def _stretched(self, order: Order) -> None:
+        """For "start at the first, work your way to the last": all of them, in this order."""
+        before = next((p for p in reversed(self.parts[:-1]) if isinstance(p, Order)), None)
+        if before is None or len(before.things) != 1 or len(order.things) != 1 or order.kind != "go":
+            return
+        begins = base(before.words[0].key) if before.words else ""
+        way = {"way", "down", "up", "along", "through", "until"} & set(keys(order.words))
+        if not way or begins not in small().sets["first"]:
+            return
+        whole = Groups((), self.scene).between(before.things[0], order.things[0])
+        order.things = whole[1:] or order.things
+        order.group = bool(whole)
+
     def _named(self) -> bool:
         """Things and nothing said of them, "not" and the like before them."""
         at, negated = self.at, False
         while self.key(at) in small().sets["before_names"]:
             negated = negated or self.key(at) in {"not", "never"}
+            at += 1
+        owner = self.items[at + 1] if at + 1 < len(self.items) else None
+        if (
+            at > self.at
+            and self.key(at) in {"your", "my", "our"}
+            and owner is not None
+            and owner.thing is not None
+        ):
             at += 1
         if at >= len(self.items) or self.items[at].thing is None:
             return False
@@ -218,7 +297,15 @@ class _Parser(Hanging):
         order.also = order.also or "also" in self.heads.flat(self.at, at - self.at)
         end = self._position(order, end)
         leaves = "from" in self.heads.flat(self.at, at - self.at) and self.heads.head(end) is not None
-        if self._says_of_it(end) and not leaves:
+        if self.heads.flat(end, 2) == ("with", "you") and self.args.ends(end + 2):
+            # "Back to the desk with you".
+            order.kind, end = "go", end + 2
+        calls = (
+            self.key(end) == "here"
+            and self.args.ends(end + 1)
+            and all(isinstance(p, Node) for p in self.parts)
+        )
+        if calls or (self._says_of_it(end) and not leaves):
             return False
         while self.key(end) in small().adverbs | {
             "'s",
@@ -272,6 +359,10 @@ class _Parser(Hanging):
     def _says_of_it(self, at: int) -> bool:
         """Whether something is said of what was named."""
         key = self.key(at)
+        if key == "'s" and not self.args.ends(at + 1):
+            return self.key(at + 1) not in {"first", "last", "next", "turn", "as", "too", "also"}
+        if key in small().sets["modals"] and self.key(at + 1) in {"have", "be", "not", "already", "still"}:
+            return True
         behind = small().sets["behind_names"] | small().adverbs | set(lexicon().ordinals) | {"and"}
         return not self.args.ends(at) and key not in behind
 

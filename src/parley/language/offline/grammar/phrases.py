@@ -5,10 +5,10 @@ from __future__ import annotations
 from collections.abc import Iterable, Sequence
 
 from parley.language.offline.grammar.arguments import words_of
-from parley.language.offline.grammar.small import small, verb_class
+from parley.language.offline.grammar.small import is_past, small, verb_class
 from parley.language.offline.grammar.things import Item
 from parley.language.offline.words.lexicon import lexicon
-from parley.language.offline.words.text import Phrase, keys
+from parley.language.offline.words.text import Phrase, keys, singular
 
 __all__ = ["about_find", "is_what", "moved", "noun_of", "same_place", "says_where", "things_in"]
 
@@ -24,8 +24,13 @@ def things_in(items: Iterable[Item]) -> list[Phrase]:
 
 
 def is_what(words: Phrase) -> bool:
-    """Whether a few words can be what is looked for ("leaks", "dirty cups")."""
+    """Whether a few words can be what is looked for ("leaks", "dirty cups", "lights left on please")."""
     flat = keys(words)
+    while flat and flat[-1] in {"please", "thanks", "pls", "ta", "cheers"}:
+        flat = flat[:-1]
+    described = next((i for i in range(1, min(4, len(flat))) if _is_participle(flat[i])), 0)
+    if described and singular(flat[described - 1]) != flat[described - 1] and len(flat) - described <= 5:
+        flat = flat[:described]
     closed = (
         small().subjects | {"we", "you", "the", "not", "no", "yes", "please"} | lexicon().be | small().adverbs
     )
@@ -35,24 +40,35 @@ def is_what(words: Phrase) -> bool:
     return 0 < len(flat) <= 3 and not set(flat) & closed and flat[-1].isalpha()
 
 
+def _is_participle(word: str) -> bool:
+    return bool(verb_class(word)) and (word.endswith("ing") or is_past(word))
+
+
 def about_find(words: Phrase) -> bool:
     """Whether a condition is about what was just looked for ("if nobody is there", "if you find any")."""
     flat = set(keys(words))
     return bool(
         flat
         & {"there", "nobody", "none", "find", "see", "any", "some", "nothing", "found", "yes", "no", "not"}
+        | (flat & small().sets["gone"])
     ) or (keys(words) in {("so",), ("it", "is"), ("they", "are"), ("that", "is", "the", "case")})
 
 
 def noun_of(items: Sequence[Item]) -> Phrase:
     """The noun that a story brings up ("somebody left a jacket on the bench": a jacket)."""
+    lost = bool(small().sets["gone"] & {item.key for item in items})
     for i, item in enumerate(items):
-        if item.key not in {"a", "an", "some", "another"}:
+        owned = lost and item.key in {"my", "his", "her", "our", "their", "your", "the"}
+        if item.key not in {"a", "an", "some", "another"} and not owned:
             continue
         end = i + 1
+        follows = items[i + 2] if i + 2 < len(items) else None
+        if follows is not None and items[end].key.endswith("ing") and is_noun(follows):
+            end += 1
         while end < len(items) and is_noun(items[end]) and end - i < 4:
             end += 1
-        if end > i + 1:
+        links = end < len(items) and items[end].key in lexicon().be | {"has", "have", "'s", "went"}
+        if end > i + 1 and (links or not owned):
             return words_of(items[i + 1 : end])
     return ()
 

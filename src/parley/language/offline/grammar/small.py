@@ -42,6 +42,11 @@ class Small:
     talk: frozenset[str]
     """Verbs that order nothing."""
     leave_out: PhraseTable
+    backwards: PhraseTable
+    ensuring: PhraseTable
+    """Seeing that something is so, in so many words ("make certain")."""
+    idioms: PhraseTable
+    """What may stand anywhere and says nothing ("if I were you")."""
     go_on: PhraseTable
     """Going, in so many words ("pop your head")."""
     sets: Mapping[str, frozenset[str]]
@@ -72,7 +77,7 @@ def small() -> Small:
     tables: dict[str, Any] = {
         name: PhraseTable.of(data[name])
         for name in ("subordinators", "sequence", "before_that", "back_reference", "corrections", "same",
-                     "leave_out", "go_on")
+                     "leave_out", "go_on", "ensuring", "idioms", "backwards")
     }  # fmt: skip
     special = {name: frozenset(words) for name, words in data["sets"].items()}
     return Small(verbs=table, deeds=deeds, sets=special, **sets, **tables)

@@ -8,6 +8,7 @@ from dataclasses import dataclass
 from parley.language.offline.grammar.groups import Groups, Item, Thing
 from parley.language.offline.grammar.small import small, verb_class
 from parley.language.offline.scene.grounding import describe, ground_phrase
+from parley.language.offline.scene.marks import marks_of, members_of
 from parley.language.offline.scene.scene import Scene
 from parley.language.offline.words.lexicon import lexicon
 from parley.language.offline.words.nouns import number_of
@@ -16,11 +17,12 @@ from parley.language.offline.words.text import Phrase, Word, closest, keys, sing
 __all__ = ["Item", "Thing", "items_of"]
 
 _LONGEST = 7
+_ROOM_FOR = frozenset({("for",), ("to",), ("left",), ("enough",)})
 
 
 def items_of(words: Phrase, scene: Scene) -> list[Item]:
     """The message with what it names put together."""
-    words = tuple(_without_fillers(tuple(_cut_possessives(words))))
+    words = _without_idioms(tuple(_without_fillers(tuple(_cut_possessives(words)))))
     finder = _Finder(words, scene)
     words = finder.words
     result: list[Item] = []
@@ -36,6 +38,22 @@ def items_of(words: Phrase, scene: Scene) -> list[Item]:
             result.append(Item("<thing>", words[at:end], thing))
             at = end
     return result
+
+
+def _without_idioms(words: Phrase) -> Phrase:
+    """Without what says nothing ("if I were you"), and the commas around it."""
+    result: list[Word] = []
+    at = 0
+    while at < len(words):
+        found = small().idioms.match(keys(words[at : at + 8]))
+        if found is None:
+            result.append(words[at])
+            at += 1
+            continue
+        at += found[0]
+        if (not result or result[-1].key == ",") and keys(words[at : at + 1]) == (",",):
+            at += 1
+    return tuple(result)
 
 
 def _cut_possessives(words: Phrase) -> Iterator[Word]:
@@ -154,6 +172,10 @@ class _Finder(Groups):
         """What is named from a word on, and where that ends."""
         if not self.words[at].is_word or self.words[at].key == "of" or self._is_verb_here(at):
             return at, None
+        if marks_of(self.words[at]):
+            together = members_of(self.words[at : at + 1], self.scene.objects)
+            members = tuple(tokens(describe(item, self.scene.objects)) for item in together)
+            return at + 1, Thing(members, self.words[at : at + 1], group=True)
         owned = self._owned(at)
         if owned[1] is not None:
             return owned
@@ -236,6 +258,12 @@ class _Finder(Groups):
             before = self.words[at - 1].key if at else "."
             if before in {"to", "and", "you", "please", "not", "then"}:
                 return None
+        if (
+            not lead
+            and keys(content) in {("room",), ("space",)}
+            and keys(self.words[stop : stop + 1]) in _ROOM_FOR
+        ):
+            return None
         phrase = self.words[at:stop]
         found = ground_phrase(content, self.scene.objects, self.scene.situation.robot_pose, strict=True)
         if found.outcome == "none":
@@ -336,6 +364,7 @@ class _Finder(Groups):
             return True
         begins = lexicon().places.match(keys(self.words[stop : stop + 5])) is not None
         begins = begins or first in {"closest", "nearest", "farthest"}
+        begins = begins or (first == "to" and last in {"left", "right"} and end == stop + 3)
         return begins and (
             self._ends_name(end) or last in small().sets["sides"] or last in self.subject_words
         )

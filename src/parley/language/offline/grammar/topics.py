@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Sequence
 
-from parley.language.offline.grammar.arguments import Arguments
+from parley.language.offline.grammar.arguments import Arguments, words_of
 from parley.language.offline.grammar.orders import Order, Part
 from parley.language.offline.grammar.small import base, is_past, small, verb_class
 from parley.language.offline.grammar.things import Item
@@ -132,6 +132,11 @@ class Topics:
             self.parts.append(order)
             self.at = at + 2
             return True
+        needs = at
+        while self.key(needs) in small().needs | small().sets["needs_to_be"] and needs - at < 6:
+            needs += 1
+        if needs > at and self._needed(order, at, needs):
+            return True
         head = self.heads.head(at) if {"i", "we"} & set(flat[:1]) else None
         if head is None or head.kind not in {"look", "go"}:
             return False
@@ -156,6 +161,12 @@ class Topics:
 
     def _needed(self, order: Order, behind: int, needs: int) -> bool:
         """What a thing needs: "looking at", "checked", "a visit"."""
+        if self.heads.flat(behind + 1, 2) == ("you", "to"):
+            # "Somebody wants you to V": who wants it.
+            return False
+        owned = self._part_needed(order, needs) if needs > behind else False
+        if owned:
+            return True
         key = self.key(needs)
         between = set(self.heads.flat(behind, needs - behind))
         deed = small().deeds.get(key, "") if between & {"a", "an", "another", "the"} else ""
@@ -179,6 +190,36 @@ class Topics:
         self.parts.append(order)
         self.at = at
         return True
+
+    def _part_needed(self, order: Order, at: int) -> bool:
+        """For "the boat needs its lamp checked", "... wants the oil looking at": what of it is looked at."""
+        start = at + 1 if self.key(at) in {"its", "their", "his", "her", "the", "a"} else at
+        if self.key(at - 1) in {"a", "the"}:
+            start = at
+        end = start
+        while end < len(self.items) and end - start < 4 and not self._looked_at(end):
+            if not self.items[end].key.isalpha() or self.args.ends(end):
+                return False
+            end += 1
+        if end == start or end >= len(self.items) or start == at == end or not self._looked_at(end):
+            return False
+        if self.key(start - 1) not in {"its", "their", "his", "her", "the", "a"}:
+            return False
+        order.kind, order.what = "search", words_of(self.items[start:end])
+        order.negated = "not" in self.heads.flat(at - 2, 2)
+        self.parts.append(order)
+        self.at = self.args.looked(Order("look"), end + 1)
+        return True
+
+    def _looked_at(self, at: int) -> bool:
+        """Whether "checked", "looking at" or the like stands here."""
+        key = self.key(at)
+        form = base(key)
+        return (
+            form != key
+            and small().verbs.get(form, "") in {"look", "whether"}
+            and key not in {"read", "watches"}
+        )
 
     def _order(self) -> bool:
         start, refers = self.at, False

@@ -19,6 +19,9 @@ _CLASSES = {
 _MAY = frozenset(("you", word) for word in ("can", "will", "may", "might", "would", "could"))
 
 
+_HOLDING_ON = frozenset({("hang", "on"), ("hold", "on"), ("bear", "with")})
+
+
 @dataclass(frozen=True, slots=True)
 class Head:
     """The verb of an order."""
@@ -89,9 +92,14 @@ class Heads:
             return None
         if before is not None and before.gives and base(key) == key:
             return None
+        if key in {"know", "hear"} and frame[:1] in {("i",), ("we",)} and set(frame) & small().wishes:
+            asks = self.key(j + 1) in {"if", "whether"}
+            return Head(j, j + 1, "whether", _negated(frame), True) if asks else None
         deed = small().deeds.get(key)
         behind = self.key(j - 1) if j > at else "."
         noun = bool({"a", "an", "the", "another", "your", "some"} & set(frame[-4:])) or key == "eyes"
+        if deed and key in {"rest", "break", "pause", "stay"} and "the" in frame[-2:]:
+            return None
         if deed and noun and j > at:
             asked = set(frame) & (small().wishes | {"you"})
             light = bool({base(w) for w in frame} & small().light) or bool(asked)
@@ -114,7 +122,7 @@ class Heads:
         key, behind = base(self.key(j)), self.key(j + 1)
         if key in self._own:
             return False
-        if key in {"time", "like", "mind"}:
+        if key in {"time", "like", "mind"} or self.flat(j, 2) in _HOLDING_ON:
             return True
         if small().go_on.match((key, *self.flat(j + 1, 4))) is not None:
             return False
@@ -124,7 +132,7 @@ class Heads:
 
     def is_talk(self, j: int) -> bool:
         """Whether a verb is one of those that order nothing."""
-        return base(self.key(j)) in small().talk
+        return base(self.key(j)) in small().talk or self.flat(j, 2) in _HOLDING_ON
 
     def _goes_to(self, j: int) -> bool:
         """Whether "to", "over", "at" and the like stand behind a verb that means going only with them."""
@@ -183,7 +191,8 @@ class Heads:
             return False
         if frame[:2] in _MAY and base(key) in small().sets["perceiving"]:
             return False
-        if "what" in words and not words & {"about", "if"} and not (wishes and "is" in words):
+        planned = bool(wishes or {"you", "do"} <= words) and "is" in words
+        if "what" in words and not words & {"about", "if"} and not planned:
             return False
         if words & small().past_frames and not words & {"better", "wish", "wanted", "needed"}:
             return False
@@ -219,6 +228,7 @@ class Heads:
         if (
             "i" in words
             and "you" not in words
+            and not {"what", "do", "is"} <= words
             and not words & {"suggest", "propose", "recommend", "favour", "favor"}
         ):
             return False
@@ -249,9 +259,9 @@ class Heads:
             and {"what", "who", "where"} & set(flat[:size])
         ):
             return j + size, "other"
-        going = small().go_on.match(flat)
-        if going is not None:
-            return j + going[0], "go"
+        idiom = self._idiom(flat)
+        if idiom is not None:
+            return j + idiom[0], idiom[1]
         if flat[0] in small().sets["noting"] and flat[1:2] == ("any",):
             return j + 1, "search"
         left = small().leave_out.match(flat)
@@ -266,6 +276,14 @@ class Heads:
         if kind == "leave_out" and flat[0] not in small().verbs:
             kind = "other"
         return j + size, kind
+
+    def _idiom(self, flat: tuple[str, ...]) -> tuple[int, str] | None:
+        """For "pop your head", "make certain": how many words they are, and what they ask for."""
+        going = small().go_on.match(flat)
+        if going is not None:
+            return going[0], "go"
+        ensuring = small().ensuring.match(flat) if self._looks else None
+        return (ensuring[0], "whether") if ensuring is not None else None
 
     def _carries(self, j: int, flat: tuple[str, ...]) -> bool:
         """For "move the box from A to B": a thing is taken somewhere."""

@@ -7,6 +7,7 @@ from dataclasses import dataclass
 
 from parley.language.offline.facts.facts import read_statement, strip_openers
 from parley.language.offline.facts.remembering import Remembered, find_fact
+from parley.language.offline.facts.sharing import content_of, shared
 from parley.language.offline.scene.scene import Scene, UnclearError
 from parley.language.offline.tasks.commands import Command
 from parley.language.offline.words.lexicon import lexicon
@@ -15,7 +16,7 @@ from parley.language.offline.words.saying import listing, the, whole_sentence
 from parley.language.offline.words.text import Phrase, Word, keys, lemma, plain, singular, split_name, tokens
 from parley.messages.chat import ActionCall, SystemCommand
 
-__all__ = ["Edit", "drop_verb", "of_plan", "read_edit", "several_steps", "steps_of"]
+__all__ = ["Change", "Edit", "drop_verb", "of_plan", "read_edit", "steps_of"]
 
 _STEP_WORDS = frozenset(
     {"step", "action", "task", "item", "stop", "one", "order", "command", "part", "thing", "waypoint"}
@@ -42,11 +43,27 @@ class Edit:
     """Pending steps that were taken out and are put back in another order."""
 
 
+@dataclass(frozen=True, slots=True)
+class Change:
+    """What becomes of the plan."""
+
+    edit: Edit | None = None
+    order: Phrase = ()
+    """A new order, to be done at `at`."""
+    at: int = 0
+    """The first pending step that comes after it."""
+
+
 def read_edit(words: Phrase, scene: Scene) -> Edit | None:
     """A change of plan or memory that a clause asks for, or None."""
     words = strip_openers(words, requests=True)
     words = tuple(word for word in words if word.is_word)
-    return _drop(words, scene) or _forget(words, scene)
+    dropped = _drop(words, scene)
+    if dropped is not None and not scene.situation.queue and not dropped.commands:
+        # "Forget about order 9" with nothing planned: what was told of it.
+        forgotten = _forget(words, scene)
+        return forgotten if forgotten is not None and forgotten.commands else dropped
+    return dropped or _forget(words, scene)
 
 
 def _drop(words: Phrase, scene: Scene) -> Edit | None:
@@ -74,13 +91,6 @@ def _drop(words: Phrase, scene: Scene) -> Edit | None:
         (SystemCommand(command="pop", arguments={"parameters": index}),),
         f"I leave out step {index + 1}: {dropped}.",
     )
-
-
-def several_steps(words: Phrase, scene: Scene) -> Edit | None:
-    """For "skip the second and third step", said as a whole message."""
-    words = tuple(word for word in strip_openers(words, requests=True) if word.is_word)
-    size = drop_verb(words)
-    return _last_ones(keys(of_plan(bare(words[size:]))), scene) if size and size < len(words) else None
 
 
 def _last_ones(rest: tuple[str, ...], scene: Scene) -> Edit | None:
@@ -298,24 +308,20 @@ def _forget(words: Phrase, scene: Scene) -> Edit | None:
 
 
 def _untrue(words: Phrase) -> Phrase:
-    """For "what I told you about A is no longer true": A."""
+    """For "what I told you about A is no longer true", "... no longer holds": A."""
     flat = keys(words)
-    if "about" not in flat[:8] or not {"told", "said", "thing", "fact"} & set(flat[:5]):
+    if "about" not in flat[:8] or not {"told", "said", "thing", "fact", "mentioned"} & set(flat[:5]):
         return ()
     at = flat.index("about")
-    link = next((i for i in range(at + 2, len(flat)) if flat[i] in lexicon().be), 0)
-    denied = set(flat[link:]) & {
-        "not",
-        "no",
-        "wrong",
-        "false",
-        "outdated",
-        "obsolete",
-        "incorrect",
-        "untrue",
-        "old",
-    }
-    return bare(words[at + 1 : link]) if link and denied else ()
+    ends = lexicon().be | {"no", "does", "do", "has", "holds", "never", "ceased", "applies"}
+    link = next((i for i in range(at + 2, len(flat)) if flat[i] in ends), 0)
+    return bare(words[at + 1 : link]) if link and set(flat[link:]) & _DENYING else ()
+
+
+_DENYING = frozenset({
+    "not", "no", "wrong", "false", "outdated", "obsolete", "incorrect", "untrue", "old", "never", "nonsense",
+    "rubbish", "mistaken", "mistake", "ceased", "changed", "history", "lie",
+})  # fmt: skip
 
 
 def _remove(name: str) -> SystemCommand:
@@ -372,6 +378,8 @@ def _forget_about(about: Phrase, scene: Scene) -> Edit:
             )
     if not hits:
         by_name = [e for e in scene.situation.memory if set(keys(about)) <= set(split_name(e.name))]
+        wanted = content_of(about)
+        by_name = by_name or [f.entry for f in scene.facts if wanted and shared(wanted, f) == len(wanted)]
         if not by_name:
             return Edit((), f"I do not remember anything about {the(plain(about))}.")
         return Edit(

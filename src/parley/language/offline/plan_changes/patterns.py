@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterator
+from collections.abc import Iterator, Mapping
 from dataclasses import dataclass
 
 from parley.language.offline.words.text import Phrase, keys
@@ -21,8 +21,15 @@ class Part:
     optional: bool = False
 
 
-def parsed(text: str) -> tuple[Part, ...]:
-    """The parts of a pattern."""
+def parsed(text: str, named: Mapping[str, str] | None = None) -> tuple[Part, ...]:
+    """The parts of a pattern.
+
+    Args:
+        text: As the file has it.
+        named: Lists of alternatives by the name that stands for them ("DROP").
+    """
+    for name, words in (named or {}).items():
+        text = text.replace(name, words)
     return tuple(_part(word) for word in text.split())
 
 

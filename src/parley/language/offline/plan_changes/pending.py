@@ -19,6 +19,18 @@ _STEP_WORDS = frozenset({
     "stop", "visit", "place", "one", "item", "job", "part", "entry", "thing", "leg", "room",
     "destination", "waypoint", "station",
 })  # fmt: skip
+_NO_NAMES = frozenset(
+    {"i", "we", "you", "can", "could", "should", "do", "not", "leave", "no", "please", "if", "put"}
+)
+_STILL_AHEAD = tuple(
+    tuple(text.split())
+    for text in (
+        "still ahead", "still to come", "that are left", "that is left", "which are left", "still left",
+        "still pending",
+        "that remain", "that are still to come", "that are still ahead", "still on the list",
+        "ahead of you", "to come",
+    )
+)  # fmt: skip
 _CURRENT = frozenset(
     tuple(text.split())
     for text in (
@@ -45,6 +57,8 @@ def pending_visits(phrase: Phrase, scene: Scene) -> list[int]:
     """The places among the pending visits of what a phrase names, in order; empty if a part names none."""
     listed = visits(scene)
     phrase = tuple(word for word in phrase if word.is_word or word.key == ",")
+    tail = next((t for t in _STILL_AHEAD if keys(phrase[-len(t) :]) == t), ())
+    phrase = phrase[: len(phrase) - len(tail)]
     flat = keys(phrase)
     if not flat or not listed:
         return []
@@ -67,6 +81,7 @@ def _is_name(phrase: Phrase) -> bool:
     verb = lexicon().verbs.match(flat)
     return (
         len(phrase) <= 7
+        and not set(flat) & _NO_NAMES
         and not (verb is not None and len(flat) > verb[0] and flat[0] not in {"stop", "visit"})
         and not ({",", "and"} & set(flat))
     )

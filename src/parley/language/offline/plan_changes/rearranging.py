@@ -3,12 +3,12 @@
 from __future__ import annotations
 
 from collections.abc import Callable, Iterable, Sequence
-from dataclasses import dataclass, replace
 from functools import cache
 
 from parley.language.control import control_of
 from parley.language.offline.facts.facts import strip_openers
-from parley.language.offline.plan_changes.edits import Edit
+from parley.language.offline.plan_changes.by_clause import by_clause
+from parley.language.offline.plan_changes.edits import Change, Edit
 from parley.language.offline.plan_changes.patterns import Part, matches, parsed
 from parley.language.offline.plan_changes.pending import pending_visits
 from parley.language.offline.plan_changes.replanning import renamed, visits
@@ -17,38 +17,28 @@ from parley.language.offline.scene.scene import Scene
 from parley.language.offline.sentences.clauses import opens_command
 from parley.language.offline.tasks.catalogue import Catalogue
 from parley.language.offline.words.lexicon import lexicon
+from parley.language.offline.words.nouns import bare
 from parley.language.offline.words.saying import listing, the
-from parley.language.offline.words.text import Phrase, Word, keys, tokens
+from parley.language.offline.words.text import Phrase, Word, keys, lemma, plain, split_name, tokens
 from parley.language.word_lists import load_data
 from parley.messages.chat import ActionCall, SystemCommand
 from parley.messages.status import ActionInfo
 
-__all__ = ["Change", "rearranged"]
+__all__ = ["rearranged"]
 
-_LONGEST = 24
+_LONGEST = 40
 _LEADS = tuple(tuple(text.split()) for line in load_data("plan_changes")["leads"] for text in line.split(","))
 _KINDS = (
-    "reverse", "copy", "nth", "no_look", "between", "keep", "until", "from", "swap", "instead",
+    "rest", "reverse", "copy", "nth", "no_look", "between", "keep", "until", "from", "swap", "instead",
     "before", "after", "first", "last", "drop",
     "before_all", "then_after", "then_before",
 )  # fmt: skip
 
 
-@dataclass(frozen=True, slots=True)
-class Change:
-    """What becomes of the plan."""
-
-    edit: Edit | None = None
-    order: Phrase = ()
-    """A new order, to be done at `at`."""
-    at: int = 0
-    """The first pending step that comes after it."""
-
-
 @cache
 def _patterns() -> tuple[tuple[str, tuple[Part, ...]], ...]:
     data = load_data("plan_changes")
-    return tuple((kind, parsed(text)) for kind in _KINDS for text in data[kind])
+    return tuple((kind, parsed(text, data["named"])) for kind in _KINDS for text in data[kind])
 
 
 def rearranged(words: Phrase, scene: Scene) -> Change | None:
@@ -58,12 +48,54 @@ def rearranged(words: Phrase, scene: Scene) -> Change | None:
         words: All words and punctuation.
         scene: What is known, with its pending steps.
     """
+    words = _without_courtesy(_uncontracted(words))
     if not scene.situation.queue or len(words) > _LONGEST or "?" in keys(words):
         return None
     body = _bare(words)
     if len(body) < 2 or control_of(" ".join(keys(body))) is not None:
         return None
-    return _read(body, scene) or _one_by_one(body, scene)
+    several = bool({",", ".", ";", ":"} & set(keys(body)))
+    change = by_clause(words, scene, _bare, _read) if several else None
+    change = change or _read(body, scene)
+    return change if change is not None or several else by_clause(words, scene, _bare, _read)
+
+
+def _uncontracted(words: Phrase) -> Phrase:
+    """For "A's off": "A is off"."""
+    result: list[Word] = []
+    for i, word in enumerate(words):
+        following = words[i + 1].key if i + 1 < len(words) else ""
+        if word.key.endswith("'s") and following in _SAID_OF_IT:
+            result += [Word(word.key[:-2], word.raw[:-2]), Word("is", "is")]
+        else:
+            result.append(word)
+    return tuple(result)
+
+
+_SAID_OF_IT = frozenset(
+    {
+        "off",
+        "out",
+        "done",
+        "not",
+        "no",
+        "already",
+        "been",
+        "finished",
+        "checked",
+        "cancelled",
+        "first",
+        "last",
+        "next",
+        "now",
+    }
+)
+
+
+def _without_courtesy(words: Phrase) -> Phrase:
+    """For "(Could you) put A first?": no question."""
+    asked = keys(words[-1:]) == ("?",) and "?" not in keys(words[:-1])
+    return words[:-1] if asked and opens_command(words) else words
 
 
 def _read(body: Phrase, scene: Scene) -> Change | None:
@@ -73,47 +105,6 @@ def _read(body: Phrase, scene: Scene) -> Change | None:
             if change is not None:
                 return change
     return None
-
-
-def _one_by_one(body: Phrase, scene: Scene) -> Change | None:
-    """For "A can wait, do B first": one change after the other; what only tells why is passed over."""
-    parts: list[Phrase] = [()]
-    for word in body:
-        if word.key in {",", ".", ";"}:
-            parts.append(())
-        else:
-            parts[-1] = (*parts[-1], word)
-    if not 1 < len(parts) <= 4:
-        return None
-    listed = list(scene.situation.queue)
-    replies: list[str] = []
-    for part in filter(None, parts):
-        now = Scene.of(replace(scene.situation, queue=tuple(listed)))
-        change = _read(_bare(part), now) if listed else None
-        if change is None and not opens_command(part) and _only_tells(part):
-            continue
-        if change is None or change.edit is None or change.order:
-            return None
-        gone = {command.pop_index for command in change.edit.commands}
-        listed = [*(s for i, s in enumerate(listed) if i not in gone), *change.edit.queue]
-        replies.append(change.edit.reply)
-    if not replies:
-        return None
-    queue = scene.situation.queue
-    same = next(
-        (i for i, (a, b) in enumerate(zip(queue, listed, strict=False)) if a != b),
-        min(len(queue), len(listed)),
-    )
-    return Change(Edit(_pops(range(same, len(queue))), " ".join(replies), tuple(listed[same:])))
-
-
-def _only_tells(words: Phrase) -> bool:
-    """Whether a part says why, and asks for nothing."""
-    flat = keys(words)
-    return bool(set(flat) & (lexicon().be | {"has", "have", "had", "did", "was"})) or flat[:1] in {
-        ("because",),
-        ("since",),
-    }
 
 
 def _bare(words: Phrase) -> Phrase:
@@ -136,11 +127,28 @@ def _named(slots: dict[str, Phrase], scene: Scene, *names: str) -> list[list[int
 def _drop(slots: dict[str, Phrase], scene: Scene) -> Change | None:
     found = _named(slots, scene, "a")
     if found is None:
-        return None
+        return _undone(slots["a"], scene)
     gone = sorted(set(found[0]))
     return _left(
         scene, [i for i in range(len(visits(scene))) if i not in gone], f"I leave out {_names(gone, scene)}."
     )
+
+
+def _undone(words: Phrase, scene: Scene) -> Change | None:
+    """For "skip the counting": every step that does it."""
+    wanted = {lemma(word) for word in keys(bare(words))} - {"part", "bit", "business", "all", "that", "of"}
+    if len(wanted) != 1 or not any(word.endswith(("ing", "ion")) for word in keys(words)):
+        return None
+    deed = min(wanted)
+    gone = [
+        i
+        for i, step in enumerate(scene.situation.queue)
+        if any(
+            part == deed or lemma(part) == deed or deed.startswith(part + "ion")
+            for part in split_name(step.name)
+        )
+    ]
+    return Change(Edit(_pops(gone), f"I leave out the {plain(bare(words))}.")) if gone else None
 
 
 def _keep(slots: dict[str, Phrase], scene: Scene) -> Change | None:
@@ -148,6 +156,11 @@ def _keep(slots: dict[str, Phrase], scene: Scene) -> Change | None:
     return (
         None if found is None else _left(scene, sorted(found[0]), f"I keep only {_names(found[0], scene)}.")
     )
+
+
+def _rest(slots: dict[str, Phrase], scene: Scene) -> Change | None:
+    """For "cancel the rest": what is being done now is finished."""
+    return _left(scene, [0], f"I keep only {_names([0], scene)}.") if visits(scene) else None
 
 
 def _until(slots: dict[str, Phrase], scene: Scene) -> Change | None:
@@ -283,7 +296,7 @@ def _no_look(slots: dict[str, Phrase], scene: Scene) -> Change | None:
 
 def _reverse(slots: dict[str, Phrase], scene: Scene) -> Change | None:
     order = list(range(len(visits(scene))))
-    now = 1 if scene.situation.status == "running" else 0
+    now = 1 if scene.situation.status == "running" and len(order) > 2 else 0
     return _left(scene, [*order[:now], *order[now:][::-1]])
 
 
@@ -321,6 +334,7 @@ _CHANGES: dict[str, Callable[[dict[str, Phrase], Scene], Change | None]] = {
     "then_before": _insert(False),
     "before_all": _before_all,
     "no_look": _no_look,
+    "rest": _rest,
     "reverse": _reverse,
     "copy": _copy,
     "nth": _nth,

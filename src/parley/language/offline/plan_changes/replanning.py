@@ -22,7 +22,7 @@ from parley.language.offline.words.saying import listing, the
 from parley.language.offline.words.text import Phrase, keys, lemma, plain, singular, tokens
 from parley.messages.chat import ActionCall, SystemCommand
 
-__all__ = ["Visit", "inserted", "ordered", "read_replanning", "renamed", "visit_of", "visits", "without"]
+__all__ = ["Visit", "inserted", "ordered", "renamed", "visit_of", "visits", "without"]
 
 
 @dataclass(frozen=True, slots=True)
@@ -89,173 +89,11 @@ def _noun(phrase: Phrase) -> Phrase:
     return rest[goal[0] :] if goal is not None and goal[0] < len(rest) else rest
 
 
-def read_replanning(words: Phrase, scene: Scene) -> Edit | None:
-    """A new order of the pending visits that a sentence asks for, or None."""
-    if len(scene.situation.queue) < 2 or len(words) > 24:
-        return None
-    words = tuple(word for word in strip_openers(words, requests=True) if word.is_word or word.key == ",")
-    return (
-        _cut_short(words, scene)
-        or _turned_round(words, scene)
-        or _swapped(words, scene)
-        or _relative(words, scene)
-        or _extreme(words, scene)
-        or _replaced(words, scene)
-    )
-
-
-def _cut_short(words: Phrase, scene: Scene) -> Edit | None:
-    """For "remove everything after A", with A pending."""
-    flat = keys(words)
-    size = drop_verb(words)
-    at = next((i for i in range(len(flat)) if flat[i] in {"before", "after"}), 0)
-    if not size or flat[size:at] not in {("everything",), ("all",), ("all", "steps"), ("everything", "else")}:
-        return None
-    anchor = visit_of(words[at + 1 :], scene)
-    if anchor is None:
-        return Edit((), f"{plain(words[at + 1 :])} is not in the plan, so I leave it as it is.")
-    listed = visits(scene)
-    gone = listed[anchor + 1 :] if flat[at] == "after" else listed[:anchor]
-    indices = [visit.start + i for visit in gone for i in range(len(visit.steps))]
-    return Edit(_pops(indices), f"I leave out everything {plain(words[at:])}.")
-
-
-_REVERSED = frozenset(
-    tuple(text.split())
-    for text in (
-        "reverse the order", "reverse the plan", "reverse it", "reverse everything", "do it in reverse",
-        "do it in reverse order", "the other way round", "do it the other way round", "turn the order around",
-        "do them in reverse order", "go in reverse order", "invert the order",
-    )
-)  # fmt: skip
-
-
-def _turned_round(words: Phrase, scene: Scene) -> Edit | None:
-    """For "reverse the order": what is being done now is finished first."""
-    if keys(words) not in _REVERSED:
-        return None
-    order = list(range(len(visits(scene))))
-    kept = 1 if scene.situation.status == "running" else 0
-    return ordered([*order[:kept], *order[kept:][::-1]], scene)
-
-
-def _swapped(words: Phrase, scene: Scene) -> Edit | None:
-    """For "swap A and B"."""
-    flat = keys(words)
-    size = next((len(v) for v in _SWAPS if flat[: len(v)] == v), 0)
-    joint = next((i for i in range(size + 1, len(flat) - 1) if flat[i] in {"and", "with", "for"}), 0)
-    if not size or not joint:
-        return None
-    first, second = visit_of(words[size:joint], scene), visit_of(words[joint + 1 :], scene)
-    if first is None or second is None or first == second:
-        return None
-    order = list(range(len(visits(scene))))
-    order[first], order[second] = order[second], order[first]
-    return ordered(order, scene)
-
-
-_SWAPS = (
-    ("change", "the", "order", "of"), ("switch", "the", "order", "of"), ("swap", "the", "order", "of"),
-    ("swap",), ("switch",), ("exchange",), ("reverse", "the", "order", "of"), ("reverse",),
-)  # fmt: skip
-
-
-def _relative(words: Phrase, scene: Scene) -> Edit | None:
-    """For "do A before B", "A after B", "before B do A", both pending."""
-    flat = keys(words)
-    at = next((i for i in range(len(flat)) if flat[i] in {"before", "after"}), -1)
-    if at < 0:
-        return None
-    if at == 0:
-        cut = _main_clause(words)
-        if not cut:
-            return None
-        moved, anchor = (
-            visit_of(words[cut + 1 :], scene),
-            visit_of(words[1 : cut + (words[cut].key != ",")], scene),
-        )
-    else:
-        moved, anchor = visit_of(words[:at], scene), visit_of(words[at + 1 :], scene)
-    if moved is None or anchor is None or moved == anchor:
-        return None
-    order = [index for index in range(len(visits(scene))) if index != moved]
-    order.insert(order.index(anchor) + (flat[at] == "after"), moved)
-    return ordered(order, scene)
-
-
 def _main_clause(words: Phrase) -> int:
     """Where the main clause begins after "before A, ..."; 0 if nowhere."""
     flat = keys(words)
     comma = next((i for i in range(2, len(flat) - 1) if flat[i] == ","), 0)
     return comma or next((i - 1 for i in range(2, len(flat) - 1) if opens_command(words[i:])), 0)
-
-
-def _extreme(words: Phrase, scene: Scene) -> Edit | None:
-    """For "do A first", "visit A last", "A next", with A pending."""
-    flat = keys(words)
-    while flat and flat[-1] in {"please", "now", ",", "instead"}:
-        flat = flat[:-1]
-    size = next((len(e) for e in _EXTREMES if flat[-len(e) :] == e), 0)
-    if not size or size >= len(flat):
-        return None
-    moved = visit_of(words[: len(flat) - size], scene)
-    if moved is None:
-        return None
-    order = [index for index in range(len(visits(scene))) if index != moved]
-    # What is being done now is finished first.
-    running = scene.situation.status == "running" and moved > 0
-    order.insert(len(order) if _EXTREMES[flat[-size:]] else int(running), moved)
-    return ordered(order, scene)
-
-
-_EXTREMES = {
-    ("first",): False, ("next",): False, ("first", "of", "all"): False, ("right", "after", "this"): False,
-    ("until", "last"): True, ("for", "last"): True, ("until", "the", "end"): True, ("to", "last"): True,
-    ("last",): True, ("at", "the", "end"): True, ("in", "the", "end"): True, ("to", "the", "end"): True,
-    ("last", "of", "all"): True, ("at", "the", "very", "end"): True,
-}  # fmt: skip
-
-
-def _replaced(words: Phrase, scene: Scene) -> Edit | None:
-    """For "replace A with B", "B instead of A", "not A, B", "B rather than A", with A pending."""
-    flat = keys(words)
-    old: Phrase = ()
-    new: Phrase = ()
-    if flat[:1] in {("replace",), ("substitute",), ("change",)}:
-        joint = next((i for i in range(2, len(flat) - 1) if flat[i] in {"with", "by", "to", "for"}), 0)
-        old, new = (words[1:joint], words[joint + 1 :]) if joint else ((), ())
-    elif flat[:1] == ("not",) and "," in flat:
-        old, new = words[1 : flat.index(",")], words[flat.index(",") + 1 :]
-        new = new[1:] if keys(new[:1]) == ("but",) else new
-    elif flat[-2:-1] and (cut := _find(flat, _INSTEAD)):
-        old, new = words[cut[1] :], words[: cut[0]]
-    at = visit_of(old, scene) if old and new else None
-    target = scene.ground(_noun(new)) if at is not None else None
-    if at is None or target is None or target.outcome != "match":
-        return None
-    visit, words_of = visits(scene)[at], describe(target.candidates[0], scene.objects)
-    renamed = Visit(visit.start, tuple(renamed(step, _noun(old), words_of, scene) for step in visit.steps))
-    verb = lexicon().verbs.match(
-        tuple(lemma(w) for w in keys(strip_openers(new))[:1]) + keys(strip_openers(new))[1:]
-    )
-    if verb is not None and verb[1].partition(":")[0] not in {"motion"} and flat[:1] != ("replace",):
-        return None
-    listed = visits(scene)
-    listed[at] = renamed
-    return _put_back(
-        listed, at, scene, f"I will go to {the(words_of)} instead of {the(plain(bare(_noun(old))))}."
-    )
-
-
-_INSTEAD = (("instead", "of"), ("rather", "than"), ("in", "place", "of"))
-
-
-def _find(flat: tuple[str, ...], markers: Sequence[tuple[str, ...]]) -> tuple[int, int] | None:
-    for index in range(1, len(flat)):
-        for marker in markers:
-            if flat[index : index + len(marker)] == marker and index + len(marker) < len(flat):
-                return index, index + len(marker)
-    return None
 
 
 def renamed(step: ActionCall, old: Phrase, new: str, scene: Scene) -> ActionCall:

@@ -3,19 +3,26 @@
 from __future__ import annotations
 
 from abc import abstractmethod
-from dataclasses import dataclass, replace
+from collections.abc import Callable
+from dataclasses import dataclass, field, replace
 
+from parley.language.base import Situation
+from parley.language.offline.dialogue.about_map import Answer
+from parley.language.offline.dialogue.asked import asked
+from parley.language.offline.dialogue.own_state import ABOUT_ITSELF
+from parley.language.offline.dialogue.plain_question import plain_question
 from parley.language.offline.facts.recalling import Recalling
-from parley.language.offline.plan_changes.edits import Edit
+from parley.language.offline.plan_changes.edits import Change, Edit
 from parley.language.offline.plan_changes.once_more import changed_again
-from parley.language.offline.plan_changes.rearranging import Change, rearranged
+from parley.language.offline.plan_changes.rearranging import rearranged
 from parley.language.offline.plan_changes.replanning import visit_of
 from parley.language.offline.scene.grouping import grouped, names_things
 from parley.language.offline.scene.scene import Scene
 from parley.language.offline.sentences.branching import branched
 from parley.language.offline.sentences.scoping import scoped
+from parley.language.offline.words.lexicon import lexicon
 from parley.language.offline.words.text import Phrase, keys, tokens
-from parley.messages.chat import ChatAction, SystemCommand
+from parley.messages.chat import ActionCall, ChatAction, SystemCommand
 
 __all__ = ["Rereading"]
 
@@ -24,6 +31,9 @@ __all__ = ["Rereading"]
 class Rereading(Recalling):
     """How what is pending or was asked for last becomes another plan."""
 
+    reread: Callable[[Phrase, Situation], ChatAction] | None = field(default=None, kw_only=True)
+    """Understands an earlier message anew."""
+
     @abstractmethod
     def read(self, words: Phrase) -> ChatAction:
         """Understand a whole message."""
@@ -31,6 +41,9 @@ class Rereading(Recalling):
     def changed_plan(self, words: Phrase) -> ChatAction | None:
         """What a message changes of the plan as it stands, if that is all that it asks for."""
         self._mention_history()
+        about_plan = _asked_of_plan(words, self.scene) if self.scene.situation.queue else None
+        if about_plan is not None:
+            return self._result(about_plan.text, ())
         change = rearranged(words, self.scene)
         return None if change is None else self._rearranged(change)
 
@@ -53,6 +66,15 @@ class Rereading(Recalling):
         gone = {command.pop_index for command in action.system_cmd}
         kept = [step for index, step in enumerate(last.queue) if index not in gone]
         return self._result(action.message_response, (*kept, *action.queue))
+
+    def last_order(self) -> tuple[ActionCall, ...]:
+        """The steps of what the operator asked for last, if that is the last thing that was said."""
+        orders = [turn.content for turn in self.scene.situation.history if turn.role == "operator"]
+        if not orders or self.reread is None:
+            return ()
+        situation = replace(self.scene.situation, history=(), status="idle", queue=())
+        action = self.reread(tokens(orders[-1]), situation)
+        return () if action.system_cmd else action.queue
 
     def _rearranged(self, change: Change) -> ChatAction:
         """Change what is pending, and do what is new in its place."""
@@ -80,4 +102,16 @@ class Rereading(Recalling):
         """The message with one word for each group, and without what is only denied."""
         read = grouped(words, self.scene)
         names = names_things(self.scene)
-        return branched(scoped(read, names, lambda part: visit_of(part, self.scene) is not None), names)
+        return branched(scoped(read, names, lambda part: visit_of(part, self.scene) is not None).words, names)
+
+
+def _asked_of_plan(words: Phrase, scene: Scene) -> Answer | None:
+    """The answer to a message that only asks about the plan: it is not to be changed then."""
+    asking = plain_question(words, marked=keys(words[-1:]) == ("?",))
+    starts = keys(asking)[:1] in {(start,) for start in lexicon().question_starts}
+    several = {".", "!", ";", "?", "\n"} & set(keys(words[:-1]))
+    if several or not starts:
+        return None
+    left = keys(asking) == ("what", "is", "left")
+    found = Answer(ABOUT_ITSELF["left"](scene, ())) if left else asked(asking, keys(asking), scene)
+    return None if found is not None and found.look else found

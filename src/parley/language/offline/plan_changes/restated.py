@@ -19,7 +19,7 @@ from parley.language.offline.words.text import Phrase, Word, keys, singular, tok
 from parley.language.word_lists import load_data
 from parley.messages.chat import SystemCommand
 
-__all__ = ["as_added", "restated"]
+__all__ = ["as_added", "named_visits", "restated"]
 
 _DATA = load_data("restated")
 _SMALL = frozenset(_DATA["small"])
@@ -40,6 +40,11 @@ _NEEDLESS = frozenset({
 _DONE = frozenset({
     "done", "checked", "visited", "inspected", "seen", "finished", "looked", "been", "covered",
     "examined", "handled", "sorted", "was",
+})  # fmt: skip
+_MATTERING = frozenset({
+    "matter", "matters", "count", "counts", "interest", "interests", "important", "needed", "left",
+    "relevant",
+    "remain", "remains", "stay", "stays",
 })  # fmt: skip
 _OUT = frozenset({
     "leave", "forget", "drop", "skip", "scrap", "cut", "take", "strike", "spare", "cross", "minus",
@@ -77,15 +82,16 @@ def restated(words: Phrase, scene: Scene) -> Edit | None:
     moved = _moved(body, scene)
     if moved is not None:
         return moved
-    for start, end, named in _named(body, scene):
-        rest = _without_somebody((*body[:start], *body[end:]), scene)
+    for start, end, named in named_visits(body, scene):
+        left = _without_looked_for((*body[:start], *body[end:]), named, scene)
+        rest = _without_somebody(left, scene)
         meant = _meaning(rest)
         if meant:
             return _carried_out(meant, named, scene)
     return None
 
 
-def _named(body: Phrase, scene: Scene) -> list[tuple[int, int, list[int]]]:
+def named_visits(body: Phrase, scene: Scene) -> list[tuple[int, int, list[int]]]:
     """Each part of a statement that names pending visits, longest first."""
     found: list[tuple[int, int, list[int]]] = []
     for size in range(min(_LONGEST, len(body)), 0, -1):
@@ -145,6 +151,19 @@ def _of_kind(part: Phrase, listed: Sequence[Visit]) -> list[int]:
     return hits if len(hits) > 1 or words else []
 
 
+def _without_looked_for(rest: Phrase, named: list[int], scene: Scene) -> Phrase:
+    """Without what the visits that are named look for ("you need not look for bags there")."""
+    listed = visits(scene)
+    sought = {
+        singular(word.key)
+        for i in named
+        for name in listed[i].names[1:]
+        for word in tokens(name)
+        if word.is_word
+    }
+    return tuple(word for word in rest if singular(word.key) not in sought - _SMALL)
+
+
 def _without_somebody(rest: Phrase, scene: Scene) -> tuple[str, ...]:
     """The rest without the person who did it ("A has already checked ...")."""
     for size in range(min(3, len(rest) - 1), 0, -1):
@@ -169,6 +188,8 @@ def _meaning(rest: tuple[str, ...]) -> str:
         and (said & {"just", "only", "enough", "but"} or "need" in said)
     ):
         return "look"
+    if said & {"only", "just"} and said & _MATTERING and not denied:
+        return "keep"
     if (
         said & _LATER
         and not said & _OUT
@@ -201,18 +222,19 @@ def _carried_out(meant: str, named: list[int], scene: Scene) -> Edit | None:
             return ordered([*rest, *named], scene)
         now = rest[:1] if scene.situation.status == "running" and 0 not in named else []
         return ordered([*now, *named, *(i for i in rest if i not in now)], scene)
+    left_out = [i for i in range(len(listed)) if (i in named) != (meant == "keep")]
     gone = [
         visit.start + offset
-        for visit in (listed[i] for i in named)
+        for visit in (listed[i] for i in left_out)
         for offset, step in enumerate(visit.steps)
-        if meant == "drop" or _looks(step.name, scene)
+        if meant in {"drop", "keep"} or _looks(step.name, scene)
     ]
     pops = tuple(
         SystemCommand(command="pop", arguments={"parameters": i}) for i in sorted(gone, reverse=True)
     )
     if meant == "look":
         return Edit(pops, f"I will go to {names} without looking at it.") if pops else None
-    return Edit(pops, f"I leave out {names}.")
+    return Edit(pops, f"I keep only {names}." if meant == "keep" else f"I leave out {names}.")
 
 
 def _looks(name: str, scene: Scene) -> bool:
@@ -230,7 +252,7 @@ def _moved(body: Phrase, scene: Scene) -> Edit | None:
     anchor = visit_of(behind, scene)
     if anchor is None:
         return None
-    for start, end, named in _named(body[:at], scene):
+    for start, end, named in named_visits(body[:at], scene):
         small = {*flat[:start], *flat[end:at]}
         if len(named) == 1 and small and small <= _SMALL and not small & _DENIALS and named[0] != anchor:
             order = [i for i in range(len(visits(scene))) if i != named[0]]
@@ -253,6 +275,12 @@ _ADDING = (
     ("slip",),
     ("work",),
 )
+_ONE_MORE = frozenset({
+    "one", "more", "another", "last", "final", "thing", "stop", "place", "item", "for", "to", "on",
+    "the", "your", "my",
+    "our", "list", "plan", "round", "tour", "route", "you", "and", "also", "oh", "extra", "additional",
+    "a", "an", "just",
+})  # fmt: skip
 _PLANS = frozenset({
     "plan", "queue", "list", "route", "mission", "tour", "schedule", "round", "rounds", "trip",
     "itinerary", "programme", "program", "agenda", "stops", "run", "job", "jobs",
@@ -263,6 +291,12 @@ def as_added(words: Phrase, scene: Scene) -> Phrase:
     """For "add A to the round", "squeeze A in before B": a visit to A."""
     body = tuple(word for word in strip_openers(words, requests=True) if word.is_word)
     flat = keys(body)
+    colon = next((i for i, word in enumerate(words) if word.key in {":", ","}), 0)
+    more = set(keys(words[:colon]))
+    if more & {"more", "another", "extra", "last", "final", "additional"} and more <= _ONE_MORE:
+        # "One more thing for the list: A".
+        last = words[colon + 1 : len(words) - (not words[-1].is_word)]
+        return (Word("visit", "visit"), *last) if scene.ground(last).outcome == "match" else words
     if flat[:1] not in _ADDING or len(flat) < 3 or len(flat) > 16:
         return words
     rest = list(body[1:])
@@ -276,7 +310,7 @@ def as_added(words: Phrase, scene: Scene) -> Phrase:
     )
     named, tail = tuple(rest[:end]), tuple(rest[end:])
     slipped_in = keys(tail[:1]) == ("in",) and keys(tail[1:2]) in {(), ("before",), ("after",), ("between",)}
-    planned = bool({word.key for word in tail} & _PLANS) or slipped_in or not tail
+    planned = bool({word.key for word in tail} & (_PLANS | {"end"})) or slipped_in or not tail
     if scene.ground(named).outcome != "match" or not (planned or keys(tail[:1]) in {("before",), ("after",)}):
         return words
     where = next((i for i, word in enumerate(tail) if word.key in {"before", "after"}), len(tail))

@@ -3,36 +3,46 @@
 from __future__ import annotations
 
 import re
-from collections.abc import Iterator, Sequence
+from collections.abc import Callable, Iterator, Sequence
 from dataclasses import dataclass, replace
 
 from parley.language.base import Situation
 from parley.language.offline.facts.declared import laid_down
 from parley.language.offline.facts.facts import Fact
+from parley.language.offline.facts.framed import told_plainly
 from parley.language.offline.facts.groups import with_members
+from parley.language.offline.facts.nicknames import by_their_real_names
 from parley.language.offline.facts.noting import mention_listed
 from parley.language.offline.facts.plain_names import plainly_named, without_hesitation
-from parley.language.offline.grammar.canonical import plainly_ordered
+from parley.language.offline.grammar.canonical import Plainly, plainly_ordered
 from parley.language.offline.reader import Reader
-from parley.language.offline.readings.judging import Judgement, is_odd, judge, texts_of
-from parley.language.offline.scene.grouping import grouped, names_things
+from parley.language.offline.readings.by_catalogue import asked_of_catalogue
+from parley.language.offline.readings.judging import Judgement, gone_to, is_odd, judge, texts_of
+from parley.language.offline.scene.grounding import describe
+from parley.language.offline.scene.grouping import grouped, ids_in, names_things
 from parley.language.offline.scene.scene import Scene
+from parley.language.offline.scene.sought import thought_there
 from parley.language.offline.sentences.arranging import arranged, each_in_turn, without_end
 from parley.language.offline.sentences.branching import branched
+from parley.language.offline.sentences.briefly import briefly
 from parley.language.offline.sentences.clauses import opens_command
 from parley.language.offline.sentences.correcting import corrected
-from parley.language.offline.sentences.distilling import context, distilled
+from parley.language.offline.sentences.distilling import context, distilled, with_the_same
+from parley.language.offline.sentences.expecting import with_looks
 from parley.language.offline.sentences.named import back_to_first, verb_first, with_articles
 from parley.language.offline.sentences.numbering import unnumbered
 from parley.language.offline.sentences.orderings import in_sequence
 from parley.language.offline.sentences.passives import done_first
 from parley.language.offline.sentences.scoping import scoped
 from parley.language.offline.sentences.spoken import Names
+from parley.language.offline.sentences.talk import without_talk
 from parley.language.offline.sentences.told import when_done
 from parley.language.offline.sentences.units import Unit, units
 from parley.language.offline.sentences.waiting import waiting_there
 from parley.language.offline.tasks.abilities import cannot
+from parley.language.offline.tasks.helping import helping
 from parley.language.offline.words.explaining import Trace
+from parley.language.offline.words.saying import listing, the
 from parley.language.offline.words.text import Phrase, keys, plain, tokens
 from parley.messages.chat import ChatAction
 
@@ -50,6 +60,9 @@ class _Reading:
     how: str
 
 
+_Reread = Callable[[Phrase, Sequence[Phrase], str], _Reading]
+
+
 def best_reading(
     words: Phrase, situation: Situation, hints: Sequence[str], trace: Trace, targets: tuple[str, ...]
 ) -> ChatAction:
@@ -62,18 +75,25 @@ def best_reading(
         trace: Gets the decisions of the reading that is taken, and how the readings were judged.
         targets: The robots that are spoken to.
     """
+    scene = Scene.of(situation, hints)
+    words = _to_the_point(thought_there(by_their_real_names(words, scene), scene), scene, trace)
     changed = _changed_plan(words, situation, hints, trace, targets)
     if changed is not None:
         return changed
-    scene = Scene.of(situation, hints)
-    told, words = laid_down(without_hesitation(words), scene)
+    words = with_looks(without_hesitation(words), Names(scene).is_stop)
+    told, words = laid_down(told_plainly(words), scene)
     mention_listed(told, scene)
+    whole = plainly_named(with_members(words, told), scene)
     words = _settled(words, scene)
     message = plainly_named(with_members(words, told), scene)
     raw = words
+    names = names_things(scene)
+    kept = scoped(grouped(words, scene), names, lambda part: False, ids_in(scene))
+    spared = kept.spared
+    if spared and not situation.queue:
+        message = plainly_named(with_members(kept.words, told), scene)
     if not situation.queue:
-        names = names_things(scene)
-        words = branched(scoped(grouped(words, scene), names, lambda part: False), names)
+        words = branched(kept.words, names)
     # What was left out or put together already, the plain orders of the whole message would bring back.
     settled = keys(raw) != keys(words)
     words = plainly_named(with_members(words, told), scene)
@@ -84,35 +104,101 @@ def best_reading(
         words, parts = placed, _units(placed, scene)
     if keys(said) != keys(words):
         trace.note("words", f"taken as “{plain(words)}”")
-    best = _read(words, (), situation, hints, targets, parts, told, "as it is said")
+    best = _read(words, (), situation, hints, targets, parts, told, "as it is said", spared)
     readings = [best]
-    changes = bool(best.action.queue and best.action.system_cmd)
     made_out = settled and best.judged.cost <= 0 and not _is_idle(best)
     tells = all(unit.kind in {"told", "reason"} for unit in parts)
-    ordered = None if changes or made_out or tells else plainly_ordered(message, scene)
-    if ordered is not None and not ordered.against:
-        how = f"in plain orders, “{plain(ordered.words)}”"
-        readings.append(_read(ordered.words, (), situation, hints, targets, parts, told, how))
-        best = _more_sense(best, readings[-1])
-    stories = any(unit.kind in {"told", "reason"} for unit in parts)
-    if readings[0].judged.cost > 0 and (best.judged.cost > 0 or stories):
-        for how, others, about in _others(words, parts, scene):
-            readings.append(_read(others, about, situation, hints, targets, parts, told, how))
-            better = readings[-1].judged.cost < best.judged.cost
-            if better or (
-                stories and readings[-1].judged.cost == best.judged.cost and best is not readings[0]
-            ):
-                best = readings[-1]
+    ordered = None if made_out or tells else plainly_ordered(message, scene)
+    free = not (made_out or tells or spared or situation.queue) and keys(whole) != keys(message)
+    as_said = plainly_ordered(whole, scene) if free else None
+    ordered = as_said if as_said is not None and as_said.certain else ordered
+    if not _settles(ordered, best):
+        ordered = None
+
+    def reread(said: Phrase, about: Sequence[Phrase], how: str) -> _Reading:
+        readings.append(_read(said, about, situation, hints, targets, parts, told, how, spared))
+        return readings[-1]
+
+    best = _in_plain_orders(best, ordered, as_said, reread)
+    if readings[0].judged.cost > 0:
+        best = _read_otherwise(best, readings[0], _others(words, parts, scene), parts, reread)
+    best = _offered(best, readings, message, parts, told, situation, hints, targets, spared, scene)
     if ordered is not None and ordered.unable and not ordered.against:
         best = _unable(best, ordered.unable, scene)
+    best = _helpful(best, message, parts, situation, hints, targets, scene)
     trace.decisions += best.trace.decisions
     if len(readings) > 1:
         for reading in readings:
             taken = ", taken" if reading is best else ""
             trace.note("reading", f"{reading.how}: against it {reading.judged}{taken}")
-    action = _honest(best, scene)
+    action = _sparing(best, spared, scene) or _honest(best, scene)
     sources = tuple(dict.fromkeys((*scene.sources, *action.sources)))
     return action.model_copy(update={"sources": sources}) if scene.sources else action
+
+
+def _offered(
+    best: _Reading,
+    readings: list[_Reading],
+    message: Phrase,
+    parts: Sequence[Unit],
+    told: tuple[Fact, ...],
+    situation: Situation,
+    hints: Sequence[str],
+    targets: tuple[str, ...],
+    spared: frozenset[str],
+    scene: Scene,
+) -> _Reading:
+    """The reading by what the robot offers, where that makes more of the message than the best one so far."""
+    if spared or any(step.flow is not None for step in best.action.queue):
+        return best
+
+    def tells(sentence: Phrase) -> bool:
+        return all(unit.kind in {"told", "reason", "idle"} for unit in _units(sentence, scene))
+
+    asked = asked_of_catalogue(message, tells, scene)
+    if asked is None:
+        return best
+    how = f"by what the robot offers, “{plain(asked.words)}”"
+    found = _read(asked.words, (), situation, hints, targets, parts, told, how, spared)
+    readings.append(found)
+    judged = found.judged
+    if judged.lost or judged.nonsense or judged.unable or judged.asks or not found.action.queue:
+        return best
+    if any(step.flow is not None for step in found.action.queue):
+        return best
+    did, does = _calls(best), _calls(found)
+    more = best.judged.cost > judged.cost or _is_idle(best)
+    about = [call for call in does if " " in call]
+    same = set(did) == set(does) and len(set(about)) == len(about)
+    reordered = did != does and ((asked.ranked and same) or sorted(did) == sorted(does))
+    more = more or (asked.own and len(does) > len(did)) or ((asked.own or asked.ranked) and reordered)
+    return found if more else best
+
+
+def _helpful(
+    best: _Reading,
+    message: Phrase,
+    parts: Sequence[Unit],
+    situation: Situation,
+    hints: Sequence[str],
+    targets: tuple[str, ...],
+    scene: Scene,
+) -> _Reading:
+    """With what helps against what is only told, where nothing else comes of it."""
+    if not _is_idle(best) or any(unit.kind in {"order", "asked", "condition"} for unit in parts):
+        return best
+    match = helping(message, scene)
+    if match is None:
+        return best
+    trace = Trace()
+    reader = Reader(Scene.of(situation, hints, trace), targets=targets)
+    trace.note("action", f"{match.info.name}: it helps with what is told ({match.score:.1f})")
+    return _Reading(reader.help_with(match, message), best.judged, trace, "what helps")
+
+
+def _calls(reading: _Reading) -> list[str]:
+    """The steps of a reading, each with what it is about."""
+    return [" ".join((step.name, *texts_of([step]))) for step in reading.action.queue]
 
 
 def _changed_plan(
@@ -121,7 +207,7 @@ def _changed_plan(
     """What a message changes of the plan, before anything in it is put in other words."""
     if not situation.queue:
         return None
-    reader = Reader(Scene.of(situation, hints, Trace()), targets=targets)
+    reader = Reader(Scene.of(situation, hints, Trace()), targets=targets, reread=_read_again)
     action = reader.changed_plan(words)
     if action is not None:
         trace.decisions += reader.scene.trace.decisions
@@ -135,7 +221,60 @@ def _is_idle(reading: _Reading) -> bool:
     return told and not action.queue and not action.choices
 
 
-def _more_sense(said: _Reading, ordered: _Reading) -> _Reading:
+def _in_plain_orders(
+    best: _Reading, ordered: Plainly | None, as_said: Plainly | None, reread: _Reread
+) -> _Reading:
+    """The plain orders that the grammar finds, or the reading so far if they make no more sense.
+
+    Args:
+        best: The reading so far.
+        ordered: The orders of the message as it was put plainly.
+        as_said: The orders of the message word for word, for what is still wrong then.
+        reread: Reads other words.
+    """
+    same = ordered is not None and as_said is not None and keys(ordered.words) == keys(as_said.words)
+    for plainer in (ordered,) if same or as_said is ordered else (ordered, as_said):
+        again = plainer is as_said is not ordered
+        if plainer is None or plainer.against or (again and best.judged.cost <= 0):
+            continue
+        found = reread(plainer.words, (), f"in plain orders, “{plain(plainer.words)}”")
+        best = _more_sense(best, found, certain=plainer.certain)
+    return best
+
+
+def _read_otherwise(
+    best: _Reading,
+    first: _Reading,
+    others: Iterator[tuple[str, Phrase, Sequence[Phrase]]],
+    parts: Sequence[Unit],
+    reread: _Reread,
+) -> _Reading:
+    """The best of the other ways to read a message, where the first one makes too little sense."""
+    stories = any(unit.kind in {"told", "reason"} for unit in parts)
+    if best.judged.cost <= 0 and not stories:
+        return best
+    for how, words, about in others:
+        found = reread(words, about, how)
+        equal = found.judged.cost == best.judged.cost and best is not first
+        if found.judged.cost < best.judged.cost or (stories and equal and not _says_less(found, best)):
+            best = found
+    return best
+
+
+def _settles(ordered: Plainly | None, said: _Reading) -> bool:
+    """Whether plain orders may say better what a message asks for."""
+    if ordered is None or _changes_pending(said):
+        return False
+    both = bool(said.action.queue and said.action.system_cmd)
+    return ordered.certain or not both or said.judged.cost > 0
+
+
+def _changes_pending(reading: _Reading) -> bool:
+    """Whether more comes of it than steps and memories."""
+    return any(command.command != "add_memory" for command in reading.action.system_cmd)
+
+
+def _more_sense(said: _Reading, ordered: _Reading, *, certain: bool) -> _Reading:
     """The message as it is said, or the plain orders that the grammar finds in it."""
     if ordered.judged.cost < said.judged.cost:
         return ordered
@@ -143,8 +282,13 @@ def _more_sense(said: _Reading, ordered: _Reading) -> _Reading:
     fails = judged.lost or judged.nonsense or judged.unable or judged.partly or judged.asks
     if fails or not ordered.action.queue:
         return said
-    better = said.judged.cost > 0 or _is_idle(said) or _about(ordered) > _about(said) > set()
+    better = certain or said.judged.cost > 0 or _is_idle(said) or _about(ordered) > _about(said) > set()
     return ordered if better else said
+
+
+def _says_less(reading: _Reading, other: _Reading) -> bool:
+    """Whether a reading leaves out what another one makes of a message, and adds nothing to it."""
+    return bool(other.action.queue) and _about(reading) < _about(other)
 
 
 def _unable(reading: _Reading, words: Phrase, scene: Scene) -> _Reading:
@@ -161,6 +305,16 @@ def _about(reading: _Reading) -> set[str]:
     return {key for text in texts_of(reading.action.queue) for key in keys(tokens(text)) if key not in _SMALL}
 
 
+def _sparing(reading: _Reading, spared: frozenset[str], scene: Scene) -> ChatAction | None:
+    """A question instead of a plan that does what was forbidden; None if it does not."""
+    wrong = gone_to(reading.action, scene) & spared
+    if not wrong:
+        return None
+    names = listing([the(describe(item, scene.objects)) for item in scene.objects if item.id in wrong])
+    text = f"I understood that I should leave {names} alone. What should I do instead?"
+    return ChatAction(message_response=text, targets=reading.action.targets)
+
+
 def _honest(reading: _Reading, scene: Scene) -> ChatAction:
     """Without looks at what nothing can be called: the operator is told what was not understood."""
     queue = reading.action.queue
@@ -173,6 +327,22 @@ def _honest(reading: _Reading, scene: Scene) -> ChatAction:
     said = f"{said} " if said else ""
     text = f"{said}I did not understand {words}. Please say it in other words."
     return reading.action.model_copy(update={"queue": kept, "message_response": text})
+
+
+def _to_the_point(words: Phrase, scene: Scene, trace: Trace) -> Phrase:
+    """A message without who is speaking and what is only said to the listener."""
+    words = briefly(words)
+    ended = without_end(words)
+    parts = _units(ended, scene)
+    for part in parts if len(parts) > 1 else ():
+        trace.note("part", f"{part.kind}: “{plain(part.words)}” ({part.why})")
+    kept = without_talk(ended, parts)
+    kept = kept if keys(kept) != keys(ended) else words
+    if any(part.same for part in parts):
+        kept = with_the_same(kept, _units(kept, scene))
+    if keys(kept) != keys(words):
+        trace.note("words", f"to the point, “{plain(kept)}”")
+    return kept
 
 
 def _units(words: Phrase, scene: Scene) -> list[Unit]:
@@ -226,9 +396,15 @@ def _read(
     parts: Sequence[Unit],
     told: tuple[Fact, ...],
     how: str,
+    spared: frozenset[str],
 ) -> _Reading:
     trace = Trace()
     scene = Scene.of(situation, hints, trace)
-    reader = Reader(scene, targets=targets, about=tuple(about), told=told)
+    reader = Reader(scene, targets=targets, about=tuple(about), told=told, reread=_read_again)
     action = reader.read(words)
-    return _Reading(action, judge(action, reader.trouble, parts, scene), trace, how)
+    return _Reading(action, judge(action, reader.trouble, parts, scene, spared), trace, how)
+
+
+def _read_again(words: Phrase, situation: Situation) -> ChatAction:
+    """Understand an earlier message once more."""
+    return best_reading(words, situation, (), Trace(), ())

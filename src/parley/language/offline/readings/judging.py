@@ -18,12 +18,13 @@ from parley.language.offline.words.nouns import bare
 from parley.language.offline.words.text import Phrase, keys, lemma, singular, tokens
 from parley.messages.chat import ActionCall, ChatAction
 
-__all__ = ["Judgement", "is_odd", "judge", "texts_of"]
+__all__ = ["Judgement", "gone_to", "is_odd", "judge", "texts_of"]
 
 _SAID = frozenset({"text", "question", "person"})
 """Inputs that may hold any words."""
 _PARTLY = "did not understand"
 _WEIGHTS = {
+    "against": 8.0,
     "lost": 4.0,
     "nonsense": 3.0,
     "unable": 1.5,
@@ -39,6 +40,8 @@ _WEIGHTS = {
 class Judgement:
     """What speaks against a reading; nothing is best."""
 
+    against: int = 0
+    """Things that the plan goes to or looks at, though they are to be left alone."""
     lost: int = 0
     """It ends in not having understood."""
     nonsense: int = 0
@@ -68,7 +71,11 @@ class Judgement:
 
 
 def judge(
-    action: ChatAction, trouble: UnclearError | UnableError | None, units: Sequence[Unit], scene: Scene
+    action: ChatAction,
+    trouble: UnclearError | UnableError | None,
+    units: Sequence[Unit],
+    scene: Scene,
+    spared: frozenset[str] = frozenset(),
 ) -> Judgement:
     """Judge one reading.
 
@@ -77,6 +84,7 @@ def judge(
         trouble: What ended it early, if anything.
         units: The parts of the message.
         scene: What is known.
+        spared: The identifiers of what is to be left alone.
     """
     unclear = trouble if isinstance(trouble, UnclearError) else None
     asked = unclear is not None and bool(unclear.about) and not _can_be(unclear.about, units, scene)
@@ -87,10 +95,15 @@ def judge(
     )
     used = _used(action, units, scene)
     return Judgement(
+        against=len(gone_to(action, scene) & spared),
         lost=int(unclear is not None and unclear.lost),
         nonsense=wrong + asked,
         unable=int(isinstance(trouble, UnableError) and sum(unit.kind == "order" for unit in units) > 1),
-        partly=action.message_response.count(_PARTLY) + _missed(action, trouble, units),
+        partly=action.message_response.count(_PARTLY)
+        + int(
+            bool(action.queue) and _UNKNOWN in action.message_response and "?" not in scene.situation.message
+        )
+        + _missed(action, trouble, units),
         unused=0
         if _changes_plan(action) or (unclear is not None and unclear.choices)
         else len(ordered - used),
@@ -100,6 +113,15 @@ def judge(
         asks=_asks(unclear, ordered, scene),
         left=0 if _changes_plan(action) or trouble is not None else _left(action, units, scene),
     )
+
+
+def gone_to(action: ChatAction, scene: Scene) -> frozenset[str]:
+    """The identifiers of what new steps of a plan are about."""
+    said = {
+        text.lower()
+        for text in texts_of([step for step in action.queue if step not in scene.situation.queue])
+    }
+    return frozenset(item.id for item in scene.objects if {item.description.lower(), item.id.lower()} & said)
 
 
 def _missed(action: ChatAction, trouble: UnclearError | UnableError | None, units: Sequence[Unit]) -> int:
@@ -155,11 +177,18 @@ def _points(units: Sequence[Unit]) -> bool:
     for unit in units:
         if unit.kind in {"order", "wish"} and _POINTING & set(keys(unit.words)):
             return True
+        if unit.kind == "order" and not unit.names and set(keys(unit.words)) <= _BARE_ORDERS:
+            return True
         if unit.kind in {"order", "wish", "name"} and unit.names:
             return False
     return False
 
 
+_BARE_ORDERS = frozenset({
+    "go", "and", "have", "a", "look", "check", "see", "take", "off", "you", "please", "inspect", "do",
+    "now", "then",
+})  # fmt: skip
+_UNKNOWN = "I do not know that."
 _POINTING = frozenset({"it", "them", "there", "that", "this", "those", "these", "him", "her", "one", "ones"})
 
 
@@ -227,7 +256,8 @@ def _nonsense(step: ActionCall, scene: Scene) -> int:
 
 
 def _makes_sense(words: Phrase, scene: Scene) -> bool:
-    if is_request(words):
+    if is_request(words) or (1 < len(words) < 4 and words[-1].key[-1:].isdigit()):
+        # "Well A1" is a label.
         return True
     text = " ".join(keys(words))
     if any(text in {item.id.lower(), item.description.lower()} for item in scene.objects):
@@ -237,7 +267,7 @@ def _makes_sense(words: Phrase, scene: Scene) -> bool:
 
 def _named_in(units: Sequence[Unit], kinds: set[str], scene: Scene) -> set[str]:
     """The ids of what the parts of some kinds name."""
-    phrases = (phrase for unit in units if unit.kind in kinds for phrase in unit.names)
+    phrases = (p for unit in units if unit.kind in kinds and not unit.refuses for p in unit.names)
     return {item.id for phrase in phrases for item in scene.ground(phrase).candidates[:1]}
 
 

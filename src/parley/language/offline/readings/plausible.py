@@ -47,7 +47,11 @@ def names_something(words: Phrase, *, people: bool = False) -> bool:
     """
     words = tuple(word for word in words if word.is_word or word.key == ",")
     flat = keys(words)
-    if not flat or len(flat) > _LONGEST_NAME or flat[-1] in _NO_ENDS:
+    in_the_way = flat[-2:] == ("the", "way") and flat[-3:-2] in {("in",), ("blocking",)}
+    ends = flat[-1:] if not in_the_way else ()
+    if not flat or len(flat) > _LONGEST_NAME or set(ends) & _NO_ENDS or _ends_in_order(flat):
+        return False
+    if set(flat) <= _WHERE | {"it", "them", "there"}:
         return False
     if "to" in flat[1:3] and flat[0] in {"way", "on", "over", "back"}:
         return False
@@ -66,12 +70,32 @@ def names_something(words: Phrase, *, people: bool = False) -> bool:
     return not any(word in _FINITE or word in _SPEAKERS for word in flat[:relative])
 
 
+_NO_NOUNS = frozenset(
+    {"before", "after", "but", "and", "is", "are", "of", "there", "if", "then", "not", "you", "i", "to", "a"}
+)
+_WHERE = frozenset({
+    "under", "underneath", "beneath", "behind", "below", "above", "inside", "beside", "near", "around",
+    "over", "by",
+})  # fmt: skip
+
+
+def _ends_in_order(flat: tuple[str, ...]) -> bool:
+    """For "bay 1 look": a name with the verb of the next order."""
+    return (
+        len(flat) > 1
+        and flat[-1] in {"look", "go", "check", "inspect", "drive", "see"}
+        and (flat[-2].isdigit() or len(flat[-2]) == 1)
+    )
+
+
 def is_request(words: Phrase) -> bool:
     """Whether words can say what to look at: a thing, or whether or how something is."""
     flat = keys(words)
     if flat[:1] not in {("whether",), ("how",), ("if",), ("what",), ("where",), ("who",), ("which",)}:
         return names_something(words, people=True)
     rest = words[1:]
+    if any(flat[i] in {"the", "a", "an"} and flat[i + 1] in _NO_NOUNS for i in range(len(flat) - 1)):
+        return False
     if flat[:1] in {("what",), ("who",), ("how",), ("where",)} and len(flat) < 6:
         return True
     if not rest or len(rest) > _LONGEST_STATE or keys(rest)[0] in {"and", "or", "but", "then", "while"}:

@@ -347,9 +347,10 @@ def _by_any_word(words: tuple[str, ...], profiles: Sequence[_Profile]) -> list[_
 def _by_typo(words: tuple[str, ...], profiles: Sequence[_Profile]) -> list[_Profile]:
     known = {word for profile in profiles for word in profile.words | profile.heads}
     common = lexicon().synonyms
+    known_words = lexicon().nouns | lexicon().person_words
     mended = tuple(
         word
-        if word in known or word in common or word in lexicon().nouns or _is_label(word)
+        if word in known or word in common or word in known_words or _is_label(word)
         else closest(word, known, dropped=word not in lexicon().vocabulary) or word
         for word in words
     )

@@ -5,7 +5,7 @@ from __future__ import annotations
 from collections.abc import Callable, Sequence
 from dataclasses import dataclass, field
 
-from parley.language.offline.facts.remembering import Remembered
+from parley.language.offline.facts.remembering import Remembered, find_fact
 from parley.language.offline.scene import spatial
 from parley.language.offline.scene.grounding import ground_phrase
 from parley.language.offline.scene.group_words import (
@@ -50,6 +50,10 @@ NO_NOUN = (
         }
     )
 )
+_LINKING = frozenset({
+    "with", "that", "which", "where", "who", "has", "have", "is", "are", "in", "on", "at", "it", "holds",
+    "holding", "containing", "contains", "inside", "stands", "lies", "sits", "stays", "lives",
+})  # fmt: skip
 _GENERIC = frozenset({"place", "point", "spot", "way", "side", "end"})
 
 
@@ -174,7 +178,7 @@ class GroupNouns:
     ) -> tuple[tuple[MapObject, ...], int]:
         """What an exception names, and where it ends; nothing if that cannot be told."""
         flat = keys(words)
-        counted = flat[at : at + 1] and flat[at][0].isdigit()
+        counted = flat[at : at + 1] and (flat[at][0].isdigit() or "one" in flat[at : at + 2])
         lead, start = (Lead(), at) if counted else read_lead(words, at)
         if lead.end or lead.ordinals:
             return chosen(items, lead, self.pose), start
@@ -219,7 +223,8 @@ class GroupNouns:
         kind = Word(singular(noun[-1].key), singular(noun[-1].raw))
         for size in range(min(LONGEST_NOUN + 2, len(words) - at), 0, -1):
             part = words[at : at + size]
-            if any(not word.is_word for word in part) or part[-1].key in NO_NOUN:
+            is_in = part[-1].key in lexicon().be and bool({"where", "one"} & set(keys(part[1:3])))
+            if any(not word.is_word for word in part) or (part[-1].key in NO_NOUN and not is_in):
                 continue
             body = bare(part)
             ends = body and body[-1].key in {"one", "ones"}
@@ -235,7 +240,31 @@ class GroupNouns:
                 found = ground_phrase(phrase, self.objects, self.pose, among=items, strict=True)
                 if found.outcome == "match" and phrase:
                     return size, found.candidates[:1]
+            holder = self._holder(part, items)
+            if holder is not None:
+                return size, (holder,)
         return 0, ()
+
+    def _holder(self, body: Phrase, items: Sequence[MapObject]) -> MapObject | None:
+        """For "the one with the box", "the one A is in" and "A's": the one of a group where something is."""
+        pointed = next((i for i, word in enumerate(body[:2]) if word.key in {"one", "ones"}), -1)
+        if pointed >= 0:
+            what = tuple(word for word in body[pointed + 1 :] if word.key not in _LINKING)
+        else:
+            last = body[-1] if body else None
+            if last is None or not last.key.endswith("'s"):
+                return None
+            what = (*body[:-1], Word(last.key[:-2], last.raw[:-2]))
+        what = bare(what)
+        known = find_fact(what, self.facts)[0] if what else None
+        if known is not None and known.fact.place:
+            there = ground_phrase(known.fact.place, self.objects, self.pose, among=items, strict=True)
+            return there.candidates[0] if there.outcome == "match" else None
+        found = ground_phrase(what, self.objects, self.pose, strict=True) if what and pointed >= 0 else None
+        if found is None or found.outcome != "match":
+            return None
+        near = spatial.nearest_to(items, found.candidates[0].x_m, found.candidates[0].y_m)
+        return near[0] if len(near) == 1 and near[0] != found.candidates[0] else None
 
     def _remembered_so(self, words: Phrase, at: int) -> Found | None:
         """For "the rooms with oxygen", where it is remembered which these are."""

@@ -276,11 +276,17 @@ def open_range_at(flat: tuple[str, ...], at: int) -> tuple[int, int, int] | None
         word = flat[end + len(joint) : end + len(joint) + 1]
         if flat[end : end + len(joint)] == joint and word and word[0] in _OPEN_ENDS:
             after = end + len(joint) + 1
+            if word[0] in _ALSO_SMALL and not joint and not start > at and flat[after : after + 1]:
+                goes_on = flat[after] not in {",", ".", "!", "?", ";", "and", "please", "then", "for"}
+                if goes_on:
+                    return None
             return (number, 10**6, after) if word[0] in _UPWARDS else (0, number, after)
     return None
 
 
 _UPWARDS = frozenset({"upwards", "upward", "onwards", "onward", "above", "higher", "up", "on"})
+_ALSO_SMALL = frozenset({"on", "up", "down", "under"})
+"""What goes on with another meaning before a noun: "machine 2 on low"."""
 _OPEN_ENDS = _UPWARDS | {"downwards", "below", "lower", "down", "under"}
 
 

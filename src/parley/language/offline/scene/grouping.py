@@ -7,6 +7,7 @@ from collections.abc import Callable, Sequence
 from parley.language.offline.facts.stories import mentioned
 from parley.language.offline.scene.grounding import ground_phrase
 from parley.language.offline.scene.groups import GroupReader
+from parley.language.offline.scene.labels import with_heads, with_kinds
 from parley.language.offline.scene.marks import marks_of
 from parley.language.offline.scene.scene import Scene
 from parley.language.offline.scene.subsets import with_exception_behind
@@ -15,7 +16,7 @@ from parley.language.offline.words.nouns import bare
 from parley.language.offline.words.text import Phrase, Word, keys, plain, singular, tokens
 from parley.world.object_map import MapObject
 
-__all__ = ["grouped", "names_things"]
+__all__ = ["grouped", "ids_in", "names_things"]
 
 _LAST_TURNS = 4
 
@@ -35,12 +36,19 @@ def grouped(words: Phrase, scene: Scene) -> Phrase:
         turns = (t for t in scene.situation.history[-_LAST_TURNS:] if t.role == "operator")
         return [item for turn in turns for item in _named(tokens(turn.content), scene)]
 
-    words = with_exception_behind(words)
+    spoken_of = [turn.content for turn in scene.situation.history[-_LAST_TURNS:]]
+    words = with_exception_behind(with_heads(_labelled(words, scene, spoken_of), scene.objects, spoken_of))
     words = _without_stand_in(_which_then(_wrong_one(words)), scene)
     read = GroupReader(scene.objects, scene.situation.robot_pose, scene.facts, named).read(words)
     if keys(read) != keys(words):
         scene.trace.note("words", f"groups found in “{plain(words)}”")
     return read
+
+
+def _labelled(words: Phrase, scene: Scene, spoken_of: Sequence[str]) -> Phrase:
+    """With nouns in front of bare labels where something is denied, for that has to be known."""
+    denies = {"not", "no", "skip", "leave", "never", "without", "neither", "avoid"} & set(keys(words))
+    return with_kinds(words, scene.objects, spoken_of) if denies else words
 
 
 def names_things(scene: Scene) -> Callable[[Phrase], bool]:
@@ -71,6 +79,18 @@ def _names(words: Phrase, scene: Scene, said: frozenset[str]) -> bool:
     found = ground_phrase(body, scene.objects, strict=True)
     plural = singular(body[-1].key) != body[-1].key
     return found.outcome == "match" or (plural and found.outcome == "ambiguous")
+
+
+def ids_in(scene: Scene) -> Callable[[Phrase], Sequence[str]]:
+    """The identifiers of what words name: one thing of the map, all of a kind, or a group found before."""
+
+    def ids(words: Phrase) -> Sequence[str]:
+        marks = next((found for word in words if (found := marks_of(word))), ())
+        return marks or [
+            item.id for item in ground_phrase(bare(words), scene.objects, strict=True).candidates
+        ]
+
+    return ids
 
 
 _LONGEST_NAME = 7
@@ -148,6 +168,9 @@ def _without_stand_in(words: Phrase, scene: Scene) -> Phrase:
             continue
         comma = next((i for i in range(index + 2, min(index + 10, len(flat))) if flat[i] == ","), 0)
         if not comma or {"and", "or"} & set(flat[index:comma]):
+            continue
+        if flat[comma + 1 : comma + 2] and flat[comma + 1] in lexicon().goals_and_places:
+            # "The one in a red hat, in the hall".
             continue
         end = next(
             (i for i in range(comma + 1, len(flat)) if flat[i] in {",", ".", "!", "?", "and", "then"}),

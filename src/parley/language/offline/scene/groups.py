@@ -136,7 +136,7 @@ class GroupReader(GroupPointing):
             if not left_out:
                 return (
                     None
-                    if flat[end + size - 1] != "but"
+                    if flat[end + size - 1] != "but" or _names_one(flat[end + size :])
                     else self._chosen(words, start, items, end, lead, noun)
                 )
             items, end = tuple(item for item in items if item not in left_out), after
@@ -267,9 +267,21 @@ _RANKS = (
     ("last",),
     ("first",),
 )
+
+
+def _names_one(behind: tuple[str, ...]) -> bool:
+    """Whether words behind "but" begin to name something, rather than an order or a remark."""
+    return behind[1:2] in {("one",), ("ones",)} and behind[0] in {"the", "that", "those"}
+
+
 _NO_MATTER = tuple(
     tuple(text.split())
     for text in (
+        "i do not mind",
+        "i do not care",
+        "i have no preference",
+        "no preference",
+        "it does not matter",
         "i do not care which one",
         "i do not care which",
         "i do not mind which one",

@@ -16,6 +16,7 @@ from parley.language.offline.scene.report_words import (
     ordinary_words,
     phrase_of,
     place_named,
+    without_hedges,
     words_for,
 )
 from parley.language.offline.scene.scene import Scene
@@ -23,7 +24,7 @@ from parley.language.offline.sentences.finite import verb_at
 from parley.language.offline.words.inflecting import forms
 from parley.language.offline.words.lexicon import lexicon
 from parley.language.offline.words.nouns import bare
-from parley.language.offline.words.text import Phrase, Word, keys, singular
+from parley.language.offline.words.text import Phrase, Word, keys, lemma, singular
 
 __all__ = ["happened"]
 
@@ -37,9 +38,9 @@ def happened(words: Phrase, scene: Scene, *, alone: bool = True) -> Phrase | Non
     flat = keys(said)
     if not 3 <= len(said) <= _MOST_WORDS or flat[0] in _NO_REPORTS or _denies(flat):
         return None
-    said = _without_teller(said)
-    if keys(said[-2:]) in {("i", "think"), ("i", "guess"), ("i", "believe"), ("i", "suppose"), ("i", "fear")}:
-        said = said[:-2]
+    said = _without_teller(without_hedges(said))
+    if len(said) < 3:
+        return None
     if said[0].key in {"smells", "sounds", "stinks", "reeks"}:
         said = (Word("it", "it"), *said)
     flat = keys(said)
@@ -56,7 +57,7 @@ def happened(words: Phrase, scene: Scene, *, alone: bool = True) -> Phrase | Non
     left = _left_so(flat, end)
     if left:
         return phrase_of("check whether the", place, f"is {left}")
-    what = _sought(said, start)
+    what = _smelled(said) or _sought(said, start)
     return phrase_of("inspect the", place, "for", what) if what else phrase_of("inspect the", place)
 
 
@@ -103,6 +104,8 @@ def _denies(flat: tuple[str, ...]) -> bool:
 def _alarming(said: Phrase) -> bool:
     """Whether something goes on, or is perceived, that somebody should see to."""
     flat = keys(said)
+    if _somebody_acts(flat):
+        return True
     events, happened_ = _events() & set(flat), words_for("happened") & set(flat)
     ordinary = {f"{one} {other}" for one, other in pairwise(flat)} & ordinary_words()
     heads = [word for word in flat if not any(pair.startswith(f"{word} ") for pair in ordinary)]
@@ -143,6 +146,28 @@ def _alarming(said: Phrase) -> bool:
     if events and (flat[0] in _SOME | {"there", "it"} or perceived or told or _goes_on(flat, events)):
         return True
     return bool((found or things) and (perceived or told or flat[0] in _SOME | {"it"} or _there_is(flat)))
+
+
+def _somebody_acts(flat: tuple[str, ...]) -> bool:
+    """For "a man is climbing over A": somebody or something that nobody knows does what is not usual."""
+    begin = 2 if flat[:2] in {("there", "is"), ("there", "are")} else 0
+    if flat[begin] not in _ANY or flat[begin + 1 : begin + 2] == ("of",):
+        return False
+    for at in range(begin + 1, min(begin + 7, len(flat))):
+        goes_on = begin > 0 or bool({"is", "are", "keeps", "keep", "been"} & set(flat[1:at]))
+        if flat[at].endswith("ing") and goes_on and at + 1 < len(flat):
+            base = lemma(flat[at])
+            return base != flat[at] and base not in words_for("usual")
+        if flat[at - 1] in {"has", "have", "just"} and at + 2 < len(flat) and not begin:
+            base = lemma(flat[at])
+            return base != flat[at] and base not in words_for("usual")
+    return False
+
+
+_ANY = frozenset({
+    "a", "an", "some", "somebody", "someone", "something", "people", "two", "three", "four", "five",
+    "several", "kids", "children", "teenagers", "strangers", "many", "lots", "another", "one",
+})  # fmt: skip
 
 
 def _seems_so(said: Phrase) -> bool:
@@ -213,6 +238,16 @@ def _left_so(flat: tuple[str, ...], end: int) -> str:
     return next((word for word in rest if word in words_for("left") and word not in {"off", "out"}), "")
 
 
+def _smelled(words: Phrase) -> Phrase:
+    """For "A reeks of gas" the gas."""
+    flat = keys(words)
+    smell = words_for("smelling")
+    at = next((i for i in range(len(flat) - 2) if flat[i] in smell and flat[i + 1] in {"of", "like"}), -1)
+    what = words[at + 2 : at + 5] if at >= 0 else ()
+    end = next((i for i, word in enumerate(what) if lexicon().places.match((word.key,))), len(what))
+    return bare(what[:end])
+
+
 def _leads(flat: tuple[str, ...], index: int) -> bool:
     """Whether a word comes before what is perceived; "smell" only as a verb."""
     if flat[index] in {"smell", "got"} and index:
@@ -249,6 +284,11 @@ def _sought(words: Phrase, place_at: int) -> Phrase:
     known = named & words_for("things")
     if what and known and len(what) <= _MOST_SOUGHT:
         return what
+    if flat[:2] in {("there", "is"), ("there", "are")} and flat[2:3] and flat[2] in _ANY:
+        lasting = words_for("states")
+        ends = [i for i in range(4, place_at) if flat[i].endswith("ing") or flat[i] in lasting]
+        end = ends[0] if ends else 0
+        return bare(words[2:end]) if 0 < end < 7 else ()
     verb = verb_at(words)
     new = flat[0] in {"a", "an", "some", "one", "two", "three", "several"} and 1 < verb <= _MOST_SOUGHT
     return bare(words[:verb]) if new and verb < place_at else ()

@@ -21,9 +21,12 @@ from parley.language.word_lists import load_data
 from parley.messages.memory import MemoryEntry
 from parley.world.object_map import MapObject
 
-__all__ = ["OPERATOR", "Known", "Place", "UnclearError"]
+__all__ = ["ONLY_NOW", "OPERATOR", "Known", "Place", "UnclearError"]
 
 OPERATOR = (Word("operator", "operator"),)
+
+ONLY_NOW = "only_now"
+"""The name of what is only said for one order, and not kept."""
 
 
 class UnclearError(Exception):
@@ -122,7 +125,9 @@ class Known:
         self.facts.insert(0, Remembered(fact, MemoryEntry(name=name, data=fact.sentence)))
 
     def use(self, item: Remembered) -> None:
-        """Note that a memory was used."""
+        """Note that a memory was used; what is only said for this order is none."""
+        if item.entry.name == ONLY_NOW:
+            return
         self.trace.note("memory", f"used {item.entry.name}: {item.fact.sentence}")
         if item.entry.name not in self.sources:
             self.sources.append(item.entry.name)

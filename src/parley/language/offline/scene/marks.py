@@ -6,12 +6,12 @@ thing asks for its members.
 
 from __future__ import annotations
 
-from collections.abc import Sequence
+from collections.abc import Collection, Sequence
 
 from parley.language.offline.words.text import Phrase, Word
 from parley.world.object_map import MapObject
 
-__all__ = ["marked", "marks_of", "members_of"]
+__all__ = ["by_ids", "marked", "marks_of", "members_of", "without"]
 
 _LEAD = "things"
 _OPEN, _CLOSE = "⟨", "⟩"
@@ -24,7 +24,7 @@ def marked(items: Sequence[MapObject], said: str) -> Word:
         items: The things, in their order.
         said: The operator's words, for sentences.
     """
-    return Word(_LEAD + "".join(f"{_OPEN}{item.id}{_CLOSE}" for item in items), said)
+    return by_ids([item.id for item in items], said)
 
 
 def marks_of(word: Word) -> tuple[str, ...]:
@@ -39,3 +39,14 @@ def members_of(phrase: Phrase, objects: Sequence[MapObject]) -> list[MapObject]:
     ids = next((found for word in phrase if (found := marks_of(word))), ())
     by_id = {item.id: item for item in objects}
     return [by_id[one] for one in ids if one in by_id]
+
+
+def without(word: Word, ids: Collection[str]) -> Word:
+    """The word for those things of a group with none of these identifiers; itself if none would be left."""
+    kept = [one for one in marks_of(word) if one not in ids]
+    return by_ids(kept, word.raw) if kept else word
+
+
+def by_ids(ids: Sequence[str], said: str) -> Word:
+    """The word for the things with these identifiers."""
+    return Word(_LEAD + "".join(f"{_OPEN}{one}{_CLOSE}" for one in ids), said)

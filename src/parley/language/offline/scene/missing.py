@@ -44,6 +44,13 @@ def missing_from(words: Phrase, scene: Scene) -> Phrase | None:
     if scene.is_person(subject) and "missing" not in flat[at : at + size]:
         return None
     rest = words[at + size :]
+    named = place_named(subject, scene) if scene.ground(subject).outcome != "match" else None
+    if named is not None and not rest and follows_preposition(keys(subject), named[0]):
+        # "A patient in ward 3 is missing".
+        cut = next((i for i in range(1, named[0]) if lexicon().places.match(keys(subject), i)), 0)
+        if cut:
+            place = bare(subject[named[0] : named[1]])
+            return phrase_of("inspect the", place, "for the", bare(subject[:cut]))
     where = place_named(rest, scene) if rest else None
     if where is not None:
         return phrase_of("inspect the", bare(rest[where[0] : where[1]]), "for the", subject)

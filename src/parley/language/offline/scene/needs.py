@@ -56,7 +56,10 @@ def needed(words: Phrase, scene: Scene) -> Phrase | None:
         or _wanted(said, scene)
         or _shown(said, scene)
     )
-    return None if found is None else _order(*found)
+    if found is None:
+        return None
+    who, what = found
+    return _order(*(_delivered(what, scene) or (who, what)))
 
 
 def granted(words: Phrase, scene: Scene) -> Phrase | None:
@@ -66,7 +69,29 @@ def granted(words: Phrase, scene: Scene) -> Phrase | None:
         return None
     asked = len(said) < sum(word.is_word for word in words)
     found = _granted(said, scene) or (_handed(said, scene) if asked else None)
-    return None if found is None else _order(*found)
+    if found is None:
+        return None
+    who, what = found
+    return _order(*(_delivered(what, scene) or (who, what)))
+
+
+def _delivered(what: Phrase, scene: Scene) -> tuple[Phrase, Phrase] | None:
+    """For "(A wants) B at the desk": where B is wanted, and B, if B is not known to be there already."""
+    noun = noun_phrase(what)
+    if len(noun.anchors) != 1 or noun.relation not in {"in", "at", "on", "by"} or not noun.core:
+        return None
+    cut = len(what) - len(noun.anchors[0])
+    while cut and keys(what[cut - 1 : cut]) != tuple(noun.relation.split())[-1:]:
+        cut -= 1
+    thing = what[: max(cut - 1, 0)]
+    place = scene.ground(noun.anchors[0])
+    known = find_fact(bare(thing), scene.facts)[0] if thing else None
+    if known is None or place.outcome != "match":
+        return None
+    there = scene.ground(known.fact.place)
+    if there.outcome == "match" and there.candidates[0] == place.candidates[0]:
+        return None
+    return noun.anchors[0], thing
 
 
 def _order(who: Phrase, what: Phrase) -> Phrase | None:

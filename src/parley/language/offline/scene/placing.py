@@ -65,7 +65,7 @@ class Placing(Referring):
             place = self.remembered_place(phrase, hops)
             if place is not None:
                 return place
-        other = self._beside_somebody(phrase) or self._home(phrase)
+        other = self._beside_somebody(phrase) or self._home(phrase) or self._without_tail(phrase)
         if other is not None:
             return Place(describe(other, self.objects), other, via)
         if not remembered_words and self.objects:
@@ -200,6 +200,20 @@ class Placing(Referring):
             )
         text = f"I do not know where {name} is. Tell me where it is, and I will remember it."
         return UnclearError(text, about=phrase)
+
+    def _without_tail(self, phrase: Phrase) -> MapObject | None:
+        """For "the hall waiting for the bus", "the door for the parcel": the thing that comes first."""
+        flat = keys(phrase)
+        for end in range(len(flat) - 1, 0, -1):
+            if flat[end] not in _TAILS and not (flat[end].endswith("ing") and len(flat[end]) > 5):
+                continue
+            found = self.ground(phrase[:end])
+            if found.outcome == "match":
+                return found.candidates[0]
+        return None
+
+
+_TAILS = frozenset({",", "for", "and", "because", "until", "till", "so", "who", "as", "with", "while"})
 
 
 def place_said(answer: Phrase) -> tuple[str, Phrase] | None:

@@ -9,6 +9,7 @@ from parley.language.offline.scene.known import OPERATOR, Known, UnclearError
 from parley.language.offline.words.lexicon import lexicon
 from parley.language.offline.words.nouns import bare, noun_phrase
 from parley.language.offline.words.text import Phrase, Word, keys, tokens
+from parley.language.word_lists import load_data
 
 __all__ = ["Referring"]
 
@@ -28,6 +29,7 @@ _PORTIONS = frozenset(
         "plate",
     )
 )
+_TITLES = frozenset(load_data("units")["titles"])
 _SOME = frozenset({("some",), ("one",), ("a", "few"), ("some", "more"), ("another", "one"), ("one", "more")})
 
 
@@ -94,7 +96,22 @@ class Referring(Known):
             if " ".join(keys(item.fact.subject)) in said and item.fact.subject[0].is_capital
         }
         persons = [subject for subject in names.values() if self.is_person(subject)]
-        return persons[0] if len(persons) == 1 else ()
+        return persons[0] if len(persons) == 1 else self._only_person_said()
+
+    def _only_person_said(self) -> Phrase:
+        """The one person that this message speaks of, by name or by what they are ("the driver")."""
+        words = tokens(self.situation.message)
+        robots = {key for name in self.situation.robots for key in keys(tokens(name))}
+        found: dict[tuple[str, ...], Phrase] = {}
+        for index in range(len(words) - 1):
+            person = words[index : index + 2]
+            if person[1].key in robots or not person[1].is_word:
+                continue
+            titled = person[0].key in _TITLES and person[1].key not in lexicon().vocabulary
+            called = person[0].key in lexicon().determiners and self.is_person(person[1:])
+            if titled or called:
+                found[keys(bare(person))] = person
+        return next(iter(found.values())) if len(found) == 1 else ()
 
     def _other(self, phrase: Phrase) -> Phrase:
         """The one of two like things that was not mentioned last, for "the other (one)"."""

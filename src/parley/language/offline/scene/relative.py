@@ -4,7 +4,9 @@ from __future__ import annotations
 
 from collections.abc import Sequence
 
+from parley.language.offline.facts.facts import where_only
 from parley.language.offline.facts.remembering import Remembered, find_fact
+from parley.language.offline.facts.sharing import alike, content_of, shared
 from parley.language.offline.scene.grounding import ground_phrase, matching
 from parley.language.offline.scene.owned import owned_thing
 from parley.language.offline.words.lexicon import lexicon
@@ -24,8 +26,10 @@ def described_by_facts(
 ) -> tuple[MapObject, tuple[Remembered, ...]] | None:
     """The one object that a relative clause or a remembered thing in it singles out, and the facts used."""
     words = tuple(word for word in phrase if word.is_word)
-    if keys(words[:1]) == ("wherever",):
-        words = (Word("where", "where"), *words[1:])
+    words = _where(words)
+    if len(words) > 4 and keys(words[-2:]) in {("on", "it"), ("in", "it"), ("at", "it"), ("under", "it")}:
+        # "The shelf with A on it".
+        words = words[:-2]
     if not 2 < len(words) <= 14:
         return _the_same(words, objects, facts) or owned_thing(words, objects, facts)
     return (
@@ -36,6 +40,18 @@ def described_by_facts(
         or _where_something_is(words, objects, facts)
         or _holding(words, objects, facts)
         or _beside(words, objects, facts)
+        or _as_told(words, objects, facts)
+    )
+
+
+def _where(words: Phrase) -> Phrase:
+    """With "where A is" for "wherever A is", "there where A is" and "the place to where A is"."""
+    flat = keys(words)
+    if flat[:1] == ("wherever",):
+        return (Word("where", "where"), *words[1:])
+    at = flat.index("where") if "where" in flat[:3] else 0
+    return (
+        words[at:] if at and set(flat[:at]) <= {"there", "over", "to", "exactly", "right", "back"} else words
     )
 
 
@@ -219,3 +235,88 @@ def _excluded(words: Phrase, objects: Sequence[MapObject]) -> tuple[MapObject, t
         left = [item for item in candidates if not wanted & set(item.description.lower().split())]
         return (left[0], ()) if wanted and len(left) == 1 and len(candidates) > 1 else None
     return None
+
+
+_TELLING = frozenset({"where", "with", "that", "which", "whose", "what", "whatever", "holding"})
+_ANY_HEAD = frozenset({
+    "place", "spot", "one", "thing", "location", "there", "position", "object", "whatever", "what", "device",
+    "machine", "point", "somewhere", "item",
+})  # fmt: skip
+
+
+def _as_told(
+    words: Phrase, objects: Sequence[MapObject], facts: Sequence[Remembered]
+) -> tuple[MapObject, tuple[Remembered, ...]] | None:
+    """For "the place where A turned up", "the hall with the broken lamp": by the fact that says most."""
+    flat = keys(words)
+    at = next((i for i, key in enumerate(flat) if key in _TELLING and i < len(flat) - 1), -1)
+    wanted = content_of(words[at + 1 :]) if at >= 0 and facts else []
+    if not wanted or {"not", "no", "never", "without", "nobody", "neither"} & set(flat):
+        return None
+    head = words[:at]
+    while head and lexicon().places.match(keys(head[-1:])) is not None:
+        # "The thing under which A is".
+        head = head[:-1]
+    head = bare(head)
+    anything = not head or keys(head)[-1] in _ANY_HEAD
+    candidates = list(objects) if anything else matching(head, objects)
+    found: dict[str, tuple[float, MapObject, tuple[Remembered, ...]]] = {}
+    for item in reversed(_last_words(facts)):
+        score = _fits(wanted, item)
+        about = _thing_of(item, objects, facts) if score else None
+        if about is not None and about[0] in candidates:
+            found[about[0].id] = (score, *about)
+    best = max((score for score, _, _ in found.values()), default=0.0)
+    chosen = [entry for entry in found.values() if entry[0] == best]
+    return (chosen[0][1], chosen[0][2]) if len(chosen) == 1 else None
+
+
+def _last_words(facts: Sequence[Remembered]) -> list[Remembered]:
+    """The newest of what is said in the same way of the same thing."""
+    newest: dict[tuple[object, ...], Remembered] = {}
+    for item in facts:
+        fact = item.fact
+        kind = "where" if fact.is_location else fact.relation
+        newest.setdefault((keys(fact.subject), item.entry.name if fact.another else kind), item)
+    return list(newest.values())
+
+
+def _fits(wanted: Sequence[str], item: Remembered) -> float:
+    """How much of what is wanted a fact says; nothing if it is about something else."""
+    if item.fact.negated or not item.fact.subject:
+        return 0.0
+    score = shared(wanted, item)
+    if score == len(wanted):
+        return score
+    subject = item.fact.subject
+    relative = next((i for i, word in enumerate(subject) if i and word.key in _PRONOUNS), len(subject))
+    core = noun_phrase(subject[:relative]).core
+    named = bool(core) and any(core[-1] in alike(word) for word in wanted)
+    return score if named and score >= len(wanted) / 2 else 0.0
+
+
+def _thing_of(
+    item: Remembered, objects: Sequence[MapObject], facts: Sequence[Remembered]
+) -> tuple[MapObject, tuple[Remembered, ...]] | None:
+    """The object that a fact is about: where its subject is, the subject, or where that is said to be."""
+    fact = item.fact
+    if fact.is_location:
+        found = ground_phrase(fact.place, objects)
+        if found.outcome == "match":
+            return found.candidates[0], (item,)
+        where, used = _located(fact.place, objects, facts)
+        return (where, (item, *used)) if where is not None else None
+    for phrase in (fact.subject, *noun_phrase(fact.subject).anchors):
+        found = ground_phrase(phrase, objects, strict=True)
+        if found.outcome == "match":
+            return found.candidates[0], (item,)
+    for index, word in enumerate(fact.state[:-1]):
+        if word.key in _TO_PLACES:
+            found = ground_phrase(where_only(fact.state[index + 1 :]), objects, strict=True)
+            if found.outcome == "match":
+                return found.candidates[0], (item,)
+    where, used = _located(fact.subject, objects, facts)
+    return (where, (item, *used)) if where is not None else None
+
+
+_TO_PLACES = frozenset({"from", "to", "at", "in", "on", "through", "via", "by", "into"})

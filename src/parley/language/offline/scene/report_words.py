@@ -5,12 +5,20 @@ from __future__ import annotations
 from functools import cache
 
 from parley.language.offline.scene.scene import Scene
-from parley.language.offline.words.lexicon import lexicon
+from parley.language.offline.words.lexicon import PhraseTable, lexicon
 from parley.language.offline.words.nouns import bare
 from parley.language.offline.words.text import Phrase, Word, keys, singular
 from parley.language.word_lists import load_data
 
-__all__ = ["TELLERS", "follows_preposition", "ordinary_words", "phrase_of", "place_named", "words_for"]
+__all__ = [
+    "TELLERS",
+    "follows_preposition",
+    "ordinary_words",
+    "phrase_of",
+    "place_named",
+    "without_hedges",
+    "words_for",
+]
 
 _LONGEST_NAME = 6
 
@@ -89,3 +97,16 @@ def phrase_of(*parts: str | Phrase) -> Phrase:
     for part in parts:
         result += (Word(text, text) for text in part.split()) if isinstance(part, str) else part
     return tuple(result)
+
+
+@cache
+def _hedges(kind: str) -> PhraseTable:
+    return PhraseTable.of(words_for(kind))
+
+
+def without_hedges(words: Phrase) -> Phrase:
+    """Without "it sounds like" at the start and "it seems" at the end."""
+    while (found := _hedges("hedges").match(keys(words))) is not None and found[0] < len(words) - 2:
+        words = words[found[0] :]
+    size = _hedges("hedged").match_end(keys(words))
+    return words[: len(words) - size] if 0 < size < len(words) - 2 else words

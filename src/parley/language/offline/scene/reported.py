@@ -4,8 +4,10 @@ from __future__ import annotations
 
 from collections.abc import Sequence
 
+from parley.language.offline.scene.awaited import awaited
 from parley.language.offline.scene.incidents import happened
 from parley.language.offline.scene.needs import granted, needed
+from parley.language.offline.scene.neglect import neglected
 from parley.language.offline.scene.scene import Scene
 from parley.language.offline.sentences.clauses import Clause, opens_command
 from parley.language.offline.sentences.look_only import is_look
@@ -26,6 +28,9 @@ def asked_by_need(clause: Clause, others: Sequence[Clause], scene: Scene) -> tup
     due = granted(clause.words, scene)
     if due is not None:
         return _once(due, scene)
+    calls = None if clause.is_question or _ordered(others, scene) else awaited(clause.words, scene)
+    if calls is not None:
+        return calls, "somebody wants the robot with them"
     need = needed(clause.words, scene) if _only_tells(clause, others, scene) else None
     if need is not None and any(_names_more(other, need, scene) for other in others):
         return (), "somebody needs something, as is said more exactly"
@@ -49,15 +54,25 @@ def _thing(order: Phrase) -> tuple[str, ...]:
 
 def asked_by_report(clause: Clause, others: Sequence[Clause], scene: Scene) -> tuple[Phrase, str] | None:
     """The order that telling what has happened means; arguments as for `asked_by_need`."""
-    report = happened(clause.words, scene, alone=not others) if _only_tells(clause, others, scene) else None
+    if not _only_tells(clause, others, scene):
+        return None
+    overdue = neglected(clause.words, scene)
+    if overdue is not None:
+        return overdue, "something has not been looked at for long"
+    report = happened(clause.words, scene, alone=not others)
     return None if report is None else (report, "something has happened")
 
 
 def _only_tells(clause: Clause, others: Sequence[Clause], scene: Scene) -> bool:
-    verbs = scene.catalogue.verbs
-    if clause.is_question or opens_command(clause.words, verbs):
+    if clause.is_question or opens_command(clause.words, scene.catalogue.verbs):
         return False
-    return not any(opens_command(other.words, verbs) and not is_look(other.words) for other in others)
+    return not _ordered(others, scene)
+
+
+def _ordered(others: Sequence[Clause], scene: Scene) -> bool:
+    """Whether anything but a look is ordered in other clauses."""
+    verbs = scene.catalogue.verbs
+    return any(opens_command(other.words, verbs) and not is_look(other.words) for other in others)
 
 
 def _once(order: Phrase, scene: Scene) -> tuple[Phrase, str]:

@@ -8,6 +8,7 @@ from dataclasses import dataclass, replace
 from parley.language.control import control_of
 from parley.language.offline.facts.facts import read_statement, strip_openers
 from parley.language.offline.sentences.conditions import is_rule, split_condition
+from parley.language.offline.sentences.inverted import asks
 from parley.language.offline.sentences.simultaneous import side_by_side
 from parley.language.offline.words.lexicon import lexicon
 from parley.language.offline.words.text import Phrase, Word, keys, lemma, plain
@@ -38,6 +39,8 @@ class Clause:
     sentence: int = 0
     beside: bool = False
     """To be done at the same time as what comes before it."""
+    passing: bool = False
+    """Only says where somebody is whom an order is about ("meet A, she is at the gate"): nothing to keep."""
 
     def said(self) -> str:
         """The clause with what marks it, readable."""
@@ -68,7 +71,8 @@ def clauses(message: Phrase, opens: Opens) -> list[Clause]:
         result.extend(
             replace(
                 clause,
-                is_question=asked and (clause is parts[-1] or _inverted(clause.words)),
+                is_question=(asked and (clause is parts[-1] or _inverted(clause.words)))
+                or (clause is parts[0] and asks(clause.words)),
                 sentence=number,
             )
             for clause in parts
@@ -124,12 +128,18 @@ def opens_command(words: Phrase, extra_verbs: Sequence[tuple[str, ...]] = ()) ->
     if found is None:
         return False
     kind = found[1].partition(":")[0]
+    if flat[1:2] in _FINITE_BEHIND and flat[0] not in {"do", "have", "be"}:
+        # "Water is dripping": what looks like a verb is the subject.
+        return False
     if base[0] != flat[0] and flat[0].endswith("ed") and len(words) == len(unasked):
         return False
     if flat[0] in lexicon().transition_verbs | lexicon().placing_verbs and base[0] != flat[0]:
         return False
     # Many words of the last class are nouns too ("water", "light"): alone they are not an order.
     return kind != "other" or len(words) > found[0]
+
+
+_FINITE_BEHIND = frozenset({("is",), ("are",), ("was",), ("were",), ("has",), ("keeps",)})
 
 
 def _inverted(words: Phrase) -> bool:
@@ -404,16 +414,7 @@ _TAKING_BACK = frozenset({"i", "or", "no", "wait", "rather", "sorry", "oops", "c
 
 def _corrects(before: Phrase, rest: Phrase, opens: Opens) -> bool:
     """Whether what follows takes back or narrows down what came before."""
-    if lexicon().corrections.match(keys(rest)) and keys(rest)[0] in {
-        "i",
-        "or",
-        "no",
-        "wait",
-        "rather",
-        "sorry",
-        "oops",
-        "correction",
-    }:
+    if lexicon().corrections.match(keys(rest)) and keys(rest)[0] in _TAKING_BACK:
         return True
     if rest[0].key in {"just", "only", "but"} and lexicon().prohibitions.match(keys(before)):
         # "Do not go to the box, just to the door": what is wanted instead.

@@ -12,6 +12,7 @@ from functools import cache
 
 from parley.language.offline.facts.facts import strip_openers
 from parley.language.offline.facts.remembering import find_fact
+from parley.language.offline.scene.report_words import without_hedges
 from parley.language.offline.scene.scene import Scene
 from parley.language.offline.words.durations import duration_s
 from parley.language.offline.words.lexicon import lexicon
@@ -49,7 +50,7 @@ def recast(words: Phrase, scene: Scene) -> tuple[Phrase, str] | None:
 
 
 def _recast(words: Phrase, scene: Scene) -> tuple[Phrase, str] | None:
-    words = tuple(word for word in words if word.is_word or word.key == ",")
+    words = without_hedges(tuple(word for word in words if word.is_word or word.key == ","))
     if not 3 <= len(words) <= 24:
         return None
     flat = keys(words)

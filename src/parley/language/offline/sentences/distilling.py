@@ -9,7 +9,7 @@ from parley.language.offline.sentences.units import Unit
 from parley.language.offline.words.lexicon import lexicon
 from parley.language.offline.words.text import Phrase, Word, keys
 
-__all__ = ["context", "distilled"]
+__all__ = ["context", "distilled", "with_the_same"]
 
 _BEGINNING = frozenset(
     {"start", "begin", "first", "firstly", "from", "end", "finish", "starting", "beginning"}
@@ -35,12 +35,13 @@ def distilled(units: Sequence[Unit]) -> Phrase | None:
         words = _kept(unit, units)
         if _reports(unit) and any(other.kind == "order" and other.names for other in units[:index]):
             words = _LOOK
-        if _same_deed(unit):
+        if unit.same:
+            words = _same_there(unit, units[:index])
+        elif _same_deed(unit):
             words = _deed_before(units[:index]) or words
         if not words:
             continue
-        if unit.kind == "name" and not result and keys(words)[0] not in _BEGINNING:
-            words = (Word("go", "go"), Word("to", "to"), *words)
+        words = _going(unit, words, units[index + 1 : index + 2], first=not result)
         if result:
             result.append(_STOP)
         result += words
@@ -102,6 +103,79 @@ def _same_deed(unit: Unit) -> bool:
     while flat[:1] in {("and",), ("then",), ("please",)}:
         flat = flat[1:]
     return unit.kind == "order" and flat in _SAME
+
+
+def with_the_same(words: Phrase, units: Sequence[Unit]) -> Phrase:
+    """For "(check A for B), then C, same thing" both orders in full.
+
+    Args:
+        words: All words and punctuation, of which these are the parts.
+        units: The parts of the message, in their order.
+    """
+    result: list[Word] = []
+    at = 0
+    for index, unit in enumerate(units):
+        if not unit.same or not unit.names or not any(_looks(other) for other in units[:index]):
+            continue
+        result += _without_joint(words[at : unit.start])
+        result += (_STOP, *_same_there(unit, units[:index]), _STOP)
+        at = unit.end
+        while at < len(words) and not words[at].is_word:
+            at += 1
+    return (*result, *words[at:]) if result else words
+
+
+def _without_joint(words: Phrase) -> Phrase:
+    while words and (not words[-1].is_word or words[-1].key in {"and", "then", "so", "but"}):
+        words = words[:-1]
+    return words
+
+
+def _going(unit: Unit, words: Phrase, following: Sequence[Unit], *, first: bool) -> Phrase:
+    """A bare name as a place to go to, if it comes first or something is to be looked at there."""
+    at = 0
+    while at < len(words) and words[at].key in _RANKS:
+        at += 1
+    if unit.kind == "order" and unit.names and keys(words[at:]) == keys(unit.names[0]):
+        return (*words[:at], Word("go", "go"), Word("to", "to"), *words[at:])
+    if unit.kind != "name" or unit.same or len(unit.names) != 1:
+        plain_first = unit.kind == "name" and not unit.same and first and keys(words)[0] not in _BEGINNING
+        return (Word("go", "go"), Word("to", "to"), *words) if plain_first else words
+    looks = any(_looks(other) for other in following)
+    if (first or looks) and keys(words)[0] not in _BEGINNING:
+        return (*words[:at], Word("go", "go"), Word("to", "to"), *words[at:])
+    return words
+
+
+_RANKS = frozenset({"first", "then", "next", "and", "finally", "lastly", "also"})
+
+
+def _looks(unit: Unit) -> bool:
+    """Whether a part is an order to look at or for something."""
+    if unit.kind != "order":
+        return False
+    flat = keys(unit.words)
+    start = next((i for i in range(len(flat)) if flat[i] not in _RANKS), 0)
+    found = lexicon().verbs.match(flat, start)
+    return found is not None and found[1].partition(":")[0] in {"look", "search", "whether", "count"}
+
+
+def _same_there(unit: Unit, units: Sequence[Unit]) -> Phrase:
+    """The order that was given last, at another place."""
+    place = (Word("go", "go"), Word("to", "to"), *unit.names[0], _STOP)
+    for other in reversed(units):
+        flat = keys(other.words)
+        start = next((i for i in range(len(flat)) if flat[i] not in {"and", "then", "first"}), 0)
+        found = lexicon().verbs.match(flat, start) if other.kind == "order" else None
+        if found is None or found[1].partition(":")[0] not in {"look", "search", "whether", "count"}:
+            continue
+        words = _untagged(other.words[start:])
+        name = other.names[-1] if other.names else ()
+        at = next((i for i in range(len(words)) if name and words[i : i + len(name)] == name), -1)
+        if at < 0:
+            return (*place, *words)
+        return (*words[:at], *unit.names[0], *words[at + len(name) :])
+    return place
 
 
 def _deed_before(units: Sequence[Unit]) -> Phrase:
@@ -178,7 +252,8 @@ def _without_tail(words: Phrase, unit: Unit) -> Phrase:
 
 
 _TAGS = frozenset({
-    ("a", "second", "time"), ("once", "more"), ("one", "more", "time"),
+    ("one", "last", "time"), ("a", "last", "time"), ("very", "well"), ("really", "well"), ("over",),
+    ("for", "the", "last", "time"), ("a", "second", "time"), ("once", "more"), ("one", "more", "time"),
     ("would", "you"), ("will", "you"), ("could", "you"), ("can", "you"), ("please",), ("thanks",),
     ("thank", "you"), ("ok",), ("okay",), ("if", "you", "can"), ("if", "you", "could"), ("if", "possible"),
     ("would", "you", "please"), ("for", "me"), ("for", "us"), ("will", "you", "please"), ("right",),
@@ -239,5 +314,7 @@ def _without_heading(words: Phrase, unit: Unit) -> Phrase:
     """Without "do my round:" in front of what the round consists of."""
     flat = keys(words)
     at = flat.index(":") if ":" in flat else 0
-    named = {key for name in unit.names for key in keys(name)}
-    return words[at + 1 :] if at and not named & set(flat[:at]) and named else words
+    named = {key for name in unit.names for key in keys(name)} - lexicon().determiners
+    verb = lexicon().verbs.match(flat)
+    looks = verb is not None and verb[1].startswith(("look:", "search:", "whether:", "count:", "motion:"))
+    return words[at + 1 :] if at and not looks and not named & set(flat[:at]) and named else words

@@ -10,7 +10,7 @@ from parley.language.offline.sentences.clauses import opens_command
 from parley.language.offline.words.lexicon import lexicon
 from parley.language.offline.words.text import Phrase, Word, keys, lemma
 
-__all__ = ["dislocated", "has_verb", "joined_lines", "parted", "verb_at"]
+__all__ = ["dislocated", "has_verb", "joined_lines", "parted", "subject_apart", "verb_at"]
 
 _STOP = Word(".", ".")
 _MARKS = frozenset({".", "!", "?", ";", "\n", ":"})
@@ -237,6 +237,28 @@ def dislocated(words: Phrase) -> Phrase:
         named = words[start:index]
         if flat[index + 2] in lexicon().be | {"belongs", "belong"} and 1 < len(named) < 7 and _is_name(named):
             return (*words[:index], *words[index + 2 :])
+    return words
+
+
+def subject_apart(words: Phrase) -> Phrase:
+    """For "A, he is over there, has left B" "A is over there. A has left B"."""
+    flat = keys(words)
+    for index in range(1, len(flat) - 4):
+        aside = flat[index] == "," and flat[index + 1] in {"he", "she", "they", "who"}
+        if not aside or flat[index + 2] not in lexicon().be | {"has", "works", "sits", "lives", "stands"}:
+            continue
+        end = next((i for i in range(index + 3, len(flat)) if not words[i].is_word), len(flat))
+        goes_on = flat[end : end + 1] == (",",) and flat[end + 1 : end + 2] != () and flat[end + 1] in _VERBS
+        start = next(
+            (i + 1 for i in range(index - 1, -1, -1) if not words[i].is_word or flat[i] in _JOINTS), 0
+        )
+        named = words[start:index]
+        if goes_on and 0 < len(named) < 5 and _is_name(named):
+            told = (*named, *words[index + 2 : end], _STOP, *named, *words[end + 1 :])
+            before = words[:start]
+            while before and (not before[-1].is_word or before[-1].key in _JOINTS):
+                before = before[:-1]
+            return (*before, *((_STOP,) if before else ()), *told)
     return words
 
 

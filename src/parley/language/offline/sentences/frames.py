@@ -9,6 +9,12 @@ from __future__ import annotations
 
 from collections.abc import Callable
 
+from parley.language.offline.sentences.attitudes import (
+    begins_unknown,
+    speaks_for_itself,
+    wants,
+    wants_to_know,
+)
 from parley.language.offline.sentences.clauses import opens_command
 from parley.language.offline.words.lexicon import lexicon
 from parley.language.offline.words.text import Phrase, Word, keys, lemma
@@ -35,6 +41,13 @@ _NOT_MEANT = (
     ("not", "mind"),
     ("not", "be", "better"),
     ("not", "imagine"),
+    ("no", "harm"),
+    ("not", "hurt"),
+    ("not", "harm"),
+    ("not", "object"),
+    ("should", "not", "you"),
+    ("ought", "not", "you"),
+    ("are", "not", "you"),
 )
 _KINDS = frozenset({
     "motion", "look", "whether", "search", "transfer", "grasp", "speak", "follow", "meet", "count",
@@ -45,6 +58,10 @@ _TRIPS = frozenset({"visit", "trip", "drive", "run", "walk"})
 _MARKS = frozenset({".", "!", "?", ";", "\n"})
 _FINITE = lexicon().be | {"works", "runs", "seems", "looks", "has", "smells", "leaks", "needs"}
 _LONGEST_STOP = 6
+_LONGEST_LEAD = 14
+_TIMES = frozenset(_DATA["times"])
+_OPINIONS = tuple(tuple(text.split()) for text in _DATA["opinions"])
+_AT_LEISURE = frozenset(_DATA["at_leisure"])
 
 
 def unframed(words: Phrase, is_stop: IsStop) -> Phrase:
@@ -59,10 +76,13 @@ def unframed(words: Phrase, is_stop: IsStop) -> Phrase:
     for index in range(len(words) + 1):
         if index < len(words) and words[index].key not in _MARKS:
             continue
-        said = _without_sounds(words[start:index])
+        said = _without_remarks(_without_sounds(words[start:index]), is_stop)
+        if start and _is_remark(said, is_stop):
+            start = index + 1
+            continue
         order = _order(said, is_stop) or _in_parts(said, is_stop)
         mark = words[index : index + 1]
-        if order is not None and mark and mark[0].key == "?":
+        if order is not None and mark and mark[0].key == "?" and order[0].key not in lexicon().be:
             mark = (Word(".", "."),)
         result += (*(order if order is not None else said), *mark)
         start = index + 1
@@ -94,6 +114,37 @@ def _without_sounds(words: Phrase) -> Phrase:
     return tuple(kept)
 
 
+def _without_remarks(words: Phrase, is_stop: IsStop) -> Phrase:
+    """Without ", that makes me nervous"."""
+    flat = keys(words)
+    for at in range(3, len(flat) - 2):
+        comments = flat[at - 1] == "," and flat[at] in {"that", "which", "this", "it"}
+        remarks = comments and _troubles(flat[at + 1 : at + 5])
+        end = next((i for i in range(at, len(flat)) if flat[i] == ","), len(flat))
+        if remarks and not any(_stop_end(words, i, is_stop) > i for i in range(at, end)):
+            return (*words[: at - 1], *words[end:])
+    return words
+
+
+def _is_remark(words: Phrase, is_stop: IsStop) -> bool:
+    """Whether a sentence is nothing but "that makes me nervous"."""
+    flat = keys(words)
+    remarks = flat[:1] in {("that",), ("which",), ("this",), ("it",)} and _troubles(flat[1:5])
+    return remarks and not any(_stop_end(words, i, is_stop) > i for i in range(len(words)))
+
+
+def _troubles(flat: tuple[str, ...]) -> bool:
+    """Whether it "makes me", "really worries us"."""
+    whom = {"me", "us", "everybody", "everyone", "people"}
+    return bool(_TROUBLING & set(flat[:2])) and bool(whom & set(flat[1:]))
+
+
+_TROUBLING = frozenset({
+    "makes", "made", "worries", "scares", "bothers", "frightens", "annoys", "drives", "gets", "gives",
+    "upsets", "bugs", "unsettles", "disturbs", "concerns", "troubles", "alarms", "puzzles", "irritates",
+})  # fmt: skip
+
+
 def _in_parts(words: Phrase, is_stop: IsStop) -> Phrase | None:
     """A sentence of which a part between commas is such an order."""
     if "," not in keys(words):
@@ -120,10 +171,39 @@ def _order(words: Phrase, is_stop: IsStop) -> Phrase | None:
         body = body[1:]
     if len(body) < 3 or len(body) > 40:
         return None
+    idle = _idle_condition(body)
+    rest = body[idle:]
+    meant = _meant(rest, is_stop)
+    if meant is not None:
+        return _without_time(meant)
+    return rest if idle else None
+
+
+def _without_time(words: Phrase) -> Phrase:
+    """Without "before lunch" at the end."""
+    flat = keys(words)
+    at = next((i for i in range(max(1, len(flat) - 5), len(flat)) if flat[i] in {"before", "after", "by"}), 0)
+    timed = at and set(flat[at + 1 :]) <= _TIMES | lexicon().determiners and len(flat) > at + 1
+    return words[:at] if timed else words
+
+
+def _idle_condition(words: Phrase) -> int:
+    """How many words at the start say no more than "when you have a moment,"."""
+    flat = keys(words)
+    comma = flat.index(",") if "," in flat[:11] else 0
+    if flat[:1] not in {("if",), ("when",), ("whenever",), ("once",), ("should",)} or flat[1] != "you":
+        return 0
+    return comma + 1 if comma > 2 and set(flat[2:comma]) <= _AT_LEISURE and len(flat) > comma + 3 else 0
+
+
+def _meant(body: Phrase, is_stop: IsStop) -> Phrase | None:
     return (
         _worry(body, is_stop)
         or _fronted(body, is_stop)
         or _topic(body, is_stop)
+        or _asked_for_opinion(body, is_stop)
+        or _unknown(body, is_stop)
+        or (_you_at(("you", "be"), body[1:], is_stop) if body[0].key == "be" else None)
         or _inside_frame(body, is_stop)
     )
 
@@ -154,10 +234,34 @@ def _worry(words: Phrase, is_stop: IsStop) -> Phrase | None:
             continue
         if end == len(flat) and flat[cut - 1] == "about":
             return (*_words("inspect"), *words[cut:])
-        if flat[end : end + 1] and flat[end] in _FINITE and end + 1 < len(flat):
+        if flat[end : end + 1] and flat[end] in _FINITE and end + 1 < len(flat) and not _looked(flat, end):
             return (*_words("check whether"), *words[cut:])
         return None
     return None
+
+
+def _asked_for_opinion(words: Phrase, is_stop: IsStop) -> Phrase | None:
+    """For "would you say X is open?" "is X open?"."""
+    flat = keys(words)
+    lead = next((lead for lead in _OPINIONS if flat[: len(lead)] == lead), ())
+    start = len(lead) + (flat[len(lead) : len(lead) + 1] == ("the",))
+    end = _stop_end(words, start, is_stop) if lead else 0
+    if (
+        not lead
+        or end == start
+        or flat[end : end + 1] not in {("is",), ("are",), ("was",)}
+        or len(flat) < end + 2
+    ):
+        return None
+    return (words[end], *words[len(lead) : end], *words[end + 1 :])
+
+
+def _looked(flat: tuple[str, ...], link: int) -> bool:
+    """Whether something is said to be looked at ("I'd be glad if X was inspected"): that is wanted."""
+    done = flat[link + 1]
+    found = lexicon().verbs.match((lemma(done), *flat[link + 2 :]))
+    looks = found is not None and found[1].partition(":")[0] in {"look", "whether"}
+    return looks and lemma(done) != done and bool({"if", "that", "to"} & set(flat[:link]))
 
 
 def _fronted(words: Phrase, is_stop: IsStop) -> Phrase | None:
@@ -187,20 +291,25 @@ def _topic(words: Phrase, is_stop: IsStop) -> Phrase | None:
 
 
 def _inside_frame(words: Phrase, is_stop: IsStop) -> Phrase | None:
+    """An order behind words that only say that it is wanted, be they small or an attitude to it."""
     flat = keys(words)
     at = 0
     while at < len(flat) and flat[at] in _FRAME:
         at += 1
     opens = opens_command(words)
-    for cut in range(at, 0, -1):
+    for cut in range(_lead_end(words, at, is_stop), 0, -1):
         lead = flat[:cut]
-        if not _DESIRE & set(lead) or _denied(lead) or lead[-1] in lexicon().determiners:
+        framed = cut <= at and bool(_DESIRE & set(lead))
+        if lead[-1] in lexicon().determiners or not (framed or wants(lead)) or _denied(lead):
             continue
         rest = words[cut:]
         order = _passive(lead, rest, is_stop)
         if order is None and not opens:
+            itself = framed or speaks_for_itself(lead)
             order = (
-                _active(lead, rest, is_stop) or _noun_of_order(rest, is_stop) or _you_at(lead, rest, is_stop)
+                (_active(lead, rest, is_stop) if itself else None)
+                or (_noun_of_order(rest, is_stop) if itself or lead[-1] != "to" else None)
+                or _you_at(lead, rest, is_stop)
             )
         if order is not None:
             return order
@@ -209,6 +318,37 @@ def _inside_frame(words: Phrase, is_stop: IsStop) -> Phrase | None:
         _passive(("would",), words, is_stop)
         if "be" in flat[1:] and _DESIRE & set(flat) and not opens
         else None
+    )
+
+
+def _lead_end(words: Phrase, at: int, is_stop: IsStop) -> int:
+    """How far the words before what is wanted may go: over small words, and up to the first thing named."""
+    limit = min(len(words) - 1, _LONGEST_LEAD)
+    named = next((i for i in range(limit) if _stop_end(words, i, is_stop) > i), limit)
+    return max(at if at < len(words) else len(words) - 1, named)
+
+
+def _unknown(words: Phrase, is_stop: IsStop) -> Phrase | None:
+    """For "I can not tell whether X is open", "nobody knows who is at X"."""
+    flat = keys(words)
+    for cut in range(1, min(len(flat) - 2, _LONGEST_LEAD)):
+        rest = words[cut:]
+        if not begins_unknown(keys(rest)) or not wants_to_know(flat[:cut]):
+            continue
+        named = any(_stop_end(rest, i, is_stop) > i for i in range(1, len(rest)))
+        if not named or "," in keys(rest) or _goes_on(rest):
+            return None
+        if rest[0].key in {"whether", "if"}:
+            return (*_words("check whether"), *rest[1:])
+        return (*_words("find out"), *rest)
+    return None
+
+
+def _goes_on(words: Phrase) -> bool:
+    """Whether another order is joined to words."""
+    flat = keys(words)
+    return any(
+        flat[i] in {"and", "so", "but"} and opens_command(words[i + 1 :]) for i in range(len(flat) - 1)
     )
 
 
@@ -235,10 +375,11 @@ def _passive(lead: tuple[str, ...], rest: Phrase, is_stop: IsStop) -> Phrase | N
         flat[end:at]
     ):
         return None
-    tail = rest[at + found[0] :]
+    size = found[0] - (flat[at + found[0] - 1] == "for" and found[0] > 1)
+    tail = rest[at + size :]
     if keys(tail[:1]) == ("by",) and keys(tail[1:2]) and keys(tail)[1] in _ANYBODY | {"you"}:
         tail = tail[2:]
-    return (Word(verb, verb), *rest[at + 1 : at + found[0]], *rest[:end], *tail)
+    return (Word(verb, verb), *rest[at + 1 : at + size], *rest[:end], *tail)
 
 
 _LINKING = frozenset({
@@ -256,15 +397,38 @@ def _active(lead: tuple[str, ...], rest: Phrase, is_stop: IsStop) -> Phrase | No
     found = lexicon().verbs.match((base, *keys(rest[1:])))
     if found is None or found[1].partition(":")[0] not in _KINDS:
         return None
-    if base != rest[0].key and not _PAST & set(lead):
+    if base != rest[0].key and not (_doing(lead) if rest[0].key.endswith("ing") else _PAST & set(lead)):
         return None
     whom = (_ANYBODY | {"you", "robot"}) & set(lead)
-    if not whom and lead[-1] not in {"to", "and", "please", "just", "kindly"}:
+    if not whom and lead[-1] not in {"to", "and", "please", "just", "kindly"} and not _doing(lead):
         return None
     named = any(
         is_stop(rest[i:j]) for i in range(1, len(rest)) for j in range(i + 1, min(len(rest), i + 5) + 1)
     )
-    return (Word(base, base), *rest[1:]) if named else None
+    past = base != rest[0].key and not rest[0].key.endswith("ing")
+    return (Word(base, base), *(_in_base_form(rest[1:]) if past else rest[1:])) if named else None
+
+
+def _in_base_form(words: Phrase) -> Phrase:
+    """For "(went to A) and checked B, then took a look": the verbs behind as orders too."""
+    result: list[Word] = []
+    for index, word in enumerate(words):
+        joined = index and words[index - 1].key in {"and", "then"}
+        base = lemma(word.key)
+        if joined and base != word.key and lexicon().verbs.match((base, *keys(words[index + 1 :]))):
+            word = Word(base, base)
+        result.append(word)
+    return tuple(result)
+
+
+_BEFORE_DOING = (_ANYBODY - {"us", "we"}) | {
+    "in", "of", "about", "worth", "for", "be", "mind", "consider", "fancy", "like", "you",
+}  # fmt: skip
+
+
+def _doing(lead: tuple[str, ...]) -> bool:
+    """Whether words are followed by what is to be done in its form in -ing."""
+    return lead[-1] in _BEFORE_DOING
 
 
 def _noun_of_order(rest: Phrase, is_stop: IsStop) -> Phrase | None:
@@ -284,11 +448,25 @@ def _noun_of_order(rest: Phrase, is_stop: IsStop) -> Phrase | None:
 
 
 def _you_at(lead: tuple[str, ...], rest: Phrase, is_stop: IsStop) -> Phrase | None:
-    """For "(I would need you) at the desk"."""
-    if lead[-1] != "you" or keys(rest[:1]) not in {("at",), ("in",), ("by",), ("near",)}:
+    """For "(I would need you) at the desk", "(have you back) on it", "(manage to be) at the desk"."""
+    last = next((key for key in reversed(lead) if key not in _BACK), "")
+    whoever = bool(({"you"} | _ANYBODY) & set(lead))
+    there = last in {"you", "yourself"} or (last in {"be", "being"} and whoever)
+    if not there or keys(rest[:1]) not in _PLACES:
         return None
     end = _stop_end(rest, 1, is_stop)
-    return (*_words("go to"), *rest[1:]) if end > 1 else None
+    later = keys(rest[end : end + 1]) in _LATER or keys(rest[end:]) in _SOON
+    return (*_words("go to"), *(rest[1:end] if later else rest[1:])) if end > 1 else None
+
+
+_PLACES = frozenset({("at",), ("in",), ("by",), ("near",), ("on",), ("beside",), ("behind",)})
+_BACK = frozenset({"back", "over", "down", "up", "right", "round", "out"})
+_LATER = frozenset(
+    {("when",), ("before",), ("as",), ("while",), ("for",), ("until",), ("because",), ("since",)}
+)
+_SOON = frozenset(
+    {("soon",), ("now",), ("by", "now"), ("already",), ("right", "now"), ("today",), ("again",)}
+)
 
 
 _GOING = frozenset({"go", "drive", "come", "move", "run", "walk", "head", "roll"})

@@ -7,7 +7,7 @@ from typing import Final
 
 from parley.language.offline.words.text import Phrase, Word, keys, tokens
 
-__all__ = ["without_own_plans"]
+__all__ = ["straight_on", "without_own_plans"]
 
 _ENDS: Final = frozenset({".", "!", "?", ";"})
 _OPENERS: Final = frozenset(
@@ -50,3 +50,38 @@ def _one(sentence: Phrase) -> Phrase:
         return sentence
     more = next((i for i in range(start + len(plan), len(flat)) if flat[i] == "and"), len(flat))
     return sentence if _ORDERED & set(flat[more:]) else sentence[:more]
+
+
+_STOPPING: Final = frozenset(
+    {"stop", "halt", "pause", "rest", "stopping", "halting", "pausing", "break", "stay", "linger"}
+)
+_UNTIL: Final = frozenset({"until", "till", "before"})
+_REACHING: Final = (
+    ("reach",), ("have", "reached"), ("get", "to"), ("have", "got", "to"), ("are", "at"), ("are", "in"),
+    ("arrive", "at"),
+    ("arrive", "in"), ("come", "to"), ("have", "arrived", "at"), ("make", "it", "to"), ("see",), ("hit",),
+)  # fmt: skip
+
+
+def straight_on(words: Phrase) -> Phrase:
+    """For "do not stop until you reach A" the order to go to A."""
+    flat = keys(words)
+    for at in range(len(flat) - 5):
+        if flat[at : at + 2] == ("do", "not"):
+            verb = at + 2
+        elif flat[at] in {"never", "without"}:
+            verb = at + 1
+        else:
+            continue
+        until = next((i for i in range(verb + 1, min(verb + 5, len(flat))) if flat[i] in _UNTIL), 0)
+        whose = flat[until + 1 : until + 2]
+        if flat[verb] not in _STOPPING or not until or whose not in {("you",), ("reaching",)}:
+            continue
+        rest = flat[until + 2 :]
+        lead = next((lead for lead in _REACHING if rest[: len(lead)] == lead), ())
+        if lead or flat[until + 1] == "reaching":
+            behind = words[until + 2 + len(lead) :]
+            before = words[:at]
+            apart = bool(before) and before[-1].is_word and flat[at] != "without"
+            return (*before, *(tokens(",") if apart else ()), *tokens("go to"), *behind)
+    return words

@@ -6,7 +6,7 @@ from typing import Final
 
 from parley.language.offline.words.text import Phrase, Word, keys
 
-__all__ = ["where_it_was_put"]
+__all__ = ["what_was_left", "where_it_was_put"]
 
 _WHO: Final = frozenset({"i", "we", "he", "she", "they", "somebody", "someone"})
 _PUT: Final = frozenset({"put", "left", "moved", "placed", "brought", "took", "stored", "carried"})
@@ -16,6 +16,34 @@ _WHERE: Final = {
     "under": "under", "behind": "behind", "beside": "beside", "near": "near",
 }  # fmt: skip
 _BE: Final = frozenset({"is", "are", "was", "were"})
+
+
+_THEIRS: Final = {"his": "'s", "her": "'s", "their": "'s"}
+_LEFT: Final = frozenset({"left", "forgotten", "forgot", "put"})
+_AGAIN: Final = frozenset({"on", "in", "at", "under", "behind", "inside", "by", "near"})
+
+
+def what_was_left(words: Phrase) -> Phrase:
+    """The same message with "A has left her B on C" said as "A's B is on C"."""
+    flat = keys(words)
+    for at in range(1, len(flat) - 3):
+        put = at + (flat[at] in {"has", "had"})
+        if flat[put] not in _LEFT or flat[put + 1 : put + 2] not in {(word,) for word in _THEIRS}:
+            continue
+        start = next((i + 1 for i in range(at - 1, -1, -1) if not words[i].is_word or flat[i] in _JOINTS), 0)
+        who = words[start:at]
+        thing = put + 2
+        where = next((i for i in range(thing + 1, min(thing + 4, len(flat))) if flat[i] in _AGAIN), 0)
+        named = 0 < len(who) < 4 and (who[-1].is_capital or flat[start] in {"the", "a", "my", "our"})
+        if not where or not named or where + 1 >= len(flat):
+            continue
+        owner = (*who[:-1], Word(f"{who[-1].key}'s", f"{who[-1].raw}'s"))
+        be = "are" if flat[where - 1].endswith("s") and not flat[where - 1].endswith("ss") else "is"
+        return (*words[:start], *owner, *words[thing:where], Word(be, be), *words[where:])
+    return words
+
+
+_JOINTS: Final = frozenset({"and", "but", "so", "because", "since", "that"})
 
 
 def where_it_was_put(words: Phrase) -> Phrase:

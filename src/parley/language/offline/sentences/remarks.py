@@ -13,6 +13,7 @@ __all__ = [
     "hurries",
     "is_deed",
     "is_span",
+    "is_strange_order",
     "says_something",
     "says_where_i_am",
     "without_frame",
@@ -34,6 +35,24 @@ def is_deed(words: Phrase) -> bool:
     small = lex.determiners | lex.be | lex.auxiliaries | lex.question_starts | lex.quantifiers | _SMALL
     pronouns = lex.person_pronouns | lex.thing_pronouns | lex.place_pronouns | lex.operator_pronouns
     return len(flat) > 1 and first.isalpha() and len(first) > 2 and first not in small | pronouns
+
+
+def is_strange_order(words: Phrase) -> bool:
+    """Whether a sentence begins with a word nobody knows that acts on something: "dissect the frog"."""
+    flat = keys(words)
+    lex = lexicon()
+    if len(flat) < 2 or not is_deed(words) or flat[0] in lex.vocabulary - _verb_words() or "," in flat[:2]:
+        return False
+    acts = flat[1] in _ACTED_ON or flat[1].isdigit() or flat[1] in lex.numbers
+    return acts and len(flat) > 2 - (flat[1] in _THEM) and not set(flat) & (lex.be | lex.auxiliaries)
+
+
+_THEM = frozenset({"it", "them", "him", "her"})
+_ACTED_ON = _THEM | {"the", "a", "an", "this", "these", "those", "some", "all", "every", "each", "both"}
+
+
+def _verb_words() -> frozenset[str]:
+    return frozenset(verb.split()[0] for verbs in lexicon().verb_classes.values() for verb in verbs)
 
 
 def says_something(words: Phrase) -> bool:

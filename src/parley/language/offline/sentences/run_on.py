@@ -127,6 +127,12 @@ _AFTER_VERB = frozenset(
 _LONGEST_STOP = 5
 
 
+def _in_a_verb(flat: tuple[str, ...], index: int) -> bool:
+    """Whether a word is part of a verb of several words that began before ("take up position")."""
+    found = ((at, lexicon().verbs.match(flat, at)) for at in range(max(0, index - 3), index))
+    return any(verb is not None and at + verb[0] > index for at, verb in found)
+
+
 def punctuated(words: Phrase, is_stop: IsStop) -> Phrase:
     """The same words with a full stop wherever a clause of its own begins without any mark.
 
@@ -145,7 +151,8 @@ def punctuated(words: Phrase, is_stop: IsStop) -> Phrase:
             start, ordered = index + 1, False
             continue
         elif index > start:
-            begins = _order_at(words, flat, index, is_stop)
+            idle = _in_a_verb(flat, index) or _asks_of_another(flat[start:index])
+            begins = "" if idle else _order_at(words, flat, index, is_stop)
             if begins and _may_end(words, flat, start, index, is_stop, strong=begins == "strong"):
                 result.append(_STOP)
                 start, ordered = index, True
@@ -163,6 +170,16 @@ def punctuated(words: Phrase, is_stop: IsStop) -> Phrase:
         result.append(word)
         ordered = ordered or bool(_order_at(words, flat, index, is_stop))
     return tuple(result)
+
+
+_ASKING = frozenset({"does", "did", "do", "will", "would", "can", "could", "should"})
+
+
+def _asks_of_another(flat: tuple[str, ...]) -> bool:
+    """For "what day did A (get the key)": the verb of a question about somebody else is no order."""
+    asking = flat[:1] and flat[0] in lexicon().question_starts
+    at = next((i for i in range(1, min(5, len(flat))) if flat[i] in _ASKING), 0) if asking else 0
+    return 0 < at < len(flat) - 1 < at + 6 and not {"you", "we", ",", "and"} & set(flat[at + 1 :])
 
 
 def holds_order(words: Phrase, is_stop: IsStop) -> bool:

@@ -10,6 +10,7 @@ from collections.abc import Callable
 from dataclasses import dataclass, field
 
 from parley.language.offline.facts.facts import strip_openers
+from parley.language.offline.sentences.talk import introduces, is_talk
 from parley.language.offline.words.lexicon import PhraseTable, lexicon
 from parley.language.offline.words.text import Phrase, keys, lemma
 from parley.language.word_lists import load_data
@@ -19,7 +20,7 @@ __all__ = ["BE", "HELPING", "JOINTS", "LEADING", "MARKS", "OPEN", "REASONS", "Ki
 IsStop = Callable[[Phrase], bool]
 Opens = Callable[[Phrase], bool]
 Kind = str
-"""`order`, `wish`, `name`, `told`, `asked`, `reason`, `condition` or `idle`."""
+"""`order`, `wish`, `name`, `told`, `asked`, `reason`, `condition`, `who` (is speaking), `mood` or `idle`."""
 
 MARKS = frozenset({".", "!", "?", ";", "\n", "(", ")"})
 
@@ -34,6 +35,14 @@ _PRESENT = frozenset(_DATA["present"])
 _SUBJECTS = frozenset(_DATA["subjects"])
 OPEN = frozenset(_DATA["open"])
 _RANKS = frozenset(_DATA["ranks"])
+_TAGS = frozenset(tuple(text.split()) for text in _DATA["tags"])
+_NO_DEEDS = PhraseTable.of(_DATA["no_deeds"])
+_SAME = PhraseTable.of(_DATA["same"])
+_BEFORE_SAME = frozenset(
+    {",", ":", "and", "for", "do", "with", "is", "gets", "wants", "needs", "checking", "please"}
+)
+_AT_PLACES = frozenset({"at", "in", "for", "with", "by", "on", "to", "over"})
+_BEHIND_SAME = frozenset({",", ".", "and", "please", "there", "then", "again", "but", "so", "!", "?", ";"})
 BE = frozenset({"is", "are", "was", "were", "am"})
 HELPING = frozenset({
     "has", "have", "had", "do", "does", "did", "will", "would", "can", "could", "must", "should", "may",
@@ -67,6 +76,8 @@ _FRAME = re.compile(
 )
 _LONGEST_NAME = 6
 _LONGEST_SUBJECT = 9
+_LONGEST_TALK = 14
+_UNDECIDED: tuple[str, str] = ("", "")
 
 
 def spans(words: Phrase, is_stop: IsStop) -> list[tuple[int, int]]:
@@ -94,6 +105,8 @@ class Signs:
     named: frozenset[int] = field(init=False)
     """The words that are part of a name."""
     begun: frozenset[int] = field(init=False)
+    talk: dict[tuple[int, int], tuple[Kind, str] | None] = field(init=False, default_factory=dict)
+    """Which parts were looked at already."""
 
     def __post_init__(self) -> None:
         self.flat = keys(self.words)
@@ -208,6 +221,8 @@ class Signs:
         word = self.flat[at]
         if framed and self._wanted_at(at):
             return True
+        if _NO_DEEDS.match(self.flat, at) is not None:
+            return False
         before = self.flat[at - 1] if at and not first else ""
         if at in self.named or lemma(word) != word or before in lexicon().determiners | {"to"}:
             return framed and lemma(word) == word and self.opens(self.words[at : at + 6])
@@ -244,6 +259,9 @@ class Signs:
         if self.flat[at] == "you":
             modal = self.flat[at + 1 : at + 2] in _MODALS and self.flat[at + 2 : at + 3] in _FINDING
             return modal or self.flat[at + 1 : at + 2] in _YOU_TOLD
+        if self.flat[at] in {"that", "this", "these", "those"} and self.flat[at - 1 : at] == (",",):
+            verb, behind = self.flat[at + 1 : at + 2], self.flat[at + 2 : at + 3]
+            return verb in {(word,) for word in BE | {"has", "will"}} and behind not in {("from",), ("to",)}
         stop = min(end, at + _LONGEST_SUBJECT)
         comma = next((i for i in range(at, stop) if self.flat[i] == ","), stop)
         if self.flat[at] in _SUBJECTS - {"some", "both", "all", "that", "this", "these", "those", "most"}:
@@ -263,6 +281,35 @@ class Signs:
             "is",
             "are",
         }
+
+    def _same_at(self, start: int, end: int) -> int:
+        """Where the name ends in "then the desk, same thing"; 0 if nothing is put like that."""
+        at = self._behind_leading(start)
+        name = next((b for a, b in self.found if a == at or (a == at + 1 and self._small(at))), 0)
+        if not name:
+            return self._same_before(at, end)
+        if name >= end:
+            return 0
+        behind = next((i for i in range(name, end) if self.flat[i] not in _BEFORE_SAME), end)
+        same = _SAME.match(self.flat, behind)
+        if same is None or behind + same[0] > end:
+            return 0
+        rest = self.flat[behind + same[0] : behind + same[0] + 1]
+        return name if not rest or rest[0] in _BEHIND_SAME else 0
+
+    def _same_before(self, at: int, end: int) -> int:
+        """Where the name ends in "do the same at the desk"; 0 if nothing is put like that."""
+        at += self.flat[at : at + 1] == ("do",)
+        same = _SAME.match(self.flat, at)
+        if same is None:
+            return 0
+        link = at + same[0]
+        name = next((b for a, b in self.found if a == link + 1 and self.flat[link] in _AT_PLACES), 0)
+        rest = self.flat[name : name + 1]
+        return name if name and name <= end and (name == end or rest[0] in _BEHIND_SAME) else 0
+
+    def _small(self, at: int) -> bool:
+        return self.flat[at] in {"to", "at", "the", "on", "in", "into"}
 
     def _ranked(self, start: int, end: int) -> bool:
         """For "the desk comes first"."""
@@ -290,24 +337,58 @@ class Signs:
         return bool(self.named & set(range(index, stop))) and set(left) <= _RANKS
 
     def _kind(self, start: int, end: int) -> Kind:
+        return self._label(start, end)[0]
+
+    def _label(self, start: int, end: int) -> tuple[Kind, str]:
+        """What a part of a message is, and why: the one place where that is decided."""
         at = self._behind_leading(start)
+        talk = self._talk(start, at, end)
+        if talk is not None:
+            return talk
         if at >= end:
-            return "idle"
-        if any(REASONS.match(self.flat, i) is not None for i in range(start, at + 1)) and (
-            self._order_at(start, end) < 0
-        ):
-            return "reason"
-        if self._order_at(start, end) >= 0:
-            return "order"
+            return "idle", "nothing but small words"
+        order = self._order_at(start, end)
+        if order < 0 and any(REASONS.match(self.flat, i) is not None for i in range(start, at + 1)):
+            return "reason", "begins as a reason"
+        if order >= 0:
+            return "order", f"“{self.flat[order]}” asks for something"
         if self._conditional(at):
-            return "order" if self._order_behind(at, end) else "condition"
+            behind = self._order_behind(at, end)
+            return ("order", "an order under a condition") if behind else ("condition", "nothing hangs on it")
         if self.flat[at] in lexicon().question_starts | BE | HELPING:
-            return "asked"
+            return "asked", f"begins with “{self.flat[at]}”"
         if self._ranked(at, end):
-            return "name"
+            return "name", "says when a place comes"
         if self._told(at, end):
-            return "wish" if _WISHING & set(self.flat[at + 1 : at + 6]) or self._due(at, end) else "told"
-        return "name" if self._only_names(at, end) or self._mostly_names(at, end) else "idle"
+            wish = _WISHING & set(self.flat[at + 1 : at + 6]) or self._due(at, end)
+            return ("wish", "says what is needed") if wish else ("told", "a subject with its verb")
+        if self._only_names(at, end) or self._mostly_names(at, end):
+            return "name", "little but names"
+        return "idle", "no order, no statement"
+
+    def _talk(self, start: int, at: int, end: int) -> tuple[Kind, str] | None:
+        """What is said around orders and has nothing to do with them."""
+        if not 0 < end - start <= _LONGEST_TALK + 2 or self.named & set(range(start, at)):
+            return None
+        found = self.talk.get((start, end), _UNDECIDED)
+        if found is not _UNDECIDED:
+            return found
+        kept = [i for i in (start, at) if i < end]
+        trimmed = [self.words[i:end] for i in dict.fromkeys(kept)]
+        decided: tuple[Kind, str] | None = None
+        if self.flat[end : end + 1] == ("?",) and start and self.flat[start:end] in _TAGS:
+            self.talk[start, end] = ("mood", "asks whether it was understood")
+            return self.talk[start, end]
+        if end - start > 1 and any(introduces(words, first_is_thing=at in self.begun) for words in trimmed):
+            decided = "who", "says who is speaking"
+        elif (
+            not self.named & set(range(start, end))
+            and any(is_talk(words) for words in trimmed)
+            and not self._order_behind(start, end)
+        ):
+            decided = "mood", "said to the listener, nothing is asked for"
+        self.talk[start, end] = decided
+        return decided
 
     def _mostly_names(self, start: int, end: int) -> bool:
         left = [

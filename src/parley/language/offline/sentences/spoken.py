@@ -9,6 +9,7 @@ from functools import lru_cache
 from parley.language.offline.scene.grounding import ground_phrase
 from parley.language.offline.scene.marks import marks_of
 from parley.language.offline.scene.scene import Scene
+from parley.language.offline.scene.viewing import is_view
 from parley.language.offline.sentences.conditioning import as_conditions
 from parley.language.offline.sentences.finite import parted
 from parley.language.offline.sentences.frames import unframed
@@ -101,6 +102,10 @@ class Names:
         named = bare(words)
         if named[-1:] != words[-1:]:
             # "The desk first": more than the name.
+            return False
+        sides = all(is_view(word.key) or word.key == "your" for word in named)
+        if sides and not set(keys(named)) & self.said:
+            # "On your right": where something is, and no name.
             return False
         rest = set(flat) - self.said - lexicon().determiners
         if not named or len(rest) > 1:

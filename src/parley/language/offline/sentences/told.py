@@ -22,9 +22,11 @@ _WHEN = (("when",), ("once",), ("after",), ("as", "soon", "as"), ("and", "when")
 _DOING = frozenset({
     "you", "all", "that", "it", "this", "everything", "those", "these", "is", "are", "have", "has",
     "been", "of", "with", "there", "done", "finished", "through", "ready", "over", "completed",
-    "complete", "done.", "had", "both", "them", "got",
+    "complete", "done.", "had", "both", "them", "got", "two", "three", "four",
 })  # fmt: skip
 _DONE = frozenset({"done", "finished", "through", "over", "completed", "complete"})
+_SEEN = frozenset({"seen", "visited", "checked", "inspected"})
+_LISTED = frozenset({"both", "them", "all", "everything", "those", "these", "two", "three"})
 _AT_FIRST = tuple(
     tuple(text.split())
     for text in (
@@ -109,9 +111,10 @@ def when_done(words: Phrase) -> Phrase:
     while index < len(words):
         marker = next((m for m in _WHEN if flat[index : index + len(m)] == m), ())
         end = index + len(marker)
-        while marker and end < len(flat) and flat[end] in _DOING:
+        while marker and end < len(flat) and flat[end] in _DOING | _SEEN:
             end += 1
-        if marker and _DONE & set(flat[index:end]) and flat[end - 1] in _DOING - {"you", "is", "have"}:
+        done = _DONE & set(flat[index:end]) or (flat[end - 1] in _LISTED and flat[end - 2] in _SEEN)
+        if marker and done and flat[end - 1] in _DOING - {"you", "is", "have"}:
             result.append(Word("then", "then"))
             index = end + (flat[end : end + 1] == (",",))
             continue
@@ -266,7 +269,7 @@ def _apart(sentence: Phrase) -> Phrase:
     """A sentence of its own for what is told behind a comma; nothing for "same thing there"."""
     flat = keys(sentence)
     same = next((m for m in _SAME if flat[-len(m) :] == m and len(flat) > len(m) + 1), ())
-    if same:
+    if same and not {"say", "speak", "announce", "repeat"} & set(flat[-len(same) - 2 : -len(same)]):
         sentence, flat = sentence[: -len(same)], flat[: -len(same)]
     if _LINKED & set(flat):
         return sentence

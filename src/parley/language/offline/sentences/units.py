@@ -23,6 +23,7 @@ from parley.language.offline.sentences.signs import (
     Signs,
     spans,
 )
+from parley.language.offline.sentences.talk import TALK
 from parley.language.offline.words.lexicon import lexicon
 from parley.language.offline.words.text import Phrase, Word, keys, lemma
 
@@ -43,6 +44,18 @@ class Unit:
     """Whether a mark or a joining word stands before it."""
     names: tuple[Phrase, ...] = ()
     """The things on the map that it names."""
+    why: str = ""
+    """Why it is of its kind."""
+    same: bool = False
+    """Whether what was asked for last is asked for at this place too ("then the desk, same thing")."""
+
+    @property
+    def refuses(self) -> bool:
+        """Whether it is an order not to do something."""
+        flat = keys(self.words)[:4]
+        return self.kind == "order" and (
+            flat[:2] in {("do", "not"), ("no", "need")} or flat[:1] in {("never",), ("avoid",)}
+        )
 
 
 def units(words: Phrase, is_stop: IsStop, opens: Opens) -> list[Unit]:
@@ -85,7 +98,9 @@ class _Message(Signs):
             elif self._runs_on(index, begun, end):
                 cuts.append((index, False))
         bounds = zip(cuts, [*(at for at, _ in cuts[1:]), end], strict=True)
-        return self._led([self._unit(at, stop, free=free, asked=asked) for (at, free), stop in bounds])
+        return self._led(
+            [self._unit(at, stop, free=free, asked=asked and stop == end) for (at, free), stop in bounds]
+        )
 
     def _led(self, found: list[Unit]) -> list[Unit]:
         """With "and before that," at the front of what it says something about."""
@@ -113,9 +128,23 @@ class _Message(Signs):
             return False
         if self._being_said(index, begun):
             return False
-        kind = self._kind(begun, end)
+        talked = self.flat[index - 1] == "," and self._kind(begun, index - 1) in TALK
+        if talked or self._talk_ahead(index, end) or self._same_at(index, end):
+            return True
         if self._waits(begun, index) and self._order_at(index, end) >= 0:
             return False
+        return self._begins_otherwise(index, begun, end)
+
+    def _talk_ahead(self, index: int, end: int) -> bool:
+        """Whether nothing but talk stands between two commas, or a comma and the end."""
+        if self.flat[index - 1] != ",":
+            return False
+        stop = next((i for i in range(index, end) if self.flat[i] == ","), end)
+        return self._talk(index, self._behind_leading(index), stop) is not None
+
+    def _begins_otherwise(self, index: int, begun: int, end: int) -> bool:
+        """Whether a reason, an order, a condition, something told or a name begins."""
+        kind = self._kind(begun, end)
         if self.flat[index - 1] in JOINTS and REASONS.match(self.flat, index - 1) is not None:
             return True
         if self._order_at(index, end) >= 0:
@@ -160,6 +189,8 @@ class _Message(Signs):
             return False
         if self._being_said(index, begun):
             return False
+        if self._asks_of_another(begun, index):
+            return False
         if word == "to":
             return self._purpose(index, begun)
         if self._order_at(begun, end) >= index:
@@ -186,6 +217,15 @@ class _Message(Signs):
         begins = bool(subject and finite) or self.flat[index : index + 3] in _UNSURE
         return begins and self._kind(begun, end) in {"order", "name"} and index - begun > 2
 
+    def _asks_of_another(self, begun: int, index: int) -> bool:
+        """For "does A (drive the tractor)": the verb of a question about somebody else is no order."""
+        at = self._behind_leading(begun)
+        if self.flat[at] in lexicon().question_starts:
+            # "What day did A (get the key)".
+            at = next((i for i in range(at + 1, index) if self.flat[i] in _ASKING_HELP), at)
+        subject = self.flat[at + 1 : index]
+        return self.flat[at] in _ASKING_HELP and 0 < len(subject) < 6 and not _TO_ROBOT & set(subject)
+
     def _being_said(self, index: int, begun: int) -> bool:
         """Whether words are what an order is to say to somebody: "(tell A at the desk) that S"."""
         first = keys(strip_openers(self.words[begun:index], requests=True))
@@ -207,13 +247,14 @@ class _Message(Signs):
         return there and moves and kind in {"look", "search", "whether", "count"}
 
     def _unit(self, start: int, end: int, *, free: bool, asked: bool) -> Unit:
-        kind = self._kind(start, end)
+        same = self._same_at(start, end)
+        kind, why = ("name", "the same at another place") if same else self._label(start, end)
         if asked and kind in {"told", "name"}:
-            kind = "asked"
+            kind, why = "asked", "ends with a question mark"
         names = tuple(
             self.words[a:b] for a, b in self.found if start <= a and b <= end and not self._anchors(a, start)
         )
-        return Unit(kind, start, end, self._said(start, end, kind), free, names)
+        return Unit(kind, start, end, self._said(start, end, kind), free, names, why, bool(same))
 
     def _anchors(self, at: int, start: int) -> bool:
         """Whether a name only says where something else is ("the box next to the desk")."""
@@ -232,6 +273,9 @@ class _Message(Signs):
         """The words of a part, of an order without its frame."""
         if kind == "name":
             at = self._behind_leading(start)
+            end = self._same_at(start, end) or end
+            named = [a for a, b in self.found if b == end and a >= at]
+            at = named[0] if named and self._same_at(start, end) else at
             return _trimmed((*self._when(start, at), *self.words[at:end]))
         if kind != "order":
             return _trimmed(self.words[start:end])
@@ -298,6 +342,8 @@ class _Message(Signs):
         return tuple(word for word in kept if word.key not in {"so", "or"})
 
 
+_ASKING_HELP = frozenset({"does", "did", "can", "could", "will", "would", "should", "may", "must"})
+_TO_ROBOT = frozenset({"you", "we", "somebody", "someone", "please", ",", "anybody", "anyone"})
 _COMPARED = frozenset({
     "next", "close", "closest", "closer", "nearest", "nearer", "near", "opposite", "adjacent", "farthest",
     "furthest", "belonging", "left", "right", "parallel", "compared",

@@ -12,7 +12,7 @@ from parley.language.offline.tasks.going import UnableError
 from parley.language.offline.tasks.looking import ASKING, Looking
 from parley.language.offline.words.lexicon import lexicon
 from parley.language.offline.words.nouns import bare, coordinated, noun_phrase
-from parley.language.offline.words.saying import the
+from parley.language.offline.words.saying import the, where_is
 from parley.language.offline.words.text import Phrase, keys, plain, singular, tokens
 from parley.language.word_lists import load_data
 from parley.messages.status import ActionInfo
@@ -129,7 +129,14 @@ class Carrying(Looking):
             return
         goal = self.scene.ground(command.place).candidates[:1]
         if goal == (source.item,) and keys(theme) != keys(tokens(source.item.description)):
-            raise UnclearError(f"Where is {the(plain(theme))}?")
+            raise self._unplaced(theme)
+
+    def _unplaced(self, theme: Phrase) -> UnclearError:
+        """The question where something is that is to be brought, and what the robot cannot do about it."""
+        question = f"{where_is(plain(theme))}?"
+        if self.catalogue.with_role("grasp", "fetch") is None:
+            question = f"I cannot pick things up by myself, somebody has to put them on me. {question}"
+        return UnclearError(question, about=theme)
 
     def _way_taken(self, command: Command) -> bool:
         """For "take the left door": a way to go."""
@@ -199,7 +206,7 @@ class Carrying(Looking):
             or noun.relation in {"of", "with", "from"}
         ):
             return command
-        if self._grounds(command.theme) or not self._grounds(noun.anchors[0]):
+        if self._is_called(command.theme) or not self._grounds(noun.anchors[0]):
             return command
         size = next(
             i
@@ -207,6 +214,12 @@ class Carrying(Looking):
             if keys(command.theme[i:])[: len(noun.relation.split())] == tuple(noun.relation.split())
         )
         return replace(command, theme=bare(command.theme[:size]), source=noun.anchors[0])
+
+    def _is_called(self, theme: Phrase) -> bool:
+        """Whether something on the map is called so, in one of these words: no crate is a carton of juice."""
+        said = {singular(key) for key in keys(theme)}
+        named = (f"{item.description} {item.class_name}" for item in self.scene.ground(theme).candidates)
+        return any(said & {singular(word) for word in text.lower().split()} for text in named)
 
     def _theme(self, command: Command) -> tuple[Phrase, Place | None]:
         """What is to be brought, in the words it is remembered by, and where it is."""
@@ -230,7 +243,7 @@ class Carrying(Looking):
                 raise UnclearError(
                     f"I do not know of {lexicon().need_words[need]}. What should I bring, and where is it?"
                 )
-            raise UnclearError(f"Where is {the(plain(theme))}?", about=theme)
+            raise self._unplaced(theme)
         return (place.via.fact.subject if place.via is not None and place.via.fact.subject else theme), place
 
     def _destination(self, command: Command, theme: Phrase) -> tuple[Phrase, Place]:
@@ -294,6 +307,7 @@ class Carrying(Looking):
 
     def collect(self, command: Command) -> None:
         """Get something on board that the next clause says more about."""
+        command = self._from_where_it_is(command)
         theme, source = self._theme(command)
         if self.catalogue.with_role("grasp", "ask_operator") is None:
             self.notes.append(f"I cannot pick things up, so somebody has to put {the(plain(theme))} on me.")
@@ -321,7 +335,7 @@ class Carrying(Looking):
             and not self.here
             and self.catalogue.with_role("grasp") is None
         ):
-            raise UnclearError(f"Where is {the(plain(theme))}?", about=theme)
+            raise self._unplaced(theme)
         self._stand_at(place)
         self._take(theme)
         self.scene.mention(theme)

@@ -11,6 +11,7 @@ import re
 from collections.abc import Mapping, Sequence
 from typing import Any
 
+from parley.language.offline.tasks.choices import is_listed
 from parley.language.offline.tasks.roles import (
     number_inputs,
     parameter_role,
@@ -20,15 +21,28 @@ from parley.language.offline.tasks.roles import (
 )
 from parley.language.offline.words.concepts import other_verbs
 from parley.language.offline.words.lexicon import lexicon
-from parley.language.offline.words.naming import name_words
+from parley.language.offline.words.naming import kind_of, name_words
 from parley.language.offline.words.quantities import taken_by
-from parley.language.offline.words.text import lemma, singular
+from parley.language.offline.words.text import lemma, singular, split_name
 from parley.language.word_lists import load_data
 from parley.messages.chat import ActionCall
 from parley.messages.pvf import Parameter
 from parley.messages.status import ActionInfo
 
 __all__ = ["Catalogue", "call", "parameter_role", "roles_of", "templates", "text_inputs"]
+
+
+def _shared_prefix(infos: Sequence[ActionInfo]) -> str:
+    """What the names of nearly all actions begin with, though it says nothing of any of them."""
+    first = [split_name(info.name)[:1] for info in infos if len(split_name(info.name)) > 1]
+    if len(infos) < _FEWEST or not first:
+        return ""
+    (word,) = max(first, key=first.count)
+    often = first.count((word,)) >= len(infos) - 1
+    return word if often and lexicon().verbs.match((word,)) is None else ""
+
+
+_FEWEST = 3
 
 
 def templates(info: ActionInfo) -> tuple[str, ...]:
@@ -77,12 +91,13 @@ class Catalogue:
 
     def __init__(self, infos: Sequence[ActionInfo]) -> None:
         self.infos = tuple(infos)
-        self._roles = {info.name: roles_of(info) for info in infos}
+        self._prefix = _shared_prefix(self.infos)
+        self._roles = {info.name: roles_of(self.plainly_named(info)) for info in infos}
         self._let_fetch_grasp()
         self._table = self._verb_table()
         self.of_own_kind = tuple(info for info in self.infos if self._is_own_kind(info))
         """The actions that no task of a common kind is put together from, or not by them alone."""
-        also = {words for info in self.of_own_kind for words in other_verbs(name_words(info.name))}
+        also = {words for info in self.of_own_kind for words in _other_words(self.plainly_named(info))}
         self.verbs = tuple(sorted({*self._table, *also}, key=len, reverse=True))
         """First words by which actions of no common role can be asked for."""
 
@@ -109,8 +124,26 @@ class Catalogue:
         if "motion" in roles:
             return info is not self.mover
         if roles == {"count"} and text_inputs(info):
-            return all(parameter_role(name) == "place" for name in text_inputs(info))
+            takes = {parameter_role(name) for name in text_inputs(info)}
+            topic = set(name_words(info.name)) - _COUNTED_AT_LARGE
+            return takes == {"place"} or (takes <= {"place", ""} and bool(topic))
+        if roles & _IN_WORDS and self._takes_more(info):
+            return True
         return not roles or (not info.inputs and not roles & {"look", "answer", "ask_operator"})
+
+    def plainly_named(self, info: ActionInfo) -> ActionInfo:
+        """An action without what the names of all begin with ("wh_scan" among "wh_go", "wh_stack")."""
+        if not self._prefix or not info.name.lower().startswith(self._prefix):
+            return info
+        return info.model_copy(update={"name": info.name[len(self._prefix) :].lstrip("_-. ")})
+
+    @staticmethod
+    def _takes_more(info: ActionInfo) -> bool:
+        """Whether it needs what no common task gives: a number, one of a few values, a yes or no."""
+        needed = [name for name in info.inputs if name not in info.optional and "::" not in name]
+        kinds = {kind_of(info.inputs[name]) for name in needed} - {"string"}
+        listed = any(is_listed(name, info) for name in needed if kind_of(info.inputs[name]) == "string")
+        return bool(kinds & {"number", "bool"} or listed) and not pose_inputs(info)
 
     def roles(self, info: ActionInfo) -> frozenset[str]:
         """What one of the actions is good for."""
@@ -273,7 +306,7 @@ class Catalogue:
             roles = self._roles[info.name]
             if roles & _HELPERS:
                 continue
-            for verb in _verbs_of(info):
+            for verb in _verbs_of(self.plainly_named(info)):
                 found = lexicon().verbs.match(verb)
                 kind = found[1].partition(":")[0] if found is not None else ""
                 if kind == "motion" and not text_inputs(info):
@@ -284,6 +317,11 @@ class Catalogue:
         return table
 
 
+_COUNTED_AT_LARGE = frozenset({
+    "count", "number", "of", "get", "object", "objects", "thing", "things", "item", "items", "stuff",
+})  # fmt: skip
+_IN_WORDS = frozenset({"speak", "look", "search", "grasp", "place", "handover", "fetch", "guide", "follow"})
+"""What such tasks give to an action is words alone."""
 _HANDLES = frozenset(
     {
         "id",
@@ -335,11 +373,23 @@ _COVERED = {
 }
 
 
+def _other_words(info: ActionInfo) -> set[tuple[str, ...]]:
+    """Verbs that no list has, for an action of its own kind: of its name's kind, or of its description."""
+    found = set(other_verbs(name_words(info.name)))
+    told = re.findall(r"[a-z]+", info.description.lower())[:1]
+    verb = lemma(told[0]) if told else ""
+    verb = singular(verb) if verb == (told or [""])[0] else verb
+    known = lexicon().verbs.match((verb,)) if verb else None
+    if verb and known is None and verb not in lexicon().determiners | lexicon().vocabulary | _EMPTY:
+        found |= {(verb,), *other_verbs((verb,))}
+    return found
+
+
 def _verbs_of(info: ActionInfo) -> list[tuple[str, ...]]:
     """The words with which an order for an action may begin."""
     verbs: list[tuple[str, ...]] = []
     words = name_words(info.name)
-    if words:
+    if words and words[0] not in lexicon().be | lexicon().auxiliaries:
         base = (lemma(words[0]), *words[1:])
         verbs += [
             base[:end]

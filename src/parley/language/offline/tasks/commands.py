@@ -5,7 +5,7 @@ from __future__ import annotations
 from collections.abc import Callable, Sequence
 from dataclasses import dataclass, replace
 
-from parley.language.offline.facts.facts import strip_openers
+from parley.language.offline.facts.facts import NO_PLACES, strip_openers
 from parley.language.offline.tasks.sources import from_off, from_one_to_another
 from parley.language.offline.words.lexicon import lexicon
 from parley.language.offline.words.nouns import bare, noun_phrase
@@ -358,6 +358,7 @@ def _whether(command: Command) -> Command:
         at += 1
     found = lex.places.match(flat, at)
     place = bare(words[at + found[0] :]) if found and link < len(flat) else ()
+    place = () if keys(place[:1])[:1] and place[0].key in NO_PLACES else place
     return replace(command, theme=subject, place=place, words=words)
 
 

@@ -38,6 +38,11 @@ class Docking(Going):
         own = words in _OWN_PLACES and self.catalogue.with_role("dock") is not None
         return own and not self._grounds(place)
 
+    def _charging(self) -> list[Phrase]:
+        """The one place that is called after charging ("charging bay")."""
+        called = [i.description for i in self.scene.objects if "charging" in i.description.lower().split()]
+        return [tokens(called[0])] if len(called) == 1 else []
+
     def _dock(self, command: Command) -> None:
         info = self.catalogue.with_role("dock")
         if info is not None and not text_inputs(info):
@@ -45,7 +50,7 @@ class Docking(Going):
             self.will.append("go to my charger")
             self.here = ""
             return
-        places = (command.place, tokens("charger"), tokens("dock"))
+        places = (command.place, *self._charging(), tokens("charger"), tokens("dock"))
         place = next((p for p in places if p and self._grounds(p)), ())
         if not place:
             raise UnableError(plain(command.clause))

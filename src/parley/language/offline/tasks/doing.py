@@ -21,6 +21,7 @@ from parley.messages.chat import Flow, FlowIf
 __all__ = ["Doing"]
 
 
+_CHECK_WHETHER = tokens("check whether")
 _GIVING = frozenset({"give", "hand", "pass", "deliver", "bring", "serve", "offer"})
 
 
@@ -164,8 +165,9 @@ class Doing(Meaning):
                 raise UnclearError(f"How can I tell whether {plain(clause.condition)}?")
             self._looked_for_nothing(clause)
             looked_from = len(self.tasks.steps)
-            self.tasks.do(look)
-            self._one_look(looked_from)
+            if not self._own_check(clause.condition):
+                self.tasks.do(look)
+                self._one_look(looked_from)
             self._checked = (clause.condition, len(self.tasks.steps) - 1)
         start, told = len(self.tasks.steps), len(self.tasks.will)
         self._clause(replace(clause, condition=(), conditional=False), alone=False, index=1)
@@ -176,6 +178,23 @@ class Doing(Meaning):
         word = "if not" if clause.otherwise else "if so"
         if len(self.tasks.will) > told:
             self.tasks.will[told] = f"{word}, {self.tasks.will[told]}"
+
+    def _own_check(self, condition: Phrase) -> bool:
+        """Tell whether something is so by an action of its own kind, where nothing else can look."""
+        if self.scene.catalogue.with_role("look", "search") is not None:
+            return False
+        link = next((i for i, word in enumerate(condition) if word.key in lexicon().be | {"has", "have"}), 0)
+        if not link:
+            return False
+        subject, rest = condition[:link], condition[link + 1 :]
+        rest = tuple(word for word in rest if word.key != "not")
+        asked = ((condition[link], *subject, *rest), (Word("check", "check"), *subject))
+        for words in asked:
+            match = self.tasks.own_match(words, weak=True)
+            if match is not None and match.info.outputs and not match.filled.missing:
+                self.tasks.use_own(match, (*_CHECK_WHETHER, *condition))
+                return True
+        return False
 
     def _named_later(self, clause: Clause) -> Phrase:
         """For "Go to the desk only if it is free": the condition with what the order names."""

@@ -13,7 +13,7 @@ from parley.language.offline.tasks.fill import arguments
 from parley.language.offline.tasks.roles import number_inputs, pose_inputs
 from parley.language.offline.words.naming import name_words
 from parley.language.offline.words.nouns import bare, noun_phrase
-from parley.language.offline.words.saying import the
+from parley.language.offline.words.saying import the, where_is
 from parley.language.offline.words.text import Phrase, keys, lemma, plain, singular, tokens
 from parley.messages.chat import ActionCall
 from parley.messages.status import ActionInfo
@@ -179,7 +179,7 @@ class Going:
             return place
         if keys(recipient) == ("operator",):
             raise UnclearError("Where are you? Tell me, and I will remember it.")
-        raise UnclearError(f"Where is {the(plain(recipient))}?", about=recipient)
+        raise UnclearError(f"{where_is(plain(recipient))}?", about=recipient)
 
     def _place_or_here(self, phrase: Phrase) -> Place | None:
         """Where something is; None if it is said to be where the robot will be."""

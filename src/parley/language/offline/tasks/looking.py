@@ -2,8 +2,11 @@
 
 from __future__ import annotations
 
+import math
 from dataclasses import dataclass, replace
 
+from parley.language.offline.facts.facts import NO_PLACES
+from parley.language.offline.scene.grounding import ground_phrase
 from parley.language.offline.scene.scene import Place, UnclearError
 from parley.language.offline.tasks.catalogue import parameter_role, text_inputs
 from parley.language.offline.tasks.commands import Command
@@ -11,7 +14,7 @@ from parley.language.offline.tasks.docking import Docking
 from parley.language.offline.tasks.going import FORWARD, UnableError
 from parley.language.offline.words.lexicon import lexicon
 from parley.language.offline.words.naming import name_words
-from parley.language.offline.words.nouns import bare, noun_phrase
+from parley.language.offline.words.nouns import NounPhrase, bare, noun_phrase
 from parley.language.offline.words.saying import the
 from parley.language.offline.words.text import Phrase, Word, keys, plain, singular, tokens
 from parley.messages.status import ActionInfo
@@ -28,6 +31,8 @@ def _start_of(flat: tuple[str, ...], relation: str) -> int:
 
 
 _PICTURES = frozenset({"picture", "pictures", "photo", "photos", "photograph", "image", "snapshot", "pic"})
+_REACH_M = 1.5
+"""How far from a place things may be that are said to be there."""
 _SOMEBODY = frozenset({("he",), ("she",)})
 _PLAIN_LOOKS = frozenset({"check", "look", "inspect", "examine", "have a look", "take a look"})
 _HIDDEN_SIDES = frozenset({"behind", "under", "beneath", "underneath", "below"})
@@ -71,6 +76,12 @@ class Looking(Docking):
             request = self._whether(command)
             self._add_look(looker, request, f"check {request}")
             return
+        at_hand = self.here and command.kind == "whether"
+        if at_hand and not self._grounds(command.place) and self._only_described(command.theme):
+            # "Whether there is diesel on the ground", where a tank for it is on the map: here.
+            request = self._whether(command)
+            self._add_look(looker, request, f"check {request}")
+            return
         if command.place:
             self._look_there(command, looker)
             return
@@ -103,6 +114,17 @@ class Looking(Docking):
         for member in members:
             self._look_at(member, _of_one(member, command) if len(members) > 1 else command, looker)
 
+    def _only_described(self, theme: Phrase) -> bool:
+        """Whether what is looked for only describes something else on the map ("diesel", "diesel tank")."""
+        last = keys(bare(theme))[-1:]
+        items = self.scene.ground(theme).candidates
+        found = self._grounds(theme) and bool(last) and bool(items)
+        if not found or last[0].isdigit() or len(last[0]) == 1:
+            return False
+        heads = {singular(word.lower()) for i in items for word in (i.description.split()[-1], i.class_name)}
+        words = {singular(word.lower()) for i in items for word in i.description.split()}
+        return singular(last[0]) in words - heads and len(bare(theme)) == 1
+
     def _looker(self, command: Command) -> ActionInfo | None:
         """The action to look with: one that is called like the verb, for pictures one that takes them."""
         lookers = self.catalogue.all_with_role("look")
@@ -124,15 +146,48 @@ class Looking(Docking):
                 return None
             noun = noun_phrase(command.words)
         else:
-            if self.scene.ground(command.theme).outcome != "none":
-                return None
             noun = noun_phrase(command.theme)
+            counted = {"count", "many", "number"} & set(command.verb.split()) and not self._is_kind(
+                noun.core[-1:]
+            )
+            found = self.scene.ground(command.theme).outcome != "none"
+            if found and not counted and not self._elsewhere(noun):
+                return None
         if len(noun.anchors) != 1 or noun.relation in {"of", "with", "from"} or not noun.core:
+            return None
+        if keys(noun.anchors[0])[:1] and keys(noun.anchors[0])[0] in NO_PLACES:
+            # "The shelves are in place": how they are, not where.
             return None
         if self.scene.ground(noun.anchors[0]).outcome == "none":
             return None
         theme = bare(command.theme[: _start_of(keys(command.theme), noun.relation)])
         return replace(command, theme=theme, place=noun.anchors[0])
+
+    def _elsewhere(self, noun: NounPhrase) -> bool:
+        """Whether all things on the map that are called so are far from where these are said to be."""
+        if len(noun.anchors) != 1 or noun.relation not in {"in", "at", "inside", "within"}:
+            return False
+        there = ground_phrase(noun.anchors[0], self.scene.objects, strict=True)
+        words = tuple(Word(part, part) for part in noun.core)
+        if there.outcome != "match" or not words:
+            return False
+        place = there.candidates[0]
+        if not set(keys(noun.anchors[0])) & set(place.description.lower().split()):
+            # "In the north-east".
+            return False
+        reach_m = _REACH_M + math.hypot(place.width_m, place.height_m) / 2
+        called = self.scene.several(words)
+        return bool(called) and all(
+            math.hypot(item.x_m - place.x_m, item.y_m - place.y_m) > reach_m
+            for one in called
+            for item in self.scene.ground(one).candidates
+        )
+
+    def _is_kind(self, core: tuple[str, ...]) -> bool:
+        """Whether things of the map are called so, as against "toys" where there is a "toy box"."""
+        kind = {singular(word) for word in core}
+        called = ((item.class_name, item.description.split()[-1:]) for item in self.scene.objects)
+        return any(kind & {singular(word.lower()) for word in (name, *last)} for name, last in called)
 
     def _look_there(self, command: Command, looker: ActionInfo) -> None:
         """Something in or at a place: "the shelf for leaks", "whether the cup is on the table"."""
@@ -223,7 +278,7 @@ class Looking(Docking):
                 return
         else:
             own = "search" in self.catalogue.roles(searcher)
-            known = self._known_place(theme)
+            known = None if self.here and self._at_large(theme) else self._known_place(theme)
             if known is not None:
                 self._stand_at(known)
                 if known.via is not None:
@@ -287,6 +342,14 @@ class Looking(Docking):
             others = [t for t in self.scene.things if plain(bare(t)).lower() != self.here.lower()]
             meant = bare(others[-1]) if others else meant
         return meant
+
+    def _at_large(self, theme: Phrase) -> bool:
+        """Whether any things of a kind are looked for, of which the map has one by another name."""
+        last = keys(bare(theme))[-1:]
+        if not last or singular(last[0]) == last[0] or (theme and theme[0].key in {"the", "my", "our"}):
+            return False
+        items = self.scene.ground(theme).candidates
+        return bool(items) and not any(singular(last[0]) in i.description.lower().split() for i in items)
 
     def _known_place(self, theme: Phrase) -> Place | None:
         if self._grounds(theme):

@@ -8,9 +8,10 @@ from dataclasses import dataclass
 from functools import lru_cache
 
 from parley.language.offline.scene.scene import Scene
+from parley.language.offline.tasks.choices import says_choice, states_verb
 from parley.language.offline.tasks.parts import map_spans
 from parley.language.offline.tasks.roles import number_inputs, parameter_role, text_inputs
-from parley.language.offline.tasks.slots import Filled, fill_slots, says_choice
+from parley.language.offline.tasks.slots import Filled, fill_slots
 from parley.language.offline.words.concepts import LIGHT_VERBS, Concept, concepts, likeness, opposed
 from parley.language.offline.words.lexicon import lexicon
 from parley.language.offline.words.naming import name_words
@@ -50,6 +51,8 @@ class Match:
     filled: Filled
     verb: float
     explained: frozenset[int]
+    verb_first: bool = False
+    """Whether the clause begins with its verb."""
     plain: bool = True
     """Whether nothing is named that the action knows nothing of."""
 
@@ -79,6 +82,8 @@ def _signature(name: str, inputs: tuple[str, ...], description: str) -> _Signatu
         verb = parts[0]
     if verb is None and len(parts) > 1 and not parts[0].lines and parts[0].text not in lexicon().nouns:
         verb = parts[0]
+    if verb is not None and verb.text in lexicon().be | lexicon().auxiliaries | {"be", "have"}:
+        verb = None
     people = any(parameter_role(one) == "person" for one in inputs)
     alike = frozenset(line for one in typed for concept in concepts((one,)) for line in concept.lines)
     about = tuple(
@@ -90,6 +95,9 @@ def _signature(name: str, inputs: tuple[str, ...], description: str) -> _Signatu
         and not p.lines & alike
         and not (people and singular(p.text) in _PEOPLE)
     )
+    if verb is None and not about:
+        # "is_done" is about being done.
+        about = tuple(part for part in parts[-1:] if part.text not in lexicon().be)
     told = re.findall(r"[a-z]+", description.lower())
     doing = next(iter(_segments(tuple(told[:3]))), None)
     described = tuple(
@@ -136,6 +144,7 @@ def best_match(infos: Sequence[ActionInfo], words: Phrase, scene: Scene) -> Matc
     found = [match for info in infos if (match := _match(info, words, said, scene)) is not None]
     if not found:
         return None
+    found = [match for match in found if match.strong or match.complete] or found
     found.sort(key=lambda match: -match.score)
     if len(found) > 1 and found[0].score - found[1].score < _MARGIN:
         return None
@@ -147,10 +156,11 @@ _LEAST_SAYING = frozenset(_DATA["least_saying"])
 _PEOPLE = lexicon().person_words | {"human", "people", "staff", "crew", "team"}
 _MARGIN = 0.15
 _LEAST = 0.7
+_HALF = 0.4
 
 
 def _match(info: ActionInfo, words: Phrase, said: Sequence[Concept], scene: Scene) -> Match | None:
-    signature = _signature(info.name, tuple(info.inputs), info.description)
+    signature = _signature(scene.catalogue.plainly_named(info).name, tuple(info.inputs), info.description)
     relative = bool(number_inputs(info)) and not text_inputs(info)
     named = (signature.verb, *signature.about)
     if not relative and any(opposed(part, said) for part in named if part is not None):
@@ -169,7 +179,14 @@ def _match(info: ActionInfo, words: Phrase, said: Sequence[Concept], scene: Scen
     if not (strong or evidence.weak):
         return None
     return Match(
-        info, evidence.score, strong, filled, found.verb, frozenset(explained), not evidence.unexplained
+        info,
+        evidence.score,
+        strong,
+        filled,
+        found.verb,
+        frozenset(explained),
+        verb_first=found.verb_at[:1] == (0,),
+        plain=not evidence.unexplained,
     )
 
 
@@ -191,6 +208,8 @@ class _Found:
         self.shared = _described(signature, said)
         """How many words of the description are said."""
         self.verb, self.verb_at = _verb_likeness(signature, said, self.shared)
+        if self.verb < _BY_STATE and states_verb(info, words):
+            self.verb, self.verb_at = _BY_STATE, (0,)
         about = [_nearest(part, said) for part in signature.about]
         pointed = keys(words[1:3])[:1] in _POINTING and self.verb >= _LEAST
         if pointed and not any(score >= _LEAST for score, _ in about):
@@ -221,6 +240,9 @@ class _Evidence:
         ]
         self.covered = sum(scores) / len(scores) if scores else 0.0
         self.whole = all(score >= _LEAST for score in scores)
+        if signature.verb is None and filled.states and any(score >= _LEAST for score in scores):
+            # "Smoke off" for a smoke machine.
+            self.whole = True
         self.about = bool(scores)
         self.unexplained = _unexplained(filled, signature)
         self.light = not opened or found.first in LIGHT_VERBS
@@ -237,7 +259,15 @@ class _Evidence:
         elsewhere = bool(self.filled.missing) and any(part.grounded for part in self.filled.left)
         if self.unexplained or elsewhere:
             return False
-        return self.whole and (self._by_name() or self._by_inputs())
+        return (self.whole and (self._by_name() or self._by_inputs())) or self._nearly()
+
+    def _nearly(self) -> bool:
+        """Whether half of what its name is about is said, and everything else that it needs, and no more."""
+        found, filled = self.found, self.filled
+        if self.covered < _HALF or filled.missing or filled.numbers_left or filled.left:
+            return False
+        texts = text_inputs(found.info)
+        return found.verb >= _LEAST and filled.exact and (self.of_kind or len(filled.phrases) == len(texts))
 
     def _by_name(self) -> bool:
         verb, inputs = self.found.verb, self.found.info.inputs
@@ -330,6 +360,8 @@ def _named_on_map(explained: set[int], words: Phrase, info: ActionInfo, scene: S
 
 
 _POINTING = frozenset({("it",), ("them",), ("everything",), ("all",)})
+_BY_STATE = 0.8
+"""How well what an input can be stands for the verb of a name."""
 _BY_POINTING = 0.7
 """How well a pronoun stands for what a name names."""
 

@@ -118,7 +118,9 @@ class Meaning(Answering):
         command = read_command(clause.words, self.scene.is_person, self.scene.catalogue.verbs)
         words = strip_openers(clause.words)
         exact = None if command is not None and command.negated else self.tasks.own_match(words)
-        if exact is not None and exact.verb == 1.0 and exact.complete and not opens_command(words[1:]):
+        begun = strip_openers(words, requests=True)[:1] != words[:1]
+        named = exact is not None and (exact.verb == 1.0 or (begun and exact.verb_first))
+        if exact is not None and named and exact.complete and not opens_command(words[1:]):
             return Command("catalogue", words[0].key, theme=bare(words[1:]), words=words[1:], clause=words)
         told = lexicon().reporting.match(keys(words))
         if (
@@ -165,12 +167,15 @@ class Meaning(Answering):
         told = words == said and read_statement(words) is not None
         if match is None or (told and not (match.complete and not match.filled.left)):
             return None
+        if not match.verb_first and {"not", "until"} & set(keys(words)):
+            return None
         return Command("catalogue", words[0].key, theme=bare(words[1:]), words=words[1:], clause=words)
 
     def _described(self, words: Phrase) -> Command | None:
         """For a verb that only a phrase, an example or a description of the catalogue knows."""
         flat = keys(strip_openers(words, requests=True))
-        if not flat or flat[0] in lexicon().determiners | lexicon().question_starts | lexicon().be:
+        small = lexicon().determiners | lexicon().question_starts | lexicon().be
+        if not flat or flat[0] in small | {"it", "he", "she", "they", "we", "i"}:
             return None
         catalogue = self.scene.catalogue
         known = catalogue.by_phrase(flat) or catalogue.by_description(flat)

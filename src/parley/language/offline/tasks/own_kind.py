@@ -13,6 +13,7 @@ from parley.language.offline.tasks.catalogue import call, text_inputs
 from parley.language.offline.tasks.looking import ASKING
 from parley.language.offline.tasks.matching import Match, best_match
 from parley.language.offline.tasks.roles import number_inputs, parameter_role
+from parley.language.offline.words.lexicon import lexicon
 from parley.language.offline.words.naming import name_words
 from parley.language.offline.words.nouns import bare, noun_phrase
 from parley.language.offline.words.text import Phrase, keys, plain
@@ -181,4 +182,6 @@ def _question(info: ActionInfo, name: str, words: Phrase) -> str:
 
 def _said(words: Phrase) -> str:
     text = plain(words)
+    if words[0].key in lexicon().be | lexicon().auxiliaries | lexicon().question_starts:
+        return f"find out “{text}”"
     return text[:1].lower() + text[1:] if words[0].is_capital and not words[0].raw.isupper() else text

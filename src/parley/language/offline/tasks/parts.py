@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Sequence
+from collections.abc import Collection, Sequence
 from dataclasses import dataclass
 
 from parley.language.offline.scene.grounding import ground_phrase
@@ -145,9 +145,21 @@ def _ends_phrase(words: Phrase, end: int) -> bool:
 
 
 def parts_of(
-    words: Phrase, gone: set[int], spans: Sequence[tuple[int, int, MapObject | None]], scene: Scene
+    words: Phrase,
+    gone: set[int],
+    spans: Sequence[tuple[int, int, MapObject | None]],
+    scene: Scene,
+    kinds: Collection[str] = (),
 ) -> list[Part]:
-    """The clause cut by prepositions, without what is explained already; names on the map are kept whole."""
+    """The clause cut by prepositions, without what is explained already; names on the map are kept whole.
+
+    Args:
+        words: The clause.
+        gone: Which words are explained already.
+        spans: Where things of the map are named.
+        scene: What is known.
+        kinds: What inputs are called: "whale track" is one track, though there is a whale on the map.
+    """
     inside = {i for start, end, _ in spans for i in range(start + 1, end)}
     starts = {start: (end, item) for start, end, item in spans}
     ends = {end for _, end, _ in spans}
@@ -176,7 +188,11 @@ def parts_of(
         else:
             if current and (
                 _new_phrase(words, index, inside)
-                or (index in ends and word.key not in _JOINING and words[index - 1].key not in _JOINING)
+                or (
+                    index in ends
+                    and not {word.key, words[index - 1].key} & _JOINING
+                    and word.key not in kinds
+                )
             ):
                 close()
             current.append(index)
@@ -226,8 +242,11 @@ def _new_phrase(words: Phrase, index: int, inside: set[int]) -> bool:
     return index not in inside and not joined and words[index].key in lexicon().determiners - {"a"}
 
 
+_DANGLING = frozenset({"of", "with", "for", "to", "in", "at"})
+
+
 def _trimmed(phrase: Phrase) -> Phrase:
-    while phrase and (phrase[-1].key in _EMPTY | lexicon().determiners or not phrase[-1].is_word):
+    while phrase and (phrase[-1].key in _EMPTY | _DANGLING | lexicon().determiners or not phrase[-1].is_word):
         if len(phrase) > 1 and len(phrase[-1].key) == 1 and phrase[-1].is_capital:
             # "Area A".
             break

@@ -139,6 +139,13 @@ def roles_of(info: ActionInfo) -> frozenset[str]:
     if told == {"speak"} and info.outputs:
         # "Tells how many packs are left".
         return frozenset()
+    if (
+        told & _HELD
+        and text_inputs(info)
+        and not any(parameter_role(name) in {"object", ""} for name in text_inputs(info))
+    ):
+        # "Take the moisture out of the air of a room".
+        return frozenset()
     return frozenset() if told == {"motion"} and not (text_inputs(info) or pose_inputs(info)) else told
 
 
@@ -157,6 +164,10 @@ def _fitting(info: ActionInfo, words: tuple[str, ...], roles: frozenset[str]) ->
     if role == "place" and "person" in inputs and "place" not in inputs:
         role = "handover"
     if role == "motion" and not (inputs or pose_inputs(info)):
+        return frozenset()
+    needed = [name for name in text_inputs(info) if name not in info.optional]
+    if role == "grasp" and len(needed) > 1 and not {w for n in needed for w in name_words(n)} & _SOURCES:
+        # "load_oven (oven, item)" ends with the item elsewhere.
         return frozenset()
     if role == "handover" and len(text_inputs(info)) > 1 and "person" not in inputs:
         role = "fetch"
@@ -178,6 +189,9 @@ def _fitting(info: ActionInfo, words: tuple[str, ...], roles: frozenset[str]) ->
     return frozenset({role})
 
 
+_SOURCES = frozenset(
+    {"source", "from", "origin", "place", "location", "surface", "arm", "gripper", "hand", "side"}
+)
 _FROM_AFAR = frozenset(
     {"notify", "alert", "warn", "page", "message", "inform", "remind", "text", "email", "send"}
 )
@@ -234,6 +248,8 @@ _NOT_HOMING = frozenset(
 _FETCHING = frozenset(
     {"bring", "fetch", "get", "carry", "deliver", "transport", "supply", "retrieve", "ship"}
 )
+_HELD = frozenset({"grasp", "place", "fetch"})
+"""Roles that need a thing named."""
 _PHYSICAL = frozenset({"place", "fetch"})
 """Roles that need something named: without an input for it, "set" or "release" mean something else."""
 

@@ -11,30 +11,27 @@ from dataclasses import dataclass, field
 from typing import Any
 
 from parley.language.offline.scene.scene import Scene
+from parley.language.offline.tasks.choices import chosen, is_listed, switched
 from parley.language.offline.tasks.parts import Part, map_spans, parts_of
 from parley.language.offline.tasks.roles import number_inputs, parameter_role, pose_inputs, text_inputs
 from parley.language.offline.words.concepts import contrary
 from parley.language.offline.words.lexicon import lexicon
-from parley.language.offline.words.naming import kind_of, name_words
+from parley.language.offline.words.naming import name_words
 from parley.language.offline.words.quantities import Quantity, quantities, taken_by
-from parley.language.offline.words.text import Phrase, keys, lemma, plain, singular
+from parley.language.offline.words.text import Phrase, keys, plain, singular
 from parley.language.word_lists import load_data
 from parley.messages.status import ActionInfo
 from parley.world.object_map import MapObject
 
 __all__ = [
     "Filled",
-    "choices_of",
     "fill_slots",
     "kind_on_map",
-    "says_choice",
 ]
 
 _OF_PLACE = frozenset(
     {"to", "into", "onto", "in", "on", "at", "near", "inside", "by", "towards", "toward", "over"}
 )
-_TRUE = frozenset({"on", "true", "yes", "with", "enabled", "open"})
-_FALSE = frozenset({"off", "false", "no", "without", "disabled", "closed"})
 
 
 @dataclass
@@ -49,8 +46,12 @@ class Filled:
     numbers_left: int = 0
     measured: list[frozenset[str]] = field(default_factory=list)
     """For each number whose unit fits its input, what such inputs are called."""
+    exact: bool = False
+    """Whether a number is said with its unit, or with the name of its input."""
     of_kind: bool = False
     """Whether a thing of the map is of the kind that an input is called by."""
+    states: bool = False
+    """Whether it is said how something is to be, on or off."""
     chosen: bool = False
     """Whether one of the values that the description lists is said."""
     fit: float = 0.0
@@ -67,16 +68,21 @@ def fill_slots(info: ActionInfo, words: Phrase, explained: Iterable[int], scene:
         scene: What is known.
     """
     filled = Filled()
+    words, explained = _joined(words, set(explained))
     gone = set(explained)
     spans = map_spans(words, scene)
-    gone |= _choices(info, words, gone, filled)
+    gone |= _choices(info, words, filled)
     gone |= _numbers(info, words, spans, filled)
-    gone |= _switches(info, words, gone, filled)
-    parts = parts_of(words, gone, spans, scene)
+    gone |= _switches(info, words, filled)
+    open_names = [
+        name for name in text_inputs(info) if name not in filled.values and not is_listed(name, info)
+    ]
+    kinds = {part for name in open_names for part in name_words(name)}
+    parts = parts_of(words, gone, spans, scene, kinds)
     if not _place_in_numbers(info, parts, filled):
-        _words_for(info, parts, filled, scene)
+        _words_for(info, words, parts, filled, scene)
     else:
-        _words_for(info, [part for part in parts if part.item is None], filled, scene)
+        _words_for(info, words, [part for part in parts if part.item is None], filled, scene)
     filled.missing = [
         name
         for name in info.inputs
@@ -85,63 +91,24 @@ def fill_slots(info: ActionInfo, words: Phrase, explained: Iterable[int], scene:
     return filled
 
 
-def choices_of(info: ActionInfo) -> dict[str, str]:
-    """The values that a description lists ("level is slow, normal or fast"), by their lower case words."""
-    found: dict[str, str] = {}
-    for listed in re.finditer(r"(?:\w+(?:, | \| |/)){1,9}\w+(?:,? or \w+)?|\w+ or \w+", info.description):
-        text = listed[0]
-        values = [value for value in re.split(r"\s*(?:,|\||/|\bor\b)\s*", text) if value]
-        if len(values) > 1 and ("or" in text.split() or "|" in text or "/" in text):
-            found.update({value.lower(): value for value in values if not value.isdigit()})
-    for listed in re.finditer(r"\((\w+(?:,\s*\w+)+)\)|one of:?\s*(\w+(?:,\s*\w+)+)", info.description):
-        found.update({v.lower(): v for v in re.split(r"\s*,\s*", listed[1] or listed[2])})
-    return found
+def _joined(words: Phrase, explained: set[int]) -> tuple[Phrase, set[int]]:
+    """For "in A and in B": in A and B."""
+    flat = keys(words)
+    at = next((i for i in range(2, len(flat) - 1) if flat[i - 1] == "and" and flat[i] in _OF_PLACE), 0)
+    if not at or flat[at] not in flat[: at - 1]:
+        return words, explained
+    return (*words[:at], *words[at + 1 :]), {i - (i > at) for i in explained if i != at}
 
 
-def _listed(info: ActionInfo) -> dict[str, str]:
-    """The values that an action chooses among: those that its description lists, or languages."""
-    listed = choices_of(info) if text_inputs(info) else {}
-    if any({"language", "lang"} & set(name_words(name)) for name in text_inputs(info)):
-        listed = listed | {word: word.capitalize() for word in _LANGUAGES if word not in listed}
-    return listed
-
-
-def says_choice(info: ActionInfo, words: Phrase) -> bool:
-    """Whether one of the values that an action chooses among is said."""
-    return bool(set(keys(words)) & _listed(info).keys())
-
-
-def _choices(info: ActionInfo, words: Phrase, gone: set[int], filled: Filled) -> set[int]:
-    listed = _listed(info)
-    texts = [name for name in text_inputs(info) if parameter_role(name) not in {"person", "place"}]
-    for index, word in enumerate(words):
-        if not listed or not texts:
-            break
-        value = listed.get(word.key) or listed.get(word.key.removesuffix("ly")) or listed.get(lemma(word.key))
-        value = value or next(
-            (listed[other] for other in lexicon().synonyms.get(word.key, ()) if other in listed), None
-        )
-        if value is None or (index == 0 and len(words) > 1 and lexicon().verbs.match((lemma(word.key),))):
-            continue
-        told = [n for n in texts if re.search(rf"\b{re.escape(n)}\b", info.description, re.IGNORECASE)]
-        name = next((n for n in (*told, *texts) if n not in filled.values), None)
-        if name is not None:
-            filled.values[name], filled.phrases[name] = value, (word,)
-            filled.fit += 2
-            filled.chosen = True
-            return {index}
-    return set()
-
-
-def _is_listed(name: str, info: ActionInfo) -> bool:
-    """Whether the description lists the values of one input among others."""
-    told = re.search(rf"\b{re.escape(name)}\b is ", info.description, re.IGNORECASE)
-    listed = choices_of(info)
-    closed = len(listed) > _FEW and len(text_inputs(info)) == 1 and parameter_role(name) in {"", "object"}
-    return closed or (told is not None and len(text_inputs(info)) > 1 and bool(listed))
-
-
-_FEW = 2
+def _choices(info: ActionInfo, words: Phrase, filled: Filled) -> set[int]:
+    """Values that inputs choose among."""
+    used: set[int] = set()
+    for name, (value, at) in chosen(info, words).items():
+        filled.values[name], filled.phrases[name] = value, words[at.start : at.stop]
+        filled.fit += 2
+        filled.chosen = True
+        used |= set(at)
+    return used
 
 
 def _numbers(
@@ -168,7 +135,7 @@ def _numbers(
                 used |= set(range(quantity.start - (quantity.before in axes), quantity.end))
         filled.fit += 2
         return used
-    left = list(said)
+    left = [q for q in said if not _labels_text(q, info)]
     told = re.findall(r"[a-z]+", info.description.lower())
     for wanted in (3, 2, 1):
         for name in names:
@@ -179,6 +146,7 @@ def _numbers(
                 continue
             filled.values[name] = takes[name].value_of(best)
             filled.fit += wanted / 2
+            filled.exact = wanted > 1
             if best.units and wanted > 1:
                 filled.measured.append(takes[name].names)
             if best.value > 0 and contrary(keys(words), (*name_words(info.name), *told)):
@@ -188,6 +156,15 @@ def _numbers(
             used |= set(range(named, best.end))
     filled.numbers_left = len(left)
     return used
+
+
+def _labels_text(quantity: Quantity, info: ActionInfo) -> bool:
+    """Whether a number belongs to a name in words: the 2 of "line 2" for an input called `line`."""
+    if quantity.units:
+        return False
+    named = {word for name in text_inputs(info) for word in name_words(name)}
+    numbered = {word for name in number_inputs(info) for word in name_words(name)}
+    return singular(quantity.before) in named - numbered
 
 
 def _ordinals(words: Phrase) -> list[Quantity]:
@@ -204,29 +181,14 @@ def _in_name(quantity: Quantity, spans: Sequence[tuple[int, int, MapObject | Non
     return any(start <= quantity.start < end for start, end, _ in spans)
 
 
-def _switches(info: ActionInfo, words: Phrase, gone: set[int], filled: Filled) -> set[int]:
-    """Inputs that are on or off, in a type of their own or in words."""
+def _switches(info: ActionInfo, words: Phrase, filled: Filled) -> set[int]:
+    """Inputs that are so or not, in a type of their own or in words."""
     used: set[int] = set()
-    for name, kind in info.inputs.items():
-        states = set(name_words(name)) & {
-            "state",
-            "power",
-            "status",
-            "on",
-            "enabled",
-            "enable",
-            "switch",
-            "mode",
-        }
-        if name in filled.values or not (kind_of(kind) == "bool" or (kind_of(kind) == "string" and states)):
-            continue
-        for index, word in enumerate(words):
-            if word.key in _TRUE | _FALSE and (
-                kind_of(kind) == "bool" or word.key in {"on", "off", "open", "closed"}
-            ):
-                filled.values[name] = word.key in _TRUE if kind_of(kind) == "bool" else word.key
-                used.add(index)
-                break
+    for name in info.inputs:
+        found = switched(info, name, words) if name not in filled.values else None
+        if found is not None:
+            filled.values[name], filled.states = found[0], True
+            used |= found[1]
     return used
 
 
@@ -246,10 +208,10 @@ def _place_in_numbers(info: ActionInfo, parts: Sequence[Part], filled: Filled) -
     return True
 
 
-def _words_for(info: ActionInfo, parts: Sequence[Part], filled: Filled, scene: Scene) -> None:
+def _words_for(info: ActionInfo, words: Phrase, parts: Sequence[Part], filled: Filled, scene: Scene) -> None:
     """The parts of a clause for the inputs that take words, best fits first."""
-    names = [name for name in text_inputs(info) if name not in filled.values and not _is_listed(name, info)]
-    left = list(parts)
+    names = [name for name in text_inputs(info) if name not in filled.values and not is_listed(name, info)]
+    left, taken = list(parts), dict[str, Part]()
     while names and left:
         fits = [
             (_fit(name, part, number, scene), -names.index(name), -number, name, part)
@@ -264,7 +226,21 @@ def _words_for(info: ActionInfo, parts: Sequence[Part], filled: Filled, scene: S
         filled.of_kind = filled.of_kind or bool(part.kinds & {singular(word) for word in name_words(name)})
         names.remove(name)
         left.remove(part)
-    filled.left = left
+        taken[name] = part
+    filled.left = _with_all_said(words, taken, left, filled)
+
+
+def _with_all_said(words: Phrase, taken: dict[str, Part], left: Sequence[Part], filled: Filled) -> list[Part]:
+    """What is left once a text has all that follows its first words ("the gate is open" "at the back")."""
+    rest = list(left)
+    for name, part in taken.items():
+        tail = [other for other in rest if other.start >= part.end]
+        if parameter_role(name) != "text" or not tail or any(p.start >= part.end for p in taken.values()):
+            continue
+        said = words[part.end - len(part.words) : max(other.end for other in tail)]
+        filled.values[name], filled.phrases[name] = plain(said), said
+        rest = [other for other in rest if other not in tail]
+    return rest
 
 
 def _of_kind(part: Part, words: set[str], core: set[str]) -> bool:
@@ -279,12 +255,21 @@ def kind_on_map(name: str, objects: Sequence[MapObject]) -> bool:
     return any(words & {singular(word) for word in name_words(item.class_name)} for item in objects)
 
 
-_LANGUAGES = frozenset(load_data("names")["languages"])
 _COLOURS = frozenset(load_data("names")["colours"])
 _PRONOUNS = frozenset({("it",), ("there",), ("them",), ("that",)})
 _POINTING = frozenset({"it", "that", "this", "there", "them", "here"})
 _SOURCES = frozenset({"source", "origin", "start"})
 _GOALS = frozenset({"destination", "goal", "target", "to", "end"})
+
+
+def _placed(name: str, part: Part, scene: Scene, *, person: bool) -> float:
+    """How well a part may be a place: by the map, but for names of what the map does not have at all."""
+    if part.grounded or keys(part.words) in _PRONOUNS:
+        return 0.0 if person else 2.0
+    unknown = not scene.objects or part.words[0].is_capital
+    if unknown and not kind_on_map(name, scene.objects):
+        return 0.2 if person else 0.4
+    return -3.0 if person else -1.0
 
 
 def _fit(name: str, part: Part, number: int, scene: Scene) -> float:
@@ -302,15 +287,13 @@ def _fit(name: str, part: Part, number: int, scene: Scene) -> float:
     if words & _GOALS:
         score += 1 if part.before in _OF_PLACE else 0
     if kind_on_map(name, scene.objects) and not _of_kind(part, words, core):
-        score -= 3 * (part.words[0].key not in _POINTING)
+        there = role == "place" and part.grounded and part.before in _OF_PLACE
+        called = all(word.is_capital for word in part.words) and not part.grounded
+        score -= 0 if called or part.words[0].key in _POINTING else 1 if there else 3
     person = scene.is_person(part.words)
     match role:
         case "place":
-            score += (
-                (2 if part.grounded or keys(part.words) in _PRONOUNS else -1)
-                + (1 if part.before in _OF_PLACE else 0)
-                - (2 if person else 0)
-            )
+            score += _placed(name, part, scene, person=person) + (1 if part.before in _OF_PLACE else 0)
         case "person":
             score += (3 if person else -1) + (1 if part.before in {"to", "for"} else 0)
         case "text":

@@ -13,6 +13,7 @@ from parley.language.offline.scene.scene import UnclearError
 from parley.language.offline.tasks.catalogue import call, parameter_role, text_inputs
 from parley.language.offline.tasks.commands import Command, read_command
 from parley.language.offline.tasks.going import UnableError
+from parley.language.offline.tasks.matching import Match
 from parley.language.offline.tasks.own_kind import OwnKind
 from parley.language.offline.tasks.said import amount, named_of, person_of, place_size, spoken
 from parley.language.offline.tasks.spreading import spread
@@ -165,6 +166,10 @@ class Tasks(OwnKind):
 
     def _invoke_each(self, info: ActionInfo, command: Command) -> None:
         """An action of its own kind, once for everything that is named."""
+        match = self._own_inputs(info, command)
+        if match is not None:
+            self.use_own(match, command.clause)
+            return
         command = self._at_its_place(info, replace(command, theme=without_duration(command.theme)))
         quantified = bool({"and"} & set(keys(command.theme))) or noun_phrase(command.theme).quantifier
         members = self.scene.several(command.theme) if command.theme and quantified else []
@@ -176,6 +181,13 @@ class Tasks(OwnKind):
         for member in members:
             words = (*member, *tail)
             self._invoke(info, replace(command, theme=member, words=words, clause=(*verb, *words)))
+
+    def _own_inputs(self, info: ActionInfo, command: Command) -> Match | None:
+        """What is said for an action's inputs, where only its own name tells what it does."""
+        if info.phrases or info.examples or info not in self.catalogue.of_own_kind:
+            return None
+        match = self.own_match(command.clause, weak=True, among=(info,), incomplete=True)
+        return match if match is not None and match.plain and not match.filled.missing else None
 
     def _at_its_place(self, info: ActionInfo, command: Command) -> Command:
         """For "open the window in the hall": to the hall first, unless the action takes the place itself."""
@@ -336,7 +348,7 @@ class Tasks(OwnKind):
             self.steps.append(call(speaker, {texts[0]: who}, plain(command.clause)))
             self.will.append(f"{command.verb} {the(who)}")
             return
-        text = "hello" if keys(said) == ("hello",) else plain(said)
+        text = self._said_before(said) or ("hello" if keys(said) == ("hello",) else plain(said))
         text = asked_directly(said) if command.kind == "ask" else text
         if command.verb.startswith("introduce yourself") and self.scene.situation.robot:
             text = f"hello, I am {self.scene.situation.robot}"
@@ -349,6 +361,18 @@ class Tasks(OwnKind):
         }
         self.steps.append(call(speaker, values, f"say “{text}”"))
         self.will.append(f"say “{text}”")
+
+    def _said_before(self, said: Phrase) -> str:
+        """For "say the same (thing) there" what is said before it; else nothing."""
+        if keys(said)[-1:] == ("there",):
+            said = said[:-1]
+        if keys(bare(said)) not in {("same",), ("same", "thing"), ("same", "again"), ("same", "words")}:
+            return ""
+        speakers = {info.name for info in self.catalogue.all_with_role("speak")}
+        earlier = (step for step in reversed(self.steps) if step.name in speakers)
+        step = next(earlier, None)
+        values = step.input_parameters.items() if step is not None else ()
+        return next((str(p.value) for n, p in values if parameter_role(n) == "text" and p.has_data), "")
 
     def _speaker(self, command: Command) -> ActionInfo | None:
         """The action to speak with: the one that is called like the verb, else one that takes any text."""

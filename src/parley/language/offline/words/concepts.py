@@ -10,7 +10,16 @@ from parley.language.offline.words.lexicon import PhraseTable, lexicon
 from parley.language.offline.words.text import lemma, singular
 from parley.language.word_lists import load_data
 
-__all__ = ["LIGHT_VERBS", "Concept", "concepts", "contrary", "likeness", "opposed", "other_verbs"]
+__all__ = [
+    "LIGHT_VERBS",
+    "Concept",
+    "concepts",
+    "contrary",
+    "likeness",
+    "opposed",
+    "other_verbs",
+    "reversed_at",
+]
 
 _DATA = load_data("deeds")
 LIGHT_VERBS = frozenset(_DATA["light"])
@@ -71,6 +80,7 @@ def concepts(words: tuple[str, ...], *, spoken: bool = True) -> tuple[Concept, .
         spoken: Whether it is what somebody says, where verbs may be parted ("turn the light off").
     """
     found: list[Concept] = []
+    words = tuple(word.replace("-", "") if "-" in word else word for word in words)
     for index in range(len(words)):
         for form in _base(words[index]):
             rest = (form, *words[index + 1 :])
@@ -141,6 +151,14 @@ def opposed(one: Concept, said: Sequence[Concept]) -> bool:
     )
 
 
+def reversed_at(one: Concept, said: Sequence[Concept]) -> tuple[int, ...]:
+    """Where the contrary of a concept is said, though not the word itself; empty if it is not."""
+    against = _OPPOSITES.get(one.text, frozenset())
+    if any(other.text == one.text for other in said):
+        return ()
+    return next((other.at for other in said if other.text in against), ())
+
+
 def contrary(said: Sequence[str], name: Sequence[str]) -> bool:
     """Whether a direction is said that is the contrary of one in a name ("back" of "ahead")."""
     known = set(name)
@@ -168,6 +186,12 @@ _DIRECTIONS = frozenset(
 )
 
 
+def _no_openers() -> frozenset[str]:
+    """Words that begin no order, though an action may be asked for by them ("is it warm?")."""
+    lex = lexicon()
+    return lex.determiners | lex.question_starts | lex.be | lex.auxiliaries | _PARTICLES
+
+
 @lru_cache(maxsize=1024)
 def other_verbs(name: tuple[str, ...]) -> frozenset[tuple[str, ...]]:
     """First words of orders for the action of a name that no list of verbs has."""
@@ -178,10 +202,7 @@ def other_verbs(name: tuple[str, ...]) -> frozenset[tuple[str, ...]]:
             for phrase in _DATA["verbs"][number]:
                 words = tuple(phrase.split())
                 known = lexicon().verbs.match(words)
-                if (
-                    known is None
-                    and words[0] not in lexicon().determiners | lexicon().question_starts | _PARTICLES
-                ):
+                if known is None and words[0] not in _no_openers():
                     found.add(words)
         if lines:
             break

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from parley.language.offline.words.lexicon import lexicon
-from parley.language.offline.words.text import Phrase, Word, keys
+from parley.language.offline.words.text import Phrase, Word, keys, lemma
 from parley.language.word_lists import load_data
 
 __all__ = ["plainly"]
@@ -12,8 +12,13 @@ _WORDS = load_data("courtesy")
 _FIRST = frozenset(_WORDS["first"])
 _COURTEOUS = frozenset(_WORDS["courteous"])
 _MODAL = frozenset(_WORDS["modal"])
+_OPEN_FIRST = frozenset(_WORDS["open_first"])
+_OPEN = frozenset(_WORDS["open"])
 _LAST = frozenset(_WORDS["last"])
 _ORDERS = frozenset(_WORDS["orders"])
+_DEEDS = frozenset(verb for verbs in load_data("grammar")["verbs"].values() for verb in verbs) - frozenset(
+    _WORDS["no_deeds"]
+)
 _THANKS = (
     ("thank", "you"),
     ("thanks",),
@@ -22,26 +27,54 @@ _THANKS = (
     ("much", "appreciated"),
     ("thx",),
     ("ty",),
+    ("ta",),
 )
 
 
 def plainly(words: Phrase) -> Phrase:
     """A message without the courtesy at its start and its end."""
-    words = _without_thanks(_apart(words))
+    words = _going(_without_thanks(_apart(words)))
     start = 0
     result: list[Word] = []
     for index in range(len(words) + 1):
         if index == len(words) or words[index].key in {".", "!", "?", ";", "\n"}:
-            result += (*_without_frame(words[start:index]), *words[index : index + 1])
+            sentence = words[start:index]
+            if not result or not _leaves_it_open(keys(sentence)):
+                result += (*_without_frame(_minding(sentence)), *words[index : index + 1])
             start = index + 1
     return tuple(result)
 
 
+def _leaves_it_open(flat: tuple[str, ...]) -> bool:
+    """For "only when it suits you, of course", said behind an order."""
+    return len(flat) > 2 and flat[0] in _OPEN_FIRST and set(flat) <= _COURTEOUS | _OPEN | {","}
+
+
+def _minding(sentence: Phrase) -> Phrase:
+    """For "would you mind awfully V-ing" "would you mind V-ing"."""
+    flat = keys(sentence)
+    at = flat.index("mind") + 1 if "mind" in flat[:5] else 0
+    much = at and flat[at : at + 1] and flat[at] in {"awfully", "terribly", "very", "too", "ever", "so"}
+    end = at + 1 + (flat[at + 1 : at + 2] in {("much",), ("so",)}) if much else at
+    return (*sentence[:at], *sentence[end:])
+
+
 def _without_frame(sentence: Phrase) -> Phrase:
     """Without a frame of nothing but courteous words before an order."""
-    while keys(sentence[:2]) in _TAKING_BACK and keys(sentence[2:4]) in {("i", "meant"), ("i", "mean")}:
-        sentence = sentence[2:]
+    meant = sentence
+    while keys(meant[:2]) in _TAKING_BACK:
+        meant = meant[2:]
+    if keys(meant[:2]) in {("i", "meant"), ("i", "mean")}:
+        sentence = meant
     flat = keys(word for word in sentence)
+    tail = next((tail for tail in _HYPOTHETICAL if flat[-len(tail) :] == tail), ())
+    if (
+        tail
+        and flat[:2] in {("could", "you"), ("can", "you"), ("would", "you")}
+        and len(flat) > len(tail) + 2
+    ):
+        # "Could you lift a box if you had to": asked about, not asked for.
+        return (*(Word(part, part) for part in ("are", "you", "able", "to")), *sentence[2 : -len(tail)])
     if (
         len(flat) < 4
         or flat[0] not in _FIRST
@@ -58,13 +91,55 @@ def _without_frame(sentence: Phrase) -> Phrase:
             continue
         if lead[-1] not in _LAST or not set(lead) & _MODAL or not {"you", "trouble", "bother"} & set(lead):
             continue
-        found = lexicon().verbs.match(flat, cut)
-        kind = found[1].partition(":")[0] if found is not None else ""
-        if kind in _ORDERS and not _asks_for_knowledge(flat[cut:]) and len(flat) > cut + 1:
+        doing = flat[cut] in {"are", "be"} and flat[cut + 1 : cut + 2] and flat[cut + 1].endswith("ing")
+        if doing:
+            # "I want that you are going to A".
+            base = lemma(flat[cut + 1])
+            sentence = (*sentence[:cut], Word(base, base), *sentence[cut + 2 :])
+            flat = keys(sentence)
+        if _orders(flat, cut) and not _asks_for_knowledge(flat[cut:]) and len(flat) > cut + 1:
             return sentence[cut:]
     return sentence
 
 
+def _orders(flat: tuple[str, ...], at: int) -> bool:
+    """Whether a verb stands there that asks for something to be done, also one of a robot's own actions."""
+    found = lexicon().verbs.match(flat, at)
+    if found is not None:
+        return found[1].partition(":")[0] in _ORDERS
+    return flat[at] in _DEEDS and flat[at] not in _COURTEOUS
+
+
+_MOVING = frozenset({
+    "get", "take", "bring", "move", "haul", "drag", "place", "position", "station", "park", "put",
+    "transport", "transfer", "carry", "lead", "shift", "send", "drive",
+})  # fmt: skip
+_ALONG = frozenset({"over", "up", "back", "across", "along", "round", "around", "out", "off", "quickly"})
+
+
+def _going(words: Phrase) -> Phrase:
+    """For "get yourself over to the desk" "go to the desk"."""
+    flat = keys(words)
+    at = next((i for i in range(1, len(flat) - 1) if flat[i] == "yourself" and flat[i - 1] in _MOVING), 0)
+    if not at or flat[at + 1] in {"down", "some", "a", "the", "together", "ready"}:
+        return words
+    end = at + 1
+    if flat[end] in _ALONG and flat[end + 1 : end + 2] != ("of",):
+        end += 1
+    back = (Word("back", "back"),) if flat[end - 1] == "back" else ()
+    return (*words[: at - 1], Word("go", "go"), *back, *words[end:])
+
+
+_HYPOTHETICAL = tuple(
+    tuple(text.split())
+    for text in (
+        "if you had to",
+        "if you wanted to",
+        "if you tried",
+        "if it came to it",
+        "if you were asked to",
+    )
+)
 _COURTEOUS_DENIAL = frozenset(
     {"mind", "trouble", "bother", "if", "too", "whether", "inconvenient", "suppose", "why", "disturb"}
 )
@@ -75,7 +150,9 @@ _TAKING_BACK = frozenset(
 
 def _asks_for_knowledge(flat: tuple[str, ...]) -> bool:
     return flat[:1] in {("know",), ("remember",), ("like",), ("mind",)} or (
-        flat[:2] in {("tell", "me"), ("have", "a")} and ("look" not in flat[:5])
+        flat[:2] in {("tell", "me"), ("have", "a")}
+        and "look" not in flat[:5]
+        and flat[2:4] != ("how", "many")
     )
 
 

@@ -13,8 +13,9 @@ class Decision:
     """One decision."""
 
     about: str
-    """What was decided: `words`, `control`, `target`, `clause`, `recast`, `frame`, `action`, `argument`,
-    `answer`, `memory`, `edit`, `question`, `reading` (how a way to read the message was judged)."""
+    """What was decided: `words`, `part` (what a part of a message is), `control`, `target`, `clause`,
+    `recast`, `frame`, `action`, `argument`, `answer`, `memory`, `edit`, `question`, `reading` (how a
+    way to read the message was judged)."""
     text: str
     """The decision as a readable line."""
 

@@ -9,7 +9,7 @@ from itertools import pairwise
 from parley.language.base import Situation
 from parley.language.offline.words.inflecting import forms
 from parley.language.offline.words.lexicon import lexicon
-from parley.language.offline.words.text import Phrase, Word, mend, split_name, tokens
+from parley.language.offline.words.text import Phrase, Word, closest, mend, split_name, tokens
 from parley.language.word_lists import load_data
 
 __all__ = ["mended"]
@@ -25,11 +25,12 @@ _REPORTED = forms(_INCIDENTS["events"]) | frozenset(
     word for kind in ("events", "happened", "states", "things") for word in _INCIDENTS[kind]
 )
 """Words for what people report, which are no typing errors."""
+_REAL = frozenset(load_data("real_words")["words"])
 
 
 def mended(words: Phrase, situation: Situation) -> Phrase:
     """Typing errors in small words and verbs put right; nouns are compared loosely later."""
-    known = set(lexicon().vocabulary | _LOOKS | _REPORTED)
+    known = set(lexicon().vocabulary | _LOOKS | _REPORTED | _REAL)
     words = _apart(words, situation)
     for item in situation.objects:
         known.update(
@@ -42,8 +43,31 @@ def mended(words: Phrase, situation: Situation) -> Phrase:
     for info in situation.catalogue:
         known.update(split_name(info.name))
     known.update(name.lower() for name in situation.robots)
-    words = tuple(part for word in words for part in _cut(word, frozenset(known)))
-    return _without_haste(mend(words, frozenset(known), lexicon().often_mistyped, _verbs()))
+    named = _named(situation)
+    own = {split_name(info.name)[0] for info in situation.catalogue if split_name(info.name)}
+    own = {verb for verb in own if len(verb) > _SHORT_NAME}
+    words = tuple(
+        part
+        for index, word in enumerate(words)
+        for part in ((word,) if _stays_whole(word, index, named) else _cut(word, frozenset(known)))
+    )
+    return _without_haste(mend(words, frozenset(known), lexicon().often_mistyped, _verbs() | own))
+
+
+_SHORT_NAME = 4
+"""Words of so many letters in an action's name may be short for something."""
+
+
+def _named(situation: Situation) -> frozenset[str]:
+    """The longer words of what is on the map."""
+    texts = (f"{item.description} {item.class_name}" for item in situation.objects)
+    return frozenset(word.key for text in texts for word in tokens(text) if len(word.key) > _SHORT_NAME)
+
+
+def _stays_whole(word: Word, index: int, named: frozenset[str]) -> bool:
+    """Whether a word is no two: a name, or a mistyped word of the map ("ofice")."""
+    name = index > 0 and word.is_capital and not word.raw.isupper()
+    return name or closest(word.key, named) is not None
 
 
 _ARTICLES = frozenset({"the", "a", "an", "my", "your", "this", "that"})
@@ -115,7 +139,9 @@ def _apart(words: Phrase, situation: Situation) -> Phrase:
             result += [Word(label[1], label[1]), Word(label[2], label[2])]
         elif word.key in _SHORTHAND and "n" not in named and 0 < index < len(words) - 1:
             short = _SHORTHAND[word.key]
-            fits = word.key != "4" or flat[index - 1] in {"look", "search", "wait", "check"}
+            fits = word.key != "4" or (
+                flat[index - 1] in {"look", "search", "wait", "check"} or following in _FOR_WHOM
+            )
             result.append(Word(short, short) if fits else word)
         elif (
             word.key == "2"
@@ -150,7 +176,8 @@ def _unstretched(word: Word) -> Word:
     return word
 
 
-_SHORTHAND = {"n": "and", "4": "for"}
+_SHORTHAND = {"n": "and", "4": "for", "da": "the", "m8": "mate", "thru": "through", "abt": "about"}
+_FOR_WHOM = _ARTICLES | {"me", "us", "him", "her", "them", "you"}
 _GOING = frozenset({"go", "drive", "come", "move", "head", "walk", "navigate", "return", "back", "over"})
 _BEFORE_THE = frozenset({"to", "in", "on", "at", "a", "for", "of", "by", "from", "into", "near", "and"})
 _HASTE = frozenset(

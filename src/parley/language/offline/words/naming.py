@@ -26,7 +26,9 @@ def name_words(name: str) -> tuple[str, ...]:
 
 
 def kind_of(kind: str) -> str:
-    """The native type that a type's name stands for ("float" is "number"), else the name itself."""
+    """The native type that a type's name stands for ("float" is "number", "low|high" words), else itself."""
+    if "|" in kind or kind.lower().startswith(("enum", "literal")):
+        return "string"
     return _KINDS.get(kind.lower(), kind)
 
 

@@ -5,7 +5,7 @@ from __future__ import annotations
 from dataclasses import dataclass, replace
 
 from parley.language.offline.words.lexicon import lexicon
-from parley.language.offline.words.text import Phrase, keys, plain, singular
+from parley.language.offline.words.text import Phrase, Word, keys, plain, singular
 
 __all__ = ["NounPhrase", "bare", "coordinated", "noun_phrase", "number_of", "split_exception"]
 
@@ -84,6 +84,13 @@ def bare(phrase: Phrase) -> Phrase:
     return tuple(words)
 
 
+def _sided(phrase: Phrase) -> Phrase:
+    """For "the desk to your right" "the desk on your right": that is where it is, and not where to go."""
+    if keys(phrase[-3:-1]) in {("to", "your"), ("to", "the")} and phrase[-1].key in {"left", "right"}:
+        return (*phrase[:-3], Word("on", "on"), *phrase[-2:]) if len(phrase) > 3 else phrase
+    return phrase
+
+
 def noun_phrase(phrase: Phrase) -> NounPhrase:
     """Read a noun phrase."""
     lex = lexicon()
@@ -97,7 +104,7 @@ def noun_phrase(phrase: Phrase) -> NounPhrase:
             counted = keys(left_out[-1:]) and (left_out[-1].key in lex.ordinals or left_out[-1].key == "last")
             phrase, excluded = phrase[:at], left_out[-1:] if counted else bare(left_out)
             break
-    phrase = _partitive(bare(phrase))
+    phrase = _partitive(bare(_sided(phrase)))
     quantifier = ""
     while phrase and (phrase[0].key in lex.quantifiers | lex.free_choice or _is_rest(phrase)):
         quantifier = quantifier or ("rest" if _is_rest(phrase) else phrase[0].key)

@@ -11,7 +11,7 @@ from parley.language.offline.words.naming import name_words
 from parley.language.offline.words.text import Phrase, keys
 from parley.language.word_lists import load_data
 
-__all__ = ["Quantity", "Taken", "plain_coordinates", "quantities", "taken_by"]
+__all__ = ["Quantity", "Taken", "plain_coordinates", "plain_units", "quantities", "taken_by"]
 
 _DATA = load_data("quantities")
 _UNITS: dict[str, dict[str, float]] = {}
@@ -22,6 +22,7 @@ _TENS: dict[str, int] = {word: int(number) for word, number in _DATA["tens"].ite
 _NUMBER = re.compile(r"-?\d+(?:[.,]\d+)?")
 _WITH_UNIT = re.compile(r"(-?\d+(?:[.,]\d+)?)([a-z]+)")
 _SMALL = {"a": 1.0, "an": 1.0, "half": 0.5, "quarter": 0.25, "couple": 2.0, "few": 3.0, "dozen": 12.0}
+_TIMES = {"twice": 2.0, "thrice": 3.0}
 _SI = frozenset({"time", "length"})
 """Given in seconds and metres where a parameter's name has no unit."""
 
@@ -88,7 +89,8 @@ def taken_by(parameter: str, description: str = "") -> Taken:
         parameter: Its name.
         description: Of its action; tells the unit if the name does not ("... in minutes").
     """
-    raw = re.findall(r"[a-z]+", re.sub(r"([a-z])([A-Z])", r"\1 \2", parameter).lower())
+    spaced = re.sub(r"([a-z])([A-Z])", r"\1 \2", parameter).replace("_", " ").lower()
+    raw = re.findall(r"[a-z]+", plain_units(spaced))
     words = frozenset((*raw, *name_words(parameter)))
     by_unit = [
         (d, f) for word in raw for d, f in _UNITS.get(word, {}).items() if len(word) > 1 or word != raw[0]
@@ -122,6 +124,8 @@ def quantities(words: Phrase) -> list[Quantity]:
 
 def _quantity(flat: Sequence[str], start: int) -> Quantity | None:
     before = flat[start - 1] if start else ""
+    if flat[start] in _TIMES or (flat[start] == "once" and start == len(flat) - 1 and start):
+        return Quantity(_TIMES.get(flat[start], 1.0), _units("times"), start, start + 1, before)
     joined = _WITH_UNIT.fullmatch(flat[start])
     if joined and joined[2] in _UNITS:
         return Quantity(_float(joined[1]), _units(joined[2]), start, start + 1, before)
@@ -207,6 +211,17 @@ def plain_coordinates(message: str) -> str:
     for pattern in (_NAMED_AXES, _IN_BRACKETS, _BEHIND_TO):
         message = pattern.sub(_written_out, message)
     return message
+
+
+_RATES = tuple((re.compile(pattern, re.IGNORECASE), unit) for pattern, unit in _DATA["rates"].items())
+
+
+def plain_units(text: str) -> str:
+    """The text with units of several words as one: "metres per second" is "mps", "40 %" is "40 percent"."""
+    if "per" in text or "/" in text or "%" in text or "degree" in text:
+        for pattern, unit in _RATES:
+            text = pattern.sub(unit, text)
+    return text
 
 
 def _written_out(found: re.Match[str]) -> str:

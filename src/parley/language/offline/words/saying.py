@@ -5,8 +5,9 @@ from __future__ import annotations
 from collections.abc import Sequence
 
 from parley.language.offline.words.lexicon import lexicon
+from parley.language.offline.words.text import singular
 
-__all__ = ["a", "capital", "in_turn", "listing", "the", "whole_sentence"]
+__all__ = ["a", "capital", "in_turn", "listing", "the", "where_is", "whole_sentence"]
 
 
 _SOMEBODY = frozenset({"somebody", "someone", "anybody", "anyone", "everybody", "everyone", "whoever"})
@@ -28,6 +29,13 @@ def the(text: str) -> str:
     name = words[0][:1].isupper() and words[0][1:].islower() and words[0].isalpha()
     identifier = "_" in words[0]
     return text if label or name or identifier else f"the {text}"
+
+
+def where_is(text: str) -> str:
+    """For "where is the box" and "where are the boxes"."""
+    last = text.split()[-1].lower() if text else ""
+    several = singular(last) != last and "'" not in last and not text[:1].isupper()
+    return f"Where {'are' if several or last in {'people', 'glasses'} else 'is'} {the(text)}"
 
 
 def a(text: str) -> str:

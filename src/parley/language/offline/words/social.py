@@ -3,11 +3,13 @@
 from __future__ import annotations
 
 import unicodedata
+from functools import cache
 
-from parley.language.offline.words.lexicon import lexicon
+from parley.language.offline.words.lexicon import PhraseTable, lexicon
 from parley.language.offline.words.text import Phrase, plain
+from parley.language.word_lists import load_data
 
-__all__ = ["not_understood", "reply"]
+__all__ = ["not_understood", "reply", "small_talk"]
 
 _SHORT = {
     **dict.fromkeys(
@@ -73,18 +75,70 @@ def reply(words: Phrase, *, alone: bool = True) -> str | None:
         and set(flat[2:]) & {"bored", "sad", "happy", "tired", "lonely", "angry"}
     ):
         return "I am sorry, I cannot help with feelings. Is there something to look at for you?"
-    if (
-        set(flat) & lex.jokes
-        and flat[0] in {"do", "what", "how", "tell", "who", "is", "are", "sing", "can", "which", "should"}
-        and len(flat) <= 10
-    ):
-        return (
-            "I am no good at small talk: I drive, look and help. I cannot chat, joke or sing. "
-            "What can I do for you?"
-        )
+    if _asks_for_fun(flat):
+        return str(load_data("social")["replies"]["trivia"])
     if _is_foreign(words):
         return "I understand only English, except for stop words. Please say it in English."
     return None
+
+
+def _told_to_others(flat: tuple[str, ...]) -> bool:
+    """For "tell a joke to the man in the hall", "tell Anna a joke"."""
+    if flat[0] != "tell":
+        return False
+    whom = flat[flat.index("to") + 1 :][:1] if "to" in flat[1:-1] else flat[1:2]
+    return bool(whom) and whom[0] not in {"me", "us", "a", "another", "some", "one"}
+
+
+_ABOUT_YOU = frozenset({"old", "age", "opinion", "favourite", "favorite", "love"})
+"""Small talk about the robot, but not about others."""
+
+
+def _asks_for_fun(flat: tuple[str, ...]) -> bool:
+    """For "tell me a joke", "how old are you"; not for "how old is A"."""
+    said = set(flat) & lexicon().jokes
+    if said <= _ABOUT_YOU and not {"you", "your"} & set(flat):
+        return False
+    first = {"do", "what", "how", "tell", "who", "is", "are", "sing", "can", "which", "should"}
+    return bool(said) and flat[0] in first and len(flat) <= 10 and not _told_to_others(flat)
+
+
+_KINDS = ("insult", "praise", "wishes", "self", "trivia", "weather", "feeling", "exclaimed", "remark")
+_MOST_WORDS = 22
+
+
+@cache
+def _talk() -> tuple[tuple[str, PhraseTable], ...]:
+    data = load_data("social")
+    return tuple((kind, PhraseTable.of(data[kind])) for kind in _KINDS)
+
+
+def small_talk(words: Phrase, said: str) -> str | None:
+    """The answer to small talk of which nothing else was made; None if it is none.
+
+    Args:
+        words: All words and punctuation.
+        said: What would be answered without that.
+    """
+    flat = tuple(word.key for word in words if word.is_word)
+    kinds = next((kinds for failure, kinds in _FAILURES if said.startswith(failure)), ())
+    if not kinds or not 0 < len(flat) <= _MOST_WORDS:
+        return None
+    for kind, table in _talk():
+        starts = 2 if said.startswith("I cannot") or kind == "remark" else len(flat)
+        if kind in kinds and any(table.match(flat, at) is not None for at in range(starts)):
+            return str(load_data("social")["replies"][kind])
+    return None
+
+
+_FAILURES = (
+    ("I am not sure what you mean", _KINDS),
+    ("I did not understand", _KINDS),
+    ("I cannot", ("insult", "praise", "wishes")),
+    ("I do not know", ("insult", "praise", "wishes", "self", "trivia", "weather", "remark")),
+    ("Where", ("insult", "praise", "wishes", "exclaimed")),
+)
+"""How an answer begins that says that nothing was made of a message, and what small talk may be behind it."""
 
 
 def _is_foreign(words: Phrase) -> bool:

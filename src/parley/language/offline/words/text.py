@@ -46,6 +46,18 @@ _QUOTED = re.compile(r"(?<!\w)'(\S[^'\n]*\s[^'\n]*)'(?!\w)")
 """Several words between single quotation marks."""
 _DASH = re.compile(r"\s+(?:[-=]+>|-+|[–—→])\s+")
 """Between words it parts them like a comma."""
+_ABBREVIATIONS = tuple(
+    (re.compile(pattern, re.IGNORECASE), full)
+    for pattern, full in (
+        (r"\b(mr|mrs|ms|dr|prof)\.(?=\s)", r"\1"),
+        (r"(?<=\d)\s*([ap])\.m\.?(?!\w)", r"\1m"),
+        (r"\be\.g\.,?", "for example"),
+        (r"\bi\.e\.,?", "that is"),
+        (r"\betc\.(?=\s+[a-z]|[,;:)])", ""),
+        (r"\bapprox\.(?=\s)", "about"),
+    )
+)
+"""Dots that end no sentence."""
 _SUFFIX = {"n't": "not", "'re": "are", "'m": "am", "'ve": "have", "'ll": "will", "'d": "would"}
 
 
@@ -58,6 +70,8 @@ def tokens(text: str) -> Phrase:
     text = unicodedata.normalize("NFC", text).replace("’", "'").replace("‘", "'").replace("`", "'")
     text = text.replace("“", '"').replace("”", '"').replace("„", '"')
     text = _QUOTED.sub(r'"\1"', text)
+    for pattern, full in _ABBREVIATIONS:
+        text = pattern.sub(full, text) if "." in text else text
     text = _DASH.sub(" , ", text).replace(" & ", " and ")
     raw = [match.group() for match in _TOKEN.finditer(text)]
     result: list[Word] = []
@@ -74,9 +88,14 @@ _ANYBODY = frozenset(
 _BEHIND_STATE = frozenset({
     "now", "so", "and", "but", "again", "because", "at", "in", "on", "by", "with", "to", "until", "since",
     "today", "already", "too", "for", "please", "then", "or", "all", "as", "after", "before", "tonight",
-    "up", "down", "anyway", "yet", "right",
+    "up", "down", "anyway", "yet", "right", "till", "of", "from", "tomorrow", "properly", "fine", "over",
+    "here", "there", "if", "when", "while", "though", "i", "we", "you", "they", "it", "he", "she",
 })  # fmt: skip
 """What follows "the box's empty", as against "the box's empty lid"."""
+
+
+_HAVING_DONE = frozenset({"been", "got", "gone", "moved", "had", "become", "come", "left", "run", "lost"})
+"""What follows "the box's been moved"."""
 
 
 def _expand(piece: str, following: str, behind: str) -> list[Word]:
@@ -93,6 +112,8 @@ def _expand(piece: str, following: str, behind: str) -> list[Word]:
         anybody = stem.lower() in _ANYBODY and (following.endswith("ing") or following in lexicon().states)
         ends = behind in _BEHIND_STATE or not behind[0].isalnum()
         said = anybody or (following in lexicon().states and ends)
+        if following in _HAVING_DONE and behind not in lexicon().nouns:
+            return [Word(stem.lower(), stem), Word("has", "has")]
         if stem.lower() in lexicon().is_subjects or following in lexicon().after_is or said:
             return [Word(stem.lower(), stem), Word("is", "is")]
     # "The boxes' lids" keeps its mark where it is repeated to people.
@@ -258,11 +279,22 @@ def mend(phrase: Phrase, known: frozenset[str], small: frozenset[str], verbs: fr
             continue
         opens = not result or result[-1].key in _BEFORE_VERBS
         better = closest(word.key, small | verbs if opens else small)
+        if better not in _NOMINAL and result and result[-1].key in _ARTICLES:
+            # "The form" is no "the from".
+            better = None
         if better is None and opens and len(word.key) > 2:
             near = [verb for verb in _COMMON if OSA.distance(verb, word.key) == 1 and verb[0] == word.key[0]]
             better = near[0] if len(near) == 1 else None
         result.append(replace(word, key=better, raw=better) if better else word)
     return tuple(result)
+
+
+_ARTICLES = frozenset({"the", "a", "an", "my", "your", "this"})
+_NOMINAL = frozenset({
+    "front", "room", "first", "second", "next", "other", "back", "step", "hungry", "thirsty", "inside",
+    "outside",
+})  # fmt: skip
+"""What may stand behind an article."""
 
 
 def _is_subject(phrase: Phrase) -> bool:

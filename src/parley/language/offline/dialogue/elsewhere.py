@@ -1,0 +1,197 @@
+"""Follow-ups that only name another thing: the last order or question is meant, with that in its place.
+
+"And the other belt?", "same at gate 4", "perhaps it is in the library": nothing but small words stand
+around a name.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+
+from parley.language.base import Situation, Turn
+from parley.language.offline.dialogue.turning import turned
+from parley.language.offline.grammar.things import Item, items_of
+from parley.language.offline.scene.grounding import describe, ground_phrase
+from parley.language.offline.scene.known import UnclearError
+from parley.language.offline.scene.scene import Scene
+from parley.language.offline.words.lexicon import lexicon
+from parley.language.offline.words.saying import the
+from parley.language.offline.words.text import Phrase, Word, keys, plain, singular, tokens
+from parley.language.word_lists import load_data
+from parley.world.object_map import MapObject
+
+__all__ = ["elsewhere"]
+
+_DATA = load_data("elsewhere")
+_MARKS = frozenset(_DATA["marks"])
+_SMALL = frozenset(_DATA["small"])
+_PASSED = frozenset(tuple(text.split()) for text in _DATA["passed"])
+_OTHERS = frozenset({"other", "others", "rest", "remaining"})
+_ONES = frozenset({"one", "ones"})
+_AGAIN = frozenset(_DATA["again"])
+_REPEATING = frozenset(_DATA["repeating"])
+_LONGEST = 12
+_DEEPEST = 4
+
+
+def elsewhere(words: Phrase, situation: Situation, depth: int = 0) -> Phrase:
+    """The last order or question, about what is named now; empty if a message is no such follow-up.
+
+    Args:
+        words: All words and punctuation.
+        situation: What is known, with what was said before.
+        depth: How many follow-ups lie between.
+    """
+    asked = _asked_before(situation.history)
+    if asked is None or depth > _DEEPEST or not 0 < len(words) <= _LONGEST:
+        return ()
+    scene = Scene.of(situation)
+    again = _repeats(words)
+    named = None if again else _named(words)
+    if named is None and not again:
+        return ()
+    turn, before = asked
+    earlier = Situation(
+        message=turn.content,
+        memory=situation.memory,
+        history=before,
+        objects=situation.objects,
+        robot_pose=situation.robot_pose,
+        robot=situation.robot,
+        robots=situation.robots,
+        catalogue=situation.catalogue,
+    )
+    said = tokens(turn.content)
+    said = elsewhere(said, earlier, depth + 1) or said
+    said = said if named is None else _with(named, said, scene)
+    asks = bool(said) and said[0].key in lexicon().be | {"has", "have", "does", "do", "did"}
+    whether = turned(said, scene) if asks else ()
+    return (*tokens("check whether"), *whether) if whether else said
+
+
+def _asked_before(history: Sequence[Turn]) -> tuple[Turn, tuple[Turn, ...]] | None:
+    """What the operator asked for last, and what was said before it; None if the robot asked back."""
+    if history and history[-1].role != "operator" and "?" in history[-1].content[-80:]:
+        return None
+    for at in range(len(history) - 1, -1, -1):
+        turn = history[at]
+        spoken = tuple(word for word in tokens(turn.content) if word.is_word)
+        if turn.role == "operator" and spoken and keys(spoken) not in _PASSED:
+            return turn, tuple(history[:at])
+    return None
+
+
+def _repeats(words: Phrase) -> bool:
+    """For "look again", "is it still there?": what was asked for last is meant as it was."""
+    flat = keys(word for word in words if word.is_word)
+    return bool(_AGAIN & set(flat)) and set(flat) <= _SMALL | _AGAIN | _REPEATING and len(flat) > 2
+
+
+def _named(words: Phrase) -> Phrase | None:
+    """What a follow-up names; None if more is said than that, or nothing marks it."""
+    flat = keys(words)
+    if (not _MARKS & set(flat) and "?" not in flat) or "but" in flat:
+        return None
+    inner = [i for i, word in enumerate(words) if word.is_word and word.key not in _SMALL]
+    if not inner:
+        return None
+    start, end = inner[0], inner[-1] + 1
+    if any(not word.is_word and word.key != "," for word in words[start:end]):
+        return None
+    tail = words[end : end + 1]
+    if {"not"} & set(flat[start:end]) or (tail and tail[0].key in {"is", "are", "it"}):
+        return None
+    return words[start:end]
+
+
+def _with(named: Phrase, said: Phrase, scene: Scene) -> Phrase:
+    """What was said, about what is named now."""
+    items = items_of(said, scene)
+    places = [i for i, item in enumerate(items) if item.thing is not None and not item.thing.known]
+    if len(said) > 2 * _LONGEST:
+        return ()
+    meant = [(at, _objects(items[at], scene)) for at in places]
+    fitting = [(at, old, _meant(named, old, scene)) for at, old in meant if old]
+    if len(fitting) > 1:
+        # Two things were named before: what is of the same kind as one of them takes its place.
+        fitting = [(at, old, new) for at, old, new in fitting if new and _kinds(new) == _kinds(old)]
+    if len(fitting) != 1:
+        return ()
+    at, old, new = fitting[0]
+    if not new or set(new) <= set(old):
+        return ()
+    before = tuple(word for item in items[:at] for word in item.words)
+    after = tuple(word for item in items[at + 1 :] for word in item.words)
+    after = tuple(Word("it", "it") if word.key in {"he", "she"} else word for word in after)
+    while len(new) > 1 and after and not after[-1].is_word:
+        after = after[:-1]
+    result: list[Word] = []
+    for item in new:
+        result += [*([Word(".", ".")] if result else []), *before]
+        result += [*tokens(the(describe(item, scene.objects))), *after]
+    return tuple(result)
+
+
+def _kinds(items: Sequence[MapObject]) -> set[str]:
+    return {item.class_name for item in items}
+
+
+def _objects(item: Item, scene: Scene) -> list[MapObject]:
+    members = item.thing.members if item.thing is not None else ()
+    found = (ground_phrase(member, scene.objects, scene.situation.robot_pose) for member in members)
+    return [one.candidates[0] for one in found if one.outcome == "match"]
+
+
+def _meant(named: Phrase, old: Sequence[MapObject], scene: Scene) -> list[MapObject]:
+    """The things on the map that the follow-up names, the noun of the last order filled in."""
+    flat = keys(named)
+    noun = singular(_noun(old[0]))
+    if _OTHERS & set(flat):
+        return _others(named, noun, old, scene)
+    if flat[-1] in _ONES:
+        named = (*named[:-1], Word(noun, noun))
+    elif len(flat) == 1 and (flat[0].isdigit() or len(flat[0]) == 1):
+        named = (Word(noun, noun), *named)
+    try:
+        phrases = scene.several(named)
+    except UnclearError:
+        phrases = []
+    found = [ground_phrase(p, scene.objects, scene.situation.robot_pose) for p in phrases]
+    if not found or any(one.outcome != "match" for one in found):
+        alone = ground_phrase(
+            (*named, Word(noun, noun)), scene.objects, scene.situation.robot_pose, strict=True
+        )
+        return list(alone.candidates) if alone.outcome == "match" else []
+    return [one.candidates[0] for one in found]
+
+
+def _noun(item: MapObject) -> str:
+    """What a thing is called without its label."""
+    words = [word.key for word in tokens(item.description) if word.is_word]
+    plain_words = [word for word in words if not word.isdigit() and len(word) > 1]
+    return plain_words[-1] if plain_words else words[-1]
+
+
+def _others(named: Phrase, noun: str, old: Sequence[MapObject], scene: Scene) -> list[MapObject]:
+    """For "the other one", "the rest of the gates": those of the kind that were not spoken of."""
+    content = [key for key in keys(named) if key not in _OTHERS | _ONES | _SMALL and key.isalpha()]
+    if len(content) > 1:
+        return []
+    wanted = singular(content[0]) if content else noun
+    kind = {old[0].class_name} if old[0].class_name else set()
+    asked = " ".join(turn.content.lower() for turn in scene.situation.history if turn.role == "operator")
+    words = keys(tokens(asked))
+    found = [
+        item
+        for item in scene.objects
+        if item not in old
+        and (singular(_noun(item)) == wanted or (item.class_name in kind and not content))
+        and not _spoken_of(item, words)
+    ]
+    several = bool({"others", "rest", "remaining", "ones"} & set(keys(named))) or plain(named).endswith("s")
+    return found if several or len(found) == 1 else []
+
+
+def _spoken_of(item: MapObject, words: tuple[str, ...]) -> bool:
+    name = keys(tokens(item.description.lower()))
+    return any(words[i : i + len(name)] == name for i in range(len(words) - len(name) + 1))

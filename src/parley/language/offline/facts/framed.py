@@ -1,0 +1,174 @@
+"""What is told, without what only frames it: "just so you are aware, S", "note. S", "S, keep that in mind".
+
+A frame is made of small words and at least one that speaks of knowing or keeping, in any order.
+"""
+
+from __future__ import annotations
+
+from parley.language.offline.sentences.clauses import opens_command
+from parley.language.offline.sentences.finite import has_verb, verb_at
+from parley.language.offline.words.lexicon import lexicon
+from parley.language.offline.words.text import Phrase, Word, keys
+from parley.language.word_lists import load_data
+
+__all__ = ["told_plainly"]
+
+_DATA = load_data("telling")
+_KEEPING = frozenset(_DATA["keeping"])
+_AROUND = frozenset(_DATA["around_keeping"])
+_BEHIND = frozenset(_DATA["behind_keeping"])
+_ENDS = frozenset({".", "!", "?", ";", "\n"})
+_MARKS = _ENDS | {",", ":", "-"}
+_NEEDS = {
+    "know": frozenset({"you", "everyone", "everybody", "good"}),
+    "mind": frozenset({"in", "my", "our", "your"}),
+    "forget": frozenset({"not", "before", "never"}),
+    "forgetting": frozenset({"not", "before", "never"}),
+    "forgot": frozenset({"almost", "nearly"}),
+    "tell": frozenset({"to", "let"}),
+    "told": frozenset({"be", "to"}),
+    "aware": frozenset({"you", "be"}),
+    "heard": frozenset({"i", "we", "you"}),
+    "hear": frozenset({"you"}),
+    "words": frozenset({"mark"}),
+}
+"""Words that frame something told only beside others."""
+_MISTAKES = frozenset({"wrong", "mistake", "mistaken", "correction", "error", "misspoke", "mixed"})
+_ORDERING = frozenset({
+    "want", "need", "wants", "needs", "is", "are", "do", "like", "plan", "will", "would", "should", "go",
+    "check", "whether", "if", "following", "find",
+})  # fmt: skip
+_LONGEST = 14
+
+
+def told_plainly(words: Phrase) -> Phrase:
+    """A message with "remember that" in place of what frames something told.
+
+    Args:
+        words: All words and punctuation.
+    """
+    if "?" in keys(words[-1:]):
+        return words
+    words = _without_cleft(words)
+    result: list[Word] = []
+    start = 0
+    while start < len(words):
+        end = next((i for i in range(start, len(words)) if words[i].key in _ENDS), len(words))
+        size = _frame(words[start:])
+        if size:
+            start += size
+            end = next((i for i in range(start, len(words)) if words[i].key in _ENDS), len(words))
+            result += (*_REMEMBER, *words[start : end + 1])
+        else:
+            result += (*_without_tail(words[start:end]), *words[end : end + 1])
+        start = end + 1
+    return tuple(result)
+
+
+_REMEMBER = (Word("remember", "remember"), Word("that", "that"))
+
+
+def _frame(words: Phrase) -> int:
+    """How many words frame what is told behind them; 0 if nothing does."""
+    flat = keys(words[:_LONGEST])
+    before = flat.index(":") if ":" in flat[:7] else 0
+    small = lexicon().vocabulary - lexicon().nouns - _ORDERING
+    if before and set(flat[:before]) <= small and _tells_plainly(words[before + 1 :]):
+        # "Before you start: S".
+        return before + 1
+    size = next((i for i, key in enumerate(flat) if key not in _AROUND | _KEEPING | {","}), len(flat))
+    kept = max((i for i in range(size) if flat[i] in _KEEPING and _keeps(flat[:size], i)), default=-1)
+    if kept < 0 or flat[:1] == ("remember",):
+        return 0
+    end = _end_of_frame(words, kept + 1, size, late="before" in flat[:kept])
+    mark = words[end].key if end < len(words) else ""
+    mistaken = flat[kept] in _MISTAKES
+    if mistaken and mark not in _MARKS - {"?"}:
+        return 0
+    telegram = mark in {":", ".", "!", "-"} and not mistaken
+    while end < len(words) and (not words[end].is_word or words[end].key == "that"):
+        end += 1
+    return end if _tells(words[end:], telegram=telegram) else 0
+
+
+def _end_of_frame(words: Phrase, end: int, size: int, *, late: bool) -> int:
+    """Where the small words behind a frame end; `late` for "before it slips my mind again, ..."."""
+    if late and "," in keys(words[end : end + 8]):
+        end += keys(words[end : end + 8]).index(",")
+    while end < len(words) and words[end].key in _BEHIND and _is_behind(words, end):
+        end += 1
+    mark = next((i for i in range(end, min(end + 4, len(words))) if words[i].key in {":", ".", "!"}), end)
+    return mark if mark <= size else end
+
+
+def _tells_plainly(words: Phrase) -> bool:
+    """Whether a statement with a verb of its own begins here, that nobody can take for an order."""
+    return bool(words) and words[0].key in lexicon().determiners and _tells(words, telegram=False)
+
+
+def _keeps(flat: tuple[str, ...], index: int) -> bool:
+    """Whether a word says there that something is to be known."""
+    needed = _NEEDS.get(flat[index])
+    return needed is None or bool(needed & set(flat[:index]))
+
+
+def _is_behind(words: Phrase, index: int) -> bool:
+    """Whether a small word still belongs to the frame ("this" in "note this: S")."""
+    if words[index].key == "the":
+        return keys(words[index + 1 : index + 2]) == ("following",)
+    if words[index].key not in {"it", "this", "that", "down"}:
+        return True
+    following = keys(words[index + 1 : index + 2])
+    return not following or following[0] in _MARKS | _BEHIND
+
+
+def _tells(words: Phrase, *, telegram: bool) -> bool:
+    """Whether what stands behind a frame says that something is so."""
+    end = next((i for i, word in enumerate(words) if word.key in _ENDS), len(words))
+    said = words[:end]
+    flat = keys(said)
+    if len(said) < 3 or keys(words[end : end + 1]) == ("?",):
+        return False
+    if flat[0] in lexicon().question_starts | {"if", "to", "you", "please", "whether", "do", "about"}:
+        return False
+    if flat[:2] in {("at", "rest"), ("at", "ease")}:
+        # "It would put my mind at rest if ...": nothing is told.
+        return False
+    if opens_command(said) and verb_at(said, 5) == 0:
+        return False
+    return telegram or has_verb(said) or verb_at(said) > 0
+
+
+def _without_tail(sentence: Phrase) -> Phrase:
+    """For "S, keep that in mind" "remember that S"."""
+    flat = keys(sentence)
+    for cut in range(max(3, len(flat) - 9), len(flat) - 1):
+        tail = flat[cut + 1 :] if flat[cut] == "," else flat[cut:]
+        joined = flat[cut] in {",", "and", "so", "just", "for", "in"}
+        if not joined or not set(tail) <= _AROUND | _KEEPING | {"and"}:
+            continue
+        kept = any(tail[i] in _KEEPING and _keeps(tail, i) for i in range(len(tail)))
+        head = sentence[:cut]
+        while head and not head[-1].is_word:
+            head = head[:-1]
+        if kept and _tells(head, telegram=False) and not opens_command(head):
+            return (*_REMEMBER, *head)
+    return sentence
+
+
+def _without_cleft(words: Phrase) -> Phrase:
+    """For "it is not A that S, it is B" "B S"."""
+    flat = keys(words)
+    if flat[:3] != ("it", "is", "not") or "," not in flat[4:]:
+        return words
+    comma = flat.index(",", 4)
+    that = next((i for i in range(4, comma) if flat[i] in {"that", "which", "who"}), 0)
+    rest = next((n for n in (("it", "is"), ("but",)) if flat[comma + 1 : comma + 1 + len(n)] == n), ())
+    end = next((i for i in range(comma + 1, len(flat)) if flat[i] in _ENDS | {","}), len(flat))
+    other, said = words[comma + 1 + len(rest) : end], words[that + 1 : comma]
+    if not that or not rest or not other or len(said) < 2 or _PEOPLE & set(keys(said)):
+        return words
+    return (*other, *said, *words[end:])
+
+
+_PEOPLE = frozenset({"i", "you", "me", "us", "we", "worries", "concerns", "bothers", "needs", "wants"})

@@ -1,0 +1,187 @@
+"""Inputs that take one of a few values: what a description or a type lists, and what is so or not."""
+
+from __future__ import annotations
+
+import re
+from collections.abc import Iterator
+
+from parley.language.offline.tasks.roles import parameter_role, text_inputs
+from parley.language.offline.words.concepts import Concept, concepts, likeness, opposed, reversed_at
+from parley.language.offline.words.lexicon import lexicon
+from parley.language.offline.words.naming import kind_of, name_words
+from parley.language.offline.words.text import Phrase, keys, lemma
+from parley.language.word_lists import load_data
+from parley.messages.status import ActionInfo
+
+__all__ = ["choices_of", "chosen", "is_listed", "says_choice", "states_verb", "switched"]
+
+_LANGUAGES = frozenset(load_data("names")["languages"])
+_IN_PROSE = re.compile(r"(?:\w+(?:, | \| |/)){1,9}\w+(?:,? or \w+)?|\w+ or \w+")
+_ENUMERATED = re.compile(r"\((\w+(?:,\s*\w+)+)\)|one of:?\s*(\w+(?:,\s*\w+)+)")
+_FEW = 2
+
+
+def _listings(text: str) -> Iterator[tuple[int, dict[str, str]]]:
+    """The values that a text lists, each list with where it stands, by their lower case words."""
+    for found in _IN_PROSE.finditer(text):
+        values = [value for value in re.split(r"\s*(?:,|\||/|\bor\b)\s*", found[0]) if value]
+        if len(values) > 1 and ("or" in found[0].split() or "|" in found[0] or "/" in found[0]):
+            yield found.start(), {_said(value): value for value in values if not value.isdigit()}
+    for found in _ENUMERATED.finditer(text):
+        listed = re.split(r"\s*,\s*", found[1] or found[2])
+        yield found.start(), {_said(value): value for value in listed}
+
+
+def _said(value: str) -> str:
+    """A value as people say it: "deep_clean" is "deep clean"."""
+    return value.replace("_", " ").strip().lower()
+
+
+def choices_of(info: ActionInfo) -> dict[str, dict[str, str]]:
+    """For each input in words that takes one of a few values: these, by what is said for them."""
+    texts = [name for name in text_inputs(info) if parameter_role(name) not in {"person", "place"}]
+    found: dict[str, dict[str, str]] = {}
+    for name in texts:
+        kind = info.inputs[name]
+        listed = {_said(v): v for v in re.findall(r"\w+", kind)[kind[:4].lower() == "enum" :]}
+        if len(listed) > 1:
+            found[name] = listed
+    for at, values in _listings(info.description):
+        free = [name for name in texts if name not in found or found[name].keys() & values.keys()]
+        name = _told_before(info.description[:at].lower(), texts) or next(iter(free), "")
+        if name:
+            found[name] = found.get(name, {}) | values
+    for name in texts:
+        if {"language", "lang"} & set(name_words(name)):
+            found[name] = {word: word.capitalize() for word in _LANGUAGES} | found.get(name, {})
+    return found
+
+
+def _told_before(text: str, names: list[str]) -> str:
+    """The input that was named last before a list."""
+    at = {
+        name: max(text.rfind(word) for word in (name.lower(), *name_words(name)) if len(word) > 1)
+        for name in names
+        if any(len(word) > 1 for word in (name, *name_words(name)))
+    }
+    best = max(at, key=lambda name: at[name], default="")
+    return best if best and at[best] >= 0 else ""
+
+
+def says_choice(info: ActionInfo, words: Phrase) -> bool:
+    """Whether one of the values that an action chooses among is said."""
+    return any(
+        _value(values, keys(words), i) for values in choices_of(info).values() for i in range(len(words))
+    )
+
+
+def is_listed(name: str, info: ActionInfo) -> bool:
+    """Whether an input takes nothing but the values that are listed for it."""
+    values = choices_of(info).get(name, {})
+    if "|" in info.inputs[name] or info.inputs[name][:4].lower() == "enum":
+        return True
+    told = re.search(rf"\b{re.escape(name)}\b is ", info.description, re.IGNORECASE)
+    alone = len(text_inputs(info)) == 1
+    closed = len(values) > _FEW and alone and parameter_role(name) in {"", "object"}
+    return closed or (told is not None and not alone and bool(values))
+
+
+def chosen(info: ActionInfo, words: Phrase) -> dict[str, tuple[str, range]]:
+    """The values that are said for inputs that choose among some, and where."""
+    flat = keys(words)
+    found: dict[str, tuple[str, range]] = {}
+    for name, values in choices_of(info).items():
+        for index in range(len(flat)):
+            value = _value(values, flat, index)
+            taken = any(index in at for _, at in found.values())
+            verb = index == 0 and len(flat) > 1 and lexicon().verbs.match((lemma(flat[0]),)) is not None
+            if value is None or taken or (verb and not _is_deed(values)):
+                continue
+            found[name] = value[0], range(index, index + value[1])
+            break
+    return found
+
+
+def _is_deed(values: dict[str, str]) -> bool:
+    """Whether values are deeds themselves ("open or close")."""
+    return all(lexicon().verbs.match((value,)) is not None for value in values)
+
+
+def _value(values: dict[str, str], flat: tuple[str, ...], index: int) -> tuple[str, int] | None:
+    """The value that is said at a word, and in how many words."""
+    for said, value in values.items():
+        several = tuple(said.split())
+        if len(several) > 1 and flat[index : index + len(several)] == several:
+            return value, len(several)
+    word = flat[index]
+    for form in (word, word.removesuffix("ly"), lemma(word), *lexicon().synonyms.get(word, ())):
+        if form in values:
+            return values[form], 1
+    return None
+
+
+_TRUE = frozenset({"on", "true", "yes", "with", "enabled"})
+_FALSE = frozenset({"off", "false", "no", "without", "disabled"})
+_GENERAL = frozenset({
+    "on", "enabled", "enable", "running", "active", "activated", "power", "state", "status", "switch",
+    "switched", "working", "run", "started", "mode",
+})  # fmt: skip
+"""Names of inputs that say only that something is on."""
+_DENYING = frozenset({"not", "no", "without", "never", "un"})
+_STARTING = concepts(("turn", "on"))[0], concepts(("start",))[0]
+_STOPPING = concepts(("turn", "off"))[0], concepts(("stop",))[0]
+_ON_OFF = frozenset({"on", "off", "open", "closed"})
+
+
+def switched(info: ActionInfo, name: str, words: Phrase) -> tuple[bool | str, set[int]] | None:
+    """What is said for an input that is so or not ("closed", "on"), and where; None if nothing."""
+    kind, flat = kind_of(info.inputs[name]), keys(words)
+    named = name_words(name)
+    if kind == "string":
+        at = next((i for i, word in enumerate(flat) if word in _ON_OFF), None)
+        return (flat[at], {at}) if at is not None and set(named) & _GENERAL else None
+    if kind != "bool":
+        return None
+    said = concepts(flat)
+    telling = [Concept(lemma(word), concepts((word,))[-1].lines) for word in named if word not in _GENERAL]
+    turned = next((where for part in telling if (where := reversed_at(part, said))), ())
+    if turned:
+        return False, set(turned)
+    whole = telling and all(any(_same(part, one) for one in said) for part in telling)
+    if whole:
+        at_all = {i for part in telling for one in said if _same(part, one) for i in one.at}
+        first = min(at_all)
+        denied = bool(_DENYING & set(flat[max(0, first - 2) : first]))
+        return not denied, at_all
+    if any(opposed(part, said) for part in telling):
+        return False, _where_opposed(telling, said)
+    for words_for, value in ((_STARTING, True), (_STOPPING, False)):
+        for one in said:
+            like = any(likeness(one, word) >= _LIKE for word in words_for)
+            if like and (set(named) & _GENERAL or not telling):
+                return value, set(one.at)
+    for index, word in enumerate(flat):
+        if word in _TRUE - {"with"} | _FALSE - {"without"} or (
+            index and word in {"with", "without"} and telling
+        ):
+            return word in _TRUE, {index}
+    return None
+
+
+def _same(part: Concept, said: Concept) -> bool:
+    return likeness(part, said) >= _LIKE or lemma(said.text) == part.text
+
+
+_LIKE = 0.8
+
+
+def _where_opposed(telling: list[Concept], said: tuple[Concept, ...]) -> set[int]:
+    return {i for one in said for part in telling if opposed(part, (one,)) for i in one.at}
+
+
+def states_verb(info: ActionInfo, words: Phrase) -> bool:
+    """Whether a clause begins with what an input can be: "open" for "closed", or a listed deed."""
+    if any(0 in at for _, at in chosen(info, words).values()):
+        return True
+    bools = (name for name, kind in info.inputs.items() if kind_of(kind) == "bool")
+    return any((found := switched(info, name, words)) is not None and 0 in found[1] for name in bools)

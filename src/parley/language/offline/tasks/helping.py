@@ -1,0 +1,297 @@
+"""Which action helps with what somebody only complains of, wants or misses ("it is freezing in the hall").
+
+What helps is found by the words of an action's name, inputs and description: a remedy against what is said
+(`data/helping.yaml`), something that is wanted by its name, or a deed that was left undone. All that the
+action needs has to be said, too.
+"""
+
+from __future__ import annotations
+
+import re
+from collections.abc import Iterator
+from dataclasses import dataclass
+from functools import cache
+from typing import Any
+
+from parley.language.offline.scene.scene import Scene
+from parley.language.offline.tasks.choices import chosen
+from parley.language.offline.tasks.matching import Match
+from parley.language.offline.tasks.parts import map_spans
+from parley.language.offline.tasks.roles import number_inputs, parameter_role, text_inputs
+from parley.language.offline.tasks.slots import Filled, fill_slots
+from parley.language.offline.words.concepts import LIGHT_VERBS, Concept, concepts, likeness, opposed
+from parley.language.offline.words.lexicon import PhraseTable, lexicon
+from parley.language.offline.words.naming import kind_of, name_words
+from parley.language.offline.words.nouns import bare
+from parley.language.offline.words.text import Phrase, keys, lemma, plain, singular
+from parley.language.word_lists import load_data
+from parley.messages.status import ActionInfo
+
+__all__ = ["helping"]
+
+_NAMES = load_data("names")
+_EMPTY = frozenset(_NAMES["empty"] + _NAMES["small"] + _NAMES["vague"])
+_COMMON = frozenset({
+    "motion", "look", "search", "ask_operator", "speak", "answer", "follow", "guide", "locate", "wait",
+})  # fmt: skip
+"""What other readings make of telling."""
+_ENOUGH = 2.0
+_CLEAR = 0.5
+"""By how much the best action has to fit better than the next one."""
+_LIKE = 0.8
+_MOST_WORDS = 45
+
+
+@cache
+def _data() -> Any:
+    return load_data("helping")
+
+
+@cache
+def _table(kind: str) -> PhraseTable:
+    return PhraseTable.of(_data()[kind])
+
+
+@cache
+def _remedies() -> tuple[tuple[PhraseTable, frozenset[str]], ...]:
+    return tuple((PhraseTable.of(one["signs"]), frozenset(one["helps"])) for one in _data()["remedies"])
+
+
+def helping(words: Phrase, scene: Scene) -> Match | None:
+    """The one action that helps with what a message tells, with its inputs; None if none clearly does.
+
+    Args:
+        words: What is told, all words and punctuation.
+        scene: What is known.
+    """
+    if not 2 <= len(words) <= _MOST_WORDS:
+        return None
+    told = _Told(words, scene)
+    found: list[tuple[float, Match]] = []
+    for info in scene.catalogue.infos:
+        if scene.catalogue.roles(info) & _COMMON:
+            continue
+        score = told.helps(info)
+        filled = told.fill(info) if score >= _ENOUGH else None
+        if filled is not None:
+            score += 0.3 * len(filled.phrases) - 0.5 * len(filled.missing)
+            found.append((score, Match(info, score, True, filled, 1.0, frozenset())))
+    found.sort(key=lambda one: -one[0])
+    if not found or (len(found) > 1 and found[0][0] - found[1][0] < _CLEAR):
+        return None
+    return found[0][1]
+
+
+@dataclass(frozen=True, slots=True)
+class _Named:
+    """Something that is named."""
+
+    before: str
+    words: Phrase
+    definite: bool
+    grounded: bool
+    kinds: frozenset[str]
+
+
+class _Told:
+    """What a message tells."""
+
+    def __init__(self, words: Phrase, scene: Scene) -> None:
+        self.words, self.scene = words, scene
+        self.flat = keys(words)
+        self.base = tuple(lemma(word) for word in self.flat)
+        self.said = concepts(self.flat)
+        self.named = list(_named(words, scene))
+        self.undone = next((i for i, w in enumerate(self.flat) if w in set(_data()["undone"])), -1)
+        self.signs = [helps for signs, helps in _remedies() if self._has(signs)]
+        self.wanted = self._wanted()
+
+    def _has(self, signs: PhraseTable) -> bool:
+        return any(
+            signs.match(self.flat, i) is not None or signs.match(self.base, i) is not None
+            for i in range(len(self.flat))
+        )
+
+    def _wanted(self) -> frozenset[str]:
+        """The words for what is said to be wanted."""
+        found: set[str] = set()
+        for index in range(1, len(self.flat)):
+            before, behind = (
+                _table("wanting").match(self.flat, index),
+                _table("wanted").match(self.flat, index),
+            )
+            if before is not None:
+                found |= set(self.flat[index + before[0] : index + before[0] + 5])
+            if behind is not None:
+                found |= set(self.flat[max(0, index - 4) : index])
+        return frozenset(singular(word) for word in found)
+
+    def helps(self, info: ActionInfo) -> float:
+        """How much speaks for it that an action is wanted."""
+        name = set(_bases(name_words(info.name)))
+        told = set(_bases(re.findall(r"[a-z]+", info.description.lower())))
+        score = sum(2.0 + 0.5 * bool(helps & name) for helps in self.signs if helps & (name | told))
+        typed = {singular(w) for one in info.inputs for w in name_words(one)}
+        things = (name | told) - _EMPTY - typed - LIGHT_VERBS
+        nouns = {singular(word) for word in things if lexicon().verbs.match((word,)) is None or word in name}
+        choice = {key for text, _ in chosen(info, self.words).values() for key in text.lower().split()}
+        if self.wanted & nouns or {singular(one) for one in choice} & self.wanted:
+            score += 2.0
+        score += self._left_undone(info, name)
+        return score + 0.5 * len(nouns & {singular(word) for word in self.flat})
+
+    def _left_undone(self, info: ActionInfo, name: set[str]) -> float:
+        """Whether a deed was not done that should have been."""
+        if self.undone < 0:
+            return 0.0
+        first = re.findall(r"[a-z]+", info.description.lower())[:1]
+        verbs = [one for word in (*name_words(info.name)[:1], *first) for one in concepts((word,))]
+        deeds = [c for c in self.said if self._is_deed(c)]
+        if any(likeness(verb, deed) >= _LIKE for verb in verbs for deed in deeds):
+            return 2.0
+        words = (word for word in name_words(info.name)[1:] if word not in _EMPTY | LIGHT_VERBS)
+        about = {singular(word) for word in words}
+        return 1.5 if about and about <= {singular(word) for word in self.flat} else 0.0
+
+    def _is_deed(self, concept: Concept) -> bool:
+        """Whether a word is a verb in the form that "not done yet" takes."""
+        at = concept.at[0]
+        raw = self.flat[at]
+        return concept.text not in LIGHT_VERBS and at > 0 and lemma(raw) != raw and not raw.endswith("'s")
+
+    def fill(self, info: ActionInfo) -> Filled | None:
+        """What is said for an action's inputs; None if something that only words can give is missing."""
+        filled = fill_slots(info, self.words, (), self.scene)
+        numbers = set(number_inputs(info))
+        listed = chosen(info, self.words)
+        kept = {n: v for n, v in filled.values.items() if n in numbers or n in listed}
+        phrases = {n: p for n, p in filled.phrases.items() if n in listed}
+        free = list(self.named)
+        for name in text_inputs(info):
+            if name in kept:
+                continue
+            scored = [(_fit(name, one, self.scene), -free.index(one), one) for one in free]
+            best = max(scored, key=lambda one: one[:2], default=None)
+            if best is None or best[0] < 1.0:
+                if name in info.optional:
+                    continue
+                return None
+            kept[name], phrases[name] = plain(bare(best[2].words)), best[2].words
+            free.remove(best[2])
+        for name, kind in info.inputs.items():
+            if kind_of(kind) == "bool":
+                state = self._state(name)
+                if state is None:
+                    return None
+                kept[name] = state
+        missing = [name for name in info.inputs if name not in kept and name not in info.optional]
+        return Filled(values=kept, phrases=phrases, missing=missing)
+
+    def _state(self, name: str) -> bool | None:
+        """Whether an input has to be so or not for the action to help; None if that is not plain."""
+        helps = frozenset().union(*self.signs)
+        words = set(_bases(name_words(name)))
+        against = {word for word in words for one in concepts((word,)) if opposed(one, self.against(helps))}
+        if words & helps or (words & _ON and helps and not helps & _ENDING):
+            return True
+        return False if against or helps & _ENDING else None
+
+    @staticmethod
+    def against(helps: frozenset[str]) -> tuple[Concept, ...]:
+        """What helps, as concepts."""
+        return tuple(concept for word in sorted(helps) for concept in concepts((word,)))
+
+
+_ON = frozenset({"on", "active", "enabled", "running", "state", "power", "switch"})
+_ENDING = frozenset({"close", "shut", "off", "mute", "silence", "stop"})
+
+
+def _bases(words: tuple[str, ...] | list[str]) -> Iterator[str]:
+    for word in words:
+        yield word
+        yield lemma(word)
+        yield singular(word)
+
+
+_PLACES = frozenset(load_data("helping")["places"])
+_NO_THINGS = frozenset(load_data("helping")["no_things"])
+
+
+def _fit(name: str, named: _Named, scene: Scene) -> float:
+    """How well something that is named fits an input; 0 if nothing says that it does."""
+    role = parameter_role(name)
+    words = {singular(word) for word in name_words(name)}
+    words |= {other for word in words for other in lexicon().synonyms.get(word, ())}
+    said = named.kinds | {singular(word) for word in keys(named.words)}
+    called = bool(words & said) or any(one.endswith(word) for one in said for word in words if len(word) > 3)
+    proper = named.words[0].is_capital and not named.grounded and named.before != ""
+    person = scene.is_person(named.words) or (role == "person" and named.words[0].is_capital)
+    if role == "text" or (role == "person" and not person) or (person and role in {"place", "object"}):
+        return 0.0
+    if not (called or named.grounded or person or proper or role == "place"):
+        return 0.0
+    score = 3.0 * called + 1.5 * named.grounded
+    if named.before in _PLACES:
+        score += 2.0 if role == "place" else 0.5
+    return score + (1.0 if named.definite or person else 0.3)
+
+
+def _named(words: Phrase, scene: Scene) -> Iterator[_Named]:
+    """The things that are named, each with the word before it."""
+    spans = {start: (end, item) for start, end, item in map_spans(words, scene)}
+    index = 0
+    while index < len(words):
+        if index in spans:
+            end, item = spans[index]
+            kinds = (
+                frozenset(singular(w) for w in name_words(item.class_name))
+                if item is not None
+                else frozenset()
+            )
+            yield _Named(_before(words, index), words[index:end], True, True, kinds)
+            index = end
+            continue
+        end = index
+        while end < len(words) and end not in spans and not _bounds(words, end, index):
+            end += 1
+        part = bare(words[index:end])
+        if part and not set(keys(part)) & _NO_THINGS:
+            yield _Named(_before(words, index), part, _definite(words, index, end), False, frozenset())
+        index = max(end, index + 1)
+
+
+def _definite(words: Phrase, index: int, end: int) -> bool:
+    before = keys(words[max(0, index - 1) : index + 1])
+    return bool({"the", "that", "this", "those", "these"} & set(before)) or words[end - 1].key.isdigit()
+
+
+def _before(words: Phrase, index: int) -> str:
+    at = index - 1
+    while at >= 0 and words[at].key in lexicon().determiners:
+        at -= 1
+    return words[at].key if at >= 0 else ""
+
+
+def _bounds(words: Phrase, at: int, start: int) -> bool:
+    """Whether a name ends before a word."""
+    word = words[at]
+    lex = lexicon()
+    small = (
+        lex.be
+        | lex.auxiliaries
+        | lex.person_pronouns
+        | lex.operator_pronouns
+        | lex.thing_pronouns
+        | lex.determiners
+    )
+    if not word.is_word or word.key in small | lex.goals_and_places | lex.question_starts | _BOUNDS:
+        return True
+    if word.key in lex.nouns or word.key.isdigit() or word.is_capital:
+        return False
+    base = lemma(word.key)
+    inflected = base != word.key and singular(word.key) != base
+    known = lex.verbs.match((base,)) is not None or word.key.endswith(("ing", "ed"))
+    return (known and (inflected or at > start)) or word.key.endswith("ly")
+
+
+_BOUNDS = frozenset(load_data("helping")["bounds"])

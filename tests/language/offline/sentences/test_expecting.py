@@ -1,0 +1,50 @@
+"""Conditions that are told."""
+
+from __future__ import annotations
+
+import pytest
+
+from parley.language.offline.sentences.expecting import with_looks
+from parley.language.offline.words.nouns import bare
+from parley.language.offline.words.text import Phrase, keys, plain, tokens
+
+STOPS = {("gate",), ("hall",), ("yard",)}
+
+
+def is_stop(words: Phrase) -> bool:
+    return keys(bare(words)) in STOPS and all(word.is_word for word in words)
+
+
+@pytest.mark.parametrize(
+    ("text", "meant"),
+    [
+        (
+            "the gate ought to be shut; if it isn't, go to the hall",
+            "check whether the gate is shut. if not, go to the hall",
+        ),
+        (
+            "I think the gate is locked, but if not, go to the hall",
+            "check whether the gate is locked. if not, go to the hall",
+        ),
+        (
+            "the gate should be shut. if it is still open, go to the hall",
+            "if the gate is open, go to the hall",
+        ),
+        (
+            "depending on whether the gate is shut, go to the hall if so and to the yard if not",
+            "check whether the gate is shut. if so, go to the hall. if not, go to the yard",
+        ),
+        (
+            "go to the hall and unless you find anybody there go to the yard",
+            "go to the hall and unless somebody is there, go to the yard",
+        ),
+        (
+            "see that the gate is shut. is it not, then come back",
+            "see that the gate is shut. if not, come back",
+        ),
+        ("the gate should be shut", "the gate should be shut"),
+        ("if you see a leak, stop", "if you see a leak, stop"),
+    ],
+)
+def test_what_orders_hang_on_is_said_as_a_look(text: str, meant: str) -> None:
+    assert plain(with_looks(tokens(text), is_stop)).lower() == meant.lower()

@@ -1,0 +1,64 @@
+"""What helps with what is only complained of, wanted or missed."""
+
+from __future__ import annotations
+
+import pytest
+
+from parley.language.base import Situation
+from parley.language.offline import OfflineLanguage
+from parley.language.offline.scene.scene import Scene
+from parley.language.offline.tasks.helping import helping
+from parley.language.offline.words.text import tokens
+from parley.messages.status import ActionInfo
+
+CATALOGUE = (
+    ActionInfo(name="radiatorUp", inputs={"room": "string"}, description="Warm a room."),
+    ActionInfo(name="summon_doctor", inputs={"cabin": "string"}, description="Send for a doctor."),
+    ActionInfo(name="hush_speakers", description="Silence the speakers."),
+    ActionInfo(name="pour", inputs={"drink": "string"}, description="Pour a drink: cider, water or tea."),
+    ActionInfo(name="shear_sheep", inputs={"pen": "string"}, description="Shear the sheep of a pen."),
+    ActionInfo(name="setDimmer", inputs={"lamp": "string", "percent": "number"}, description="Set a light."),
+)
+
+
+def situation(message: str) -> Situation:
+    return Situation(message=message, catalogue=CATALOGUE, robot="Bo", robots=("Bo",))
+
+
+def helps(message: str) -> tuple[object, ...] | None:
+    found = helping(tokens(message), Scene.of(situation(message)))
+    return None if found is None else (found.info.name, *found.filled.values.values())
+
+
+@pytest.mark.parametrize(
+    ("message", "action"),
+    [
+        ("we are all shivering in the library", ("radiatorUp", "library")),
+        ("The man in cabin 9 has collapsed!", ("summon_doctor", "cabin 9")),
+        ("it is so loud, nobody can hear a word", ("hush_speakers",)),
+        ("A glass of cider would be lovely.", ("pour", "cider")),
+        ("nobody has shorn the sheep in the lower pen yet", ("shear_sheep", "lower pen")),
+    ],
+)
+def test_a_remedy_is_found_by_its_words_and_needs_its_inputs(
+    message: str, action: tuple[object, ...]
+) -> None:
+    assert helps(message) == action
+
+
+@pytest.mark.parametrize(
+    "message",
+    [
+        "The library is on the second floor",
+        "it is cold",
+        "my sister is a doctor",
+        "The pen is next to the barn",
+    ],
+)
+def test_what_needs_no_help_or_says_too_little_gets_none(message: str) -> None:
+    assert helps(message) is None
+
+
+def test_help_comes_only_where_nothing_is_asked_for() -> None:
+    action, _ = OfflineLanguage().explain(situation("It is freezing in the library, but just pour me a tea."))
+    assert [step.name for step in action.queue] == ["pour"]
