@@ -26,6 +26,7 @@ _DEVELOPED: Final = (
     "fresh_nights",
     "fresh_scenes",
     "fresh_tasks",
+    "list",
     "logic",
     "long_calls",
     "needs",

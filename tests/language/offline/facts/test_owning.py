@@ -45,3 +45,10 @@ def test_somebody_described_by_facts_gets_a_name(said: str, named: str) -> None:
 def test_the_fact_that_was_used_comes_along() -> None:
     used = with_owners_named(tokens("go to the owner of the green van"), remembered(MEMORY))[1]
     assert [item.entry.name for item in used] == ["fact_0"]
+
+
+def test_somebody_with_something_is_who_is_remembered_to_have_it() -> None:
+    named = with_owners_named(tokens("go to the man with the key to the attic"), remembered(MEMORY))[0]
+    assert plain(named) == "go to Ada"
+    other = tokens("go to the man with the red hat")
+    assert with_owners_named(other, remembered(MEMORY)) == (other, [])

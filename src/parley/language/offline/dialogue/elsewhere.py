@@ -30,6 +30,7 @@ _OTHERS = frozenset({"other", "others", "rest", "remaining"})
 _ONES = frozenset({"one", "ones"})
 _AGAIN = frozenset(_DATA["again"])
 _REPEATING = frozenset(_DATA["repeating"])
+_EXCEPTING = frozenset({"except", "excluding", "apart", "excepting"})
 _LONGEST = 12
 _DEEPEST = 4
 
@@ -44,6 +45,8 @@ def elsewhere(words: Phrase, situation: Situation, depth: int = 0) -> Phrase:
     """
     asked = _asked_before(situation.history)
     if asked is None or depth > _DEEPEST or not 0 < len(words) <= _LONGEST:
+        return ()
+    if _ONES & set(keys(words)) and _EXCEPTING & set(keys(words)):
         return ()
     scene = Scene.of(situation)
     again = _repeats(words)

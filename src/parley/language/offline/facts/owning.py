@@ -14,6 +14,7 @@ from parley.language.offline.words.text import Phrase, Word, keys, lemma, singul
 __all__ = ["Belonging", "belongings", "owner_of", "with_owners_named"]
 
 _OWNING = frozenset({"owns", "own", "has", "have", "drives", "drive", "rents", "uses"})
+_WITH = frozenset({"has", "have", "carries", "keeps", "holds", "wears", "owns"})
 _GIVEN = frozenset(
     {"sold", "given", "lent", "assigned", "rented", "handed", "leased", "let", "transferred", "passed"}
 )
@@ -98,7 +99,7 @@ def with_owners_named(words: Phrase, facts: Sequence[Remembered]) -> tuple[Phras
     return tuple(result), used
 
 
-_SOMEBODY = frozenset({"whoever", "who", "that"})
+_SOMEBODY = frozenset({"whoever", "who", "that", "with"})
 _GENERAL = frozenset(
     {
         "one",
@@ -134,7 +135,8 @@ def _doer_named(
     for index in range(1, len(flat) - 1):
         start = index
         if flat[index] != "whoever":
-            if flat[index] not in {"who", "that"} or flat[index - 1] not in _GENERAL | lexicon().person_words:
+            person = flat[index - 1] in _GENERAL | lexicon().person_words
+            if flat[index] not in {"who", "that", "with"} or not person:
                 continue
             start = index - 1 - (index > 1 and flat[index - 2] in lexicon().determiners)
         end = next(
@@ -142,9 +144,10 @@ def _doer_named(
             len(flat),
         )
         wanted = _content(words[index + 1 : end])
-        scored = [
-            (len(wanted & _content((*f.fact.state, *f.fact.place))), f) for f in facts if _is_somebodys(f)
-        ]
+        theirs = [f for f in facts if _is_somebodys(f)]
+        if flat[index] == "with":
+            theirs = [f for f in theirs if f.fact.relation in _WITH and wanted <= _content(f.fact.state)]
+        scored = [(len(wanted & _content((*f.fact.state, *f.fact.place))), f) for f in theirs]
         best = max((score for score, _ in scored), default=0)
         names = {keys(f.fact.subject): f for score, f in scored if score == best}
         if best and len(names) == 1:

@@ -17,7 +17,7 @@ from parley.language.offline.words.text import Phrase, Word, keys, plain, singul
 from parley.messages.memory import MemoryEntry
 from parley.world.object_map import MapObject
 
-__all__ = ["Remembered", "find_fact", "memory_name", "newest", "remembered"]
+__all__ = ["Remembered", "find_fact", "memory_name", "newest", "of_others", "remembered"]
 
 
 @dataclass(frozen=True, slots=True)
@@ -135,6 +135,9 @@ def _find_fact(
     if found.outcome == "none":
         return None, []
     hits = [listed[stand_ins.index(item)] for item in found.candidates]
+    hits = [hit for hit in hits if not of_others(about, hit.fact.subject)]
+    if not hits:
+        return None, []
     return (hits[0], []) if len(hits) == 1 else (None, hits)
 
 
@@ -174,6 +177,18 @@ def newest(facts: Sequence[Remembered]) -> list[Remembered]:
         elif (*keys(item.fact.subject), *keys(item.fact.place)) not in gone:
             last.setdefault(key, item)
     return list(last.values())
+
+
+def of_others(about: Phrase, subject: Phrase) -> bool:
+    """Whether one thing is A's and the other one B's: then they are not the same."""
+    owners, others = _owners(about), _owners(subject)
+    return bool(owners) and bool(others) and not owners & others
+
+
+def _owners(phrase: Phrase) -> set[str]:
+    return {
+        word.key.removesuffix("'s").removesuffix("'") for word in phrase if word.key.endswith(("'s", "s'"))
+    }
 
 
 def _compounds(about: Phrase) -> list[Phrase]:

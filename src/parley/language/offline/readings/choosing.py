@@ -17,6 +17,7 @@ from parley.language.offline.facts.plain_names import plainly_named, without_hes
 from parley.language.offline.grammar.canonical import Plainly, plainly_ordered
 from parley.language.offline.reader import Reader
 from parley.language.offline.readings.by_catalogue import asked_of_catalogue
+from parley.language.offline.readings.exceptions import unknown_exception, with_answer
 from parley.language.offline.readings.judging import Judgement, gone_to, is_odd, judge, texts_of
 from parley.language.offline.scene.grounding import describe
 from parley.language.offline.scene.grouping import grouped, ids_in, names_things
@@ -88,7 +89,10 @@ def best_reading(
     message = plainly_named(with_members(words, told), scene)
     raw = words
     names = names_things(scene)
-    kept = scoped(grouped(words, scene), names, lambda part: False, ids_in(scene))
+    put_together = grouped(with_answer(words, list(hints), scene), scene)
+    if (left_out := unknown_exception(put_together)) is not None:
+        return _which_to_leave_out(put_together[left_out[0] : left_out[1]], targets, scene)
+    kept = scoped(put_together, names, lambda part: False, ids_in(scene))
     spared = kept.spared
     if spared and not situation.queue:
         message = plainly_named(with_members(kept.words, told), scene)
@@ -108,12 +112,9 @@ def best_reading(
     readings = [best]
     made_out = settled and best.judged.cost <= 0 and not _is_idle(best)
     tells = all(unit.kind in {"told", "reason"} for unit in parts)
-    ordered = None if made_out or tells else plainly_ordered(message, scene)
-    free = not (made_out or tells or spared or situation.queue) and keys(whole) != keys(message)
-    as_said = plainly_ordered(whole, scene) if free else None
-    ordered = as_said if as_said is not None and as_said.certain else ordered
-    if not _settles(ordered, best):
-        ordered = None
+    free = not (spared or situation.queue) and keys(whole) != keys(message)
+    all_said = whole if free else ()
+    ordered, as_said = (None, None) if made_out or tells else _plain_orders(message, all_said, best, scene)
 
     def reread(said: Phrase, about: Sequence[Phrase], how: str) -> _Reading:
         readings.append(_read(said, about, situation, hints, targets, parts, told, how, spared))
@@ -127,10 +128,9 @@ def best_reading(
         best = _unable(best, ordered.unable, scene)
     best = _helpful(best, message, parts, situation, hints, targets, scene)
     trace.decisions += best.trace.decisions
-    if len(readings) > 1:
-        for reading in readings:
-            taken = ", taken" if reading is best else ""
-            trace.note("reading", f"{reading.how}: against it {reading.judged}{taken}")
+    for reading in readings if len(readings) > 1 else ():
+        taken = ", taken" if reading is best else ""
+        trace.note("reading", f"{reading.how}: against it {reading.judged}{taken}")
     action = _sparing(best, spared, scene) or _honest(best, scene)
     sources = tuple(dict.fromkeys((*scene.sources, *action.sources)))
     return action.model_copy(update={"sources": sources}) if scene.sources else action
@@ -199,6 +199,23 @@ def _helpful(
 def _calls(reading: _Reading) -> list[str]:
     """The steps of a reading, each with what it is about."""
     return [" ".join((step.name, *texts_of([step]))) for step in reading.action.queue]
+
+
+def _plain_orders(
+    message: Phrase, whole: Phrase, said: _Reading, scene: Scene
+) -> tuple[Plainly | None, Plainly | None]:
+    """The plain orders of a message, if they settle anything, and those of all its words."""
+    ordered = plainly_ordered(message, scene)
+    as_said = plainly_ordered(whole, scene) if whole else None
+    ordered = as_said if as_said is not None and as_said.certain else ordered
+    return ordered if _settles(ordered, said) else None, as_said
+
+
+def _which_to_leave_out(described: Phrase, targets: tuple[str, ...], scene: Scene) -> ChatAction:
+    """A question about an exception that nothing tells."""
+    text = f"I do not know which one you mean by “{plain(described)}”. Which one should I leave out?"
+    robot = scene.situation.robot
+    return ChatAction(message_response=text, targets=targets or ((robot,) if robot else ()))
 
 
 def _changed_plan(

@@ -113,8 +113,12 @@ def when_done(words: Phrase) -> Phrase:
         end = index + len(marker)
         while marker and end < len(flat) and flat[end] in _DOING | _SEEN:
             end += 1
-        done = _DONE & set(flat[index:end]) or (flat[end - 1] in _LISTED and flat[end - 2] in _SEEN)
-        if marker and done and flat[end - 1] in _DOING - {"you", "is", "have"}:
+        seen = end > 1 and flat[end - 1] in _LISTED and flat[end - 2] in _SEEN
+        if (
+            marker
+            and (seen or _DONE & set(flat[index:end]))
+            and flat[end - 1] in _DOING - {"you", "is", "have"}
+        ):
             result.append(Word("then", "then"))
             index = end + (flat[end : end + 1] == (",",))
             continue

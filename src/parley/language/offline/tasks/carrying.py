@@ -5,7 +5,7 @@ from __future__ import annotations
 from abc import abstractmethod
 from dataclasses import dataclass, replace
 
-from parley.language.offline.facts.remembering import find_fact
+from parley.language.offline.facts.remembering import find_fact, of_others
 from parley.language.offline.scene.scene import OPERATOR, Place, UnclearError
 from parley.language.offline.tasks.commands import Command
 from parley.language.offline.tasks.going import UnableError
@@ -13,7 +13,7 @@ from parley.language.offline.tasks.looking import ASKING, Looking
 from parley.language.offline.words.lexicon import lexicon
 from parley.language.offline.words.nouns import bare, coordinated, noun_phrase
 from parley.language.offline.words.saying import the, where_is
-from parley.language.offline.words.text import Phrase, keys, plain, singular, tokens
+from parley.language.offline.words.text import Phrase, Word, keys, plain, singular, tokens
 from parley.language.word_lists import load_data
 from parley.messages.status import ActionInfo
 
@@ -235,6 +235,10 @@ class Carrying(Looking):
         if self._grounds(theme):
             return theme, self.scene.place(theme)
         place = self.scene.remembered_place(theme)
+        if place is not None and place.via is not None:
+            theirs = _said_theirs(command, theme)
+            if theirs and of_others(theirs, place.via.fact.subject):
+                raise self._unplaced(theirs)
         if place is None and not need and self.here:
             return theme, None
         place = place or self.scene.told_place(theme)
@@ -374,3 +378,16 @@ class Carrying(Looking):
             self._stand_at(self.scene.place(command.source))
         self._stand_at_person(theme)
         self._invoke(guide, replace(command, kind="guide", theme=theme, recipient=theme))
+
+
+def _said_theirs(command: Command, theme: Phrase) -> Phrase:
+    """What is to be brought, by the name of its owner, if that was said ("take A's bag to the hall")."""
+    if not command.recipient:
+        return ()
+    last, said = command.recipient[-1], keys(command.clause or command.words)
+    if last.key.endswith("'s"):
+        return (*command.recipient, *theme)
+    behind = {said[i + 1] for i in range(len(said) - 1) if said[i] == last.key}
+    if "'s" not in behind and f"{last.key}'s" not in said:
+        return ()
+    return (*command.recipient[:-1], Word(f"{last.key}'s", f"{last.raw}'s"), *theme)

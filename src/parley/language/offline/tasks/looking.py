@@ -278,7 +278,8 @@ class Looking(Docking):
                 return
         else:
             own = "search" in self.catalogue.roles(searcher)
-            known = None if self.here and self._at_large(theme) else self._known_place(theme)
+            here = self.here and (keys(command.clause)[-1:] == ("there",) or self._at_large(theme))
+            known = None if here else self._known_place(theme)
             if known is not None:
                 self._stand_at(known)
                 if known.via is not None:

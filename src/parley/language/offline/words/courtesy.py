@@ -40,14 +40,22 @@ def plainly(words: Phrase) -> Phrase:
         if index == len(words) or words[index].key in {".", "!", "?", ";", "\n"}:
             sentence = words[start:index]
             if not result or not _leaves_it_open(keys(sentence)):
-                result += (*_without_frame(_minding(sentence)), *words[index : index + 1])
+                sentence = _without_open_end(_minding(sentence))
+                result += (*_without_frame(sentence), *words[index : index + 1])
             start = index + 1
     return tuple(result)
 
 
 def _leaves_it_open(flat: tuple[str, ...]) -> bool:
     """For "only when it suits you, of course", said behind an order."""
-    return len(flat) > 2 and flat[0] in _OPEN_FIRST and set(flat) <= _COURTEOUS | _OPEN | {","}
+    enough = len(flat) > 2 or (len(flat) == 2 and flat[1] in _OPEN - _COURTEOUS)
+    return enough and flat[0] in _OPEN_FIRST and set(flat[1:]) <= _COURTEOUS | _OPEN | {","}
+
+
+def _without_open_end(sentence: Phrase) -> Phrase:
+    """Without "..., take your time" at the end."""
+    at = max((i for i, word in enumerate(sentence) if word.key == ","), default=0)
+    return sentence[:at] if at and _leaves_it_open(keys(sentence[at + 1 :])) else sentence
 
 
 def _minding(sentence: Phrase) -> Phrase:
