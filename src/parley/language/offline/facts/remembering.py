@@ -13,7 +13,7 @@ from parley.language.offline.scene.grounding import ground_phrase
 from parley.language.offline.sentences.finite import verb_at
 from parley.language.offline.words.lexicon import lexicon
 from parley.language.offline.words.nouns import bare, noun_phrase
-from parley.language.offline.words.text import Phrase, Word, keys, plain, singular, tokens
+from parley.language.offline.words.text import Phrase, Word, keys, plain, singular, tokens, written_out
 from parley.messages.memory import MemoryEntry
 from parley.world.object_map import MapObject
 
@@ -75,9 +75,7 @@ def _by_work(item: Remembered, placed: set[tuple[str, ...]]) -> Remembered | Non
 
 @lru_cache(maxsize=4096)
 def _entry_fact(name: str, data: str) -> Fact | None:
-    first = re.split(r"(?<=[.!;])(?<!\bMr\.)(?<!\bMs\.)(?<!\bDr\.)(?<!\bMrs\.)\s", data.strip(), maxsplit=1)[
-        0
-    ][:400]
+    first = re.split(r"(?<=[.!;])\s", written_out(data.strip()), maxsplit=1)[0][:400]
     words = without_time(tokens(first))
     fact = read_statement(words)
     if fact is not None:

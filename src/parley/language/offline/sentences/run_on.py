@@ -113,7 +113,6 @@ _CLOSING = frozenset({
     "that", "too", "thanks", "anyway", "well", "me", "us", "now", "away", "off", "up", "out", "down",
 })  # fmt: skip
 """With these a clause may end."""
-_ANYWAY = frozenset({"anyway", "anyways", "whatever", "oh", "well", "so"})
 _SUBJECTS = frozenset({
     "it", "he", "she", "they", "we", "i", "there", "nobody", "everybody", "everyone", "nothing",
     "somebody", "someone",

@@ -57,6 +57,11 @@ def _remedies() -> tuple[tuple[PhraseTable, frozenset[str]], ...]:
     return tuple((PhraseTable.of(one["signs"]), frozenset(one["helps"])) for one in _data()["remedies"])
 
 
+@cache
+def _undone() -> frozenset[str]:
+    return frozenset(_data()["undone"])
+
+
 def helping(words: Phrase, scene: Scene) -> Match | None:
     """The one action that helps with what a message tells, with its inputs; None if none clearly does.
 
@@ -102,7 +107,7 @@ class _Told:
         self.base = tuple(lemma(word) for word in self.flat)
         self.said = concepts(self.flat)
         self.named = list(_named(words, scene))
-        self.undone = next((i for i, w in enumerate(self.flat) if w in set(_data()["undone"])), -1)
+        self.undone = next((i for i, w in enumerate(self.flat) if w in _undone()), -1)
         self.signs = [helps for signs, helps in _remedies() if self._has(signs)]
         self.wanted = self._wanted()
 

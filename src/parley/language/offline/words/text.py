@@ -12,7 +12,18 @@ from rapidfuzz.distance import OSA
 
 from parley.language.offline.words.lexicon import lexicon
 
-__all__ = ["Phrase", "Word", "keys", "lemma", "mend", "plain", "singular", "split_name", "tokens"]
+__all__ = [
+    "Phrase",
+    "Word",
+    "keys",
+    "lemma",
+    "mend",
+    "plain",
+    "singular",
+    "split_name",
+    "tokens",
+    "written_out",
+]
 
 
 @dataclass(frozen=True, slots=True)
@@ -61,6 +72,13 @@ _ABBREVIATIONS = tuple(
 _SUFFIX = {"n't": "not", "'re": "are", "'m": "am", "'ve": "have", "'ll": "will", "'d": "would"}
 
 
+def written_out(text: str) -> str:
+    """Text in which no dot belongs to an abbreviation ("Mr. X", "9 a.m.")."""
+    for pattern, full in _ABBREVIATIONS if "." in text else ():
+        text = pattern.sub(full, text)
+    return text
+
+
 @lru_cache(maxsize=8192)
 def tokens(text: str) -> Phrase:
     """Cut text into words and punctuation, contractions expanded.
@@ -70,8 +88,7 @@ def tokens(text: str) -> Phrase:
     text = unicodedata.normalize("NFC", text).replace("’", "'").replace("‘", "'").replace("`", "'")
     text = text.replace("“", '"').replace("”", '"').replace("„", '"')
     text = _QUOTED.sub(r'"\1"', text)
-    for pattern, full in _ABBREVIATIONS:
-        text = pattern.sub(full, text) if "." in text else text
+    text = written_out(text)
     text = _DASH.sub(" , ", text).replace(" & ", " and ")
     raw = [match.group() for match in _TOKEN.finditer(text)]
     result: list[Word] = []
