@@ -61,7 +61,7 @@ bench: $(VENV)/.runtime ## Measure
 	@$(BIN)/parley bench web
 
 soak: $(VENV)/.dev ## The long tests: ten minutes, or PARLEY_SOAK_S seconds, and a server killed twenty times
-	@$(BIN)/python -m pytest -s -m soak tests/soak
+	@$(BIN)/python -m pytest -s -m soak tests/
 	@$(MAKE) --no-print-directory page
 	@PARLEY_KILLS=20 PARLEY_COMMAND="$(abspath $(BIN)/parley)" $(NPM) run --silent e2e -- e2e/connection
 

@@ -178,6 +178,12 @@ class FailureCode(StrEnum):
     INTERNAL = "internal"
     """A defect of ours or of an action."""
 
+    @classmethod
+    def _missing_(cls, value: object) -> FailureCode | None:
+        """Other programs write "Timed out" or "ATTENTION-NEEDED"."""
+        word = "_".join(str(value).lower().replace("-", " ").replace("_", " ").split())
+        return next((code for code in cls if code.value == word.removesuffix("_needed")), None)
+
 
 class ActionFailure(ParleyError):  # noqa: N818 - an outcome of acting, not a defect of the program
     """An action ended without reaching its aim.

@@ -102,3 +102,12 @@ def test_both_kinds_are_read_whole() -> None:
         None,
         "GetCoordinates",
     )
+
+
+@pytest.mark.parametrize(
+    ("written", "code"), [("Attention needed", FailureCode.ATTENTION), ("E42", FailureCode.INTERNAL)]
+)
+def test_code_is_read_as_others_write_it_and_an_unknown_one_is_none(written: str, code: FailureCode) -> None:
+    error = read_situation({"kind": "error", "error_message": "x", "failed_action": FAILED, "code": written})
+    assert isinstance(error, ErrorSituation)
+    assert error.code is code

@@ -417,27 +417,29 @@ async def test_only_its_owner_can_read_the_file(tmp_path: Path) -> None:
 OPENER = """
 import asyncio, sys
 from parley.memory.store import MemoryStore
+from parley.messages.memory import MemoryEntry
 
 async def main():
-    for number in range(40):
+    for number in range(24):
         print(number, flush=True)
         sys.stdin.readline()
-        async with await MemoryStore.open(f"{sys.argv[1]}/{number}.db"):
-            pass
+        async with await MemoryStore.open(f"{sys.argv[1]}/{number}.db") as store:
+            await store.add(MemoryEntry(name=sys.argv[2], data="x"))
 
 asyncio.run(main())
 """
 
 
-def test_two_processes_that_make_the_same_file_at_once_both_get_it(tmp_path: Path) -> None:
+def open_at_once(folder: Path) -> None:
+    """Two processes open the same 24 files, each at the same time, and remember something in it."""
     children = [
         subprocess.Popen(
-            [sys.executable, "-c", OPENER, str(tmp_path)],
+            [sys.executable, "-c", OPENER, str(folder), who],
             stdin=subprocess.PIPE, stdout=subprocess.PIPE, text=True,
         )
-        for _ in range(2)
+        for who in "ab"
     ]  # fmt: skip
-    for number in range(40):
+    for number in range(24):
         for child in children:
             assert child.stdout is not None
             while (line := child.stdout.readline()) and line.strip() != str(number):
@@ -449,6 +451,21 @@ def test_two_processes_that_make_the_same_file_at_once_both_get_it(tmp_path: Pat
     for child in children:
         child.communicate(timeout=60)
     assert [child.returncode for child in children] == [0, 0]
+
+
+async def test_two_processes_that_open_a_new_or_a_damaged_file_at_once_both_keep_what_they_remember(
+    tmp_path: Path,
+) -> None:
+    for number in range(0, 24, 2):
+        (tmp_path / f"{number}.db").write_bytes(b"this is no database\n" * 500)
+    await asyncio.to_thread(open_at_once, tmp_path)
+    for number in range(24):
+        async with await MemoryStore.open(tmp_path / f"{number}.db") as store:
+            assert set(names(await store.all())) == {"a", "b"}
+        aside = [
+            file for file in _files(tmp_path) if re.fullmatch(rf"{number}\.db\.corrupt-[\d-]+", file.name)
+        ]
+        assert len(aside) == (number % 2 == 0)
 
 
 def test_two_processes_that_write_at_once_lose_nothing(tmp_path: Path) -> None:
@@ -639,6 +656,15 @@ async def test_a_damaged_file_is_put_aside_and_people_are_told(tmp_path: Path, d
     async with await MemoryStore.open(path) as store:
         assert names(await store.all()) == ["box"]
         assert store.notice == ""
+
+
+async def test_a_damaged_file_takes_the_place_of_none_that_was_put_aside_before(tmp_path: Path) -> None:
+    for content in (b"no database " * 500, b"none either " * 500):
+        (tmp_path / "memory.db").write_bytes(content)
+        async with await MemoryStore.open(tmp_path / "memory.db", SteppingClock()) as store:
+            assert store.notice
+    assert (tmp_path / "memory.db.corrupt-1000").read_bytes() == b"no database " * 500
+    assert (tmp_path / "memory.db.corrupt-1000-1").read_bytes() == b"none either " * 500
 
 
 async def test_what_stands_beside_a_damaged_file_goes_aside_with_it(tmp_path: Path) -> None:

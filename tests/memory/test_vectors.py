@@ -2,6 +2,8 @@
 
 from __future__ import annotations
 
+from functools import cache
+
 import numpy as np
 import pytest
 
@@ -14,6 +16,7 @@ def unit(rows: Vectors) -> Vectors:
     return np.asarray(rows / np.linalg.norm(rows, axis=1, keepdims=True), np.float32)
 
 
+@cache
 def spread(count: int, seed: int, *, decay: float = 0.5, bias: float = 0.0) -> Vectors:
     """Vectors that differ much in some directions and little in others, with something common to all."""
     scale = np.arange(1, LENGTH + 1, dtype=np.float32) ** -decay

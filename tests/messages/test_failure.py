@@ -31,8 +31,23 @@ def test_a_report_of_the_thesis_without_our_keys_is_read() -> None:
 
 
 @pytest.mark.parametrize(
-    "text", ["plain words", "", "[1]", '{"message": 3}', '{"message": "m", "code": "odd"}', "[" * 100_000]
+    ("written", "code"),
+    [
+        ("Timed out", FailureCode.TIMED_OUT),
+        ("ATTENTION_NEEDED", FailureCode.ATTENTION),
+        ("no-match", FailureCode.NO_MATCH),
+        ("odd", FailureCode.INTERNAL),
+        (7, FailureCode.INTERNAL),
+    ],
 )
+def test_code_of_another_program_is_read_if_it_is_ours_and_else_passed_over(
+    written: object, code: FailureCode
+) -> None:
+    report = FailureReport.parse(json.dumps({"message": "m", "code": written, "process_instrutions": "x"}))
+    assert (report.code, report.message, report.process_instructions) == (code, "m", "x")
+
+
+@pytest.mark.parametrize("text", ["plain words", "", "[1]", '{"message": 3}', "[" * 100_000])
 def test_anything_else_is_the_message_itself(text: str) -> None:
     assert FailureReport.parse(text) == FailureReport(message=text)
 

@@ -26,7 +26,8 @@ from parley.messages.status import ActorStatus
 from parley.nodes.base import Node
 from parley.nodes.chat_interface import ChatInterface
 from parley.nodes.error_handler import ErrorHandler
-from parley.nodes.umrf_planner import Patience, UmrfPlanner
+from parley.nodes.plan_sending import Patience
+from parley.nodes.umrf_planner import UmrfPlanner
 from parley.robots.base import Robot
 from parley.transport.base import Transport
 from parley.transport.local import LocalTransport

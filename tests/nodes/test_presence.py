@@ -5,8 +5,10 @@ from __future__ import annotations
 import pytest
 
 from parley.clock import WallClock
+from parley.messages import ros, topics
 from parley.messages.status import ActorStatus
-from parley.nodes.presence import LOST_AFTER_S, Presence
+from parley.nodes.presence import LOST_AFTER_S, STARVED_AFTER_S, Presence, linked_to
+from parley.transport.local import LocalTransport
 
 
 class ManualClock(WallClock):
@@ -77,6 +79,38 @@ def test_lateness_never_counts_as_a_heartbeat_to_come(clock: ManualClock) -> Non
     clock.time_s += LOST_AFTER_S + 0.1
     presence.expire()
     assert presence.names() == ()
+
+
+def test_silent_robot_whose_engine_is_still_linked_is_slow_not_gone(clock: ManualClock) -> None:
+    linked = {"A"}
+    presence = Presence(clock, linked=linked.__contains__)
+    beat(presence, "A", "B")
+    clock.time_s += LOST_AFTER_S + 0.1
+    presence.expire()
+    assert presence.names() == ("A",)
+    linked.clear()
+    presence.expire()
+    assert presence.names() == ()
+
+
+def test_even_a_linked_robot_is_not_waited_for_for_ever(clock: ManualClock) -> None:
+    presence = Presence(clock, linked=lambda _: True)
+    beat(presence, "A")
+    clock.time_s += STARVED_AFTER_S + 0.1
+    presence.expire()
+    assert presence.names() == ()
+
+
+async def test_engine_is_linked_as_long_as_it_can_be_asked() -> None:
+    async def answer(_: ros.UmrfGraphGetRequest) -> ros.UmrfGraphGetResponse:
+        return ros.UmrfGraphGetResponse()
+
+    async with LocalTransport() as transport:
+        linked = linked_to(transport)
+        server = await transport.serve(topics.actor_graph_get("Ada Two"), answer)
+        assert linked("Ada Two") and not linked("Ada")
+        await server.close()
+        assert not linked("Ada Two")
 
 
 def test_configured_robot_is_never_gone(clock: ManualClock) -> None:

@@ -176,8 +176,10 @@ async def test_other_order_instead_of_everything_is_recorded_as_that(place: Plac
 # -- alone --
 
 
-async def test_same_repair_is_not_tried_twice_without_asking(place: Place) -> None:
-    place.language.will("resolve", AGAIN, AGAIN)
+@pytest.mark.parametrize("reason", ["", "another reason for the same"])
+async def test_same_repair_is_not_tried_twice_without_asking(place: Place, reason: str) -> None:
+    reworded = look().model_copy(update={"reason": reason})
+    place.language.will("resolve", AGAIN, AGAIN.model_copy(update={"queue": (reworded,)}))
     place.fail()
     await place.corrected()
     place.fail()

@@ -289,14 +289,16 @@ async def test_stopping_another_robot_leaves_the_question_of_this_one_open() -> 
 
 async def test_carry_on_with_nothing_to_do_says_so_once() -> None:
     async with crew("A", talking=True) as party:
-        for words in ("carry on", "skip it", "cancel everything", "stop"):
+        for words in ("carry on", "skip it", "cancel everything", "stop", "forget everything"):
             party.observer.say(words, "A")
-        await party.until(lambda: len(party.texts()) == 4)
+        await party.until(lambda: len(party.texts()) == 5)
         await party.settled()
-        assert party.texts() == [
+        *told, forgetting = party.texts()
+        assert told == [
             "There is nothing left to go on with.", "There is no step to skip.", "There was nothing to drop.",
             "I am standing still.",
         ]  # fmt: skip
+        assert forgetting.startswith("There was nothing to drop. What you told me I still know;")
 
 
 async def test_robot_that_is_away_is_named_as_away_but_stopped_even_so(party: Crew) -> None:

@@ -13,7 +13,7 @@ from parley.messages.chat import ActionCall, ChatAction, Flow, SystemCommand
 from parley.messages.pvf import Parameter
 from parley.messages.ros import String
 from parley.messages.status import ActorStatus, PlanDecision, Rejection, RejectionProblem, StopCommand
-from parley.nodes.umrf_planner import Patience
+from parley.nodes.plan_sending import Patience
 from parley.umrf.io import read_graph, write_graph
 from parley.umrf.model import Graph, GraphState, LogMessage, Node, NodeState
 from tests.nodes.crew import Body, Crew, ThesisEngine, ask, crew, drive, find, look

@@ -2,9 +2,13 @@
 
 from __future__ import annotations
 
+import itertools
 import json
+import random
 import subprocess
 import sys
+import threading
+import time
 from collections.abc import Iterator
 from contextlib import contextmanager
 from pathlib import Path
@@ -45,6 +49,14 @@ def heard(folder: Path) -> list[dict[str, object]]:
     return [json.loads(line) for line in (folder / "heard.jsonl").read_text().splitlines()]
 
 
+def until_heard(folder: Path) -> None:
+    """Wait until a robot's side has heard something."""
+    ends_s = time.monotonic() + 30
+    while not heard(folder):
+        assert time.monotonic() < ends_s
+        time.sleep(0.01)
+
+
 def acted_on(folder: Path) -> list[object]:
     """The messages that a robot acts on: its side drops ids that it has seen."""
     seen = SeenIds()
@@ -80,5 +92,26 @@ def test_a_message_that_was_kept_just_before_a_kill_goes_out_by_itself(tmp_path:
     for _ in range(2):  # and the next restart does not do it again
         with server(tmp_path, "never") as (_, client):
             assert shown(client) == ["go to m1"]
+            until_heard(tmp_path)
     assert acted_on(tmp_path) == ["go to m1"]
     assert len(heard(tmp_path)) <= 2
+
+
+def test_everything_that_was_acknowledged_before_a_kill_is_there(tmp_path: Path) -> None:
+    rng, acknowledged = random.Random(5), list[str]()
+    for attempt in range(3):
+        with server(tmp_path, "never") as (process, client):
+            assert set(shown(client)) >= {f"go to {key}" for key in acknowledged}
+            keys = (f"m{attempt}-{number}" for number in itertools.count())
+            acknowledged += [key for key in itertools.islice(keys, rng.randrange(5, 20)) if post(client, key)]
+            killer = threading.Timer(rng.uniform(0.0, 0.05), process.kill)  # in the middle of what follows
+            killer.start()
+            acknowledged += itertools.takewhile(lambda key: post(client, key), keys)
+            killer.join()
+    assert len(acknowledged) >= 15
+    with server(tmp_path, "never") as (_, client):
+        # One more of each attempt may be there: kept, but killed before it was acknowledged.
+        kept = {f"go to {key}" for key in acknowledged}
+        assert [text for text in shown(client) if text in kept] == [f"go to {key}" for key in acknowledged]
+        numbers = [entry["seq"] for entry in client.get("/api/chat?limit=500").json()["entries"]]
+        assert numbers == sorted(set(numbers))

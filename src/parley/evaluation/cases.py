@@ -179,7 +179,7 @@ class Case:
             return common | {
                 "kind": "error",
                 "error_message": body.error,
-                "code": body.code,
+                **({"code": body.code} if body.code else {}),
                 "details": body.details,
                 "failed_action": self._calls(body.failed)[0],
                 "pending": self._calls(body.pending),

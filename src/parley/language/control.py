@@ -40,7 +40,7 @@ def control_of(text: str, names: tuple[str, ...] = ()) -> Control | None:
         return None
     if _stops_doing(words):
         return "stop"
-    called = {part for name in names for part in _words(name)}
+    called = {part for name in names for part in _words(name)} | (_EVERYBODY if names else set())
     bare = tuple(word for word in words if word not in _around())
     if 0 < len(bare) < len(words) and (found := _table().get(bare)) is not None:
         return found
@@ -50,6 +50,9 @@ def control_of(text: str, names: tuple[str, ...] = ()) -> Control | None:
     if len(plain) < len(words) and _look_up(plain) == "stop":
         return "stop"
     return _look_up(words) or _look_up(plain) or _in_full(text, words, called)
+
+
+_EVERYBODY = {"everyone", "everybody", "robots"}
 
 
 def _in_full_words(text: str) -> str:

@@ -9,9 +9,9 @@ from __future__ import annotations
 import json
 import time
 from collections.abc import AsyncIterator, Iterable, Sequence
-from typing import Any, Literal, Protocol, runtime_checkable
+from typing import Annotated, Any, Literal, Protocol, runtime_checkable
 
-from pydantic import BaseModel, ConfigDict, Field, ValidationError
+from pydantic import BaseModel, BeforeValidator, ConfigDict, Field, ValidationError
 
 from parley.errors import FailureCode, InvalidMessageError, LanguageError
 from parley.language.base import ErrorSituation, Language, Situation, Turn
@@ -83,10 +83,18 @@ class _Situation(_Common):
     robots: list[str] = Field(default_factory=list)
 
 
+def _code(value: object) -> object:
+    """A code of which nobody here has heard says no more than none."""
+    try:
+        return FailureCode(value) if isinstance(value, str) else value
+    except ValueError:
+        return FailureCode.INTERNAL
+
+
 class _ErrorSituation(_Common):
     error_message: str
     failed_action: ActionCall
-    code: FailureCode = FailureCode.INTERNAL
+    code: Annotated[FailureCode, BeforeValidator(_code)] = FailureCode.INTERNAL
     details: dict[str, Any] = Field(default_factory=dict)
     completed: list[ActionCall] = Field(default_factory=list)
     pending: list[ActionCall] = Field(default_factory=list)

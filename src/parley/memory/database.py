@@ -8,16 +8,24 @@ statements it has.
 from __future__ import annotations
 
 import asyncio
+import os
 import sqlite3
 import threading
-from collections.abc import Callable
+from collections.abc import Callable, Iterator
 from concurrent.futures import ThreadPoolExecutor
+from contextlib import ExitStack, contextmanager
+from itertools import count
 from pathlib import Path
 from typing import Self, TypeVar
 
 import structlog
 
 from parley.errors import StoreError
+
+try:
+    import fcntl
+except ImportError:  # Windows
+    fcntl = None  # type: ignore[assignment]
 
 __all__ = ["Database"]
 
@@ -27,8 +35,8 @@ log = structlog.get_logger(__name__)
 
 _BUSY_TIMEOUT_S = 5.0
 """How long a change waits for another process that is writing."""
-_WAL_RETRY_S = 0.02
-_WAL_TRIES = 250
+_RETRY_S = 0.02
+_TRIES = 250
 """Together as long as `_BUSY_TIMEOUT_S`."""
 
 
@@ -65,16 +73,8 @@ class Database:
         """
         thread = ThreadPoolExecutor(max_workers=1, thread_name_prefix=what)
         loop = asyncio.get_running_loop()
-        aside: Path | None = None
         try:
-            try:
-                connection = await loop.run_in_executor(thread, _connect, path, prepare)
-            except sqlite3.DatabaseError as error:
-                if not _is_damage(error):
-                    raise
-                aside = await loop.run_in_executor(thread, _put_aside, Path(path), unix_ms)
-                log.error("file damaged", what=what, path=str(path), aside=str(aside), problem=str(error))
-                connection = await loop.run_in_executor(thread, _connect, path, prepare)
+            connection, aside = await loop.run_in_executor(thread, _open, path, prepare, unix_ms)
         except BaseException as error:
             thread.shutdown(wait=False)
             if isinstance(error, sqlite3.Error | OSError):
@@ -108,9 +108,53 @@ class Database:
             self._thread.shutdown()  # nothing is left to do, so this does not block
 
 
+def _open(
+    path: Path | str, prepare: Callable[[sqlite3.Connection], None], unix_ms: int
+) -> tuple[sqlite3.Connection, Path | None]:
+    """A connection, and where a damaged file went."""
+    with _alone(path):
+        try:
+            return _connect(path, prepare), None
+        except sqlite3.DatabaseError as error:
+            if not _is_damage(error):
+                raise
+            aside = _put_aside(Path(path), unix_ms)
+            log.error("file damaged", path=str(path), aside=str(aside), problem=str(error))
+            return _connect(path, prepare), aside
+
+
+@contextmanager
+def _alone(path: Path | str) -> Iterator[None]:
+    """While no other process opens a file of this folder: two that find one damaged must not both rename it.
+
+    Where folders cannot be locked, and after as long as a change waits, it goes on without.
+    """
+    if str(path) == ":memory:":
+        yield
+        return
+    folder = Path(path).parent
+    folder.mkdir(parents=True, exist_ok=True)
+    with ExitStack() as stack:
+        try:
+            handle = os.open(folder, os.O_RDONLY)
+            stack.callback(os.close, handle)
+            _lock(handle)
+        except OSError as error:
+            log.debug("folder not locked", folder=str(folder), problem=str(error))
+        yield
+
+
+def _lock(handle: int) -> None:
+    for _ in range(_TRIES if fcntl is not None else 0):
+        try:
+            fcntl.flock(handle, fcntl.LOCK_EX | fcntl.LOCK_NB)
+            return
+        except BlockingIOError:
+            threading.Event().wait(_RETRY_S)
+
+
 def _connect(path: Path | str, prepare: Callable[[sqlite3.Connection], None]) -> sqlite3.Connection:
     if str(path) != ":memory:":
-        Path(path).parent.mkdir(parents=True, exist_ok=True)
         # What people said is nobody else's business; SQLite gives the files beside it the same rights.
         Path(path).touch(mode=0o600, exist_ok=True)
     # Only the one thread uses the connection after it is made, but which that is SQLite need not know.
@@ -131,14 +175,14 @@ def _connect(path: Path | str, prepare: Callable[[sqlite3.Connection], None]) ->
 
 def _use_wal(connection: sqlite3.Connection) -> None:
     """Switch to the write-ahead log; SQLite itself does not wait where two processes do so at once."""
-    for _ in range(_WAL_TRIES):
+    for _ in range(_TRIES):
         try:
             connection.execute("PRAGMA journal_mode = WAL")
             return
         except sqlite3.OperationalError as error:
             if error.sqlite_errorcode & 0xFF != sqlite3.SQLITE_BUSY:
                 raise
-        threading.Event().wait(_WAL_RETRY_S)
+        threading.Event().wait(_RETRY_S)
     connection.execute("PRAGMA journal_mode = WAL")
 
 
@@ -152,8 +196,9 @@ def _is_damage(error: sqlite3.Error) -> bool:
 
 
 def _put_aside(path: Path, unix_ms: int) -> Path:
-    """Rename a damaged file together with what SQLite keeps beside it."""
-    aside = path.with_name(f"{path.name}.corrupt-{unix_ms}")
+    """Rename a damaged file together with what SQLite keeps beside it, to a name that nothing has."""
+    names = (f"{path.name}.corrupt-{unix_ms}{f'-{number}' if number else ''}" for number in count())
+    aside = next(each for each in map(path.with_name, names) if not each.exists())
     path.rename(aside)
     for suffix in ("-wal", "-shm"):
         beside = path.with_name(path.name + suffix)

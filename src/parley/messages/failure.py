@@ -34,14 +34,21 @@ class FailureReport(Payload):
 
     @classmethod
     def parse(cls, text: str) -> FailureReport:
-        """Read a runtime message: our JSON, the thesis's JSON, or any text at all."""
+        """Read a runtime message: our JSON, the thesis's JSON, or any text at all.
+
+        Of a report with a message, fields that do not fit (a code that we do not have) are passed over.
+        """
         try:
             value = json.loads(text)
-            if isinstance(value, dict) and isinstance(value.get("message"), str):
-                return cls.model_validate(value)
-        except (ValueError, ValidationError, RecursionError):
-            pass
-        return cls(message=text)
+        except (ValueError, RecursionError):
+            return cls(message=text)
+        if not isinstance(value, dict) or not isinstance(value.get("message"), str):
+            return cls(message=text)
+        try:
+            return cls.model_validate(value)
+        except ValidationError as error:
+            wrong = {item["loc"][0] for item in error.errors(include_url=False, include_input=False)}
+            return cls.model_validate({key: item for key, item in value.items() if key not in wrong})
 
     def to_text(self) -> str:
         """The runtime message."""

@@ -31,9 +31,9 @@ from pydantic import BaseModel
 from parley.errors import InvalidMessageError
 from parley.messages import topics
 from parley.messages.ros import String
-from parley.messages.status import Rejection, RejectionProblem
+from parley.messages.status import PlanProposal, PlanUpdate, Rejection, RejectionProblem
 from parley.messages.topics import Topic
-from parley.messages.wire import decode, to_string
+from parley.messages.wire import decode, decode_plan, to_string
 from parley.sentences import SpokenLanguage, in_language
 from parley.transport.base import Handler, Publisher, Subscription, Transport
 
@@ -112,6 +112,19 @@ class Node:
         subscription = await self.transport.subscribe(topic, handler, depth=depth)
         self.opened.push_async_callback(subscription.close)
         return subscription
+
+    async def subscribe_plans(self, handler: Callable[[PlanUpdate | PlanProposal], None]) -> Subscription:
+        """Hand every plan and proposal that is published to `handler`; see `subscribe`."""
+
+        def receive(message: String) -> None:
+            try:
+                told = decode_plan(message.data)
+            except InvalidMessageError as error:
+                self.refuse(topics.PLAN.name, error)
+                return
+            handler(told)
+
+        return await self.subscribe_raw(topics.PLAN, receive)
 
     def publish(self, topic: Topic[String], payload: BaseModel) -> None:
         """Publish a JSON payload."""

@@ -11,7 +11,7 @@ from collections.abc import Awaitable, Callable, Sequence
 from typing import ClassVar, Final
 
 from parley.clock import Clock
-from parley.errors import InvalidMessageError, LanguageError
+from parley.errors import LanguageError
 from parley.language.base import Language
 from parley.language.control import Control, control_of
 from parley.memory.because import OPERATOR
@@ -20,16 +20,15 @@ from parley.messages import topics
 from parley.messages.chat import ChatAction, ChatFeedback, ChatInput, SystemCommand
 from parley.messages.failure import ErrorHandlingMessage
 from parley.messages.memory import AddToMemory, MemoryBody, MemoryEntry, MemoryEvent
-from parley.messages.ros import String
 from parley.messages.status import (
     ActorStatus,
     PlanDecision,
     PlanProposal,
+    PlanUpdate,
     Rejection,
     RejectionProblem,
     StopCommand,
 )
-from parley.messages.wire import decode_plan
 from parley.nodes import chat_texts as texts
 from parley.nodes.asking import SHALL_I, Offered, as_wish
 from parley.nodes.base import Mailboxes, Node
@@ -39,7 +38,7 @@ from parley.nodes.finishing import Finishing
 from parley.nodes.plan_check import check_calls, complete_calls
 from parley.nodes.plan_orders import no_robot
 from parley.nodes.plan_steps import LATCHED
-from parley.nodes.presence import Presence
+from parley.nodes.presence import Presence, linked_to
 from parley.nodes.questions import SeenIds
 from parley.nodes.recollections import Recollections
 from parley.nodes.situations import Situations
@@ -85,7 +84,7 @@ class ChatInterface(Node):
         super().__init__(transport)
         self._language, self._clock = language, clock
         self._thinking = Thinking(language_timeout_s, patience_s)
-        self._presence = Presence(clock, tuple(known_robots))
+        self._presence = Presence(clock, tuple(known_robots), linked=linked_to(transport))
         self._known = Situations(transport, self._presence, objects, history_exchanges)
         self._questions = self._known.questions
         self._mailboxes: Mailboxes[str] = Mailboxes(self._on_defect)
@@ -104,9 +103,10 @@ class ChatInterface(Node):
         await self.subscribe(topics.MEMORY_EVENT, MemoryEvent, self._confirmations.on_event)
         await self.subscribe(topics.STOP, StopCommand, self._on_emergency)
         await self.subscribe(topics.ERROR_HANDLING, ErrorHandlingMessage, self._known.on_failure)
-        await self.subscribe_raw(topics.PLAN, self._on_plan)
+        await self.subscribe_plans(self._on_plan)
         await self.subscribe(topics.PLAN_DECISION, PlanDecision, self._on_decision)
         await self.subscribe(topics.CHAT_INPUT, ChatInput, self._on_input)
+        self.spawn(self._presence.watch(), name="presence")
 
     # -- from the wire ---------------------------------------------------------------------------------
 
@@ -192,7 +192,6 @@ class ChatInterface(Node):
 
     def _addressed(self, said: ChatInput) -> list[str]:
         """The robots a message is for; without an addressee nothing may move."""
-        self._presence.expire()
         names = self._presence.names()
         if not said.targets and len(names) == 1:
             return [names[0]]
@@ -217,12 +216,7 @@ class ChatInterface(Node):
                 found.append(known)
         return found
 
-    def _on_plan(self, message: String) -> None:
-        try:
-            told = decode_plan(message.data)
-        except InvalidMessageError as error:
-            self.refuse(topics.PLAN.name, error)
-            return
+    def _on_plan(self, told: PlanUpdate | PlanProposal) -> None:
         if isinstance(told, PlanProposal):
             self._offered.on_proposal(told)
             self._finishing.on_proposal(told)
@@ -253,12 +247,13 @@ class ChatInterface(Node):
         """Act at once, ahead of anything that is still being understood."""
         if control in _HALTING:
             self._halt(target)
+        self._finishing.on_answer(target, said.message, asks_back=False)
         state, status = self._known.state(target), self._presence.get(target)
         # A plan that waits for approval has no step yet: only approving or dropping it does anything.
         nothing = state == "idle" or (state == "awaiting_approval" and control in ("stop", "skip"))
         if state == "idle" and status is not None and status.state == "paused":
             nothing = False  # its engine holds a graph that is no plan of ours
-        reply = texts.NOTHING_TO_DO.get(control, "") if nothing else ""
+        reply = texts.nothing_to_do(control, said.message) if nothing else ""
         if control == "start" and status is not None and status.state == "stopped":
             reply = LATCHED
         elif control == "emergency_stop":

@@ -14,12 +14,12 @@ __all__ = [
     "CONTROL_REPLIES",
     "MAX_CHARS",
     "NEVER_MIND",
-    "NOTHING_TO_DO",
     "dropped",
     "is_never_mind",
     "left",
     "not_there",
     "nothing_started",
+    "nothing_to_do",
     "settled",
     "still_thinking",
     "that_is_for",
@@ -40,12 +40,16 @@ CONTROL_REPLIES: Final[dict[Control, str]] = {
     "clear": "I have dropped everything.",
     "emergency_stop": "Emergency stop! I will not move until the stop is released.",
 }
-NOTHING_TO_DO: Final[dict[Control, str]] = {
+_NOTHING_TO_DO: Final[dict[Control, str]] = {
     "stop": "I am standing still.",
     "start": "There is nothing left to go on with.",
     "skip": "There is no step to skip.",
     "clear": "There was nothing to drop.",
 }
+_NOTHING_TO_FORGET: Final = (
+    "There was nothing to drop. What you told me I still know; say “forget everything I told you” if you "
+    "mean that."
+)
 
 
 NEVER_MIND: Final = "never mind"
@@ -73,6 +77,13 @@ def is_never_mind(message: str) -> bool:
     """Whether a message says that an answer is not wanted any more."""
     words = " ".join(re.findall(r"[a-z]+", message.lower()))
     return _NEVER_MIND.fullmatch(words) is not None
+
+
+def nothing_to_do(control: Control, message: str) -> str:
+    """The reply to a control that changes nothing; empty if it is worth trying all the same."""
+    if control == "clear" and re.search(r"\bforget\b", message, re.IGNORECASE):
+        return _NOTHING_TO_FORGET
+    return _NOTHING_TO_DO.get(control, "")
 
 
 def dropped(message: str) -> str:

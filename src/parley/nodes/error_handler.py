@@ -24,8 +24,8 @@ from parley.messages.chat import (
 )
 from parley.messages.failure import ErrorHandlingMessage
 from parley.messages.incident import GetIncidents, Incident
-from parley.messages.ros import ChatRequest, ChatResponse, String
-from parley.messages.status import ActorStatus, PlanUpdate, StopCommand, StopReport
+from parley.messages.ros import ChatRequest, ChatResponse
+from parley.messages.status import ActorStatus, PlanProposal, PlanUpdate, StopCommand, StopReport
 from parley.messages.wire import decode, encode
 from parley.nodes.base import Mailboxes, Node
 from parley.nodes.incident_log import IncidentLog
@@ -126,7 +126,7 @@ class ErrorHandler(Node):
         await self.subscribe(topics.CHAT_INPUT, ChatInput, self._on_input)
         await self.subscribe(topics.STOP, StopCommand, self._on_stop)
         await self.subscribe(topics.STOP_REPORT, StopReport, self._on_stop_report)
-        await self.subscribe_raw(topics.PLAN, self._on_plan)
+        await self.subscribe_plans(self._on_plan)
         server = await self.transport.serve(topics.GET_INCIDENTS, self._on_get)
         self.opened.push_async_callback(server.close)
         for incident in self.left_over:
@@ -231,11 +231,10 @@ class ErrorHandler(Node):
         question = self._which.ask(said, robots, uuid.uuid4().hex, self.spoken)
         self.publish(topics.CHAT_FEEDBACK, question)
 
-    def _on_plan(self, message: String) -> None:
+    def _on_plan(self, update: PlanUpdate | PlanProposal) -> None:
         """A repair ends when the robot is no longer held, whoever brought that about."""
-        if '"kind":"update"' not in message.data.replace(" ", ""):
+        if isinstance(update, PlanProposal):
             return
-        update = PlanUpdate.model_validate_json(message.data)
         trying = self._trying.get(update.target)
         if trying is not None and (outcome := trying.outcome(update)) != "open":
             del self._trying[update.target]

@@ -18,9 +18,7 @@ from parley.memory.client import ask_memory
 from parley.messages import topics
 from parley.messages.chat import ChatAction, ChatFeedback, ChatInput, CommandName, SystemCommand
 from parley.messages.memory import AddToMemory, GetMemory, MemoryEntry, MemoryEvent
-from parley.messages.ros import String
-from parley.messages.status import GraphEvent, PlanUpdate
-from parley.messages.wire import decode_plan
+from parley.messages.status import GraphEvent, PlanProposal, PlanUpdate
 from parley.nodes.base import Node
 from parley.nodes.plan_steps import OPEN_STATES
 from parley.sentences import sentence, together
@@ -64,7 +62,7 @@ class Lookout(Node):
         await self.subscribe(topics.GRAPH_EVENTS, GraphEvent, self._on_event)
         await self.subscribe(topics.ADD_TO_MEMORY, AddToMemory, self._on_remembered)
         await self.subscribe(topics.CHAT_INPUT, ChatInput, self._on_input)
-        await self.subscribe_raw(topics.PLAN, self._on_plan)
+        await self.subscribe_plans(self._on_plan)
         self.spawn(
             self._learn(GetMemory(request=_RULE_WORDS, kind="search", limit=_MOST_RULES)), name="rules"
         )
@@ -155,8 +153,7 @@ class Lookout(Node):
             if (wait := self._waits.pop(robot, None)) is not None:
                 wait.cancel()
 
-    def _on_plan(self, message: String) -> None:
-        told = decode_plan(message.data)
+    def _on_plan(self, told: PlanUpdate | PlanProposal) -> None:
         if isinstance(told, PlanUpdate):
             self._plans[told.target] = told
 

@@ -2,18 +2,33 @@
 
 from __future__ import annotations
 
+import asyncio
 from collections.abc import Callable
 from dataclasses import dataclass
 from typing import Final
 
 from parley.clock import Clock
+from parley.messages import topics
 from parley.messages.status import ActorStatus
 from parley.sentences import sentence
+from parley.transport.base import Transport
 
-__all__ = ["LOST_AFTER_S", "Presence"]
+__all__ = ["LOST_AFTER_S", "STARVED_AFTER_S", "Presence", "linked_to"]
 
 LOST_AFTER_S: Final = 5.0
 """Wall time without a heartbeat after which a robot counts as gone."""
+STARVED_AFTER_S: Final = 20.0
+"""The same for one whose ends are still on the transport: its machine is short of time, or hangs."""
+
+
+def linked_to(transport: Transport) -> Callable[[str], bool]:
+    """Whether the engine of a robot still has its ends on `transport`, whatever is heard of it."""
+
+    def linked(actor: str) -> bool:
+        name = topics.actor_graph_get(actor).name
+        return any(end.role == "server" and end.name == name for end in transport.endpoints())
+
+    return linked
 
 
 @dataclass(slots=True)
@@ -29,6 +44,7 @@ class Presence:
         clock: Its wall time decides who is gone.
         known: Names that exist although they send no heartbeat (engines that are not ours).
         on_change: Called with a robot's name and whether it joined (True) or left (False).
+        linked: Whether a silent robot's engine can still be reached; it may just be slow.
     """
 
     def __init__(
@@ -36,8 +52,10 @@ class Presence:
         clock: Clock,
         known: tuple[str, ...] = (),
         on_change: Callable[[str, bool], None] | None = None,
+        *,
+        linked: Callable[[str], bool] = lambda _: False,
     ) -> None:
-        self._clock, self._known, self._on_change = clock, known, on_change
+        self._clock, self._known, self._on_change, self._linked = clock, known, on_change, linked
         self._seen: dict[str, _Seen] = {}
         self._left: set[str] = set()
 
@@ -62,9 +80,18 @@ class Presence:
         now_s = self._clock.wall_s()
         for seen in self._seen.values():
             seen.at_s = min(now_s, seen.at_s + max(0.0, late_s))
-        limit = now_s - LOST_AFTER_S
-        for name in [name for name, seen in self._seen.items() if seen.at_s < limit]:
+        for name in [name for name, seen in self._seen.items() if self._is_gone(name, now_s - seen.at_s)]:
             self._leave(name)
+
+    def _is_gone(self, name: str, silent_s: float) -> bool:
+        return silent_s > LOST_AFTER_S and (silent_s > STARVED_AFTER_S or not self._linked(name))
+
+    async def watch(self) -> None:
+        """Look every now and then who was silent for too long; our own lateness is nobody's."""
+        while True:
+            due_s = self._clock.wall_s() + LOST_AFTER_S / 4
+            await asyncio.sleep(LOST_AFTER_S / 4)
+            self.expire(late_s=self._clock.wall_s() - due_s)
 
     def get(self, name: str) -> ActorStatus | None:
         """The newest status of a robot that is there, or None."""

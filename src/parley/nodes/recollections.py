@@ -120,7 +120,7 @@ class Recollections:
         self._taken.append(said)
         targets = said.targets or (target,)
         if len(said.images) > MAX_PICTURES:
-            text = f"That are too many pictures at once: I take {MAX_PICTURES}. I kept none of them."
+            text = f"Those are too many pictures at once: I take {MAX_PICTURES}. I kept none of them."
             self._tell(targets, text, said, "error")
             return True
         try:

@@ -225,8 +225,11 @@ def steps_left(calls: Sequence[ActionCall]) -> str:
 
 
 def _key(step: ActionCall) -> tuple[object, ...]:
-    """What makes two steps the same, whatever was filled in from steps before."""
+    """What makes two steps the same, whatever was filled in from steps before.
+
+    The reason only tells steps without words apart: a model gives another one each time.
+    """
     words = tuple(
         (name, str(p.value)) for name, p in sorted(step.input_parameters.items()) if p.type == "string"
     )
-    return step.name, words, step.reason
+    return step.name, words, "" if words else step.reason

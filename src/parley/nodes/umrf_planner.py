@@ -5,87 +5,37 @@ It only wires: what a robot's plan becomes is decided in `parley.nodes.plan`.
 
 from __future__ import annotations
 
-import asyncio
-import uuid
-from collections.abc import Callable, Mapping, Sequence
-from types import MappingProxyType
+from collections.abc import Sequence
 from typing import ClassVar, Literal
 
-from parley.clock import Clock
 from parley.errors import GraphRefusedError, Problem
-from parley.memory.proposals import ProposalStore
 from parley.messages import ros, topics
 from parley.messages.chat import ActionCall, ChatAction, ChatFeedback, ChatInput, SystemCommand
 from parley.messages.memory import AddToMemory, RemoveMemory
-from parley.messages.status import ActionInfo, ActorStatus, GraphEvent, PlanDecision, Rejection
+from parley.messages.status import GraphEvent, PlanDecision, Rejection
 from parley.nodes import plan_orders as orders
 from parley.nodes.asking import CHANGED, REFUSED
-from parley.nodes.left_graphs import LeftGraphs
-from parley.nodes.offers import Offers
 from parley.nodes.plan import TargetPlan
-from parley.nodes.plan_approval import PlanBoard, Policy
+from parley.nodes.plan_approval import Policy
 from parley.nodes.plan_check import check_calls, complete_calls
 from parley.nodes.plan_effects import Effect
 from parley.nodes.plan_flow import listed, rebased
 from parley.nodes.plan_memory import memory_change
-from parley.nodes.plan_sending import Patience, PlanSender
 from parley.nodes.plan_steps import Step
-from parley.nodes.presence import LOST_AFTER_S, Presence
-from parley.nodes.proposal_log import ProposalLog
-from parley.nodes.questions import OpenQuestions
-from parley.sentences import sentence
-from parley.transport.base import Transport
+from parley.nodes.robot_plans import RobotPlans
 from parley.umrf.io import read_graph
 
-__all__ = ["Patience", "UmrfPlanner"]
+__all__ = ["UmrfPlanner"]
 
 
-class UmrfPlanner(PlanSender):
-    """One plan per robot; sends graphs, reads feedback, holds a robot whose step failed.
-
-    Args:
-        transport: Where the topics are.
-        clock: Its wall time limits how long answers are waited for.
-        known_robots: Robots that send no heartbeat of ours (a TeMoto engine).
-        approval: Whether new steps wait for a person's yes.
-        policies: Robots for which that is otherwise.
-        patience: How long an engine is waited for.
-        proposals: Keeps what waits for a yes over restarts; None keeps it only while this process lives.
-        tell: Gets a robot and what it has to say by itself; None says it at once, to whoever listens.
-    """
+class UmrfPlanner(RobotPlans):
+    """Sends graphs, reads feedback, holds a robot whose step failed; see `RobotPlans` for the arguments."""
 
     name: ClassVar[str] = "umrf_planner"
 
-    def __init__(
-        self,
-        transport: Transport,
-        clock: Clock,
-        *,
-        known_robots: Sequence[str] = (),
-        approval: Policy = "run_at_once",
-        policies: Mapping[str, Policy] = MappingProxyType({}),
-        patience: Patience | None = None,
-        proposals: ProposalStore | None = None,
-        tell: Callable[[str, str], None] | None = None,
-    ) -> None:
-        super().__init__(transport, patience or Patience())
-        self._clock = clock
-        self._presence = Presence(clock, tuple(known_robots), self._on_presence)
-        self._plans: dict[str, TargetPlan] = {}
-        self._proposals, self._offers_again = ProposalLog(proposals), False
-        self._tell = tell or (lambda robot, text: self._say(robot, text, "info"))
-        self._approvals, self._board = Offers(self._proposals, clock, approval, policies), PlanBoard()
-        self._listeners = 0
-        """How many listen to the plans."""
-        self._questions = OpenQuestions()
-        self._left = LeftGraphs()
-        self._answered: set[str] = set()
-        """Robots of which a person answered a question since their step failed."""
-
     async def open(self) -> None:
         """See `Node.open`."""
-        await self.opened.enter_async_context(self._proposals)
-        await self.subscribe(topics.ACTOR_STATUS, ActorStatus, self._presence.on_status)
+        await super().open()
         await self.subscribe(topics.CHAT_ACTION, ChatAction, self._on_chat_action)
         await self.subscribe(topics.UMRF_CORRECTION, ChatAction, self._on_correction)
         await self.subscribe(topics.PLAN_DECISION, PlanDecision, self._on_decision)
@@ -94,41 +44,6 @@ class UmrfPlanner(PlanSender):
         await self.subscribe_raw(topics.GRAPH_FEEDBACK, self._on_feedback, depth=100)
         await self.subscribe(topics.CHAT_FEEDBACK, ChatFeedback, self._on_said)
         await self.subscribe(topics.CHAT_INPUT, ChatInput, self._on_input)
-        self.opened.callback(self.transport.on_endpoints_changed(self._on_ends))
-        self.spawn(self._watch_presence(), name="presence")
-
-    def restore(self, target: str, steps: Sequence[Step]) -> None:
-        """Hold `steps`, which an earlier process left, until the operator says to go on or to drop them."""
-        plan = self._plan(target)
-        plan.restore(steps)
-        self._send(plan, [])
-
-    def adopt(self, target: str, name: str, steps: Sequence[Step], *, dry: bool) -> None:
-        """Hold the plan behind a graph that an earlier process left and the engine of `target` took up."""
-        plan = self._plan(target)
-        plan.adopt(name, steps, dry=dry)
-        self._send(plan, [])
-
-    def hold_graph(self, target: str, name: str) -> None:
-        """The engine of `target` holds a graph that an earlier process left; the same words go for it."""
-        self._left.hold(self._plan(target).target, name)
-
-    def offer_again(self) -> None:
-        """Propose what an earlier process left waiting for a yes, now and to robots that come later.
-
-        Called when the plans it left are restored: a repair goes in the place of a step of theirs.
-        """
-        self._offers_again = True
-        for robot in self._presence.names():
-            self._offer_left(robot)
-
-    def _offer_left(self, robot: str) -> None:
-        status = self._presence.get(robot) if self._offers_again else None
-        for proposal, text in self._approvals.take_left(self._plan(robot), status) if status else ():
-            if proposal is not None:
-                self.publish(topics.PLAN, proposal)
-            self._send(self._plan(robot), [])
-            self._tell(robot, text)
 
     # -- orders ----------------------------------------------------------------------------------------
 
@@ -353,31 +268,6 @@ class UmrfPlanner(PlanSender):
         self._refuse(topic.name, plan.target, problems)
         self._say(plan.target, text or (orders.LEFT if decided else orders.NOTHING_DONE), "error")
 
-    def _catalogue(self, target: str) -> Sequence[ActionInfo]:
-        status = self._presence.get(target)
-        return status.catalogue if status is not None else ()
-
-    def _targets(self, order: ChatAction, what: str) -> list[str]:
-        """The robots an order is for; no addressee or an unknown one means no motion."""
-        found: list[str] = []
-        for name in order.targets:
-            known = self._presence.resolve(name)
-            if known is None:
-                problem = Problem(
-                    "targets", f"no robot is called {name!r}", self._presence.known_text(), "unknown_robot"
-                )
-                self._refuse(what, name, [problem])
-                self._say(name, orders.no_robot(name, self._presence.known_text()), "error")
-            elif known not in found:
-                found.append(known)
-        if not order.targets:
-            self._refuse(
-                what,
-                "",
-                [Problem("targets", "no robot is named", self._presence.known_text(), "no_robot")],
-            )
-        return found
-
     # -- reports ---------------------------------------------------------------------------------------
 
     def _on_feedback(self, feedback: ros.UmrfGraphFeedback) -> None:
@@ -432,64 +322,3 @@ class UmrfPlanner(PlanSender):
             return
         codes = {problem.code for problem in rejection.problems}
         self._send(plan, plan.on_refused(rejection.graph_name, rejection.what, codes))
-
-    def _on_presence(self, robot: str, joined: bool) -> None:
-        if joined and self._approvals.policy(robot) != "run_at_once":
-            self._send(self._plan(robot), [])
-        if joined:
-            self._offer_left(robot)
-        plan = self._plans.get(robot)
-        if plan is None or not plan.pending:
-            return
-        if not joined:
-            text = sentence("I have lost contact with {robot}. Its plan is kept.", robot=robot)
-            self._say(robot, text, "error")
-        elif (status := self._presence.get(robot)) is not None:
-            self._send(plan, plan.on_return(status.graphs))
-
-    async def _watch_presence(self) -> None:
-        while True:
-            due_s = self._clock.wall_s() + LOST_AFTER_S / 4
-            await asyncio.sleep(LOST_AFTER_S / 4)
-            self._presence.expire(late_s=self._clock.wall_s() - due_s)
-
-    def _speaks_parley(self, target: str) -> bool:
-        return self._presence.get(target) is not None
-
-    # -- sending ---------------------------------------------------------------------------------------
-
-    def _on_ends(self) -> None:
-        """Tell all plans again when somebody new listens; saying the same twice does no harm."""
-        name = topics.PLAN.name
-        ends = self.transport.endpoints()
-        before, self._listeners = (
-            self._listeners,
-            sum(e.role == "subscription" and e.name == name for e in ends),
-        )
-        if self._listeners > before:
-            for told in (*self._board.shown, *self._approvals.waiting):
-                self.publish(topics.PLAN, told)
-
-    def _plan(self, target: str) -> TargetPlan:
-        plan = self._plans.get(target)
-        if plan is None:
-            plan = self._plans[target] = TargetPlan(
-                target,
-                new_graph_name=lambda: f"{target}_{uuid.uuid4().hex[:12]}",
-                waits_for_operator=lambda action: self._has_effect(target, action, "asks_operator"),
-                can_end_step=lambda: self._speaks_parley(target),
-            )
-        return plan
-
-    def _has_effect(self, target: str, action: str, effect: str) -> bool:
-        status = self._presence.get(target)
-        return status is not None and any(i.name == action and effect in i.effects for i in status.catalogue)
-
-    def _send(self, plan: TargetPlan, effects: Sequence[Effect]) -> None:
-        super()._send(plan, effects)
-        if not plan.held:
-            self._answered.discard(plan.target)
-        self._approvals.drop_settled(plan)
-        update = self._board.show(plan, self._approvals)
-        if update is not None:
-            self.publish(topics.PLAN, update)

@@ -122,8 +122,12 @@ async def test_slow_model_is_waited_for() -> None:
         answer = asyncio.create_task(here.say("look at the box"))
         await here.model.server.asked()
         here.model.clock.advance(19.0)
+        assert here.crew.wire.commands() == []
         gate.set()
         assert (await answer).message == "I will look at the box."
+        await here.crew.state("idle")
+        assert here.crew.body.did == ["look box"]
+        assert here.crew.wire.commands() == ["start"]
 
 
 async def test_model_that_is_gone_ends_in_a_plain_sentence() -> None:
@@ -179,12 +183,38 @@ async def test_recovery_asks_the_operator_when_the_model_is_gone() -> None:
         assert here.crew.wire.commands() == ["start"]
 
 
+def repair(**changes: object) -> Say:
+    return Say(answer={"message_response": "I try.", "success": True} | changes)
+
+
+FLY = [{"action": "Fly", "parameters": {}}]
+HELPLESS: dict[str, list[Say]] = {
+    "nonsense": [Say(text="Colourless green ideas sleep furiously.")] * THREE,
+    "unknown action": [repair(queue=FLY)] * THREE,
+    "unknown action for later": [repair(queue=LOOK_PLAN["queue"], afterwards=FLY)] * THREE,
+    "wrong type": [repair(queue=[{"action": "Drive", "parameters": {"x": "far"}}])] * THREE,
+    "a thousand steps": [repair(queue=LOOK_PLAN["queue"] * 1000)] * THREE,
+    "unknown command": [repair(system_cmd=[{"command": "reboot"}])] * THREE,
+    "steps that nobody agreed to": [repair(success=False, queue=LOOK_PLAN["queue"])] * THREE,
+    "cut off": [Say(answer={"message_response": "I try.", "success": True}, cut=20, finish="length")] * THREE,
+}
+
+
+@pytest.mark.parametrize("why", HELPLESS)
+async def test_hopeless_model_repairs_nothing_and_the_operator_is_asked(why: str) -> None:
+    async with room() as here:
+        here.crew.body.failures["look box"] = 1
+        here.model.will(LOOKS, *HELPLESS[why])
+        await here.say("look at the box")
+        await here.crew.hears("I cannot look box. What should I do?")
+        assert here.crew.body.did == ["look box"]
+        assert here.crew.wire.commands() == ["start"]
+
+
 async def test_recovery_of_the_model_repairs_the_plan() -> None:
     async with room() as here:
         here.crew.body.failures["look box"] = 1
-        repair = {"message_response": "I try the crate.", "success": True, "queue": [
-            {"action": "Look", "parameters": {"what": "crate"}}]}  # fmt: skip
-        here.model.will(LOOKS, Say(answer=repair))
+        here.model.will(LOOKS, repair(queue=[{"action": "Look", "parameters": {"what": "crate"}}]))
         await here.say("look at the box")
         await here.crew.until(lambda: "look crate" in here.crew.body.did)
         assert "modify" in here.crew.wire.commands()

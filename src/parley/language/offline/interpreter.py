@@ -10,8 +10,9 @@ from parley.language.control import control_of
 from parley.language.offline.dialogue import addressing
 from parley.language.offline.dialogue.amending import amended
 from parley.language.offline.dialogue.crews import plainly_called
-from parley.language.offline.dialogue.elsewhere import elsewhere
+from parley.language.offline.dialogue.elsewhere import elsewhere, in_place_of_misspelt, put_in_place
 from parley.language.offline.dialogue.followup import Request, declines, pending_request
+from parley.language.offline.dialogue.offered import accepted_offer
 from parley.language.offline.facts.facts import strip_openers
 from parley.language.offline.facts.protocols import protocol_memory, read_protocol
 from parley.language.offline.facts.stories import mentioned
@@ -32,7 +33,7 @@ from parley.language.offline.words.mending import mended
 from parley.language.offline.words.quantities import plain_coordinates, plain_units
 from parley.language.offline.words.saying import listing
 from parley.language.offline.words.text import Phrase, keys, plain, tokens
-from parley.language.offline.words.wording import counted_plainly, shared_out
+from parley.language.offline.words.wording import shared_out
 from parley.messages.chat import ChatAction, SystemCommand
 
 __all__ = ["interpret"]
@@ -145,13 +146,20 @@ def _read(message: str, situation: Situation, trace: Trace) -> ChatAction:
         text = f"I will remember that: {taught.sentence}."
         return _say(situation, text, commands=(protocol_memory(taught),), targets=targets)
     request = pending_request(words, situation)
-    answer = _sociable(words, situation) if request is None else None
+    offered = request is not None or accepted_offer(words, situation) is not None
+    answer = None if offered else _sociable(words, situation)
     if answer is not None:
         trace.note("answer", "small talk, a greeting, thanks, or another language")
         return _say(situation, answer, targets=targets)
-    if request is not None:
-        return _answered(request, situation, trace, targets)
-    return _following_up(words, situation, trace, targets)
+    offer = accepted_offer(words, situation)
+    looks = not offer or bool({"look", "check"} & set(keys(offer)))
+    action = _answered(request, situation, trace, targets) if request is not None and looks else None
+    if offer is None or (action is not None and action.queue):
+        return action or _following_up(words, situation, trace, targets)
+    if not offer:
+        return _say(situation, "All right, I leave it.", targets=targets)
+    trace.note("words", f"agreed to what was offered: “{plain(offer)}”")
+    return best_reading(offer, situation, (), trace, targets)
 
 
 def _sociable(words: Phrase, situation: Situation) -> str | None:
@@ -163,7 +171,7 @@ def _sociable(words: Phrase, situation: Situation) -> str | None:
 
 def _plain_words(message: str, situation: Situation) -> Phrase:
     """The words of a message, mended, without courtesy and what is told of the operator's own plans."""
-    words = shared_out(counted_plainly(mended(tokens(message), situation)))
+    words = shared_out(mended(tokens(message), situation))
     return where_it_was_put(straight_on(without_own_plans(plainly(words))))
 
 
@@ -175,6 +183,9 @@ def _answered(request: Request, situation: Situation, trace: Trace, targets: tup
     trace.note("words", f"an answer to a question about “{request.message}”: {hints}")
     words, targets = addressing.addressed(_plain_words(request.message, situation), situation)
     situation = replace(situation, history=request.history)
+    if request.instead:
+        named, scene = tokens(request.hints[-1]), Scene.of(situation)
+        words = put_in_place(named, words, scene) or in_place_of_misspelt(named, words, scene) or words
     action = best_reading(words, situation, request.hints, trace, targets)
     return _or_small_talk(action, words, situation, trace)
 
@@ -222,7 +233,8 @@ def _or_elsewhere(
     words: Phrase, targets: tuple[str, ...], called: Phrase, situation: Situation
 ) -> tuple[Phrase, tuple[str, ...]]:
     """For "and the others?": other things, not the other robots, if the last order was about a thing."""
-    again = elsewhere(called, situation) if not any(word.is_word for word in words) else ()
+    said = {word.key for word in words if word.is_word}
+    again = elsewhere(called, situation) if said <= {"as", "well", "too", "also", "please", "now"} else ()
     return (again, ()) if again else (words, targets)
 
 

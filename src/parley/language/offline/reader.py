@@ -9,13 +9,10 @@ from parley.language.offline.dialogue.asked import asked
 from parley.language.offline.dialogue.plain_question import plain_question
 from parley.language.offline.facts.facts import read_statement, strip_openers
 from parley.language.offline.facts.stories import mentioned, told_around
-from parley.language.offline.plan_changes.edits import Edit
 from parley.language.offline.plan_changes.keeping import restarts
-from parley.language.offline.plan_changes.rearranging import rearranged
+from parley.language.offline.plan_changes.rearranging import rearranged, without_going_on
 from parley.language.offline.plan_changes.repeating import counted_times, repetition, without_recurrence
-from parley.language.offline.plan_changes.replanning import inserted
 from parley.language.offline.plan_changes.rereading import Rereading
-from parley.language.offline.plan_changes.restated import as_added, restated
 from parley.language.offline.scene.marks import marks_of
 from parley.language.offline.scene.reported import asked_by_need, asked_by_report
 from parley.language.offline.scene.scene import UnclearError
@@ -23,7 +20,7 @@ from parley.language.offline.scene.subsets import with_exception_behind
 from parley.language.offline.sentences.clauses import Clause, clauses, opens_command
 from parley.language.offline.sentences.constructions import recast
 from parley.language.offline.sentences.doing_stops import as_stops
-from parley.language.offline.sentences.look_only import as_look
+from parley.language.offline.sentences.itineraries import warns
 from parley.language.offline.sentences.remarks import (
     as_visit,
     hurries,
@@ -39,16 +36,19 @@ from parley.language.offline.sentences.spoken import Names, spoken
 from parley.language.offline.tasks.abilities import abilities, cannot
 from parley.language.offline.tasks.catalogue import call
 from parley.language.offline.tasks.commands import Command, read_command
+from parley.language.offline.tasks.helping import is_drastic
 from parley.language.offline.tasks.matching import Match
 from parley.language.offline.tasks.tasks import UnableError
 from parley.language.offline.words import social
+from parley.language.offline.words.concepts import concepts, likeness
 from parley.language.offline.words.durations import duration_s
 from parley.language.offline.words.lexicon import lexicon
 from parley.language.offline.words.naming import name_words
 from parley.language.offline.words.nouns import noun_phrase
 from parley.language.offline.words.saying import listing, the, whole_sentence
 from parley.language.offline.words.text import Phrase, Word, keys, plain, split_name, tokens
-from parley.messages.chat import ActionCall, ChatAction, SystemCommand
+from parley.messages.chat import ChatAction, SystemCommand
+from parley.messages.status import ActionInfo
 
 __all__ = ["Reader"]
 
@@ -83,6 +83,7 @@ _NOTHING_MORE = frozenset(
 
 _ASKING = frozenset({"has", "does", "did", "may", "should", "must", "will", "can", "could"})
 _MOST_TIMES = 20
+_LONGEST_SUBJECT = 4
 _LEADING_ON = frozenset({"and", "now", "then", "next", "also", "no", "nope"})
 
 
@@ -94,6 +95,7 @@ class Reader(Rereading):
         """Understand a whole message."""
         self._mention_history()
         self._mention_answer()
+        self.scene.heard = len(self.scene.things)
         self.keep_lists()
         words = self.with_owners(words)
         if self.replies and not any(word.is_word for word in words):
@@ -102,14 +104,12 @@ class Reader(Rereading):
             self.scene.mention(phrase)
             if self._on_map(phrase):
                 self.scene.places.append(phrase)
+        words = without_going_on(words) if self.scene.situation.queue else words
         asks = keys(strip_openers(words))[:1] in {(start,) for start in lexicon().question_starts}
         answer = self._about_plan(words, asks=asks)
         if answer is not None:
             return answer
-        stated = restated(words, self.scene)
-        if stated is not None:
-            return self._edited(stated)
-        plainer = as_visit(spoken(as_added(words, self.scene), self.scene))
+        plainer = as_visit(spoken(words, self.scene), self.scene.catalogue.verbs)
         words = reworded(plainer, self._on_map, timed=self.scene.catalogue.times_itself)
         order = recast(words, self.scene) if self.scene.situation.queue else None
         words = order[0] if order is not None else words
@@ -118,8 +118,7 @@ class Reader(Rereading):
         words = self._grouped(words) if self.scene.situation.queue else words
         words, often = without_recurrence(words)
         words, times = counted_times(words) if often else (words, 1)
-        words, before = (words, ()) if asks else self._put_in(words)
-        return self._carried_out(words, before, often, times)
+        return self._carried_out(words, often, times)
 
     def _about_plan(self, words: Phrase, *, asks: bool) -> ChatAction | None:
         """The answer to what is about pending steps: a question, or that they are to be done another way."""
@@ -135,12 +134,13 @@ class Reader(Rereading):
         change = rearranged(words, self.scene)
         return self._rearranged(change) if change is not None else None
 
-    def help_with(self, match: Match, words: Phrase) -> ChatAction:
+    def help_with(self, match: Match, words: Phrase, *, agreed: bool) -> ChatAction:
         """What helps with something that is only told.
 
         Args:
             match: The action that helps, and what is said for its inputs.
             words: What is told.
+            agreed: Whether it was asked about, and agreed to; what is drastic is done only then.
         """
         try:
             self.tasks.use_own(match, words)
@@ -152,39 +152,20 @@ class Reader(Rereading):
             return self._result(cannot(unable.what, self.scene), ())
         does = match.info.description.rstrip(".") or " ".join(name_words(match.info.name))
         about = listing([plain(phrase) for phrase in match.filled.phrases.values()])
-        self.tasks.will[-1:] = [f"{does[:1].lower()}{does[1:]}{f' ({about})' if about else ''}"]
+        deed = f"{does[:1].lower()}{does[1:]}{f' ({about})' if about else ''}"
+        if is_drastic(match) and not agreed:
+            return self._result(f"Shall I {deed}?", ())
+        self.tasks.will[-1:] = [deed]
         return self._result(self._reply(), self.tasks.steps)
 
-    def _edited(self, edit: Edit) -> ChatAction:
-        """A change of the plan."""
-        self.scene.trace.note("edit", edit.reply)
-        self.commands.extend(edit.commands)
-        return self._result(edit.reply, edit.queue)
-
-    def _put_in(self, words: Phrase) -> tuple[Phrase, tuple[ActionCall, ...]]:
-        """What is to be put in among the pending steps, and those that come after it."""
-        place = inserted(words, self.scene)
-        if place is None:
-            return words, ()
-        words, at = place
-        before = self.scene.situation.queue[at:]
-        if any(step.flow is not None for step in before):
-            before = ()
-        count = len(self.scene.situation.queue)
-        taken = range(count - 1, count - 1 - len(before), -1)
-        self.commands.extend(SystemCommand(command="pop", arguments={"parameters": i}) for i in taken)
-        return words, before
-
-    def _carried_out(
-        self, words: Phrase, before: tuple[ActionCall, ...], often: str, times: int
-    ) -> ChatAction:
-        """Clause by clause; `before` are the pending steps that come after it."""
+    def _carried_out(self, words: Phrase, often: str, times: int) -> ChatAction:
+        """Clause by clause."""
         words = with_exception_behind(words)
         parts = clauses(words, lambda phrase: opens_command(phrase, self.scene.catalogue.verbs))
         self._hurried = any(hurries(part) for part in parts[1:])
         parts = [part for i, part in enumerate(parts) if not i or not hurries(part)]
         is_stop = Names(self.scene).is_stop
-        parts = [replace(part, words=as_stops(as_look(part.words), is_stop)) for part in parts]
+        parts = [replace(part, words=as_stops(part.words, is_stop)) for part in parts]
         # Where the operator is counts from the start, wherever it is said ("get it, I am at the door").
         parts = sorted(parts, key=lambda part: not says_where_i_am(part))
         self._leads_on = bool(words) and words[0].key in _LEADING_ON
@@ -204,7 +185,7 @@ class Reader(Rereading):
             self.commands = [c for c in self.commands if c.command != "pop"]
             return self._result(cannot(unable.what, self.scene), ())
         self.learn()
-        return self._result(self._reply(), (*self.tasks.steps, *before))
+        return self._result(self._reply(), self.tasks.steps)
 
     def _in_turn(self, parts: Sequence[Clause]) -> None:
         """Read clause after clause; what is read may change those that follow."""
@@ -217,8 +198,21 @@ class Reader(Rereading):
             self._at = index
             start = len(self.tasks.steps)
             self.tasks.beside = clause.beside and start > 0
+            known = len(self.scene.things)
             self._clause_or_story(clause, index, parts)
             self._side_by_side(start)
+            if len(self.scene.things) == known and len(self.tasks.steps) == start and index + 1 < len(parts):
+                self._mention_subject(clause.words)
+
+    def _mention_subject(self, words: Phrase) -> None:
+        """Keep for "it" what something is told of ("the roses look dry, measure how bad it is")."""
+        if not words or words[0].key not in lexicon().determiners:
+            return
+        for size in range(min(_LONGEST_SUBJECT, len(words) - 1), 1, -1):
+            found = self.scene.ground(words[:size])
+            if found.outcome == "match":
+                self.scene.mention(tokens(found.candidates[0].description))
+                return
 
     def _is_several(self, words: Phrase) -> bool:
         """Whether words name more than one thing of the map."""
@@ -258,8 +252,11 @@ class Reader(Rereading):
         if clause.condition or clause.conditional:
             self._condition(clause)
             return
-        clause = self._corrected(self._instead(clause))
+        clause = self._corrected(clause)
         clause = replace(clause, words=without_frame(clause.words))
+        if warns(clause.words) and not opens_command(clause.words, self.scene.catalogue.verbs):
+            self.told_only = True
+            return
         if keys(strip_openers(clause.words)) in _NOTHING_MORE and (self.tasks.steps or self.replies):
             return
         if self.tasks.meet(clause.words):
@@ -371,11 +368,16 @@ class Reader(Rereading):
         if not asks or asks[0] not in lexicon().question_starts | lexicon().be | {"tell", "has", "have"}:
             return False
         match = self.tasks.own_match(words, weak=True)
-        counts = match is not None and "count" in self.scene.catalogue.roles(match.info)
-        if match is None or not (match.info.outputs or counts):
+        if match is None or not (match.info.outputs or self._tells(match.info)):
             return False
         self.tasks.use_own(match, words)
         return True
+
+    def _tells(self, info: ActionInfo) -> bool:
+        """Whether an action finds something out, by its name."""
+        finds = concepts(("measure",))[0]
+        counts = "count" in self.scene.catalogue.roles(info)
+        return counts or any(likeness(finds, verb) > 0 for verb in concepts(name_words(info.name)[:1]))
 
     def _is_place(self, words: Phrase) -> bool:
         """Whether words name one object of the map and say nothing else."""

@@ -40,6 +40,8 @@ class Reading(Noting):
     _before_last: tuple[int, int] = (0, 0)
 
     _checked: tuple[Phrase, int] = ((), 0)
+    _looked_from: str = ""
+    """Where it stood when it looked last, for what is to be done otherwise."""
 
     def __post_init__(self) -> None:
         self.tasks = Meeting(self.scene)

@@ -36,6 +36,11 @@ CREW = Situation(message="", objects=OBJECTS, robot="Tim", robots=("Tim", "Sue",
         ("let Sue deal with the gate", ("Sue",), "visit the gate"),
         ("Sue and Bobby both to the gate", ("Sue", "Bobby"), "go to the gate"),
         ("you other two, check the gate", ("Sue", "Bobby"), "check the gate"),
+        ("I want all of you at the hall", ("Tim", "Sue", "Bobby"), "go to the hall"),
+        ("Not you, Tim. Sue, check the gate", ("Sue",), "check the gate"),
+        ("check the gate, all of you", ("Tim", "Sue", "Bobby"), "check the gate"),
+        ("everyone who is free go to the gate", ("Tim", "Sue", "Bobby"), "go to the gate"),
+        ("Sue, gate on your left", ("Sue",), "gate on your left"),
     ],
 )
 def test_the_robots_and_their_order_are_found(message: str, robots: tuple[str, ...], order: str) -> None:

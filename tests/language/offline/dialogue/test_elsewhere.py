@@ -5,7 +5,8 @@ from __future__ import annotations
 import pytest
 
 from parley.language.base import Situation, Turn
-from parley.language.offline.dialogue.elsewhere import elsewhere
+from parley.language.offline.dialogue.elsewhere import elsewhere, in_place_of_misspelt
+from parley.language.offline.scene.scene import Scene
 from parley.language.offline.words.text import plain, tokens
 from parley.world.object_map import MapObject
 
@@ -57,3 +58,21 @@ def test_whatever_says_more_is_no_such_follow_up(message: str) -> None:
 
 def test_an_answer_to_a_question_is_no_such_follow_up() -> None:
     assert meant("the blue one too", "look into the box", "Which one do you mean?") == ""
+
+
+@pytest.mark.parametrize("message", ["No, I meant gate 2", "not gate 1, gate 2", "gate 2, not gate 1"])
+def test_what_was_meant_instead_takes_the_place_of_the_last_one(message: str) -> None:
+    assert meant(message, "check gate 1 for leaves", "There are none.") == "check gate 2 for leaves"
+
+
+def test_the_other_two_are_all_that_were_not_spoken_of() -> None:
+    said = meant("and the other two as well", "check gate 1 for leaves", "There are none.")
+    assert said == "check gate 2 for leaves. check gate 3 for leaves"
+
+
+def test_another_thing_takes_the_place_of_a_misspelt_one_that_was_guessed_wrong() -> None:
+    rooms = (MapObject("s", "sauna", 0.0, 0.0, "room"), MapObject("l", "lobby", 1.0, 0.0, "room"))
+    scene = Scene.of(Situation("no, the lobby", objects=rooms))
+    order = in_place_of_misspelt(tokens("the lobby"), tokens("Go to the saona"), scene)
+    assert plain(order) == "Go to the lobby"
+    assert not in_place_of_misspelt(tokens("the lobby"), tokens("Carry on"), scene)

@@ -202,3 +202,25 @@ def test_what_a_story_brings_up_is_looked_for_in_all_places_it_names() -> None:
         "I was at bay 1 and later I was at bay 2 and now my grey hat is gone. Look for it at both places."
     )
     assert [order.split(" for ")[1] for order in found] == ["grey hat at bay 1", "grey hat at bay 2"]
+
+
+@pytest.mark.parametrize(
+    ("message", "plainly"),
+    [
+        ("Your first stop is bay 1, your second the big press and your last bay 2",
+         ["go to the bay 1", "go to the big press", "go to the bay 2"]),
+        ("I'd like the big press to be your final stop. Start with bay 1",
+         ["go to the bay 1", "go to the big press"]),
+        ("do not go to the big press until you have inspected bay 1",
+         ["look at the bay 1", "go to the big press"]),
+        ("once bay 1 and bay 2 have been inspected, go to the big press",
+         ["look at the bay 1", "look at the bay 2", "go to the big press"]),
+        ("go to bay 1, bay 2, in reverse order", ["go to the bay 2", "go to the bay 1"]),
+        ("bay 1 and bay 2 were wet, so look for oil at each of them",
+         ["look for oil at the bay 1", "look for oil at the bay 2"]),
+        ("look for a hat in bay 1 and in bay 2", ["look for hat at the bay 1", "look for hat at the bay 2"]),
+    ],
+)  # fmt: skip
+def test_stops_have_ranks_and_lists_share_what_is_said_of_them(message: str, plainly: list[str]) -> None:
+    found = [order.replace("the bay", "bay") for order in orders(message)]
+    assert found == [order.replace("the bay", "bay") for order in plainly]

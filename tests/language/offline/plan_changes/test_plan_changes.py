@@ -128,6 +128,8 @@ def test_spans_of_time_are_read(text: str, span_s: float | None) -> None:
         ("go to the door unless the box is open", "the box is open", "", "go to the door"),
         ("when the box is empty, go to the door", "the box is empty", "go to the door", ""),
         ("otherwise go to the door", plain(LAST), "", "go to the door"),
+        ("if there is water on it, go to the door", "there is water on it", "go to the door", ""),
+        ("if there is, water it", plain(LAST), "water it", ""),
     ],
 )
 def test_conditions_are_taken_apart(text: str, condition: str, then: str, otherwise: str) -> None:

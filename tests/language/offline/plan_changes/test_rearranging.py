@@ -51,6 +51,17 @@ async def places(message: str, status: str = "running") -> str:
         ("replace the second stop with the loading area", "A loading area C"),
         ("cross out area B and add the loading area instead", "A loading area C"),
         ("area A can wait, forget area C", "B A"),
+        ("before you return to area C, go by the loading area", "A B loading area C"),
+        ("on the way back to area C stop at the loading area", "A B loading area C"),
+        ("put area C at the front", "A C B"),
+        ("make area C your next stop", "A C B"),
+        ("leave area B for tomorrow", "A C"),
+        ("postpone area A until the others are done", "B C A"),
+        ("cut area B and go straight on to area C", "A C"),
+        ("the last stop should be the loading area and not area C", "A B loading area"),
+        ("add the loading area to your round", "A B C loading area"),
+        ("first go to the loading area, though", "loading area A B C"),
+        ("I would sooner you had area C done before area B", "A C B"),
     ],
 )
 async def test_a_change_leaves_what_was_asked_for(message: str, left: str) -> None:

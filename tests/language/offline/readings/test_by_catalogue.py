@@ -38,6 +38,11 @@ def done(message: str) -> list[tuple[object, ...]]:
         ("steam on, and counter 4 should be wiped", [("steam", True), ("wipeCounter", "counter 4")]),
         ("Grind Arabica beans for 20 seconds, but turn the steam on first.",
          [("steam", True), ("grindBeans", "Arabica", 20.0)]),
+        ("Grind Arabica beans for 20 seconds and Robusta beans for 30 seconds.",
+         [("grindBeans", "Arabica", 20.0), ("grindBeans", "Robusta", 30.0)]),
+        ("steam off please, it is far too loud", [("steam", False)]),
+        ("Wipe counter 1, steam off, ring the chime",
+         [("wipeCounter", "counter 1"), ("steam", False), ("ring_chime",)]),
     ],
 )  # fmt: skip
 def test_several_actions_come_in_the_order_that_is_said(message: str, plan: list[tuple[object, ...]]) -> None:

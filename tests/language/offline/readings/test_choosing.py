@@ -2,6 +2,8 @@
 
 from __future__ import annotations
 
+from dataclasses import replace
+
 import pytest
 
 from parley.evaluation.catalogues import CATALOGUES
@@ -43,6 +45,10 @@ def steps(message: str) -> list[str]:
             "and look at the floor before the guests come, thank you",
             ["go west hall", "look floor"],
         ),
+        ("We have to prepare for tomorrow's visit. First look at the blue door and to finish with, go to the "
+         "front desk.", ["go blue door", "look blue door", "go front desk"]),
+        ("Check the blue door. If you are done there, go to the store room and look for the ladder.",
+         ["go blue door", "look blue door", "go store room", "look ladder"]),
         ("check the blue door first and then lift b because people say it is stuck",
          ["go blue door", "look blue door", "go lift B", "look lift B"]),
     ],
@@ -68,3 +74,14 @@ def test_the_explanation_tells_how_the_readings_were_judged() -> None:
     message = "We had a terrible night, the lift was loud, anyway go and look at the blue door that's it"
     _, decisions = OfflineLanguage().explain(situation(f"{message}, and the store room, they said it leaks"))
     assert any(decision.about == "reading" and "against it" in decision.text for decision in decisions)
+
+
+def test_what_was_named_in_the_same_message_is_meant_and_else_it_is_asked() -> None:
+    doors = (*OBJECTS, MapObject(id="red_door", description="red door", x_m=0.0, y_m=9.0))
+    asked = replace(situation("go to the door"), objects=doors)
+    named = replace(
+        situation("check the blue door, go to lift b and then go to the door again"), objects=doors
+    )
+    assert OfflineLanguage().explain(asked)[0].choices
+    queue = OfflineLanguage().explain(named)[0].queue
+    assert [" ".join(step.arguments) for step in read_steps(queue, CATALOGUES["thesis"])][-1] == "blue door"

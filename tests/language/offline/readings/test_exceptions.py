@@ -59,3 +59,15 @@ async def test_nobody_elses_thing_is_taken() -> None:
     )
     action = await OfflineLanguage().interpret(situation)
     assert action.queue == ()
+
+
+async def test_an_answer_that_leaves_one_out_is_done_for_the_others() -> None:
+    history = (Turn("operator", "go to the halls"), Turn("assistant", "Which halls do you mean?"))
+    assert (await answer("all but hall 2", *history))[1] == ["hall 1", "hall 3"]
+
+
+async def test_an_order_with_an_exception_is_no_answer_to_a_question() -> None:
+    history = (Turn("operator", "go to the halls"), Turn("assistant", "Which halls do you mean?"))
+    reply, places = await answer("go to all halls except the one Bob is in", *history)
+    assert places == []
+    assert "?" in reply

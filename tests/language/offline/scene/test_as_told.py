@@ -47,6 +47,7 @@ async def places(message: str) -> list[tuple[str, ...]]:
     [
         ("go to the place where the wallet turned up", "dock 2"),
         ("go to the dock with the broken lamp", "dock 1"),
+        ("go to the mooring that has the broken lamp", "dock 1"),
         ("go and see the captain", "loft"),
         ("find Noor", "water pump"),
         ("get yourself over to where Mr Sund is", "loft"),

@@ -45,6 +45,7 @@ def group(text: str, named: tuple[MapObject, ...] = ()) -> list[str]:
         ("every gate apart from gate 3", ["g1", "g2", "g4", "g5"]),
         ("all gates but 2 and 3", ["g1", "g4", "g5"]),
         ("all gates except the last", ["g1", "g2", "g3", "g4"]),
+        ("each gate except the second", ["g1", "g3", "g4", "g5"]),
         ("all gates without 5", ["g1", "g2", "g3", "g4"]),
         ("the gates are to be seen, except for 1", ["g2", "g3", "g4", "g5"]),
         ("all tanks except the red one", ["t2", "t3"]),
@@ -86,9 +87,37 @@ def test_a_pronoun_stands_for_the_group_before_it() -> None:
 
 def test_one_of_several_is_put_by_its_name() -> None:
     assert plain(read("check one tank, the green one")) == "check the green tank"
-    assert plain(read("go to the gate after gate 2")) == "go to the gate 3"
+    assert plain(read("go to the gate after gate 2")) == "go to gate 3"
     assert plain(read("paint the tank nearest to gate 4 white")) == "paint the green tank white"
 
 
 def test_a_group_is_repeated_to_people_in_their_own_words() -> None:
     assert plain(read("the gates 2 to 4 are new")) == "the gates 2 to 4 are new"
+
+
+@pytest.mark.parametrize(
+    ("text", "meant"),
+    [
+        ("check the tank, the blue one", "check the blue tank"),
+        ("check the tank. not the red one, not the blue one!", "check the green tank.!"),
+        ("the tank needs checking, the green one i mean", "the green tank needs checking"),
+        ("check the tank marked green", "check the green tank"),
+        ("one of the tanks leaks, the red one i think, go look", "the red tank leaks, go look"),
+        ("the middle one of the tanks", "the blue tank"),
+        ("the gate between 2 and 4", "gate 3"),
+    ],
+)
+def test_what_is_said_behind_a_name_tells_which_of_its_kind_is_meant(text: str, meant: str) -> None:
+    assert plain(read(text)) == meant
+
+
+@pytest.mark.parametrize(
+    "text",
+    [
+        "check the tank and the hall",
+        "check the tank. go to the red one",
+        "a tank is leaking, the hall is wet",
+    ],
+)
+def test_what_is_said_behind_a_name_of_something_else_tells_nothing(text: str) -> None:
+    assert plain(read(text)) == text

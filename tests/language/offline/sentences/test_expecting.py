@@ -48,3 +48,29 @@ def is_stop(words: Phrase) -> bool:
 )
 def test_what_orders_hang_on_is_said_as_a_look(text: str, meant: str) -> None:
     assert plain(with_looks(tokens(text), is_stop)).lower() == meant.lower()
+
+
+@pytest.mark.parametrize(
+    ("text", "meant"),
+    [
+        ("look for the mug in the hall and take it if you find it",
+         "look for the mug in the hall. if so, take it"),
+        ("check the hall for bags and come back if there are none",
+         "check the hall for bags. if not, come back"),
+        ("look for a mop in the hall. if you can't find one, go to the yard",
+         "look for a mop in the hall. if not, go to the yard"),
+        ("see whether the van is in the yard. if it is gone, go to the gate",
+         "see whether the van is in the yard. if not, go to the gate"),
+        ("check whether the gate is shut. if so, go to the hall, otherwise leave it",
+         "check whether the gate is shut. if so, go to the hall"),
+    ],
+)  # fmt: skip
+def test_what_hangs_on_finding_something_hangs_on_the_look_for_it(text: str, meant: str) -> None:
+    assert plain(with_looks(tokens(text), is_stop)) == meant
+
+
+@pytest.mark.parametrize(
+    "text", ["go to the hall if there is one", "tell me if you see it", "go to the gate if it is open"]
+)
+def test_a_condition_without_a_search_before_it_stays(text: str) -> None:
+    assert plain(with_looks(tokens(text), is_stop)) == text

@@ -60,8 +60,11 @@ def test_a_denial_of_what_is_pending_stays_for_the_plan() -> None:
         ("go to the hall unless somebody is in it", "go to the hall unless somebody is in the hall"),
         ("go to the hall if it is open and to the gate if it is shut",
          "if it is open, go to the hall, otherwise go to the gate"),
-        ("is it wet? yes, go to the hall. no, go to the gate",
-         "is it wet? if so, go to the hall. if not, go to the gate"),
+        ("go to the hall unless the gate is shut, check that first",
+         "go to the hall unless the gate is shut"),
+        ("see the gate. if open, go to the hall", "see the gate. if it is open, go to the hall"),
+        ("if the gate is shut go to the hall, and if it is painted go to the yard",
+         "if the gate is shut go to the hall, and if the gate is painted go to the yard"),
         ("check whether the gate is shut and go to the hall if not",
          "check whether the gate is shut. if not, go to the hall"),
         ("if the gate is shut use the yard", "if the gate is shut, go to the yard"),
@@ -71,6 +74,31 @@ def test_a_denial_of_what_is_pending_stays_for_the_plan() -> None:
 )  # fmt: skip
 def test_conditions_are_put_in_plain_shape(text: str, meant: str) -> None:
     assert plain(branched(tokens(text), is_stop)) == meant
+
+
+@pytest.mark.parametrize(
+    ("text", "meant"),
+    [
+        (
+            "is the gate wet? yes, go to the hall. no, go to the yard",
+            "if so, go to the hall. if not, go to the yard.",
+        ),
+        (
+            "is the gate wet? if so the hall, otherwise the yard",
+            "if so, go to the hall. if not, go to the yard.",
+        ),
+        ("is the gate wet? then go to the hall", "if so, go to the hall."),
+    ],
+)
+def test_what_hangs_on_the_answer_to_a_question_hangs_on_a_look(text: str, meant: str) -> None:
+    turned = {"is the gate wet": tokens("the gate is wet")}
+    read = branched(tokens(text), is_stop, lambda asked: turned[plain(asked)])
+    assert plain(read) == f"check whether the gate is wet. {meant}"
+
+
+def test_a_question_that_no_order_hangs_on_stays() -> None:
+    text = "is the gate wet? it rained all night"
+    assert plain(branched(tokens(text), is_stop, lambda asked: tokens("the gate is wet"))) == text
 
 
 def test_a_message_without_a_condition_stays() -> None:

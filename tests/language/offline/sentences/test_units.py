@@ -33,6 +33,9 @@ def cut(text: str) -> list[Unit]:
         ("You will find the keys in the hall", ["told"]),
         ("I have been running between the desk and the hall", ["told"]),
         ("go to the desk the guests are waiting", ["order", "told"]),
+        ("The guests arrive at noon, check the desk and the hall for leaks", ["told", "order"]),
+        ("The desk and the hall were open, close them", ["told", "order"]),
+        ("Your first stop is the desk", ["name"]),
     ],
 )
 def test_every_part_has_the_kind_that_its_beginning_shows(text: str, kinds: list[str]) -> None:

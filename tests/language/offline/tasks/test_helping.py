@@ -2,9 +2,11 @@
 
 from __future__ import annotations
 
+from dataclasses import replace
+
 import pytest
 
-from parley.language.base import Situation
+from parley.language.base import Situation, Turn
 from parley.language.offline import OfflineLanguage
 from parley.language.offline.scene.scene import Scene
 from parley.language.offline.tasks.helping import helping
@@ -62,3 +64,22 @@ def test_what_needs_no_help_or_says_too_little_gets_none(message: str) -> None:
 def test_help_comes_only_where_nothing_is_asked_for() -> None:
     action, _ = OfflineLanguage().explain(situation("It is freezing in the library, but just pour me a tea."))
     assert [step.name for step in action.queue] == ["pour"]
+
+
+ALARM = ActionInfo(name="fireAlarm", inputs={"floor": "string"}, description="Sound the alarm on a floor.")
+
+
+async def test_an_alarm_is_asked_about_where_it_is_only_told_and_given_once_agreed() -> None:
+    told = Situation(message="there are flames on floor 3", catalogue=(ALARM,), robot="Bo", robots=("Bo",))
+    engine = OfflineLanguage()
+    asked = await engine.interpret(told)
+    assert not asked.queue
+    assert "Shall I sound the alarm" in asked.message_response
+    history = (
+        Turn(role="operator", content=told.message),
+        Turn(role="assistant", content=asked.message_response),
+    )
+    agreed = await engine.interpret(replace(told, message="yes", history=history))
+    assert [step.name for step in agreed.queue] == ["fireAlarm"]
+    ordered = await engine.interpret(replace(told, message="sound the alarm on floor 3"))
+    assert [step.name for step in ordered.queue] == ["fireAlarm"]

@@ -50,6 +50,13 @@ BELL = ActionInfo(name="ringBell", inputs={"times": "number"})
 SNAILS = ActionInfo(name="countSnails", inputs={"row": "string"}, outputs={"snails": "number"})
 SOIL = ActionInfo(name="testSoil", inputs={"row": "string"}, outputs={"ph": "number"})
 SHADE = ActionInfo(name="setShade", inputs={"row": "number", "pct": "number"}, description="Shade a row.")
+SIGN = ActionInfo(name="showSign", inputs={"text": "string"}, description="Put up a sign.")
+FEED = ActionInfo(name="feedGuest", inputs={"guest": "string", "food": "string"})
+CALL = ActionInfo(
+    name="ringService", inputs={"urgent": "bool"}, optional=("urgent",), description="Ring the service bell."
+)
+DUST = ActionInfo(name="dust", inputs={"powder": "string", "row": "string"})
+VISITOR = ActionInfo(name="ask_visitor", inputs={"question": "string"}, outputs={"reply": "string"})
 SNAILS_ON_BOTH = [("countSnails", {"row": row}) for row in ("tomato row", "pepper row")]
 SOIL_OF_BOTH = [("testSoil", {"row": row}) for row in ("tomato row", "pepper row")]
 SCAN = ActionInfo(name="scan_qr", inputs={"object_id": "string"}, outputs={"code": "string"})
@@ -75,6 +82,12 @@ SCAN = ActionInfo(name="scan_qr", inputs={"object_id": "string"}, outputs={"code
         ("count the snails on every row", (SNAILS,), SNAILS_ON_BOTH),
         ("test the soil in the tomato row and in the pepper row", (SOIL,), SOIL_OF_BOTH),
         ("shade row 5 by eighty per cent", (SHADE,), [("setShade", {"row": 5.0, "pct": 80.0})]),
+        ("shade row 5 halfway", (SHADE,), [("setShade", {"row": 5.0, "pct": 50.0})]),
+        ('put up the sign "do not stop here"', (SIGN,), [("showSign", {"text": "do not stop here"})]),
+        ("feed Mr Ito an apple", (FEED,), [("feedGuest", {"guest": "Mr Ito", "food": "apple"})]),
+        ("ring the bell, it is urgent", (CALL,), [("ringService", {"urgent": True})]),
+        ("dust the pepper row with sulphur", (DUST,), [("dust", {"powder": "sulphur", "row": "pepper row"})]),
+        ("ask the visitor how she is", (VISITOR,), [("ask_visitor", {"question": "how she is"})]),
     ],
 )
 def test_an_action_is_found_by_what_its_name_and_inputs_say(
@@ -124,3 +137,30 @@ def test_an_action_that_tells_something_is_used_to_look_whether_it_is_so() -> No
     assert [call.name for call in action.queue] == ["is_dry", "openVents"]
     flow = action.queue[1].flow
     assert flow is not None and flow.if_ is not None and flow.if_.result
+
+
+def test_what_an_own_action_has_just_looked_at_tells_whether_it_is_so() -> None:
+    view = ActionInfo(name="view_leaf", inputs={"row": "string"}, outputs={"seen": "string"})
+    heat = ActionInfo(name="checkHeat", inputs={"row": "string"}, outputs={"warm": "boolean"})
+    message = "View the leaves of the tomato row; if they are yellow, open the vents."
+    action = interpret(
+        Situation(message=message, catalogue=(view, heat, VENTS), objects=PLANTS, robot="F", robots=("F",))
+    )
+
+    assert [call.name for call in action.queue] == ["view_leaf", "openVents"]
+
+
+def test_what_is_on_board_is_not_taken_once_more_to_go_somewhere() -> None:
+    load = ActionInfo(name="loadCrate", inputs={"crate": "string"}, description="Take a crate on board.")
+    drive = ActionInfo(name="drive_to", inputs={"place": "string"})
+
+    assert steps("Load the blue crate and take it to the main door.", load, drive) == [
+        ("loadCrate", {"crate": "blue crate"}),
+        ("drive_to", {"place": "main door"}),
+    ]
+
+
+def test_it_is_what_was_told_of_before() -> None:
+    assert steps("The peppers look rather dry to me, can you test it?", SOIL) == [
+        ("testSoil", {"row": "pepper row"})
+    ]

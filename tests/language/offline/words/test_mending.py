@@ -34,6 +34,8 @@ KNOWN = Situation(
         ("unlod machine 2", "unload machine 2"),
         ("get it 4 me", "get it for me"),
         ("chekc the office", "check the office"),
+        ("go to the off ice", "go to the office"),
+        ("are the ligths on", "are the lights on"),
     ],
 )
 def test_only_what_is_no_word_is_mended(say: str, meant: str) -> None:

@@ -16,6 +16,7 @@ from parley.language.offline.words.text import tokens
         ("one hundred and twenty", 120.0),
         ("twenty-five percent", 25.0),
         ("minus 5 degrees", -5.0),
+        ("a metre twenty", 1.2),
     ],
 )
 def test_a_number_is_read_in_digits_and_in_words(said: str, value: float) -> None:

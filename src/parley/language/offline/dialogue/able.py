@@ -5,8 +5,10 @@ from __future__ import annotations
 from parley.language.offline.dialogue.about_map import Answer
 from parley.language.offline.scene.scene import Scene
 from parley.language.offline.tasks.abilities import abilities, cannot
+from parley.language.offline.tasks.tasks import Tasks
 from parley.language.offline.words.lexicon import lexicon
 from parley.language.offline.words.text import Phrase, Word, lemma, plain, singular
+from parley.messages.status import ActionInfo
 
 __all__ = ["KNOWING_HOW", "able"]
 
@@ -38,6 +40,12 @@ _GENERIC = frozenset(
 )
 
 
+def _own_deed(words: Phrase, scene: Scene) -> ActionInfo | None:
+    """The action of its own kind that does what is asked about."""
+    match = Tasks(scene).own_match(words, weak=True, incomplete=True)
+    return match.info if match is not None else None
+
+
 def able(words: Phrase, flat: tuple[str, ...], scene: Scene) -> Answer | None:
     """For "can you carry things?", "are you able to drive?": about abilities, not about doing it now."""
     size = next((len(start) for start in _ABLE if flat[: len(start)] == start), 0)
@@ -48,14 +56,16 @@ def able(words: Phrase, flat: tuple[str, ...], scene: Scene) -> Answer | None:
     rest = flat[size + found[0] :] if found is not None else ()
     asks = flat[:size] not in {("can", "you"), ("could", "you")}
     if found is None:
-        own = scene.catalogue.for_verb(base[0]) or scene.catalogue.by_description(base)
+        own = scene.catalogue.for_verb(base[0]) or _own_deed(words[size:], scene)
         unable = asks and own is None and len(base) > 1
         return Answer(cannot(plain((Word(base[0], base[0]), *words[size + 1 :])), scene)) if unable else None
-    own = scene.catalogue.for_verb(base[0]) or scene.catalogue.by_description(base)
+    own = scene.catalogue.for_verb(base[0]) or _own_deed(words[size:], scene)
     if asks and found[1].startswith("other:") and own is None:
         return Answer(cannot(plain((Word(base[0], base[0]), *words[size + 1 :])), scene))
-    indefinite = asks and (
-        not rest or rest[0] in {"a", "an", "any", "some"} or singular(rest[-1]) != rest[-1]
+    several = len(rest) == 1 and singular(rest[0]) != rest[0] and rest[0] not in lexicon().vocabulary
+    kinds = several and not asks
+    indefinite = kinds or (
+        asks and (not rest or rest[0] in {"a", "an", "any", "some"} or singular(rest[-1]) != rest[-1])
     )
     if any(singular(word) not in _GENERIC for word in rest) and not indefinite:
         return None
@@ -71,6 +81,8 @@ def able(words: Phrase, flat: tuple[str, ...], scene: Scene) -> Answer | None:
     ):
         text = f"I cannot {said} by myself: somebody has to put things on me. {abilities(scene)}"
         return Answer(text)
+    if kinds and kind == "motion" and own is None:
+        return Answer(cannot(said, scene))
     if scene.catalogue.with_role(*sorted(roles)) is not None or scene.catalogue.for_verb(base[0]) is not None:
         return Answer(f"Yes, I can {said}. {abilities(scene)}")
     return None if kind in {"look", "search", "motion"} and not rest else Answer(cannot(said, scene))

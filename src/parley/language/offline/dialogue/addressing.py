@@ -21,6 +21,9 @@ def addressed(words: Phrase, situation: Situation) -> tuple[Phrase, tuple[str, .
         rest = words[group[0] :]
         gapped = keys(rest[:1]) in {("to",), ("into",)} and not (rest[1:] and _is_verb(rest[1].key))
         return _except((*tokens("go"), *rest) if gapped else _without_lead(rest), situation.robots)
+    before = _all_called_last(words) if len(situation.robots) > 1 else ()
+    if before:
+        return before, situation.robots
     sent = _sent(words, situation.robots)
     if sent is not None:
         return sent
@@ -268,6 +271,17 @@ def _without_lead(words: Phrase) -> Phrase:
     while words and (not words[0].is_word or words[0].key in {"to", "should", "must", "and"}):
         words = words[1:]
     return words
+
+
+def _all_called_last(words: Phrase) -> Phrase:
+    """For "V, all of you": V; empty if not everybody is called behind it."""
+    end = len(words)
+    while end and not words[end - 1].is_word:
+        end -= 1
+    comma = next((i for i in range(end - 1, 0, -1) if not words[i].is_word), 0)
+    group = lexicon().everybody.match(keys(words[:end]), comma + 1) if comma else None
+    called = group is not None and comma + 1 + group[0] == end
+    return (*words[:comma], *words[end:]) if called else ()
 
 
 def _called_last(words: Phrase, robots: tuple[str, ...]) -> tuple[Phrase, str]:

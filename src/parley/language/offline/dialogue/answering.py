@@ -116,6 +116,12 @@ class Answering(Changing):
             for f in self.scene.facts
             if f.entry.name in self.scene.sources and f.fact.sentence and f not in self._new()
         ]
+        read = {f.entry.name for f in self.scene.facts}
+        known += [
+            whole_sentence(entry.data)
+            for entry in self.scene.situation.memory
+            if entry.name in self.scene.sources and entry.name not in read
+        ]
         if self.tasks.steps and known:
             parts.append("I remember: " + " ".join(dict.fromkeys(known)))
         if self.tasks.will:

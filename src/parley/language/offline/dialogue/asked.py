@@ -10,6 +10,7 @@ import math
 from collections.abc import Callable
 
 from parley.language.offline.dialogue.about_map import Answer
+from parley.language.offline.dialogue.about_told import own_taste, taught, where_before
 from parley.language.offline.dialogue.own_state import step_words, told_about
 from parley.language.offline.dialogue.progress import progress
 from parley.language.offline.facts.remembering import newest
@@ -106,12 +107,20 @@ def _why(words: Phrase, flat: tuple[str, ...], scene: Scene) -> Answer | None:
         or {"not"} & set(flat[1:3])
     ):
         return None
+    if scene.situation.status == "paused" and _STANDING & set(flat):
+        return Answer("Because I was told to stop. Say “carry on” when I may go on.")
     said = next((t.content for t in reversed(scene.situation.history) if t.role == "operator"), "")
     if said and scene.situation.queue:
         return Answer(f"Because you asked me to: “{said.strip()[:200]}”")
     if scene.situation.queue:
         return Answer(f"You asked me to: {step_words(scene.situation.queue[0])}.")
     return Answer("I am not doing anything at the moment; I wait until you tell me what to do.")
+
+
+_STANDING = frozenset({
+    "stop", "stopped", "stopping", "stand", "standing", "wait", "waiting", "pause", "paused", "still", "move",
+    "moving", "halt", "halted", "idle", "stuck",
+})  # fmt: skip
 
 
 def _left(words: Phrase, flat: tuple[str, ...], scene: Scene) -> Answer | None:
@@ -302,6 +311,12 @@ _AROUND_ABOUT = frozenset({
 })  # fmt: skip
 
 
+_TROUBLE = frozenset({
+    "wrong", "matter", "problem", "problems", "issue", "issues", "trouble", "up", "happened", "amiss",
+    "broken",
+})  # fmt: skip
+
+
 def told_of(words: Phrase, flat: tuple[str, ...], scene: Scene) -> Answer | None:
     """For "got anything on A?", "tell me all about A", "did I tell you about A?": all that was told of A.
 
@@ -310,9 +325,12 @@ def told_of(words: Phrase, flat: tuple[str, ...], scene: Scene) -> Answer | None
         flat: The same, as they are compared.
         scene: What is known.
     """
-    at = next((i for i in range(1, len(flat) - 1) if flat[i] in _ABOUT), 0)
+    at = next((i for i in range(1, len(flat) - 1) if flat[i] in _ABOUT | {"with"}), 0)
     lead = set(flat[:at])
-    if not at or not lead & _ASKS_ABOUT or not lead <= _ASKS_ABOUT | _AROUND_ABOUT:
+    wrong = at and flat[at] == "with" and lead & _TROUBLE
+    if not at or (not wrong and (flat[at] == "with" or not lead & _ASKS_ABOUT)):
+        return None
+    if not lead <= _ASKS_ABOUT | _AROUND_ABOUT | (_TROUBLE if wrong else frozenset()):
         return None
     if flat[at] == "on" and not lead & {
         "anything",
@@ -435,6 +453,9 @@ def _last_asked(words: Phrase, flat: tuple[str, ...], scene: Scene) -> Answer | 
 
 
 _READERS: tuple[_Reader, ...] = (
+    own_taste,
+    taught,
+    where_before,
     _last_asked,
     progress,
     _why,

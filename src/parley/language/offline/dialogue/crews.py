@@ -24,6 +24,7 @@ from parley.language.offline.dialogue.crew_words import (
     without_whoever,
 )
 from parley.language.offline.scene.grounding import ground_phrase
+from parley.language.offline.sentences.itineraries import warns
 from parley.language.offline.words.lexicon import PhraseTable, lexicon
 from parley.language.offline.words.text import Phrase, Word, keys, lemma, singular, tokens
 from parley.language.word_lists import load_data
@@ -160,6 +161,10 @@ def _without_refused(words: Phrase, situation: Situation) -> tuple[Phrase, bool]
             end = 2
         if flat[2:3] in {(",",), (":",)} and not _names_at(words, 3, situation.robots)[0]:
             end = 2
+        named, last = _names_at(words, 2 + (flat[2:3] == (",",)), situation.robots)
+        if named and last >= len(words):
+            # "Not you, A. B, V".
+            return (), True
         return (words[end + 1 :], True) if end else (words, False)
     if flat[:2] in _ALL_ELSE and "," in flat:
         comma = flat.index(",")
@@ -237,7 +242,7 @@ def _sender(words: Phrase, at: int) -> int:
     while found is not None:
         at += found[0]
         found = _SENDING.match(flat, at)
-    return at + (flat[at : at + 1] == ("both",))
+    return at + (flat[at : at + 1] == ("both",) and flat[at + 1 : at + 2] not in {("of",), ("robots",)})
 
 
 def _names_at(words: Phrase, at: int, robots: Sequence[str]) -> tuple[tuple[str, ...], int]:
@@ -352,7 +357,7 @@ def _order(rest: Phrase, situation: Situation) -> Phrase | None:
     taken = _TAKING.match((base, *flat[1:])) or _TAKING.match((flat[0].removesuffix("s"), *flat[1:]))
     if taken is not None and _is_place(rest[taken[0] :], situation):
         return (*tokens("visit"), *rest[taken[0] :])
-    if _is_place(rest, situation):
+    if _is_place(rest, situation) and not warns(rest):
         return (*tokens("go to"), *rest)
     if base != flat[0] and flat[0].endswith("s") and is_verb(base) and not had_duty:
         return (Word(base, base), *rest[1:])

@@ -20,7 +20,7 @@ from parley.language.offline.words.text import Phrase, Word, keys, plain, singul
 from parley.language.word_lists import load_data
 from parley.world.object_map import MapObject
 
-__all__ = ["elsewhere"]
+__all__ = ["elsewhere", "put_in_place"]
 
 _DATA = load_data("elsewhere")
 _MARKS = frozenset(_DATA["marks"])
@@ -31,7 +31,8 @@ _ONES = frozenset({"one", "ones"})
 _AGAIN = frozenset(_DATA["again"])
 _REPEATING = frozenset(_DATA["repeating"])
 _EXCEPTING = frozenset({"except", "excluding", "apart", "excepting"})
-_LONGEST = 12
+_LONGEST = 16
+_LONGEST_ORDER = 24
 _DEEPEST = 4
 
 
@@ -66,10 +67,26 @@ def elsewhere(words: Phrase, situation: Situation, depth: int = 0) -> Phrase:
     )
     said = tokens(turn.content)
     said = elsewhere(said, earlier, depth + 1) or said
-    said = said if named is None else _with(named, said, scene)
+    said = said if named is None else put_in_place(named, said, scene)
     asks = bool(said) and said[0].key in lexicon().be | {"has", "have", "does", "do", "did"}
-    whether = turned(said, scene) if asks else ()
-    return (*tokens("check whether"), *whether) if whether else said
+    turns = [turned(part, scene) for part in _sentences(said)] if asks else []
+    if not turns or not all(turns):
+        return said
+    result: list[Word] = []
+    for whether in turns:
+        result += [*([Word(".", ".")] if result else []), *tokens("check whether"), *whether]
+    return tuple(result)
+
+
+def _sentences(words: Phrase) -> list[Phrase]:
+    """What stands between full stops and question marks."""
+    result: list[list[Word]] = [[]]
+    for word in words:
+        if word.key in {".", "?"}:
+            result.append([])
+        else:
+            result[-1].append(word)
+    return [tuple(part) for part in result if part]
 
 
 def _asked_before(history: Sequence[Turn]) -> tuple[Turn, tuple[Turn, ...]] | None:
@@ -92,6 +109,7 @@ def _repeats(words: Phrase) -> bool:
 
 def _named(words: Phrase) -> Phrase | None:
     """What a follow-up names; None if more is said than that, or nothing marks it."""
+    words = _instead_of(words)
     flat = keys(words)
     if (not _MARKS & set(flat) and "?" not in flat) or "but" in flat:
         return None
@@ -107,11 +125,29 @@ def _named(words: Phrase) -> Phrase | None:
     return words[start:end]
 
 
-def _with(named: Phrase, said: Phrase, scene: Scene) -> Phrase:
-    """What was said, about what is named now."""
+def _instead_of(words: Phrase) -> Phrase:
+    """For "not A, B" and "B, not A": B instead."""
+    said = tuple(word for word in words if word.is_word or word.key == ",")
+    flat = keys(said)
+    cut = flat.index(",") if flat.count(",") == 1 else 0
+    if not cut or flat[:2] == ("not", ","):
+        return words
+    if flat[0] == "not":
+        return (*said[cut + 1 :], Word("instead", "instead"))
+    return (*said[:cut], Word("instead", "instead")) if flat[cut + 1 : cut + 2] == ("not",) else words
+
+
+def put_in_place(named: Phrase, said: Phrase, scene: Scene) -> Phrase:
+    """What was said, about what is named now; empty if it names nothing that could give way to that.
+
+    Args:
+        named: What is named now.
+        said: An order or a question.
+        scene: What is known.
+    """
     items = items_of(said, scene)
     places = [i for i, item in enumerate(items) if item.thing is not None and not item.thing.known]
-    if len(said) > 2 * _LONGEST:
+    if len(said) > _LONGEST_ORDER:
         return ()
     meant = [(at, _objects(items[at], scene)) for at in places]
     fitting = [(at, old, _meant(named, old, scene)) for at, old in meant if old]
@@ -133,6 +169,26 @@ def _with(named: Phrase, said: Phrase, scene: Scene) -> Phrase:
         result += [*([Word(".", ".")] if result else []), *before]
         result += [*tokens(the(describe(item, scene.objects))), *after]
     return tuple(result)
+
+
+def in_place_of_misspelt(named: Phrase, said: Phrase, scene: Scene) -> Phrase:
+    """What was said, with `named` for the last name in it that only sounds like one of the map.
+
+    Empty if there is no such name in it.
+
+    Args:
+        named: What is meant, after what the robot took it for was refused.
+        said: The order whose name was not understood.
+        scene: What is known.
+    """
+    for start in range(len(said) - 1, 0, -1):
+        name = said[start : start + 1]
+        if not name[0].is_word or said[start - 1].key not in {"the", "a", "an", "to"}:
+            continue
+        if ground_phrase(name, scene.objects, scene.situation.robot_pose).outcome == "match":
+            kept = start - (said[start - 1].key != "to")
+            return (*said[:kept], *named, *said[start + 1 :])
+    return ()
 
 
 def _kinds(items: Sequence[MapObject]) -> set[str]:
@@ -175,24 +231,34 @@ def _noun(item: MapObject) -> str:
     return plain_words[-1] if plain_words else words[-1]
 
 
+def _kind_name(item: MapObject) -> str:
+    """A description without its label: "dressing room" of "dressing room 2"."""
+    words = [word.key for word in tokens(item.description) if word.is_word]
+    return " ".join(word for word in words if not word.isdigit() and len(word) > 1)
+
+
 def _others(named: Phrase, noun: str, old: Sequence[MapObject], scene: Scene) -> list[MapObject]:
     """For "the other one", "the rest of the gates": those of the kind that were not spoken of."""
-    content = [key for key in keys(named) if key not in _OTHERS | _ONES | _SMALL and key.isalpha()]
+    passed = _OTHERS | _ONES | _SMALL | set(lexicon().numbers) | {"of", "them", "all", "these", "those"}
+    content = [key for key in keys(named) if key not in passed and key.isalpha()]
     if len(content) > 1:
         return []
     wanted = singular(content[0]) if content else noun
     kind = {old[0].class_name} if old[0].class_name else set()
+    like = [item for item in scene.objects if _kind_name(item) == _kind_name(old[0])]
+    things = like if len(like) > len(old) and not content else list(scene.objects)
     asked = " ".join(turn.content.lower() for turn in scene.situation.history if turn.role == "operator")
     words = keys(tokens(asked))
     found = [
         item
-        for item in scene.objects
+        for item in things
         if item not in old
         and (singular(_noun(item)) == wanted or (item.class_name in kind and not content))
         and not _spoken_of(item, words)
     ]
     several = bool({"others", "rest", "remaining", "ones"} & set(keys(named))) or plain(named).endswith("s")
-    return found if several or len(found) == 1 else []
+    count = next((lexicon().numbers[key] for key in keys(named) if key in lexicon().numbers), 1)
+    return found if several or len(found) == int(count) else []
 
 
 def _spoken_of(item: MapObject, words: tuple[str, ...]) -> bool:

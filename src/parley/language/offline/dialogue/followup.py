@@ -2,12 +2,13 @@
 
 from __future__ import annotations
 
-from collections.abc import Sequence
 from dataclasses import dataclass
 
 from parley.language.base import Situation, Turn
+from parley.language.offline.dialogue.offered import plain_answer
 from parley.language.offline.facts.facts import read_statement, strip_openers
 from parley.language.offline.repair.replies import agrees
+from parley.language.offline.scene.grounding import ground_phrase
 from parley.language.offline.sentences.clauses import clauses, opens_command
 from parley.language.offline.words import social
 from parley.language.offline.words.lexicon import lexicon
@@ -23,13 +24,18 @@ _ASKING_BACK = (
     "what should i",
     "where should i",
     "shall i",
+    "should i",
+    "would you like me to",
+    "do you want me to",
     "tell me where",
     "who do you mean",
     "what do you mean",
     "please name",
     "which",
 )
+_WHAT_FOR = ("what should i look for", "what shall i look for", "what am i to look for", "look for what")
 _LONGEST_ANSWER = 14
+_QUANTIFIED = frozenset({"all", "every", "each", "both", "except", "but", "any"})
 
 
 @dataclass(frozen=True, slots=True)
@@ -41,6 +47,8 @@ class Request:
     history: tuple[Turn, ...] = ()
     """What was said before that message."""
     declined: bool = False
+    instead: bool = False
+    """Whether what the robot took it for is refused, and the answer names another thing."""
 
 
 def pending_request(words: Phrase, situation: Situation) -> Request | None:
@@ -48,7 +56,8 @@ def pending_request(words: Phrase, situation: Situation) -> Request | None:
     history = situation.history
     if not history or not _asks(history[-1]) or not _is_answer(words, history[-1]):
         return None
-    hints = [plain(words)]
+    answer = plain_answer(words, history[-1], situation.objects)
+    hints = [answer]
     at = len(history) - 1
     while at > 0 and _asks(history[at]):
         at -= 1
@@ -60,8 +69,11 @@ def pending_request(words: Phrase, situation: Situation) -> Request | None:
             at -= 1
             continue
         free = any(lexicon().your_choice.match(keys(words), i) for i in range(len(words)))
-        declined = agrees(plain(words)) is False and len(words) <= 4 and not free
-        return Request(turn.content, _unchained(hints), history[:at], declined)
+        refuses = agrees(plain(words)) is False and len(words) <= 4 and not free
+        instead = refuses and ground_phrase(tokens(answer), situation.objects).outcome == "match"
+        sought = any(text in history[-1].content.lower() for text in _WHAT_FOR)
+        message = f"{turn.content.rstrip(' .!?')} for {answer}" if sought else turn.content
+        return Request(message, tuple(hints), history[:at], refuses and not instead, instead)
     return None
 
 
@@ -71,10 +83,6 @@ def declines(message: str, situation: Situation) -> bool:
     if any(lexicon().your_choice.match(keys(tokens(message)), i) for i in range(len(tokens(message)))):
         return False
     return asked and agrees(message) is False
-
-
-def _unchained(hints: Sequence[str]) -> tuple[str, ...]:
-    return tuple(hints)
 
 
 def _asks(turn: Turn) -> bool:
@@ -113,5 +121,5 @@ def _is_answer(words: Phrase, question: Turn) -> bool:
         return True
     if opens_command(words):
         # "Go to the small one" answers "which one?" as well as "the small one" does.
-        return "one" in flat and flat[0] in {"go", "take", "use"}
+        return "one" in flat and flat[0] in {"go", "take", "use"} and not _QUANTIFIED & set(flat)
     return read_statement(words) is None or flat[0] in {"it", "he", "she", "they", "i"}

@@ -10,7 +10,7 @@ from parley.language.offline.scene.scene import Scene
 from parley.language.offline.tasks.abilities import abilities
 from parley.language.offline.words.nouns import bare, noun_phrase
 from parley.language.offline.words.saying import listing, the, whole_sentence
-from parley.language.offline.words.text import Phrase, keys, plain, singular, split_name
+from parley.language.offline.words.text import Phrase, keys, plain, singular, split_name, tokens
 from parley.messages.chat import ActionCall
 
 __all__ = ["ABOUT_ITSELF", "step_words", "told_about"]
@@ -31,8 +31,20 @@ def _say_status(scene: Scene, _: Phrase) -> str:
     now = step_words(situation.queue[0])
     if situation.status == "paused":
         return f"I am paused. Next I would {now}."
-    rest = f" After that I have {len(situation.queue) - 1} more to do." if len(situation.queue) > 1 else ""
-    return f"I am at this step: {now}.{rest}"
+    more = [step_words(step) for step in situation.queue[1:] if step.reason or _named(step)]
+    rest = f" After that: {listing(more[:_MOST_NAMED], 'and then')}." if more else ""
+    left = f" {len(more) - _MOST_NAMED} more follow." if len(more) > _MOST_NAMED else ""
+    return f"I am at this step: {now}.{rest}{left}"
+
+
+_MOST_NAMED = 4
+
+
+def _named(step: ActionCall) -> bool:
+    """Whether a step says in words what it is about, or has nothing to say."""
+    return not step.input_parameters or any(
+        isinstance(p.value, str) and p.value for p in step.input_parameters.values()
+    )
 
 
 def _say_left(scene: Scene, _: Phrase) -> str:
@@ -53,12 +65,26 @@ def _say_where(scene: Scene, _: Phrase) -> str:
 
 
 def _say_name(scene: Scene, _: Phrase) -> str:
-    name = scene.situation.robot
+    name = _called(scene) or scene.situation.robot
     return (
         f"I am {name}, a robot that you can talk to. {abilities(scene)}"
         if name
         else f"I am a robot that you can talk to. {abilities(scene)}"
     )
+
+
+def _called(scene: Scene) -> str:
+    """The name that the operator gave the robot; empty if none."""
+    for entry in reversed(scene.situation.memory):
+        words = tuple(word for word in tokens(entry.data) if word.is_word)
+        flat = keys(words)
+        lead = next((lead for lead in _NAMES if flat[: len(lead)] == lead), ())
+        if entry.type == "text" and lead and 0 < len(words) - len(lead) < 4:
+            return plain(words[len(lead) :])
+    return ""
+
+
+_NAMES = (("you", "are", "called"), ("your", "name", "is"), ("you", "are", "named"), ("you", "go", "by"))
 
 
 def _say_objects(scene: Scene, _: Phrase) -> str:

@@ -25,7 +25,7 @@ from parley.language.offline.words.text import Phrase, Word, keys, plain, tokens
 from parley.language.word_lists import load_data
 from parley.messages.chat import ActionCall
 
-__all__ = ["Answer", "answer"]
+__all__ = ["Answer", "answer", "unwrapped"]
 
 
 @cache
@@ -79,7 +79,7 @@ _AT_A_LOSS = "I do not know"
 
 
 def _read(words: Phrase, clause: Clause, scene: Scene) -> Answer | None:
-    words, wrapped = _unwrapped(words)
+    words, wrapped = unwrapped(words)
     if wrapped and _to_be_done(keys(words), keys(clause.words), scene):
         return None
     flat = keys(words)
@@ -166,7 +166,12 @@ def _values(step: ActionCall) -> list[str]:
     return [p.value for p in step.input_parameters.values() if isinstance(p.value, str)]
 
 
-def _unwrapped(words: Phrase) -> tuple[Phrase, bool]:
+def unwrapped(words: Phrase) -> tuple[Phrase, bool]:
+    """A question without "tell me", "do you know" and the like in front, and whether there was any.
+
+    Args:
+        words: The words of a question.
+    """
     flat = keys(words)
     for wrapper in _starts("wrappers"):
         rest = words[len(wrapper) :]
@@ -256,6 +261,7 @@ def _where(words: Phrase, flat: tuple[str, ...], scene: Scene, _: bool) -> Answe
     about = tokens(need) if need else scene.referent(about)
     fact, several = find_fact(about, scene.facts)
     hits = [fact] if fact is not None else several
+    hits += [said for item in hits if (said := scene.closing_of(item)) is not None]
     for item in hits:
         scene.use(item)
     scene.mention(bare(about))
@@ -389,6 +395,9 @@ def _whether(words: Phrase, flat: tuple[str, ...], scene: Scene, asked: bool) ->
         scene.use(denied)
         return Answer(f"As far as I know, no: {whole_sentence(denied.fact.sentence)}")
     if place and ground_phrase(place, scene.objects).outcome != "none":
+        inner = lexicon().places.match(keys(place))
+        # "Are the lights on in the hall": the hall.
+        place = place[inner[0] :] if inner is not None and inner[0] < len(place) else place
         return Answer(
             f"I do not know. Shall I go to {the(plain(place))} and have a look?", _statement(there, words)
         )

@@ -39,7 +39,8 @@ def turned(words: Phrase, scene: Scene) -> Phrase:
     size = _subject(rest, scene)
     if flat[0] in {"does", "do", "did"}:
         return (*rest[:size], _third(rest[size]), *rest[size + 1 :]) if size < len(rest) else ()
-    return (*rest[:size], verb, *rest[size:]) if 0 < size < len(rest) else ()
+    link = Word(verb.key, verb.key)
+    return (*rest[:size], link, *rest[size:]) if 0 < size < len(rest) else ()
 
 
 def _subject(rest: Phrase, scene: Scene) -> int:

@@ -6,15 +6,16 @@ remembered, or of somebody by name.
 
 from __future__ import annotations
 
-from parley.language.offline.facts.facts import Fact, strip_openers
+from parley.language.offline.facts.facts import Fact, read_statement, strip_openers
 from parley.language.offline.facts.groups import read_group
+from parley.language.offline.facts.redirecting import read_redirect
 from parley.language.offline.facts.stories import mentioned
 from parley.language.offline.scene.scene import Scene
 from parley.language.offline.sentences.clauses import opens_command
 from parley.language.offline.sentences.finite import verb_at
 from parley.language.offline.words.lexicon import lexicon
 from parley.language.offline.words.nouns import bare, coordinated
-from parley.language.offline.words.text import Phrase, Word, keys, plain
+from parley.language.offline.words.text import Phrase, Word, keys, plain, tokens
 from parley.language.word_lists import load_data
 
 __all__ = ["laid_down", "read_declared", "read_rule"]
@@ -96,12 +97,15 @@ def read_declared(words: Phrase, scene: Scene) -> Fact | None:
         flat
     ):
         return None
-    at = verb_at(said)
+    at = verb_at(said) or _unknown_verb(said, scene)
     if flat[0] in {"smells", "sounds", "stinks", "looks", "seems", "feels"}:
         return None
     if flat[at] in _TELLING or {"whether", "if"} & set(flat):
         return None
     subject = bare(said[:at]) if at else ()
+    if len(subject) > 1 and subject[-1].key in {"may", "can", "must"}:
+        # "Only A may V": of A.
+        subject = subject[int(subject[0].key == "only") : -1]
     if not subject or at >= len(said) - 1:
         return None
     known = _is_known(subject, scene)
@@ -114,6 +118,17 @@ def read_declared(words: Phrase, scene: Scene) -> Fact | None:
         thing = bare(said[at + 1 : goal])
         return Fact(thing, relation="belongs", state=said[goal:], sentence=sentence)
     return Fact(subject, relation=flat[at], state=said[at + 1 :], sentence=sentence)
+
+
+def _unknown_verb(said: Phrase, scene: Scene) -> int:
+    """Where a verb that no list has stands behind a thing of the map ("the machine refuses coins")."""
+    for at in range(min(5, len(said) - 2), 0, -1):
+        verb = said[at].key
+        third = len(verb) > 3 and verb.endswith("s") and "'" not in verb and not verb.endswith("ss")
+        unknown = third and verb not in lexicon().vocabulary
+        if unknown and scene.ground(said[:at]).outcome == "match":
+            return at
+    return 0
 
 
 def read_rule(words: Phrase) -> Fact | None:
@@ -203,6 +218,41 @@ def _habit(words: Phrase, scene: Scene) -> Fact | None:
     )
 
 
+_SENTENCE_ENDS = frozenset({".", "!", "?", ";", "\n"})
+_USING = frozenset(
+    {"use", "using", "used", "everything", "moved", "replaces", "replaced", "contents", "stuff"}
+)
+
+
+def _goes_on(words: Phrase, start: int, end: int) -> bool:
+    """For "A is closed. Use B instead": the second sentence says what is used in the place of A."""
+    behind = next((i for i in range(end + 1, len(words)) if words[i].key in _SENTENCE_ENDS), len(words))
+    if words[end].key not in {".", ";", "!"} or not {"use", "using"} & set(keys(words[end + 1 : end + 4])):
+        return False
+    first = read_redirect(plain(words[start:end]))
+    both = read_redirect(plain((*words[start:end], Word(",", ","), *words[end + 1 : behind])))
+    return first is not None and both is not None and not first.other and bool(both.other)
+
+
+def _replacement(words: Phrase, scene: Scene) -> Fact | None:
+    """What is used in the place of something that is closed or has moved; an order changed so is none."""
+    words = strip_openers(words, reporting=True)
+    told = read_redirect(plain(words)) if _USING & set(keys(words)) and not scene.situation.queue else None
+    if told is None or not told.other or scene.ground(told.other).outcome != "match":
+        return None
+    fact = read_statement(words) if told.moved else None
+    if fact is not None and fact.is_location and keys(fact.subject) == keys(told.place):
+        # "A has moved to B": where A is.
+        return None
+    said = next((turn for turn in reversed(scene.situation.history) if turn.role == "operator"), None)
+    last = keys(tokens(said.content)) if said is not None else ()
+    name = keys(told.place)
+    if any(last[i : i + len(name)] == name for i in range(len(last))):
+        return None
+    text = plain(words).strip(" ,")
+    return Fact(told.place, relation="is", state=words, sentence=text[:1].upper() + text[1:])
+
+
 def laid_down(words: Phrase, scene: Scene) -> tuple[tuple[Fact, ...], Phrase]:
     """What whole sentences of a message list or lay down for later, and the message without them.
 
@@ -214,14 +264,17 @@ def laid_down(words: Phrase, scene: Scene) -> tuple[tuple[Fact, ...], Phrase]:
     found: list[Fact] = []
     start = 0
     for index in range(len(words) + 1):
-        if index < len(words) and words[index].key not in {".", "!", "?", ";", "\n"}:
+        if index < len(words) and (words[index].key not in _SENTENCE_ENDS or _goes_on(words, start, index)):
             continue
         mark = words[index : index + 1]
         sentence = words[start:index]
         fact = (
             None
             if keys(mark) == ("?",)
-            else read_group(sentence) or read_rule(sentence) or _habit(sentence, scene)
+            else read_group(sentence)
+            or read_rule(sentence)
+            or _habit(sentence, scene)
+            or _replacement(sentence, scene)
         )
         if fact is None:
             left += (*sentence, *mark)

@@ -11,7 +11,7 @@ from parley.language.offline.words.nouns import bare, noun_phrase
 from parley.language.offline.words.text import Phrase, Word, keys, plain
 from parley.language.word_lists import load_data
 
-__all__ = ["NO_PLACES", "Fact", "read_statement", "strip_openers", "where_only"]
+__all__ = ["NO_PLACES", "TASTES", "Fact", "read_statement", "strip_openers", "where_only"]
 
 
 def strip_openers(phrase: Phrase, *, requests: bool = False, reporting: bool = False) -> Phrase:
@@ -51,6 +51,9 @@ def read_statement(phrase: Phrase) -> Fact | None:
     denial = lexicon().corrections.match(flat)
     if denial is not None and flat[0] == "that" and len(flat) - denial[0] > 3:
         phrase = strip_openers(phrase[denial[0] :], reporting=True)
+    taste = _taste(phrase)
+    if taste is not None:
+        return taste
     fact = (
         _there_is(phrase)
         or _left(phrase)
@@ -63,6 +66,36 @@ def read_statement(phrase: Phrase) -> Fact | None:
     if fact is None:
         return None
     return replace(fact, place=where_only(fact.place), sentence=_sentence(phrase))
+
+
+TASTES = frozenset({"like", "love", "prefer", "hate", "dislike", "enjoy"})
+"""What people say of themselves that is worth knowing when something is brought to them."""
+_SURE = frozenset({"really", "always", "also", "much", "do", "not", "never", "especially", "just"})
+_NO_TASTES = frozenset({
+    "it", "you", "your", "this", "that", "these", "those", "them", "him", "her", "to", "how",
+    "what", "when", "where", "the", "if", "me", "myself", "being", "seeing", "working", "idea",
+    "going", "both", "my", "our", "mondays", "who",
+})  # fmt: skip
+
+
+def _taste(phrase: Phrase) -> Fact | None:
+    """For "I like tea", "I do not like milk"."""
+    flat = keys(phrase)
+    at = next((i for i in range(1, len(flat)) if flat[i] not in _SURE), len(flat))
+    liked = phrase[at + 1 :]
+    if flat[0] != "i" or flat[at : at + 1] == () or flat[at] not in TASTES or not 0 < len(liked) < 6:
+        return None
+    if _NO_TASTES & set(keys(liked)) or any(not word.is_word for word in liked):
+        return None
+    negated = bool({"not", "never"} & set(flat[1:at]))
+    return Fact(
+        (Word("operator", "operator"),),
+        relation=flat[at],
+        state=liked,
+        negated=negated,
+        sentence=plain(phrase),
+        another=True,
+    )
 
 
 _TIMES = tuple(tuple(text.split()) for text in load_data("telling")["when"])
@@ -105,6 +138,8 @@ def _holds(phrase: Phrase) -> Fact | None:
         phrase, link = (*phrase[: link - 1], *phrase[link:]), link - 1
     if not link or flat[0] in NOT_SUBJECTS or link >= len(phrase) - 1:
         return None
+    if flat[link - 1] in lexicon().person_words:
+        return None
     return Fact(bare(phrase[link + 1 :]), bare(phrase[:link]), "in", another=True)
 
 
@@ -144,15 +179,18 @@ def _place(phrase: Phrase, relation: str) -> Phrase:
 
 
 def _placed(phrase: Phrase) -> Fact | None:
-    """For "I put the box on the shelf", "we keep the keys in the drawer"."""
+    """For "I put the box on the shelf", "we keep the keys in the drawer", "Anna moved it to the hall"."""
     flat = keys(phrase)
     lex = lexicon()
-    if flat[0] not in {"i", "we", "somebody", "someone", "they", "he", "she"}:
+    own = flat[0] in {"i", "we", "somebody", "someone", "they", "he", "she"}
+    named = phrase[0].is_capital and flat[0] not in lex.vocabulary
+    if not own and not named:
         return None
     verb = next((i for i in range(1, min(4, len(flat))) if flat[i] in lex.placing_verbs), 0)
     if not verb or any(
-        word not in lex.auxiliaries | {"just", "always", "usually", "also", "already", "now"}
-        for word in flat[1:verb]
+        phrase[i].key not in lex.auxiliaries | {"just", "always", "usually", "also", "already", "now"}
+        and not (named and phrase[i].is_capital)
+        for i in range(1, verb)
     ):
         return None
     rest = phrase[verb + 1 :]

@@ -5,6 +5,7 @@ A frame is made of small words and at least one that speaks of knowing or keepin
 
 from __future__ import annotations
 
+from parley.language.offline.facts.replacing import put_plainly
 from parley.language.offline.sentences.clauses import opens_command
 from parley.language.offline.sentences.finite import has_verb, verb_at
 from parley.language.offline.words.lexicon import lexicon
@@ -38,6 +39,7 @@ _ORDERING = frozenset({
     "want", "need", "wants", "needs", "is", "are", "do", "like", "plan", "will", "would", "should", "go",
     "check", "whether", "if", "following", "find",
 })  # fmt: skip
+_DAYS = frozenset(load_data("words")["months_days"])
 _LONGEST = 14
 
 
@@ -49,7 +51,7 @@ def told_plainly(words: Phrase) -> Phrase:
     """
     if "?" in keys(words[-1:]):
         return words
-    words = _without_cleft(words)
+    words = put_plainly(words)
     result: list[Word] = []
     start = 0
     while start < len(words):
@@ -134,6 +136,9 @@ def _tells(words: Phrase, *, telegram: bool) -> bool:
     if flat[:2] in {("at", "rest"), ("at", "ease")}:
         # "It would put my mind at rest if ...": nothing is told.
         return False
+    if telegram and _DAYS & set(flat):
+        # "Do not forget: fire drill on Friday".
+        return True
     if opens_command(said) and verb_at(said, 5) == 0:
         return False
     return telegram or has_verb(said) or verb_at(said) > 0
@@ -154,21 +159,3 @@ def _without_tail(sentence: Phrase) -> Phrase:
         if kept and _tells(head, telegram=False) and not opens_command(head):
             return (*_REMEMBER, *head)
     return sentence
-
-
-def _without_cleft(words: Phrase) -> Phrase:
-    """For "it is not A that S, it is B" "B S"."""
-    flat = keys(words)
-    if flat[:3] != ("it", "is", "not") or "," not in flat[4:]:
-        return words
-    comma = flat.index(",", 4)
-    that = next((i for i in range(4, comma) if flat[i] in {"that", "which", "who"}), 0)
-    rest = next((n for n in (("it", "is"), ("but",)) if flat[comma + 1 : comma + 1 + len(n)] == n), ())
-    end = next((i for i in range(comma + 1, len(flat)) if flat[i] in _ENDS | {","}), len(flat))
-    other, said = words[comma + 1 + len(rest) : end], words[that + 1 : comma]
-    if not that or not rest or not other or len(said) < 2 or _PEOPLE & set(keys(said)):
-        return words
-    return (*other, *said, *words[end:])
-
-
-_PEOPLE = frozenset({"i", "you", "me", "us", "we", "worries", "concerns", "bothers", "needs", "wants"})

@@ -21,6 +21,11 @@ from parley.messages.chat import SystemCommand
 __all__ = ["Noting", "mention_listed"]
 
 
+_ANNOUNCED = frozenset(
+    {"thing", "fact", "point", "the", "following", "these", "this", "a", "few", "couple", "of"}
+)
+
+
 def mention_listed(told: Sequence[Fact], scene: Scene) -> None:
     """What a message lists may be meant by "each of them"."""
     for fact in told:
@@ -102,6 +107,9 @@ class Noting:
             return False
         rest = strip_openers(words[found[0] :])
         sentence = plain(rest)
+        if {singular(word) for word in keys(rest)} <= _ANNOUNCED | set(lexicon().numbers):
+            # "Remember two things." What they are follows.
+            return True
         self.remember(
             Fact(rest[:4], relation="note", state=rest, sentence=sentence[:1].upper() + sentence[1:])
         )
@@ -149,7 +157,7 @@ class Noting:
             or (fact.subject and plain(fact.subject).startswith(first) and fact.subject[0].is_capital)
         )
         said = said.replace(" their ", " your ", 1) if said.startswith("The operator ") else said
-        said = said if keep else said[:1].lower() + said[1:]
+        said = f"you {said[2:]}" if first == "I" else said if keep else said[:1].lower() + said[1:]
         said = (
             said.replace("the operator's", "your", 1)
             .replace("the operator", "you", 1)

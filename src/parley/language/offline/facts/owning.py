@@ -69,14 +69,21 @@ def owner_of(thing: Phrase, facts: Sequence[Remembered]) -> Belonging | None:
     return chosen[0] if len({keys(b.owner) for b in chosen}) == 1 else None
 
 
+_FORGETTING = frozenset({("forget",), ("delete",), ("erase",), ("remove",), ("unlearn",)})
+_TELLING = frozenset({"told", "said", "know", "about", "remember", "memory", "mentioned"})
+
+
 def with_owners_named(words: Phrase, facts: Sequence[Remembered]) -> tuple[Phrase, list[Remembered]]:
     """A message with "the owner of A" and "whoever owns A" by the owner's name, and the facts used."""
     flat = keys(words)
+    if flat[:1] in _FORGETTING and _TELLING & set(flat):
+        # What is to be forgotten is what goes by that name itself.
+        return words, []
     if _SOMEBODY & set(flat) and facts:
         doer = _doer_named(words, flat, facts)
         if doer is not None:
             return doer
-    words = _by_their_names(words, facts)
+    words = _by_their_names(_trait_named(_its_owner(words, facts), facts), facts)
     flat = keys(words)
     theirs = _belonging_said(words, flat, facts)
     if theirs is not None:
@@ -97,6 +104,40 @@ def with_owners_named(words: Phrase, facts: Sequence[Remembered]) -> tuple[Phras
         used.append(belonging.source)
         index = end
     return tuple(result), used
+
+
+_ITS_OWNER = frozenset({"owner", "driver", "proprietor"})
+_IT_IS_FOR = tuple(
+    tuple(text.split())
+    for text in (
+        "it belongs to", "that it belongs to", "who it belongs to", "whom it belongs to",
+        "to whom it belongs",
+        "it is for", "that it is for", "who owns it", "it is meant for", "whose it is", "that owns it",
+    )
+)  # fmt: skip
+
+
+def _its_owner(words: Phrase, facts: Sequence[Remembered]) -> Phrase:
+    """For "(take A) to its owner" and "to the person it belongs to" whose A is."""
+    flat = keys(words)
+    for index in range(2, len(flat)):
+        size = 0
+        if flat[index] in _ITS_OWNER and flat[index - 1] in {"its", "their", "the", "rightful"}:
+            size = 0 if flat[index + 1 : index + 2] == ("of",) else 1
+        elif flat[index] in _GENERAL | lexicon().person_words | {"to", "whoever"}:
+            tail = next((t for t in _IT_IS_FOR if flat[index + 1 : index + 1 + len(t)] == t), ())
+            size = len(tail) + 1 if tail else 0
+        if not size:
+            continue
+        said = set(flat[:index])
+        about = [b for b in belongings(facts) if set(noun_phrase(b.thing).core) <= said or b.kind in said]
+        if len({keys(b.owner) for b in about}) != 1:
+            return words
+        start = index + (flat[index] == "to")
+        while start > 1 and flat[start - 1] in {"its", "their", "the", "rightful", "a"}:
+            start -= 1
+        return (*words[:start], *about[0].owner, *words[index + size :])
+    return words
 
 
 _SOMEBODY = frozenset({"whoever", "who", "that", "with"})
@@ -132,6 +173,7 @@ def _doer_named(
     """For "whoever has the key", "the patient who can not eat nuts": the one person remembered to."""
     if flat[0] in {"who", "whoever"} or (flat[0] in lexicon().question_starts):
         return None
+    called = {keys(f.fact.subject) for f in facts if keys(f.fact.state[:1]) in {("called",), ("named",)}}
     for index in range(1, len(flat) - 1):
         start = index
         if flat[index] != "whoever":
@@ -144,7 +186,7 @@ def _doer_named(
             len(flat),
         )
         wanted = _content(words[index + 1 : end])
-        theirs = [f for f in facts if _is_somebodys(f)]
+        theirs = [f for f in facts if _is_somebodys(f) or keys(f.fact.subject) in called]
         if flat[index] == "with":
             theirs = [f for f in theirs if f.fact.relation in _WITH and wanted <= _content(f.fact.state)]
         scored = [(len(wanted & _content((*f.fact.state, *f.fact.place))), f) for f in theirs]
@@ -153,7 +195,40 @@ def _doer_named(
         if best and len(names) == 1:
             (known,) = names.values()
             return (*words[:start], *known.fact.subject, *words[end:]), [known]
+        named = [f for f in facts if _is_somebodys(f) and _alike(wanted, _content(f.fact.state))]
+        if flat[index] == "with" and not best and len({keys(f.fact.subject) for f in named}) == 1:
+            return (*words[:start], *named[0].fact.subject, *words[end:]), [named[0]]
+        owner = owner_of(bare(words[index + 1 : end]), facts) if flat[index] == "with" and not best else None
+        if owner is not None:
+            return (*words[:start], *owner.owner, *words[end:]), [owner.source]
     return None
+
+
+def _alike(wanted: frozenset[str], said: frozenset[str]) -> bool:
+    """Whether all words are said, in whatever form ("the nut allergy", "allergic to nuts")."""
+    return bool(wanted) and all(any(word[:5] == other[:5] for other in said) for word in wanted)
+
+
+def _trait_named(words: Phrase, facts: Sequence[Remembered]) -> Phrase:
+    """For "the person allergic to dust" the name of the one person who is remembered to be that."""
+    flat = keys(words)
+    for index in range(2, len(flat) - 1):
+        if flat[index - 1] not in _GENERAL or flat[index - 2] != "the" or flat[index] in _SOMEBODY:
+            continue
+        stops = lexicon().be | lexicon().auxiliaries | {"and", "then"}
+        end = next(
+            (i for i in range(index, len(flat)) if not words[i].is_word or flat[i] in stops), len(flat)
+        )
+        wanted = _content(words[index:end])
+        fitting = {
+            keys(f.fact.subject): f.fact.subject
+            for f in facts
+            if wanted and _is_somebodys(f) and wanted <= _content((*f.fact.state, *f.fact.place))
+        }
+        if len(fitting) == 1:
+            (name,) = fitting.values()
+            return (*words[: index - 2], *name, *words[end:])
+    return words
 
 
 def _by_their_names(words: Phrase, facts: Sequence[Remembered]) -> Phrase:
@@ -196,12 +271,22 @@ def _by_their_roles(words: Phrase, facts: Sequence[Remembered]) -> Phrase:
             if not person or not (theirs or post):
                 continue
             at = next((i for i in range(len(said)) if _same_role(said[i : i + len(wanted)], wanted)), -1)
+            if at < 0 and len(wanted) == 2 and wanted[0].removesuffix("'s") in said:
+                # "A wants to see her brother": A's brother.
+                at = (
+                    next((i for i in range(1, len(said)) if _is_their_role(said[i - 1 : i + 1], wanted)), 0)
+                    - 1
+                )
             end = at + len(wanted)
             told = at < 2 and said[end : end + 1] and said[end] in lexicon().be | {"has", "moved", "left"}
             if at >= 0 and not told and not set(keys(name)) & set(said):
                 start = at - (at > 0 and said[at - 1] in {"the", "our"})
                 return (*words[:start], *name, *words[end:])
     return _by_what_they_are(words, facts)
+
+
+def _is_their_role(said: tuple[str, ...], role: tuple[str, ...]) -> bool:
+    return said[:1] in {("her",), ("his",)} and said[1:] == role[1:]
 
 
 def _called(state: Phrase) -> Phrase:
@@ -368,6 +453,8 @@ def _by_name(item: Remembered, state: Phrase) -> Belonging | None:
         return Belonging(subject, thing, _head(thing), item)
     if flat[0] in {"mine", "yours"} or flat[:1] == ("my",):
         return Belonging(tokens("operator"), subject, _head(subject), item)
+    if flat[0] == "for" and state[1:2] and (state[1].is_capital or flat[-1] in lexicon().person_words):
+        return Belonging(bare(state[1:]), subject, _head(subject), item)
     for side, other in ((state, subject), (subject, state)):
         at = next((i for i, word in enumerate(side) if word.key.endswith("'s")), -1)
         if at < 0:

@@ -13,6 +13,7 @@ from parley.language.offline.scene.labels import with_kinds
 from parley.language.offline.scene.missing import left_by_somebody
 from parley.language.offline.scene.owned import owned_thing
 from parley.language.offline.scene.scene import Scene
+from parley.language.offline.scene.sought import only_looks
 from parley.language.offline.sentences.clauses import opens_command
 from parley.language.offline.sentences.finite import dislocated, has_verb, joined_lines, verb_at
 from parley.language.offline.sentences.rounds import as_round
@@ -20,7 +21,7 @@ from parley.language.offline.words.lexicon import lexicon
 from parley.language.offline.words.saying import the
 from parley.language.offline.words.text import Phrase, Word, keys, lemma, tokens
 
-__all__ = ["plainly_named", "without_hesitation"]
+__all__ = ["plainly_named"]
 
 _MARKS = frozenset({".", "!", "?", ";", "\n"})
 _LEFT_OUT = (("of", "interest"), ("of", "ours"), ("on", "our", "list"), ("in", "question"))
@@ -73,7 +74,7 @@ def plainly_named(words: Phrase, scene: Scene) -> Phrase:
     """
     before = [turn.content for turn in scene.situation.history[-4:]]
     words = _without_neither(_without_tail(_without_left_out(words, scene)))
-    words = without_hesitation(_without_never_mind(joined_lines(words)))
+    words = _without_hesitation(_without_never_mind(joined_lines(words)))
     words = _able(_forgetting(_where_first(dislocated(words))))
     words, used = with_owners_named(_each_state(words), scene.facts)
     for fact in used:
@@ -229,7 +230,7 @@ _WAITING = (
 )
 
 
-def without_hesitation(words: Phrase) -> Phrase:
+def _without_hesitation(words: Phrase) -> Phrase:
     """Without "no, wait," before a statement that corrects another."""
     flat = keys(words)
     lead = next((lead for lead in _WAITING if flat[: len(lead)] == lead), ())
@@ -386,15 +387,26 @@ def _left(words: Phrase, scene: Scene) -> Phrase:
     if not {"someone", "somebody", "they", "people"} & set(keys(words)):
         return words
     result: list[Word] = []
-    start = 0
+    start, order = 0, None
     for index in range(len(words) + 1):
         if index < len(words) and words[index].key not in _MARKS | {","}:
             continue
         sentence, mark = words[start:index], words[index : index + 1]
+        if order and (only_looks(sentence) or _guessed_where(sentence, scene)):
+            start = index + 1
+            continue
         order = left_by_somebody(sentence, scene) if keys(mark) != ("?",) else None
         result += (*(order or sentence), *((Word(".", "."),) if order and mark else mark))
         start = index + 1
     return tuple(result)
+
+
+def _guessed_where(sentence: Phrase, scene: Scene) -> bool:
+    """Whether it only says more exactly where: "apparently under a table", of a place that is not known."""
+    at = next((i for i in range(min(3, len(sentence))) if lexicon().places.match(keys(sentence), i)), -1)
+    words = {"apparently", "probably", "maybe", "perhaps", "i", "think", "possibly", "likely", "somewhere"}
+    led = at > 0 and set(keys(sentence[:at])) <= words
+    return led and len(sentence) < 8 and scene.ground(sentence[at + 1 :]).outcome == "none"
 
 
 def _his_own(words: Phrase, scene: Scene) -> Phrase:

@@ -62,8 +62,13 @@ class Protocol:
 
 
 @lru_cache(maxsize=1024)
-def read_protocol(text: str) -> Protocol | None:
-    """The rule that a message teaches, or None if it teaches none (a condition for once is none)."""
+def read_protocol(text: str, *, kept: bool = False) -> Protocol | None:
+    """The rule that a message teaches, or None if it teaches none (a condition for once is none).
+
+    Args:
+        text: The message.
+        kept: Whether it is remembered: then it is a rule whatever its condition speaks of.
+    """
     if text.strip().endswith("?") or len(text) > 400:
         return None
     words = tuple(word for word in tokens(text) if word.key not in {'"', "."})
@@ -72,7 +77,7 @@ def read_protocol(text: str) -> Protocol | None:
         words = strip_openers(words, reporting=True)
     for condition, rest, always in _cuts(words):
         acts = _acts(rest)
-        if acts and condition and (always or _speaks_of_failure(condition)):
+        if acts and condition and (always or kept or _speaks_of_failure(condition)):
             standing = always or _codes(condition) != {FailureCode.ATTENTION}
             return Protocol(condition, acts, plain(words).rstrip(" .!"), standing)
     return None
@@ -94,7 +99,7 @@ def applying(situation: ErrorSituation) -> Iterator[tuple[Protocol, MemoryEntry]
     """The protocols that this failure calls for, those that name a thing first, then newest first."""
     found: list[tuple[bool, Protocol, MemoryEntry]] = []
     for entry in reversed(situation.memory):
-        protocol = read_protocol(entry.data) if entry.type == "text" else None
+        protocol = read_protocol(entry.data, kept=True) if entry.type == "text" else None
         if protocol is not None and _applies(protocol, situation):
             found.append((not _names(protocol.condition), protocol, entry))
     for _, protocol, entry in sorted(found, key=lambda item: item[0]):
@@ -262,4 +267,5 @@ def _act_of(words: Phrase) -> Act | None:
     for kind in ("again", "around", "tell", "stop", "cancel", "skip"):
         if any(flat[: len(start)] == start for start in _phrases("acts", kind)):
             return Act(kind, plain(words))
-    return Act("order", plain(words)) if opens_command(words) else None
+    instead = flat[0] in {"use", "take"} and len(flat) > 1
+    return Act("order", plain(words)) if instead or opens_command(words) else None

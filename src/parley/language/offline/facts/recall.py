@@ -5,9 +5,10 @@ from __future__ import annotations
 from collections.abc import Sequence
 
 from parley.language.offline.facts.protocols import may_matter
+from parley.language.offline.facts.redirecting import redirects
 from parley.language.offline.facts.remembering import remembered
 from parley.language.offline.words.lexicon import lexicon
-from parley.language.offline.words.text import lemma, singular, split_name, tokens
+from parley.language.offline.words.text import keys, lemma, singular, split_name, tokens
 from parley.messages.memory import MemoryEntry
 
 __all__ = ["select_memories"]
@@ -33,6 +34,10 @@ def select_memories(query: str, index: Sequence[MemoryEntry]) -> list[str]:
         own = {singular(word.key) for word in tokens(entry.data[:500])}
         if any(place and place <= own for place in leads_to):
             chosen.add(entry.name)
+    # What is used in its place may be closed itself.
+    closings = list(redirects(index))
+    others = {keys(said.other) for _, said, entry in closings if entry.name in chosen and said.other}
+    chosen |= {entry.name for _, said, entry in closings if keys(said.place) in others}
     return [entry.name for entry in index if entry.name in chosen]
 
 

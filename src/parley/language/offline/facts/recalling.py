@@ -13,13 +13,16 @@ from parley.language.offline.facts.stories import mentioned
 from parley.language.offline.sentences.clauses import Clause, clauses, opens_command
 from parley.language.offline.sentences.look_only import as_look, confirming, looking_in
 from parley.language.offline.sentences.rounds import watched_for
-from parley.language.offline.tasks.commands import read_command
+from parley.language.offline.tasks.commands import Command, read_command
 from parley.language.offline.tasks.doing import Doing
 from parley.language.offline.words.lexicon import lexicon
 from parley.language.offline.words.nouns import bare, noun_phrase
 from parley.language.offline.words.text import Phrase, keys, plain, tokens
 
 __all__ = ["Recalling"]
+
+
+_FAILED = frozenset({"cannot", "not", "unable", "failed", "?", "which", "where"})
 
 
 @dataclass
@@ -53,12 +56,15 @@ class Recalling(Doing):
         for turn in self.scene.situation.history[-6:]:
             if turn.role != "operator":
                 self._mention_seen(tokens(turn.content))
+                if _FAILED & set(keys(tokens(turn.content.lower()))):
+                    self.tasks.carried = ()
                 continue
             for part in clauses(tokens(turn.content), opens_command):
                 fact = read_statement(part.words)
                 command = read_command(part.words, self.scene.is_person)
                 if command is not None:
                     self._previous = None if command.negated else command
+                    self._hold(command)
                     for phrase in (command.source, command.place, command.theme, command.recipient):
                         self.scene.mention(bare(phrase))
                     if command.place:
@@ -70,6 +76,13 @@ class Recalling(Doing):
                 else:
                     self._mention_names(part.words)
 
+    def _hold(self, command: Command) -> None:
+        """What the robot still has after an earlier order: what it fetched and gave to nobody."""
+        if command.negated or command.kind not in {"grasp", "transfer", "place"}:
+            return
+        kept = command.kind != "place" and not command.recipient and not command.place
+        self.tasks.carried = bare(command.theme) if kept and not self.scene.situation.queue else ()
+
     def _mention_seen(self, words: Phrase) -> None:
         """What the robot reported that it saw: things on the map, before the place where they are."""
         flat = keys(words)
@@ -77,7 +90,8 @@ class Recalling(Doing):
         if at < 0 or "?" in flat:
             return
         end = next((i for i in range(at, len(flat)) if flat[i] in {".", "!"}), len(flat))
-        seen = mentioned(words[at:end], self.scene)
+        named = mentioned(words[at:end], self.scene)
+        seen = [phrase for phrase in named if lexicon().places.match(keys(phrase)) is None]
         for phrase in [*seen[1:], *seen[:1]]:
             self.scene.mention(phrase)
 

@@ -17,7 +17,7 @@ from parley.language.offline.words.text import Phrase, Word, keys, plain, singul
 from parley.messages.memory import MemoryEntry
 from parley.world.object_map import MapObject
 
-__all__ = ["Remembered", "find_fact", "memory_name", "newest", "of_others", "remembered"]
+__all__ = ["Remembered", "find_fact", "memory_name", "newest", "of_others", "remembered", "speaks_of_several"]
 
 
 @dataclass(frozen=True, slots=True)
@@ -35,7 +35,7 @@ def remembered(memory: Iterable[MemoryEntry]) -> list[Remembered]:
         if entry.type != "text":
             continue
         fact = _entry_fact(entry.name, entry.data)
-        if fact is not None:
+        if fact is not None and keys(fact.subject) not in _ROBOT:
             result.append(Remembered(fact, entry))
     newest_first = result[::-1]
     ordered = sorted(newest_first, key=lambda item: "/" in item.entry.source)
@@ -44,6 +44,8 @@ def remembered(memory: Iterable[MemoryEntry]) -> list[Remembered]:
     return [*ordered, *by_work, *placed_by_rule(ordered, placed)]
 
 
+_ROBOT = frozenset({("you",), ("yourself",), ("your",)})
+"""What is kept about the robot itself names nothing in the world: "you" is no other name of it."""
 _WORKING = frozenset({"drives", "operates", "runs", "mans", "minds", "tends", "steers", "staffs"})
 _BUSY = frozenset({
     "sells", "serves", "helps", "teaches", "cooks", "guards", "watches", "plays", "trains", "studies", "eats",
@@ -56,11 +58,18 @@ _ON_DUTY = frozenset({("on", "duty"), ("on", "shift"), ("on", "call"), ("in", "c
 def _by_work(item: Remembered, placed: set[tuple[str, ...]]) -> Remembered | None:
     """For "A drives the truck": A is found at the truck, if nothing better is known."""
     fact = item.fact
-    if fact.negated or fact.is_location or not fact.subject[:1] or not fact.subject[0].is_capital:
+    if fact.negated or fact.is_location or not fact.subject[:1]:
+        return None
+    company = bare(fact.state[1:]) if keys(fact.state[:1]) == ("with",) else ()
+    if company and fact.relation in lexicon().be and keys(company) in placed:
+        # "The keys are with A".
+        return Remembered(replace(fact, place=company, relation="at", state=()), item.entry)
+    if not fact.subject[0].is_capital:
         return None
     if keys(fact.subject) in placed:
         return None
-    if fact.relation in _BUSY or keys(fact.state[:2]) in _ON_DUTY:
+    doing = fact.relation in lexicon().be and keys(fact.state)[:1] and keys(fact.state)[0].endswith("ing")
+    if doing or fact.relation in _BUSY or keys(fact.state[:2]) in _ON_DUTY:
         # "A sells tea at the kiosk".
         flat = keys(fact.state)
         at = next((i for i in range(1, len(flat) - 1) if flat[i] in _WHERE), 0)
@@ -73,10 +82,36 @@ def _by_work(item: Remembered, placed: set[tuple[str, ...]]) -> Remembered | Non
     return Remembered(replace(fact, place=place, relation="at", state=()), item.entry) if place else None
 
 
+def speaks_of_several(sentence: str) -> bool:
+    """For "Packages are stored in A", "Packages stored in A": no name, though it has no article."""
+    flat = keys(tokens(sentence))
+    plural = singular(flat[0]) != flat[0]
+    return plural and not (flat[1:2] and (flat[1] in {"is", "was", "has"} or singular(flat[1]) != flat[1]))
+
+
 @lru_cache(maxsize=4096)
 def _entry_fact(name: str, data: str) -> Fact | None:
+    fact = _read_entry(name, data)
+    if fact is None or len(fact.subject) != 1 or not speaks_of_several(fact.sentence):
+        return fact
+    word = fact.subject[0]
+    return replace(fact, subject=(Word(word.key, word.key),))
+
+
+def _without_heading(words: Phrase) -> Phrase:
+    """For "Correction: A is in B" what follows the mark."""
+    headed = keys(words[:1]) in _HEADINGS and keys(words[1:2]) in {(":",), (",",)}
+    return words[2:] if headed and len(words) > 3 else words
+
+
+_HEADINGS = frozenset(
+    (word,) for word in ("correction", "update", "note", "news", "attention", "important", "reminder", "now")
+)
+
+
+def _read_entry(name: str, data: str) -> Fact | None:
     first = re.split(r"(?<=[.!;])\s", written_out(data.strip()), maxsplit=1)[0][:400]
-    words = without_time(tokens(first))
+    words = _without_heading(without_time(tokens(first)))
     fact = read_statement(words)
     if fact is not None:
         return fact
@@ -119,7 +154,7 @@ def _find_fact(
         if keys(item.fact.subject) + keys(item.fact.place) in denied:
             continue
         name = item.entry.name if item.fact.another else ""
-        newest.setdefault((*keys(item.fact.subject), name), item)
+        newest.setdefault((*map(singular, keys(item.fact.subject)), name), item)
     listed = list(newest.values())
     stand_ins = [
         MapObject(id=f"fact-{'i' * (i + 1)}", description=plain(f.fact.subject), x_m=0.0, y_m=0.0)
@@ -215,7 +250,8 @@ def memory_name(fact: Fact, facts: Sequence[Remembered]) -> str:
     subject = _slug(keys(fact.subject))
     if fact.is_location:
         return f"{subject}_location" + (f"_{_slug(keys(fact.place))}" if fact.another else "")
-    return f"{subject}_{'state' if fact.relation in lexicon().be else _slug((fact.relation,))}"
+    name = f"{subject}_{'state' if fact.relation in lexicon().be else _slug((fact.relation,))}"
+    return f"{name}_{_slug(keys(fact.state))}" if fact.another else name
 
 
 def _slug(words: Iterable[str]) -> str:

@@ -95,6 +95,8 @@ _OF_SEVERAL = frozenset(
 _NOT_WHERE = frozenset({"of", "from", "with", "against"})
 NO_PLACES = frozenset(
     [
+        "loan",
+        "strike",
         "repair",
         "construction",
         "maintenance",
@@ -268,6 +270,11 @@ def _after_link(flat: tuple[str, ...], link: int) -> tuple[int, bool]:
         "recently",
         "all",
         "both",
+        "temporarily",
+        "presently",
+        "provisionally",
+        "being",
+        "meanwhile",
     }
     while at < len(flat):
         if flat[at] in {"not", "never"} or flat[at : at + 2] == ("no", "longer"):

@@ -22,6 +22,8 @@ _WITHOUT_SUBJECT = frozenset(load_data("units")["present"]) | {
     "complained", "told", "said", "swore", "claimed", "thought", "asked", "called", "insisted",
 }  # fmt: skip
 """Statements that begin with such a verb lost their subject."""
+_SHIFTS = frozenset({"night", "day", "morning", "evening", "weekend"})
+"""Before another word these only say which one is meant ("the night porter")."""
 _PLANNING = frozenset({"will", "would", "shall", "might", "could"})
 _OPINIONS = frozenset(
     {
@@ -87,7 +89,8 @@ def worth_keeping(fact: Fact, words: Phrase) -> bool:
     if not flat or not subject:
         return True
     nobody = flat[0] in _REASONS or _WITHOUT_SUBJECT & {flat[0], subject[0]}
-    if nobody or (_set("never_subjects") & set(subject) and not fact.is_location):
+    never = _set("never_subjects") & (set(subject) - (set(subject[:-1]) & _SHIFTS))
+    if nobody or (never and not fact.is_location):
         return False
     if not fact.is_location and any(
         flat[i] in {"i", "we"} and flat[i + 1] in _PLANNING for i in range(len(flat) - 1)

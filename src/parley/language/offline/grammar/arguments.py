@@ -14,6 +14,7 @@ from parley.language.offline.words.text import Phrase, Word
 __all__ = ["Arguments", "words_of"]
 
 _HARD = frozenset({".", "!", "?", ";", "\n", ":"})
+_AT = frozenset({"in", "on", "at", "to", "along", "into", "inside", "through"})
 _LISTS = frozenset({",", "nor", "and", "plus", "&", "then", "or"})
 
 _NO_CLAUSES = frozenset({"that", "who", "which", "where", "as", "following", "upon"})
@@ -185,8 +186,10 @@ class Arguments:
             step = behind
             while self.key(step) in self.joins and step - behind < 2:
                 step += 1
+            step += step > behind and self.key(step) in _AT
             following = self.items[step] if step < len(self.items) else None
-            if step == behind or following is None or following.thing is None or self._is_subject(step):
+            subject = self.joins is _LISTS and self._is_subject(step)
+            if step == behind or following is None or following.thing is None or subject:
                 return behind
             at = step
 
@@ -211,9 +214,8 @@ class Arguments:
 
     def _backwards(self, at: int) -> int:
         """Where "in reverse order" ends; 0 if it does not stand here."""
-        flat = self.heads.flat(at)
-        found = small().backwards.match(flat)
-        return at + found[0] if found is not None else 0
+        at += self.key(at) == ","
+        return at + found[0] if (found := small().backwards.match(self.heads.flat(at))) else 0
 
     def _is_subject(self, at: int) -> bool:
         """Whether a thing is what the next clause is about ("..., and the door needs checking")."""
@@ -419,11 +421,15 @@ class Arguments:
         order.what = _plain_what(words_of(self.items[start:stop])) or order.what
         if end < len(self.items) and self.items[end].thing is not None:
             end = self.take(order, end)
-        while not self.ends(end) and self.key(end) in small().adverbs | small().prepositions | {
-            "both",
-            "all",
-        }:
+        return self._sought_where(order, end)
+
+    def _sought_where(self, order: Order, end: int) -> int:
+        """Past small words and "at each of them" behind what is looked for."""
+        while not self.ends(end):
             back = small().back_reference.match(self.heads.flat(end))
+            small_word = self.key(end) in small().adverbs | small().prepositions | {"both", "all"}
+            if not small_word and (back is None or self.key(end - 1) not in small().prepositions):
+                break
             if back is not None:
                 self.refer(order, back[1])
             end += back[0] if back is not None else 1
@@ -465,7 +471,7 @@ class Arguments:
         while start < end and self.key(start) in {"if", "whether", "that", "to", "see", "out", "for"}:
             start += 1
         order.what = words_of(self.items[start:end])
-        order.things += self._things(start, end)
+        order.things += self._things(start, end) if not order.refers else []
         for i in range(start, end):
             back = small().back_reference.match(self.heads.flat(i))
             if back is not None and back[0] > 1 and i + back[0] == end:

@@ -8,6 +8,7 @@ from parley.language.offline.grammar.composing import compose
 from parley.language.offline.grammar.drafting import Plan, Step
 from parley.language.offline.grammar.parsing import parse
 from parley.language.offline.grammar.small import base, small
+from parley.language.offline.scene.grouping import grouped
 from parley.language.offline.scene.scene import Scene
 from parley.language.offline.words.lexicon import lexicon
 from parley.language.offline.words.saying import the
@@ -40,7 +41,7 @@ def plainly_ordered(words: Phrase, scene: Scene) -> Plainly | None:
     """
     if not scene.objects:
         return None
-    plan = compose(parse(words, scene), scene.is_person)
+    plan = compose(parse(grouped(words, scene, pronouns=False), scene), scene.is_person)
     if "no order" in plan.against:
         return None
     against = [*plan.against, *(["pending steps are named"] if _edits(plan, scene) else [])]

@@ -17,6 +17,7 @@ from parley.language.offline.grammar.phrases import (
     things_in,
 )
 from parley.language.offline.grammar.small import small
+from parley.language.offline.grammar.things import Item
 from parley.language.offline.words.lexicon import lexicon
 from parley.language.offline.words.text import Phrase, keys, singular, tokens
 
@@ -88,7 +89,7 @@ class _Composer(Draft):
         if isinstance(before, Order) and before.kind == "other" and self._asks_for(before):
             return
         asked = isinstance(before, Order) and (before.kind in {"named", "again"} or _is_short(before))
-        if asked and self.at > 1:
+        if asked and self.at > 1 and not self._ordered_in_sentence():
             self.plan.against.append("a question")
         if not isinstance(before, Node) or before.mark != "told":
             return
@@ -112,6 +113,15 @@ class _Composer(Draft):
             self.asked = (words, things)
         elif words[0].key not in lexicon().question_starts | small().subjects | {"we", "you"}:
             self.plan.against.append("a question")
+
+    def _ordered_in_sentence(self) -> bool:
+        """Whether the last part belongs to an order of its sentence ("look at A, and B?")."""
+        for part in reversed(self.parts[: self.at - 1]):
+            if isinstance(part, Order):
+                return True
+            if part.mark in {"stop", "ask"}:
+                return False
+        return False
 
     def _asks_for(self, order: Order) -> bool:
         """For "The hall. Open windows?": what is looked for, though it begins like an order."""
@@ -141,9 +151,7 @@ class _Composer(Draft):
         self.told += things
         about = next((item.thing for item in node.items[:3] if item.thing is not None), None)
         self.fresh = list(about.members) if about is not None else self.fresh
-        self.told_group = next(
-            (list(i.thing.members) for i in reversed(node.items) if i.thing is not None), self.told_group
-        )
+        self.told_group = _listed_last(node.items) or self.told_group
         if node.unread:
             self.plan.against.append("a verb")
         if things and says_where(node.items):
@@ -279,6 +287,19 @@ class _Composer(Draft):
             self.plan.against.append("only a name")
         if self.later:
             self.plan.against.append("left over")
+
+
+def _listed_last(items: Sequence[Item]) -> list[Phrase]:
+    """The things that are named last, all of them if they are listed ("A, B and C are left")."""
+    ends = [i for i, item in enumerate(items) if item.thing is not None]
+    start = ends[-1] if ends else 0
+    for at in reversed(ends[:-1]):
+        if any(item.key not in {"and", ",", "both", "the"} for item in items[at + 1 : start]):
+            break
+        start = at
+    return [
+        member for i in ends if i >= start for thing in [items[i].thing] if thing for member in thing.members
+    ]
 
 
 def _sought(words: Phrase) -> Order | None:

@@ -354,11 +354,16 @@ class Draft:
             self._look_at(order.kind, place, what)
         if places:
             self.current = list(places)
-        self.last = Order(order.kind, list(places), what)
+        self.last = Order(order.kind, list(places), what, order.words)
         self.noun = what if order.kind == "search" else self.noun
 
     def _as_before(self, order: Order) -> None:
-        """For "B for the same": what was looked for before."""
+        """For "B for the same", "look in B" behind a search: what was looked for before."""
+        inside = order.kind == "look" and order.things and keys(order.words[1:2]) in _INSIDE
+        sought = self.last is not None and keys(self.last.words[:2]) == ("look", "for")
+        if inside and not order.what and self.last is not None and sought:
+            order.kind, order.what, self.plan.certain = "search", self.last.what, True
+            return
         same = order.what and set(keys(order.what)) <= {"the", "same", "thing", "things", "too"}
         if not same or self.last is None:
             return
@@ -448,3 +453,6 @@ class Draft:
                 self.left_out += order.things
         elif order.kind == "other":
             self.plan.against += ["unread"] * order.unread
+
+
+_INSIDE = frozenset({("in",), ("inside",), ("into",), ("under",), ("behind",)})

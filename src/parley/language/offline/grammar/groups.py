@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterable, Sequence
+from collections.abc import Iterable
 from dataclasses import dataclass
 from functools import lru_cache
 
@@ -16,13 +16,6 @@ from parley.language.offline.words.text import Phrase, Word, keys, singular, spl
 from parley.world.object_map import MapObject
 
 __all__ = ["Groups", "Item", "Thing", "vocabulary"]
-
-_EXCEPT = tuple(
-    tuple(text.split())
-    for text in ("except for", "except", "but not", "but", "bar", "save for", "save", "apart from",
-                 "other than", "minus", "excluding", "leaving out", "all but", "all except", "without",
-                 "with the exception of", "barring", "not counting", "aside from", "excepting")
-)  # fmt: skip
 
 
 @dataclass(frozen=True, slots=True)
@@ -148,62 +141,3 @@ class Groups:
 
     def _is_one(self, phrase: Phrase) -> bool:
         return ground_phrase(phrase, self.scene.objects, strict=True).outcome == "match"
-
-    def _without(self, at: int, stop: int, thing: Thing) -> tuple[int, Thing]:
-        """For "all zones except the second"."""
-        start = stop + 1 if keys(self.words[stop : stop + 1]) == (",",) else stop
-        marker = next((m for m in _EXCEPT if keys(self.words[start : start + len(m)]) == m), ())
-        if not marker:
-            return stop, thing
-        behind = start + len(marker)
-        for end in range(min(len(self.words), behind + 7), behind, -1):
-            if not self.words[end - 1].is_word or self.words[end - 1].key == "and":
-                continue
-            left_out = self.words[behind:end]
-            kept = self._all_but(thing, left_out)
-            if kept is not None:
-                return end, Thing(kept, self.words[at:end], group=True)
-        return stop, thing
-
-    def _all_but(self, thing: Thing, left_out: Phrase) -> tuple[Phrase, ...] | None:
-        """What is left of a group; None if these words leave out none of it."""
-        flat = tuple(key for key in keys(left_out) if key not in {"the", "one", "number"})
-        if len(flat) == 1 and (flat[0] == "last" or flat[0] in lexicon().ordinals):
-            index = -1 if flat[0] == "last" else lexicon().ordinals[flat[0]] - 1
-            if index < len(thing.members):
-                gone = thing.members[index]
-                return tuple(m for m in thing.members if m is not gone)
-        gone_ids: set[str] = set()
-        named = self._excluded(left_out, thing)
-        if named is None:
-            return None
-        for phrase in named:
-            found = ground_phrase(phrase, self.scene.objects, strict=True)
-            gone_ids |= {item.id for item in found.candidates}
-        kept = tuple(m for m in thing.members if not gone_ids & set(self._ids(m)))
-        return kept if 0 < len(kept) < len(thing.members) else None
-
-    def _excluded(self, words: Phrase, thing: Thing) -> list[Phrase] | None:
-        """The phrases that name what is left out; None if a word is no name."""
-        parts: list[list[Word]] = [[]]
-        for word in words:
-            if word.key in {"and", ","}:
-                parts.append([])
-            elif word.key not in {"the", "a", "one", "ones", "number"}:
-                parts[-1].append(word)
-        head = self._labelled(thing.members[0])[:-1] if len(thing.members[0]) > 1 else ()
-        tail = thing.members[0][-1:]
-        result: list[Phrase] = []
-        for part in (tuple(part) for part in parts if part):
-            options = [part, (*head, *part), (*part, *tail)]
-            fits = next((o for o in options if self._is_one(o)), None)
-            if fits is None or not all(self._names(i, -1) for i in self._places(part)):
-                return None
-            result.append(fits)
-        return result or None
-
-    def _places(self, part: Phrase) -> list[int]:
-        return [i for i, word in enumerate(self.words) if any(word is other for other in part)][:3]
-
-    def _ids(self, phrase: Phrase) -> Sequence[str]:
-        return [item.id for item in ground_phrase(phrase, self.scene.objects, strict=True).candidates]

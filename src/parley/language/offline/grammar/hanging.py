@@ -44,6 +44,8 @@ class Hanging(Topics):
             ("only", "when"),
         }:
             return self._temporal("after", self.at + 2)
+        if flat[:1] in {("until",), ("till",), ("before",)} and self._not_before(self.at + 1):
+            return True
         found = small().subordinators.match(flat) if flat else None
         opens = not self.parts or (
             isinstance(self.parts[-1], Node) and self.parts[-1].mark in {"stop", "ask"}
@@ -66,6 +68,35 @@ class Hanging(Topics):
         self.parts.append(Node("told", list(self.items[self.at : end])))
         self.at = end
         return True
+
+    def _not_before(self, start: int) -> bool:
+        """For "do not go to A until you have been to B", "A can wait until B is checked": B, then A."""
+        last = self.parts[-1] if self.parts else None
+        if self.key(start) not in {"you"} and self.items[start : start + 1] == []:
+            return False
+        if isinstance(last, Order) and last.negated and last.things and not last.refers:
+            order: Order | None = last
+        elif isinstance(last, Node) and last.mark == "told":
+            order = self._waiting(last)
+        else:
+            order = None
+        if order is None:
+            return False
+        orders, end = self._events(start, mark_is_after=True)
+        if not orders or not any(one.things for one in orders):
+            return False
+        order.negated = False
+        self.parts[-1] = order
+        self.parts.append(Node("after", orders=orders, only=True))
+        self.at = end
+        return True
+
+    def _waiting(self, node: Node) -> Order | None:
+        """For "A can wait (until ...)": going to A."""
+        thing = node.items[0].thing if node.items else None
+        words = [item.key for item in node.items[1:]]
+        waits = words[-1:] in (["wait"], ["waits"]) and len(words) < 4 and "not" not in words
+        return Order("go", things=list(thing.members)) if thing is not None and waits else None
 
     def _condition(self, words: tuple[str, ...], start: int) -> bool:
         polite = lexicon().adverbs.match(self.heads.flat(self.at)) or lexicon().polite.match(
@@ -209,6 +240,17 @@ class Hanging(Topics):
             return [order], self.args.take(order, end + 1)
         return [], end
 
+    def _was_done(self, order: Order, at: int) -> int:
+        """For "(once A) has been inspected": where that ends; 0 if nothing like it is said."""
+        end = at
+        while self.key(end) in lexicon().be | {"'s", "has", "have", "been", "all", "both", "being"}:
+            end += 1
+        form = base(self.key(end))
+        if end == at or form == self.key(end) or small().verbs.get(form) != "look":
+            return 0
+        order.kind = "look"
+        return self.args.looked(order, end + 1)
+
     def _dealt_with(self, at: int) -> int:
         """For "is done", "has been seen to" behind a name: where that ends; 0 if it does not stand here."""
         end = at
@@ -233,6 +275,9 @@ class Hanging(Topics):
             end = self.args.take(order, at)
             if self.key(end) in {"comes", "follows"}:
                 return [order], end + 1
+            passive = self._was_done(order, end) if mark_is_after else 0
+            if passive:
+                return [order], passive
             done = self._dealt_with(end) if mark_is_after else 0
             return self._done_there(order, done) if done else self._only_named(order, end, start)
         refers = small().back_reference.match(self.heads.flat(at))

@@ -83,6 +83,7 @@ class _Parser(Hanging):
             self._mark,
             self._asked_of,
             self._ranked_stop,
+            self._made_stop,
             self._sequence,
             self._correction,
             self._subordinate,
@@ -134,25 +135,50 @@ class _Parser(Hanging):
 
     def _ranked_stop(self) -> bool:
         """For "the last stop is A", "first port of call: A"."""
-        at = self.at + (self.key() in {"the", "your", "and"})
+        at = self.at
+        while self.key(at) in {"the", "your", "and", "then"}:
+            at += 1
         rank = self.key(at)
-        if rank not in {"first", "last", "final", "next"}:
+        if rank not in small().sets["stop_ranks"]:
             return False
         end = at + 1
-        while self.key(end) in small().sets["stops"]:
-            end += 1
+        while self.key(end) in small().sets["stops"] or self.heads.flat(end, 3) == ("on", "the", "list"):
+            end += 3 if self.key(end) == "on" else 1
         linked = end
         while (
             self.key(linked) in {"is", "will", "be", "should", "would", "to", ":", ","} and linked - end < 3
         ):
             linked += 1
-        if end == at + 1 or linked == end or linked >= len(self.items) or self.items[linked].thing is None:
+        another = any(isinstance(part, Order) and part.ranked for part in self.parts)
+        short = (end == at + 1 or linked == end) and not another
+        if short or linked >= len(self.items) or self.items[linked].thing is None:
             return False
         order = Order("go", words=self.items[at].words)
         self.at = self.args.take(order, linked)
-        if rank != "next":
+        if rank in {"first", "last", "final"}:
             order.where = "first" if rank == "first" else "last"
         order.ranked = True
+        self.parts.append(order)
+        return True
+
+    def _made_stop(self) -> bool:
+        """For "make A your last stop", "I would like A to be the first stop"."""
+        at = self.at
+        while self.key(at) in small().sets["stop_frame"]:
+            at += 1
+        if at >= len(self.items) or self.items[at].thing is None:
+            return False
+        order = Order("go", words=self.items[at].words)
+        behind = end = self.args.take(order, at)
+        while self.key(end) in {"to", "be", "is", "should", "will", "must", "as", "your", "the", "our"}:
+            end += 1
+        rank = self.key(end)
+        if end == behind or rank not in {"first", "last", "final"}:
+            return False
+        if self.key(end + 1) not in small().sets["stops"] or not self.args.ends(end + 2):
+            return False
+        order.where, order.ranked = "first" if rank == "first" else "last", True
+        self.at = end + 2
         self.parts.append(order)
         return True
 
@@ -286,6 +312,9 @@ class _Parser(Hanging):
         towards = bool(small().sets["towards"] & set(self.heads.flat(self.at, at - self.at)))
         order = Order("go" if towards and not negated else "named", negated=negated)
         end = self.args.take(order, at)
+        if self.key(end) == "and" and self.items[end + 1 : end + 2] and self._is_said_of(end + 1):
+            # "A and B were open": told of both.
+            return False
         end += self.key(end) == "one" and self.key(end + 1) == "for"
         if self.key(end) == "for" and self.key(end + 1) not in {"me", "us", "now"} and not negated:
             order.kind = "search"
@@ -322,6 +351,11 @@ class _Parser(Hanging):
         self.parts.append(order)
         self.at = end
         return True
+
+    def _is_said_of(self, at: int) -> bool:
+        """Whether a thing stands here of which something is told."""
+        thing = self.items[at].thing
+        return thing is not None and self.key(at + 1) in {"is", "are", "was", "were", "has", "had", "have"}
 
     def _counted(self, order: Order, at: int) -> int:
         """For "to start with", "... at the end": where that ends; 0 if it does not stand here."""

@@ -8,6 +8,7 @@ from functools import cache
 from typing import Any
 
 from parley.language.offline.words.lexicon import PhraseTable, lexicon
+from parley.language.offline.words.order import phrases_due
 from parley.language.offline.words.text import lemma
 from parley.language.word_lists import load_data
 
@@ -76,9 +77,17 @@ def small() -> Small:
     }  # fmt: skip
     tables: dict[str, Any] = {
         name: PhraseTable.of(data[name])
-        for name in ("subordinators", "sequence", "before_that", "back_reference", "corrections", "same",
+        for name in ("subordinators", "back_reference", "corrections", "same",
                      "leave_out", "go_on", "ensuring", "idioms", "backwards")
     }  # fmt: skip
+    tables["sequence"] = PhraseTable.of(
+        [
+            *data["sequence"],
+            *phrases_due("following", "next", "counting", "late", "closing", "opening", "back"),
+            *("before anything else", "before you do anything else", "before doing anything else"),
+        ]
+    )
+    tables["before_that"] = PhraseTable.of([*data["before_that"], *phrases_due("earlier")])
     special = {name: frozenset(words) for name, words in data["sets"].items()}
     return Small(verbs=table, deeds=deeds, sets=special, **sets, **tables)
 

@@ -303,7 +303,6 @@ class _Finder(Groups):
                 return stop + 3, Thing((whole,), self.words[at : stop + 3])
         if thing.group:
             stop, thing = self._group_where(at, stop, thing)
-            stop, thing = self._without(at, stop, thing)
         elif thing.members[0][:1] != (Word("any", "any"),):
             stop, thing = self._where(at, start, stop, thing)
         return stop, thing

@@ -161,7 +161,7 @@ class Topics:
 
     def _needed(self, order: Order, behind: int, needs: int) -> bool:
         """What a thing needs: "looking at", "checked", "a visit"."""
-        if self.heads.flat(behind + 1, 2) == ("you", "to"):
+        if self.heads.flat(behind + 1, 2) == ("you", "to") or self.key(behind) == "had":
             # "Somebody wants you to V": who wants it.
             return False
         owned = self._part_needed(order, needs) if needs > behind else False

@@ -14,9 +14,8 @@ from parley.language.offline.grammar.small import is_past
 from parley.language.offline.grammar.things import items_of
 from parley.language.offline.plan_changes.edits import Change, Edit
 from parley.language.offline.plan_changes.pending import pending_visits
-from parley.language.offline.plan_changes.replanning import renamed, visits
+from parley.language.offline.plan_changes.replanning import same_steps
 from parley.language.offline.plan_changes.restated import named_visits, restated
-from parley.language.offline.scene.grounding import describe
 from parley.language.offline.scene.scene import Scene
 from parley.language.offline.sentences.clauses import opens_command
 from parley.language.offline.words.lexicon import lexicon
@@ -300,16 +299,12 @@ class _Clauses:
         return self._same_as(now)
 
     def _same_as(self, now: Scene) -> bool:
-        found = self.scene.ground(self.order[1:])
-        listed = [visit for visit in visits(now) if visit.names and len(visit.steps) > 1]
-        model = next((v for v in listed if v.start >= self.at), listed[-1] if listed else None)
-        if found.outcome != "match" or model is None:
+        found = same_steps(self.order[1:], now, self.at)
+        if found is None:
             return False
-        name, old = describe(found.candidates[0], self.scene.objects), tokens(model.names[0])
-        steps = [(-1, renamed(step, old, name, self.scene)) for step in model.steps]
-        self.left[self.at : self.at] = steps
+        self.left[self.at : self.at] = [(-1, step) for step in found[1]]
         self.order = ()
-        self.replies.append(f"I will do the same at {name}.")
+        self.replies.append(f"I will do the same at {found[0]}.")
         return True
 
     def _apply(self, change: Change) -> None:

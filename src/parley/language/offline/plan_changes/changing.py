@@ -12,9 +12,9 @@ from parley.language.offline.reading import Reading
 from parley.language.offline.sentences.clauses import Clause, opens_command
 from parley.language.offline.tasks.commands import Command
 from parley.language.offline.words.lexicon import lexicon
-from parley.language.offline.words.nouns import bare, coordinated
+from parley.language.offline.words.nouns import bare
 from parley.language.offline.words.saying import whole_sentence
-from parley.language.offline.words.text import Phrase, keys, lemma, plain
+from parley.language.offline.words.text import keys, lemma, plain
 from parley.messages.chat import CommandName, SystemCommand
 
 __all__ = ["CONTROL_REPLIES", "Changing"]
@@ -78,44 +78,6 @@ class Changing(Reading):
             self.commands.extend(without(at, self.scene).commands)
         return replace(clause, words=rest)
 
-    def _instead(self, clause: Clause) -> Clause:
-        """For "Instead of the desk go to the box": pending steps about the desk are dropped."""
-        flat = keys(clause.words)
-        at = next((i for i in range(len(flat) - 2) if flat[i : i + 2] == ("instead", "of")), -1)
-        if at < 0:
-            return clause
-        rest = clause.words[at + 2 :]
-        end = (
-            len(rest)
-            if at
-            else next(
-                (i for i in range(1, len(rest)) if opens_command(rest[i:]) or rest[i].key == ","), len(rest)
-            )
-        )
-        refused = Command("motion", "go", True, place=bare(rest[:end]), clause=rest[:end])
-        for index in reversed(edits.steps_of(refused, self.scene)):
-            self.commands.append(SystemCommand(command="pop", arguments={"parameters": index}))
-        return replace(clause, words=clause.words[:at] if at else rest[end:])
-
-    def _dropped(self, words: Phrase) -> edits.Edit | None:
-        """For "drop the box", "forget about the box" with a visit to the box pending."""
-        words = strip_openers(words, requests=True)
-        verb = edits.drop_verb(words)
-        if not verb or verb >= len(words) or not self.scene.situation.queue:
-            return None
-        rest = edits.of_plan(bare(words[verb:]))
-        if {"inspect", "inspection", "inspecting", "look", "looking", "check", "checking"} & set(keys(rest)):
-            return None
-        at = visit_of(rest, self.scene)
-        if at is None and "and" in keys(rest):
-            found = [visit_of(part, self.scene) for part in coordinated(rest)]
-            listed = [index for index in found if index is not None]
-            if len(listed) == len(found) > 1:
-                parts = [without(index, self.scene) for index in sorted(listed, reverse=True)]
-                pops = tuple(command for part in parts for command in part.commands)
-                return edits.Edit(pops, f"I leave out {plain(rest)}.")
-        return None if at is None else without(at, self.scene)
-
     def _order(self, clause: Clause, alone: bool, index: int) -> bool:
         """Stop words among other clauses, and changes of the plan."""
         words = strip_openers(clause.words)
@@ -133,7 +95,8 @@ class Changing(Reading):
                 # the desk and wait there") standing still is what the robot does anyway.
                 if index or keys(words)[0] not in {"stop", "halt"}:
                     return True
-                control = "clear"
+                ordered = any(opens_command(part.words) for part in self._parts[1:])
+                control = "clear" if ordered else "stop"
             command, reply = CONTROL_REPLIES[control]
             self._command_once(SystemCommand(command=command), reply)
             return True
@@ -141,7 +104,7 @@ class Changing(Reading):
         if verb and self.tasks.steps and keys(words[verb:]) in _NOTHING_ELSE:
             self.replies.append("I leave out the rest.")
             return True
-        edit = self._dropped(words) or edits.read_edit(words, self.scene)
+        edit = edits.read_edit(words, self.scene)
         if edit is not None:
             self.scene.trace.note("edit", edit.reply)
             self.commands.extend(edit.commands)

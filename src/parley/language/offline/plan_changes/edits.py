@@ -5,7 +5,8 @@ from __future__ import annotations
 from collections.abc import Sequence
 from dataclasses import dataclass
 
-from parley.language.offline.facts.facts import read_statement, strip_openers
+from parley.language.offline.facts.facts import TASTES, read_statement, strip_openers
+from parley.language.offline.facts.protocols import read_protocol
 from parley.language.offline.facts.remembering import Remembered, find_fact
 from parley.language.offline.facts.sharing import content_of, shared
 from parley.language.offline.scene.scene import Scene, UnclearError
@@ -14,7 +15,9 @@ from parley.language.offline.words.lexicon import lexicon
 from parley.language.offline.words.nouns import bare
 from parley.language.offline.words.saying import listing, the, whole_sentence
 from parley.language.offline.words.text import Phrase, Word, keys, lemma, plain, singular, split_name, tokens
+from parley.language.word_lists import load_data
 from parley.messages.chat import ActionCall, SystemCommand
+from parley.messages.memory import MemoryEntry
 
 __all__ = ["Change", "Edit", "drop_verb", "of_plan", "read_edit", "steps_of"]
 
@@ -363,9 +366,36 @@ def _just_remembered(scene: Scene) -> bool:
     return "remember" in last or "noted" in last or (bool(newest) and newest in last)
 
 
+def _rule_about(about: Phrase, scene: Scene) -> MemoryEntry | None:
+    """For "the rule about a blocked way", "what to do when you see X": the rule that shares most words."""
+    flat = keys(about)
+    if not _RULES & set(flat[:4]) and flat[:2] != ("to", "do"):
+        return None
+    small = _RULES | {"what", "when", "if", "about", "on", *load_data("protocols")["generic"]}
+    wanted = {singular(key) for key in flat if key not in small}
+    best: tuple[int, MemoryEntry | None] = (0, None)
+    for entry in scene.situation.memory:
+        rule = read_protocol(entry.data, kept=True) if entry.type == "text" else None
+        said = {singular(key) for key in keys(tokens(entry.data))} if rule is not None else set()
+        count = len(wanted & said)
+        if rule is not None and (count > best[0] or (count and count == best[0])):
+            best = (count, entry)
+    return best[1]
+
+
+_RULES = frozenset({"rule", "rules", "protocol", "instruction", "taught"})
+
+
 def _forget_about(about: Phrase, scene: Scene) -> Edit:
     if len(about) == 1 and about[0].key in lexicon().person_pronouns:
         about = scene.referent(about)
+    if keys(about[-1:])[0] in TASTES and len(about) <= 2:
+        tastes = [item for item in scene.facts if item.fact.relation in TASTES and item.fact.another]
+        if tastes:
+            return Edit(tuple(_remove(item.entry.name) for item in tastes), "I have forgotten what you like.")
+    rule = _rule_about(about, scene)
+    if rule is not None:
+        return Edit((_remove(rule.name),), f"I have forgotten: {whole_sentence(rule.data[:200])}")
     cut = next((i for i, word in enumerate(about) if word.key in lexicon().be and i), len(about))
     fact, several = find_fact(about[:cut], scene.facts, locations=False)
     hits = [fact] if fact is not None else several
@@ -380,6 +410,12 @@ def _forget_about(about: Phrase, scene: Scene) -> Edit:
         by_name = [e for e in scene.situation.memory if set(keys(about)) <= set(split_name(e.name))]
         wanted = content_of(about)
         by_name = by_name or [f.entry for f in scene.facts if wanted and shared(wanted, f) == len(wanted)]
+        owner = next((i for i, word in enumerate(about[:-1]) if word.key.endswith("'s")), -1)
+        if not by_name and owner >= 0:
+            # "The hall's hours": what was told of the hall, if that is one thing.
+            whose = Word(about[owner].key[:-2], about[owner].raw[:-2])
+            told, _ = find_fact((*about[:owner], whose), scene.facts, locations=False)
+            by_name = [told.entry] if told is not None else []
         if not by_name:
             return Edit((), f"I do not remember anything about {the(plain(about))}.")
         return Edit(

@@ -13,7 +13,7 @@ from parley.language.offline.words.nouns import bare, coordinated
 from parley.language.offline.words.text import Phrase, keys, singular, tokens
 from parley.world.object_map import MapObject
 
-__all__ = ["pending_visits"]
+__all__ = ["CURRENT", "pending_visits"]
 
 _STEP_WORDS = frozenset({
     "stop", "visit", "place", "one", "item", "job", "part", "entry", "thing", "leg", "room",
@@ -28,10 +28,10 @@ _STILL_AHEAD = tuple(
         "still ahead", "still to come", "that are left", "that is left", "which are left", "still left",
         "still pending",
         "that remain", "that are still to come", "that are still ahead", "still on the list",
-        "ahead of you", "to come",
+        "ahead of you", "to come", "of these", "of those", "of them",
     )
 )  # fmt: skip
-_CURRENT = frozenset(
+CURRENT = frozenset(
     tuple(text.split())
     for text in (
         "this", "this one", "this stop", "this visit", "the current one", "the current stop",
@@ -41,6 +41,7 @@ _CURRENT = frozenset(
         "the one you are on", "that one", "this step", "this place", "it", "this room",
     )
 )  # fmt: skip
+"""What is being done now, unless something was named before."""
 _BOTH = frozenset(
     {
         ("both",),
@@ -53,8 +54,19 @@ _BOTH = frozenset(
 )
 
 
+_PLACING = frozenset({"first", "last", "later", "instead", "next"})
+"""What is said about a visit, and no part of its name."""
+
+
 def pending_visits(phrase: Phrase, scene: Scene) -> list[int]:
     """The places among the pending visits of what a phrase names, in order; empty if a part names none."""
+    known = scene.pending.get(keys(phrase))
+    if known is None:
+        known = scene.pending[keys(phrase)] = _found(phrase, scene)
+    return list(known)
+
+
+def _found(phrase: Phrase, scene: Scene) -> list[int]:
     listed = visits(scene)
     phrase = tuple(word for word in phrase if word.is_word or word.key == ",")
     tail = next((t for t in _STILL_AHEAD if keys(phrase[-len(t) :]) == t), ())
@@ -62,12 +74,13 @@ def pending_visits(phrase: Phrase, scene: Scene) -> list[int]:
     flat = keys(phrase)
     if not flat or not listed:
         return []
-    if flat in _CURRENT:
+    if flat in CURRENT:
         return [0] if flat[0] != "it" or len(listed) == 1 else []
     if flat in _BOTH:
         return [0, 1] if len(listed) == 2 else []
     ranked = _by_rank(phrase, scene)
-    if ranked:
+    placed = any(a in _PLACING and b in {"and", ","} for a, b in zip(flat, (*flat[1:], ","), strict=True))
+    if ranked or placed:
         return ranked
     one = visit_of(phrase, scene) if _is_name(phrase) else None
     if one is not None:
@@ -93,7 +106,7 @@ def _by_rank(phrase: Phrase, scene: Scene) -> list[int]:
     lead, at = read_lead(phrase, 0)
     flat = keys(phrase)
     rest = flat[at:]
-    if lead.end and set(map(singular, rest)) <= _STEP_WORDS | {"of", "them", "these", "those"}:
+    if lead.end and set(map(singular, rest)) <= _STEP_WORDS:
         size = lead.count
         if size > count:
             return []
@@ -119,8 +132,25 @@ def _by_rank(phrase: Phrase, scene: Scene) -> list[int]:
     return [place - 1] if 0 < place <= count and (len(words) > 1 or flat[0] == "the") else []
 
 
+_SEVERAL = lexicon().quantifiers | {
+    "and",
+    ",",
+    "other",
+    "others",
+    "rest",
+    "except",
+    "but",
+    "both",
+    "pair",
+    "everything",
+}
+
+
 def _together(phrase: Phrase, scene: Scene) -> list[int]:
     """For "aisles 2 and 3", "all doors", "both rooms": those that are pending."""
+    flat = keys(phrase)
+    if not _SEVERAL & set(flat) and all(singular(word) == word for word in flat):
+        return []
     named = list(range(len(visits(scene))))
     places = {index: _item(index, scene) for index in named}
     objects = [item for item in places.values() if item is not None]

@@ -11,7 +11,7 @@ from parley.language.offline.plan_changes.by_clause import by_clause
 from parley.language.offline.plan_changes.edits import Change, Edit
 from parley.language.offline.plan_changes.patterns import Part, matches, parsed
 from parley.language.offline.plan_changes.pending import pending_visits
-from parley.language.offline.plan_changes.replanning import renamed, visits
+from parley.language.offline.plan_changes.replanning import renamed, same_steps, visits
 from parley.language.offline.scene.grounding import describe
 from parley.language.offline.scene.scene import Scene
 from parley.language.offline.sentences.clauses import opens_command
@@ -24,14 +24,14 @@ from parley.language.word_lists import load_data
 from parley.messages.chat import ActionCall, SystemCommand
 from parley.messages.status import ActionInfo
 
-__all__ = ["rearranged"]
+__all__ = ["rearranged", "without_going_on"]
 
 _LONGEST = 40
 _LEADS = tuple(tuple(text.split()) for line in load_data("plan_changes")["leads"] for text in line.split(","))
 _KINDS = (
     "rest", "reverse", "copy", "nth", "no_look", "between", "keep", "until", "from", "swap", "instead",
     "before", "after", "first", "last", "drop",
-    "before_all", "then_after", "then_before",
+    "then_after", "then_before", "before_all", "added", "same",
 )  # fmt: skip
 
 
@@ -48,7 +48,7 @@ def rearranged(words: Phrase, scene: Scene) -> Change | None:
         words: All words and punctuation.
         scene: What is known, with its pending steps.
     """
-    words = _without_courtesy(_uncontracted(words))
+    words = without_going_on(_without_courtesy(_uncontracted(words)))
     if not scene.situation.queue or len(words) > _LONGEST or "?" in keys(words):
         return None
     body = _bare(words)
@@ -58,6 +58,25 @@ def rearranged(words: Phrase, scene: Scene) -> Change | None:
     change = by_clause(words, scene, _bare, _read) if several else None
     change = change or _read(body, scene)
     return change if change is not None or several else by_clause(words, scene, _bare, _read)
+
+
+_GOING_ON = tuple(
+    ("when", "you", *verb.split())
+    for verb in ("continue", "go on", "carry on", "resume", "start again", "get going again", "move on")
+)
+
+
+def without_going_on(words: Phrase) -> Phrase:
+    """For "leave out A when you continue" and "when you go on, leave out A": leave out A."""
+    flat = keys(words)
+    for said in _GOING_ON:
+        size = len(said)
+        if flat[: size + 1] == (*said, ","):
+            return words[size + 1 :]
+        body = len(flat) - (not words[-1].is_word if words else 0)
+        if size < body and flat[body - size : body] == said:
+            return (*words[: body - size], *words[body:])
+    return words
 
 
 def _uncontracted(words: Phrase) -> Phrase:
@@ -95,7 +114,8 @@ _SAID_OF_IT = frozenset(
 def _without_courtesy(words: Phrase) -> Phrase:
     """For "(Could you) put A first?": no question."""
     asked = keys(words[-1:]) == ("?",) and "?" not in keys(words[:-1])
-    return words[:-1] if asked and opens_command(words) else words
+    requests = lexicon().requests.match(keys(words)) is not None
+    return words[:-1] if asked and (requests or opens_command(words)) else words
 
 
 def _read(body: Phrase, scene: Scene) -> Change | None:
@@ -113,6 +133,9 @@ def _bare(words: Phrase) -> Phrase:
         lead = next((lead for lead in _LEADS if keys(body[: len(lead)]) == lead), ())
         if (lead == ("no",) and keys(body[1:2]) != (",",)) or not (lead or body[0].key == ","):
             break
+        behind = keys(body[len(lead) : len(lead) + 1])
+        if lead and (behind == ("about",) or (lead == ("on", "the", "way") and behind != (",",))):
+            break
         body = body[len(lead) or 1 :]
     while body and not body[-1].is_word:
         body = body[:-1]
@@ -126,6 +149,8 @@ def _named(slots: dict[str, Phrase], scene: Scene, *names: str) -> list[list[int
 
 def _drop(slots: dict[str, Phrase], scene: Scene) -> Change | None:
     found = _named(slots, scene, "a")
+    if "b" in slots and not pending_visits(slots["b"], scene):
+        return None
     if found is None:
         return _undone(slots["a"], scene)
     gone = sorted(set(found[0]))
@@ -223,7 +248,7 @@ def _moved(after: bool) -> Callable[[dict[str, Phrase], Scene], Change | None]:
 
 def _instead(slots: dict[str, Phrase], scene: Scene) -> Change | None:
     found = _named(slots, scene, "a")
-    if found is None or len(found[0]) != 1:
+    if found is None:
         return None
     listed, at = visits(scene), found[0][0]
     names = listed[at].names
@@ -234,14 +259,14 @@ def _instead(slots: dict[str, Phrase], scene: Scene) -> Change | None:
     order = _new(said, scene)
     if not order:
         return None
-    if keys(order[:1]) == ("visit",) and keys(said[:1]) != ("visit",):
+    if keys(order[:1]) == ("visit",) and keys(said[:1]) != ("visit",) and len(found[0]) == 1:
         return _renamed(at, order[1:], scene)
     looked = any(scene.catalogue.roles(info) & {"look"} for info in _infos(at, scene))
     if looked and keys(order[:1]) == ("visit",):
         order = (Word("inspect", "inspect"), *order[1:])
-    gone = _pops(range(listed[at].start, listed[at].start + len(listed[at].steps)))
-    edit = Edit(gone, f"I leave out {_names([at], scene)}.")
-    return Change(edit, order, listed[at].start)
+    gone = _pops(listed[i].start + n for i in found[0] for n in range(len(listed[i].steps)))
+    edit = Edit(gone, f"I leave out {_names(found[0], scene)}.")
+    return Change(edit, order, listed[min(found[0])].start)
 
 
 def _renamed(at: int, named: Phrase, scene: Scene) -> Change | None:
@@ -280,7 +305,9 @@ def _insert(after: bool, needs_b: bool = False) -> Callable[[dict[str, Phrase], 
 
 def _before_all(slots: dict[str, Phrase], scene: Scene) -> Change | None:
     order = _new(slots.get("x", ()), scene)
-    said = keys(order[:1]) in {("visit",), ("inspect",)} or opens_command(slots["x"])
+    if {",", "then"} & set(keys(slots.get("x", ()))):
+        return None
+    said = keys(order[:1]) in _STOPPING or opens_command(slots["x"])
     return Change(None, order, 0) if order and said else None
 
 
@@ -318,6 +345,18 @@ def _nth(slots: dict[str, Phrase], scene: Scene) -> Change | None:
     return Change(None, order, at)
 
 
+def _added(slots: dict[str, Phrase], scene: Scene) -> Change | None:
+    order = _new(slots.get("x", ()), scene)
+    return Change(None, order, len(scene.situation.queue)) if keys(order[:1]) in _STOPPING else None
+
+
+def _same(slots: dict[str, Phrase], scene: Scene) -> Change | None:
+    """For "the same in A": what is done at the last stop is done at A."""
+    found = same_steps(slots["x"], scene, len(scene.situation.queue))
+    return None if found is None else Change(Edit((), f"I will do the same at {the(found[0])}.", found[1]))
+
+
+_STOPPING = {("visit",), ("inspect",)}
 _CHANGES: dict[str, Callable[[dict[str, Phrase], Scene], Change | None]] = {
     "drop": _drop,
     "keep": _keep,
@@ -338,6 +377,8 @@ _CHANGES: dict[str, Callable[[dict[str, Phrase], Scene], Change | None]] = {
     "reverse": _reverse,
     "copy": _copy,
     "nth": _nth,
+    "added": _added,
+    "same": _same,
 }
 
 _ADDING = frozenset({
@@ -350,7 +391,13 @@ _LOOKS = tuple(
     tuple(text.split())
     for text in ("an inspection of", "a look at", "a check of", "a quick look at", "a look into")
 )
-_VISITS = (("a", "visit", "to"), ("a", "stop", "at"), ("a", "trip", "to"), ("to",), ("by",), ("at",))
+_VISITS = tuple(
+    tuple(text.split())
+    for text in (
+        "a visit to", "a stop at", "a trip to", "stop at", "stop by", "stop by at", "call at", "call in at",
+        "drop by", "drop in at", "swing by", "pass by", "pop into", "pop over to", "nip to", "to", "by", "at",
+    )
+)  # fmt: skip
 
 
 def _new(words: Phrase, scene: Scene) -> Phrase:

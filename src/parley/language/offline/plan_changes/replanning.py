@@ -9,20 +9,18 @@ from __future__ import annotations
 from collections.abc import Sequence
 from dataclasses import dataclass, replace
 
-from parley.language.control import control_of
 from parley.language.offline.facts.facts import strip_openers
-from parley.language.offline.plan_changes.edits import Edit, drop_verb
+from parley.language.offline.plan_changes.edits import Edit
 from parley.language.offline.scene.grounding import describe
 from parley.language.offline.scene.scene import Scene
-from parley.language.offline.sentences.clauses import opens_command
 from parley.language.offline.tasks.catalogue import text_inputs
 from parley.language.offline.words.lexicon import lexicon
-from parley.language.offline.words.nouns import bare, noun_phrase
+from parley.language.offline.words.nouns import bare
 from parley.language.offline.words.saying import listing, the
 from parley.language.offline.words.text import Phrase, keys, lemma, plain, singular, tokens
 from parley.messages.chat import ActionCall, SystemCommand
 
-__all__ = ["Visit", "inserted", "ordered", "renamed", "visit_of", "visits", "without"]
+__all__ = ["Visit", "ordered", "renamed", "same_steps", "visit_of", "visits", "without"]
 
 
 @dataclass(frozen=True, slots=True)
@@ -89,13 +87,6 @@ def _noun(phrase: Phrase) -> Phrase:
     return rest[goal[0] :] if goal is not None and goal[0] < len(rest) else rest
 
 
-def _main_clause(words: Phrase) -> int:
-    """Where the main clause begins after "before A, ..."; 0 if nowhere."""
-    flat = keys(words)
-    comma = next((i for i in range(2, len(flat) - 1) if flat[i] == ","), 0)
-    return comma or next((i - 1 for i in range(2, len(flat) - 1) if opens_command(words[i:])), 0)
-
-
 def renamed(step: ActionCall, old: Phrase, new: str, scene: Scene) -> ActionCall:
     """The same step for something else."""
     inputs = dict(step.input_parameters)
@@ -107,6 +98,23 @@ def renamed(step: ActionCall, old: Phrase, new: str, scene: Scene) -> ActionCall
             value = new if same or said == wanted else parameter.value.replace(plain(bare(old)), new)
             inputs[name] = replace(parameter, value=value)
     return step.model_copy(update={"input_parameters": inputs, "reason": ""})
+
+
+def same_steps(named: Phrase, scene: Scene, at: int) -> tuple[str, tuple[ActionCall, ...]] | None:
+    """What a thing is called, and the steps that do there what is done at the stop from a place on.
+
+    Args:
+        named: Words for a thing on the map.
+        scene: What is known, with its pending steps.
+        at: The pending step from which on a stop is looked for; the last one counts if there is none.
+    """
+    found = scene.ground(named)
+    listed = [visit for visit in visits(scene) if visit.names and len(visit.steps) > 1]
+    model = next((visit for visit in listed if visit.start >= at), listed[-1] if listed else None)
+    if found.outcome != "match" or model is None or any(step.flow is not None for step in model.steps):
+        return None
+    name, old = describe(found.candidates[0], scene.objects), tokens(model.names[0])
+    return name, tuple(renamed(step, old, name, scene) for step in model.steps)
 
 
 def ordered(order: Sequence[int], scene: Scene) -> Edit | None:
@@ -147,25 +155,3 @@ def without(at: int, scene: Scene) -> Edit:
     name = the(visit.names[0]) if visit.names else "this step"
     indices = range(visit.start, visit.start + len(visit.steps))
     return Edit(_pops(indices), f"I leave out {name}.")
-
-
-def inserted(words: Phrase, scene: Scene) -> tuple[Phrase, int] | None:
-    """For "before A, V" and "V before A" with A pending: V, and the first step that V comes before."""
-    flat = keys(strip_openers(words))
-    words = strip_openers(words)
-    if len(scene.situation.queue) < 1 or not {"before", "after"} & set(flat):
-        return None
-    at = next(i for i in range(len(flat)) if flat[i] in {"before", "after"})
-    if at == 0:
-        cut = _main_clause(words)
-        anchor, rest = words[1 : cut + (words[cut].key != ",")], words[cut + 1 :]
-    else:
-        anchor, rest = words[at + 1 :], words[:at]
-    if control_of(plain(rest)) is not None or drop_verb(strip_openers(rest, requests=True)):
-        return None
-    listed = visits(scene)
-    index = visit_of(anchor, scene) if anchor and rest and not noun_phrase(anchor).anchors else None
-    if index is None:
-        return None
-    index += flat[at] == "after"
-    return rest, listed[index].start if index < len(listed) else len(scene.situation.queue)

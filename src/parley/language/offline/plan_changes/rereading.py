@@ -11,6 +11,7 @@ from parley.language.offline.dialogue.about_map import Answer
 from parley.language.offline.dialogue.asked import asked
 from parley.language.offline.dialogue.own_state import ABOUT_ITSELF
 from parley.language.offline.dialogue.plain_question import plain_question
+from parley.language.offline.dialogue.questions import unwrapped
 from parley.language.offline.facts.recalling import Recalling
 from parley.language.offline.plan_changes.edits import Change, Edit
 from parley.language.offline.plan_changes.once_more import changed_again
@@ -90,6 +91,8 @@ class Rereading(Recalling):
         taken = [i for i in range(len(queue)) if i in gone or (after and i >= change.at)]
         plain_scene = replace(self.scene, situation=replace(self.scene.situation, queue=()))
         new = type(self)(plain_scene, targets=self.targets).read(self._grouped(change.order))
+        if not new.queue and self.reread is not None:
+            new = self.reread(change.order, replace(plain_scene.situation, status="idle"))
         if not new.queue:
             return new
         pops = [SystemCommand(command="pop", arguments={"parameters": i}) for i in reversed(taken)]
@@ -107,7 +110,7 @@ class Rereading(Recalling):
 
 def _asked_of_plan(words: Phrase, scene: Scene) -> Answer | None:
     """The answer to a message that only asks about the plan: it is not to be changed then."""
-    asking = plain_question(words, marked=keys(words[-1:]) == ("?",))
+    asking = unwrapped(plain_question(words, marked=keys(words[-1:]) == ("?",)))[0]
     starts = keys(asking)[:1] in {(start,) for start in lexicon().question_starts}
     several = {".", "!", ";", "?", "\n"} & set(keys(words[:-1]))
     if several or not starts:

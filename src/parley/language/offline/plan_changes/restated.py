@@ -6,20 +6,18 @@ meant. Words that belong to none of it, and it is no change of the plan.
 
 from __future__ import annotations
 
-from collections.abc import Sequence
-
 from parley.language.offline.facts.facts import strip_openers
 from parley.language.offline.plan_changes.edits import Edit
-from parley.language.offline.plan_changes.replanning import Visit, ordered, visit_of, visits
+from parley.language.offline.plan_changes.pending import CURRENT, pending_visits
+from parley.language.offline.plan_changes.replanning import ordered, visits
 from parley.language.offline.scene.scene import Scene
 from parley.language.offline.words.lexicon import lexicon
-from parley.language.offline.words.nouns import bare, coordinated
 from parley.language.offline.words.saying import listing, the
-from parley.language.offline.words.text import Phrase, Word, keys, singular, tokens
+from parley.language.offline.words.text import Phrase, keys, singular, tokens
 from parley.language.word_lists import load_data
 from parley.messages.chat import SystemCommand
 
-__all__ = ["as_added", "named_visits", "restated"]
+__all__ = ["named_visits", "restated"]
 
 _DATA = load_data("restated")
 _SMALL = frozenset(_DATA["small"])
@@ -79,9 +77,6 @@ def restated(words: Phrase, scene: Scene) -> Edit | None:
         "okay",
     }:
         body = body[1:]
-    moved = _moved(body, scene)
-    if moved is not None:
-        return moved
     for start, end, named in named_visits(body, scene):
         left = _without_looked_for((*body[:start], *body[end:]), named, scene)
         rest = _without_somebody(left, scene)
@@ -101,54 +96,11 @@ def named_visits(body: Phrase, scene: Scene) -> list[tuple[int, int, list[int]]]
                 continue
             if not part or keys(part)[-1] in lexicon().determiners - {"these", "those"}:
                 continue
-            indices = _visits_named(part, scene)
+            told = keys(part) in CURRENT or {"with", "for"} & set(keys(part[1:-1]))
+            indices = [] if told else pending_visits(part, scene)
             if indices:
                 found.append((start, start + size, indices))
     return found
-
-
-def _visits_named(phrase: Phrase, scene: Scene) -> list[int]:
-    """The places among the visits of all that a phrase names; empty if part of it names none."""
-    listed = visits(scene)
-    flat = keys(phrase)
-    ranked = [w for w in flat if w in lexicon().ordinals or w in {"last", "final"}]
-    if ranked:
-        if not set(flat) <= {*ranked, *_ORDINAL_NOUNS} or len(ranked) > 1 or len(flat) < 2:
-            return []
-        count = next((lexicon().numbers[w] for w in flat if w in {"two", "three"}), 1)
-        at = len(listed) - count if ranked[0] in {"last", "final"} else lexicon().ordinals[ranked[0]] - 1
-        return list(range(at, at + count)) if at >= 0 and at + count <= len(listed) else []
-    result: list[int] = []
-    for part in coordinated(phrase):
-        one = _index_of(part, scene)
-        many = [one] if one is not None else _of_kind(part, listed)
-        if not many:
-            return []
-        result += many
-    return sorted(set(result))
-
-
-def _index_of(part: Phrase, scene: Scene) -> int | None:
-    words = bare(part)
-    if not words or (lexicon().verbs.match(keys(words)) is not None and len(words) > 1):
-        return None
-    return visit_of(words, scene)
-
-
-def _of_kind(part: Phrase, listed: Sequence[Visit]) -> list[int]:
-    """For "the doors": every visit of that kind."""
-    words = bare(part)
-    while words and words[0].key in {"any", "all", "more", "other", "further", "both"}:
-        words = bare(words[1:])
-    if not words or singular(words[-1].key) == words[-1].key:
-        return []
-    wanted = {singular(word.key) for word in words}
-    hits = [
-        index
-        for index, visit in enumerate(listed)
-        if any(wanted <= {singular(word.key) for word in tokens(name)} for name in visit.names)
-    ]
-    return hits if len(hits) > 1 or words else []
 
 
 def _without_looked_for(rest: Phrase, named: list[int], scene: Scene) -> Phrase:
@@ -165,7 +117,10 @@ def _without_looked_for(rest: Phrase, named: list[int], scene: Scene) -> Phrase:
 
 
 def _without_somebody(rest: Phrase, scene: Scene) -> tuple[str, ...]:
-    """The rest without the person who did it ("A has already checked ...")."""
+    """The rest without the person who did it ("A has already checked ...", "... checked by A")."""
+    by = next((i for i in range(1, len(rest) - 1) if rest[i].key == "by"), 0)
+    if by and (all(word.is_capital for word in rest[by + 1 :]) or scene.is_person(rest[by + 1 :])):
+        return keys(rest[:by])
     for size in range(min(3, len(rest) - 1), 0, -1):
         following = keys(rest[size : size + 1])
         if set(keys(rest[:size])) <= _SMALL or not following or following[0] not in _SMALL | {"has", "have"}:
@@ -240,81 +195,3 @@ def _carried_out(meant: str, named: list[int], scene: Scene) -> Edit | None:
 def _looks(name: str, scene: Scene) -> bool:
     info = scene.catalogue.get(name)
     return info is not None and bool(scene.catalogue.roles(info) & {"look", "search"})
-
-
-def _moved(body: Phrase, scene: Scene) -> Edit | None:
-    """For "I would rather you did A before B", "A should come after B", both pending."""
-    flat = keys(body)
-    at = next((i for i in range(1, len(flat) - 1) if flat[i] in {"before", "after", "ahead"}), 0)
-    if not at:
-        return None
-    behind = body[at + 1 + (flat[at + 1] == "of") :]
-    anchor = visit_of(behind, scene)
-    if anchor is None:
-        return None
-    for start, end, named in named_visits(body[:at], scene):
-        small = {*flat[:start], *flat[end:at]}
-        if len(named) == 1 and small and small <= _SMALL and not small & _DENIALS and named[0] != anchor:
-            order = [i for i in range(len(visits(scene))) if i != named[0]]
-            order.insert(order.index(anchor) + (flat[at] == "after"), named[0])
-            return ordered(order, scene)
-    return None
-
-
-_ADDING = (
-    ("add",),
-    ("include",),
-    ("insert",),
-    ("squeeze",),
-    ("fit",),
-    ("slot",),
-    ("put",),
-    ("throw",),
-    ("append",),
-    ("tack",),
-    ("slip",),
-    ("work",),
-)
-_ONE_MORE = frozenset({
-    "one", "more", "another", "last", "final", "thing", "stop", "place", "item", "for", "to", "on",
-    "the", "your", "my",
-    "our", "list", "plan", "round", "tour", "route", "you", "and", "also", "oh", "extra", "additional",
-    "a", "an", "just",
-})  # fmt: skip
-_PLANS = frozenset({
-    "plan", "queue", "list", "route", "mission", "tour", "schedule", "round", "rounds", "trip",
-    "itinerary", "programme", "program", "agenda", "stops", "run", "job", "jobs",
-})  # fmt: skip
-
-
-def as_added(words: Phrase, scene: Scene) -> Phrase:
-    """For "add A to the round", "squeeze A in before B": a visit to A."""
-    body = tuple(word for word in strip_openers(words, requests=True) if word.is_word)
-    flat = keys(body)
-    colon = next((i for i, word in enumerate(words) if word.key in {":", ","}), 0)
-    more = set(keys(words[:colon]))
-    if more & {"more", "another", "extra", "last", "final", "additional"} and more <= _ONE_MORE:
-        # "One more thing for the list: A".
-        last = words[colon + 1 : len(words) - (not words[-1].is_word)]
-        return (Word("visit", "visit"), *last) if scene.ground(last).outcome == "match" else words
-    if flat[:1] not in _ADDING or len(flat) < 3 or len(flat) > 16:
-        return words
-    rest = list(body[1:])
-    end = next(
-        (
-            i
-            for i in range(1, len(rest))
-            if rest[i].key in {"to", "on", "in", "into", "onto", "before", "after", "as", "too", "between"}
-        ),
-        len(rest),
-    )
-    named, tail = tuple(rest[:end]), tuple(rest[end:])
-    slipped_in = keys(tail[:1]) == ("in",) and keys(tail[1:2]) in {(), ("before",), ("after",), ("between",)}
-    planned = bool({word.key for word in tail} & (_PLANS | {"end"})) or slipped_in or not tail
-    if scene.ground(named).outcome != "match" or not (planned or keys(tail[:1]) in {("before",), ("after",)}):
-        return words
-    where = next((i for i, word in enumerate(tail) if word.key in {"before", "after"}), len(tail))
-    end_only = {"end", "last"} & {word.key for word in tail}
-    if where < len(tail) and not end_only:
-        return (Word("visit", "visit"), *named, *tail[where:])
-    return (Word("visit", "visit"), *named)

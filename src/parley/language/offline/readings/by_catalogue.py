@@ -12,12 +12,16 @@ from dataclasses import dataclass, replace
 from functools import cache
 
 from parley.language.offline.scene.scene import Scene
+from parley.language.offline.sentences.clauses import opens_command
 from parley.language.offline.sentences.spoken import Names
 from parley.language.offline.tasks.commands import read_command
 from parley.language.offline.tasks.matching import Match
+from parley.language.offline.tasks.parts import map_spans
 from parley.language.offline.tasks.roles import parameter_role
 from parley.language.offline.tasks.tasks import Tasks
+from parley.language.offline.words.concepts import LIGHT_VERBS
 from parley.language.offline.words.lexicon import PhraseTable, lexicon
+from parley.language.offline.words.order import due
 from parley.language.offline.words.text import Phrase, Word, keys, lemma, tokens
 from parley.language.word_lists import load_data
 
@@ -39,6 +43,9 @@ _ORDINARY = frozenset(
 )
 _PLAIN_ORDER = 1.5
 """What a piece counts that a common kind of task explains."""
+_ASIDE = -0.5
+"""What it counts that a piece is passed over because it only tells something."""
+_TELLING = lexicon().person_pronouns | lexicon().thing_pronouns | lexicon().determiners | {"there", "we", "i"}
 _LEAST = 0.7
 """How like the verb of an action what is said has to be, where only its description tells more."""
 _SEVERAL = 2
@@ -50,6 +57,20 @@ _UNSAID = frozenset(_DATA["unsaid"])
 def _table(kind: str) -> PhraseTable:
     listed = _DATA[kind]
     return PhraseTable.of([one for line in listed for one in (line if isinstance(line, list) else [line])])
+
+
+_DUE = {
+    "early": ("early", "opening", "beginning"),
+    "earlier": ("earlier",),
+    "ahead": ("opening", "earlier", "early"),
+    "late": ("late", "closing", "kept", "ending", "arriving"),
+    "between": ("between",),
+    "following": ("following", "next", "counting", "next_thing"),
+}
+
+
+def _due(kind: str) -> PhraseTable:
+    return due(*_DUE[kind])
 
 
 @dataclass(frozen=True, slots=True)
@@ -66,6 +87,10 @@ class _Piece:
     changed: bool = False
     """Whether it was put in other words than it is said."""
     sentence: int = 0
+    named: bool = False
+    """Whether it only names a place."""
+    told: bool = False
+    """Whether it is no order, and only tells something around them."""
 
 
 @dataclass(frozen=True, slots=True)
@@ -90,7 +115,7 @@ def asked_of_catalogue(words: Phrase, tells: Callable[[Phrase], bool], scene: Sc
     """
     if scene.situation.queue or len(words) > _MOST_WORDS:
         return None
-    reading = _Cutting(scene)
+    reading = _Cutting(scene, tells)
     pieces: list[_Piece] = []
     skipped = False
     sentences = list(_sentences(words))
@@ -102,7 +127,12 @@ def asked_of_catalogue(words: Phrase, tells: Callable[[Phrase], bool], scene: Sc
                 skipped = True
                 continue
             return None
-        pieces += [replace(piece, sentence=number) for piece in found]
+        aside = any(piece.told for piece in found)
+        pieces += [
+            replace(piece, sentence=number, changed=piece.changed or aside)
+            for piece in found
+            if not piece.told
+        ]
     own = any(piece.match is not None for piece in pieces)
     ranked = any(piece.when or piece.hangs for piece in pieces)
     if not (own or (ranked and not skipped)) or (len(pieces) < 2 and not pieces[0].changed):
@@ -129,8 +159,8 @@ def _sentences(words: Phrase) -> Iterator[Phrase]:
 class _Cutting:
     """Cuts sentences into orders."""
 
-    def __init__(self, scene: Scene) -> None:
-        self.scene = scene
+    def __init__(self, scene: Scene, tells: Callable[[Phrase], bool]) -> None:
+        self.scene, self.tells = scene, tells
         self.tasks = Tasks(scene)
         self.is_stop = Names(scene).is_stop
         self.known: dict[tuple[str, ...], _Piece | None] = {}
@@ -146,7 +176,13 @@ class _Cutting:
                 before = best[start]
                 if before is None:
                     continue
-                piece = self._piece(sentence[cuts[start] : cuts[end]], first=start == 0)
+                part = sentence[cuts[start] : cuts[end]]
+                piece = self._piece(part, first=start == 0)
+                if piece is None or piece.named:
+                    piece = self._alike(part, before[1]) or piece
+                piece = piece or self._aside(
+                    part, marked="," in keys((*sentence[: cuts[start]][-1:], part[-1]))
+                )
                 if piece is None:
                     continue
                 score = before[0] + piece.score
@@ -154,7 +190,11 @@ class _Cutting:
                 if here is None or score > here[0]:
                     best[end] = score, [*before[1], piece]
         whole = best[-1]
-        return whole[1] if whole is not None and any(not piece.hangs for piece in whole[1]) else None
+        orders = [piece for piece in whole[1] if not piece.told] if whole is not None else []
+        if len(orders) > 1 and orders[0].named and not (orders[0].when or orders[1].named):
+            # "The desk and the shelf need dusting".
+            return None
+        return whole[1] if whole is not None and any(not piece.hangs for piece in orders) else None
 
     def _piece(self, words: Phrase, *, first: bool) -> _Piece | None:
         """What one stretch of a sentence asks for; None if that is not plain."""
@@ -167,9 +207,40 @@ class _Cutting:
         found = self.known[flat]
         return None if found is None else replace(found, when=when, hangs=hangs)
 
+    def _alike(self, part: Phrase, pieces: Sequence[_Piece]) -> _Piece | None:
+        """For "open A halfway and B wide": the deed before once more, with all inputs said anew."""
+        last = pieces[-1] if pieces else None
+        core, when, hangs = _framed(part, first=False)
+        if last is None or last.match is None or hangs or not core or (_JOINTS | _UNSAID) & set(keys(core)):
+            return None
+        tells = core[0].key in _TELLING - lexicon().determiners or _LINKS & set(keys(core))
+        opened = last.match.verb_first or last.words[0].key in LIGHT_VERBS
+        if not opened or opens_command(core, self.scene.catalogue.verbs) or tells:
+            return None
+        said = set(last.match.filled.values)
+        if not said or any(parameter_role(name) == "text" for name in said):
+            return None
+        values = {word for phrase in last.match.filled.phrases.values() for word in phrase}
+        named = tuple(
+            word for i, word in enumerate(last.words) if i in last.match.explained and word not in values
+        )
+        for lead in (named, (last.words[0], *named), last.words[:1]):
+            match = self._match((*lead, *core))
+            if match is not None and match.info is last.match.info and set(match.filled.values) == said:
+                return _Piece((*lead, *core), 1.0 + match.score, match, when=when, changed=True)
+        return None
+
+    def _aside(self, words: Phrase, *, marked: bool) -> _Piece | None:
+        """What only tells something behind a comma or before one ("..., it is far too loud")."""
+        core = _stripped(words)
+        subject = bool(core) and (core[0].key in _TELLING or bool(lexicon().be & set(keys(core[1:3]))))
+        if not (marked and subject) or len(core) <= _SEVERAL or not self.tells(core):
+            return None
+        return _Piece(core, _ASIDE, told=True)
+
     def _order(self, core: Phrase, *, hangs: str) -> _Piece | None:
         if self.is_stop(core):
-            return _Piece((*tokens("go to"), *core), _PLAIN_ORDER, changed=True)
+            return _Piece((*tokens("go to"), *core), _PLAIN_ORDER, changed=True, named=True)
         others = _plainer(core, hangs=hangs)
         found = [
             _Piece(words, 1.0 + match.score, match, changed=keys(words) != keys(core))
@@ -188,8 +259,9 @@ class _Cutting:
         if not ordinary or command is None or not self._can(command.kind):
             return None
         named = [phrase for phrase in (command.place, command.theme) if phrase]
-        grounded = all(self.scene.ground(p).outcome != "none" for p in named[:1])
-        return _Piece(core, _PLAIN_ORDER) if named and (grounded or not self.scene.objects) else None
+        grounded = bool(map_spans(core, self.scene)) or not self.scene.objects
+        grounded = grounded or any(self.scene.ground(phrase).outcome != "none" for phrase in named[:1])
+        return _Piece(core, _PLAIN_ORDER) if named and grounded else None
 
     def _match(self, words: Phrase) -> Match | None:
         """The action that explains an order wholly."""
@@ -197,9 +269,13 @@ class _Cutting:
         if match is None:
             return None
         if not match.strong:
-            if not (match.verb_first and match.complete and match.filled.values):
+            several = len(match.filled.values) >= _SEVERAL
+            all_said = (
+                several and words[0].key in LIGHT_VERBS and match.filled.exact and not match.filled.left
+            )
+            if not (match.complete and match.filled.values and (match.verb_first or all_said)):
                 return None
-            if match.verb < _LEAST and len(match.filled.values) < _SEVERAL:
+            if match.verb < _LEAST and not several:
                 return None
         return match if _whole(match) else None
 
@@ -233,22 +309,22 @@ def _framed(words: Phrase, *, first: bool) -> tuple[Phrase, str, str]:
     when = hangs = ""
     while words:
         flat = keys(words)
-        found = next(
-            (
-                (kind, m[0])
-                for kind in ("early", "earlier", "late", "between", "following")
-                if (m := _table(kind).match(flat))
-            ),
-            None,
-        )
-        if found is not None and found[1] < len(words) and not _names_number(found[0], words, found[1]):
-            when, words = (found[0] if found[0] != "following" else when), _stripped(words[found[1] :])
-            continue
         if flat[0] == "first" and len(words) > 1 and not first:
             when, words = "ahead", _stripped(words[1:])
             continue
         if flat[0] == "first" and len(words) > 1:
             words = _stripped(words[1:])
+            continue
+        found = next(
+            (
+                (kind, m[0])
+                for kind in ("early", "earlier", "late", "between", "following")
+                if (m := _due(kind).match(flat))
+            ),
+            None,
+        )
+        if found is not None and found[1] < len(words) and not _names_number(found[0], words, found[1]):
+            when, words = (found[0] if found[0] != "following" else when), _stripped(words[found[1] :])
             continue
         break
     words, behind = _behind(words)
@@ -272,7 +348,7 @@ def _behind(words: Phrase) -> tuple[Phrase, str]:
     for size in range(min(4, len(words) - 1), 0, -1):
         tail = keys(words[-size:])
         for kind in ("early", "earlier", "ahead", "late", "between", "following"):
-            found = _table(kind).match(tail)
+            found = _due(kind).match(tail)
             if (
                 found is not None
                 and found[0] == size
@@ -318,7 +394,9 @@ def _plainer(core: Phrase, *, hangs: str) -> list[Phrase]:
     at = link
     while at and at < len(flat) and flat[at] in _LINKS | _BETWEEN_LINKS:
         at += 1
-    if link and at < len(flat):
+    told = not hangs and flat[link] in {"is", "are"} and at == link + 1
+    if link and at < len(flat) and not told:
+        # "The gate is closed" does not ask for it to be closed, "the gate must be closed" does.
         verb = lemma(flat[at])
         if verb != flat[at] or flat[at - 1] in {"be", "been"}:
             tail = core[at + 1 :]
@@ -405,9 +483,10 @@ def _named(words: Phrase, piece: _Piece, match: Match) -> Phrase:
     said = {name: p for name, p in match.filled.phrases.items() if parameter_role(name) != "text"}
     things = [said[name] for name in said if name in takes] or list(said.values())
     flat = keys(words)
-    at = next((i for i, word in enumerate(flat) if word in {"it", "them"}), -1)
+    at = next((i for i, word in enumerate(flat) if word in {"it", "them", "there"}), -1)
     if at < 0 or not things or flat[at - 1 : at] == ("of",):
         return words
     thing = things[0]
     article = () if thing[0].key in lexicon().determiners or thing[-1].key.isdigit() else tokens("the")
-    return (*words[:at], *article, *thing, *words[at + 1 :])
+    place = tokens("at") if flat[at] == "there" else ()
+    return (*words[:at], *place, *article, *thing, *words[at + 1 :])

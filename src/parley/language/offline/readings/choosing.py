@@ -7,18 +7,20 @@ from collections.abc import Callable, Iterator, Sequence
 from dataclasses import dataclass, replace
 
 from parley.language.base import Situation
+from parley.language.offline.dialogue.turning import turned
 from parley.language.offline.facts.declared import laid_down
 from parley.language.offline.facts.facts import Fact
 from parley.language.offline.facts.framed import told_plainly
 from parley.language.offline.facts.groups import with_members
 from parley.language.offline.facts.nicknames import by_their_real_names
 from parley.language.offline.facts.noting import mention_listed
-from parley.language.offline.facts.plain_names import plainly_named, without_hesitation
+from parley.language.offline.facts.plain_names import plainly_named
 from parley.language.offline.grammar.canonical import Plainly, plainly_ordered
 from parley.language.offline.reader import Reader
 from parley.language.offline.readings.by_catalogue import asked_of_catalogue
 from parley.language.offline.readings.exceptions import unknown_exception, with_answer
 from parley.language.offline.readings.judging import Judgement, gone_to, is_odd, judge, texts_of
+from parley.language.offline.repair.replies import agrees
 from parley.language.offline.scene.grounding import describe
 from parley.language.offline.scene.grouping import grouped, ids_in, names_things
 from parley.language.offline.scene.scene import Scene
@@ -27,22 +29,22 @@ from parley.language.offline.sentences.arranging import arranged, each_in_turn, 
 from parley.language.offline.sentences.branching import branched
 from parley.language.offline.sentences.briefly import briefly
 from parley.language.offline.sentences.clauses import opens_command
+from parley.language.offline.sentences.conditioning import as_conditions
 from parley.language.offline.sentences.correcting import corrected
 from parley.language.offline.sentences.distilling import context, distilled, with_the_same
 from parley.language.offline.sentences.expecting import with_looks
 from parley.language.offline.sentences.named import back_to_first, verb_first, with_articles
 from parley.language.offline.sentences.numbering import unnumbered
-from parley.language.offline.sentences.orderings import in_sequence
-from parley.language.offline.sentences.passives import done_first
 from parley.language.offline.sentences.scoping import scoped
 from parley.language.offline.sentences.spoken import Names
 from parley.language.offline.sentences.talk import without_talk
 from parley.language.offline.sentences.told import when_done
 from parley.language.offline.sentences.units import Unit, units
-from parley.language.offline.sentences.waiting import waiting_there
 from parley.language.offline.tasks.abilities import cannot
 from parley.language.offline.tasks.helping import helping
+from parley.language.offline.tasks.tasks import Tasks
 from parley.language.offline.words.explaining import Trace
+from parley.language.offline.words.lexicon import lexicon
 from parley.language.offline.words.saying import listing, the
 from parley.language.offline.words.text import Phrase, keys, plain, tokens
 from parley.messages.chat import ChatAction
@@ -81,27 +83,30 @@ def best_reading(
     changed = _changed_plan(words, situation, hints, trace, targets)
     if changed is not None:
         return changed
-    words = with_looks(without_hesitation(words), Names(scene).is_stop)
+    words = with_looks(words, Names(scene).is_stop)
     told, words = laid_down(told_plainly(words), scene)
     mention_listed(told, scene)
     whole = plainly_named(with_members(words, told), scene)
     words = _settled(words, scene)
-    message = plainly_named(with_members(words, told), scene)
-    raw = words
     names = names_things(scene)
-    put_together = grouped(with_answer(words, list(hints), scene), scene)
+    raw = with_answer(words, list(hints), scene)
+    put_together = grouped(raw, scene)
     if (left_out := unknown_exception(put_together)) is not None:
         return _which_to_leave_out(put_together[left_out[0] : left_out[1]], targets, scene)
     kept = scoped(put_together, names, lambda part: False, ids_in(scene))
     spared = kept.spared
-    if spared and not situation.queue:
-        message = plainly_named(with_members(kept.words, told), scene)
     if not situation.queue:
-        words = branched(kept.words, names)
+        shaped = as_conditions(kept.words, names, scene.is_person)
+        words = branched(shaped, names, lambda asked: turned(asked, scene))
+    hangs = keys(words) != keys(kept.words)
+    plainer = not situation.queue and (spared or hangs)
+    free = not (plainer or situation.queue)
+    message = words if plainer else grouped(raw, scene, pronouns=False)
+    message = plainly_named(with_members(message, told), scene)
     # What was left out or put together already, the plain orders of the whole message would bring back.
-    settled = keys(raw) != keys(words)
+    settled = keys(put_together) != keys(words)
     words = plainly_named(with_members(words, told), scene)
-    said, words = words, _plainer(words, scene)
+    said, words = words, with_articles(words, Names(scene).is_stop)
     parts = _units(words, scene)
     placed = arranged(parts)
     if placed is not None:
@@ -112,8 +117,7 @@ def best_reading(
     readings = [best]
     made_out = settled and best.judged.cost <= 0 and not _is_idle(best)
     tells = all(unit.kind in {"told", "reason"} for unit in parts)
-    free = not (spared or situation.queue) and keys(whole) != keys(message)
-    all_said = whole if free else ()
+    all_said = whole if free and keys(whole) != keys(message) else ()
     ordered, as_said = (None, None) if made_out or tells else _plain_orders(message, all_said, best, scene)
 
     def reread(said: Phrase, about: Sequence[Phrase], how: str) -> _Reading:
@@ -123,7 +127,8 @@ def best_reading(
     best = _in_plain_orders(best, ordered, as_said, reread)
     if readings[0].judged.cost > 0:
         best = _read_otherwise(best, readings[0], _others(words, parts, scene), parts, reread)
-    best = _offered(best, readings, message, parts, told, situation, hints, targets, spared, scene)
+    wanted = kept.words if len(kept.words) < len(put_together) else message
+    best = _offered(best, readings, wanted, parts, told, situation, hints, targets, spared, scene)
     if ordered is not None and ordered.unable and not ordered.against:
         best = _unable(best, ordered.unable, scene)
     best = _helpful(best, message, parts, situation, hints, targets, scene)
@@ -191,9 +196,10 @@ def _helpful(
     if match is None:
         return best
     trace = Trace()
+    agreed = any(agrees(hint) for hint in hints)
     reader = Reader(Scene.of(situation, hints, trace), targets=targets)
     trace.note("action", f"{match.info.name}: it helps with what is told ({match.score:.1f})")
-    return _Reading(reader.help_with(match, message), best.judged, trace, "what helps")
+    return _Reading(reader.help_with(match, message, agreed=agreed), best.judged, trace, "what helps")
 
 
 def _calls(reading: _Reading) -> list[str]:
@@ -205,10 +211,19 @@ def _plain_orders(
     message: Phrase, whole: Phrase, said: _Reading, scene: Scene
 ) -> tuple[Plainly | None, Plainly | None]:
     """The plain orders of a message, if they settle anything, and those of all its words."""
+    if _only_answers(message, said):
+        return None, None
     ordered = plainly_ordered(message, scene)
     as_said = plainly_ordered(whole, scene) if whole else None
     ordered = as_said if as_said is not None and as_said.certain else ordered
     return ordered if _settles(ordered, said) else None, as_said
+
+
+def _only_answers(message: Phrase, said: _Reading) -> bool:
+    """Whether a message is one question ("is A in B?") that is answered without doing anything."""
+    inner = {".", "!", "?", ";", ","} & set(keys(message[:-1]))
+    asks = keys(message[:1]) and message[0].key in lexicon().be
+    return bool(asks and not inner and said.judged.cost <= 0 and not said.action.queue)
 
 
 def _which_to_leave_out(described: Phrase, targets: tuple[str, ...], scene: Scene) -> ChatAction:
@@ -346,6 +361,20 @@ def _honest(reading: _Reading, scene: Scene) -> ChatAction:
     return reading.action.model_copy(update={"queue": kept, "message_response": text})
 
 
+def _is_ours(part: Unit, words: Phrase, scene: Scene) -> bool:
+    """For "we have to prepare for A": what people do themselves, if the robot does no such things."""
+    ours = keys(words[part.start : part.start + 3]) in {
+        ("we", "have", "to"),
+        ("we", "need", "to"),
+        ("i", "have", "to"),
+    }
+    found = (
+        lexicon().verbs.match(keys(part.words)) if ours and part.kind == "order" and not part.names else None
+    )
+    usual = found is None or not found[1].startswith("other:")
+    return ours and not usual and Tasks(scene).own_match(part.words, weak=True) is None
+
+
 def _to_the_point(words: Phrase, scene: Scene, trace: Trace) -> Phrase:
     """A message without who is speaking and what is only said to the listener."""
     words = briefly(words)
@@ -353,6 +382,9 @@ def _to_the_point(words: Phrase, scene: Scene, trace: Trace) -> Phrase:
     parts = _units(ended, scene)
     for part in parts if len(parts) > 1 else ():
         trace.note("part", f"{part.kind}: “{plain(part.words)}” ({part.why})")
+    ours = [part for part in parts if _is_ours(part, ended, scene)]
+    orders = any(part.kind == "order" and part not in ours for part in parts)
+    parts = [replace(part, kind="mood") if orders and part in ours else part for part in parts]
     kept = without_talk(ended, parts)
     kept = kept if keys(kept) != keys(ended) else words
     if any(part.same for part in parts):
@@ -363,28 +395,29 @@ def _to_the_point(words: Phrase, scene: Scene, trace: Trace) -> Phrase:
 
 
 def _units(words: Phrase, scene: Scene) -> list[Unit]:
-    return units(words, Names(scene).is_stop, lambda part: opens_command(part, scene.catalogue.verbs))
+    found = units(words, Names(scene).is_stop, lambda part: opens_command(part, scene.catalogue.verbs))
+    return [_as_own_order(unit, scene) for unit in found]
+
+
+def _as_own_order(unit: Unit, scene: Scene) -> Unit:
+    """For "blinds down": what an action of its own kind explains is an order, though no verb begins it."""
+    short = 1 < len(unit.words) <= _SHORT_ORDER
+    match = Tasks(scene).own_match(unit.words) if short and unit.kind in {"who", "idle"} else None
+    if match is None or not match.complete:
+        return unit
+    return replace(unit, kind="order", why=f"{match.info.name} is what it asks for")
+
+
+_SHORT_ORDER = 12
 
 
 def _settled(words: Phrase, scene: Scene) -> Phrase:
     """With what is taken back gone, and lists as sentences."""
     is_stop = Names(scene).is_stop
     words = back_to_first(verb_first(unnumbered(when_done(without_end(words))), is_stop), is_stop)
-    if {"each", "all", "both", "them"} & set(keys(words)):
+    if {"each", "all", "both", "them", "those", "these"} & set(keys(words)):
         words = each_in_turn(_units(words, scene)) or words
     return corrected(words, is_stop, lambda part: opens_command(part, scene.catalogue.verbs))
-
-
-def _plainer(words: Phrase, scene: Scene) -> Phrase:
-    """With stops in the order that is said of them."""
-    is_stop = Names(scene).is_stop
-
-    def opens(part: Phrase) -> bool:
-        return opens_command(part, scene.catalogue.verbs)
-
-    words = waiting_there(words, is_stop)
-    words = done_first(words, is_stop, opens)
-    return in_sequence(words, is_stop) or with_articles(words, is_stop)
 
 
 def _others(

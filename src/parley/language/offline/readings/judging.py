@@ -5,15 +5,17 @@ from __future__ import annotations
 import re
 from collections.abc import Sequence
 from dataclasses import dataclass
+from itertools import pairwise
 
 from parley.language.offline.facts.remembering import find_fact
 from parley.language.offline.readings.plausible import is_request, names_something
 from parley.language.offline.scene.scene import Scene, UnclearError
 from parley.language.offline.sentences.laconic import SEEN
+from parley.language.offline.sentences.signs import LEADING
 from parley.language.offline.sentences.units import Unit
 from parley.language.offline.tasks.catalogue import parameter_role
 from parley.language.offline.tasks.tasks import UnableError
-from parley.language.offline.words.lexicon import lexicon
+from parley.language.offline.words.lexicon import PhraseTable, lexicon
 from parley.language.offline.words.nouns import bare
 from parley.language.offline.words.text import Phrase, keys, lemma, singular, tokens
 from parley.messages.chat import ActionCall, ChatAction
@@ -22,6 +24,8 @@ __all__ = ["Judgement", "gone_to", "is_odd", "judge", "texts_of"]
 
 _SAID = frozenset({"text", "question", "person"})
 """Inputs that may hold any words."""
+_MOST_CHOICES = 6
+"""More than these nobody can be asked to choose from."""
 _PARTLY = "did not understand"
 _WEIGHTS = {
     "against": 8.0,
@@ -32,6 +36,7 @@ _WEIGHTS = {
     "unused": 1.5,
     "strayed": 1.0,
     "asks": 1.0,
+    "unshared": 1.5,
     "left": 0.4,
 }
 
@@ -56,6 +61,8 @@ class Judgement:
     """Things that the plan is about, though nothing but a story names them."""
     asks: int = 0
     """It ends in a question."""
+    unshared: int = 0
+    """Looks that are asked for at each of several places, and are done at one."""
     left: int = 0
     """Words of orders that carry meaning and are neither in the plan nor in the reply."""
 
@@ -111,6 +118,7 @@ def judge(
         if ordered and not _points(units)
         else 0,
         asks=_asks(unclear, ordered, scene),
+        unshared=_unshared(action, units, scene),
         left=0 if _changes_plan(action) or trouble is not None else _left(action, units, scene),
     )
 
@@ -133,11 +141,41 @@ def _missed(action: ChatAction, trouble: UnclearError | UnableError | None, unit
     return int(stories and any(not {"not", "never", "tell"} & set(words[:3]) for words in orders))
 
 
+_OF_EACH = PhraseTable.of(
+    [
+        "(in|at|on) (each|both|all|every one)",
+        "(each|both|all|every one) of (them|these|those)",
+        "(them|those) (both|all)",
+    ]
+)
+
+
+def _unshared(action: ChatAction, units: Sequence[Unit], scene: Scene) -> int:
+    """How many orders are for each of several places, where the plan looks only once."""
+    looking = [scene.catalogue.with_role(role) for role in ("look", "search", "count")]
+    names = {info.name for info in looking if info is not None}
+    looks = sum(step.name in names for step in action.queue)
+    places = set(texts_of([step for step in action.queue if step.name not in names]))
+    if looks != 1 or len(places) < _SEVERAL:
+        return 0
+    orders = [keys(unit.words) for unit in units if unit.kind == "order" and not unit.names]
+    for unit, following in pairwise(units):
+        both = unit.kind == "order" and len(unit.names) > 1 and unit.words[0].key in _ALONG
+        if both and following.kind == "order" and not following.names:
+            # "Go through A and B and look for C".
+            return int(keys(following.words)[:3] in {("and", "look", "for"), ("and", "check", "for")})
+    return sum(any(_OF_EACH.match(flat, i) is not None for i in range(len(flat))) for flat in orders)
+
+
+_SEVERAL = 2
+_ALONG = frozenset({"go", "drive", "walk", "run", "pass", "patrol", "visit"})
+
+
 def _asks(unclear: UnclearError | None, ordered: set[str], scene: Scene) -> int:
     """How odd it is to ask: which of several is meant is fair, unless the message names one of them."""
     if unclear is None or unclear.lost:
         return 0
-    if not unclear.choices:
+    if not unclear.choices or len(unclear.choices) > _MOST_CHOICES:
         return 1
     named = {item.description for item in scene.objects if item.id in ordered}
     either = "or" in keys(tokens(scene.situation.message.lower()))
@@ -154,7 +192,7 @@ def _left(action: ChatAction, units: Sequence[Unit], scene: Scene) -> int:
         if unit.kind not in {"order", "wish"} or not action.queue:
             continue
         named = {key for name in unit.names for key in keys(name)} | robots
-        said = {key for key in keys(unit.words) if _means_something(key)} - named
+        said = {key for key in _due_whenever(unit.words) if _means_something(key)} - named
         count += sum(not {key, singular(key), lemma(key)} & there for key in said)
     return count
 
@@ -177,11 +215,19 @@ def _points(units: Sequence[Unit]) -> bool:
     for unit in units:
         if unit.kind in {"order", "wish"} and _POINTING & set(keys(unit.words)):
             return True
-        if unit.kind == "order" and not unit.names and set(keys(unit.words)) <= _BARE_ORDERS:
+        if unit.kind == "order" and not unit.names and set(_due_whenever(unit.words)) <= _BARE_ORDERS:
             return True
         if unit.kind in {"order", "wish", "name"} and unit.names:
             return False
     return False
+
+
+def _due_whenever(words: Phrase) -> tuple[str, ...]:
+    """The words of an order without those that say when it is due."""
+    flat = keys(words)
+    while (found := LEADING.match(flat)) is not None and found[0] < len(flat):
+        flat = flat[found[0] :]
+    return flat
 
 
 _BARE_ORDERS = frozenset({

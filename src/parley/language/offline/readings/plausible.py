@@ -48,7 +48,7 @@ def names_something(words: Phrase, *, people: bool = False) -> bool:
     words = tuple(word for word in words if word.is_word or word.key == ",")
     flat = keys(words)
     in_the_way = flat[-2:] == ("the", "way") and flat[-3:-2] in {("in",), ("blocking",)}
-    ends = flat[-1:] if not in_the_way else ()
+    ends = () if in_the_way or _labelled(words) else flat[-1:]
     if not flat or len(flat) > _LONGEST_NAME or set(ends) & _NO_ENDS or _ends_in_order(flat):
         return False
     if set(flat) <= _WHERE | {"it", "them", "there"}:
@@ -104,7 +104,14 @@ def is_request(words: Phrase) -> bool:
         flat[i] in {"and", ",", "then"} and _acts(words[i + 1 :]) for i in range(1, len(flat) - 1)
     ) or _runs_on(rest):
         return False
-    return keys(rest)[-1] not in _NO_ENDS - {"first", "way"}
+    return _labelled(rest) or keys(rest)[-1] not in _NO_ENDS - {"first", "way"}
+
+
+def _labelled(words: Phrase) -> bool:
+    """Whether words end in a letter that something is called by ("meeting room A"), and in no article."""
+    last = words[-1:]
+    lettered = len(words) > 1 and words[-2].key in lexicon().nouns
+    return bool(last) and last[0].key == "a" and (last[0].raw == "A" or lettered)
 
 
 def _runs_on(words: Phrase) -> bool:

@@ -12,9 +12,11 @@ from parley.language.base import ErrorSituation, Situation
 from parley.language.offline.facts.protocols import Protocol, applying
 from parley.language.offline.facts.remembering import Remembered, find_fact, remembered
 from parley.language.offline.repair.failed_step import perceives, solved, with_words, words_of
+from parley.language.offline.repair.other_thing import place_in_its_stead, way_to, with_other_thing
+from parley.language.offline.repair.prose import says_away
 from parley.language.offline.scene.grounding import describe, ground_phrase
 from parley.language.offline.scene.scene import place_said
-from parley.language.offline.tasks.catalogue import Catalogue, roles_of
+from parley.language.offline.tasks.catalogue import roles_of
 from parley.language.offline.tasks.commands import read_command
 from parley.language.offline.words.nouns import bare, noun_phrase
 from parley.language.offline.words.saying import the, whole_sentence
@@ -38,6 +40,7 @@ def repaired_alone(
     """The first repair that is known to fit and was not tried yet, or None: then the operator is asked."""
     for repair in (
         _by_protocol(situation, interpret),
+        place_in_its_stead(situation),
         _among(situation, candidates),
         _moved(situation),
         _looked_for_elsewhere(situation),
@@ -86,7 +89,7 @@ def _carried_out(protocol: Protocol, situation: ErrorSituation, interpret: Inter
         if act.kind in ("again", "around"):
             steps.append(situation.failed_action)
         elif act.kind == "order":
-            ordered = looked_there(situation, act.words) or interpret(as_message(situation, act.words)).queue
+            ordered = _ordered_by(act.words, situation, interpret)
             if not ordered:
                 return None
             steps += ordered
@@ -94,6 +97,14 @@ def _carried_out(protocol: Protocol, situation: ErrorSituation, interpret: Inter
         return None
     repair = solved(situation, f"{failed} {told} I do so now.", steps)
     return repair.model_copy(update={"delay_s": protocol.delay_s})
+
+
+def _ordered_by(words: str, situation: ErrorSituation, interpret: Interpret) -> tuple[ActionCall, ...]:
+    """The steps of an order of a rule; "use B" means B in the place of what failed."""
+    other = with_other_thing(situation, words)
+    if other is not None:
+        return other.queue
+    return looked_there(situation, words) or interpret(as_message(situation, words)).queue
 
 
 def looked_there(situation: ErrorSituation, words: str) -> tuple[ActionCall, ...]:
@@ -106,7 +117,7 @@ def looked_there(situation: ErrorSituation, words: str) -> tuple[ActionCall, ...
     wanted = set(keys(tokens(words_of(situation.failed_action))))
     if found.outcome != "match" or wanted & set(keys(place)):
         return ()
-    steps = _going(situation, describe(found.candidates[0], situation.objects))
+    steps = way_to(situation, describe(found.candidates[0], situation.objects))
     return (*steps, situation.failed_action) if steps is not None else ()
 
 
@@ -182,7 +193,7 @@ def _looked_for_elsewhere(situation: ErrorSituation) -> ChatAction | None:
     if _is_at(situation, place):
         return None
     words = describe(place, situation.objects)
-    steps = _going(situation, words)
+    steps = way_to(situation, words)
     if steps is None:
         return None
     text = f"I remember: {whole_sentence(item.fact.sentence)} I go to {the(words)} and look there."
@@ -231,14 +242,27 @@ def _from_close_by(situation: ErrorSituation) -> ChatAction | None:
     if situation.code not in {FailureCode.NO_MATCH, FailureCode.BLOCKED} or not perceives(situation):
         return None
     found = ground_phrase(tokens(words_of(situation.failed_action)), situation.objects, situation.robot_pose)
-    if found.outcome != "match" or _is_at(situation, found.candidates[0]):
+    away = says_away(situation.error_message)
+    if found.outcome != "match" and away:
+        found = ground_phrase(_behind_away(situation.error_message), situation.objects, situation.robot_pose)
+    if found.outcome != "match" or (not away and _is_at(situation, found.candidates[0])):
         return None
     words = describe(found.candidates[0], situation.objects)
-    steps = _going(situation, words)
+    steps = way_to(situation, words)
     if steps is None:
         return None
     text = f"I am not at {the(words)}. I go there and look again."
     return solved(situation, text, [*steps, situation.failed_action])
+
+
+def _behind_away(message: str) -> Phrase:
+    """The thing that a failure says the robot is not near."""
+    words = tokens(message)
+    flat = keys(words)
+    at = max(
+        (i for i in range(len(flat)) if flat[i] in {"near", "from", "to", "of", "at"}), default=len(flat)
+    )
+    return bare(tuple(word for word in words[at + 1 :] if word.is_word))
 
 
 def _with_what_was_missing(situation: ErrorSituation) -> ChatAction | None:
@@ -249,12 +273,6 @@ def _with_what_was_missing(situation: ErrorSituation) -> ChatAction | None:
     if not blank or giver is None:
         return None
     return solved(situation, "Something I need for this step got lost. I work it out again.", [giver, step])
-
-
-def _going(situation: ErrorSituation, place: str) -> list[ActionCall] | None:
-    catalogue = Catalogue(situation.catalogue)
-    mover = catalogue.mover
-    return catalogue.chain(mover, {}, place, f"go to {the(place)}") if mover is not None else None
 
 
 def _is_at(situation: ErrorSituation, thing: MapObject) -> bool:

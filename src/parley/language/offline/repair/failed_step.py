@@ -198,4 +198,5 @@ def perceives(situation: ErrorSituation) -> bool:
             inputs={name: p.type for name, p in step.input_parameters.items()},
             outputs={name: p.type for name, p in step.output_parameters.items()},
         )
-    return bool(roles_of(info) & {"look", "search", "count"}) and bool(text_inputs(info))
+    finds = roles_of(info) & {"look", "search", "count", "meet", "follow"}
+    return bool(finds) and bool(text_inputs(info))

@@ -17,6 +17,7 @@ from parley.language.control import Control, control_of
 from parley.language.offline.facts.facts import Fact, read_statement
 from parley.language.offline.facts.protocols import first_act
 from parley.language.offline.facts.remembering import memory_name, remembered
+from parley.language.offline.grammar.small import is_past
 from parley.language.offline.interpreter import interpret
 from parley.language.offline.repair.alone import as_message, looked_there, remembered_places, repaired_alone
 from parley.language.offline.repair.asides import answered_aside, asks
@@ -33,18 +34,20 @@ from parley.language.offline.repair.failed_step import (
     with_words,
     words_of,
 )
+from parley.language.offline.repair.other_thing import way_to, with_other_thing
+from parley.language.offline.repair.prose import with_code
 from parley.language.offline.repair.reordering import new_order, with_order_behind
 from parley.language.offline.repair.replies import agrees
 from parley.language.offline.scene.choosing import choose, choose_object, strip_lead_ins
 from parley.language.offline.scene.grounding import describe, ground_phrase
 from parley.language.offline.scene.scene import place_said
 from parley.language.offline.sentences.clauses import clauses, opens_command
-from parley.language.offline.tasks.catalogue import Catalogue
+from parley.language.offline.tasks.catalogue import roles_of
 from parley.language.offline.tasks.commands import read_command
 from parley.language.offline.words.durations import duration_s
 from parley.language.offline.words.lexicon import lexicon
 from parley.language.offline.words.saying import capital, the
-from parley.language.offline.words.text import keys, tokens
+from parley.language.offline.words.text import Phrase, keys, tokens
 from parley.language.word_lists import load_data
 from parley.messages.chat import ChatAction, SystemCommand
 
@@ -57,6 +60,7 @@ _BLIND = "I cannot see what is in a picture."
 
 def resolve(situation: ErrorSituation) -> ChatAction:
     """Repair a failure, or ask."""
+    situation = with_code(situation)
     if situation.pictures and not (situation.reply or "").strip():
         return ChatAction(success=None, message_response=f"{_BLIND} Please tell me in words.")
     resolution = with_order_behind(situation, _resolve, interpret) or _resolve(situation)
@@ -117,12 +121,23 @@ def _answered(situation: ErrorSituation, reply: str) -> ChatAction | None:
     text = " " + " ".join(word.key for word in tokens(reply) if word.is_word) + " "
     if order is not None:
         return _controlled(situation, order, text)
-    for reader in (_later_again, _asked, _new_words, _ordered, _another_way, _new_place, _told, _promised):
+    for reader in (
+        _later_again,
+        _asked,
+        _by_themselves,
+        with_other_thing,
+        _new_words,
+        _ordered,
+        _another_way,
+        _new_place,
+        _told,
+        _promised,
+    ):
         found = reader(situation, reply)
         if found is not None:
             return found
     index = choose((AGAIN, WITHOUT, STOP), reply)
-    if index == 2:
+    if index == 2 or (text.startswith(" stop ") and not _mentions(text, ("go on", "carry on", "continue"))):
         return _cancelled(situation)
     if not _denied(text):
         for kind, action in (("retry", _again), ("without", _without), ("cancel", _cancelled)):
@@ -130,14 +145,15 @@ def _answered(situation: ErrorSituation, reply: str) -> ChatAction | None:
                 return _done(situation, reply) or action(situation)
     if index is not None:
         return (_again, _without)[index](situation)
-    return _yes_or_no(situation, reply)
+    return _done(situation, reply) or _yes_or_no(situation, reply)
 
 
 def _controlled(situation: ErrorSituation, order: Control, text: str) -> ChatAction:
     if order == "skip":
         return _without(situation)
     if order == "start":
-        return _again(situation) if _mentions(text, _said("retry")) else _without(situation)
+        acted = _done(situation, situation.reply or "")
+        return acted or (_again(situation) if _mentions(text, _said("retry")) else _without(situation))
     return _cancelled(situation)
 
 
@@ -167,7 +183,10 @@ def _another_way(situation: ErrorSituation, reply: str) -> ChatAction | None:
 def _told(situation: ErrorSituation, reply: str) -> ChatAction | None:
     """A fact about something else is remembered, and the question remains."""
     fact = read_statement(tokens(reply))
+    text = f" {' '.join(keys(tokens(reply)))} "
     if fact is None or not fact.is_location or _is_about_step(fact, situation):
+        return None
+    if any(_mentions(text, _said(kind)) for kind in ("retry", "without", "cancel")):
         return None
     understood = interpret(as_message(situation, reply))
     if understood.queue or not understood.system_cmd:
@@ -187,7 +206,9 @@ def _promised(situation: ErrorSituation, reply: str) -> ChatAction | None:
     """For "I will move it", "I am coming": wait for them to say that it is done."""
     flat = keys(word for word in tokens(reply) if word.is_word)
     text = f" {' '.join(flat)} "
-    coming = flat[:2] in {("i", "will"), ("we", "will")} or _mentions(text, ("i am coming", "on my way"))
+    coming = flat[:2] in {("i", "will"), ("we", "will"), ("let", "me"), ("let", "us")} or _mentions(
+        text, ("i am coming", "on my way")
+    )
     if not coming or "not" in flat or _mentions(text, _said("without")):
         return None
     return ChatAction(message_response="All right, I wait. Please tell me when it is done.")
@@ -198,7 +219,14 @@ def _asked(situation: ErrorSituation, reply: str) -> ChatAction | None:
 
 
 _HELPED = frozenset(
-    {FailureCode.BLOCKED, FailureCode.UNREACHABLE, FailureCode.HARDWARE, FailureCode.UNAVAILABLE}
+    {
+        FailureCode.BLOCKED,
+        FailureCode.UNREACHABLE,
+        FailureCode.HARDWARE,
+        FailureCode.UNAVAILABLE,
+        FailureCode.TIMED_OUT,
+        FailureCode.INTERNAL,
+    }
 )
 """Failures about which the operator is asked to do something, after which it is worth another try."""
 _HELPING = frozenset(
@@ -210,11 +238,54 @@ _HELPING = frozenset(
 def _done(situation: ErrorSituation, reply: str) -> ChatAction | None:
     """For "I did it": what was asked for is done, which clears the way or ends the step."""
     said = keys(word for word in tokens(reply) if word.is_word)
-    if agrees(reply) is not True or said[:1] in {("skip",), ("ignore",), ("leave",), ("go",), ("never",)}:
+    if said[:1] in {("skip",), ("ignore",), ("leave",), ("go",), ("never",)}:
         return None
-    if situation.code in _HELPING:
+    clauses_said = (keys(tokens(part)) for part in re.split(r"[.,;:!]+", reply))
+    if agrees(reply) is not True and not any(_acted(part) for part in clauses_said):
+        return None
+    if situation.code in _HELPING or _asks_operator(situation):
         return _without(situation)
     return _again(situation) if situation.code in _HELPED else None
+
+
+def _by_themselves(situation: ErrorSituation, reply: str) -> ChatAction | None:
+    """For "I did it myself": the step is done; what only clears the way ("I moved it myself") is none."""
+    said = keys(word for word in tokens(reply) if word.is_word)
+    text = f" {' '.join(said)} "
+    own = _SELVES & set(said) or _mentions(text, ("took care of that", "took care of it", "did that for you"))
+    if not own or not _acted(said) or _mentions(text, _said("retry")) or _CLEARING & set(said):
+        return None
+    return _without(situation)
+
+
+_SELVES = frozenset({"myself", "ourselves", "himself", "herself", "themselves"})
+_CLEARING = frozenset({
+    "moved", "removed", "opened", "unlocked", "cleared", "pushed", "pulled", "lifted", "unblocked",
+    "fixed", "repaired", "restarted", "switched", "turned", "plugged", "put", "placed", "unstuck",
+    "freed", "dragged", "rolled", "swept",
+})  # fmt: skip
+
+
+def _asks_operator(situation: ErrorSituation) -> bool:
+    """Whether the failed step asks the operator for a hand."""
+    named = [info for info in situation.catalogue if info.name == situation.failed_action.name]
+    return any("ask_operator" in roles_of(info) for info in named)
+
+
+def _acted(said: tuple[str, ...]) -> bool:
+    """For "I've pushed it aside", "we unlocked the door", "it is open now": something was done."""
+    if "now" in said[2:] and lexicon().be & set(said[1:4]) and "not" not in said:
+        return True
+    if said[:1] not in _ACTORS:
+        return False
+    rest = [word for word in said[1:5] if word not in _AROUND_DEEDS]
+    return bool(rest) and "not" not in said and (rest[0].endswith("ed") or is_past(rest[0]))
+
+
+_ACTORS = frozenset((who,) for who in ("i", "we", "he", "she", "they", "somebody", "someone", "it", "people"))
+_AROUND_DEEDS = frozenset({
+    "have", "has", "had", "just", "now", "already", "quickly", "simply", "is", "are", "was", "were", "been",
+})  # fmt: skip
 
 
 @cache
@@ -229,7 +300,16 @@ def _mentions(text: str, phrases: Sequence[str]) -> bool:
 
 def _denied(text: str) -> bool:
     return any(f" {word} " in text for word in ("not", "no")) and not _mentions(
-        text, ("never mind", "does not matter", "not important", "do not bother", "no need")
+        text,
+        (
+            "never mind",
+            "does not matter",
+            "not important",
+            "do not bother",
+            "no need",
+            "no idea",
+            "no matter",
+        ),
     )
 
 
@@ -276,48 +356,49 @@ def _new_words(situation: ErrorSituation, reply: str) -> ChatAction | None:
     if len(clauses(tokens(reply), opens_command)) > 1:
         return None
     ordered = read_command(tokens(reply), lambda _: False)
-    where = (
-        ("at", ordered.place)
-        if ordered is not None and ordered.place
-        else place_said(strip_lead_ins(tokens(reply)))
-    )
-    found = ground_phrase(where[1], situation.objects, situation.robot_pose) if where else None
-    if found is None or found.outcome != "match" or where is None:
+    looked = ordered.theme if ordered is not None and ordered.kind in {"look", "search"} else ()
+    where = _where_said(situation, reply, looked if ordered is None else ordered.place or looked)
+    if where is None:
         return None
-    words = describe(found.candidates[0], situation.objects)
-    commands = _as_memory(situation, where[0], words)
-    return solved(
-        situation, f"Thank you. I take {the(words)}.", [with_words(situation.failed_action, words)], commands
-    )
+    again = [with_words(situation.failed_action, where[1])]
+    return solved(situation, f"Thank you. I take {the(where[1])}.", again, _as_memory(situation, *where))
 
 
 def _new_place(situation: ErrorSituation, reply: str) -> ChatAction | None:
     """For a step that looks for something: the place where it really is."""
-    if not perceives(situation):
+    parts = (reply, *re.split(r"[,;.!]+", reply)) if perceives(situation) else ()
+    where = next((found for part in parts if part and (found := _where_said(situation, part))), None)
+    steps = way_to(situation, where[1]) if where is not None else None
+    if where is None or steps is None:
         return None
+    text = f"Thank you. I will go to {the(where[1])} and look there."
+    return solved(situation, text, [*steps, situation.failed_action], _as_memory(situation, *where))
+
+
+def _where_said(situation: ErrorSituation, reply: str, ordered: Phrase = ()) -> tuple[str, str] | None:
+    """The one thing on the map where a reply says that what the step is about is, with the relation to it.
+
+    Args:
+        situation: The failure.
+        reply: What the operator said.
+        ordered: The place that the reply, read as an order, names.
+    """
     phrase = tokens(reply)
-    fact = read_statement(phrase)
+    fact = None if ordered else read_statement(phrase)
     if fact is not None and not (fact.is_location and _is_about_step(fact, situation)):
         return None
-    where = (fact.relation, fact.place) if fact is not None else place_said(phrase)
-    if where is None or ground_phrase(where[1], situation.objects, situation.robot_pose).outcome != "match":
+    said = (fact.relation, fact.place) if fact is not None else place_said(strip_lead_ins(phrase))
+    where = ("at", ordered) if ordered else said
+    found = ground_phrase(where[1], situation.objects, situation.robot_pose) if where else None
+    if where is None or found is None or found.outcome != "match":
         return None
-    place = describe(
-        ground_phrase(where[1], situation.objects, situation.robot_pose).candidates[0], situation.objects
-    )
-    catalogue = Catalogue(situation.catalogue)
-    mover = catalogue.mover
-    steps = catalogue.chain(mover, {}, place, f"go to {the(place)}") if mover is not None else None
-    if steps is None:
-        return None
-    text = f"Thank you. I will go to {the(place)} and look there."
-    return solved(situation, text, [*steps, situation.failed_action], _as_memory(situation, where[0], place))
+    return where[0], describe(found.candidates[0], situation.objects)
 
 
 def _as_memory(situation: ErrorSituation, relation: str, place: str) -> list[SystemCommand]:
     """The operator's answer as a memory."""
     wanted = words_of(situation.failed_action)
-    if not wanted or wanted.startswith(("whether", "what")):
+    if not wanted or wanted.startswith(("whether", "what")) or "instead" in (situation.reply or "").lower():
         return []
     sentence = f"{capital(the(wanted))} is {relation} {the(place)}"
     fact = read_statement(tokens(sentence))

@@ -26,12 +26,24 @@ _LATER = tuple(
         "at the end", "in the end",
     )
 )  # fmt: skip
+_PLANS = (
+    "the tour",
+    "the plan",
+    "the round",
+    "the rest",
+    "the whole thing",
+    "the trip",
+    "all that",
+    "it all",
+)
 _DROPPED = tuple(
     tuple(text.split())
     for text in (
         "forget it", "forget that", "forget about it", "forget about that", "forget everything", "never mind",
         "nevermind", "cancel it", "cancel that", "cancel everything", "cancel", "drop it", "drop that",
         "drop everything", "give up", "leave that", "leave it", "stop that", "stop it", "abort", "no need",
+        *(f"{verb} {what}" for verb in ("cancel", "drop", "forget", "scrap", "abandon") for what in _PLANS),
+        "neither", "none of them", "neither of them", "none of those", "no, neither",
     )
 )  # fmt: skip
 _LEFT_OUT = tuple(tuple(text.split()) for text in ("skip it", "skip that", "skip this", "skip"))

@@ -43,13 +43,40 @@ def awaited(words: Phrase, scene: Scene) -> Phrase | None:
     if not 3 <= len(said) <= _MOST_WORDS or flat[0] in _QUESTIONS or _DENYING & set(flat):
         return None
     found = _wants_you(said) or _you_wanted(said) or _help_wanted(said) or _visited(said)
-    if found is None or (found[1][:1] and found[1][0].key in {"to", "not"}):
+    if found is None:
+        return None
+    found = found[0], _without_coming(found[1])
+    if found[1][:1] and found[1][0].key in {"to", "not"}:
         return None
     order = _going(*found, scene)
     if order is not None and "eyes" in flat and keys(order[:3]) == ("go", "to", "the"):
         # "We need a pair of eyes at A".
         return phrase_of("inspect", order[2:])
     return order
+
+
+def _without_coming(rest: Phrase) -> Phrase:
+    """For "to come over to her" behind what is wanted of the robot: nothing more."""
+    flat = keys(rest)
+    if flat[:1] != ("to",) or flat[1:2] not in {
+        ("come",),
+        ("be",),
+        ("join",),
+        ("visit",),
+        ("drop",),
+        ("go",),
+    }:
+        return rest
+    end = 2
+    while end < len(flat) and flat[end] in _TO_THEM:
+        end += 1
+    return rest[end:]
+
+
+_TO_THEM = frozenset({
+    "over", "by", "round", "up", "down", "to", "her", "him", "them", "with", "there", "now", "please", "and",
+    "right", "away", "quickly", "along",
+})  # fmt: skip
 
 
 @cache

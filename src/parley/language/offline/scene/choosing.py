@@ -55,7 +55,21 @@ def choose_object(
     if excluded is not None:
         return excluded
     meant = strip_lead_ins(words)
-    return _by_words(meant, candidates, objects, pose) or _by_position(keys(bare(meant)), candidates)
+    for said in (meant, _where_in(meant)):
+        found = _by_words(said, candidates, objects, pose) or _by_position(keys(bare(said)), candidates)
+        if found is not None:
+            return found
+    return None
+
+
+def _where_in(words: Phrase) -> Phrase:
+    """The place in "Anna is on the large one"; empty for anything else."""
+    flat = keys(words)
+    link = next((i for i in range(1, min(5, len(flat) - 2)) if flat[i] in _BEING), 0)
+    return words[link + 2 :] if link and lexicon().places.match(flat, link + 1) is not None else ()
+
+
+_BEING = lexicon().be | {"sits", "lies", "stands", "lives", "waits", "sleeps"}
 
 
 def _is_any(flat: tuple[str, ...]) -> bool:
@@ -67,13 +81,27 @@ def _is_any(flat: tuple[str, ...]) -> bool:
 def _excluded(
     words: Phrase, candidates: Sequence[MapObject], objects: Sequence[MapObject], pose: Pose2D | None
 ) -> MapObject | None:
-    """For "Not the large one" leaves the other of two."""
+    """For "not the large one", "not 1 or 2": the one that is left."""
     flat = keys(words)
-    if "not" not in flat or len(candidates) != 2:
+    if "not" not in flat:
         return None
-    at = flat.index("not")
-    refused = _by_words(strip_lead_ins(words[at + 1 :]), candidates, objects, pose)
-    return next((item for item in candidates if refused is not None and item != refused), None)
+    left = list(candidates)
+    for part in _parted(words[flat.index("not") + 1 :]):
+        meant = strip_lead_ins(part)
+        refused = _by_words(meant, candidates, objects, pose) or _by_position(keys(bare(meant)), candidates)
+        left = [item for item in left if item != refused]
+    return left[0] if len(left) == 1 < len(candidates) else None
+
+
+def _parted(words: Phrase) -> list[Phrase]:
+    """What is named between "or", "and" and "nor"."""
+    parts: list[Phrase] = [()]
+    for word in words:
+        if word.key in {"or", "and", "nor"}:
+            parts.append(())
+        else:
+            parts[-1] = (*parts[-1], word)
+    return parts
 
 
 @cache
@@ -125,7 +153,8 @@ def _by_position(flat: tuple[str, ...], candidates: Sequence[MapObject]) -> MapO
     words = tuple(
         word
         for word in flat
-        if word not in {"one", "option", "number", "choice", "the", "of", "them", "two"} or len(flat) == 1
+        if word not in {"one", "option", "number", "choice", "the", "of", "them", "two", "other"}
+        or len(flat) == 1
     )
     if len(words) != 1:
         return None

@@ -34,7 +34,7 @@ from parley.language.offline.words.text import (
 from parley.world.geometry import Pose2D
 from parley.world.object_map import MapObject
 
-__all__ = ["describe", "ground", "ground_phrase", "head_of", "matching", "variants"]
+__all__ = ["describe", "ground", "ground_phrase", "head_of", "matching", "variants", "with_kinds"]
 
 _MAX_VARIANTS = 48
 
@@ -246,20 +246,9 @@ def _candidates(
     return [], ()
 
 
-_SIZES = {
-    "large": 1.0,
-    "big": 1.0,
-    "huge": 1.0,
-    "largest": 1.0,
-    "biggest": 1.0,
-    "larger": 1.0,
-    "bigger": 1.0,
-    "small": -1.0,
-    "little": -1.0,
-    "tiny": -1.0,
-    "smallest": -1.0,
-    "smaller": -1.0,
-}
+_LARGE = ("large", "big", "huge", "largest", "biggest", "larger", "bigger")
+_SMALL = ("small", "little", "tiny", "smallest", "smaller")
+_SIZES = dict.fromkeys(_LARGE, 1.0) | dict.fromkeys(_SMALL, -1.0)
 _SIDES: dict[tuple[str, ...], str] = {
     ("left",): "left", ("right",): "right", ("left", "side"): "left", ("right", "side"): "right",
     ("left", "hand", "side"): "left", ("right", "hand", "side"): "right", ("your", "left"): "left",
@@ -412,7 +401,7 @@ def _by_relation(
 ) -> list[MapObject]:
     items = [profile.item for profile in found]
     anchors: list[MapObject] = []
-    for anchor in (_named_so(part, noun) for part in noun.anchors):
+    for anchor in with_kinds([_named_so(part, noun) for part in noun.anchors], noun.core):
         where = ground_phrase(anchor, [o for o in objects if o not in items] or objects, pose)
         if where.outcome != "match" or not _is_called(where.candidates[0], anchor):
             where = ground_phrase(anchor, objects, pose)
@@ -448,6 +437,26 @@ def _named_so(anchor: Phrase, noun: NounPhrase) -> Phrase:
     if at < 0 or not kind or len(anchor) < 2:
         return anchor
     return (*anchor[:at], Word(kind, kind), *anchor[at + 1 :])
+
+
+def with_kinds(anchors: Sequence[Phrase], core: Sequence[str] = ()) -> list[Phrase]:
+    """For "(between) berths 3 and 4" "berth 3" and "berth 4"; for "(the area between) B and D" the areas.
+
+    Args:
+        anchors: What something is said to be between.
+        core: What it is called itself.
+    """
+    kind = next((word for word in reversed(core) if not _is_label(word)), "")
+    head: Phrase = (Word(kind, kind),) if kind else ()
+    result: list[Phrase] = []
+    for anchor in anchors:
+        named = bare(anchor)
+        labelled = bool(named) and _is_label(named[-1].key)
+        if labelled and len(named) > 1:
+            last = named[-2]
+            head = (*named[:-2], Word(singular(last.key), singular(last.raw)))
+        result.append((*head, named[-1]) if labelled and len(anchors) > 1 and head else anchor)
+    return result
 
 
 def _uncounted(phrase: Phrase) -> Phrase:

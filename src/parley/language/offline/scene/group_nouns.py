@@ -10,6 +10,7 @@ from parley.language.offline.scene import spatial
 from parley.language.offline.scene.grounding import ground_phrase
 from parley.language.offline.scene.group_words import (
     Lead,
+    in_turn_at,
     labels_at,
     read_lead,
     stops,
@@ -54,6 +55,11 @@ _LINKING = frozenset({
     "with", "that", "which", "where", "who", "has", "have", "is", "are", "in", "on", "at", "it", "holds",
     "holding", "containing", "contains", "inside", "stands", "lies", "sits", "stays", "lives",
 })  # fmt: skip
+_LEADING_TO_NAME = frozenset({
+    "that", "which", "is", "goes", "going", "leads", "leading", "faces", "facing", "called", "named",
+    "marked", "labelled", "labeled", "says", "saying", "up", "over", "out", "down", "round", "in", "to",
+    "at", "on", "the",
+})  # fmt: skip
 _GENERIC = frozenset({"place", "point", "spot", "way", "side", "end"})
 
 
@@ -83,6 +89,8 @@ class GroupNouns:
     _each: bool = False
     _kind: tuple[MapObject, ...] = ()
     """All things of the kind that was named last, for "only the first two"."""
+    _plural: tuple[MapObject, ...] = ()
+    """The same, if more than one of them was spoken of ("the doors", "neither door")."""
     _kinds_said: frozenset[str] = field(init=False)
     """Words with which the name of a kind of thing may begin."""
 
@@ -104,6 +112,8 @@ class GroupNouns:
             if any(not w.is_word or w.key in NO_NOUN for w in part) or len(part[-1].key) < 3:
                 continue
             if bare(part)[-1:] != part[-1:] or part[0].key in lexicon().goals_and_places:
+                continue
+            if "between" in keys(part) or any(in_turn_at(keys(words), i) for i in range(at + 1, at + size)):
                 continue
             items = self._things(part)
             if len(items) > 1 or (items and lead.other and size == 1):
@@ -243,7 +253,27 @@ class GroupNouns:
             holder = self._holder(part, items)
             if holder is not None:
                 return size, (holder,)
-        return 0, ()
+        one = keys(words[at : at + 2]) in {("the", "one"), ("that", "one")}
+        called = self._called_behind(words, at + 2, tuple(items), noun) if one else None
+        return (called.end - at, called.items) if called is not None else (0, ())
+
+    def _called_behind(
+        self, words: Phrase, end: int, items: tuple[MapObject, ...], noun: Phrase
+    ) -> Found | None:
+        """For "the field up north", "the escalator that goes up", "the lift marked staff"."""
+        at = end
+        while keys(words[at : at + 1]) and words[at].key in _LEADING_TO_NAME:
+            at += 1
+        for begin in range(end, at + 1):
+            for size in range(min(3, len(words) - begin), 0, -1):
+                part = words[begin : begin + size]
+                labelled = len(part[-1].key) == 1 or part[-1].key.isdigit()
+                if labelled or any(not word.is_word for word in part) or not stops(words, begin + size):
+                    continue
+                alike = [i for i in items if set(keys(part)) <= set(i.description.lower().split())]
+                if len(alike) == 1 and not set(keys(part)) <= set(keys(noun)):
+                    return Found((alike[0],), begin + size)
+        return None
 
     def _holder(self, body: Phrase, items: Sequence[MapObject]) -> MapObject | None:
         """For "the one with the box", "the one A is in" and "A's": the one of a group where something is."""
@@ -273,7 +303,7 @@ class GroupNouns:
             about = keys(bare(fact.subject))
             if fact.relation not in lexicon().be or len(about) < 2 or not fact.state or fact.negated:
                 continue
-            if keys(words[at : at + len(about)]) != about:
+            if [singular(k) for k in keys(words[at : at + len(about)])] != [singular(k) for k in about]:
                 continue
             found = [ground_phrase(part, self.objects, strict=True) for part in coordinated(fact.state)]
             items = tuple(one.candidates[0] for one in found if one.outcome == "match")

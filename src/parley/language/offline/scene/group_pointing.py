@@ -4,9 +4,11 @@ from __future__ import annotations
 
 from dataclasses import dataclass
 
-from parley.language.offline.scene.grounding import ground_phrase
+from parley.language.offline.scene.choosing import strip_lead_ins
+from parley.language.offline.scene.grounding import ground_phrase, with_kinds
 from parley.language.offline.scene.group_nouns import LONGEST_NOUN, NO_NOUN, Found, GroupNouns
 from parley.language.offline.scene.group_words import (
+    BETTER,
     Lead,
     labels_at,
     read_lead,
@@ -15,7 +17,7 @@ from parley.language.offline.scene.group_words import (
 from parley.language.offline.scene.members import chosen, in_order, neighbour
 from parley.language.offline.words.lexicon import lexicon
 from parley.language.offline.words.nouns import coordinated
-from parley.language.offline.words.text import Phrase, keys, singular
+from parley.language.offline.words.text import Phrase, Word, keys, singular
 from parley.world.object_map import MapObject
 
 __all__ = ["GroupPointing"]
@@ -34,7 +36,7 @@ class GroupPointing(GroupNouns):
         flat = keys(words)
         if self._kind and (some := self._elided(words, start)) is not None:
             return some
-        group = self._last or self._kind
+        group = self._last or self._plural or self._kind
         if not group:
             return None
         if flat[start] == "they":
@@ -45,16 +47,23 @@ class GroupPointing(GroupNouns):
             ends = more == () or more[0] not in {"who", "that", "which", "with"}
             noun = flat[start] == "those" and not stops(words, start + 1)
             size = 1 + (more[:1] != () and more[0] in _AFTER_PRONOUN)
-            return Found(group, start + size, self._each) if self._last and ends and not noun else None
+            several = self._last or self._plural
+            return Found(group, start + size, self._each) if several and ends and not noun else None
         if flat[start] == "it" and self._last and self._each:
             return Found(self._last, start + 1, True)
         lead, at = read_lead(words, start)
         if not (lead.everything or lead.count or lead.free):
             return None
+        if start and words[start - 1].key in {"before", "after"}:
+            # "Before both of them, V": before both orders.
+            return None
         if start and words[start - 1].key in _NOT_BEFORE_ALL and words[start].key == "all":
             return None
         of = lead.of or flat[at - 1] == "of"
         pronoun = of and flat[at : at + 1] and flat[at] in _PRONOUNS
+        if pronoun and not (self._last or self._plural):
+            # "A, then B. Look at each of them": not all of their kind.
+            return None
         alone = lead.everything and not lead.definite and stops(words, at)
         one = flat[at : at + 1] == ("one",) and lead.everything and stops(words, at + 1)
         if not (pronoun or alone or one):
@@ -68,6 +77,17 @@ class GroupPointing(GroupNouns):
         told = self._told_apart(words, start) if words[start].key == "the" else None
         if told is not None:
             return told
+        place = lexicon().ordinals.get(words[at].key, 0) if at < len(words) else 0
+        if (
+            self._plural
+            and lead.definite
+            and keys(words[at + 1 : at + 2]) == ("one",)
+            and stops(words, at + 2)
+        ):
+            # "Look at the last two doors and then at the first one".
+            row = in_order(self._plural)
+            nth = len(row) if words[at].key == "last" else place
+            return Found((row[nth - 1],), at + 2) if 0 < nth <= len(row) else None
         if not lead.definite or not (lead.end or lead.where or lead.ordinals or lead.parity >= 0):
             return None
         end = at + (keys(words[at : at + 1]) in {("ones",), ("one",)})
@@ -109,7 +129,8 @@ class GroupPointing(GroupNouns):
 
     def _where_it_is(self, words: Phrase, start: int) -> Found | None:
         """For "the valve next to boiler 3": the one thing that is meant, whatever is to be done with it."""
-        if words[start].key not in {"the", "that"}:
+        exists = keys(words[max(0, start - 2) : start]) in {("there", "is"), ("there", "was")}
+        if words[start].key not in {"the", "that"} and not (exists and words[start].key in {"a", "an"}):
             return None
         end, items = self._noun(words, start + 1, Lead())
         flat = keys(words)
@@ -120,7 +141,9 @@ class GroupPointing(GroupNouns):
         first = link + found[0]
         for size in range(min(10, len(words) - first), 0, -1):
             part = words[first : first + size]
-            if any(not word.is_word for word in part) or not self._anchors(part, found[1]):
+            if any(not word.is_word for word in part) or not self._anchors(
+                part, found[1], words[start + 1 : end]
+            ):
                 continue
             phrase = (*words[start + 1 : end], *words[link : first + size])
             meant = ground_phrase(phrase, self.objects, self.pose)
@@ -129,13 +152,96 @@ class GroupPointing(GroupNouns):
             return None
         return None
 
-    def _anchors(self, part: Phrase, relation: str) -> bool:
+    def _anchors(self, part: Phrase, relation: str, noun: Phrase) -> bool:
         """Whether words name what something is said to be beside, and nothing more."""
-        parts = coordinated(part) if "between" in relation else [part]
+        parts = with_kinds(coordinated(part), keys(noun)) if "between" in relation else [part]
         if "between" in relation and len(parts) != 2:
             return False
         found = [ground_phrase(one, self.objects, self.pose, strict=True) for one in parts]
         return all(one.outcome == "match" for one in found)
+
+    def _best_of(self, words: Phrase, start: int) -> Found | None:
+        """For "the bigger of the two racks", "the middle one of the benches": the bigger rack."""
+        flat = keys(words)
+        of = start + 2 + (flat[start + 2 : start + 3] == ("one",))
+        if flat[start] != "the" or flat[of : of + 1] != ("of",) or flat[start + 1] in {"one", "rest", "end"}:
+            return None
+        lead, at = read_lead(words, of + 1)
+        end, items = self._noun(words, at, lead)
+        if not lead.definite or not items or singular(words[end - 1].key) == words[end - 1].key:
+            return None
+        better = BETTER.get(flat[start + 1], flat[start + 1])
+        kind = (*words[at : end - 1], Word(singular(words[end - 1].key), singular(words[end - 1].raw)))
+        told = (Word(better, better), *kind)
+        found = ground_phrase(told, self.objects, self.pose, among=items, strict=True)
+        return Found(found.candidates, end) if found.outcome == "match" else None
+
+    def _told_which(self, words: Phrase, start: int) -> Found | None:
+        """For "the vase, the white one", "the crane. Not the south one!", "the gate that is called east".
+
+        Several things are called so, and what is said behind it, up to the next sentence, tells which one.
+        """
+        lead, at = read_lead(words, start)
+        several = lead.free and lead.count == 1 and lead.of
+        points = words[start].key == "that" and keys(words[max(0, start - 1) : start]) in _BEFORE_THAT
+        at = at if lead.definite or several else start + (points or words[start].key in {"a", "an"})
+        if at == start or (lead.says_something and not several) or at >= len(words):
+            return None
+        end, items = self._noun(words, at, Lead())
+        noun = words[at:end]
+        places = any(lexicon().places.match(keys(noun), i) for i in range(len(noun)))
+        if not items or places or (singular(noun[-1].key) == noun[-1].key) is several:
+            return None
+        direct = None if several else self._called_behind(words, end, items, noun)
+        if direct is not None:
+            return direct
+        seen = 0
+        for mark in range(end, min(len(words), end + _FARTHEST_POINTER)):
+            if words[mark].is_word:
+                continue
+            seen += words[mark].key in _SENTENCE_MARKS
+            left, after = self._pointers(words, mark, items, noun)
+            if len(left) == 1 and after:
+                begin = mark if words[mark].key not in _SENTENCE_MARKS else mark + 1
+                return Found(tuple(left), end, cut=(begin, after))
+            if seen > 1 or (seen and left):
+                return None
+        return None
+
+    def _pointers(
+        self, words: Phrase, mark: int, items: tuple[MapObject, ...], noun: Phrase
+    ) -> tuple[list[MapObject], int]:
+        """Which of some things the phrases behind a mark mean, and where these end; 0 if none does."""
+        left, after = list(items), 0
+        while mark < len(words) and not words[mark].is_word:
+            if lexicon().verbs.match(keys(words), mark + 1) is not None:
+                break
+            lead = len(words[mark + 1 :]) - len(strip_lead_ins(words[mark + 1 :]))
+            at = mark + 1 + lead
+            while keys(words[at : at + 1]) in _BEFORE_POINTER:
+                at += 1
+            denied = keys(words[at : at + 1]) == ("not",)
+            at += denied
+            size, found = self._one_of(words, at, items, noun) if at < len(words) else (0, ())
+            close = at + size
+            while tail := next((m for m in _BEHIND_POINTER if keys(words[close : close + len(m)]) == m), ()):
+                close += len(tail)
+            ends = close >= len(words) or not words[close].is_word
+            if (
+                not size
+                or not ends
+                or not self._points(words[at : at + size], noun, denied=denied or after > 0)
+            ):
+                break
+            left = [item for item in left if (item in found) is not denied]
+            mark = after = close
+        return left, after
+
+    def _points(self, part: Phrase, noun: Phrase, *, denied: bool) -> bool:
+        """Whether words tell one of a kind: "the red one", "the red door" behind "door", "not the red"."""
+        flat = keys(part)
+        again = singular(noun[-1].key) in {singular(key) for key in flat[1:]} or flat[-1:] == (noun[-1].key,)
+        return denied or again or "one" in flat
 
     def _numbers_behind(
         self, words: Phrase, at: int, end: int, items: tuple[MapObject, ...], lead: Lead
@@ -167,6 +273,20 @@ class GroupPointing(GroupNouns):
         return Found((in_order(items)[-1],), end) if numbered and places is None else None
 
 
+_BEFORE_THAT = frozenset(
+    (word,) for word in ("to", "at", "in", "on", "of", "by", "into", "check", "inspect", "see", "visit")
+) | {()}
+_FARTHEST_POINTER = 12
+_SENTENCE_MARKS = frozenset({".", "!", "?", ";"})
+_BEFORE_POINTER = frozenset(
+    {("but",), ("and",), ("just",), ("only",), ("specifically",), ("namely",), ("so",)}
+)
+_BEHIND_POINTER = (
+    ("on", "it"), ("in", "it"), ("at", "it"), ("by", "it"), ("there",),
+    ("i", "mean"), ("i", "meant"), ("i", "think"), ("i", "believe"), ("i", "guess"), ("that", "is"),
+    ("please",), ("though",), ("obviously",), ("of", "course"), ("to", "be", "precise"),
+    ("if", "possible"),
+)  # fmt: skip
 _STEPS_ALONG = {"after": 1, "following": 1, "past": 1, "before": -1, "preceding": -1}
 _NOT_BEFORE_ALL = frozenset({"of", "after", "at", "is", "in", "above", "for", "first", "last", "that"})
 _NOT_TELLING = frozenset(

@@ -6,10 +6,12 @@ from dataclasses import dataclass
 from functools import cache
 
 from parley.language.offline.words.lexicon import lexicon
+from parley.language.offline.words.quantities import is_unit
 from parley.language.offline.words.text import Phrase, keys
 from parley.language.word_lists import load_data
 
 __all__ = [
+    "BETTER",
     "Lead",
     "exception_at",
     "in_turn_at",
@@ -30,9 +32,16 @@ def _table(name: str) -> tuple[tuple[str, ...], ...]:
 _ALL, _FREE, _LIMITS, _NONE = _table("all"), _table("free"), _table("limits"), _table("none")
 _OTHERS, _STEPS, _PAIRS = _table("others"), _table("every_other"), _table("pairs")
 _ODD, _EVEN, _OUTER, _NEAR, _FAR = (_table(name) for name in ("odd", "even", "outer", "near", "far"))
+_NUMBERED = _table("numbered")
 _EXCEPT, _IN_TURN = _table("except"), _table("in_turn")
+BETTER = {
+    "nearer": "nearest", "closer": "closest", "farther": "farthest", "further": "furthest",
+    "bigger": "biggest", "larger": "largest", "smaller": "smallest",
+}  # fmt: skip
+"""What compares two things, as it is said of more."""
 _THE = frozenset({"the", "these", "those", "my", "our", "your", "its", "their"})
-_UP_TO = frozenset({"to", "through", "till", "until", "thru", "up"})
+_UP_TO = frozenset({"to", "through", "till", "until", "thru"})
+_WAYS = frozenset({"up", "down", "back"})
 
 
 @dataclass(slots=True)
@@ -49,7 +58,7 @@ class Lead:
     """Whether those that were named are left out."""
     every_other: bool = False
     parity: int = -1
-    """1 odd, 0 even numbers; -1 any."""
+    """1 odd, 0 even, 2 any numbers; -1 with or without."""
     end: str = ""
     """"first" or "last", for so many from that end."""
     where: str = ""
@@ -138,7 +147,7 @@ def _one_of(flat: tuple[str, ...], at: int) -> bool:
 
 
 def _kind(flat: tuple[str, ...], at: int, lead: Lead) -> int:
-    for table, parity in ((_ODD, 1), (_EVEN, 0)):
+    for table, parity in ((_ODD, 1), (_EVEN, 0), (_NUMBERED, 2)):
         size = _at(flat, at, table)
         if size:
             lead.parity = parity
@@ -214,7 +223,21 @@ def _first_words(table: tuple[tuple[str, ...], ...]) -> frozenset[str]:
 
 @cache
 def _leading() -> frozenset[str]:
-    tables = (_ALL, _FREE, _LIMITS, _NONE, _OTHERS, _STEPS, _PAIRS, _ODD, _EVEN, _OUTER, _NEAR, _FAR)
+    tables = (
+        _ALL,
+        _FREE,
+        _LIMITS,
+        _NONE,
+        _OTHERS,
+        _STEPS,
+        _PAIRS,
+        _ODD,
+        _EVEN,
+        _NUMBERED,
+        _OUTER,
+        _NEAR,
+        _FAR,
+    )
     named = {"first", "last", "final", "it", "they", "them", "those", "these", "both", "each", "that"}
     return frozenset().union(*map(_first_words, tables), _THE, named, lexicon().numbers, lexicon().ordinals)
 
@@ -276,6 +299,8 @@ def open_range_at(flat: tuple[str, ...], at: int) -> tuple[int, int, int] | None
         word = flat[end + len(joint) : end + len(joint) + 1]
         if flat[end : end + len(joint)] == joint and word and word[0] in _OPEN_ENDS:
             after = end + len(joint) + 1
+            if flat[after : after + 1] == ("to",):
+                return None
             if word[0] in _ALSO_SMALL and not joint and not start > at and flat[after : after + 1]:
                 goes_on = flat[after] not in {",", ".", "!", "?", ";", "and", "please", "then", "for"}
                 if goes_on:
@@ -301,21 +326,20 @@ def _label(words: Phrase, at: int) -> tuple[tuple[str, ...], int]:
     if not number:
         return _letters(words, at) if _is_letter(words, at) else ((), at)
     behind = at + 1
-    if flat[behind : behind + 1] and flat[behind] in _UP_TO:
-        last = behind + 1 + (flat[behind : behind + 2] == ("up", "to"))
-        if _count(flat[last : last + 1]) > number:
-            return _range(number, _count(flat[last : last + 1])), last + 1
+    last = behind + _joint(flat, behind)
+    ranged = last > behind and _count(flat[last : last + 1]) not in {0, number}
+    if ranged and not is_unit(" ".join(flat[last + 1 : last + 2])):
+        return _range(number, _count(flat[last : last + 1])), last + 1
     return (str(number),), behind
 
 
 def _letters(words: Phrase, at: int) -> tuple[tuple[str, ...], int]:
     """One letter, or all of "A to C"."""
     flat = keys(words)
-    ranged = (
-        flat[at + 1 : at + 2] and flat[at + 1] in _UP_TO and len(flat) > at + 2 and len(flat[at + 2]) == 1
-    )
-    if ranged and flat[at] < flat[at + 2] and flat[at + 2].isalpha():
-        return tuple(chr(code) for code in range(ord(flat[at]), ord(flat[at + 2]) + 1)), at + 3
+    last = at + 1 + _joint(flat, at + 1)
+    if last > at + 1 and last < len(words) and flat[last] != flat[at] and _is_letter(words, last):
+        codes = _steps(ord(flat[at]), ord(flat[last]))
+        return tuple(chr(code) for code in codes), last + 1
     return (flat[at],), at + 1
 
 
@@ -330,8 +354,18 @@ def _is_letter(words: Phrase, at: int) -> bool:
     )
 
 
+def _joint(flat: tuple[str, ...], at: int) -> int:
+    """How many words at `at` stand between the ends of a range ("to", "down to", "through")."""
+    way = int(flat[at : at + 1] != () and flat[at] in _WAYS)
+    return way + 1 if flat[at + way : at + way + 1] and flat[at + way] in _UP_TO else 0
+
+
+def _steps(first: int, last: int) -> range:
+    return range(first, last + 1) if first < last else range(first, last - 1, -1)
+
+
 def _range(first: int, last: int) -> tuple[str, ...]:
-    return tuple(str(n) for n in range(first, last + 1)) if first < last <= first + 50 else ()
+    return tuple(str(n) for n in _steps(first, last)) if abs(last - first) <= 50 else ()
 
 
 _GOING_ON = frozenset(

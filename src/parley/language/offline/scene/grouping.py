@@ -5,7 +5,8 @@ from __future__ import annotations
 from collections.abc import Callable, Sequence
 
 from parley.language.offline.facts.stories import mentioned
-from parley.language.offline.scene.grounding import ground_phrase
+from parley.language.offline.scene.grounding import describe, ground_phrase
+from parley.language.offline.scene.group_words import BETTER
 from parley.language.offline.scene.groups import GroupReader
 from parley.language.offline.scene.labels import with_heads, with_kinds
 from parley.language.offline.scene.marks import marks_of
@@ -13,6 +14,7 @@ from parley.language.offline.scene.scene import Scene
 from parley.language.offline.scene.subsets import with_exception_behind
 from parley.language.offline.words.lexicon import lexicon
 from parley.language.offline.words.nouns import bare
+from parley.language.offline.words.saying import the
 from parley.language.offline.words.text import Phrase, Word, keys, plain, singular, tokens
 from parley.world.object_map import MapObject
 
@@ -21,12 +23,13 @@ __all__ = ["grouped", "ids_in", "names_things"]
 _LAST_TURNS = 4
 
 
-def grouped(words: Phrase, scene: Scene) -> Phrase:
+def grouped(words: Phrase, scene: Scene, *, pronouns: bool = True) -> Phrase:
     """The message with one word for each group of things that it names.
 
     Args:
         words: All words and punctuation.
         scene: What is known; "the others" are other than what this message or the last ones named.
+        pronouns: Whether "them" and "each of them" are groups too.
     """
 
     def named(said: Phrase) -> Sequence[MapObject]:
@@ -38,8 +41,9 @@ def grouped(words: Phrase, scene: Scene) -> Phrase:
 
     spoken_of = [turn.content for turn in scene.situation.history[-_LAST_TURNS:]]
     words = with_exception_behind(with_heads(_labelled(words, scene, spoken_of), scene.objects, spoken_of))
-    words = _without_stand_in(_which_then(_wrong_one(words)), scene)
-    read = GroupReader(scene.objects, scene.situation.robot_pose, scene.facts, named).read(words)
+    words = _without_stand_in(_told_of(_there_is_one(_which_then(_wrong_one(words)), scene), scene), scene)
+    reader = GroupReader(scene.objects, scene.situation.robot_pose, scene.facts, named, pronouns=pronouns)
+    read = reader.read(words)
     if keys(read) != keys(words):
         scene.trace.note("words", f"groups found in “{plain(words)}”")
     return read
@@ -94,11 +98,6 @@ def ids_in(scene: Scene) -> Callable[[Phrase], Sequence[str]]:
 
 
 _LONGEST_NAME = 7
-_BETTER = {
-    "nearer": "nearest", "closer": "closest", "farther": "farthest", "further": "furthest",
-    "bigger": "biggest",
-    "larger": "largest", "smaller": "smallest",
-}  # fmt: skip
 _POINTING = (("that", "one"), ("to", "it"), ("it",), ("that",), ("there",), ("this", "one"))
 
 
@@ -116,7 +115,7 @@ def _which_then(words: Phrase) -> Phrase:
     start = link + 1 + (flat[link + 1] == "the")
     if at < 1 or start >= end:
         return words
-    better = _BETTER.get(flat[start])
+    better = BETTER.get(flat[start])
     told = (Word(better, better), *words[start + 1 : end]) if better else words[start:end]
     to = (
         tokens("to")
@@ -126,6 +125,66 @@ def _which_then(words: Phrase) -> Phrase:
         else ()
     )
     return (*rest[:at], *to, *tokens("the"), *words[1:link], *told, *rest[at + size :])
+
+
+def _there_is_one(words: Phrase, scene: Scene) -> Phrase:
+    """For "there is a van in the yard, check it", "between A and B there is a bench. Check it": V that van.
+
+    So where the map has several such things, and says which of them stands there.
+    """
+    flat = keys(words)
+    at = next((i for i in range(len(flat) - 4) if flat[i : i + 2] in {("there", "is"), ("there", "are")}), -1)
+    if (
+        at < 0
+        or flat[at + 2] not in {"a", "an", "one", "another"}
+        or (at and lexicon().places.match(flat) is None)
+    ):
+        return words
+    end = next((i for i in range(at + 3, len(flat)) if not words[i].is_word or flat[i] == "and"), len(flat))
+    before = tuple(word for word in words[:at] if word.is_word)
+    noun = (*words[at + 3 : end], *before)
+    rest = words[end + 1 :]
+    place, size = next(
+        ((i, len(m)) for i in range(len(rest)) for m in _POINTING if keys(rest[i : i + len(m)]) == m), (-1, 0)
+    )
+    found = scene.ground(noun)
+    kind = scene.ground(words[at + 3 : end - (0 if before else _behind(words[at + 3 : end]))])
+    if place < 1 or found.outcome != "match" or kind.outcome != "ambiguous":
+        return words
+    to = tokens("to") if keys(rest[place : place + size]) in {("there",), ("to", "it")} else ()
+    named = tokens(the(describe(found.candidates[0], scene.objects)))
+    return (*rest[:place], *to, *named, *rest[place + size :])
+
+
+def _told_of(words: Phrase, scene: Scene) -> Phrase:
+    """For "the gate is open, go and check", where there are several gates: check the gate."""
+    flat = keys(words)
+    link = next((i for i in range(2, min(7, len(flat))) if flat[i] in lexicon().be | {"has", "looks"}), 0)
+    mark = (
+        next((i for i in range(link + 2, len(flat)) if flat[i] in {",", ".", "!", ";", "and"}), 0)
+        if link
+        else 0
+    )
+    rest = tuple(key for key in flat[mark + 1 :] if key.isalpha()) if mark else ()
+    while rest and rest[0] in _BEFORE_LOOK:
+        rest = rest[1:]
+    if flat[:1] not in {("the",), ("that",)} or rest not in _MERE_LOOKS:
+        return words
+    meant = scene.ground(words[:link])
+    return (*tokens("check"), *words[:link]) if meant.outcome == "ambiguous" else words
+
+
+_BEFORE_LOOK = frozenset({"please", "go", "and", "can", "could", "would", "you", "so", "then", "just", "to"})
+_MERE_LOOKS = frozenset(
+    tuple(text.split())
+    for text in ("check", "look", "see", "have a look", "take a look", "check it", "inspect it", "look at it")
+)
+
+
+def _behind(words: Phrase) -> int:
+    """How many words behind a noun say where it is."""
+    flat = keys(words)
+    return next((len(flat) - i for i in range(1, len(flat)) if lexicon().places.match(flat, i)), 0)
 
 
 _NOT_THAT = frozenset(

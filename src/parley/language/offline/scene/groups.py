@@ -36,11 +36,20 @@ _SAYING_STATE = frozenset({"is", "are", "if", "whether", "that", "see", "sure"})
 
 @dataclass
 class GroupReader(GroupPointing):
-    """Finds the groups of one message, from its start to its end."""
+    """Finds the groups of one message, from its start to its end.
+
+    Args:
+        pronouns: Whether "them" and "each of them" are groups too.
+    """
+
+    pronouns: bool = True
+    _plural_at: tuple[int, int] = (-1, 0)
+    """Where several of a kind were spoken of that are no group yet."""
 
     def read(self, words: Phrase) -> Phrase:
         """The message with a word for each group."""
         result: list[Word] = []
+        places: dict[int, int] = {}
         index, skip = 0, (0, 0)
         while index < len(words):
             if index == skip[0] < skip[1]:
@@ -48,22 +57,52 @@ class GroupReader(GroupPointing):
                 continue
             found = self._at(words, index) if self._may_begin(words[index]) else None
             if found is None:
+                places[index] = len(result)
                 result.append(words[index])
                 index += 1
                 continue
+            first, last = self._plural_at
+            if (
+                found.items == self._plural
+                and first in places
+                and keys(words[last : last + 1]) in _ENDING_ORDER
+            ):
+                # "Go to the doors and look at each of them": the doors, one by one.
+                result[places[first] : places[first] + last - first] = [
+                    marked(found.items, plain(words[first:last]))
+                ]
+            self._plural_at = (-1, 0)
             said = plain(words[index : found.end])
-            if len(found.items) == 1:
-                the = (Word("the", "the"),)
-                result += (*the, *tokens(describe(found.items[0], self.objects)))
+            name = tokens(describe(found.items[0], self.objects))
+            if len(found.items) == 1 and name[-1].key not in _PARTICLES:
+                labelled = name[-1].key.isdigit() or len(name[-1].key) == 1
+                result += name if labelled else (Word("the", "the"), *name)
+                self._last = found.items if self._chosen_freely(words, index) else self._last
             else:
                 word = marked(found.items, said)
                 if keys(result[-2:]) == (word.key, ","):
                     # "The doors, all of them".
                     result[-2:] = []
+                if keys(result[-1:]) == ("take",) and self._in_turn(words, found.end):
+                    # "Take the rooms one by one": that is going there.
+                    result[-1:] = tokens("go to")
                 result.append(word)
                 self._last, self._each = found.items, found.each
             index, skip = found.end, found.cut if found.cut[1] else skip
         return tuple(result)
+
+    def _in_turn(self, words: Phrase, end: int) -> bool:
+        """Whether the words before `end` say that it is one after the other."""
+        flat = keys(words[:end])
+        return any(in_turn_at(flat, at) == end - at for at in range(max(0, end - 6), end))
+
+    def _chosen_freely(self, words: Phrase, start: int) -> bool:
+        """Whether one of several was taken, so that "one of them" is that one."""
+        return read_lead(words, start)[0].free
+
+    def _behind_comma(self, words: Phrase, start: int) -> bool:
+        """For "the doors, all of them": no more than the doors."""
+        return keys(words[start - 1 : start]) == (",",) and words[start].key in {"all", "both", "each"}
 
     def _may_begin(self, word: Word) -> bool:
         """Whether a group may begin with a word; most words are passed over by this."""
@@ -71,14 +110,23 @@ class GroupReader(GroupPointing):
 
     def _at(self, words: Phrase, start: int) -> Found | None:
         """The group that begins at a word, if one does."""
+        pointed = self._pointed if self.pronouns or self._behind_comma(words, start) else self._elided
         beside = (
-            self._neighbour(words, start) or self._where_it_is(words, start) or self._pointed(words, start)
+            self._neighbour(words, start)
+            or self._where_it_is(words, start)
+            or self._best_of(words, start)
+            or self._told_which(words, start)
+            or (pointed(words, start) if self._last or self._kind else None)
         )
         if beside is not None:
             return beside
         lead, at = read_lead(words, start)
         end, items = self._noun(words, at, lead)
         self._kind = items or self._kind
+        if items and (
+            singular(words[end - 1].key) != words[end - 1].key or words[start - 1].key == "neither"
+        ):
+            self._plural, self._plural_at = items, (start, end)
         before = keys(words[start - 1 : start])[:1] if start else ()
         if (before in {("not",), ("than",)} and lead.everything) or (
             lead.free and lead.count < 2 and before and before[0] in _CHOOSING
@@ -95,12 +143,15 @@ class GroupReader(GroupPointing):
         if not items:
             return None
         noun = words[at:end] or tokens(items[0].class_name or items[0].description)
-        open_end = open_range_at(keys(words), end)
+        in_turn = in_turn_at(keys(words), end)
+        open_end = None if in_turn else open_range_at(keys(words), end)
         if open_end is not None:
             low, high, end = open_end
             items = numbered_from(items, low, high)
             return Found(items, end, lead.each) if items else None
-        parts, after = labels_at(words, end)
+        parts, after = ([], end) if in_turn else labels_at(words, end)
+        them = 0 if parts else _all_of_them(keys(words), end)
+        lead.everything, end = lead.everything or them > 0, end + them
         if parts:
             items, end = self._labelled(noun, parts), after
             lead.listed = not lead.says_something
@@ -139,7 +190,7 @@ class GroupReader(GroupPointing):
                     if flat[end + size - 1] != "but" or _names_one(flat[end + size :])
                     else self._chosen(words, start, items, end, lead, noun)
                 )
-            items, end = tuple(item for item in items if item not in left_out), after
+            items, end = tuple(item for item in items if item not in left_out), _past_reason(words, after)
             lead.count = 0
         elif not (lead.says_something or len(found.items) != len(items)) and len(items) < 2:
             return None
@@ -169,6 +220,7 @@ class GroupReader(GroupPointing):
             if not size or not ("not" in said or set(said) & _PLAINLY_WITHOUT):
                 continue
             gone, end = self._left_out(words, index + size, items, noun)
+            end = _past_reason(words, end)
             told = flat[at] in _RELATIVE
             return (gone, (at if told else index, end)) if gone and stops(words, end) else None
         return None
@@ -179,6 +231,10 @@ class GroupReader(GroupPointing):
         flat = keys(words)
         if lead.free and lead.count == 1 and flat[end : end + 2] in {("after", "the"), ("after", "another")}:
             return Found(items, end + (3 if flat[end + 1] == "the" else 2), True)
+        enough = next((len(m) for m in _ENOUGH if flat[end : end + len(m)] == m), 0)
+        if lead.free and enough and stops(words, end + enough):
+            # "Any door will do, go to one of them".
+            return Found(chosen(items, lead, self.pose), end + enough)
         if (
             lead.free
             and lead.count == 1
@@ -269,35 +325,40 @@ _RANKS = (
 )
 
 
+def _all_of_them(flat: tuple[str, ...], at: int) -> int:
+    """How many words at `at` say no more than that all of a group are meant (", all of them")."""
+    if flat[at : at + 1] != (",",) or flat[at + 1 : at + 2] not in {("all",), ("both",), ("each",)}:
+        return 0
+    end = at + 2 + 2 * (flat[at + 2 : at + 4] in {("of", "them"), ("of", "those")})
+    return (
+        end - at if flat[end : end + 1] in {(), (",",), (".",), ("!",), ("?",), ("and",), ("please",)} else 0
+    )
+
+
+def _past_reason(words: Phrase, at: int) -> int:
+    """For "except the hall where there is a lesson": the end of what only says why."""
+    if keys(words[at : at + 1]) not in {("where",), ("which",), ("since",), ("because",)}:
+        return at
+    return next((i for i in range(at, len(words)) if not words[i].is_word), len(words))
+
+
 def _names_one(behind: tuple[str, ...]) -> bool:
     """Whether words behind "but" begin to name something, rather than an order or a remark."""
     return behind[1:2] in {("one",), ("ones",)} and behind[0] in {"the", "that", "those"}
 
 
-_NO_MATTER = tuple(
-    tuple(text.split())
-    for text in (
-        "i do not mind",
-        "i do not care",
-        "i have no preference",
-        "no preference",
-        "it does not matter",
-        "i do not care which one",
-        "i do not care which",
-        "i do not mind which one",
-        "i do not mind which",
-        "no matter which one",
-        "no matter which",
-        "whichever you like",
-        "whichever",
-        "it does not matter which",
-        "does not matter which",
-        "whichever one you like",
-        "your choice",
-        "you choose",
-        "you pick",
-    )
-)
+_WHICH = ("", "which", "which one")
+_CARELESS = ("i do not mind", "i do not care", "it does not matter", "does not matter", "no matter")
+_FREELY = ("i have no preference", "no preference", "whichever", "whichever you like", "your choice",
+           "you choose", "whichever one you like", "you pick")  # fmt: skip
+_NO_MATTER = sorted(
+    (*(tuple(f"{said} {which}".split()) for said in _CARELESS for which in _WHICH),
+     *(tuple(said.split()) for said in _FREELY)), key=len, reverse=True
+)  # fmt: skip
+_ENOUGH = (("will", "do"), ("would", "do"), ("is", "fine"), ("is", "ok"), ("is", "enough"), ("is", "good"))
+_ENDING_ORDER = frozenset({(",",), ("and",), ("then",), (".",), (";",)})
+_PARTICLES = frozenset({"up", "down", "in", "out", "on", "off", "over"})
+"""A name that ends so would be read as part of the verb."""
 _BEGINNING = frozenset({"start", "starting", "begin", "beginning"})
 _ENDING = frozenset({"end", "ending", "finish", "finishing"})
 _PLAINLY_WITHOUT = frozenset({"except", "excepting", "apart", "excluding", "barring", "other"})

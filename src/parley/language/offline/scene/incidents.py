@@ -34,7 +34,7 @@ _MOST_SOUGHT = 4
 
 def happened(words: Phrase, scene: Scene, *, alone: bool = True) -> Phrase | None:
     """The order to have a look that a report means; None if a clause reports nothing of the kind."""
-    said = tuple(word for word in strip_openers(words) if word.is_word)
+    said = _without_nobody(tuple(word for word in strip_openers(words) if word.is_word))
     flat = keys(said)
     if not 3 <= len(said) <= _MOST_WORDS or flat[0] in _NO_REPORTS or _denies(flat):
         return None
@@ -50,14 +50,18 @@ def happened(words: Phrase, scene: Scene, *, alone: bool = True) -> Phrase | Non
     if not (_alarming(said) or (alone and _seems_so(said))):
         return None
     where = place_named(said, scene)
+    if where is None and flat[-1] == "there" and scene.places and not lexicon().be & set(flat):
+        return phrase_of("inspect the", bare(scene.places[-1]))
     if where is None:
-        return None
+        who = said[: verb_at(said)]
+        fell = bool(words_for("happened") & set(flat)) and scene.is_person(who)
+        return phrase_of("check", who) if fell else None
     start, end = where
     place = bare(said[start:end])
     left = _left_so(flat, end)
     if left:
         return phrase_of("check whether the", place, f"is {left}")
-    what = _smelled(said) or _sought(said, start)
+    what = _smelled(said) or _filling(said) or _sought(said, start)
     return phrase_of("inspect the", place, "for", what) if what else phrase_of("inspect the", place)
 
 
@@ -97,6 +101,20 @@ def _without_teller(words: Phrase) -> Phrase:
     return rest if len(rest) > 3 and verb_at(rest) else words
 
 
+def _without_nobody(words: Phrase) -> Phrase:
+    """Without "and nobody is there" behind what is reported."""
+    flat = keys(words)
+    ends = (i for i in range(4, len(flat) - 1) if flat[i] in {"and", "but"} and flat[i + 1] in _NOBODY_ELSE)
+    return words[: next(ends, len(words))]
+
+
+_ALIVE = frozenset({
+    "somebody", "someone", "something", "kids", "children", "teenagers", "stranger", "strangers", "people",
+    "dog", "bird",
+})  # fmt: skip
+_NOBODY_ELSE = frozenset({"nobody", "no", "i", "we", "they", "it", "she", "he"})
+
+
 def _denies(flat: tuple[str, ...]) -> bool:
     return bool({"no", "nothing", "nobody", "without"} & set(flat)) and not any(missing_at(flat))
 
@@ -104,6 +122,8 @@ def _denies(flat: tuple[str, ...]) -> bool:
 def _alarming(said: Phrase) -> bool:
     """Whether something goes on, or is perceived, that somebody should see to."""
     flat = keys(said)
+    if any(one == "last" and other in _LONG_AGO for one, other in pairwise(flat)):
+        return False
     if _somebody_acts(flat):
         return True
     events, happened_ = _events() & set(flat), words_for("happened") & set(flat)
@@ -111,16 +131,16 @@ def _alarming(said: Phrase) -> bool:
     heads = [word for word in flat if not any(pair.startswith(f"{word} ") for pair in ordinary)]
     things = words_for("things") & ({singular(word) for word in heads} | set(heads))
     perceived = any(
-        flat[i] in words_for("perceiving")
-        and flat[i - 1] in TELLERS | {"can", "could", "just", "also", "have"}
+        (flat[i] in words_for("perceiving") or flat[i].removesuffix("ing") in words_for("perceiving"))
+        and flat[i - 1] in TELLERS | {"can", "could", "just", "also", "have", "am", "are", "keep"}
         for i in range(1, min(8, len(flat)))
         if flat[0] in TELLERS
     )
     told = bool(words_for("reporting") & set(flat[1:5])) and flat[0] not in {"you"}
     found = words_for("states") & set(flat)
-    fragment = not verb_at(said) and bool(things & set(flat[:3]))
+    fragment = not verb_at(said) and not lexicon().be & set(flat) and bool(things & set(flat[:3]))
     pairs = {f"{one} {other}" for one, other in pairwise(flat)}
-    if pairs & words_for("accidents"):
+    if pairs & words_for("accidents") or _turned(flat) or _filled(flat, things):
         return True
     off = {"gone", "went", "going", "goes"} & set(flat) and "off" in flat
     if off and {
@@ -145,7 +165,50 @@ def _alarming(said: Phrase) -> bool:
         return True
     if events and (flat[0] in _SOME | {"there", "it"} or perceived or told or _goes_on(flat, events)):
         return True
+    doing = next((i for i, word in enumerate(flat) if word.endswith("ing") and flat[i - 1] in _GOING_ON), 0)
+    if doing and flat[doing - 1] in {"keeps", "keep"} and flat[doing] in words_for("again and again"):
+        return True
+    usual = doing and (flat[doing] == "being" or lemma(flat[doing]) in words_for("usual") | {"be"})
+    if not usual and (things if flat[0] in _ANY else things - _ALIVE) & (
+        {singular(word) for word in flat[:doing]} | set(flat[:doing])
+    ):
+        # "Sparks are flying from A".
+        return True
+    if usual and flat[0] in _ALIVE and lemma(flat[doing]) in _MENDING:
+        return False
     return bool((found or things) and (perceived or told or flat[0] in _SOME | {"it"} or _there_is(flat)))
+
+
+def _turned(flat: tuple[str, ...]) -> bool:
+    """For "A went dark", "B is stuck in C": something became as it should not be."""
+    for one, other in pairwise(flat):
+        if other in words_for("turned") and one in {"went", "gone", "goes", "going", "turned"}:
+            return True
+    at = next((i for i in range(1, len(flat) - 2) if flat[i] in words_for("caught")), 0)
+    return (
+        bool(at) and flat[at - 1] in _GOING_ON | {"got"} and lexicon().places.match(flat, at + 1) is not None
+    )
+
+
+def _filled(flat: tuple[str, ...], things: set[str] | frozenset[str]) -> bool:
+    """For "A is full of smoke"."""
+    at = next((i for i in range(2, len(flat) - 1) if flat[i - 1 : i + 1] in _FULL), 0)
+    return bool(at) and bool(things & ({singular(word) for word in flat[at:]} | set(flat[at:])))
+
+
+_FULL = frozenset({
+    ("full", "of"), ("covered", "in"), ("covered", "with"), ("littered", "with"), ("filled", "with"),
+    ("filling", "with"), ("crawling", "with"), ("soaked", "in"),
+})  # fmt: skip
+
+
+_MENDING = frozenset(
+    {"repair", "mend", "fix", "clean", "paint", "replace", "check", "inspect", "mop", "sweep"}
+)
+_LONG_AGO = frozenset({
+    "year", "week", "month", "summer", "winter", "spring", "autumn", "monday", "tuesday", "wednesday",
+    "thursday", "friday", "saturday", "sunday", "time",
+})  # fmt: skip
 
 
 def _somebody_acts(flat: tuple[str, ...]) -> bool:
@@ -181,11 +244,13 @@ def _seems_so(said: Phrase) -> bool:
 def _there_is(flat: tuple[str, ...]) -> bool:
     """Whether something is said to be there, or to be had that nobody wants ("we have water coming in")."""
     having = flat[:2] in {("we", "have"), ("i", "have"), ("they", "have")}
-    return flat[:2] in {("there", "is"), ("there", "are")} or (
+    there = flat[:1] == ("there",) and flat[1:2] and flat[1] in lexicon().be | _MAYBE
+    return bool(there) or (
         having and "been" not in flat[:4] and any(word.endswith("ing") for word in flat[3:])
     )
 
 
+_MAYBE = frozenset({"has", "have", "may", "might", "could", "must", "seems", "appears"})
 _FINE = frozenset(
     {
         "nice",
@@ -218,6 +283,7 @@ def _goes_on(flat: tuple[str, ...], events: set[str] | frozenset[str]) -> bool:
 
 
 _GOING_ON = lexicon().be | {
+    "stop",
     "keeps",
     "keep",
     "starts",
@@ -238,6 +304,13 @@ def _left_so(flat: tuple[str, ...], end: int) -> str:
     return next((word for word in rest if word in words_for("left") and word not in {"off", "out"}), "")
 
 
+def _filling(words: Phrase) -> Phrase:
+    """For "A is full of smoke" the smoke."""
+    flat = keys(words)
+    at = next((i for i in range(2, len(flat) - 1) if flat[i - 1 : i + 1] in _FULL), 0)
+    return bare(words[at + 1 :]) if at and len(flat) - at < 5 else ()
+
+
 def _smelled(words: Phrase) -> Phrase:
     """For "A reeks of gas" the gas."""
     flat = keys(words)
@@ -248,85 +321,123 @@ def _smelled(words: Phrase) -> Phrase:
     return bare(what[:end])
 
 
+def _sought(words: Phrase, place_at: int) -> Phrase:
+    """What is to be looked for: what is perceived, is there, or does something, before the place."""
+    flat = keys(words)
+    end = place_at
+    while end and (size := _preposition_ends(flat, end) or flat[end - 1] in _BEFORE_PLACES):
+        end -= size
+    start = next((i + 1 for i in range(end - 1, -1, -1) if _leads(flat, i)), 0)
+    if start >= end and start > 1:
+        # "Glass is all over A", "a box was found at A".
+        end = start - 1
+        while end and flat[end - 1] in lexicon().be:
+            end -= 1
+        start = next((i + 1 for i in range(end - 1, -1, -1) if _leads(flat, i)), 0)
+    if flat[:2] == ("it", "is"):
+        return ()
+    linked = start > 1 and flat[start - 1] in lexicon().be | {"has", "have"}
+    if linked and "there" not in flat[: start - 1] and not _handled(words[start:end]):
+        # "Water is dripping": what drips is looked for.
+        end = start - 1
+        start = next((i + 1 for i in range(end - 1, -1, -1) if _leads(flat, i)), 0)
+    what = tuple(word for word in words[start:end] if word.key not in _LIGHT)
+    while what and what[0].key in lexicon().determiners:
+        what = what[1:]
+    what = _handled(what) or what[: next((i for i in range(1, len(what)) if _does(what, i)), len(what))]
+    alone = len(what) == 1 and what[0].key in _NOBODY | lexicon().person_pronouns | lexicon().thing_pronouns
+    alone = alone or (len(what) == 1 and _is_past(what[0].key))
+    return what if 0 < len(what) <= _MOST_SOUGHT and not alone and what[0].key not in _NO_THING else ()
+
+
+def _handled(what: Phrase) -> Phrase:
+    """For "(somebody) left the tap running" the tap: what somebody did something to."""
+    flat = keys(what)
+    at = next((i for i in range(len(flat) - 2) if flat[i + 1] in _THE and _is_past(flat[i])), -1)
+    stuff = flat[1:2] and flat[1] not in _WAYS
+    if at not in {0, 1} and not (stuff and _is_past(flat[0])):
+        return ()
+    rest = what[at + 2 :] if at >= 0 else what[1:]
+    return rest[: next((i for i in range(1, len(rest)) if _does(rest, i)), len(rest))]
+
+
+_WAYS = frozenset({
+    "away", "down", "off", "over", "out", "up", "back", "apart", "loose", "open", "again", "into", "through",
+    "in", "by", "itself", "himself", "herself", "badly", "completely", "suddenly", "around", "about",
+})  # fmt: skip
+
+
+def _is_past(word: str) -> bool:
+    return (lemma(word) != word or word.endswith("ed")) and not word.endswith(("ing", "s"))
+
+
 def _leads(flat: tuple[str, ...], index: int) -> bool:
     """Whether a word comes before what is perceived; "smell" only as a verb."""
     if flat[index] in {"smell", "got"} and index:
-        return flat[index] == "got" or flat[index - 1] in TELLERS | {"can", "you", "could"}
+        return flat[index - 1] in TELLERS | {"can", "you", "could", "have"}
+    if flat[index] in {"of", "about", "like"}:
+        return index > 0 and flat[index - 1] in words_for("reporting") | words_for("smelling")
     return flat[index] in _LEADS
 
 
-def _sought(words: Phrase, place_at: int) -> Phrase:
-    """What is to be looked for: a few words before the place that name what was perceived."""
-    flat = keys(words)
-    end = place_at
-    while end and (
-        flat[end - 1]
-        in lexicon().determiners
-        | {"somewhere", "coming", "from", "right", "around", "over", "out", "of", "in"}
-        or any(
-            (found := lexicon().places.match(flat, start)) is not None and start + found[0] == end
+def _does(what: Phrase, at: int) -> bool:
+    """Whether a word says what something does or is, and no more what it is called."""
+    word = what[at].key
+    so = word in words_for("states") or (word.endswith("ing") and lemma(word) != word)
+    if keys(what[:at]) in _VAGUE:
+        # "Something burning" is sought as such.
+        return not so
+    noun = word == lemma(word) and not what[at - 1].key.endswith("s")
+    known = word in words_for("happened") | _KEEPING or (word in _events() and not noun)
+    return so or known or (not noun and bool(verb_at(what[at - 1 : at + 1])))
+
+
+def _preposition_ends(flat: tuple[str, ...], end: int) -> int:
+    """How many words before `end` are a preposition of place."""
+    return next(
+        (
+            end - start
             for start in range(max(0, end - 4), end)
-        )
-    ):
-        end -= 1
-    start = next((i for i in range(end - 1, -1, -1) if _leads(flat, i)), -1) + 1
-    if start > 1 and flat[start - 1] in lexicon().be and flat[start - 2] not in {"there", "it"}:
-        # "Water is dripping": what drips is looked for.
-        start, end = next((i + 1 for i in range(start - 2, -1, -1) if _leads(flat, i)), 0), start - 1
-    what = tuple(word for word in words[start:end] if word.key not in _LIGHT)
-    goes_on = _events() | words_for("happened")
-    what = what[
-        : next((i for i in range(1, len(what)) if what[i].key in goes_on and i == len(what) - 1), len(what))
-    ]
-    while what and what[0].key in lexicon().determiners:
-        what = what[1:]
-    named = {singular(word.key) for word in what} | set(keys(what))
-    known = named & words_for("things")
-    if what and known and len(what) <= _MOST_SOUGHT:
-        return what
-    if flat[:2] in {("there", "is"), ("there", "are")} and flat[2:3] and flat[2] in _ANY:
-        lasting = words_for("states")
-        ends = [i for i in range(4, place_at) if flat[i].endswith("ing") or flat[i] in lasting]
-        end = ends[0] if ends else 0
-        return bare(words[2:end]) if 0 < end < 7 else ()
-    verb = verb_at(words)
-    new = flat[0] in {"a", "an", "some", "one", "two", "three", "several"} and 1 < verb <= _MOST_SOUGHT
-    return bare(words[:verb]) if new and verb < place_at else ()
+            if (found := lexicon().places.match(flat, start)) is not None and start + found[0] == end
+        ),
+        0,
+    )
 
 
+_VAGUE = frozenset({("something",), ("somebody",), ("someone",), ("some",), ("people",)})
+_THE = frozenset({"a", "an", "the", "some", "his", "her", "their", "my"})
+_NOBODY = frozenset({"something", "somebody", "someone", "some", "people", "somewhere"})
+_KEEPING = frozenset(
+    {
+        "got",
+        "gets",
+        "getting",
+        "keeps",
+        "keep",
+        "kept",
+        "just",
+        "all",
+        "everywhere",
+        "to",
+        "that",
+        "who",
+        "which",
+    }
+)
+_NO_THING = frozenset({"not", "never", "to", "you", "your", "that", "this", "what", "because", "and"})
+_BEFORE_PLACES = lexicon().determiners | {
+    "somewhere", "coming", "from", "to", "into", "against", "onto", "right", "around", "over", "out",
+    "of", "in", "off", "down", "up",
+}  # fmt: skip
 _LEADS = (
     lexicon().be
     | lexicon().auxiliaries
     | TELLERS
-    | {
-        "hear",
-        "heard",
-        "see",
-        "saw",
-        "seen",
-        "smell",
-        "smelled",
-        "smelt",
-        "notice",
-        "noticed",
-        "feel",
-        "felt",
-        "that",
-        "says",
-        "said",
-        "reports",
-        "reported",
-        "told",
-        "me",
-        "us",
-        "complains",
-        "of",
-        "about",
-        "like",
-        "spotted",
-        "think",
-        "thought",
-        "found",
-    }
-)
-_LIGHT = frozenset({"some", "sort", "kind", "of", "very", "quite", "really", "just", "still", "now", "again"})
+    | words_for("perceiving")
+    | words_for("reporting")
+    | {"that", "me", "us", "of", "about", "like", "has", "have", "had"}
+) - {"light", "sound"}
+_LIGHT = frozenset({
+    "some", "very", "quite", "really", "just", "still", "now", "again", "apparently",
+    "also", "suddenly", "lots", "loads", "plenty",
+})  # fmt: skip

@@ -7,7 +7,7 @@ from dataclasses import dataclass, field
 
 from parley.language.base import Grounding, Situation
 from parley.language.offline.facts.facts import Fact
-from parley.language.offline.facts.remembering import Remembered
+from parley.language.offline.facts.remembering import Remembered, speaks_of_several
 from parley.language.offline.scene.grounding import ground_phrase
 from parley.language.offline.scene.relative import described_by_facts
 from parley.language.offline.scene.states import in_state
@@ -15,6 +15,7 @@ from parley.language.offline.tasks.catalogue import Catalogue
 from parley.language.offline.words.explaining import Trace
 from parley.language.offline.words.lexicon import lexicon
 from parley.language.offline.words.nouns import bare
+from parley.language.offline.words.quantities import is_measure
 from parley.language.offline.words.saying import the
 from parley.language.offline.words.text import Phrase, Word, keys, singular
 from parley.language.word_lists import load_data
@@ -100,11 +101,15 @@ class Known:
     """Newest first."""
     hints: list[str] = field(default_factory=list)
     """Answers to questions that were asked about this message before, oldest first."""
+    pending: dict[tuple[str, ...], list[int]] = field(default_factory=dict, init=False, repr=False)
+    """Pending visits by the words that were found to name them."""
     learned: list[Fact] = field(default_factory=list)
     """Facts that those answers stated."""
     sources: list[str] = field(default_factory=list)
     things: list[Phrase] = field(default_factory=list)
     """Mentioned, newest last."""
+    heard: int = 0
+    """How many of them were spoken of before this message."""
     persons: list[Phrase] = field(default_factory=list)
     places: list[Phrase] = field(default_factory=list)
     trace: Trace = field(default_factory=Trace)
@@ -178,15 +183,22 @@ class Known:
         if _is_thing(phrase):
             return False
         if any(
-            keys(f.fact.subject) == flat and f.fact.sentence.lower().startswith(flat[0]) for f in self.facts
+            keys(f.fact.subject) == flat
+            and f.fact.sentence.lower().startswith(flat[0])
+            and not speaks_of_several(f.fact.sentence)
+            for f in self.facts
         ):
             return True
         return all(word.is_capital for word in phrase) and len(flat) <= 2 and flat[0] not in lex.vocabulary
 
     def mention(self, phrase: Phrase) -> None:
-        """Remember what was spoken of, for pronouns."""
-        if not phrase:
+        """Remember what was spoken of, for pronouns; how long or how much is no thing."""
+        if not phrase or is_measure(phrase):
             return
+        where = lexicon().places.match(keys(phrase))
+        if where is not None and where[0] < len(phrase) and not phrase[0].is_capital:
+            # "In the hall": the hall.
+            phrase = phrase[where[0] :]
         if self.is_person(phrase):
             if keys(phrase)[0] not in lexicon().operator_pronouns | lexicon().person_pronouns:
                 self.persons.append(phrase)

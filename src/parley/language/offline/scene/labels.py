@@ -193,6 +193,8 @@ def _kind(words: Phrase, flat: tuple[str, ...], index: int, labels: dict[str, se
     if behind not in _BEHIND or behind in _UNITS:
         return ""
     before = flat[index - 1] if index else "."
+    if before == "to" and flat[index - 2 : index - 1] in {("down",), ("up",), ("back",)}:
+        return ""
     if (
         before == "number"
         and index > 1
@@ -211,11 +213,14 @@ def _kind(words: Phrase, flat: tuple[str, ...], index: int, labels: dict[str, se
         and index > 1
         and (flat[index - 2].isdigit() or len(flat[index - 2]) == 1)
     ):
-        # "Zones 1 and 2": named together with the one before, unless that stood alone too.
-        kinds = labels.get(flat[index - 2], set())
+        # "Zones 1, 2 and 3": named together with the ones before, unless these stood alone too.
+        first = index - 2
+        while first > 1 and flat[first - 1] in {",", "and", "or"} and flat[first - 2] in labels:
+            first -= 2
+        kinds = labels.get(flat[first], set())
         if before == "to" and flat[index - 3 : index - 2] == ("from",):
             return ""
-        named = any(_stands_before(flat, index - 2, kind) for kind in kinds | {f"{k}s" for k in kinds})
+        named = any(_stands_before(flat, first, kind) for kind in kinds | {f"{k}s" for k in kinds})
         if named or flat[index - 2] not in labels:
             return ""
     kinds = labels[word.key]

@@ -30,7 +30,9 @@ def chosen(items: Sequence[MapObject], lead: Lead, pose: Pose2D | None) -> tuple
     """
     row = list(items) if lead.listed else in_order(items)
     if lead.parity >= 0:
-        row = [item for item in row if (number := _number(item)) is not None and number % 2 == lead.parity]
+        row = [
+            item for item in row if (number := _number(item)) is not None and lead.parity in {2, number % 2}
+        ]
     if lead.every_other:
         row = row[::2]
     if lead.ordinals:

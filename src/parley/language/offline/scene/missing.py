@@ -2,28 +2,27 @@
 
 from __future__ import annotations
 
-from functools import cache
-
 from parley.language.offline.facts.remembering import find_fact
-from parley.language.offline.scene.report_words import TELLERS, follows_preposition, phrase_of, place_named
+from parley.language.offline.scene.report_words import (
+    TELLERS,
+    after_lead,
+    follows_preposition,
+    phrase_of,
+    phrases_for,
+    place_named,
+)
 from parley.language.offline.scene.scene import Scene
-from parley.language.offline.words.lexicon import PhraseTable, lexicon
+from parley.language.offline.words.lexicon import lexicon
 from parley.language.offline.words.nouns import bare
 from parley.language.offline.words.text import Phrase, keys
-from parley.language.word_lists import load_data
 
 __all__ = ["left_by_somebody", "missing_at", "missing_from"]
-
-
-@cache
-def _missing_table() -> PhraseTable:
-    return PhraseTable.of(load_data("incidents")["missing"])
 
 
 def missing_at(flat: tuple[str, ...]) -> tuple[int, int]:
     """Where words for what is missing stand, and how many; (0, 0) if nowhere."""
     for index in range(1, len(flat)):
-        found = _missing_table().match(flat, index)
+        found = phrases_for("missing").match(flat, index)
         if found is not None:
             return index, found[0]
     return 0, 0
@@ -38,12 +37,14 @@ def missing_from(words: Phrase, scene: Scene) -> Phrase | None:
     at, size = missing_at(flat)
     if not at:
         return _nobody_finds(words)
+    while at > 1 and flat[at - 1] in lexicon().be | {"has", "have", "had", "seems", "seem"}:
+        at, size = at - 1, size + 1
     subject = bare(words[:at])
     if not subject or any(not word.is_word for word in subject) or flat[0] in TELLERS | {"it", "you", "that"}:
         return None
-    if scene.is_person(subject) and "missing" not in flat[at : at + size]:
-        return None
     rest = words[at + size :]
+    if scene.is_person(subject) and "missing" not in flat[at : at + size] and not place_named(rest, scene):
+        return None
     named = place_named(subject, scene) if scene.ground(subject).outcome != "match" else None
     if named is not None and not rest and follows_preposition(keys(subject), named[0]):
         # "A patient in ward 3 is missing".
@@ -54,11 +55,13 @@ def missing_from(words: Phrase, scene: Scene) -> Phrase | None:
     where = place_named(rest, scene) if rest else None
     if where is not None:
         return phrase_of("inspect the", bare(rest[where[0] : where[1]]), "for the", subject)
-    if find_fact(subject, scene.facts)[0] is None and scene.ground(subject).outcome == "none":
+    known = find_fact(subject, scene.facts)[0] is not None or scene.ground(subject).outcome != "none"
+    if not known and not _LOST & set(flat[at : at + size]):
         return None
     return phrase_of("look for the", subject)
 
 
+_LOST = frozenset({"disappeared", "vanished", "stolen", "astray", "missing", "gone", "lost", "nowhere"})
 _LEAVING = frozenset(
     {
         "put",
@@ -105,49 +108,34 @@ def left_by_somebody(words: Phrase, scene: Scene) -> Phrase | None:
     return phrase_of("inspect the", bare(rest[where[0] : where[1]]), "for", rest[:end])
 
 
-_MISLAID = (
-    ("we", "are", "missing"),
-    ("i", "am", "missing"),
-    ("we", "miss"),
-    ("i", "miss"),
-    ("we", "can", "not", "find"),
-    ("i", "can", "not", "find"),
-    ("i", "think", "i", "left"),
-    ("i", "think", "i", "lost"),
-    ("i", "think", "i", "forgot"),
-    ("i", "must", "have", "left"),
-    ("i", "may", "have", "left"),
-    ("i", "might", "have", "left"),
-    ("i", "must", "have", "lost"),
-    ("i", "must", "have", "dropped"),
-    ("i", "may", "have", "lost"),
-    ("i", "might", "have", "lost"),
-    ("i", "believe", "i", "left"),
-    ("i", "seem", "to", "have", "left"),
-    ("i", "think", "i", "dropped"),
-    ("i", "may", "have", "dropped"),
-    ("i", "might", "have", "dropped"),
-    ("i", "may", "have", "forgotten"),
-    ("i", "must", "have", "forgotten"),
-    ("i", "probably", "left"),
-    ("i", "probably", "lost"),
-    ("we", "lost"),
-    ("i", "lost"),
-    ("i", "have", "lost"),
-    ("we", "have", "lost"),
-    ("i", "think", "i", "have", "left"),
-    ("we", "think", "we", "left"),
-)
-
-
 def _mislaid(words: Phrase, scene: Scene) -> Phrase | None:
-    """For "we are missing a box from A", "I think I left my coat at A"."""
+    """For "we are missing a box from A", "I think I left my coat at A", "I can not find the key"."""
     flat = keys(words)
-    lead = next((lead for lead in _MISLAID if flat[: len(lead)] == lead), ())
-    where = place_named(words[len(lead) :], scene) if lead else None
-    if where is None:
+    if flat[:1] not in {("i",), ("we",)}:
         return None
-    rest = words[len(lead) :]
+    guessed = bool(_GUESSED & set(flat[:5]))
+    rest = after_lead(words, "sought", *(("let_go",) if guessed else ()))
+    while keys(rest[-1:]) in _NO_PLACE or (rest and not rest[-1].is_word):
+        rest = rest[:-1]
+    if len(rest) < 1 or set(keys(rest[:1])) & {
+        "that",
+        "to",
+        "it",
+        "you",
+        "them",
+        "him",
+        "her",
+        "what",
+        "why",
+    }:
+        return None
+    where = place_named(rest, scene)
+    if where is not None and _belongs(keys(rest), where[0]):
+        # "The key to A": what it is called.
+        where = None
+    if where is None:
+        short = len(rest) < 8 and not guessed and not lexicon().be & set(keys(rest))
+        return phrase_of("look for", rest) if short else None
     at = next(
         (
             i
@@ -157,7 +145,23 @@ def _mislaid(words: Phrase, scene: Scene) -> Phrase | None:
         where[0],
     )
     what = rest[:at]
-    return phrase_of("inspect the", bare(rest[where[0] : where[1]]), "for", what) if bare(what) else None
+    named = set(keys(what)) - lexicon().determiners
+    return phrase_of("inspect the", bare(rest[where[0] : where[1]]), "for", what) if named else None
+
+
+_NO_PLACE = frozenset({("anywhere",), ("somewhere",), ("any", "more"), ("anymore",), ("again",)})
+
+
+def _belongs(flat: tuple[str, ...], at: int) -> bool:
+    """Whether "to the" or "of the" stands before a word."""
+    while at and flat[at - 1] in lexicon().determiners:
+        at -= 1
+    return at > 1 and flat[at - 1] in {"to", "of", "for"}
+
+
+_GUESSED = frozenset(
+    {"think", "must", "may", "might", "believe", "seem", "probably", "guess", "suspect", "fear"}
+)
 
 
 def _nobody_finds(words: Phrase) -> Phrase | None:

@@ -17,7 +17,7 @@ from parley.language.offline.words.nouns import bare, noun_phrase
 from parley.language.offline.words.text import Phrase, Word, keys, singular, tokens
 from parley.language.word_lists import load_data
 
-__all__ = ["granted", "needed"]
+__all__ = ["as_reported", "granted", "needed"]
 
 _MOST_WORDS = 18
 _LONGEST_NAME = 7
@@ -45,7 +45,8 @@ def needed(words: Phrase, scene: Scene) -> Phrase | None:
         words: One clause.
         scene: Who and what is known.
     """
-    said = tuple(word for word in strip_openers(words) if word.is_word)
+    said = tuple(w for w in strip_openers(words) if w.is_word and w.key not in {"still", "simply", "just"})
+    said = as_reported(said, scene)
     if not 2 <= len(said) <= _MOST_WORDS:
         return None
     found = (
@@ -60,6 +61,42 @@ def needed(words: Phrase, scene: Scene) -> Phrase | None:
         return None
     who, what = found
     return _order(*(_delivered(what, scene) or (who, what)))
+
+
+def as_reported(said: Phrase, scene: Scene) -> Phrase:
+    """For "A says she can not sleep" "A can not sleep".
+
+    Args:
+        said: The words of one clause.
+        scene: Who is known.
+    """
+    flat = keys(said)
+    for at in range(1, min(_LONGEST_NAME, len(flat) - 5)):
+        asks = flat[at] in {"asked", "asks", "wonders"} and flat[at + 1] in {"whether", "if"}
+        if (
+            asks
+            and flat[at + 2] in {"she", "he", "they"}
+            and flat[at + 3] in {"could", "can", "may", "might"}
+        ):
+            return (*said[:at], Word("wants", "wants"), Word("to", "to"), *said[at + 4 :])
+    for at in range(1, min(_LONGEST_NAME, len(flat) - 2)):
+        size = next((len(v) for v in _SAYING if flat[at : at + len(v)] == v), 0)
+        begin = at + size + (flat[at + size : at + size + 1] == ("that",))
+        if size and flat[begin : begin + 1] in {("she",), ("he",), ("they",)} and _who(said[:at], scene):
+            return (*said[:at], *said[begin + 1 :])
+    return said
+
+
+_SAYING = (
+    ("says",),
+    ("said",),
+    ("complains",),
+    ("told", "me"),
+    ("tells", "me"),
+    ("told", "us"),
+    ("thinks",),
+    ("mentioned",),
+)
 
 
 def granted(words: Phrase, scene: Scene) -> Phrase | None:
@@ -228,7 +265,9 @@ def _wanted(words: Phrase, scene: Scene) -> tuple[Phrase, Phrase] | None:
         lead, lack = _table("leads").match(flat, cut), _table("lacking").match(flat, cut)
         desire = _table("desires").match(flat, cut)
         who = _who(words[:cut], scene) if lead or lack or desire else None
-        if who is None:
+        if who is None and desire is not None:
+            who = _waiting_place(words[:cut], words[cut + desire[0] :], scene)
+        if who is None or (lead is not None and _allowed(flat[cut : cut + 2])):
             continue
         rest = words[cut:]
         used = _using(who, rest[lead[0] :], scene) if lead is not None else None
@@ -237,12 +276,18 @@ def _wanted(words: Phrase, scene: Scene) -> tuple[Phrase, Phrase] | None:
         if keys(who) == ("me",):
             continue
         if desire is not None and keys(rest[desire[0] : desire[0] + 1]) not in {("to",), ("you",)}:
-            what = _desired(desire[1], rest[desire[0] :], scene)
+            what = _desired(desire[1], _theirs(who, rest[desire[0] :], scene), scene)
             if what is not None:
                 return who, what
         elif lack is not None:
-            return who, _lacked(lack[1], rest[lack[0] :], scene)
+            return who, _lacked(lack[1], _theirs(who, rest[lack[0] :], scene), scene)
     return None
+
+
+def _waiting_place(words: Phrase, what: Phrase, scene: Scene) -> Phrase | None:
+    """For "the truck (is waiting for) A": a thing of the map, if A is known to be elsewhere."""
+    known = scene.ground(words).outcome == "match" and find_fact(bare(what), scene.facts)[0] is not None
+    return words if known and scene.ground(what).outcome != "match" else None
 
 
 def _desired(said: str, rest: Phrase, scene: Scene) -> Phrase | None:
@@ -250,6 +295,11 @@ def _desired(said: str, rest: Phrase, scene: Scene) -> Phrase | None:
     what = _what(rest, scene)
     habit = said == "gets" and (find_fact(what, scene.facts)[0] is None or {"every", "at"} & set(keys(rest)))
     return None if habit else what
+
+
+def _allowed(said: tuple[str, ...]) -> bool:
+    """For "A may use B": a rule, and nothing that A is to be given."""
+    return said in {(may, use) for may in ("may", "can") for use in ("use", "wear", "take", "read")}
 
 
 def _lacked(said: str, rest: Phrase, scene: Scene) -> Phrase:
@@ -327,8 +377,9 @@ def _theirs(who: Phrase, what: Phrase, scene: Scene) -> Phrase:
     if keys(what)[:1] not in {("her",), ("his",), ("their",), ("my",)}:
         return what
     last = who[-1]
-    full = (*who[:-1], Word(f"{last.key}'s", f"{last.raw}'s"), *what[1:])
-    return full if find_fact(full, scene.facts)[0] is not None else what[1:]
+    thing = _without_tail(what[1:])
+    full = (*bare(who)[:-1], Word(f"{last.key}'s", f"{last.raw}'s"), *thing)
+    return full if find_fact(full, scene.facts)[0] is not None else thing
 
 
 def _granted(words: Phrase, scene: Scene) -> tuple[Phrase, Phrase] | None:

@@ -2,10 +2,11 @@
 
 from __future__ import annotations
 
-from collections.abc import Sequence
-from dataclasses import dataclass, replace
+from collections.abc import Iterator, Sequence
+from dataclasses import dataclass, field, replace
 
 from parley.language.offline.facts.facts import Fact, read_statement
+from parley.language.offline.facts.redirecting import Redirect, is_habit, redirects
 from parley.language.offline.facts.remembering import Remembered, find_fact, memory_name
 from parley.language.offline.scene.choosing import choose_object
 from parley.language.offline.scene.grounding import describe, ground_phrase
@@ -31,6 +32,9 @@ _DOCK = tokens("charging dock")
 class Placing(Referring):
     """How a phrase becomes a place."""
 
+    _closings: dict[int, list[tuple[int, Redirect, MemoryEntry]]] = field(default_factory=dict)
+    """What is said of places that cannot be used, by the number of facts that were known."""
+
     def place(self, phrase: Phrase, *, hops: int = 0, via: Remembered | None = None) -> Place:
         """Where something is, from the operator's own words (or a remembered fact's, then `via` is given).
 
@@ -38,6 +42,7 @@ class Placing(Referring):
             UnclearError: Several things are meant, or nothing is known.
         """
         place = self._place(phrase, hops=hops, via=via)
+        place = self._told_of(place) if via is None else self._redirected(place, via, hops)
         source = "words as they are" if place.item is None else f"{place.item.id} on the map"
         told = f", from the memory {place.via.entry.name}" if place.via is not None else ""
         self.trace.note("argument", f"“{plain(phrase)}” is “{place.value}” ({source}{told})")
@@ -65,7 +70,7 @@ class Placing(Referring):
             place = self.remembered_place(phrase, hops)
             if place is not None:
                 return place
-        other = self._beside_somebody(phrase) or self._home(phrase) or self._without_tail(phrase)
+        other = self.beside(phrase) or self._home(phrase) or self._without_tail(phrase)
         if other is not None:
             return Place(describe(other, self.objects), other, via)
         if not remembered_words and self.objects:
@@ -76,12 +81,60 @@ class Placing(Referring):
             return Place(plain(bare(phrase)), None, via)
         raise self.unknown(phrase, found.candidates)
 
-    def _beside_somebody(self, phrase: Phrase) -> MapObject | None:
-        """For "(next to) the man at the desk": the desk."""
+    def _redirected(self, place: Place, via: Remembered, hops: int) -> Place:
+        """What a fact leads to, or what is remembered to be used in its place since then."""
+        age = self._age(via.entry)
+        for told, redirect, item in self._said_of_closing(place):
+            if redirect.reopened or (told < age and (redirect.moved or not is_habit(via.fact.sentence))):
+                break
+            self.use(item)
+            if redirect.other and hops < _MAX_HOPS:
+                return replace(self.place(redirect.other, hops=hops + 1, via=item), via=via)
+        return place
+
+    def _told_of(self, place: Place) -> Place:
+        """A place that was named; that it is remembered to be closed is said besides."""
+        said = next(iter(self._said_of_closing(place)), None)
+        if said is not None and place.via is None and not said[1].reopened and not said[1].moved:
+            self.use(said[2])
+        return place
+
+    def closing_of(self, fact: Remembered) -> Remembered | None:
+        """What is remembered to be used in the place that a fact names, for an answer."""
+        if not fact.fact.place:
+            return None
+        place = Place(plain(fact.fact.place), next(iter(self.ground(fact.fact.place).candidates), None))
+        age = self._age(fact.entry)
+        said = next(iter(self._said_of_closing(place)), None)
+        if said is None or said[1].reopened or not said[1].other:
+            return None
+        return said[2] if said[0] > age or is_habit(fact.fact.sentence) else None
+
+    def _age(self, entry: MemoryEntry) -> int:
+        memory = self.situation.memory
+        return next((i for i in range(len(memory)) if memory[i].name == entry.name), len(memory))
+
+    def _said_of_closing(self, place: Place) -> Iterator[tuple[int, Redirect, Remembered]]:
+        """What is remembered of whether a place can be used, the latest first, each with its age."""
+        count = len(self.facts)
+        if count not in self._closings:
+            memory = self.situation.memory
+            known = {entry.name for entry in memory}
+            fresh = [item.entry for item in reversed(self.facts) if item.entry.name not in known]
+            self._closings[count] = list(redirects((*memory, *fresh)))
+        for age, redirect, entry in self._closings[count]:
+            about = self.ground(redirect.place)
+            same = about.outcome == "match" and about.candidates[0] == place.item
+            if same or keys(redirect.place) == keys(bare(tokens(place.value))):
+                yield age, redirect, Remembered(Fact(redirect.place, sentence=entry.data.rstrip(" .")), entry)
+
+    def beside(self, phrase: Phrase) -> MapObject | None:
+        """For "(next to) the man at the desk": the desk; for "the floor in the hall" the hall."""
         noun = noun_phrase(phrase)
         if not noun.core and len(noun.anchors) == 1:
             noun = noun_phrase(noun.anchors[0])
-        if len(noun.anchors) != 1 or not noun.core or noun.core[-1] not in lexicon().person_words:
+        part = bool(noun.core) and noun.core[-1] in _PARTS and noun.relation in {"in", "at", "inside", "near"}
+        if len(noun.anchors) != 1 or not noun.core or not (part or noun.core[-1] in lexicon().person_words):
             return None
         found = self.ground(noun.anchors[0])
         return found.candidates[0] if found.outcome == "match" else None
@@ -174,11 +227,20 @@ class Placing(Referring):
                 if pose
                 else candidates[0]
             )
+        named = self._named_before(candidates)
+        if len(named) == 1:
+            return named[0]
         choices = [describe(item, self.objects) for item in candidates]
         raise UnclearError(
             f"I know {len(choices)} of those: {listing([the(c) for c in choices])}. Which one do you mean?",
             choices,
         )
+
+    def _named_before(self, candidates: Sequence[MapObject]) -> list[MapObject]:
+        """Those that the same message has named already: "open the left door, ..., then shut the door"."""
+        said = (ground_phrase(thing, self.objects) for thing in self.things[self.heard :])
+        ids = {one.candidates[0].id for one in said if one.outcome == "match"}
+        return [item for item in candidates if item.id in ids]
 
     def _hinted(self, candidates: Sequence[MapObject]) -> MapObject | None:
         for index, hint in enumerate(self.hints):
@@ -213,6 +275,10 @@ class Placing(Referring):
         return None
 
 
+_PARTS = frozenset({
+    "floor", "ground", "wall", "ceiling", "corner", "door", "window", "roof", "carpet", "shelf", "air",
+})  # fmt: skip
+"""What a place has of its own."""
 _TAILS = frozenset({",", "for", "and", "because", "until", "till", "so", "who", "as", "with", "while"})
 
 

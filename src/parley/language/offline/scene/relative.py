@@ -178,11 +178,10 @@ def _beside(
     item, used = _located(noun.anchors[0], objects, facts)
     if item is None:
         return None
-    size = next(
-        i
-        for i in range(len(words))
-        if keys(words[i:])[: len(noun.relation.split())] == tuple(noun.relation.split())
-    )
+    relation = tuple(noun.relation.split())
+    size = next((i for i in range(len(words)) if keys(words[i:])[: len(relation)] == relation), 0)
+    if not size:
+        return None
     found = matching(words[:size], objects)
     if item in found:
         return item, used
@@ -259,16 +258,34 @@ def _as_told(
         head = head[:-1]
     head = bare(head)
     anything = not head or keys(head)[-1] in _ANY_HEAD
-    candidates = list(objects) if anything else matching(head, objects)
+    named = [] if anything else matching(head, objects)
+    # "The piece that is on loan": whatever it is called, if all of that was told of one thing.
+    candidates = named or (list(objects) if anything or _is_noun(head) else [])
     found: dict[str, tuple[float, MapObject, tuple[Remembered, ...]]] = {}
     for item in reversed(_last_words(facts)):
         score = _fits(wanted, item)
+        score = score if anything or named or score == len(wanted) else 0.0
         about = _thing_of(item, objects, facts) if score else None
-        if about is not None and about[0] in candidates:
+        # "The gate that is jammed": "the gate of A" need not be on the map itself.
+        called = noun_phrase(item.fact.subject).core[-1:] == keys(head)[-1:]
+        if about is not None and (about[0] in candidates or called):
             found[about[0].id] = (score, *about)
     best = max((score for score, _, _ in found.values()), default=0.0)
     chosen = [entry for entry in found.values() if entry[0] == best]
     return (chosen[0][1], chosen[0][2]) if len(chosen) == 1 else None
+
+
+_SAYING = frozenset({
+    "remember", "note", "say", "says", "said", "know", "think", "thought", "hope", "hear", "heard", "told",
+    "means", "mean", "sure", "so", "such", "now", "it", "is", "are", "believe", "afraid", "notice", "like",
+})  # fmt: skip
+
+
+def _is_noun(head: Phrase) -> bool:
+    """Whether words can be what something is called, and no order."""
+    lex, flat = lexicon(), keys(head)
+    orders = any(lex.verbs.match(flat, i) or lex.reporting.match(flat, i) for i in range(len(flat)))
+    return 0 < len(head) < 4 and not orders and not _SAYING & set(flat)
 
 
 def _last_words(facts: Sequence[Remembered]) -> list[Remembered]:
@@ -305,8 +322,10 @@ def _thing_of(
         if found.outcome == "match":
             return found.candidates[0], (item,)
         where, used = _located(fact.place, objects, facts)
-        return (where, (item, *used)) if where is not None else None
-    for phrase in (fact.subject, *noun_phrase(fact.subject).anchors):
+        if where is not None:
+            return where, (item, *used)
+    of = keys(fact.subject).index("of") + 1 if "of" in keys(fact.subject) else len(fact.subject)
+    for phrase in (fact.subject, *noun_phrase(fact.subject).anchors, fact.subject[of:]):
         found = ground_phrase(phrase, objects, strict=True)
         if found.outcome == "match":
             return found.candidates[0], (item,)

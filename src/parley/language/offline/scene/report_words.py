@@ -12,9 +12,11 @@ from parley.language.word_lists import load_data
 
 __all__ = [
     "TELLERS",
+    "after_lead",
     "follows_preposition",
     "ordinary_words",
     "phrase_of",
+    "phrases_for",
     "place_named",
     "without_hedges",
     "words_for",
@@ -100,13 +102,24 @@ def phrase_of(*parts: str | Phrase) -> Phrase:
 
 
 @cache
-def _hedges(kind: str) -> PhraseTable:
+def phrases_for(kind: str) -> PhraseTable:
+    """The phrases of a kind (`data/incidents.yaml`)."""
     return PhraseTable.of(words_for(kind))
+
+
+def after_lead(words: Phrase, *kinds: str) -> Phrase:
+    """What follows the first phrase of some kinds, if that begins within the first few words."""
+    flat = keys(words)
+    for at in range(min(5, len(flat))):
+        size = max((found[0] for kind in kinds if (found := phrases_for(kind).match(flat, at))), default=0)
+        if size:
+            return words[at + size :]
+    return ()
 
 
 def without_hedges(words: Phrase) -> Phrase:
     """Without "it sounds like" at the start and "it seems" at the end."""
-    while (found := _hedges("hedges").match(keys(words))) is not None and found[0] < len(words) - 2:
+    while (found := phrases_for("hedges").match(keys(words))) is not None and found[0] < len(words) - 2:
         words = words[found[0] :]
-    size = _hedges("hedged").match_end(keys(words))
+    size = phrases_for("hedged").match_end(keys(words))
     return words[: len(words) - size] if 0 < size < len(words) - 2 else words

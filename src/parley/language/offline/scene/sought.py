@@ -2,45 +2,25 @@
 
 from __future__ import annotations
 
-from parley.language.offline.scene.report_words import follows_preposition, phrase_of, place_named
+from parley.language.offline.scene.report_words import (
+    after_lead,
+    follows_preposition,
+    phrase_of,
+    phrases_for,
+    place_named,
+)
 from parley.language.offline.scene.scene import Scene
 from parley.language.offline.words.lexicon import lexicon
 from parley.language.offline.words.nouns import bare
 from parley.language.offline.words.text import Phrase, Word, keys
 
-__all__ = ["thought_there"]
+__all__ = ["only_looks", "thought_there"]
 
 _LONGEST = 40
 _MARKS = frozenset({".", "!", "?", ",", ";", ":", "-", "\n"})
 _LEADING = frozenset(
     {"and", "but", "so", "well", "oh", "hm", "hmm", "now", "damn", "help", "hey", "sorry", "or", "because"}
 )
-_SOUGHT = tuple(
-    tuple(text.split())
-    for text in (
-        "can not find", "could not find", "can not locate", "can not see", "can not spot", "do not find",
-        "did not find", "am looking for", "are looking for", "is looking for", "have been looking for",
-        "has been looking for", "keep looking for", "was looking for", "were looking for",
-        "am searching for", "are searching for", "is searching for", "am after", "have lost", "has lost",
-        "lost", "mislaid", "have mislaid", "misplaced", "have misplaced", "seem to have lost",
-        "must have lost", "am missing", "are missing", "dropped", "have dropped", "has anybody seen",
-        "has anyone seen", "have you seen", "did anyone see", "did you see", "has somebody seen",
-        "has someone seen", "does anyone know where", "any idea where", "any sign of", "no sign of",
-        "no trace of", "left", "have left", "forgot", "have forgotten", "left behind",
-        "can not think where", "no idea where", "do not know where", "wonder where",
-    )
-)  # fmt: skip
-"""Before the name of what is sought."""
-_GONE = tuple(
-    tuple(text.split())
-    for text in (
-        "is missing", "are missing", "is gone", "are gone", "has gone missing", "have gone missing",
-        "has gone", "went missing", "is nowhere to be found", "are nowhere to be found", "is lost",
-        "are lost", "has vanished", "have vanished", "has disappeared", "have disappeared", "is not here",
-        "are not here", "has gone astray", "is nowhere", "has walked",
-    )
-)  # fmt: skip
-"""Behind the name of what is sought."""
 _DOUBT = frozenset({
     "should", "must", "ought", "might", "may", "could", "supposed", "meant", "maybe", "perhaps", "probably",
     "possibly", "think", "believe", "guess", "suspect", "likely", "last", "left", "had", "try", "usually",
@@ -54,8 +34,14 @@ _SUBJECTS = frozenset({
 _LOOKING = frozenset({
     "can", "you", "could", "would", "please", "go", "and", "look", "check", "have", "a", "see", "for", "me",
     "it", "them", "there", "find", "us", "him", "her", "will", "just", "quick", "take", "over", "so",
-    "then", "thanks", "ta", "if", "he", "she", "they", "is",
+    "then", "thanks", "ta", "if", "he", "she", "they", "is", "are", "still", "whether", "out", "any",
+    "sign", "of", "quickly",
 })  # fmt: skip
+
+
+def only_looks(words: Phrase) -> bool:
+    """Whether words ask for no more than a look there ("could you see if it is still there")."""
+    return bool(words) and set(keys(words)) <= _LOOKING
 
 
 def thought_there(words: Phrase, scene: Scene) -> Phrase:
@@ -136,13 +122,9 @@ def _sought(words: Phrase) -> Phrase:
     if flat[0] == "where":
         thing = _asked_where(words)
     else:
-        for at in range(min(4, len(flat))):
-            lead = next((lead for lead in _SOUGHT if flat[at : at + len(lead)] == lead), ())
-            if lead:
-                thing = words[at + len(lead) :]
-                break
-        tail = next((tail for tail in _GONE if flat[-len(tail) :] == tail), ()) if not thing else ()
-        thing = words[: -len(tail)] if tail else thing
+        thing = after_lead(words, "sought", "let_go")
+        tail = 0 if thing else phrases_for("gone").match_end(flat)
+        thing = words[:-tail] if tail else thing
     while thing and thing[-1].key in _BEHIND | lexicon().be:
         thing = thing[:-1]
     while thing and thing[0].key in {"the", "a", "an", *lexicon().be}:

@@ -5,6 +5,7 @@ from __future__ import annotations
 from collections.abc import Sequence
 
 from parley.language.offline.scene.grounding import ground_phrase
+from parley.language.offline.scene.group_words import exception_at
 from parley.language.offline.words.lexicon import lexicon
 from parley.language.offline.words.nouns import bare
 from parley.language.offline.words.text import Phrase, Word, keys, singular
@@ -18,11 +19,6 @@ _FREELY = (
     "a maximum of", "any", "some", "just", "only", "whichever", "exactly", "least", "most",
 )  # fmt: skip
 _LEADS = tuple(sorted((tuple(text.split()) for text in _FREELY), key=len, reverse=True))
-_EXCEPT = tuple(
-    tuple(text.split())
-    for text in ("apart from", "except for", "except", "other than", "besides", "save for",
-                 "with the exception of", "leaving out", "excluding", "excepting", "aside from")
-)  # fmt: skip
 _ALL = frozenset({"all", "every", "each", "everything", "both"})
 
 
@@ -82,9 +78,9 @@ def _number(words: tuple[str, ...]) -> int:
 def with_exception_behind(words: Phrase) -> Phrase:
     """For "apart from A, check all doors": "check all doors except A"."""
     flat = keys(words)
-    lead = next((lead for lead in _EXCEPT if flat[: len(lead)] == lead), ())
-    comma = next((i for i in range(len(lead) + 1, len(flat)) if flat[i] == ","), 0) if lead else 0
+    lead = 0 if flat[:1] in {("but",), ("bar",)} else exception_at(flat, 0)
+    comma = next((i for i in range(lead + 1, len(flat)) if flat[i] == ","), 0) if lead else 0
     end = next((i for i in range(comma + 1, len(flat)) if flat[i] in {",", ".", "!", "?", "then"}), len(flat))
-    if not comma or comma > len(lead) + 8 or not _ALL & set(flat[comma + 1 : end]):
+    if not comma or comma > lead + 8 or not _ALL & set(flat[comma + 1 : end]):
         return words
-    return (*words[comma + 1 : end], Word("except", "except"), *words[len(lead) : comma], *words[end:])
+    return (*words[comma + 1 : end], Word("except", "except"), *words[lead:comma], *words[end:])

@@ -6,6 +6,7 @@ from collections.abc import Sequence
 
 from parley.language.offline.sentences.units import Unit
 from parley.language.offline.words.lexicon import PhraseTable
+from parley.language.offline.words.order import due, phrases_due
 from parley.language.offline.words.text import Phrase, Word, keys
 from parley.language.word_lists import load_data
 
@@ -13,7 +14,8 @@ __all__ = ["arranged", "each_in_turn", "without_end"]
 
 _DATA = load_data("units")
 _STOP = Word(".", ".")
-_EARLIER = PhraseTable.of(_DATA["earlier"])
+_BEFORE_IT = due("earlier")
+_EARLIER = PhraseTable.of([*_DATA["earlier"], *phrases_due("earlier")])
 _PLACES = frozenset({"to", "back", "home", "from"})
 _REFUSED = frozenset({"bother", "worry", "mind", "care", "do", "need", "trouble", "concern"})
 _POINTING = frozenset({"that", "it", "this", "them", "about", "with", "yourself"})
@@ -36,10 +38,12 @@ def arranged(units: Sequence[Unit]) -> Phrase | None:
         before = _ordered_before(parts, index)
         if before < 0:
             continue
-        early = _early(unit.words)
-        if early and len(unit.words) > early:
+        early, late = _early(unit.words), _BEFORE_IT.match_end(keys(unit.words))
+        late = late if unit.kind == "order" and unit.names and len(unit.words) > late + 2 else 0
+        if (early and len(unit.words) > early) or late:
             end = _joined_end(parts, index)
-            moved = [_said(unit, unit.words[early:]), *parts[index + 1 : end]]
+            words = unit.words[early:] if early else unit.words[:-late]
+            moved = [_said(unit, words), *parts[index + 1 : end]]
             parts[before:end] = [*moved, *parts[before:index]]
             changed = True
         elif _instead(unit.words):
@@ -56,6 +60,7 @@ def arranged(units: Sequence[Unit]) -> Phrase | None:
 
 _PLURAL = frozenset({"each", "all", "both", "them", "every", "everyone"})
 _COUNTED = frozenset(_DATA["counted"])
+_THOSE_TWO = frozenset((those, many) for those in ("those", "these") for many in ("two", "three", "four"))
 
 
 _ASIDES = PhraseTable.of(_DATA["asides"])
@@ -92,7 +97,9 @@ def without_end(words: Phrase) -> Phrase:
 
 def each_in_turn(units: Sequence[Unit]) -> Phrase | None:
     """For "A, B, C. Look at each of them": look at A, look at B, look at C; None if it is not like that."""
-    at = next((i for i, unit in enumerate(units) if unit.kind in {"order", "wish"}), 0)
+    wanted = [i for i, unit in enumerate(units) if unit.kind in {"order", "wish"}]
+    orders = [i for i in wanted if units[i].kind == "order"]
+    at = (orders or wanted or [0])[0]
     start = at
     while start and (units[start - 1].kind == "name" or (start > 1 and _is_aside(units[start - 1]))):
         start -= 1
@@ -100,15 +107,18 @@ def each_in_turn(units: Sequence[Unit]) -> Phrase | None:
     names = [name for unit in units[start:at] for name in unit.names]
     words = units[at].words if at else ()
     flat = keys(words)
-    cut = next((i for i in range(1, len(flat)) if flat[i] in _PLURAL), 0)
-    if len(names) < 2 or not cut or units[at].names or not set(flat[cut + 1 :]) <= _COUNTED:
+    cut = next((i for i in range(1, len(flat)) if flat[i] in _PLURAL or flat[i : i + 2] in _THOSE_TWO), 0)
+    rest = cut + 1
+    while rest < len(flat) and flat[rest] in _COUNTED:
+        rest += 1
+    if len(names) < 2 or not cut or units[at].names or flat[rest : rest + 1] not in {(), ("for",)}:
         return None
     if any(set(keys(unit.words)) & {"after", "before", "not", "except", "or"} for unit in units[start:at]):
         return None
     before = [(*unit.words, _mark(unit)) for unit in units[:start] if unit.words]
-    orders = [(*words[:cut], *name, _STOP) for name in names]
+    each = [(*words[:cut], *name, *words[rest:], _STOP) for name in names]
     after = [(*unit.words, _mark(unit)) for unit in units[at + 1 :] if unit.words]
-    return tuple(word for part in (*before, *orders, *after) for word in part)
+    return tuple(word for part in (*before, *each, *after) for word in part)
 
 
 def _is_aside(unit: Unit) -> bool:
@@ -116,8 +126,8 @@ def _is_aside(unit: Unit) -> bool:
     return unit.kind == "idle" and not unit.names and len(unit.words) < 5
 
 
-_LAST = tuple(tuple(text.split()) for text in _DATA["said_last"])
-_FIRST = tuple(tuple(text.split()) for text in _DATA["said_first"])
+_LAST = due("late", "closing", "kept")
+_FIRST = due("opening", "early")
 
 
 def _ranked(parts: list[Unit]) -> tuple[list[Unit], bool]:
@@ -129,19 +139,29 @@ def _ranked(parts: list[Unit]) -> tuple[list[Unit], bool]:
     changed = False
     for index, unit in enumerate(parts):
         flat = keys(unit.words)
-        last = next((t for t in _LAST if flat[-len(t) :] == t), ()) if index in orders else ()
-        first = next((t for t in _FIRST if flat[-len(t) :] == t), ()) if index in orders else ()
+        last = _LAST.match_end(flat) if index in orders else 0
+        first = _FIRST.match_end(flat) if index in orders else 0
         hedged = {"if", "unless", "but", "when", "second"} & set(flat)
-        if last and not hedged and len(flat) > len(last) + 1:
-            back.append(_said(unit, unit.words[: -len(last)]))
+        if last and not hedged and len(flat) > last + 1:
+            back.append(_said(unit, _kept_for_last(unit.words[:-last])))
             changed = True
-        elif first and not hedged and index != orders[0] and len(flat) > len(first) + 1:
-            front.append(_said(unit, unit.words[: -len(first)]))
+        elif first and not hedged and index != orders[0] and len(flat) > first + 1:
+            front.append(_said(unit, unit.words[:-first]))
             changed = True
         else:
             middle.append(unit)
     at = next((i for i, unit in enumerate(middle) if unit.kind == "order"), len(middle))
     return [*middle[:at], *front, *middle[at:], *back], changed
+
+
+def _kept_for_last(words: Phrase) -> Phrase:
+    """For "leave the desk (until last)": the desk."""
+    at = next((i for i, word in enumerate(words) if word.key in _KEEPING), -1)
+    return (*words[:at], *_GO_TO, *words[at + 1 :]) if at >= 0 else words
+
+
+_KEEPING = frozenset({"leave", "save", "keep"})
+_GO_TO = (Word("go", "go"), Word("to", "to"))
 
 
 def _mark(unit: Unit) -> Word:

@@ -9,60 +9,49 @@ from __future__ import annotations
 from collections.abc import Callable
 
 from parley.language.offline.sentences.clauses import opens_command
+from parley.language.offline.sentences.conditioning import OPPOSITES
 from parley.language.offline.words.lexicon import lexicon
+from parley.language.offline.words.nouns import bare
 from parley.language.offline.words.text import Phrase, Word, keys
 
 __all__ = ["branched"]
 
 IsStop = Callable[[Phrase], bool]
+Turn = Callable[[Phrase], Phrase]
+
+
+def _table(*texts: str) -> tuple[tuple[str, ...], ...]:
+    return tuple(sorted((tuple(text.split()) for text in texts), key=len, reverse=True))
+
 
 _MARKS = frozenset({".", "!", "?", ";", "\n"})
 _IFS = frozenset({"if", "unless"})
 _POINTING = frozenset({"it", "there"})
 _BEHIND = frozenset({"in", "on", "at", "inside", "under", "behind", "near", "by"})
 _NOBODY = {"nobody": "somebody", "none": "some", "nothing": "something"}
-_OPPOSITES = frozenset(
-    pair
-    for a, b in (
-        ("open", "shut"),
-        ("open", "closed"),
-        ("on", "off"),
-        ("free", "occupied"),
-        ("empty", "full"),
-        ("free", "busy"),
-        ("empty", "occupied"),
-        ("locked", "unlocked"),
-        ("locked", "open"),
-        ("clean", "dirty"),
-        ("wet", "dry"),
-        ("clear", "blocked"),
-        ("free", "taken"),
-        ("light", "dark"),
-        ("hot", "cold"),
-        ("there", "gone"),
-        ("closed", "open"),
-        ("free", "blocked"),
-    )
-    for pair in ((a, b), (b, a))
-)
+_OPPOSITES = OPPOSITES | {("there", "gone"), ("gone", "there")}
+_LINKS = lexicon().be | {"has", "does"}
 _LONGEST_STOP = 6
 
 
-def branched(words: Phrase, is_stop: IsStop) -> Phrase:
+def branched(words: Phrase, is_stop: IsStop, turn: Turn = lambda asked: ()) -> Phrase:
     """The message with conditions in plainer shape.
 
     Args:
         words: All words and punctuation.
         is_stop: Whether words name something on the map.
+        turn: What follows "whether" for a question; empty for other words.
     """
     if not (
         {"if", "unless", "depending", "yes", "case", "when", "provided", "should", "long", "?"}
         & set(keys(words))
     ):
         return words
-    words = _asked_then(_yes_and_no(_depending(_as_if(words), is_stop)))
+    words = _found_or_not(_looked_first(words), is_stop)
+    words = _answered(_state_alone(_depending(_as_if(words), is_stop)), is_stop, turn)
     result: list[Word] = []
     place: Phrase = ()
+    about: Phrase = ()
     for sentence, mark in _sentences(words):
         sentence = _when_state(sentence, is_stop)
         if place and keys(sentence[:1]) in {("if",), ("unless",)}:
@@ -72,12 +61,43 @@ def branched(words: Phrase, is_stop: IsStop) -> Phrase:
             )
             sentence = (sentence[0], *_with_name(sentence[1:end], place), *sentence[end:])
         place = _stop_in(sentence, is_stop)
+        sentence, about = _of_the_same(sentence, about, is_stop)
         sentence = _both_ways(sentence, is_stop)
         sentence = _late_echo(sentence)
         sentence = _named(sentence, is_stop)
         sentence = _existing(sentence)
         result += (*_used(sentence, is_stop), *mark)
     return tuple(result)
+
+
+def _of_the_same(sentence: Phrase, about: Phrase, is_stop: IsStop) -> tuple[Phrase, Phrase]:
+    """For "if A is shut, V B, and if it is open, W": if A is open; and what further conditions are about.
+
+    Args:
+        sentence: One sentence.
+        about: What the conditions of the sentence before were about.
+        is_stop: Whether words name something on the map.
+    """
+    flat = keys(sentence)
+    ifs = [
+        i for i in range(len(flat) - 2) if flat[i] in _IFS and (not i or flat[i - 1] in {",", "and", "but"})
+    ]
+    if not ifs:
+        return sentence, _stop_in(sentence, is_stop)
+    result: list[Word] = []
+    at, state = 0, ""
+    for number, lead in enumerate(ifs):
+        link = next((i for i in range(lead + 2, len(flat) - 1) if flat[i] in _LINKS), 0)
+        named = sentence[lead + 1 : link] if link and is_stop(sentence[lead + 1 : link]) else ()
+        told = flat[link + 1] if link else ","
+        echoes = told in {",", "not", "then", "so"} or opens_command(sentence[link + 1 :])
+        if named:
+            about = named
+        elif flat[lead + 1] == "it" and number and about and not echoes and (state, told) not in _OPPOSITES:
+            result += (*sentence[at : lead + 1], *about)
+            at = lead + 2
+        state = told
+    return (*result, *sentence[at:]), about
 
 
 def _sentences(words: Phrase) -> list[tuple[Phrase, Phrase]]:
@@ -98,11 +118,72 @@ def _as_if(words: Phrase) -> Phrase:
     index = 0
     while index < len(words):
         after = flat[index + 2 : index + 4]
-        case = (
-            flat[index : index + 2] == ("in", "case") and after and (index == 0 or flat[index - 1] != "just")
-        )
+        opens = index == 0 or not words[index - 1].is_word or flat[index - 1] in {"and", "but", "or", "only"}
+        pointed = after[:1] in {("it",), ("that",), ("there",), ("not",), ("yes",)}
+        case = flat[index : index + 2] == ("in", "case") and after and (opens or pointed)
         result += _words("if") if case else (words[index],)
         index += 2 if case else 1
+    return tuple(result)
+
+
+def _found_or_not(words: Phrase, is_stop: IsStop) -> Phrase:
+    """For "if you find X at A, V; if not, W": if there is X at A. What is done otherwise makes it no rule."""
+    flat = keys(words)
+    start = next((i for i in range(len(flat) - 4) if flat[i : i + 2] == ("if", "you")), -1)
+    if start < 0 or flat[start + 2] not in _FINDING:
+        return words
+    comma = next((i for i in range(start + 4, len(flat)) if flat[i] == ","), len(flat))
+    ends = (i for i in range(comma + 1, len(flat)) if _echo(flat, _joint(flat, i))[1] == "if not")
+    end = next(ends, 0)
+    named = any(is_stop(words[i:comma]) for i in range(start + 4, comma))
+    if not (end and named and opens_command(words[comma + 1 :])):
+        return words
+    at = _joint(flat, end)
+    rest = words[at + _echo(flat, at)[0] :]
+    rest = rest[int(keys(rest[:1]) == (",",)) :]
+    link = "are" if flat[start + 3].endswith("s") and not flat[start + 3].endswith("ss") else "is"
+    there = (*words[: start + 1], *_words(f"there {link}"), *words[start + 3 : end])
+    return (*there, *_words(". if not ,"), *rest)
+
+
+_FINDING = frozenset({"find", "see", "spot", "notice", "discover"})
+
+
+def _looked_first(words: Phrase) -> Phrase:
+    """For "V unless S, check that first": V unless S; that is looked at first in any case."""
+    flat = keys(words)
+    lead = next((i for i in range(len(flat)) if flat[i] in _IFS), len(flat))
+    for at in range(lead + 2, len(flat) - 2):
+        begin = at + (flat[at] in {"so", "and", "please", "but"})
+        verb = next((len(m) for m in _LOOKING if flat[begin : begin + len(m)] == m), 0)
+        end = begin + verb + 2
+        pointed = flat[begin + verb : end - 1] and flat[begin + verb] in _POINTING | {"that", "this", "them"}
+        if (
+            verb
+            and pointed
+            and flat[end - 1 : end] in {("first",), ("beforehand",)}
+            and not words[at - 1].is_word
+        ):
+            return (*words[: at - 1], *words[end:])
+    return words
+
+
+_LOOKING = _table(
+    "check", "check on", "look at", "have a look at", "take a look at", "see", "inspect", "look into",
+    "verify", "check for", "find out", "have a look", "look",
+)  # fmt: skip
+
+
+def _state_alone(words: Phrase) -> Phrase:
+    """For "if open, V" behind something that was looked at: if it is open, V."""
+    flat = keys(words)
+    result: list[Word] = []
+    for index, word in enumerate(words):
+        result.append(word)
+        denied = index + 1 + (flat[index + 1 : index + 2] in {("not",), ("still",)})
+        bare = word.key in _IFS and set(flat[denied : denied + 1]) & _STATES - {"there", "light"}
+        if bare and index and (flat[denied + 1 : denied + 2] == (",",) or opens_command(words[denied + 1 :])):
+            result += _words("it is")
     return tuple(result)
 
 
@@ -122,22 +203,6 @@ def _when_state(words: Phrase, is_stop: IsStop) -> Phrase:
 
 
 _STATES = frozenset(word for pair in _OPPOSITES for word in pair)
-
-
-def _asked_then(words: Phrase) -> Phrase:
-    """For "is there light in A? Then V, else W": if there is light in A, V, otherwise W."""
-    flat = keys(words)
-    asked = flat.index("?") if "?" in flat else 0
-    there = flat[:2] in {("is", "there"), ("are", "there")}
-    if not asked or not there or flat[asked + 1 : asked + 2] not in {("then",), ("if",)}:
-        return words
-    start = asked + 2
-    if flat[asked + 1] == "if":
-        if flat[asked + 2 : asked + 3] not in {("so",), ("yes",)}:
-            return words
-        start = asked + 3
-    start += flat[start : start + 1] == (",",)
-    return (*_words("if there"), words[0], *words[2:asked], *_words(","), *words[start:])
 
 
 def _depending(words: Phrase, is_stop: IsStop) -> Phrase:
@@ -164,27 +229,101 @@ def _depending(words: Phrase, is_stop: IsStop) -> Phrase:
     return (*_words("if"), *condition, *_words(","), *words[verb:joint], *_words(", otherwise"), *second)
 
 
-def _yes_and_no(words: Phrase) -> Phrase:
-    """For "is it wet? yes: V, no: W": if so V, otherwise W."""
+def _answered(words: Phrase, is_stop: IsStop, turn: Turn) -> Phrase:
+    """For "is A open? If yes, V, if no, W", "is there X in A? Then V": check whether A is open. If so, V."""
+    start = 0
+    for sentence, mark in _sentences(words):
+        end = start + len(sentence)
+        rest = words[end + len(mark) :]
+        if keys(mark) == ("?",) and _echo(keys(rest), 0)[0]:
+            said, after = _branches(rest, is_stop)
+            lead = 1 if keys(sentence[:1]) in {("and",), ("so",), ("ok",), ("but",), ("please",)} else 0
+            topic, question = _topic_of(sentence[lead:], is_stop)
+            asked = turn(question) if said else ()
+            asked = (*topic, *asked[1:]) if topic and keys(asked[:1]) == ("it",) else asked
+            if asked:
+                look = (*_words("check whether"), *asked, *_words("."))
+                return (*words[:start], *look, *said, *_answered(rest[after:], is_stop, turn))
+        start = end + len(mark)
+    return words
+
+
+def _topic_of(asked: Phrase, is_stop: IsStop) -> tuple[Phrase, Phrase]:
+    """For "the pump: is it wet" the pump, and the question."""
+    mark = next((i for i, word in enumerate(asked) if not word.is_word), 0)
+    named = bool(mark) and is_stop(asked[:mark]) and keys(asked[mark + 1 : mark + 3])[1:] == ("it",)
+    return (asked[:mark], asked[mark + 1 :]) if named else ((), asked)
+
+
+def _branches(words: Phrase, is_stop: IsStop) -> tuple[Phrase, int]:
+    """What is to be done if so and if not, as sentences, and where that ends; nothing if one is no order."""
     flat = keys(words)
-    asked = flat.index("?") if "?" in flat else len(flat)
-    yes = next(
-        (
-            i
-            for i in range(asked + 1, len(flat) - 1)
-            if flat[i] == "yes" and flat[i + 1] in {",", ":", "then"}
-        ),
-        0,
-    )
-    no = next(
-        (i for i in range(yes + 2, len(flat) - 1) if flat[i] == "no" and flat[i + 1] in {",", ":", "then"}), 0
-    )
-    if not yes or not no or not opens_command(words[yes + 2 :]):
-        return words
-    first = words[yes + 2 : no]
-    while first and not first[-1].is_word:
-        first = first[:-1]
-    return (*words[:yes], *_words("if so ,"), *first, *_words(". if not ,"), *words[no + 2 :])
+    result: list[Word] = []
+    at = 0
+    while (found := _echo(flat, at))[0]:
+        size, meant = found
+        at += size
+        while flat[at : at + 1] and flat[at] in {",", ":", "-", "then", "please"}:
+            at += 1
+        ends = (i for i in range(at, len(flat)) if flat[i] in _MARKS or _echo(flat, _joint(flat, i))[0])
+        end = next(ends, len(flat))
+        order = words[at:end]
+        while order and not order[-1].is_word:
+            order = order[:-1]
+        if keys(order[:1]) == ("to",) and is_stop(order[1:]):
+            order = (*_words("go"), *order)
+        elif is_stop(order):
+            order = (*_words("go to"), *order)
+        if not opens_command(order):
+            return (), 0
+        result += (*_words(f"{meant} ,"), *order, *_words("."))
+        at = max(_joint(flat, end), end)
+    return tuple(result), at
+
+
+def _joint(flat: tuple[str, ...], at: int) -> int:
+    """Where the words behind a mark and "and" begin; -1 if none stands there."""
+    start = at
+    while flat[at : at + 1] and flat[at] in _MARKS | {",", "and", "but", "or"}:
+        at += 1
+    return at if at > start else -1
+
+
+def _echo(flat: tuple[str, ...], at: int) -> tuple[int, str]:
+    """How many words say "if so" or "if not", and which of both; 0 if none do."""
+    if at < 0:
+        return 0, ""
+    for meant, echoes in _ECHOES:
+        size = next((len(e) for e in echoes if flat[at : at + len(e)] == e), 0)
+        if size and flat[at + size : at + size + 1] != ():
+            return size, meant
+    return 0, ""
+
+
+_NOT_SO = _table(
+    "if not", "if no", "if it is not", "if it does not", "if they are not", "if there is not",
+    "if there are not", "if there is none", "if there are none", "if he is not", "if she is not",
+    "when not", "when it is not", "no", "else", "otherwise", "or else", "if it has not", "if none",
+    "if that is not the case", "if you do not", "if you find none", "if you find nothing", "if you see none",
+    "if you see nothing",
+)  # fmt: skip
+_SO = _table(
+    "if so", "if yes", "if it is", "if it does", "if they are", "if there is", "if there are", "if he is",
+    "if she is", "when so", "when it is", "when it does", "yes", "then", "if it has", "in that case",
+    "if there is one", "if that is the case", "if that is so", "and if so",
+)  # fmt: skip
+_NOBODY_THERE = _table(
+    "if nobody is there", "if no one is there", "if there is nobody there", "if there is nobody",
+    "if there is no one there", "if there is no one", "if nobody is",
+)  # fmt: skip
+_SOMEBODY_THERE = _table(
+    "if somebody is there", "if someone is there", "if anyone is there", "if anybody is there",
+    "if there is somebody there", "if there is somebody", "if there is someone there", "if there is someone",
+    "if somebody is", "if someone is", "if there is anyone", "if there is anybody",
+)  # fmt: skip
+_ECHOES = (
+    ("if not", (*_NOBODY_THERE, *_NOT_SO)), ("if so", (*_SOMEBODY_THERE, *_SO)),
+)  # fmt: skip
 
 
 def _both_ways(words: Phrase, is_stop: IsStop) -> Phrase:
@@ -214,28 +353,24 @@ def _both_ways(words: Phrase, is_stop: IsStop) -> Phrase:
 def _late_echo(words: Phrase) -> Phrase:
     """For "see whether S and V if not": if not, V."""
     flat = keys(words)
-    for echo in (
-        ("if", "not"),
-        ("if", "so"),
-        ("if", "it", "is", "not"),
-        ("if", "it", "is"),
-        ("if", "yes"),
-        ("if", "no"),
-    ):
-        if flat[-len(echo) :] != echo:
-            continue
-        body = words[: -len(echo)]
-        cut = next(
-            (
-                i
-                for i in range(len(body) - 1, 1, -1)
-                if body[i].key in {"and", ","} and opens_command(body[i + 1 :])
-            ),
-            0,
-        )
-        if cut:
-            return (*body[:cut], *_words("."), *words[-len(echo) :], *_words(","), *body[cut + 1 :])
-    return words
+    echo = next((one for one in _LATE if flat[-len(one) :] == one), ())
+    body = words[: len(words) - len(echo)]
+    joints = [i for i in range(len(body) - 1, 1, -1) if body[i].key in {"and", ","} and body[i + 1 :]]
+    cut = next((i for i in joints if opens_command(body[i + 1 :])), 0)
+    if not cut and {"if", "whether"} & set(flat[1:4]):
+        # Verbs that only the catalogue knows.
+        cut = joints[0] if joints else 0
+    if not (echo and cut):
+        return words
+    return (*body[:cut], *_words("."), *words[len(body) :], *_words(","), *body[cut + 1 :])
+
+
+_LATE = tuple(
+    sorted(
+        (one for one in (*_SO, *_NOT_SO) if one[0] in {"if", "when"} and len(one) > 1), key=len, reverse=True
+    )
+)
+"""Conditions that only repeat one, longest first."""
 
 
 def _named(words: Phrase, is_stop: IsStop) -> Phrase:
@@ -247,6 +382,13 @@ def _named(words: Phrase, is_stop: IsStop) -> Phrase:
     named = _stop_in(words[:at], is_stop)
     end = next((i for i in range(at, len(flat)) if flat[i] in {",", "otherwise", "else"}), len(flat))
     cut = next((i for i in range(at - 1, 1, -1) if flat[i] == "and" and opens_command(words[i + 1 :])), 0)
+    looked = _stop_in(words[:cut], is_stop) if cut and not named else ()
+    link = next((i for i in range(at + 2, end) if flat[i] in _LINKS), 0)
+    if looked and link and set(keys(bare(words[at + 1 : link]))) <= set(keys(looked)):
+        # "Check the back door and go to A only if the door is shut".
+        order = words[cut + 1 : at - (flat[at - 1] == "only")]
+        condition = (*looked, *words[link:end])
+        return (*words[:cut], *_words("."), words[at], *condition, *_words(","), *order, *words[end:])
     pointing = any(
         flat[i] in _POINTING and flat[i - 1] in _BEHIND | {"is", "are"} for i in range(at + 1, end)
     )

@@ -6,11 +6,14 @@ where the telling names the thing, and conditions that are dictated without a ma
 
 from __future__ import annotations
 
+from parley.language.offline.sentences.clauses import opens_command
 from parley.language.offline.sentences.finite import subject_apart
 from parley.language.offline.sentences.lost import with_what_was_lost
 from parley.language.offline.sentences.moved import what_was_left
+from parley.language.offline.sentences.ranking import ranked_stops
+from parley.language.offline.sentences.reasons import closed_reasons
 from parley.language.offline.words.lexicon import PhraseTable, lexicon
-from parley.language.offline.words.text import Phrase, Word, keys, lemma, tokens
+from parley.language.offline.words.text import Phrase, Word, keys, lemma, singular, tokens
 from parley.language.word_lists import load_data
 
 __all__ = ["briefly"]
@@ -22,8 +25,246 @@ _STOP = Word(".", ".")
 
 def briefly(words: Phrase) -> Phrase:
     """The same message, with less around what is meant."""
-    words = with_what_was_lost(what_was_left(subject_apart(_without_manner(words))))
+    words = with_what_was_lost(what_was_left(subject_apart(_without_manner(_in_general(words)))))
+    words = _without_relief(_without_time_for_it(_without_arrivals(words)))
+    words = ranked_stops(_picked(_there_and_with(_the_same(_asked_apart(closed_reasons(words))))))
     return _without_me(_with_short_conditions(words))
+
+
+def _in_general(words: Phrase) -> Phrase:
+    """For "you can hardly breathe at A" "one can hardly ...": told of anybody, and no order."""
+    flat = keys(words)
+    if flat[1:2] == ("everywhere",) and flat[2:3] in _AT and not opens_command(words):
+        # "Water everywhere in A!"
+        return (Word("there", "there"), Word("is", "is"), *words)
+    if flat[:2] == ("you", "can") and flat[2:3] in {("hardly",), ("barely",), ("scarcely",)}:
+        return (Word("one", "one"), *words[1:])
+    return words
+
+
+_AT = frozenset((place,) for place in ("in", "at", "on", "around", "near", "under", "by"))
+
+
+def _without_arrivals(words: Phrase) -> Phrase:
+    """Without "before A comes" behind what is asked for: when it is due, not where to go."""
+    flat = keys(words)
+    for at in range(3, len(flat) - 2):
+        end = next((i for i in range(at + 1, len(flat)) if not words[i].is_word), len(flat))
+        if flat[at] != "before" or flat[at + 1] in {"you", "i", "it", "that"} or end - at > 7:
+            continue
+        coming = next((i for i in range(at + 2, end) if flat[i] in _COMES), 0)
+        if coming and end - coming < 3:
+            return (*words[:at], *words[end:])
+    return words
+
+
+def _without_relief(words: Phrase) -> Phrase:
+    """Without "It would put my mind at rest." behind what is asked for."""
+    flat = keys(words)
+    for at in range(3, len(flat) - 4):
+        starts = not words[at - 1].is_word and flat[at] in {"it", "that", "this"} and flat[at + 1] == "would"
+        end = next((i for i in range(at, len(flat)) if not words[i].is_word), len(flat))
+        helps = next((i for i in range(at + 2, min(at + 5, end)) if flat[i] in _RELIEVING), 0)
+        if starts and helps and {"my", "me", "us", "our"} & set(flat[helps + 1 : end]) and end - at < 10:
+            return (*words[:at], *words[end + 1 :])
+    return words
+
+
+_RELIEVING = frozenset(
+    {"put", "set", "ease", "make", "help", "save", "mean", "do", "please", "cheer", "spare"}
+)
+
+
+def _without_time_for_it(words: Phrase) -> Phrase:
+    """For "spare a minute to look at A" "look at A"."""
+    flat = keys(words)
+    for at in range(len(flat) - 4):
+        if flat[at] not in {"spare", "find", "take"} or flat[at + 1] not in {"a", "me", "us", "some", "the"}:
+            continue
+        end = next((i for i in range(at + 2, min(at + 6, len(flat) - 1)) if flat[i] == "to"), 0)
+        between = set(flat[at + 2 : end]) if end else set()
+        if between <= _MOMENTS and {"minute", "minutes", "moment", "second", "sec", "time"} & between:
+            return (*words[:at], *words[end + 1 :])
+    return words
+
+
+_MOMENTS = frozenset(
+    {
+        "a",
+        "minute",
+        "moment",
+        "second",
+        "sec",
+        "bit",
+        "of",
+        "time",
+        "your",
+        "little",
+        "quick",
+        "two",
+        "minutes",
+    }
+)
+
+
+def _asked_apart(words: Phrase) -> Phrase:
+    """For "check A: is it open?" "check A. is it open?"."""
+    flat = keys(words)
+    for at in range(2, len(flat) - 2):
+        if flat[at] != ":" or flat[at + 1] not in _ASKED or "?" not in flat[at:]:
+            continue
+        start = next((i + 1 for i in range(at - 1, -1, -1) if flat[i] in {".", "!", "?"}), 0)
+        verb = lexicon().verbs.match(flat, start)
+        if verb is not None and verb[1].startswith(_GOING) and flat[start] not in {"tell", "say"}:
+            return (*words[:at], _STOP, *words[at + 1 :])
+    return words
+
+
+_ASKED = frozenset({"is", "are", "was", "were", "has", "have", "does", "do", "can"})
+
+
+def _picked(words: Phrase) -> Phrase:
+    """For "of the two doors, pick the one nearer to A and go there" "of the two doors, go to the one ..."."""
+    words = _one_of_those(words)
+    flat = keys(words)
+    for at in range(len(flat) - 4):
+        if flat[at] not in _PICKING or flat[at + 1] != "the":
+            continue
+        if flat[at] == "take" and not {"one", "nearer", "closer", "nearest", "closest"} & set(flat[at:]):
+            continue
+        end = next((i for i in range(at + 3, len(flat)) if flat[i] in {",", "and", "."}), len(flat))
+        rest = tuple(key for key in flat[end:] if key not in _ENDING)
+        if rest in {("go", "there"), ("go", "to", "it"), ("drive", "there"), ("visit", "it")}:
+            return (*words[:at], *tokens("go to"), *words[at + 1 : end])
+    return words
+
+
+def _one_of_those(words: Phrase) -> Phrase:
+    """For "of the two doors, V the one nearer to A" "V the door nearer to A"."""
+    flat = keys(words)
+    start = 2 + (flat[2:3] != () and flat[2] in lexicon().numbers)
+    end = flat.index(",", start) if "," in flat[start : start + 5] else 0
+    if flat[:2] not in {("of", "the"), ("of", "these"), ("of", "those")} or end <= start:
+        return words
+    last = words[end - 1]
+    one = Word(singular(last.key), singular(last.raw))
+    at = next((i for i in range(end + 2, len(flat)) if flat[i - 1 : i + 1] == ("the", "one")), 0)
+    if not at or one.key == last.key:
+        return words
+    return (*words[end + 1 : at], *words[start : end - 1], one, *words[at + 1 :])
+
+
+_PICKING = frozenset({"pick", "choose", "select", "take"})
+
+
+def _the_same(words: Phrase) -> Phrase:
+    """For "do the very same at A", "do exactly the same thing at A" "do the same at A"."""
+    flat = keys(words)
+    left = {
+        i
+        for i in range(1, len(flat))
+        if (flat[i] == "very" and flat[i - 1] == "the" and flat[i + 1 : i + 2] == ("same",))
+        or (flat[i] in _JUST and flat[i - 1] == "do" and flat[i + 1 : i + 3] == ("the", "same"))
+        or (
+            flat[i] in {"thing", "things"} and flat[max(0, i - 2) : i] == ("the", "same") and "do" in flat[:i]
+        )
+    }
+    return tuple(word for i, word in enumerate(words) if i not in left) if left else words
+
+
+_JUST = frozenset({"exactly", "just", "precisely", "much"})
+
+
+def _there_and_with(words: Phrase) -> Phrase:
+    """For "the box that is lying there" "the box", "to Ann, who is in A right now, " "to Ann in A".
+
+    "When you have handed it over, V" behind an order to bring it is no second order, but "then V".
+    """
+    flat = keys(words)
+    result: list[Word] = []
+    index = 0
+    while index < len(words):
+        end = _lying_there(flat, index) or _who_is(words, flat, index)
+        if end:
+            result += words[index + 3 : _now_starts(flat, index + 3, end)] if flat[index] == "," else ()
+            index = end
+            continue
+        end = _handed(flat, index)
+        if end:
+            result.append(Word("then", "then"))
+            index = end
+            continue
+        result.append(words[index])
+        index += 1
+    return tuple(result) if len(result) < len(words) else words
+
+
+def _lying_there(flat: tuple[str, ...], index: int) -> int:
+    """Where "that are lying there" ends that begins at `index` behind a thing; 0 if it does not."""
+    if flat[index] not in {"that", "which"} or flat[index + 1 : index + 2] not in {("is",), ("are",)}:
+        return 0
+    if not {"the", "a", "all", "any", "some", "those", "these"} & set(flat[max(0, index - 4) : index - 1]):
+        return 0
+    at = index + 2
+    at += flat[at : at + 1] != () and flat[at] in _RESTING
+    ended = flat[at + 1 : at + 2] == () or flat[at + 1] in _ENDING
+    return at + 1 if flat[at : at + 1] == ("there",) and ended else 0
+
+
+_RESTING = frozenset({"lying", "standing", "sitting", "kept", "stored", "waiting", "left", "already"})
+
+
+def _who_is(words: Phrase, flat: tuple[str, ...], index: int) -> int:
+    """Where ", who is in A right now" ends, behind somebody's name; 0 if it does not begin at `index`."""
+    if (
+        flat[index] != ","
+        or not index
+        or not words[index - 1].is_capital
+        or flat[index + 1 : index + 2] != ("who",)
+    ):
+        return 0
+    where = flat[index + 3 : index + 4] != () and flat[index + 3] in {"in", "at", "on", "by"}
+    if not where or flat[index + 2] not in {"is", "sits", "works", "waits", "lives", "lies", "stays"}:
+        return 0
+    end = next(
+        (i for i in range(index + 4, len(flat)) if not words[i].is_word or flat[i] == "and"), len(flat)
+    )
+    bare_end = end + (flat[end : end + 1] == (",",) and flat[end + 1 : end + 2] not in {("and",), ("then",)})
+    return min(bare_end, len(flat)) if end - index < 11 else 0
+
+
+_NOW = (("right", "now"), ("at", "the", "moment"), ("now",), ("currently",), ("today",), ("this", "morning"))
+
+
+def _now_starts(flat: tuple[str, ...], start: int, end: int) -> int:
+    """Where "right now" begins at the end of what is said, or its end."""
+    end -= flat[end - 1] == ","
+    return end - next((len(now) for now in _NOW if flat[max(start, end - len(now)) : end] == now), 0)
+
+
+def _handed(flat: tuple[str, ...], index: int) -> int:
+    """Where "when you have handed it over," ends behind an order to bring it; 0 if it does not begin here."""
+    if flat[index] not in {"when", "once", "after"} or flat[index + 1 : index + 3] != ("you", "have"):
+        return 0
+    if (
+        flat[index + 3 : index + 4] == ()
+        or flat[index + 3] not in _HANDED
+        or not _BRINGING & set(flat[:index])
+    ):
+        return 0
+    at = index + 4
+    while at < len(flat) and flat[at] in _WHAT_TO_WHOM:
+        at += 1
+    return at + 1 if at > index + 4 and flat[at : at + 1] == (",",) else 0
+
+
+_HANDED = frozenset({"handed", "given", "delivered", "dropped", "brought", "passed"})
+_BRINGING = frozenset({"bring", "take", "give", "deliver", "hand", "carry", "pass"})
+_WHAT_TO_WHOM = frozenset({"it", "them", "that", "those", "everything", "over", "off", "to", "him", "her"})
+
+_COMES = frozenset(
+    {"comes", "arrives", "arrive", "gets", "get", "leaves", "starts", "begins", "returns", "opens"}
+)
 
 
 def _without_manner(words: Phrase) -> Phrase:

@@ -9,8 +9,10 @@ from parley.language.control import control_of
 from parley.language.offline.facts.facts import read_statement, strip_openers
 from parley.language.offline.sentences.conditions import is_rule, split_condition
 from parley.language.offline.sentences.inverted import asks
+from parley.language.offline.sentences.reasons import without_reason
 from parley.language.offline.sentences.simultaneous import side_by_side
 from parley.language.offline.words.lexicon import lexicon
+from parley.language.offline.words.order import due, phrases_due
 from parley.language.offline.words.text import Phrase, Word, keys, lemma, plain
 
 __all__ = ["Clause", "clauses", "opens_command"]
@@ -66,7 +68,7 @@ def clauses(message: Phrase, opens: Opens) -> list[Clause]:
     """
     result: list[Clause] = []
     for number, (sentence, asked) in enumerate(_sentences(message)):
-        sentence = _without_reason(sentence, opens)
+        sentence = without_reason(sentence, opens)
         parts = _parts_of(sentence, opens)
         result.extend(
             replace(
@@ -148,30 +150,6 @@ def _inverted(words: Phrase) -> bool:
     return bool(first) and first[0] in lexicon().question_starts | lexicon().be | lexicon().auxiliaries
 
 
-def _without_reason(sentence: Phrase, opens: Opens) -> Phrase:
-    """Without why something is asked for ("because S", "so that S"): that is no order."""
-    flat = keys(sentence)
-    for index in range(len(flat) - 1):
-        if flat[index] != "because" and flat[index : index + 2] not in {("so", "that"), ("in", "case")}:
-            continue
-        if flat[index] == "in" and (index == 0 or flat[index - 1] != "just"):
-            continue
-        if index == 0:
-            end = next((i for i in range(2, len(flat)) if flat[i] == ","), 0)
-            end = end or next((i for i in range(3, len(flat)) if opens(sentence[i:])), 0)
-            return sentence[end:] if end else sentence
-        end = next(
-            (
-                i
-                for i in range(index + 2, len(flat))
-                if flat[i] in {",", "and", "then"} and opens(sentence[i + 1 :])
-            ),
-            len(flat),
-        )
-        return (*sentence[:index], *sentence[end:])
-    return sentence
-
-
 def _sentences(message: Phrase) -> list[tuple[Phrase, bool]]:
     result: list[tuple[Phrase, bool]] = []
     start = 0
@@ -246,7 +224,10 @@ def _on_the_way(sentence: Phrase) -> tuple[Phrase, Phrase] | None:
             if flat[index - 1] in {"without", "not"}:
                 return None
             visit = (Word("visit", "visit"), *after)
-            return (visit, before) if marker in _VIA else (before, visit)
+            if marker not in _VIA:
+                return before, visit
+            cut = next((i for i in range(1, len(after)) if after[i].key in {",", "then"}), len(after))
+            return visit[: cut + 1], (*before, *after[cut:])
     return None
 
 
@@ -341,14 +322,27 @@ def _without_you(words: Phrase) -> Phrase:
     return words
 
 
+_FOLLOWING = due("following", "closing")
+_WHEN = due("earlier", "late", "early")
+_EARLIER = frozenset(phrases_due("earlier"))
+
+
+def _said_when(sentence: Phrase, index: int, start: int, opens: Opens) -> tuple[int, str] | None:
+    """Whether "before that" or "to finish with" stands here, at the front of what is then to be done."""
+    found = _WHEN.match(keys(sentence), index)
+    if found is None or (index > start and sentence[index - 1].key not in {",", "and", "but"}):
+        return None
+    rest = sentence[index + found[0] :]
+    return found if rest and (found[1] == "before that" or not rest[0].is_word or opens(rest)) else None
+
+
 def _cut(sentence: Phrase, opens: Opens) -> list[Clause]:
     """Cut at sequence words, and at commas and conjunctions where a new clause begins."""
-    lex = lexicon()
     flat = keys(sentence)
     pieces: list[tuple[int, int, str]] = []
     start, index, first = 0, 0, ""
     while index < len(flat):
-        found = lex.sequence.match(flat, index)
+        found = _FOLLOWING.match(flat, index) or _said_when(sentence, index, start, opens)
         if found is None and flat[index] == "next" and index and flat[index - 1] in {",", "and"}:
             found = 1, "next"
         if (
@@ -361,8 +355,7 @@ def _cut(sentence: Phrase, opens: Opens) -> list[Clause]:
         if found and not (flat[index] == "next" and flat[index + 1 : index + 2] == ("to",)):
             if index > start:
                 pieces.append((start, index, first))
-            before_that = found[1] == "before that"
-            start, first = index + found[0], "one" if before_that else ""
+            start, first = index + found[0], "one" if found[1] in _EARLIER else ""
             if flat[start : start + 1] == ("there",) and found[1].endswith(("done", "finished")):
                 start += 1
             index = start

@@ -9,7 +9,7 @@ from parley.language.offline.words.lexicon import lexicon
 from parley.language.offline.words.nouns import bare
 from parley.language.offline.words.text import Phrase, Word, keys, lemma
 
-__all__ = ["as_conditions"]
+__all__ = ["OPPOSITES", "as_conditions"]
 
 Names = Callable[[Phrase], bool]
 
@@ -32,6 +32,8 @@ _OTHER_SHAPES = tuple(
         ("if it is so", "if so"),
         ("if this is the case", "if so"),
         ("should it not be so", "if not"),
+        ("should it not be there", "if not"),
+        ("should they not be there", "if not"),
         ("should it not", "if not"),
         ("in the other case", "otherwise"),
         ("in any other case", "otherwise"),
@@ -78,8 +80,15 @@ _STATES = (
     ("available", "occupied"),
     ("lit", "dark"),
     ("full", "free"),
+    ("locked", "open"),
+    ("running", "stopped"),
+    ("running", "off"),
+    ("running", "idle"),
 )
+OPPOSITES = frozenset((*_STATES, *((b, a) for a, b in _STATES)))
+"""States of which a thing has one or the other."""
 _ADJECTIVES = frozenset(word for pair in _STATES for word in pair)
+_LINKS = lexicon().be | {"has", "have"}
 _MARKS = frozenset({".", "!", "?", ";", "\n"})
 _HAPPENS = frozenset(
     {
@@ -229,15 +238,13 @@ def _with(words: Phrase, is_stop: Names) -> Phrase:
 def _opposite(words: Phrase, is_stop: Names) -> Phrase:
     """For "if it is open V, if it is shut W": W otherwise."""
     flat = keys(words)
-    first = next(
-        (i for i in range(len(flat) - 1) if flat[i] in lexicon().be and flat[i + 1] in _ADJECTIVES), 0
-    )
+    first = next((i for i in range(len(flat) - 1) if flat[i] in _LINKS and flat[i + 1] in _ADJECTIVES), 0)
     if not first or "if" not in flat[:first]:
         return words
     for at in range(first + 2, len(flat) - 4):
         echoed = flat[at] in {"if", "with", "when"} and flat[at + 1] in {"it", "that", "they"}
         state = at + 2 + (flat[at] != "with")
-        if echoed and state < len(flat) and (flat[first + 1], flat[state]) in _OPPOSITES:
+        if echoed and state < len(flat) and (flat[first + 1], flat[state]) in OPPOSITES:
             rest = words[state + 1 :]
             rest = rest[1:] if keys(rest[:1]) == (",",) else rest
             return (*words[:at], *_with_verb((*_words("otherwise"), *rest), is_stop))
@@ -262,7 +269,7 @@ def _asked(parts: list[tuple[Phrase, Word | None]], is_stop: Names) -> list[tupl
             continue
         (thing, state), (then, end) = asked, parts[index + 1]
         then = _ordering(then, is_stop)
-        other = not thing and (last, state) in _OPPOSITES
+        other = not thing and (last, state) in OPPOSITES
         if then and thing and _looks_at(then, thing):
             # "Is the door open? Go and check it": no condition, but what is to be looked at.
             then = ()
@@ -275,9 +282,6 @@ def _asked(parts: list[tuple[Phrase, Word | None]], is_stop: Names) -> list[tupl
         last = "" if other else state
         index += 2 if then else 1
     return _joined(result)
-
-
-_OPPOSITES = frozenset((*_STATES, *((b, a) for a, b in _STATES)))
 
 
 def _looks_at(order: Phrase, thing: Phrase) -> bool:

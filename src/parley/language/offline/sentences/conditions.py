@@ -137,6 +137,8 @@ def _echo(flat: tuple[str, ...], words: Phrase, opens: Opens) -> tuple[int, bool
     if end >= len(flat):
         return None
     orders = opens(words[end:]) and flat[end + 1 : end + 2] not in {(",",), ("then",)}
+    if end == 3 and flat[1] == "there":
+        orders = False  # "if there is water on it, V": what is there, although one may also water things
     ends = flat[end] in {",", "then"} or (orders and not flat[end].endswith(("ing", "ed")))
     return (end, holds) if ends else None
 
@@ -174,6 +176,7 @@ def _leading(words: Phrase, opens: Opens) -> Conditional | None:
             for i in range(start + 3, comma)
             if opens(words[i:])
             and not _is_noun(flat, i)
+            and not (i == comma - 1 and opens(words[comma + 1 :]))
             and flat[i - 1] not in lexicon().be | {"still", "already", "not"}
             and not (comma < len(flat) and flat[i].endswith("ing"))
         ),
@@ -278,4 +281,12 @@ def _otherwise(words: Phrase) -> tuple[Phrase, Phrase]:
 
 
 def _is_noun(flat: tuple[str, ...], index: int) -> bool:
-    return flat[index - 1] in lexicon().determiners | {"to", "of"}
+    """Whether a word that may be a verb stands where only a noun can ("under press 2")."""
+    before = flat[index - 1]
+    if before in lexicon().determiners | {"to", "of"}:
+        return True
+    # "If somebody is in go away": such a preposition may end a condition.
+    return before not in _ENDING and lexicon().places.match(flat, index - 1) is not None
+
+
+_ENDING = frozenset({"in", "on", "off", "up", "down", "around", "by", "inside", "outside", "nearby", "back"})

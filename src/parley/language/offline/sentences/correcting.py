@@ -46,7 +46,10 @@ def corrected(words: Phrase, is_stop: IsStop, opens: Opens) -> Phrase:
         end, sure = _taken_back(words, index)
         if not end or end >= len(words):
             continue
-        said, rest = _ended(words[:index]), _meant(words[end:], opens)
+        if keys(words[index:end])[:1] == ("no",) and "yes" in keys(words[:index]):
+            # "Yes: V, no: W".
+            continue
+        said, rest = _undenied(_ended(words[:index])), _meant(words[end:], opens)
         said_flat = keys(words[index:end])
         held = {"hold", "wait", "hang"} & set(said_flat) and "actually" not in said_flat
         if held and not any(_TAKING_BACK.match(said_flat, i) for i in range(end - index)):
@@ -168,6 +171,13 @@ def _ended(words: Phrase) -> Phrase:
     while words and not words[-1].is_word:
         words = words[:-1]
     return words
+
+
+def _undenied(said: Phrase) -> Phrase:
+    """For "no, do not check A, (I meant B)" "check A": what is taken back is that it was A."""
+    flat = keys(said)
+    lead = next((i for i in range(len(flat)) if flat[i] not in {"no", ",", ".", "!", "please"}), 0)
+    return said[lead + 2 :] if flat[lead : lead + 2] == ("do", "not") and len(flat) > lead + 3 else said
 
 
 def _orders(words: Phrase, opens: Opens) -> list[int]:

@@ -46,6 +46,8 @@ _NOT_SO = tuple(
         "if that is wrong",
     )
 )  # fmt: skip
+_ELSE = (("else",), ("otherwise",), ("or", "else"))
+_ECHOES = sorted((*_SO, *_NOT_SO, *_ELSE), key=len, reverse=True)
 _STILL = (("if", "it", "is"), ("if", "that", "is"), ("if", "they", "are"))
 _TURNED_ROUND = {
     ("is", "it", "not"): "if not", ("are", "they", "not"): "if not", ("is", "it"): "if so",
@@ -59,6 +61,40 @@ _ANY = {
     "something": "something", "anything": "something", "nobody": "nobody", "nothing": "nothing",
 }  # fmt: skip
 
+_FOUND_AGAIN = frozenset({"it", "that", "them", "him", "her", "one", "any", "some", "this"})
+_NONE_FOUND = frozenset({"none", "nothing", "nobody"})
+_WHEN = tuple(
+    tuple(text.split())
+    for text in ("if", "when", "once", "as soon as", "unless", "in case", "should", "only if", "only when")
+)
+_HELPING = frozenset({"do", "can", "could", "did", "manage", "to", "happen", "should", "actually", "really"})
+_PLACES = (("there",), ("in", "there"), ("at", "all"), ("anywhere",), ("on", "it"), ("in", "it"))
+_THERE = ("there is", "there are", "it is there", "he is there", "she is there", "it is still there")
+_AWAY = (
+    "there is not", "there are not", "it is not there", "he is not there", "she is not there", "it is gone",
+    "it has gone", "it is missing", "it is no longer there", "he is gone", "she is gone", "he has left",
+    "she has left", "it is not there any more", "it is not there anymore",
+)  # fmt: skip
+_EXISTING = sorted(
+    ((tuple(text.split()), text in _AWAY) for text in (*_THERE, *_AWAY)), key=lambda one: -len(one[0])
+)
+_LOOKING = frozenset(
+    {
+        "look",
+        "search",
+        "find",
+        "check",
+        "inspect",
+        "see",
+        "scan",
+        "locate",
+        "whether",
+        "seek",
+        "hunt",
+        "watch",
+    }
+)
+
 
 def with_looks(words: Phrase, is_stop: IsStop) -> Phrase:
     """The message with what orders hang on said as a look.
@@ -68,9 +104,9 @@ def with_looks(words: Phrase, is_stop: IsStop) -> Phrase:
         is_stop: Whether words name something on the map.
     """
     flat = set(keys(words))
-    if not flat & {"if", "unless", "case", "depending", "is", "are"}:
+    if not flat & {"if", "unless", "case", "depending", "is", "are", "find", "see", "spot"}:
         return words
-    return _both(_found(_turned_round(_supposed(words, is_stop)), is_stop))
+    return _or_nothing(_both(_found(_found_again(_turned_round(_supposed(words, is_stop))), is_stop)))
 
 
 def _supposed(words: Phrase, is_stop: IsStop) -> Phrase:
@@ -93,7 +129,7 @@ def _supposed(words: Phrase, is_stop: IsStop) -> Phrase:
             continue
         behind = close + 1 + (flat[close + 1 : close + 2] in {("but",), ("and",), ("so",)})
         echo = next(
-            ((m, "if so" if m in _SO else "if not") for m in sorted((*_SO, *_NOT_SO), key=len, reverse=True)
+            ((m, "if so" if m in _SO else "if not") for m in _ECHOES
              if flat[behind : behind + len(m)] == m),
             None,
         )  # fmt: skip
@@ -144,6 +180,100 @@ def _turned_round(words: Phrase) -> Phrase:
     return words
 
 
+def _found_again(words: Phrase) -> Phrase:
+    """For "look for X and V it if you find one", "if there is none, W": if so V it, if not W."""
+    flat = keys(words)
+    for at in range(3, len(flat) - 1):
+        end, denied = _finding(flat, at)
+        if not end or not _LOOKING & set(flat[:at]):
+            continue
+        if flat[at - 1] in {"see", "check", "know", "sure", "whether", "look", "tell"}:
+            continue
+        echo = _said(". if not ," if denied else ". if so ,")
+        closes = (
+            end >= len(flat)
+            or flat[end] in _MARKS | {"else", "otherwise"}
+            or flat[end : end + 2] == (",", "else")
+        )
+        if closes or (flat[end] in {",", "and"} and not opens_command(words[end + 1 :])):
+            starts = (i for i in range(at - 1, 1, -1) if flat[i - 1] in {",", "and", "then"} | _MARKS)
+            begin = next((i for i in starts if opens_command(words[i:at])), 0)
+            if not begin or not _LOOKING & set(flat[: begin - 1]):
+                continue
+            return (*_closed(words[:begin]), *echo, *_closed(words[begin:at]), *words[end:])
+        behind = end
+        while flat[behind : behind + 1] and flat[behind] in {",", "then", "you", "please"}:
+            behind += 1
+        if opens_command(words[behind:]):
+            return _found_again((*_closed(words[:at]), *echo, *words[behind:]))
+    return words
+
+
+def _or_nothing(words: Phrase) -> Phrase:
+    """For "if S, V, otherwise leave it": if S, V."""
+    flat = keys(words)
+    for at in range(3, len(flat)):
+        lead = next((m for m in (*_NOT_SO, *_ELSE, *_NOT_THERE) if flat[at : at + len(m)] == m), ())
+        end = at + len(lead)
+        while lead and flat[end : end + 1] and flat[end] in {",", "then", "just", "simply"}:
+            end += 1
+        done = next((m for m in _NOTHING_TO_DO if flat[end : end + len(m)] == m), ()) if lead else ()
+        close = end + len(done)
+        if done and _IFS & set(flat[:at]) and (close >= len(flat) or flat[close] in _MARKS):
+            return (*_closed(words[:at]), *words[close:])
+    return words
+
+
+_IFS = frozenset({"if", "unless", "whether"})
+_NOT_THERE = (("if", "there", "is", "not"), ("if", "there", "is", "none"), ("if", "there", "are", "none"))
+_NOTHING_TO_DO = tuple(
+    tuple(text.split())
+    for text in (
+        "forget about it", "forget it", "leave it", "leave it at that", "leave it alone", "do nothing",
+        "nothing", "never mind", "do not bother", "it is fine", "that is fine", "fine", "stay there",
+        "stay where you are", "stay put", "do not do anything", "ignore it", "no problem",
+    )
+)  # fmt: skip
+
+
+def _closed(words: Phrase) -> Phrase:
+    """Without the marks and joints at the end."""
+    while words and (not words[-1].is_word or words[-1].key in {"and", "then", "but", "only"}):
+        words = words[:-1]
+    return words
+
+
+def _finding(flat: tuple[str, ...], at: int) -> tuple[int, bool]:
+    """Where "if you find it" and "if there is none" end, and whether they deny it; 0 if none begins here."""
+    lead = next((m for m in _WHEN if flat[at : at + len(m)] == m), ())
+    start = at + len(lead)
+    if not lead:
+        return 0, False
+    denied = lead == ("unless",)
+    existing = next(((m, no) for m, no in _EXISTING if flat[start : start + len(m)] == m), None)
+    if existing is not None:
+        end, thing = start + len(existing[0]), "" if existing[0][0] == "there" else "one"
+        denied ^= existing[1]
+    elif flat[start : start + 1] == ("you",):
+        end = start + 1
+        while flat[end : end + 1] and flat[end] in _HELPING | {"not"}:
+            denied ^= flat[end] == "not"
+            end += 1
+        finds = flat[end : end + 1] != () and flat[end] in _FINDING
+        thing = "" if finds else "one" if end > start + 1 and flat[end - 1] in {"do", "can", "not"} else "?"
+        end += finds
+    else:
+        return 0, False
+    if not thing:
+        thing = flat[end] if end < len(flat) else "?"
+        denied ^= thing in _NONE_FOUND
+        end += 1
+    if thing not in _FOUND_AGAIN | _NONE_FOUND:
+        return 0, False
+    end += next((len(m) for m in _PLACES if flat[end : end + len(m)] == m), 0)
+    return end, denied
+
+
 def _found(words: Phrase, is_stop: IsStop) -> Phrase:
     """For "go to A and if you find X there V": if there is X there, V."""
     flat = keys(words)
@@ -164,7 +294,9 @@ def _found(words: Phrase, is_stop: IsStop) -> Phrase:
         len(flat),
     )
     what = words[start:end]
-    if not what or what[0].key in {"it", "that", "them", "him", "her", "out"} or end == len(flat):
+    if not what or end == len(flat):
+        return words
+    if what[0].key in _FOUND_AGAIN | {"out"}:
         return words
     there = end + (flat[end] == "there")
     comma = there + (flat[there : there + 1] in {(",",), ("then",)})

@@ -262,10 +262,15 @@ def subject_apart(words: Phrase) -> Phrase:
     return words
 
 
+_ASKED = frozenset({"please", "on", "off", "up", "down"})
+"""With these at its end what stands before a comma asks for something ("lights off, it is late")."""
+
+
 def _is_name(words: Phrase) -> bool:
     flat = keys(words)
     first = flat[0] in lexicon().determiners or words[0].is_capital
-    return first and not has_verb(words) and not opens_command(words)
+    asked = bool(_ASKED & set(flat[1:]))
+    return first and not asked and not has_verb(words) and not opens_command(words)
 
 
 def verb_at(words: Phrase, within: int = _FURTHEST_VERB) -> int:
@@ -275,13 +280,20 @@ def verb_at(words: Phrase, within: int = _FURTHEST_VERB) -> int:
         (
             i
             for i in range(1, min(within, len(flat)))
-            if flat[i] in _VERBS | _PASTS
-            or (flat[i].endswith("ed") and len(flat[i]) > 4)
-            or flat[i] in _PAST
-            or _says(words, i)
+            if not (flat[i] == "saw" and flat[i + 1 : i + 2] and flat[i + 1] in _AFTER_NAMES)
+            and (
+                flat[i] in _VERBS | _PASTS
+                or (flat[i].endswith("ed") and len(flat[i]) > 4)
+                or flat[i] in _PAST
+                or _says(words, i)
+            )
         ),
         0,
     )
+
+
+_AFTER_NAMES = lexicon().be | {"has", "had", "got", "needs"}
+"""Behind "the band saw", where that is no verb."""
 
 
 def _says(words: Phrase, index: int) -> bool:

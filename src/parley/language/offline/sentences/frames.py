@@ -16,6 +16,7 @@ from parley.language.offline.sentences.attitudes import (
     wants_to_know,
 )
 from parley.language.offline.sentences.clauses import opens_command
+from parley.language.offline.sentences.voice import KINDS, in_active
 from parley.language.offline.words.lexicon import lexicon
 from parley.language.offline.words.text import Phrase, Word, keys, lemma
 from parley.language.word_lists import load_data
@@ -34,7 +35,8 @@ _WORRIED = frozenset(_DATA["worried"])
 _ASIDES = tuple(tuple(text.split()) for text in _DATA["asides"])
 _TAGS = tuple(tuple(text.split()) for text in _DATA["tags"])
 _PAST = frozenset({"if", "wish", "rather", "better", "glad", "happier"})
-_GETTING = frozenset({"have", "get", "see", "want", "like", "having", "need", "wants", "needs"})
+_IF = frozenset({"if", "that", "have", "is"})
+_GETTING = frozenset({"love", "have", "get", "see", "want", "like", "having", "need", "wants", "needs"})
 _NOT_MEANT = (
     ("not", "suppose"),
     ("not", "too"),
@@ -46,13 +48,14 @@ _NOT_MEANT = (
     ("not", "harm"),
     ("not", "object"),
     ("should", "not", "you"),
+    ("should", "not", "somebody"),
+    ("should", "not", "someone"),
     ("ought", "not", "you"),
+    ("not", "it", "time"),
+    ("not", "it", "about", "time"),
+    ("not", "it", "high", "time"),
     ("are", "not", "you"),
 )
-_KINDS = frozenset({
-    "motion", "look", "whether", "search", "transfer", "grasp", "speak", "follow", "meet", "count",
-    "guide", "place", "back",
-})  # fmt: skip
 _LOOKS = frozenset({"look", "glance", "peek", "check", "inspection", "eye", "peep", "check-up"})
 _TRIPS = frozenset({"visit", "trip", "drive", "run", "walk"})
 _MARKS = frozenset({".", "!", "?", ";", "\n"})
@@ -303,7 +306,7 @@ def _inside_frame(words: Phrase, is_stop: IsStop) -> Phrase | None:
         if lead[-1] in lexicon().determiners or not (framed or wants(lead)) or _denied(lead):
             continue
         rest = words[cut:]
-        order = _passive(lead, rest, is_stop)
+        order = in_active(rest, is_stop, getting=lead[-1] in _GETTING, wished=bool(lead[-1] in _IF))
         if order is None and not opens:
             itself = framed or speaks_for_itself(lead)
             order = (
@@ -313,12 +316,11 @@ def _inside_frame(words: Phrase, is_stop: IsStop) -> Phrase | None:
             )
         if order is not None:
             return order
-    # "X should be checked by somebody".
-    return (
-        _passive(("would",), words, is_stop)
-        if "be" in flat[1:] and _DESIRE & set(flat) and not opens
-        else None
-    )
+    # "X should be checked by somebody", "could X be emptied".
+    asked = flat[0] in {"could", "can", "would", "may", "might"}
+    if not {"be", "get"} & set(flat[1:]) or not (asked or (_DESIRE & set(flat) and not opens)):
+        return None
+    return in_active(words[asked:], is_stop, wished=asked)
 
 
 def _lead_end(words: Phrase, at: int, is_stop: IsStop) -> int:
@@ -358,44 +360,15 @@ def _denied(lead: tuple[str, ...]) -> bool:
     return not any(lead[i : i + len(m)] == m for m in _NOT_MEANT for i in range(len(lead)))
 
 
-def _passive(lead: tuple[str, ...], rest: Phrase, is_stop: IsStop) -> Phrase | None:
-    """For "the desk be inspected", and "the desk inspected" behind "have"."""
-    end = _stop_end(rest, 0, is_stop)
-    flat = keys(rest)
-    at = end
-    while at < len(flat) and flat[at] in _LINKING:
-        at += 1
-    if not end or at >= len(flat) or (at == end and lead[-1] not in _GETTING) or "not" in flat[end:at]:
-        return None
-    verb = lemma(flat[at])
-    found = lexicon().verbs.match((verb, *flat[at + 1 :]))
-    if found is None or verb == flat[at] or found[1].partition(":")[0] not in _KINDS:
-        return None
-    if at > end and not {"be", "been", "was", "were", "is", "get", "gets", "got", "are", "being"} & set(
-        flat[end:at]
-    ):
-        return None
-    size = found[0] - (flat[at + found[0] - 1] == "for" and found[0] > 1)
-    tail = rest[at + size :]
-    if keys(tail[:1]) == ("by",) and keys(tail[1:2]) and keys(tail)[1] in _ANYBODY | {"you"}:
-        tail = tail[2:]
-    return (Word(verb, verb), *rest[at + 1 : at + size], *rest[:end], *tail)
-
-
-_LINKING = frozenset({
-    "be", "been", "was", "were", "is", "are", "get", "gets", "got", "could", "would", "should", "can",
-    "to", "ought", "must", "will", "soon", "really", "perhaps", "maybe", "please", "quickly", "also",
-    "now", "has", "have", "needs", "being", "not", "might", "may", "had",
-})  # fmt: skip
-
-
 def _active(lead: tuple[str, ...], rest: Phrase, is_stop: IsStop) -> Phrase | None:
     """For "(somebody would) look at the desk", "(if you) went to the desk"."""
     if not rest:
         return None
     base = lemma(rest[0].key)
     found = lexicon().verbs.match((base, *keys(rest[1:])))
-    if found is None or found[1].partition(":")[0] not in _KINDS:
+    if found is None or found[1].partition(":")[0] not in KINDS:
+        return None
+    if base != rest[0].key and lead[-1] in lexicon().be and not rest[0].key.endswith("ing"):
         return None
     if base != rest[0].key and not (_doing(lead) if rest[0].key.endswith("ing") else _PAST & set(lead)):
         return None
@@ -451,7 +424,7 @@ def _you_at(lead: tuple[str, ...], rest: Phrase, is_stop: IsStop) -> Phrase | No
     """For "(I would need you) at the desk", "(have you back) on it", "(manage to be) at the desk"."""
     last = next((key for key in reversed(lead) if key not in _BACK), "")
     whoever = bool(({"you"} | _ANYBODY) & set(lead))
-    there = last in {"you", "yourself"} or (last in {"be", "being"} and whoever)
+    there = last in {"you", "yourself"} or (last in {"be", "being", "were"} and whoever)
     if not there or keys(rest[:1]) not in _PLACES:
         return None
     end = _stop_end(rest, 1, is_stop)

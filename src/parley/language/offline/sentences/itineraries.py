@@ -12,9 +12,10 @@ from dataclasses import dataclass, replace
 
 from parley.language.offline.words.lexicon import lexicon
 from parley.language.offline.words.nouns import bare
+from parley.language.offline.words.order import phrases_due
 from parley.language.offline.words.text import Phrase, Word, keys, lemma
 
-__all__ = ["as_itinerary"]
+__all__ = ["as_itinerary", "warns"]
 
 IsStop = Callable[[Phrase], bool]
 
@@ -26,53 +27,38 @@ def _table(*groups: tuple[int, str]) -> dict[tuple[str, ...], int]:
     return {tuple(text.split()): rank for rank, listed in groups for text in listed.split(", ")}
 
 
+def _due(rank: int, *kinds: str) -> dict[tuple[str, ...], int]:
+    return {tuple(text.split()): rank for text in phrases_due(*kinds)}
+
+
 _BEFORE_LAST = -1
 """In front of the stop that was named just before."""
-_LEADS = _table(
-    (_FIRST, "first, firstly, first of all, to start with, to begin with, initially"),
-    (_FIRST, "start with, start at, start in, start from, begin with, begin at, begin in, starting with"),
-    (_FIRST, "starting at, starting from, beginning with, beginning at"),
-    (_LAST, "finally, lastly, last, last of all, at the end, in the end, at last, end with, end at, end in"),
-    (_LAST, "finish with, finish at, finish in, ending with, ending at, finishing with, finishing at"),
-    (_ANY, "in between, between them, next, afterwards, after that, after it, after this, after them"),
-    (
-        _ANY,
-        "only then, second, secondly, third, thirdly, fourth, now, so, ok, okay, please, also, from there",
+_LEADS = {
+    **_table(
+        (_ANY, "after them, now, so, ok, okay, please, also, after"),
+        (_ANY, "back to, back at, back in, home to, then home to, only after both, only after all that"),
+        (_ANY, "only after all of them, step one, step two, step three, step four, number one, number two"),
+        (_ANY, "number three, stop one, stop two, stop three, step 1, step 2, step 3, from"),
     ),
-    (
-        _ANY,
-        "only after that, only afterwards, later, after, on the way back, on your way back, back to, "
-        "back at, back in, home to, then home to, only after both, after both, only after all that, "
-        "only after all of them",
+    **_due(_ANY, "following", "next", "counting", "between", "back", "next_thing"),
+    **_due(_FIRST, "early", "opening", "beginning", "first_thing"),
+    **_due(_LAST, "late", "closing", "ending", "last_thing"),
+    **_due(_BEFORE_LAST, "earlier"),
+    ("before", "you", "go", "there"): _BEFORE_LAST,
+}
+_TAILS = {
+    **_table(
+        (_FIRST, "comes first, goes first, is first"),
+        (_LAST, "comes last, goes last, is last"),
+        (_ANY, "goes in between, goes between them, comes in between, too, also, as well, please, now"),
+        (_ANY, "comes after it, comes after that, comes next, comes second, thanks"),
+        (_BEFORE_LAST, "comes before it, comes before that"),
     ),
-    (
-        _BEFORE_LAST,
-        "before that, before it, before this, but before that, on the way there, on the way, on your way",
-    ),
-    (_BEFORE_LAST, "on your way there, before you go there"),
-    (
-        _ANY,
-        "step one, step two, step three, step four, number one, number two, number three, stop one, stop two",
-    ),
-    (_ANY, "stop three, step 1, step 2, step 3, from, the second thing, second thing, the next thing"),
-    (_FIRST, "the first thing, first thing, the first stop"),
-    (_LAST, "the last thing, last thing, the last stop, and last"),
-)
-_TAILS = _table(
-    (_FIRST, "first, first of all, to start with, to begin with, comes first, goes first, is first"),
-    (
-        _LAST,
-        "last, last of all, at the end, in the end, at the very end, to finish with, comes last, goes last",
-    ),
-    (_LAST, "to finish, is last, for last, until last, till last, till the end, until the end, for the end"),
-    (
-        _ANY,
-        "goes in between, goes between them, between them, in the middle, comes in between, between those",
-    ),
-    (_ANY, "in between, second, third, next, afterwards, after that, after it, after this, later, too, also"),
-    (_ANY, "as well, please, now, comes after it, comes after that, comes next, comes second, thanks"),
-    (_BEFORE_LAST, "before that, before it, beforehand, before this, comes before it, comes before that"),
-)
+    **_due(_ANY, "following", "next", "counting", "between"),
+    **_due(_FIRST, "early", "opening"),
+    **_due(_LAST, "late", "closing", "kept"),
+    **_due(_BEFORE_LAST, "earlier"),
+}
 _ALL = frozenset(
     tuple(text.split())
     for text in (
@@ -93,6 +79,8 @@ _BEEN = (("you", "have", "been", "at"), ("you", "have", "been", "to"), ("you", "
          ("you", "are", "done", "with"), ("you", "were", "at"), ("you", "have", "seen"), ("you", "left"),
          ("you", "have", "finished", "at"), ("you", "have", "left"), ("you", "go", "to"))  # fmt: skip
 
+_GONE = frozenset(been for been in _BEEN if been[-1] in {"at", "to", "in", "left", "visited"})
+
 
 @dataclass(frozen=True)
 class _Stop:
@@ -100,6 +88,8 @@ class _Stop:
     kind: str = ""
     """"motion" or "look"; empty if no verb was said."""
     rank: int = _ANY
+    again: bool = False
+    """Whether it is said to be gone back to."""
 
 
 class _UnknownError(Exception):
@@ -113,9 +103,27 @@ def as_itinerary(words: Phrase, is_stop: IsStop) -> Phrase | None:
         words: All words and punctuation.
         is_stop: Whether words name one place.
     """
+    if warns(words):
+        return None
     if not words or "?" in keys(words) or len(words) > 60:
         return None
     return _whole(words, is_stop) or _by_sentence(words, is_stop)
+
+
+def warns(words: Phrase) -> bool:
+    """For "tower on your left", "van ahead": what the robot is to mind, no stop.
+
+    Args:
+        words: A message, or what is said to a robot by name.
+    """
+    flat = keys(word for word in words if word.is_word)
+    sides = {"left", "right", "left-hand", "right-hand"}
+    side = flat[-3:-2] in {("on",), ("to",)} and flat[-2] == "your" and flat[-1] in sides
+    return (
+        side
+        or flat[-2:] in {("behind", "you"), ("before", "you"), ("beside", "you")}
+        or flat[-1:] == ("ahead",)
+    )
 
 
 def _by_sentence(words: Phrase, is_stop: IsStop) -> Phrase | None:
@@ -192,12 +200,18 @@ def _stops(words: Phrase, is_stop: IsStop) -> tuple[list[_Stop], bool, str]:
             marked = _LEADS[keys(piece)]
             continue
         read = _read(piece, is_stop)
+        if len(read) == 1 and _RETURNING & set(keys(piece)):
+            read = [replace(read[0], again=True)]
         if marked != _ANY:
             read, marked = [replace(stop, rank=marked) for stop in read], _ANY
         if joined and len(read) == 1 and not read[0].kind and read[0].rank == _ANY:
             # "A after B and C": whether C is before A nobody can tell by words of order alone.
             raise _UnknownError
         joined = len(read) > 1 and keys(piece[:1])[0] not in _JOINTS
+        if len(read) > 1 and _known(read, stops):
+            _put_pair(read[0], read[1], stops)
+            ordered = True
+            continue
         for stop in read:
             kind = stop.kind or kind
             ordered = ordered or stop.rank != _ANY
@@ -207,10 +221,33 @@ def _stops(words: Phrase, is_stop: IsStop) -> tuple[list[_Stop], bool, str]:
     return stops, ordered, shared
 
 
+_RETURNING = frozenset({"back", "return", "again"})
+
+
+def _at(stop: _Stop, stops: list[_Stop]) -> int:
+    """Where a place is among those named before; -1 if it is not."""
+    return next((i for i, other in enumerate(stops) if keys(bare(other.words)) == keys(bare(stop.words))), -1)
+
+
+def _known(pair: list[_Stop], stops: list[_Stop]) -> bool:
+    return any(_at(stop, stops) >= 0 for stop in pair)
+
+
+def _put_pair(early: _Stop, late: _Stop, stops: list[_Stop]) -> None:
+    """One place before another, where one of them was named before ("A after B, B after C")."""
+    first, second = _at(early, stops), _at(late, stops)
+    if first < 0:
+        stops.insert(second, replace(early, kind=early.kind or stops[second].kind))
+    elif second < 0:
+        stops.insert(first + 1, replace(late, kind=late.kind or stops[first].kind))
+    elif first > second:
+        stops.insert(second, stops.pop(first))
+
+
 def _put(stop: _Stop, stops: list[_Stop], *, early: bool) -> None:
-    same = next((i for i, other in enumerate(stops) if keys(bare(other.words)) == keys(bare(stop.words))), -1)
+    same = _at(stop, stops)
     round_trip = same >= 0 and stops[same].rank == _FIRST and len(stops) > same + 2
-    if same >= 0 and not round_trip:
+    if same >= 0 and not round_trip and not stop.again:
         # "A and B, start with B".
         kind = stops.pop(same).kind
         stop = replace(stop, kind=kind or stop.kind)
@@ -249,6 +286,11 @@ def _read(piece: Phrase, is_stop: IsStop) -> list[_Stop]:
         _UnknownError: It is none.
     """
     rank = _ANY
+    flat = keys(piece)
+    way = flat.index("to") if flat[:1] == ("from",) and "to" in flat else 0
+    if way and is_stop(piece[1:way]) and is_stop(piece[way + 1 :]):
+        # "From A to B", where A was named before.
+        return [_Stop(piece[1:way], "motion"), _Stop(piece[way + 1 :], "motion")]
     piece, rank = _stripped(piece, rank)
     kind, rest = _verb(piece)
     rest, rank = _stripped(rest, rank)
@@ -264,9 +306,9 @@ def _read(piece: Phrase, is_stop: IsStop) -> list[_Stop]:
             continue
         other = other[len(been) :]
         if at == 0 and is_stop(other):
-            return [_Stop(other, kind, rank)]
+            return [_Stop(other, "motion" if been in _GONE else kind, rank)]
         if is_stop(ahead) and is_stop(other):
-            pair = [_Stop(ahead, kind, rank), _Stop(other, kind, rank)]
+            pair = [_Stop(ahead, kind, rank), _Stop(other, "motion" if been in _GONE else kind, rank)]
             return pair if flat[at] == "before" else pair[::-1]
     raise _UnknownError
 
@@ -306,7 +348,7 @@ def _stripped(piece: Phrase, rank: int) -> tuple[Phrase, int]:
         changed = False
         for table, front in ((_LEADS, True), (_TAILS, False)):
             flat = keys(piece)
-            for size in range(min(4, len(flat) - 1), 0, -1):
+            for size in range(min(7, len(flat) - 1), 0, -1):
                 marker = flat[:size] if front else flat[-size:]
                 if marker not in table:
                     continue
@@ -320,7 +362,7 @@ def _stripped(piece: Phrase, rank: int) -> tuple[Phrase, int]:
                     and len(piece) > size + 1
                 ):
                     piece = piece[1:]
-                piece = piece[size:] if front else piece[:-size]
+                piece = piece[size:] if front else _ahead(piece[:-size])
                 changed = True
                 break
     return piece, rank

@@ -34,6 +34,8 @@ _LOOKING = frozenset(
 )
 _AROUND = frozenset(
     {
+        "round",
+        "around",
         "how",
         "bad",
         "badly",

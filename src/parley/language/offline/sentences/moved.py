@@ -34,7 +34,11 @@ def what_was_left(words: Phrase) -> Phrase:
         who = words[start:at]
         thing = put + 2
         where = next((i for i in range(thing + 1, min(thing + 4, len(flat))) if flat[i] in _AGAIN), 0)
-        named = 0 < len(who) < 4 and (who[-1].is_capital or flat[start] in {"the", "a", "my", "our"})
+        named = (
+            0 < len(who) < 4
+            and not _NOBODY_KNOWN & set(keys(who))
+            and (who[-1].is_capital or flat[start] in {"the", "a", "my", "our"})
+        )
         if not where or not named or where + 1 >= len(flat):
             continue
         owner = (*who[:-1], Word(f"{who[-1].key}'s", f"{who[-1].raw}'s"))
@@ -43,6 +47,7 @@ def what_was_left(words: Phrase) -> Phrase:
     return words
 
 
+_NOBODY_KNOWN: Final = frozenset({"someone", "somebody", "people", "they", "everybody", "kids"})
 _JOINTS: Final = frozenset({"and", "but", "so", "because", "since", "that"})
 
 

@@ -7,7 +7,7 @@ from parley.language.offline.words.lexicon import lexicon
 from parley.language.offline.words.nouns import bare
 from parley.language.offline.words.text import Phrase, Word, keys
 
-__all__ = ["participle_order", "ranked"]
+__all__ = ["participle_order", "ranked", "ranked_stops"]
 
 _RANKS = {
     "first": 1, "firstly": 1, "second": 2, "secondly": 2, "third": 3, "thirdly": 3, "fourth": 4, "fifth": 5,
@@ -48,6 +48,47 @@ def ranked(words: Phrase) -> Phrase:
     if len(pieces) > 2 and ranks[-1] in {1, 99} and not any(ranks[:-1]):
         return _moved(pieces[:-1], pieces[-1][:-1], last=ranks[-1] == 99) or words
     return words
+
+
+_COMING = frozenset({"comes", "goes", "is", "should", "be", "come", "will", "being"})
+_MIDDLE = (("in", "the", "middle"), ("in", "between"), ("the", "middle", "one"))
+_ALL_OF_THEM = frozenset({
+    "go", "to", "all", "of", "them", "visit", "please", "these", "those", "each", "both", "in", "that",
+    "order", "the", "two", "three", "four", "five", "do", "places", "stops", "rooms", "so", "now", "this",
+})  # fmt: skip
+
+
+def ranked_stops(words: Phrase) -> Phrase:
+    """For "A comes last, B first, C in the middle. Go to all three." "go to B, then to C, then to A"."""
+    flat = keys(words)
+    end = next((i for i, key in enumerate(flat) if key in {".", "!", ":", ";"}), len(flat))
+    if (
+        not {"first", "last"} <= set(flat[:end])
+        or opens_command(words)
+        or not set(flat[end:]) <= (_ALL_OF_THEM | {".", "!", ":", ";"})
+    ):
+        return words
+    pieces = [_plain_rank(piece) for piece in _pieces(words[:end])]
+    ranks = [_RANKS.get(piece[-1].key, 0) if len(piece) > 1 else 0 for piece in pieces]
+    told = any(opens_command(piece) or len(piece) > 6 for piece in pieces)
+    if len(pieces) < 2 or not all(ranks) or told or ranks == sorted(ranks):
+        return words
+    go = (Word("go", "go"), Word("to", "to"))
+    order = sorted(range(len(pieces)), key=lambda i: (ranks[i], i))
+    return _joined([pieces[i][:-1] for i in order], go)
+
+
+def _plain_rank(piece: Phrase) -> Phrase:
+    """For "A comes last" "A last", for "A in the middle" "A next"."""
+    flat = keys(piece)
+    middle = next((m for m in _MIDDLE if flat[-len(m) :] == m and len(flat) > len(m)), ())
+    if middle:
+        piece = (*piece[: -len(middle)], Word("next", "next"))
+    rank = piece[-1:]
+    body = piece[:-1]
+    while body and body[-1].key in _COMING:
+        body = body[:-1]
+    return (*body, *rank) if body else piece
 
 
 def _in_order(pieces: list[Phrase], ranks: list[int]) -> Phrase:

@@ -2,6 +2,8 @@
 
 from __future__ import annotations
 
+from collections.abc import Sequence
+
 from parley.language.offline.facts.facts import read_statement, strip_openers
 from parley.language.offline.sentences.clauses import Clause, opens_command
 from parley.language.offline.words.durations import duration_s
@@ -101,9 +103,16 @@ def is_span(words: Phrase) -> bool:
     )
 
 
-def as_visit(words: Phrase) -> Phrase:
-    """For "add (a stop at) the desk to the plan": a visit."""
+def as_visit(words: Phrase, own_verbs: Sequence[tuple[str, ...]] = ()) -> Phrase:
+    """For "add (a stop at) the desk to the plan": a visit, unless an action of the robot adds things.
+
+    Args:
+        words: All words and punctuation.
+        own_verbs: First words of orders that only the catalogue knows.
+    """
     rest = strip_openers(words, requests=True)
+    if any(keys(rest[:1]) == verb[:1] for verb in own_verbs):
+        return words
     if keys(rest[:1]) not in {("add",), ("include",), ("insert",)} or len(rest) < 2:
         return words
     rest = rest[1:]

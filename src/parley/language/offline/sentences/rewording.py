@@ -41,7 +41,6 @@ def reworded(words: Phrase, grounds: Grounds, *, timed: bool = False) -> Phrase:
     """
     for change in (
         _left_out,
-        _neither,
         _which_are,
         _you_do,
         _whichever,
@@ -89,22 +88,6 @@ def _left_out(words: Phrase) -> Phrase:
     ):
         return words
     return (*words[: at + 1], words[out], *words[at + 1 : out], *words[out + 1 :])
-
-
-def _neither(words: Phrase) -> Phrase:
-    """For "check neither A nor B, only C"."""
-    flat = keys(words)
-    at = flat.index("neither") if "neither" in flat else 0
-    nor = flat.index("nor") if "nor" in flat else 0
-    lead = words[:at]
-    if not at < nor or not opens_command(lead):
-        return words
-    end = next((i for i in range(nor, len(flat)) if flat[i] in {",", ".", "but"}), len(flat))
-    rest = words[end:]
-    while rest and rest[0].key in {",", ".", "but", "only", "just", "rather", "instead"}:
-        rest = rest[1:]
-    wanted = (_STOP, *(() if opens_command(rest) else lead), *rest) if rest else ()
-    return (*_words("do not"), *lead, *words[at + 1 : nor], _word("and"), *words[nor + 1 : end], *wanted)
 
 
 _WHICH = (

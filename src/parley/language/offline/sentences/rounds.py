@@ -107,7 +107,7 @@ _GOING = frozenset({"motion", "look", "guide"})
 
 
 def as_round(words: Phrase) -> Phrase:
-    """For "do a quick round through A" "visit A"."""
+    """For "do a quick round through A" "visit A", for "do an inspection of A" "inspect A"."""
     flat = keys(words)
     for index, word in enumerate(flat):
         if lemma(word) not in _MAKING:
@@ -122,7 +122,8 @@ def as_round(words: Phrase) -> Phrase:
             and flat[at + 1 : at + 2]
             and flat[at + 1] in _THROUGH
         ):
-            return (*words[:index], Word("visit", "visit"), *words[at + 2 :])
+            verb = "inspect" if flat[at] == "inspection" else "visit"
+            return (*words[:index], Word(verb, verb), *words[at + 2 :])
     return words
 
 

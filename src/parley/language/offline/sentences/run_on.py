@@ -252,7 +252,9 @@ def _may_end(
 ) -> bool:
     """Whether what stands before `index` can be a clause of its own."""
     before = flat[index - 1]
-    if before in _OPEN - _CLOSING or not words[index - 1].is_word or index - start < 2:
+    asked = flat[max(start, index - 2) : index - 1] in {("how",), ("where",)}
+    if before in _OPEN - _CLOSING or not words[index - 1].is_word or index - start < 2 or asked:
+        # "See how things stand at A".
         return False
     if flat[start] in _SUBORDINATE and "then" not in flat[start:index] and "," not in flat[start:index]:
         return False

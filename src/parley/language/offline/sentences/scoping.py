@@ -63,7 +63,7 @@ def scoped(words: Phrase, is_stop: IsStop, is_pending: IsStop, ids_of: IdsOf = l
         is_pending: Whether they name something that the robot is still to do; to deny that changes the plan.
         ids_of: The identifiers of what words name.
     """
-    words = _contrasted(words, is_stop)
+    words = _contrasted(_stressed(words, is_stop), is_stop)
     plainer = _along(_each_asked(words), is_stop)
     preferred = _preferred(plainer, is_stop)
     if len(preferred) < len(plainer) and _from_group(plainer, preferred, is_stop, ids_of):
@@ -168,6 +168,42 @@ def _sure(words: Phrase) -> Phrase:
         if found is not None and found[0] > 2 and found[1] not in {"make sure that", "make certain that"}:
             return (*words[:index], *words_of("make sure that"), *words[index + found[0] :])
     return words
+
+
+def _stressed(words: Phrase, is_stop: IsStop) -> Phrase:
+    """For "it is (not) A I need looked at", "A is what I want inspected": (do not) look at A."""
+    flat = keys(words)
+    for start in (i for i in range(len(flat)) if not i or flat[i - 1] in MARKS | {",", "but", "and"}):
+        lead = start + 2 if flat[start : start + 2] in {("it", "is"), ("it", "was")} else start
+        at = lead + (lead > start and flat[lead : lead + 1] == ("not",))
+        end = stop_end(words, at, is_stop)
+        behind = end + (flat[end : end + 1] in {("that",), ("which",)})
+        if lead == start:
+            behind = end + 2 if flat[end : end + 2] in {("is", "what"), ("are", "what")} else len(flat)
+        wish = next((m for m in _WISHES if flat[behind : behind + len(m)] == m), ())
+        done = behind + len(wish)
+        base = lemma(flat[done]) if end > at and wish and done < len(flat) else ""
+        close = next(
+            (i for i in range(done, len(flat)) if not words[i].is_word or flat[i] in {"and", "but"}),
+            len(flat),
+        )
+        if (
+            not base
+            or (base == flat[done]) is not (wish[-1:] == ("to",))
+            or lexicon().verbs.match((base, *flat[done + 1 : close])) is None
+        ):
+            continue
+        verb = (Word(base, base), *words[done + 1 : close])
+        denied = words_of("do not") if at > lead else ()
+        return _stressed((*words[:start], *denied, *verb, *words[at:end], *words[close:]), is_stop)
+    return words
+
+
+_WISHES = tuple(
+    (who, *want.split())
+    for who in ("i", "we")
+    for want in ("want you to", "need you to", "would like you to", "need", "want", "would like", "wanted")
+)
 
 
 def _contrasted(words: Phrase, is_stop: IsStop) -> Phrase:

@@ -12,6 +12,7 @@ from dataclasses import dataclass, field
 from parley.language.offline.facts.facts import strip_openers
 from parley.language.offline.sentences.talk import introduces, is_talk
 from parley.language.offline.words.lexicon import PhraseTable, lexicon
+from parley.language.offline.words.order import phrases_due
 from parley.language.offline.words.text import Phrase, keys, lemma
 from parley.language.word_lists import load_data
 
@@ -28,11 +29,35 @@ _DATA = load_data("units")
 JOINTS = frozenset(_DATA["joints"])
 REASONS = PhraseTable.of(_DATA["reasons"])
 _CONDITIONS = PhraseTable.of(_DATA["conditions"])
-LEADING = PhraseTable.of(_DATA["leading"])
+LEADING = PhraseTable.of(
+    [
+        *_DATA["leading"],
+        *phrases_due(
+            "early",
+            "opening",
+            "earlier",
+            "late",
+            "closing",
+            "following",
+            "next",
+            "counting",
+            "between",
+            "back",
+        ),
+    ]
+)
 _IDLE = PhraseTable.of(_DATA["idle"])
 _PAST = frozenset(_DATA["past"])
 _PRESENT = frozenset(_DATA["present"])
 _SUBJECTS = frozenset(_DATA["subjects"])
+_PRESENT_OF_SEVERAL = frozenset(lemma(word) for word in _PRESENT) - {
+    "need",
+    "want",
+    "has",
+    "do",
+    "does",
+    "check",
+}
 OPEN = frozenset(_DATA["open"])
 _RANKS = frozenset(_DATA["ranks"])
 _TAGS = frozenset(tuple(text.split()) for text in _DATA["tags"])
@@ -66,7 +91,7 @@ _FRAME = re.compile(
     r"(?:(?:can|could|would|will|may|might|should|do) )?you"
     r"(?: (?:can|could|would|will|may|might|should|must|to|have(?= to| got to)|need(?= to)|ought|had|better|"
     r"please|just|then|also|perhaps|maybe|kindly|possibly|quickly|first|now|mind|be|able|so|kind|as|gonna|"
-    r"going|are|think|still))*"
+    r"going|are|think|still|free(?= to)|welcome(?= to)|allowed(?= to)))*"
     r"|let us|why do not you|how about you"
     r"|the robot(?: first| then| now)? (?:is to|shall|should|must|will|has to|needs to|is supposed to)"
     r"(?: first| then)?"
@@ -143,7 +168,7 @@ class Signs:
     def _behind_leading(self, index: int) -> int:
         """Past what stands in front of an order."""
         while index < len(self.flat):
-            sizes = [t.match(self.flat, index) for t in (LEADING, _IDLE, lexicon().sequence)]
+            sizes = [t.match(self.flat, index) for t in (LEADING, _IDLE)]
             size = max((found[0] for found in sizes if found is not None), default=0)
             if not size and not self.words[index].is_word:
                 size = 1
@@ -266,11 +291,22 @@ class Signs:
         comma = next((i for i in range(at, stop) if self.flat[i] == ","), stop)
         if self.flat[at] in _SUBJECTS - {"some", "both", "all", "that", "this", "these", "those", "most"}:
             return self.flat[at + 1 : at + 2] not in {(",",), ("and",), ("or",), ()} and at + 1 < end
-        return any(self._finite(i) for i in range(at + 1, comma))
+        return any(self._finite(i) for i in range(at + 1, comma)) or self._several_do(at, comma) > 0
+
+    def _several_do(self, at: int, end: int) -> int:
+        """For "the guests arrive at noon": where the verb of several stands; 0 if there is none."""
+        if self.flat[at] not in _OURS:
+            return 0
+        for index in range(at + 2, min(at + 5, end)):
+            before, verb = self.flat[index - 1], self.flat[index]
+            plural = before.endswith("s") and not before.endswith("ss") and index - 1 not in self.named
+            if plural and verb in _PRESENT_OF_SEVERAL:
+                return index
+        return 0
 
     def _finite(self, index: int) -> bool:
         word, before = self.flat[index], self.flat[index - 1]
-        if index in self.named or before in lexicon().determiners or before in {"to", "you", "that", "which"}:
+        if index in self.named or before in lexicon().determiners or before in _NO_SUBJECT:
             return False
         if word in BE or word in HELPING - {"do", "have"} or word in _PRESENT:
             return True
@@ -320,6 +356,19 @@ class Signs:
             and left <= _RANKS | _RANKING
         )
 
+    def _numbered_stop(self, start: int, end: int) -> bool:
+        """For "your first stop is the desk", "the desk is to be your first stop"."""
+        rank = start + (self.flat[start] in {"your", "the"})
+        ranked = self.flat[rank : rank + 1] and self.flat[rank] in _STOP_RANKS
+        stop = self.flat[rank + 1 : rank + 2] and self.flat[rank + 1] in _STOPS
+        if ranked and stop:
+            return bool(self.named & set(range(rank + 2, end)))
+        return (
+            self.flat[end - 1] in _STOPS
+            and self.flat[end - 2] in _STOP_RANKS
+            and any(start <= a and b < end - 2 for a, b in self.found)
+        )
+
     def _due(self, start: int, end: int) -> bool:
         """For "the desk has to be checked"."""
         flat = self.flat[start:end]
@@ -357,10 +406,11 @@ class Signs:
             return ("order", "an order under a condition") if behind else ("condition", "nothing hangs on it")
         if self.flat[at] in lexicon().question_starts | BE | HELPING:
             return "asked", f"begins with “{self.flat[at]}”"
-        if self._ranked(at, end):
+        if self._ranked(at, end) or self._numbered_stop(at, end):
             return "name", "says when a place comes"
         if self._told(at, end):
-            wish = _WISHING & set(self.flat[at + 1 : at + 6]) or self._due(at, end)
+            waits = {"until", "till"} & set(self.flat[at:end]) and "wait" in self.flat[at:end]
+            wish = _WISHING & set(self.flat[at + 1 : at + 6]) or self._due(at, end) or waits
             return ("wish", "says what is needed") if wish else ("told", "a subject with its verb")
         if self._only_names(at, end) or self._mostly_names(at, end):
             return "name", "little but names"
@@ -403,6 +453,30 @@ _YOU_TOLD = frozenset((word,) for word in _DATA["you_told"])
 _FOUND = frozenset(_DATA["finding"])
 _RANKING = frozenset({"comes", "goes", "is", "are", "come", "go", "follows", "should", "be", "must"})
 _WISHING = frozenset({"wants", "needs"})
+_NO_SUBJECT = frozenset({
+    "to", "you", "that", "which", "for", "of", "with", "without", "from", "about", "any", "no", "some",
+    "many",
+})  # fmt: skip
+_OURS = frozenset(
+    {
+        "the",
+        "our",
+        "my",
+        "your",
+        "their",
+        "his",
+        "her",
+        "some",
+        "these",
+        "those",
+        "many",
+        "most",
+        "two",
+        "three",
+    }
+)
+_STOP_RANKS = frozenset({"first", "second", "third", "next", "last", "final"})
+_STOPS = frozenset({"stop", "destination", "place", "port", "station"})
 _PRONOUNS = frozenset({"i", "we", "you", "he", "she", "they", "it", "somebody", "someone", "people"})
 _SERIAL = frozenset(
     {"go", "come", "run", "please", "just", "and", "head", "drive", "you", "now", "then", "hurry"}

@@ -10,6 +10,7 @@ from collections.abc import Callable
 
 from parley.language.offline.sentences.clauses import opens_command
 from parley.language.offline.words.lexicon import lexicon
+from parley.language.offline.words.order import due
 from parley.language.offline.words.text import Phrase, Word, keys, lemma
 
 __all__ = ["in_order", "when_done"]
@@ -18,7 +19,15 @@ IsStop = Callable[[Phrase], bool]
 
 _STOP, _COMMA = Word(".", "."), Word(",", ",")
 _MARKS = frozenset({".", "!", "?", ";", "\n"})
-_WHEN = (("when",), ("once",), ("after",), ("as", "soon", "as"), ("and", "when"), ("and", "once"))
+_WHEN = (
+    ("when",),
+    ("once",),
+    ("after",),
+    ("as", "soon", "as"),
+    ("and", "when"),
+    ("and", "once"),
+    ("if", "you"),
+)
 _DOING = frozenset({
     "you", "all", "that", "it", "this", "everything", "those", "these", "is", "are", "have", "has",
     "been", "of", "with", "there", "done", "finished", "through", "ready", "over", "completed",
@@ -27,17 +36,7 @@ _DOING = frozenset({
 _DONE = frozenset({"done", "finished", "through", "over", "completed", "complete"})
 _SEEN = frozenset({"seen", "visited", "checked", "inspected"})
 _LISTED = frozenset({"both", "them", "all", "everything", "those", "these", "two", "three"})
-_AT_FIRST = tuple(
-    tuple(text.split())
-    for text in (
-        "before all that", "before all of that", "before anything else", "before everything else",
-        "before all this", "before any of that", "before all else", "before everything",
-        "before doing any of that", "before all", "before you do any of that", "before you do all that",
-        "but before all that", "but before anything else", "ahead of all that", "prior to all that",
-        "right at the start", "at the very start", "right at the beginning", "at the very beginning",
-        "first and foremost", "most urgently", "most important of all",
-    )
-)  # fmt: skip
+_AT_FIRST = due("early")
 _SAME = frozenset(
     tuple(text.split())
     for text in (
@@ -253,10 +252,10 @@ def _early(sentence: Phrase) -> tuple[Phrase, bool]:
     """The sentence without "before all that", and whether it said so."""
     flat = keys(sentence)
     for index in range(len(flat)):
-        marker = next((m for m in _AT_FIRST if flat[index : index + len(m)] == m), ())
-        if not marker:
+        marker = _AT_FIRST.match(flat, index)
+        if marker is None:
             continue
-        before, after = sentence[:index], sentence[index + len(marker) :]
+        before, after = sentence[:index], sentence[index + marker[0] :]
         while after and after[0].key in {",", "please", "though"}:
             after = after[1:]
         while before and before[-1].key in {",", "please", "but", "and", "so"}:

@@ -128,10 +128,11 @@ class _Message(Signs):
             return False
         if self._being_said(index, begun):
             return False
-        talked = self.flat[index - 1] == "," and self._kind(begun, index - 1) in TALK
+        talked = self.flat[index - 1] in {",", ":"} and self._kind(begun, index - 1) in TALK
         if talked or self._talk_ahead(index, end) or self._same_at(index, end):
             return True
-        if self._waits(begun, index) and self._order_at(index, end) >= 0:
+        if self._waits(begun, index) and (self.flat[index - 1] == "and" or self._order_at(index, end) >= 0):
+            # "Once A and B have been checked, V".
             return False
         return self._begins_otherwise(index, begun, end)
 
@@ -155,7 +156,12 @@ class _Message(Signs):
             return kind != "told" or self._order_behind(index, end)
         if self.flat[index - 1] == "or":
             return False
+        if self.flat[index - 1] == "and" and index - 2 in self.named and self.flat[index].isdigit():
+            # "Tanks 1 and 2".
+            return False
         if self._told(index, end):
+            if self.flat[index - 1] == "and" and self._lists(begun, index):
+                return False
             return kind not in {"reason"} or self.flat[index - 1] == ","
         if self.flat[index - 1] == "and" and index - 2 in self.named:
             # "Between the desk and the hall".
@@ -165,6 +171,13 @@ class _Message(Signs):
             return False
         at = self._behind_leading(index)
         return kind in {"told", "reason", "idle"} and at in self.begun and self._only_names(at, end)
+
+    def _lists(self, begun: int, index: int) -> bool:
+        """For "(the desk) and (the door) were open": what is told is told of both."""
+        small = lexicon().determiners | {",", "and", "only", "both"}
+        before = [i for i in range(begun, index - 1) if i not in self.named and self.flat[i] not in small]
+        first = index + (self.flat[index] in lexicon().determiners)
+        return not before and begun < index - 1 and {index, first} & self.begun != set()
 
     def _waits(self, begun: int, index: int) -> bool:
         """Whether the part so far is a condition without what depends on it."""
@@ -187,16 +200,15 @@ class _Message(Signs):
             return False
         if not self.words[index - 1].is_word or not self.words[index].is_word or word in JOINTS:
             return False
-        if self._being_said(index, begun):
-            return False
-        if self._asks_of_another(begun, index):
+        if self._being_said(index, begun) or self._asks_of_another(begun, index):
             return False
         if word == "to":
             return self._purpose(index, begun)
         if self._order_at(begun, end) >= index:
             return False
         verb = self._order_at(index, end)
-        if set(self.flat[begun:index]) <= _SERIAL | {",", "so"}:
+        told = verb == index == self._several_do(self._behind_leading(begun), end)
+        if told or set(self.flat[begun:index]) <= _SERIAL | {",", "so"}:
             return False
         if verb >= 0 and (verb > index or self._clearly(verb)):
             return not self._waits(begun, index)
@@ -332,8 +344,7 @@ class _Message(Signs):
         kept: list[Word] = []
         at = start
         while at < end:
-            tables = (LEADING.match(self.flat, at), lexicon().sequence.match(self.flat, at))
-            found = max((f for f in tables if f is not None), default=None)
+            found = LEADING.match(self.flat, at)
             if found is None or at + found[0] > end:
                 at += 1
                 continue

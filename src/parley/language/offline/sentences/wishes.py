@@ -6,13 +6,14 @@ from dataclasses import replace
 
 from parley.language.offline.facts.facts import read_statement
 from parley.language.offline.facts.remembering import find_fact
+from parley.language.offline.scene.needs import as_reported
 from parley.language.offline.scene.scene import Scene
 from parley.language.offline.tasks.commands import Command, read_command
 from parley.language.offline.words.lexicon import lexicon
 from parley.language.offline.words.nouns import bare, noun_phrase
 from parley.language.offline.words.text import Phrase, Word, keys, lemma, tokens
 
-__all__ = ["due", "missing", "need", "wish"]
+__all__ = ["due", "need", "wish"]
 
 
 def wish(words: Phrase, scene: Scene) -> Command | None:
@@ -42,17 +43,6 @@ def wish(words: Phrase, scene: Scene) -> Command | None:
             if find_fact(bare(theme[:size]), scene.facts)[0] is not None:
                 return replace(command, theme=bare(theme[:size]), place=noun.anchors[0], recipient=())
         return command
-    flat = keys(words)
-    for index in range(1, min(4, len(flat) - 1)):
-        if flat[index] in {"needs", "wants", "need", "want"} or flat[index : index + 2] == (
-            "would",
-            "like",
-        ):
-            who = words[:index]
-            theme = words[index + (2 if flat[index] == "would" else 1) :]
-            if scene.is_person(who) and theme and theme[0].key not in {"to", "you"}:
-                scene.mention(bare(who))
-                return read_command((Word("bring", "bring"), *theme, Word("to", "to"), *who), scene.is_person)
     return None
 
 
@@ -96,25 +86,9 @@ def due(words: Phrase, scene: Scene) -> Command | None:
     return None
 
 
-def missing(words: Phrase, scene: Scene) -> Command | None:
-    """For "the X is missing (from the Y)": somebody should go there and look for it."""
-    flat = keys(words)
-    link = next((i for i in range(1, len(flat)) if flat[i] in lexicon().be), 0)
-    state = flat[link + 1 : link + 2]
-    if (
-        not link
-        or state not in {("missing",), ("lost",), ("gone",), ("nowhere",)}
-        or scene.catalogue.with_role("look", "search") is None
-    ):
-        return None
-    place = (
-        bare(words[link + 3 :]) if flat[link + 2 : link + 3] in {("from",), ("in",), ("at",), ("on",)} else ()
-    )
-    return Command("search", "look for", theme=bare(words[:link]), place=place, words=words, clause=words)
-
-
 def need(words: Phrase, scene: Scene) -> Command | None:
     """For "X is cold" and the like: what helps is to be brought to X, unless the message says what."""
+    words = as_reported(words, scene)
     flat = keys(words)
     state = next((w for w in flat[2:] if w in lexicon().needs), None)
     link = next(

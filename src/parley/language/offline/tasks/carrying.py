@@ -267,10 +267,6 @@ class Carrying(Looking):
             return recipient, Place(self.here)
         return recipient, self._recipient_place(recipient)
 
-    def _just_arrived(self) -> bool:
-        mover = self.catalogue.mover
-        return bool(self.here and self.steps) and mover is not None and self.steps[-1].name == mover.name
-
     def _is_known(self, recipient: Phrase) -> bool:
         return self._grounds(recipient) or find_fact(recipient, self.scene.facts)[0] is not None
 
@@ -324,6 +320,11 @@ class Carrying(Looking):
         self.scene.mention(theme)
 
     def _grasp(self, command: Command) -> None:
+        loads = command.verb.startswith("load") and {"into", "onto"} & set(keys(command.clause))
+        if command.place and loads and not command.source and command.place[0].key != "your":
+            # "Load A into B": taken there.
+            self._fetch(replace(command, kind="transfer"))
+            return
         command = self._from_where_it_is(command)
         theme = bare(self.scene.referent(command.theme)) if command.theme else ()
         if not theme:
@@ -352,6 +353,8 @@ class Carrying(Looking):
                 self._fetch(replace(command, kind="transfer", theme=theme))
                 return
             raise UnableError(f"{command.verb} {the(plain(theme)) if theme else 'things'}")
+        if not theme and placer is None:
+            raise UnclearError("What should I put down?")
         if command.place:
             self._stand_at(self._place_or_here(command.place))
         if placer is None and asker is None:

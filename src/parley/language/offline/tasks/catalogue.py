@@ -169,18 +169,6 @@ class Catalogue:
         """The action whose name or phrase begins with a verb."""
         return self._table.get(tuple(verb.split()))
 
-    def by_topic(self, words: Sequence[str]) -> ActionInfo | None:
-        """The one action of no common kind whose name is about what is said ("turn the volume up")."""
-        said = {singular(lemma(word)) for word in words} | {singular(word) for word in words}
-        fitting = [
-            info
-            for info in self.infos
-            if not self._roles[info.name]
-            and len(name_words(info.name)) > 1
-            and {singular(word) for word in name_words(info.name)[1:]} <= said
-        ]
-        return fitting[0] if len(fitting) == 1 else None
-
     def reading(self, words: Sequence[str]) -> ActionInfo | None:
         """The one action without inputs that tells what is asked about ("get_battery_level": the battery)."""
         said = {singular(word) for word in words}
@@ -205,28 +193,6 @@ class Catalogue:
             if not self._roles[info.name] & _HELPERS and _says(phrase, text)
         }
         return next(iter(fitting.values())) if len(fitting) == 1 else None
-
-    def by_description(self, words: Sequence[str]) -> ActionInfo | None:
-        """The one action whose description shares most with what is said: its verb, or at least two words."""
-        if not words:
-            return None
-        said = {singular(lemma(word)) for word in words} | {singular(word) for word in words}
-        verb = lemma(words[0])
-        scored: list[tuple[int, ActionInfo]] = []
-        for info in self.infos:
-            text = [
-                *name_words(info.name),
-                *re.findall(r"[a-z]+", f"{info.description} {' '.join(info.examples)}".lower()),
-            ]
-            about = {singular(lemma(word)) for word in text} - _EMPTY
-            verbs = {other for word in (verb,) for other in (word, *lexicon().synonyms.get(word, ()))}
-            shared = len(about & said - _EMPTY - {verb})
-            same_verb = bool(verbs & about)
-            if (same_verb and shared) or shared > 1:
-                scored.append((shared + 2 * same_verb, info))
-        best = max((score for score, _ in scored), default=0)
-        fitting = [info for score, info in scored if score == best]
-        return fitting[0] if len(fitting) == 1 and not self._roles[fitting[0].name] & _HELPERS else None
 
     @property
     def mover(self) -> ActionInfo | None:

@@ -13,7 +13,7 @@ from parley.language.offline.words.text import Phrase, keys, lemma
 from parley.language.word_lists import load_data
 from parley.messages.status import ActionInfo
 
-__all__ = ["choices_of", "chosen", "is_listed", "says_choice", "states_verb", "switched"]
+__all__ = ["choices_of", "chosen", "is_listed", "says_choice", "states_verb", "switched", "told_state"]
 
 _LANGUAGES = frozenset(load_data("names")["languages"])
 _IN_PROSE = re.compile(r"(?:\w+(?:, | \| |/)){1,9}\w+(?:,? or \w+)?|\w+ or \w+")
@@ -114,6 +114,9 @@ def _value(values: dict[str, str], flat: tuple[str, ...], index: int) -> tuple[s
         if len(several) > 1 and flat[index : index + len(several)] == several:
             return value, len(several)
     word = flat[index]
+    if word == "out" and {"on", "off"} <= values.keys() and index + 1 == len(flat):
+        # "Lights out".
+        return values["off"], 1
     for form in (word, word.removesuffix("ly"), lemma(word), *lexicon().synonyms.get(word, ())):
         if form in values:
             return values[form], 1
@@ -142,17 +145,12 @@ def switched(info: ActionInfo, name: str, words: Phrase) -> tuple[bool | str, se
         return (flat[at], {at}) if at is not None and set(named) & _GENERAL else None
     if kind != "bool":
         return None
-    said = concepts(flat)
-    telling = [Concept(lemma(word), concepts((word,))[-1].lines) for word in named if word not in _GENERAL]
+    said, telling = concepts(flat), _telling(name)
     turned = next((where for part in telling if (where := reversed_at(part, said))), ())
     if turned:
         return False, set(turned)
-    whole = telling and all(any(_same(part, one) for one in said) for part in telling)
-    if whole:
-        at_all = {i for part in telling for one in said if _same(part, one) for i in one.at}
-        first = min(at_all)
-        denied = bool(_DENYING & set(flat[max(0, first - 2) : first]))
-        return not denied, at_all
+    if (whole := _named(telling, said, flat)) is not None:
+        return whole
     if any(opposed(part, said) for part in telling):
         return False, _where_opposed(telling, said)
     for words_for, value in ((_STARTING, True), (_STOPPING, False)):
@@ -161,11 +159,37 @@ def switched(info: ActionInfo, name: str, words: Phrase) -> tuple[bool | str, se
             if like and (set(named) & _GENERAL or not telling):
                 return value, set(one.at)
     for index, word in enumerate(flat):
+        if word == "out" and index + 1 == len(flat) and not telling:
+            return False, {index}
         if word in _TRUE - {"with"} | _FALSE - {"without"} or (
             index and word in {"with", "without"} and telling
         ):
             return word in _TRUE, {index}
     return None
+
+
+def _telling(name: str) -> list[Concept]:
+    """The words of an input's name that say what is so or not."""
+    return [Concept(lemma(w), concepts((w,))[-1].lines) for w in name_words(name) if w not in _GENERAL]
+
+
+def _named(
+    telling: list[Concept], said: tuple[Concept, ...], flat: tuple[str, ...]
+) -> tuple[bool, set[int]] | None:
+    """Whether all that an input's name says is said, so or denied, and where."""
+    if not telling or not all(any(_same(part, one) for one in said) for part in telling):
+        return None
+    at_all = {i for part in telling for one in said if _same(part, one) for i in one.at}
+    first = min(at_all)
+    return not bool(_DENYING & set(flat[max(0, first - 2) : first])), at_all
+
+
+def told_state(info: ActionInfo, name: str, message: Phrase) -> bool | None:
+    """What a whole message tells of an input that is so or not, by its name; None if nothing."""
+    if kind_of(info.inputs[name]) != "bool":
+        return None
+    found = _named(_telling(name), concepts(keys(message)), keys(message))
+    return None if found is None else found[0]
 
 
 def _same(part: Concept, said: Concept) -> bool:

@@ -96,7 +96,8 @@ def read_command(
     moved = verb in _MOVING_THINGS and keys(rest[:1]) and rest[0].key in lexicon().determiners | _THINGS
     if (verb == "move" or moved) and _moves_something(keys(rest)):
         kind = "transfer"
-    if rest and kind == "motion" and rest[0].key.endswith("ing"):
+    staying = verb.split()[-1:] in (["in"], ["at"], ["by"])
+    if rest and kind == "motion" and rest[0].key.endswith("ing") and not staying:
         doing = lex.verbs.match(_base(rest))
         if doing is not None and not doing[1].startswith("other:"):
             return read_command(rest, is_person, extra_verbs)
@@ -318,6 +319,22 @@ def _finite(flat: tuple[str, ...]) -> int:
     return 0 if relative or (at == len(flat) - 1 and flat[at] in lexicon().be) else at
 
 
+_LINKS = frozenset({
+    "has", "have", "looks", "needs", "works", "look", "need", "does", "can", "seems", "still", "stands",
+    "sits", "lies", "hangs", "feels",
+})  # fmt: skip
+
+
+def _how_much(words: Phrase) -> int:
+    """How many words at the start only say how: "crowded" in "(how) crowded the hall"."""
+    if len(words) < 2 or words[0].is_capital or words[0].key in lexicon().determiners | lexicon().nouns:
+        return 0
+    return 1 + (words[0].key in {"very", "many", "much"} and len(words) > 2)
+
+
+_STATES_OF_USE = frozenset({("on",), ("off",), ("up",), ("down",), ("out",)})
+
+
 def _whether(command: Command) -> Command:
     """For "Whether S": the subject of S is what to look at."""
     lex = lexicon()
@@ -325,37 +342,17 @@ def _whether(command: Command) -> Command:
     flat = keys(words)
     if flat[:1] == ("there",) and len(flat) > 2 and flat[1] in lex.be:
         return replace(_search(replace(command, words=words[2:])), kind="whether", words=words)
-    link = next(
-        (
-            i
-            for i in range(1, len(flat))
-            if flat[i]
-            in lex.be
-            | {
-                "has",
-                "have",
-                "looks",
-                "needs",
-                "works",
-                "look",
-                "need",
-                "does",
-                "can",
-                "seems",
-                "still",
-                "stands",
-                "sits",
-                "lies",
-                "hangs",
-                "feels",
-            }
-        ),
-        len(flat),
-    )
-    subject = bare(words[:link])
+    link = next((i for i in range(1, len(flat)) if flat[i] in lex.be | _LINKS), len(flat))
+    if link < len(flat) and flat[link - 1] in {"that", "which", "who"} and link > 1:
+        # "The gate that is jammed is shut": the second verb is the one of the sentence.
+        link = next((i for i in range(link + 1, len(flat)) if flat[i] in lex.be), link)
+    start = _how_much(words[:link]) if command.verb.endswith("how") else 0
+    subject = bare(words[start:link])
     at = link + 1
     while at < len(flat) and flat[at] in {"still", "not", "there", "now", "really", "also"}:
         at += 1
+    # "The lights are on in the hall".
+    at += flat[at : at + 1] in _STATES_OF_USE and lex.places.match(flat, at + 1) is not None
     found = lex.places.match(flat, at)
     place = bare(words[at + found[0] :]) if found and link < len(flat) else ()
     place = () if keys(place[:1])[:1] and place[0].key in NO_PLACES else place

@@ -6,13 +6,16 @@ from abc import abstractmethod
 from dataclasses import dataclass, replace
 
 from parley.language.offline.facts.facts import Fact, strip_openers
+from parley.language.offline.scene.grounding import ground_phrase
 from parley.language.offline.scene.marks import marks_of
 from parley.language.offline.scene.scene import UnclearError
 from parley.language.offline.sentences.clauses import Clause
 from parley.language.offline.sentences.conditions import is_rule
 from parley.language.offline.tasks.commands import Command, read_command
 from parley.language.offline.tasks.meaning import Meaning
+from parley.language.offline.tasks.said import spoken
 from parley.language.offline.words.lexicon import lexicon
+from parley.language.offline.words.naming import name_words
 from parley.language.offline.words.nouns import bare
 from parley.language.offline.words.saying import the
 from parley.language.offline.words.text import Phrase, Word, keys, lemma, plain, tokens
@@ -62,6 +65,8 @@ class Doing(Meaning):
         if own is not None and any(kind == "number" for kind in own.inputs.values()) and not own.outputs:
             self.tasks.do(command)
             return
+        if command.kind == "whether" and self._own_check(command.words):
+            return
         for _ in range(self._times(command)):
             self.tasks.do(_without_times(command))
             if self._times(command) > 1:
@@ -74,7 +79,8 @@ class Doing(Meaning):
         if before is None or not unplaced or before.kind not in {"look", "motion"} or not command.theme:
             return command
         group = next((w for p in (before.theme, before.place) for w in p if marks_of(w)), None)
-        here = group is not None and self.scene.ground(command.theme).outcome == "none"
+        called = ground_phrase(command.theme, self.scene.objects, strict=True).outcome
+        here = group is not None and "none" in {called, self.scene.ground(command.theme).outcome}
         pointed = keys(command.theme)[0] in lexicon().thing_pronouns | {"there"}
         return replace(command, place=(group,)) if group is not None and here and not pointed else command
 
@@ -150,6 +156,10 @@ class Doing(Meaning):
             # "If it is, V, otherwise W": W depends on the same look as V, which may look at something itself.
             goes_on = clause.otherwise and before is not None and before.conditional and not before.condition
             self._checked = self._checked if goes_on else ((), self._last_look())
+            if goes_on and clause.otherwise:
+                self._back_to_the_look()
+            elif not goes_on:
+                self._looked_from = self.tasks.here
         elif not self._same_condition(clause):
             if is_rule(clause.condition):
                 said = f"If {plain(clause.condition)}, {plain(clause.words)}"
@@ -165,12 +175,16 @@ class Doing(Meaning):
                 raise UnclearError(f"How can I tell whether {plain(clause.condition)}?")
             self._looked_for_nothing(clause)
             looked_from = len(self.tasks.steps)
-            if not self._own_check(clause.condition):
+            if not (self._told_by_last(clause.condition) or self._own_check(clause.condition)):
                 self.tasks.do(look)
                 self._one_look(looked_from)
             self._checked = (clause.condition, len(self.tasks.steps) - 1)
+            self._looked_from = self.tasks.here
+        elif clause.otherwise:
+            self._back_to_the_look()
         start, told = len(self.tasks.steps), len(self.tasks.will)
-        self._clause(replace(clause, condition=(), conditional=False), alone=False, index=1)
+        words = self._what_was_found(clause)
+        self._clause(replace(clause, words=words, condition=(), conditional=False), alone=False, index=1)
         flow = Flow(if_=FlowIf(step=self._checked[1], result=not clause.otherwise))
         self.tasks.steps[start:] = [
             step.model_copy(update={"flow": flow}) for step in self.tasks.steps[start:]
@@ -179,10 +193,53 @@ class Doing(Meaning):
         if len(self.tasks.will) > told:
             self.tasks.will[told] = f"{word}, {self.tasks.will[told]}"
 
+    def _what_was_found(self, clause: Clause) -> Phrase:
+        """For "if it is not there, tell A": what A is to be told, where nothing else is said."""
+        command = read_command(clause.words, self.scene.is_person)
+        if command is None or command.kind != "speak" or command.verb not in {"tell", "inform", "notify"}:
+            return clause.words
+        said, listener = spoken(command, self.scene.is_person)
+        if said or not listener or listener[0].key in lexicon().operator_pronouns:
+            return clause.words
+        seen = plain(clause.condition)
+        look = self.tasks.steps[self._checked[1]]
+        values = [str(p.value) for p in look.input_parameters.values() if p.has_data]
+        if not seen and values:
+            asked = values[0].removeprefix("whether ")
+            seen = asked if asked != values[0] else f"{the(asked)} is there"
+        found = tokens(seen)
+        link = next((i for i, word in enumerate(found) if word.key in lexicon().be), -1) + 1
+        denied = tokens("not") if clause.otherwise and link else ()
+        return (*clause.words, *tokens("that"), *found[:link], *denied, *found[link:])
+
+    def _back_to_the_look(self) -> None:
+        """What is done otherwise begins where it looked; "it" and "there" are what it looked at."""
+        self.tasks.here = self._looked_from
+        if self._looked_from:
+            self.scene.mention(tokens(self._looked_from))
+
+    def _told_by_last(self, condition: Phrase) -> bool:
+        """Whether the step before tells it: "scan A; if there is an intruder" where it gives `intruder`."""
+        last = self.tasks.steps[-1] if self.tasks.steps else None
+        info = self.scene.catalogue.get(last.name) if last is not None and last.flow is None else None
+        said = {word for key in keys(condition) for word in (key, lemma(key))}
+        return info is not None and any(
+            kind == "boolean" and set(name_words(name)) <= said for name, kind in info.outputs.items()
+        )
+
     def _own_check(self, condition: Phrase) -> bool:
         """Tell whether something is so by an action of its own kind, where nothing else can look."""
         if self.scene.catalogue.with_role("look", "search") is not None:
             return False
+        last = self.scene.catalogue.get(self.tasks.steps[-1].name) if self.tasks.steps else None
+        looked = last is not None and bool(last.outputs) and last in self.scene.catalogue.of_own_kind
+        if (
+            looked
+            and keys(condition[:1]) in {("it",), ("they",), ("that",)}
+            and self.tasks.steps[-1].flow is None
+        ):
+            # "Measure A; if it is too warm, V".
+            return True
         link = next((i for i, word in enumerate(condition) if word.key in lexicon().be | {"has", "have"}), 0)
         if not link:
             return False
@@ -230,7 +287,8 @@ class Doing(Meaning):
         looks = {
             info.name
             for info in self.scene.catalogue.infos
-            if self.scene.catalogue.roles(info) & {"look", "search"}
+            if self.scene.catalogue.roles(info) & {"look", "search", "meet"}
+            or (info.outputs and info in self.scene.catalogue.of_own_kind)
         }
         for index in range(len(self.tasks.steps) - 1, -1, -1):
             if self.tasks.steps[index].name in looks:

@@ -158,10 +158,11 @@ class Going:
             if known or ("back" not in command.verb and command.verb != "return"):
                 self.travel(self.scene.place(tokens("home")), "go home")
                 return
-        if keys(command.place)[:1] == ("me",):
+        mover, pose = self.catalogue.mover, self.scene.situation.robot_pose
+        with_me = keys(command.place)[:1] == ("me",)
+        if with_me and (pose is None or mover is None or self._known_operator()):
             self.travel(self._recipient_place(OPERATOR), "come back to you")
             return
-        mover, pose = self.catalogue.mover, self.scene.situation.robot_pose
         if mover is None:
             raise UnableError("drive")
         values = pose_values(mover, pose) if pose is not None else None
@@ -170,6 +171,10 @@ class Going:
         self.steps.append(call(mover, values, "come back to where I am now"))
         self.will.append("come back here")
         self.here = ""
+
+    def _known_operator(self) -> bool:
+        """Whether it is remembered where the operator is; who sends the robot off is where it is now."""
+        return self.scene.remembered_place(OPERATOR) is not None or bool(self.scene.hints)
 
     def _recipient_place(self, recipient: Phrase) -> Place:
         if self._grounds(recipient):
@@ -184,11 +189,16 @@ class Going:
     def _place_or_here(self, phrase: Phrase) -> Place | None:
         """Where something is; None if it is said to be where the robot will be."""
         phrase = self.scene.referent(phrase)
-        if self.here and not self._grounds(phrase):
+        elsewhere = self.scene.whole(phrase) or self.scene.beside(phrase)  # "the floor in room 2"
+        if self.here and not self._grounds(phrase) and elsewhere is None:
             fact, _ = find_fact(phrase, self.scene.facts)
             if fact is None:
                 return None
         return self.scene.place(phrase)
+
+    def _just_arrived(self) -> bool:
+        mover = self.catalogue.mover
+        return bool(self.here and self.steps) and mover is not None and self.steps[-1].name == mover.name
 
     def _stand_at(self, place: Place | None) -> None:
         elsewhere = place is not None and place.value != self.here and not self.beside

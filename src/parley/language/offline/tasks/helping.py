@@ -27,7 +27,7 @@ from parley.language.offline.words.text import Phrase, keys, lemma, plain, singu
 from parley.language.word_lists import load_data
 from parley.messages.status import ActionInfo
 
-__all__ = ["helping"]
+__all__ = ["helping", "is_drastic"]
 
 _NAMES = load_data("names")
 _EMPTY = frozenset(_NAMES["empty"] + _NAMES["small"] + _NAMES["vague"])
@@ -71,6 +71,9 @@ def helping(words: Phrase, scene: Scene) -> Match | None:
     """
     if not 2 <= len(words) <= _MOST_WORDS:
         return None
+    if _states_told(keys(words)) > 1:
+        # "A is locked and B is closed": of which of them somebody complains is not said.
+        return None
     told = _Told(words, scene)
     found: list[tuple[float, Match]] = []
     for info in scene.catalogue.infos:
@@ -85,6 +88,25 @@ def helping(words: Phrase, scene: Scene) -> Match | None:
     if not found or (len(found) > 1 and found[0][0] - found[1][0] < _CLEAR):
         return None
     return found[0][1]
+
+
+def _states_told(flat: tuple[str, ...]) -> int:
+    """How often something is said to be open or closed."""
+    be, states = lexicon().be, {"open", "closed", "shut", "locked", "unlocked"}
+    return sum(flat[i - 1] in be and flat[i] in states for i in range(1, len(flat)))
+
+
+def is_drastic(match: Match) -> bool:
+    """Whether an action alarms, locks, switches off or throws away: nothing to do because of mere telling."""
+    name = name_words(match.info.name)
+    told = re.findall(r"[a-z]+", match.info.description.lower())[:6]
+    said = (*name, ".", *(() if {"on", "off"} <= set(told) else told))
+    ends = any(value is False for value in match.filled.values.values())
+    at = (i for i in range(len(said)) if _table("drastic").match(said, i) is not None)
+    return next(at, None) is not None or (ends and not set(name) & _DOORS)
+
+
+_DOORS = frozenset({"open", "close", "door", "gate", "window", "blinds", "curtains"})
 
 
 @dataclass(frozen=True, slots=True)
@@ -142,8 +164,15 @@ class _Told:
         choice = {key for text, _ in chosen(info, self.words).values() for key in text.lower().split()}
         if self.wanted & nouns or {singular(one) for one in choice} & self.wanted:
             score += 2.0
-        score += self._left_undone(info, name)
+        score += self._left_undone(info, name) + 2.0 * self._starts_what_helps(name)
         return score + 0.5 * len(nouns & {singular(word) for word in self.flat})
+
+    def _starts_what_helps(self, name: set[str]) -> bool:
+        """For "it is too dark, the lamp is off": what helps is off, and this switches things on."""
+        things = {singular(word) for one in self.named if one.grounded for word in keys(one.words)}
+        return (
+            bool({"off", "out"} & set(self.flat)) and bool(_ON & name) and any(h & things for h in self.signs)
+        )
 
     def _left_undone(self, info: ActionInfo, name: set[str]) -> float:
         """Whether a deed was not done that should have been."""

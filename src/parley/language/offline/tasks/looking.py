@@ -17,6 +17,7 @@ from parley.language.offline.words.naming import name_words
 from parley.language.offline.words.nouns import NounPhrase, bare, noun_phrase
 from parley.language.offline.words.saying import the
 from parley.language.offline.words.text import Phrase, Word, keys, plain, singular, tokens
+from parley.language.word_lists import load_data
 from parley.messages.status import ActionInfo
 
 __all__ = ["ASKING", "Looking"]
@@ -61,6 +62,9 @@ def _of_one(member: Phrase, command: Command) -> Command:
     return replace(command, theme=member, words=(*named, Word(verb, verb), *command.words[link + 1 :]))
 
 
+_PARTS = frozenset(load_data("names")["parts"])
+
+
 @dataclass
 class Looking(Docking):
     """How to look at things and for things."""
@@ -69,11 +73,26 @@ class Looking(Docking):
         looker = self._looker(command)
         if looker is None:
             raise UnableError(f"{command.verb} things")
-        if _in_general(command) and not command.place and not noun_phrase(command.words).anchors:
+        unplaced = _in_general(command) and not command.place and not noun_phrase(command.words).anchors
+        if unplaced and (done_to := self._done_to(command)):
+            self._look_there(replace(command, place=done_to), looker)
+            return
+        if unplaced:
             # "The hall. Is anyone there?"
             if not self.here and self.scene.places:
                 self._stand_at(self.scene.place(self.scene.places[-1]))
             request = self._whether(command)
+            self._add_look(looker, request, f"check {request}")
+            return
+        pointed = keys(command.words[-1:]) in {("there",), ("here",)} and not command.place
+        last = bare(command.theme)[-1:]
+        unlike = "are" in keys(command.words) and last and singular(last[0].key) == last[0].key
+        # "See if the towels are there, then A": A takes the place of the towels, and is gone to.
+        pointed = pointed and not (unlike and self._strictly(command.theme))
+        if self.here and pointed and command.kind == "whether" and bare(command.theme):
+            # "Go to A and see if B is there", wherever B is on the map.
+            request = self._whether(command)
+            self.scene.mention(bare(self.scene.referent(command.theme)))
             self._add_look(looker, request, f"check {request}")
             return
         at_hand = self.here and command.kind == "whether"
@@ -85,26 +104,10 @@ class Looking(Docking):
         if command.place:
             self._look_there(command, looker)
             return
-        if (
-            command.theme
-            and set(keys(command.theme)) & FORWARD
-            and not self._grounds(command.theme[:1])
-            and len(command.theme) < 3
-        ):
+        if self._turns_camera(command.theme):
             raise UnableError("turn my camera")
-        looked = any(step.name == looker.name for step in self.steps[-2:]) and command.verb != "look around"
-        if not command.theme and command.kind == "look" and looked:
-            # "Something fell off the shelf, please have a look": that is planned already.
-            return
-        if not command.theme and not self.here and self.scene.places:
-            self._stand_at(self.scene.place(self.scene.places[-1]))
-            place = self.scene.places[-1]
-            self._add_look(looker, plain(place), f"look at {the(plain(place))}")
-            return
         if not command.theme:
-            request = "whether " + plain(command.words) if command.kind == "whether" else "what can be seen"
-            here = self.here if command.kind == "look" and command.verb in _PLAIN_LOOKS else ""
-            self._add_look(looker, here or request, f"look at {the(here)}" if here else "look around")
+            self._look_anywhere(command, looker)
             return
         inner = self._inside(command)
         if inner is not None:
@@ -114,16 +117,43 @@ class Looking(Docking):
         for member in members:
             self._look_at(member, _of_one(member, command) if len(members) > 1 else command, looker)
 
+    def _look_anywhere(self, command: Command, looker: ActionInfo) -> None:
+        """Look where nothing says at what: here, or at the place that was spoken of."""
+        looked = any(step.name == looker.name for step in self.steps[-2:]) and command.verb != "look around"
+        if command.kind == "look" and looked:
+            # "Something fell off the shelf, please have a look": that is planned already.
+            return
+        if not self.here and self.scene.places:
+            self._stand_at(self.scene.place(self.scene.places[-1]))
+            place = self.scene.places[-1]
+            self._add_look(looker, plain(place), f"look at {the(plain(place))}")
+            return
+        request = "whether " + plain(command.words) if command.kind == "whether" else "what can be seen"
+        here = self.here if command.kind == "look" and command.verb in _PLAIN_LOOKS else ""
+        self._add_look(looker, here or request, f"look at {the(here)}" if here else "look around")
+
+    def _done_to(self, command: Command) -> Phrase:
+        """For "whether anything is blocking A": A, if it is on the map; empty otherwise."""
+        words = command.words
+        before = (i for i in range(2, len(words)) if words[i - 1].key.endswith(("ing", "s", "ed")))
+        starts = (i for i in before if words[i - 1].key not in lexicon().be)
+        named = (bare(words[i:]) for i in starts)
+        return next((one for one in named if one and self._strictly(one)), ())
+
+    def _strictly(self, words: Phrase) -> bool:
+        return ground_phrase(words, self.scene.objects, strict=True).outcome == "match"
+
+    def _turns_camera(self, theme: Phrase) -> bool:
+        """Whether only a direction is to be looked in ("look up")."""
+        forward = bool(theme) and len(theme) < 3 and bool(set(keys(theme)) & FORWARD)
+        return forward and not self._grounds(theme[:1])
+
     def _only_described(self, theme: Phrase) -> bool:
         """Whether what is looked for only describes something else on the map ("diesel", "diesel tank")."""
         last = keys(bare(theme))[-1:]
-        items = self.scene.ground(theme).candidates
-        found = self._grounds(theme) and bool(last) and bool(items)
-        if not found or last[0].isdigit() or len(last[0]) == 1:
+        if len(bare(theme)) != 1 or not self._grounds(theme) or last[0].isdigit() or len(last[0]) == 1:
             return False
-        heads = {singular(word.lower()) for i in items for word in (i.description.split()[-1], i.class_name)}
-        words = {singular(word.lower()) for i in items for word in i.description.split()}
-        return singular(last[0]) in words - heads and len(bare(theme)) == 1
+        return ground_phrase(theme, self.scene.objects, strict=True).outcome == "none"
 
     def _looker(self, command: Command) -> ActionInfo | None:
         """The action to look with: one that is called like the verb, for pictures one that takes them."""
@@ -137,12 +167,14 @@ class Looking(Docking):
         return next(named, None) or next(iter([*others, *taking]), None) or self.catalogue.with_role("search")
 
     def _inside(self, command: Command) -> Command | None:
-        """For "count the cups on the table": at the table, look for the cups."""
+        """For "count the cups on the table": at the table, look for the cups; "the A door": at A."""
+        whole = self._part_of(bare(command.theme))
+        if whole:
+            return replace(command, place=whole)
         if command.kind == "whether":
             subject = keys(bare(command.theme))
-            if (self._grounds(command.theme) and not _in_general(command)) or (
-                subject and subject[0] in ASKING
-            ):
+            known = self._grounds(command.theme) and not _in_general(command)
+            if (known and not self._may_have_gone(command)) or (subject and subject[0] in ASKING):
                 return None
             noun = noun_phrase(command.words)
         else:
@@ -162,6 +194,22 @@ class Looking(Docking):
             return None
         theme = bare(command.theme[: _start_of(keys(command.theme), noun.relation)])
         return replace(command, theme=theme, place=noun.anchors[0])
+
+    def _may_have_gone(self, command: Command) -> bool:
+        """For "whether the van is still in the yard": the yard is looked at, for that is what is asked."""
+        noun = noun_phrase(command.words)
+        if noun.relation not in {"in", "inside", "at"} or len(noun.anchors) != 1:
+            return False
+        there = ground_phrase(noun.anchors[0], self.scene.objects, strict=True)
+        return there.outcome == "match" and "still" in keys(command.words)
+
+    def _part_of(self, theme: Phrase) -> Phrase:
+        """What a part of something belongs to that is on the map only as a whole ("the A door")."""
+        if len(theme) < 2 or singular(theme[-1].key) not in _PARTS or self._grounds(theme):
+            return ()
+        last = theme[-2]
+        whole = (*theme[:-2], Word(last.key.removesuffix("'s"), last.raw.removesuffix("'s")))
+        return whole if self.scene.ground(whole).outcome == "match" else ()
 
     def _elsewhere(self, noun: NounPhrase) -> bool:
         """Whether all things on the map that are called so are far from where these are said to be."""
@@ -198,7 +246,7 @@ class Looking(Docking):
             return
         there = keys(command.words[:1]) == ("there",) and self._grounds(command.place)
         whole = command.kind == "whether" and self._grounds(command.theme) and not _in_general(command)
-        whole = whole and not there
+        whole = whole and not there and not self._said_to_be(command)
         stand = self._place_or_here(command.theme if whole else command.place)
         theme = plain(self.scene.referent(command.theme)) if command.theme else ""
         request = self._whether(command) if command.kind == "whether" else theme
@@ -209,6 +257,14 @@ class Looking(Docking):
         else:
             self._add_look(looker, request or command.verb, f"look for {self._named(theme)}")
 
+    def _said_to_be(self, command: Command) -> bool:
+        """For "whether A is on B": it is at B that this can be seen, for A may be anywhere."""
+        flat = keys(command.words)
+        link = next((i for i in range(1, len(flat)) if flat[i] in lexicon().be), len(flat))
+        start = link + 1 + (flat[link + 1 : link + 2] in {("still",), ("already",), ("really",)})
+        found = lexicon().places.match(flat, start) if start < len(flat) else None
+        return found is not None and keys(bare(command.words[start + found[0] :])) == keys(command.place)
+
     def _named(self, theme: str) -> str:
         """With its article, but "cracks" and "all the cups" as they are."""
         words = theme.split()
@@ -218,7 +274,9 @@ class Looking(Docking):
     def _look_at(self, member: Phrase, command: Command, looker: ActionInfo) -> None:
         if command.kind == "whether":
             request = self._whether(command)
-            self._stand_at(self._place_or_here(member))
+            if keys(command.words)[-1:] != ("there",) or not self._stands_here(member):
+                # "Whether A is in its place there" is seen from where it ought to be.
+                self._stand_at(self._place_or_here(member))
             self.scene.mention(bare(self.scene.referent(member)))
             self._add_look(looker, request, f"check {request}")
             return
@@ -236,6 +294,17 @@ class Looking(Docking):
             return
         self._stand_at(place)
         self._add_look(looker, request, f"look at {the(request)}")
+
+    def _stands_here(self, member: Phrase) -> bool:
+        """Whether something is on the map where the robot is by then."""
+        here = ground_phrase(tokens(self.here), self.scene.objects, strict=True) if self.here else None
+        if here is None or here.outcome != "match":
+            return False
+        place, items = here.candidates[0], self.scene.ground(member).candidates
+        reach_m = _REACH_M + math.hypot(place.width_m, place.height_m) / 2
+        return bool(items) and all(
+            math.hypot(item.x_m - place.x_m, item.y_m - place.y_m) <= reach_m for item in items
+        )
 
     def _whether(self, command: Command) -> str:
         words, asking = command.words, "how" if command.verb.endswith("how") else "whether"
@@ -266,7 +335,9 @@ class Looking(Docking):
 
     def _search(self, command: Command) -> None:
         command = self._where_last_said(self._searched_for(command))
-        theme = self._wanted(command.theme)
+        # "Check that A is in its place. If not, look for it at B": "it" may be what it stands at.
+        elsewhere = command.place and not self.seen
+        theme = self._wanted(command.theme, plain(bare(command.place)) if elsewhere else self.here)
         searcher = self._searcher(theme)
         if searcher is None:
             raise UnableError("look for things")
@@ -278,7 +349,9 @@ class Looking(Docking):
                 return
         else:
             own = "search" in self.catalogue.roles(searcher)
-            here = self.here and (keys(command.clause)[-1:] == ("there",) or self._at_large(theme))
+            sent = self._just_arrived() and command.verb.startswith("look") and not self._grounds(theme)
+            said = keys(command.clause)[-1:] == ("there",) or self._at_large(theme)
+            here = self.here and (said or sent)
             known = None if here else self._known_place(theme)
             if known is not None:
                 self._stand_at(known)
@@ -334,13 +407,13 @@ class Looking(Docking):
         core = noun_phrase(theme).core
         return self.scene.is_person(theme) or (bool(core) and core[-1] in lexicon().person_words)
 
-    def _wanted(self, theme: Phrase) -> Phrase:
+    def _wanted(self, theme: Phrase, where: str) -> Phrase:
         if not theme:
             raise UnclearError("What should I look for?")
         meant = bare(self.scene.referent(theme))
-        if keys(bare(theme)) == ("it",) and self.here and plain(meant).lower() == self.here.lower():
+        if keys(bare(theme)) == ("it",) and where and plain(meant).lower() == where.lower():
             # "Go to the desk and look for it": not for the desk.
-            others = [t for t in self.scene.things if plain(bare(t)).lower() != self.here.lower()]
+            others = [t for t in self.scene.things if plain(bare(t)).lower() != where.lower()]
             meant = bare(others[-1]) if others else meant
         return meant
 

@@ -4,12 +4,13 @@ from __future__ import annotations
 
 import re
 from collections.abc import Sequence
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from functools import lru_cache
 
 from parley.language.offline.scene.scene import Scene
 from parley.language.offline.tasks.choices import says_choice, states_verb
-from parley.language.offline.tasks.parts import map_spans
+from parley.language.offline.tasks.parts import map_spans, unquoted
+from parley.language.offline.tasks.recalled import recall_inputs
 from parley.language.offline.tasks.roles import number_inputs, parameter_role, text_inputs
 from parley.language.offline.tasks.slots import Filled, fill_slots
 from parley.language.offline.words.concepts import LIGHT_VERBS, Concept, concepts, likeness, opposed
@@ -84,6 +85,13 @@ def _signature(name: str, inputs: tuple[str, ...], description: str) -> _Signatu
         verb = parts[0]
     if verb is not None and verb.text in lexicon().be | lexicon().auxiliaries | {"be", "have"}:
         verb = None
+    # The "reading" of a "reading light" is no deed.
+    parts = [
+        p
+        if p is verb or len(p.at) != 1 or not words[p.at[0]].endswith("ing")
+        else replace(p, lines=frozenset())
+        for p in parts
+    ]
     people = any(parameter_role(one) == "person" for one in inputs)
     alike = frozenset(line for one in typed for concept in concepts((one,)) for line in concept.lines)
     about = tuple(
@@ -139,8 +147,7 @@ def best_match(infos: Sequence[ActionInfo], words: Phrase, scene: Scene) -> Matc
         words: The clause, its verb first where it has one.
         scene: What is known.
     """
-    flat = keys(words)
-    said = concepts(flat)
+    said = concepts(keys(unquoted(words)))
     found = [match for info in infos if (match := _match(info, words, said, scene)) is not None]
     if not found:
         return None
@@ -157,6 +164,7 @@ _PEOPLE = lexicon().person_words | {"human", "people", "staff", "crew", "team"}
 _MARGIN = 0.15
 _LEAST = 0.7
 _HALF = 0.4
+_TWO = 2
 
 
 def _match(info: ActionInfo, words: Phrase, said: Sequence[Concept], scene: Scene) -> Match | None:
@@ -174,6 +182,7 @@ def _match(info: ActionInfo, words: Phrase, said: Sequence[Concept], scene: Scen
     opening = _opening(words, said, explained)
     retold = _retold(signature, said, explained, words, scene) if found.shared else set()
     filled = fill_slots(info, words, {*explained, *opening, *retold}, scene)
+    recall_inputs(info, filled, words, scene)
     evidence = _Evidence(found, filled, bool(opening))
     strong = evidence.strong
     if not (strong or evidence.weak):
@@ -246,6 +255,10 @@ class _Evidence:
         self.about = bool(scores)
         self.unexplained = _unexplained(filled, signature)
         self.light = not opened or found.first in LIGHT_VERBS
+        if signature.verb is None and not found.info.inputs:
+            # "Sound the horn" for an action called "horn".
+            starting = concepts(("turn", "on"))[0]
+            self.light = self.light or any(likeness(starting, c) > 0 for c in found.said if c.at[0] == 0)
         self.name_light = signature.verb is None or signature.verb.text in LIGHT_VERBS
         if found.first in _QUESTIONS and found.info.outputs:
             self.light = self.name_light = True
@@ -256,15 +269,17 @@ class _Evidence:
     @property
     def strong(self) -> bool:
         """Whether the name says what is asked for, and nothing else is named."""
+        found = self.found
         elsewhere = bool(self.filled.missing) and any(part.grounded for part in self.filled.left)
-        if self.unexplained or elsewhere:
+        if self.unexplained or elsewhere or (len(self.filled.missing) > 1 and not (self.some or found.verb)):
             return False
         return (self.whole and (self._by_name() or self._by_inputs())) or self._nearly()
 
     def _nearly(self) -> bool:
         """Whether half of what its name is about is said, and everything else that it needs, and no more."""
         found, filled = self.found, self.filled
-        if self.covered < _HALF or filled.missing or filled.numbers_left or filled.left:
+        all_else = found.verb == 1.0 and len(filled.values) > _TWO
+        if filled.missing or filled.numbers_left or filled.left or (self.covered < _HALF and not all_else):
             return False
         texts = text_inputs(found.info)
         return found.verb >= _LEAST and filled.exact and (self.of_kind or len(filled.phrases) == len(texts))
@@ -309,6 +324,8 @@ class _Evidence:
             and (self.name_light or verb > 0 or self.found.first in _DOING or several)
         )
         if self.whole and (named or (verb > 0 and filled.phrases and self.of_kind)):
+            return True
+        if filled.chosen and self.of_kind and self.light and not filled.missing:
             return True
         return bool(self.light and filled.measured and several and (self.of_kind or verb > 0))
 

@@ -6,8 +6,9 @@ from dataclasses import dataclass, replace
 
 from parley.language.offline.dialogue.answering import Answering
 from parley.language.offline.facts.facts import read_statement, strip_openers
+from parley.language.offline.scene.marks import marks_of
 from parley.language.offline.sentences.clauses import Clause, opens_command
-from parley.language.offline.sentences.wishes import due, missing, need, wish
+from parley.language.offline.sentences.wishes import due, need, wish
 from parley.language.offline.tasks.commands import Command, read_command
 from parley.language.offline.words.lexicon import lexicon
 from parley.language.offline.words.nouns import bare
@@ -110,6 +111,15 @@ def _what_others_want(words: Phrase) -> Phrase:
     return words
 
 
+def _is_so_already(flat: tuple[str, ...]) -> bool:
+    """For "the gate is open": that is told, and nobody is to open it; "is to be opened" asks for it."""
+    link = next((i for i, word in enumerate(flat) if word in lexicon().be and i), 0)
+    return bool(link) and flat[link + 1 : link + 2] not in _DUE and "please" not in flat
+
+
+_DUE = frozenset({("to",), ("due",), ("supposed",), ("meant",), ("wanted",), ("needed",)})
+
+
 @dataclass
 class Meaning(Answering):
     """How a clause becomes a command."""
@@ -145,7 +155,6 @@ class Meaning(Answering):
                 or due(words, self.scene)
                 or wish(words, self.scene)
                 or need(words, self.scene)
-                or missing(words, self.scene)
                 or self._going(words)
                 or self._described(words)
                 or self._elliptical(words)
@@ -167,9 +176,13 @@ class Meaning(Answering):
         told = words == said and read_statement(words) is not None
         if match is None or (told and not (match.complete and not match.filled.left)):
             return None
+        if told and _is_so_already(keys(words)):
+            return None
         if not match.verb_first and {"not", "until"} & set(keys(words)):
             return None
-        return Command("catalogue", words[0].key, theme=bare(words[1:]), words=words[1:], clause=words)
+        # "Both rows need water".
+        rest = words if marks_of(words[0]) else words[1:]
+        return Command("catalogue", words[0].key, theme=bare(rest), words=rest, clause=words)
 
     def _described(self, words: Phrase) -> Command | None:
         """For a verb that only a phrase, an example or a description of the catalogue knows."""
@@ -178,7 +191,7 @@ class Meaning(Answering):
         if not flat or flat[0] in small | {"it", "he", "she", "they", "we", "i"}:
             return None
         catalogue = self.scene.catalogue
-        known = catalogue.by_phrase(flat) or catalogue.by_description(flat)
+        known = catalogue.by_phrase(flat)
         if known is None and self.tasks.own_match(words, weak=True) is None:
             return None
         words = strip_openers(words, requests=True)
@@ -226,7 +239,7 @@ class Meaning(Answering):
     def _happens(self, words: Phrase) -> bool:
         """Whether somebody did something ("the cook made soup"), as against a name with such a word in it."""
         first = words[0].key
-        if first in _NO_NAMES:
+        if first in _NO_NAMES or {"will", "would", "might", "must"} & set(keys(words[1:])):
             return True
         told = any(lemma(word.key) != word.key and not word.key.endswith(("s", "ing")) for word in words[1:])
         return told and len(words) > 2 and self.scene.ground(words).outcome == "none"

@@ -76,6 +76,8 @@ class Meeting(Tasks):
         match kind:
             case "search" | "meet":
                 return self._found(rest)
+            case "motion" if verb.split()[0] in {"go", "come", "drive", "walk", "head", "move"}:
+                return self._visited(rest)
             case "speak" | "ask":
                 return self._told(verb, rest)
             case "answer":
@@ -151,6 +153,18 @@ class Meeting(Tasks):
         if somebody is None or not self._is_worth_it(somebody) or somebody.size < len(rest):
             return False
         self._go_and_find(somebody)
+        return True
+
+    def _visited(self, rest: Phrase) -> bool:
+        """For "go to A at B", where B tells where A is."""
+        rest = rest[1:] if keys(rest[:1]) == ("to",) else rest
+        somebody = read_somebody(rest, self.scene)
+        if somebody is None or not somebody.where or somebody.size < len(rest):
+            return False
+        if not self.scene.is_person(somebody.who):
+            return False
+        self._stand_at(self.scene.place(somebody.where))
+        self.scene.persons.append(somebody.who)
         return True
 
     def _told(self, verb: str, rest: Phrase) -> bool:

@@ -6,17 +6,19 @@ from collections.abc import Sequence
 from dataclasses import dataclass
 from typing import Any
 
-from parley.language.offline.scene.grounding import describe, ground_phrase
 from parley.language.offline.scene.scene import OPERATOR, UnclearError
 from parley.language.offline.tasks.carrying import Carrying
 from parley.language.offline.tasks.catalogue import call, text_inputs
+from parley.language.offline.tasks.choices import says_choice, told_state
+from parley.language.offline.tasks.fill import named
 from parley.language.offline.tasks.looking import ASKING
 from parley.language.offline.tasks.matching import Match, best_match
 from parley.language.offline.tasks.roles import number_inputs, parameter_role
+from parley.language.offline.tasks.slots import COLOURS
 from parley.language.offline.words.lexicon import lexicon
 from parley.language.offline.words.naming import name_words
 from parley.language.offline.words.nouns import bare, noun_phrase
-from parley.language.offline.words.text import Phrase, keys, plain
+from parley.language.offline.words.text import Phrase, keys, plain, tokens
 from parley.messages.chat import ActionCall
 from parley.messages.status import ActionInfo
 
@@ -44,14 +46,26 @@ class OwnKind(Carrying):
             among: The only actions that may be meant, if given.
             incomplete: Whether what is missing may be asked for even so.
         """
-        spoken = tuple(word for word in words if word.is_word)
-        infos = among or self.catalogue.of_own_kind
+        spoken = tuple(word for word in words if word.is_word or word.key == '"')
+        infos = among or (*self.catalogue.of_own_kind, *self._with_extras(spoken))
         match = best_match(infos, spoken, self.scene) if spoken and infos else None
         return (
             match
             if match is not None and (match.strong or (weak and (incomplete or match.complete)))
             else None
         )
+
+    def _with_extras(self, words: Phrase) -> list[ActionInfo]:
+        """Actions of a common kind of which more is said than such tasks say: one of a few values."""
+        return [
+            info
+            for info in self.catalogue.infos
+            if info.optional
+            and "speak" in self.catalogue.roles(info)
+            and "text" not in {parameter_role(name) for name in text_inputs(info)}
+            and info not in self.catalogue.of_own_kind
+            and says_choice(info, words)
+        ]
 
     def ends_own(self, words: Phrase) -> bool:
         """Whether "stop recording" ends what another action of this robot begins, and is no stop of all."""
@@ -76,6 +90,12 @@ class OwnKind(Carrying):
             UnableError: What it needs cannot be had.
         """
         info, filled = match.info, match.filled
+        for fact in filled.recalled:
+            self.scene.use(fact)
+        for name in set(info.inputs) - set(filled.values):
+            if (state := told_state(info, name, tokens(self.scene.situation.message))) is not None:
+                # "Ring for help, it is urgent".
+                filled.values[name] = state
         place = next((p for p in filled.left if p.grounded and (p.before in _AT or not info.inputs)), None)
         if place is not None and self.catalogue.mover is not None:
             self._stand_at(self.scene.place(place.words))
@@ -86,7 +106,7 @@ class OwnKind(Carrying):
             }
             if member:
                 name, phrase = next(iter(member))
-                values[name] = plain(phrase)
+                values[name] = named(phrase, self.scene)
             self._use_once(info, values, filled.phrases, list(filled.missing), words)
         self.will.append(_said(words))
         for phrase in filled.phrases.values():
@@ -107,21 +127,20 @@ class OwnKind(Carrying):
     def _value(self, info: ActionInfo, name: str, value: Any, phrases: dict[str, Phrase]) -> Any:
         if name not in phrases or parameter_role(name) == "text" or not isinstance(value, str):
             return value
-        return self._called(phrases[name])
+        coloured = {"color", "colour"} & set(name_words(name))
+        return self._called(phrases[name], strict=bool(coloured) or not COLOURS & set(keys(phrases[name])))
 
-    def _called(self, phrase: Phrase) -> str:
-        """The words for something: an object of the map by its description, pronouns resolved."""
+    def _called(self, phrase: Phrase, *, strict: bool = True) -> str:
+        """The words for something: an object of the map by its description, pronouns resolved.
+
+        Args:
+            phrase: What is said.
+            strict: Whether a single word has to be a name ("red" may be the red one otherwise).
+        """
         words = bare(self.scene.referent(phrase))
         if keys(words) in {("me",), ("us",), ("operator",)}:
             return plain(OPERATOR)
-        found = ground_phrase(
-            words, self.scene.objects, self.scene.situation.robot_pose, strict=len(words) < 2
-        )
-        if found.outcome == "match":
-            return describe(found.candidates[0], self.scene.objects)
-        if found.outcome == "ambiguous":
-            return describe(self.scene.pick(words, found.candidates), self.scene.objects)
-        return plain(words)
+        return named(words, self.scene, strict=strict and len(words) < 2)
 
     def _use_once(
         self,

@@ -13,7 +13,7 @@ from parley.language.offline.words.nouns import bare
 from parley.language.offline.words.text import Phrase, keys, singular
 from parley.world.object_map import MapObject
 
-__all__ = ["Part", "map_spans", "parts_of"]
+__all__ = ["Part", "map_spans", "parts_of", "trimmed", "unquoted"]
 
 _CUTS = frozenset(
     {
@@ -96,6 +96,8 @@ class Part:
     """Where it stands among the words of the clause."""
     kinds: frozenset[str] = frozenset()
     """Of which kinds the things are that it names."""
+    role: str = ""
+    """What it is to the deed, where that is known: place, person, object or text."""
 
 
 def map_spans(words: Phrase, scene: Scene) -> list[tuple[int, int, MapObject | None]]:
@@ -168,7 +170,7 @@ def parts_of(
 
     def close(following: str = "") -> None:
         nonlocal before, current
-        phrase = _trimmed(tuple(words[i] for i in current))
+        phrase = trimmed(tuple(words[i] for i in current))
         if phrase:
             touched = [starts[i] for i in current if i in starts]
             one = touched[0][1] if len(touched) == 1 else None
@@ -177,8 +179,16 @@ def parts_of(
             parts.append(Part(before, phrase, one, bool(touched), current[0], current[-1] + 1, kinds))
         before, current = following, []
 
+    quoted, behind = _quoted(words), 0
     for index, word in enumerate(words):
-        if not word.is_word and word.key != '"':
+        if index < behind:
+            continue
+        if index in quoted and quoted[index] > index + 1:
+            # What stands in quotation marks is one thing, whatever it says.
+            close()
+            behind = quoted[index] + 1
+            parts.append(Part("", words[index + 1 : behind - 1], start=index, end=behind, role="text"))
+        elif not word.is_word:
             close()
         elif index in gone:
             if current and index not in inside:
@@ -188,6 +198,7 @@ def parts_of(
         else:
             if current and (
                 _new_phrase(words, index, inside)
+                or (word.key in {"a", "an"} and scene.is_person(trimmed(tuple(words[i] for i in current))))
                 or (
                     index in ends
                     and not {word.key, words[index - 1].key} & _JOINING
@@ -198,6 +209,19 @@ def parts_of(
             current.append(index)
     close()
     return _placed(parts, words, scene)
+
+
+def _quoted(words: Phrase) -> dict[int, int]:
+    """Where quotation marks begin and end something; the end of a clause ends it, too."""
+    marks = [index for index, word in enumerate(words) if word.key == '"']
+    return dict(zip(marks[::2], (*marks[1::2], len(words)), strict=False))
+
+
+def unquoted(words: Phrase) -> Phrase:
+    """With marks in the place of what stands in quotation marks."""
+    for start, end in _quoted(words).items():
+        words = (*words[:start], *(words[start],) * (end - start), *words[end:])
+    return words
 
 
 _JOINING = frozenset({"and", "or", "of", ","})
@@ -245,7 +269,8 @@ def _new_phrase(words: Phrase, index: int, inside: set[int]) -> bool:
 _DANGLING = frozenset({"of", "with", "for", "to", "in", "at"})
 
 
-def _trimmed(phrase: Phrase) -> Phrase:
+def trimmed(phrase: Phrase) -> Phrase:
+    """A phrase without small words at both ends."""
     while phrase and (phrase[-1].key in _EMPTY | _DANGLING | lexicon().determiners or not phrase[-1].is_word):
         if len(phrase) > 1 and len(phrase[-1].key) == 1 and phrase[-1].is_capital:
             # "Area A".

@@ -63,6 +63,12 @@ _PARAMETER_ROLES = {
         "query",
         "prompt",
         "topic",
+        "reason",
+        "issue",
+        "problem",
+        "complaint",
+        "details",
+        "comment",
     ],
     "object": ["object", "obj", "item", "thing", "things", "theme", "target", "inspect", "product", "entity"],
 }
@@ -126,10 +132,15 @@ def roles_of(info: ActionInfo) -> frozenset[str]:
     numeric = [kind for kind in info.outputs.values() if kind in {"number", "numbers"}]
     if text_inputs(info) and len(numeric) >= 2:
         return frozenset({"locate"})
-    if (words[0] == "ask" and (text_inputs(info) or not words[1:] or set(words) & _ASKED)) or (
-        text_inputs(info) == ["question"] and not _ANSWERING & set(words)
+    others = [word for word in words[1:] if singular(word) in lexicon().person_words and word not in _ASKED]
+    asks = bool(text_inputs(info)) or not words[1:] or bool(set(words) & _ASKED)
+    if (words[0] == "ask" and asks and not others) or (
+        text_inputs(info) == ["question"] and not (_ANSWERING & set(words) or others)
     ):
         return frozenset({"ask_operator"})
+    if words[0] == "ask" and others:
+        # "ask_visitor" asks nobody else.
+        return frozenset()
     if " ".join(words[:2]) in _OWN_PHRASES:
         return frozenset()
     by_name = _by_name(info, words)
@@ -172,9 +183,7 @@ def _fitting(info: ActionInfo, words: tuple[str, ...], roles: frozenset[str]) ->
     if role == "handover" and len(text_inputs(info)) > 1 and "person" not in inputs:
         role = "fetch"
     typed = {word for name in info.inputs for word in name_words(name.replace("::", "_"))}
-    if role == "speak" and info.outputs and not inputs & {"text", "person"}:
-        return frozenset()
-    if role == "speak" and words[0] in _FROM_AFAR and "person" in inputs and len(text_inputs(info)) > 1:
+    if role == "speak" and not _speaks_there(info, words, inputs):
         return frozenset()
     generic = _GENERIC.get(role)
     if generic is None:
@@ -183,15 +192,31 @@ def _fitting(info: ActionInfo, words: tuple[str, ...], roles: frozenset[str]) ->
     known = generic | typed | telling
     if any(not {word, singular(word)} & known for word in words):
         other = role_by_any_word(info.name, inputs)
+        if role in _HANDED and other & _HANDED and not inputs & {"object", ""}:
+            # "deliver_mail (recipient)": of all that can be handed over it takes one kind of thing.
+            return frozenset()
         return other if other != roles else frozenset()
     if role == "place" and words[0] in _SETTING and not set(words) & _DOWN and "object" not in inputs:
         return frozenset()
     return frozenset({role})
 
 
+def _speaks_there(info: ActionInfo, words: tuple[str, ...], inputs: set[str]) -> bool:
+    """Whether an action says something to those who are there, and does not tell, notify or measure."""
+    if info.outputs and not inputs & {"text", "person"}:
+        return False
+    if words[0] not in _FROM_AFAR:
+        return True
+    named = {singular(word) for word in words[1:]} & (lexicon().person_words | _CREWS)
+    if "person" in inputs:
+        return len(text_inputs(info)) == 1
+    return not named
+
+
 _SOURCES = frozenset(
     {"source", "from", "origin", "place", "location", "surface", "arm", "gripper", "hand", "side"}
 )
+_CREWS = frozenset(load_data("names")["crews"])
 _FROM_AFAR = frozenset(
     {"notify", "alert", "warn", "page", "message", "inform", "remind", "text", "email", "send"}
 )
@@ -203,7 +228,12 @@ _DOWN = frozenset({"down", "on", "onto", "in", "at", "object", "item"})
 def _by_name(info: ActionInfo, words: tuple[str, ...]) -> frozenset[str] | None:
     """What an action is good for by its name; None if that tells nothing."""
     roles = _by_words(words) - (frozenset() if text_inputs(info) else _PHYSICAL)
-    typed = {word for name in info.inputs for word in name_words(name.replace("::", "_"))}
+    typed = {
+        word
+        for name in info.inputs
+        if not name.lower().endswith("id")
+        for word in name_words(name.replace("::", "_"))
+    }
     by_any = role_by_any_word(info.name, {parameter_role(name) for name in text_inputs(info)})
     if roles == {"locate"} and text_inputs(info) and not info.outputs:
         return frozenset({"search"})
@@ -250,6 +280,7 @@ _FETCHING = frozenset(
 )
 _HELD = frozenset({"grasp", "place", "fetch"})
 """Roles that need a thing named."""
+_HANDED = _HELD | {"handover"}
 _PHYSICAL = frozenset({"place", "fetch"})
 """Roles that need something named: without an input for it, "set" or "release" mean something else."""
 

@@ -6,25 +6,28 @@ The clause is cut into parts by its prepositions; every part goes to the input t
 from __future__ import annotations
 
 import re
-from collections.abc import Iterable, Sequence
-from dataclasses import dataclass, field
+from collections.abc import Collection, Iterable, Sequence
+from dataclasses import dataclass, field, replace
 from typing import Any
 
+from parley.language.offline.facts.remembering import Remembered
 from parley.language.offline.scene.scene import Scene
 from parley.language.offline.tasks.choices import chosen, is_listed, switched
-from parley.language.offline.tasks.parts import Part, map_spans, parts_of
+from parley.language.offline.tasks.parts import Part, map_spans, parts_of, trimmed, unquoted
 from parley.language.offline.tasks.roles import number_inputs, parameter_role, pose_inputs, text_inputs
 from parley.language.offline.words.concepts import contrary
 from parley.language.offline.words.lexicon import lexicon
 from parley.language.offline.words.naming import name_words
-from parley.language.offline.words.quantities import Quantity, quantities, taken_by
-from parley.language.offline.words.text import Phrase, keys, plain, singular
+from parley.language.offline.words.quantities import Quantity, levels, quantities, taken_by
+from parley.language.offline.words.text import Phrase, keys, plain, singular, tokens
 from parley.language.word_lists import load_data
 from parley.messages.status import ActionInfo
 from parley.world.object_map import MapObject
 
 __all__ = [
+    "COLOURS",
     "Filled",
+    "fill_parts",
     "fill_slots",
     "kind_on_map",
 ]
@@ -56,6 +59,8 @@ class Filled:
     """Whether one of the values that the description lists is said."""
     fit: float = 0.0
     """How well what is said fits the inputs."""
+    recalled: list[Remembered] = field(default_factory=list)
+    """The facts that tell what is not said."""
 
 
 def fill_slots(info: ActionInfo, words: Phrase, explained: Iterable[int], scene: Scene) -> Filled:
@@ -71,24 +76,60 @@ def fill_slots(info: ActionInfo, words: Phrase, explained: Iterable[int], scene:
     words, explained = _joined(words, set(explained))
     gone = set(explained)
     spans = map_spans(words, scene)
-    gone |= _choices(info, words, filled)
-    gone |= _numbers(info, words, spans, filled)
-    gone |= _switches(info, words, filled)
+    free = unquoted(words)
+    gone |= _choices(info, free, filled)
+    gone |= _numbers(info, free, spans, filled, scene)
+    gone |= _switches(info, free, filled)
     open_names = [
         name for name in text_inputs(info) if name not in filled.values and not is_listed(name, info)
     ]
     kinds = {part for name in open_names for part in name_words(name)}
     parts = parts_of(words, gone, spans, scene, kinds)
     if not _place_in_numbers(info, parts, filled):
-        _words_for(info, words, parts, filled, scene)
+        _words_for(info, words, parts, gone, filled, scene)
     else:
-        _words_for(info, words, [part for part in parts if part.item is None], filled, scene)
-    filled.missing = [
-        name
-        for name in info.inputs
-        if name not in filled.values and name not in info.optional and "::" not in name
-    ]
+        _words_for(info, words, [part for part in parts if part.item is None], gone, filled, scene)
+    filled.missing = _missing(info, filled)
     return filled
+
+
+def fill_parts(
+    info: ActionInfo, words: Phrase, parts: Sequence[Part], scene: Scene, known: Collection[str] = ()
+) -> Filled:
+    """Find values for the inputs of an action among parts of which it is known what they are to the deed.
+
+    Args:
+        info: The action.
+        words: The clause.
+        parts: What it names.
+        scene: What is known.
+        known: Inputs that have their values already.
+    """
+    filled = Filled(values=dict.fromkeys(known))
+    gone = _choices(info, words, filled)
+    gone |= _numbers(info, words, map_spans(words, scene), filled, scene)
+    gone |= _switches(info, words, filled)
+    kept = (replace(part, words=_without(part.words, words, gone)) for part in parts)
+    _, filled.left = _assigned(info, [part for part in kept if part.words], filled, scene)
+    filled.missing = _missing(info, filled)
+    for name in known:
+        filled.values.pop(name)
+    return filled
+
+
+def _missing(info: ActionInfo, filled: Filled) -> list[str]:
+    """The inputs that are needed and have no value."""
+    needed = (name for name in info.inputs if name not in info.optional and "::" not in name)
+    return [name for name in needed if name not in filled.values]
+
+
+def _without(part: Phrase, words: Phrase, gone: Collection[int]) -> Phrase:
+    """A part of a clause without those of its words that are explained."""
+    size = len(part)
+    at = next((i for i in range(len(words) - size + 1) if words[i : i + size] == part), -1)
+    if at < 0 or not any(at <= index < at + size for index in gone):
+        return part
+    return trimmed(tuple(word for i, word in enumerate(part) if at + i not in gone))
 
 
 def _joined(words: Phrase, explained: set[int]) -> tuple[Phrase, set[int]]:
@@ -112,7 +153,11 @@ def _choices(info: ActionInfo, words: Phrase, filled: Filled) -> set[int]:
 
 
 def _numbers(
-    info: ActionInfo, words: Phrase, spans: Sequence[tuple[int, int, MapObject | None]], filled: Filled
+    info: ActionInfo,
+    words: Phrase,
+    spans: Sequence[tuple[int, int, MapObject | None]],
+    filled: Filled,
+    scene: Scene,
 ) -> set[int]:
     """Numbers for the inputs that take them; one in the name of a thing only if an input is named so."""
     names = number_inputs(info)
@@ -124,6 +169,11 @@ def _numbers(
         for q in (*quantities(words), *_ordinals(words))
         if not _in_name(q, spans) or any(q.before in t.words for t in takes.values())
     ]
+    if any("ratio" in t.dimensions for t in takes.values()) and not any(
+        "ratio" in q.dimensions for q in said
+    ):
+        taken = {index for q in said for index in range(q.start, q.end)}
+        said += [q for q in levels(words) if not taken & set(range(q.start, q.end))]
     axes = {axis: name for name, axis in pose_inputs(info).items()}
     used: set[int] = set()
     if axes and len(said) >= 2 and not any(q.units and q.dimensions - {"length"} for q in said[:2]):
@@ -135,7 +185,7 @@ def _numbers(
                 used |= set(range(quantity.start - (quantity.before in axes), quantity.end))
         filled.fit += 2
         return used
-    left = [q for q in said if not _labels_text(q, info)]
+    left = [q for q in said if not _labels_text(q, info) and not _labels_thing(q, info, scene, said)]
     told = re.findall(r"[a-z]+", info.description.lower())
     for wanted in (3, 2, 1):
         for name in names:
@@ -165,6 +215,22 @@ def _labels_text(quantity: Quantity, info: ActionInfo) -> bool:
     named = {word for name in text_inputs(info) for word in name_words(name)}
     numbered = {word for name in number_inputs(info) for word in name_words(name)}
     return singular(quantity.before) in named - numbered
+
+
+def _labels_thing(quantity: Quantity, info: ActionInfo, scene: Scene, said: Sequence[Quantity]) -> bool:
+    """Whether a number is short for a thing of the map ("set A in 201 to 19"): one more than inputs take."""
+    if quantity.units or quantity.before not in _OF_PLACE - {"to"} or len(said) <= len(number_inputs(info)):
+        return False
+    return any(_called_by_label(f"{quantity.value:g}", name, scene) for name in text_inputs(info))
+
+
+def _called_by_label(label: str, name: str, scene: Scene) -> MapObject | None:
+    """The thing of the kind that an input is called by that has a number or letter."""
+    for kind in name_words(name):
+        found = scene.ground(tokens(f"{kind} {label}"))
+        if found.outcome == "match" and kind_on_map(name, scene.objects):
+            return found.candidates[0]
+    return None
 
 
 def _ordinals(words: Phrase) -> list[Quantity]:
@@ -208,10 +274,27 @@ def _place_in_numbers(info: ActionInfo, parts: Sequence[Part], filled: Filled) -
     return True
 
 
-def _words_for(info: ActionInfo, words: Phrase, parts: Sequence[Part], filled: Filled, scene: Scene) -> None:
+def _words_for(
+    info: ActionInfo, words: Phrase, parts: Sequence[Part], gone: set[int], filled: Filled, scene: Scene
+) -> None:
     """The parts of a clause for the inputs that take words, best fits first."""
+    taken, left = _assigned(info, parts, filled, scene)
+    filled.left = _with_all_said(words, taken, left, gone, filled)
+    for name, part in taken.items():
+        where = next((other for other in left if other.grounded and other.before in _OF_PLACE), None)
+        general = set(keys(part.words)) <= {*name_words(name), *lexicon().person_words}
+        if where is not None and general and part.end < where.start <= part.end + 2:
+            # "The person at desk 7": only the place tells which one.
+            said = words[part.end - len(part.words) : where.end]
+            filled.values[name], filled.phrases[name] = plain(said), said
+
+
+def _assigned(
+    info: ActionInfo, parts: Sequence[Part], filled: Filled, scene: Scene
+) -> tuple[dict[str, Part], list[Part]]:
+    """Give parts to the inputs that take words, best fits first; those taken and those left."""
     names = [name for name in text_inputs(info) if name not in filled.values and not is_listed(name, info)]
-    left, taken = list(parts), dict[str, Part]()
+    left, taken = [_labelled(_of_it(part, names), names, scene) for part in parts], dict[str, Part]()
     while names and left:
         fits = [
             (_fit(name, part, number, scene), -names.index(name), -number, name, part)
@@ -227,20 +310,54 @@ def _words_for(info: ActionInfo, words: Phrase, parts: Sequence[Part], filled: F
         names.remove(name)
         left.remove(part)
         taken[name] = part
-    filled.left = _with_all_said(words, taken, left, filled)
+    return taken, left
 
 
-def _with_all_said(words: Phrase, taken: dict[str, Part], left: Sequence[Part], filled: Filled) -> list[Part]:
+def _of_it(part: Part, names: Sequence[str]) -> Part:
+    """For "the lid of box 2", where an input takes a box: box 2."""
+    at = keys(part.words).index("of") if "of" in keys(part.words) else 0
+    if (
+        not at
+        or part.item is None
+        or not part.kinds & {singular(word) for n in names for word in name_words(n)}
+    ):
+        return part
+    return replace(part, words=trimmed(part.words[at + 1 :]), start=part.end - len(part.words) + at + 1)
+
+
+def _labelled(part: Part, names: Sequence[str], scene: Scene) -> Part:
+    """With "201" as room 201, where an input takes a room."""
+    if part.grounded or len(part.words) != 1 or not part.words[0].key.isdigit():
+        return part
+    found = (_called_by_label(part.words[0].key, name, scene) for name in names)
+    item = next((one for one in found if one is not None), None)
+    if item is None:
+        return part
+    return replace(part, words=tokens(item.description), item=item, grounded=True)
+
+
+def _with_all_said(
+    words: Phrase, taken: dict[str, Part], left: Sequence[Part], gone: set[int], filled: Filled
+) -> list[Part]:
     """What is left once a text has all that follows its first words ("the gate is open" "at the back")."""
     rest = list(left)
     for name, part in taken.items():
         tail = [other for other in rest if other.start >= part.end]
-        if parameter_role(name) != "text" or not tail or any(p.start >= part.end for p in taken.values()):
+        last = not any(p.start >= part.end for p in taken.values())
+        if parameter_role(name) != "text" or part.role or not last:
             continue
-        said = words[part.end - len(part.words) : max(other.end for other in tail)]
+        end = max(part.end, *(other.end for other in tail), 0)
+        while end < len(words) and end not in gone and words[end].key not in _COURTEOUS:
+            end += 1
+        start = words.index(part.words[0], part.start)
+        start -= start > 0 and start - 1 not in gone and words[start - 1].key in lexicon().determiners
+        said = words[start:end]
         filled.values[name], filled.phrases[name] = plain(said), said
         rest = [other for other in rest if other not in tail]
     return rest
+
+
+_COURTEOUS = frozenset({"please", "now", "again", "too"})
 
 
 def _of_kind(part: Part, words: set[str], core: set[str]) -> bool:
@@ -255,11 +372,18 @@ def kind_on_map(name: str, objects: Sequence[MapObject]) -> bool:
     return any(words & {singular(word) for word in name_words(item.class_name)} for item in objects)
 
 
-_COLOURS = frozenset(load_data("names")["colours"])
+_SURE = 6.0
+"""What it counts that a part is to the deed what an input takes."""
+COLOURS = frozenset(load_data("names")["colours"])
 _PRONOUNS = frozenset({("it",), ("there",), ("them",), ("that",)})
 _POINTING = frozenset({"it", "that", "this", "there", "them", "here"})
 _SOURCES = frozenset({"source", "origin", "start"})
-_GOALS = frozenset({"destination", "goal", "target", "to", "end"})
+_GOALS = frozenset(
+    {"destination", "goal", "target", "to", "end", "container", "vessel", "receptacle", "bowl", "pot", "pan"}
+)
+_WITH = frozenset({"with", "using"})
+_MEANS = frozenset(load_data("names")["means"])
+"""What something is done with is called so."""
 
 
 def _placed(name: str, part: Part, scene: Scene, *, person: bool) -> float:
@@ -278,19 +402,22 @@ def _fit(name: str, part: Part, number: int, scene: Scene) -> float:
     words = {singular(word) for word in name_words(name)}
     core = {singular(word) for word in keys(part.words)}
     score = 3.0 if words & (core | part.kinds) and role != "text" else 0.0
+    score += _SURE if role and role == part.role else 0.0
     if words & {"color", "colour"}:
-        score += 3 if core & _COLOURS else -1
+        score += 3 if core & COLOURS else -1
     if words & _SOURCES:
         score += {"from": 3, "to": -4}.get(part.before, 0)
     elif part.before == "from":
-        score -= 1
+        score -= 1 if part.grounded or role == "place" else 0.3
     if words & _GOALS:
-        score += 1 if part.before in _OF_PLACE else 0
+        score += 1 if part.before in _OF_PLACE else -0.5
+    if words & _MEANS:
+        score += 1 if part.before in _WITH else -0.7
     if kind_on_map(name, scene.objects) and not _of_kind(part, words, core):
         there = role == "place" and part.grounded and part.before in _OF_PLACE
         called = all(word.is_capital for word in part.words) and not part.grounded
         score -= 0 if called or part.words[0].key in _POINTING else 1 if there else 3
-    person = scene.is_person(part.words)
+    person = scene.is_person(part.words) and part.before != "from"
     match role:
         case "place":
             score += _placed(name, part, scene, person=person) + (1 if part.before in _OF_PLACE else 0)
@@ -299,7 +426,7 @@ def _fit(name: str, part: Part, number: int, scene: Scene) -> float:
         case "text":
             score += 3 if part.before in {"that", "saying", "about"} else 1
         case "object":
-            score += (1.5 if part.before in {"", "of", "and"} else 0.5) - (2 if person else 0)
+            score += (1.5 if part.before in {"", "of", "and", *_WITH} else 0.5) - (2 if person else 0)
         case _:
             score += (
                 (1.0 if part.before in {"", "of", "and"} else 0.6) - 0.1 * number - (0.5 if person else 0)

@@ -29,11 +29,6 @@ from parley.messages.status import ActionInfo
 __all__ = ["Tasks", "UnableError"]
 
 
-_HANDING = frozenset(
-    {"bring", "bring over", "fetch", "give", "hand", "hand over", "deliver", "carry", "serve"}
-)
-
-
 @dataclass
 class Tasks(OwnKind):
     """The steps for one message, growing command by command."""
@@ -64,24 +59,31 @@ class Tasks(OwnKind):
             self._invoke_each(whole, command)
             return "one of its phrases is what was said"
         match = self.own_match(command.clause)
-        if match is not None:
+        if match is not None and not (self._only_tells(match, command) or self._goes_on(match, command)):
             self.use_own(match, command.clause)
             return f"its name and inputs fit what was said ({match.score:.1f})"
         own = self.catalogue.for_verb(command.verb)
         own = own if own is None or self._may_mean(own, command) else None
         special = own is not None and command.kind in {"catalogue", "other"}
-        topical = command.kind in {"other", "transfer", "place", "count", "look", "catalogue", "motion"}
-        handing = command.verb in _HANDING or bool(command.recipient)
-        named = any(self._grounds(phrase) for phrase in (command.theme, command.place) if phrase)
-        if not special and topical and not handing and not (named and command.kind != "other"):
-            about = self.catalogue.by_topic(keys(command.clause))
-            about = about if about is None or self._may_mean(about, command) else None
-            special, own = about is not None, about or own
         if special and own is not None:
             self._invoke_each(own, command)
             return f"its name, a phrase or an example knows “{command.verb}”"
         self._by_kind_or_description(command)
         return f"the catalogue's way to do what “{command.verb}” asks for ({command.kind})"
+
+    def _only_tells(self, match: Match, command: Command) -> bool:
+        """Whether an action that passes on any words is less like what is said than looking is."""
+        looks = command.kind in {"look", "whether", "search"}
+        passes_on = any(parameter_role(name) == "text" for name in match.filled.phrases)
+        able = self.catalogue.with_role("look", "search") is not None
+        return looks and passes_on and able and match.verb < 1.0
+
+    def _goes_on(self, match: Match, command: Command) -> bool:
+        """For "take it to A" of what is on board: going there, not taking it once more."""
+        left = any(part.before == "to" for part in match.filled.left)
+        return (
+            command.kind == "transfer" and bool(command.place and self.carried) and left and match.verb < 1.0
+        )
 
     def _may_mean(self, info: ActionInfo, command: Command) -> bool:
         """Whether an action that only begins like what is said can be meant: what is named must fit."""
@@ -128,6 +130,8 @@ class Tasks(OwnKind):
             del self.steps[kept[0] :], self.will[kept[1] :], self.notes[kept[2] :]
             self.here, self.carried = kept[3:]
             self.use_own(match, command.clause)
+            if command.kind == "grasp" and command.theme:
+                self.carried = bare(self.scene.referent(command.theme))
 
     def _by_kind(self, command: Command) -> None:
         match command.kind:
@@ -238,7 +242,6 @@ class Tasks(OwnKind):
         if match is not None:
             self.use_own(match, command.clause)
             return
-        info = info or self.catalogue.by_description(keys(command.clause))
         if info is None or not self._may_mean(info, command):
             raise UnableError(plain(command.clause))
         self._invoke_each(info, command)
@@ -348,6 +351,8 @@ class Tasks(OwnKind):
             self.steps.append(call(speaker, {texts[0]: who}, plain(command.clause)))
             self.will.append(f"{command.verb} {the(who)}")
             return
+        if keys(bare(listener)) in {("her",), ("him",)}:
+            listener = self.scene.referent(bare(listener))
         text = self._said_before(said) or ("hello" if keys(said) == ("hello",) else plain(said))
         text = asked_directly(said) if command.kind == "ask" else text
         if command.verb.startswith("introduce yourself") and self.scene.situation.robot:

@@ -162,8 +162,9 @@ def reversed_at(one: Concept, said: Sequence[Concept]) -> tuple[int, ...]:
 def contrary(said: Sequence[str], name: Sequence[str]) -> bool:
     """Whether a direction is said that is the contrary of one in a name ("back" of "ahead")."""
     known = set(name)
+    both = {word for word in known if _OPPOSITES.get(word, frozenset()) & known}
     return any(
-        _OPPOSITES.get(word, frozenset()) & known and word not in known
+        _OPPOSITES.get(word, frozenset()) & (known - both) and word not in known
         for word in said
         if word in _DIRECTIONS
     )

@@ -209,7 +209,11 @@ def _tells(flat: tuple[str, ...], index: int) -> bool:
     starts = flat[index] in {"i", "we", "my", "there"} and flat[index + 1 : index + 2] != ()
     having = {"have"} - ({"have"} if flat[index] == "there" else set())
     link = flat[index + 1] in lexicon().be | having if starts else False
-    return starts and (link or flat[index] == "my") and flat[index - 1] not in _SUBORDINATE
+    before = index - 1
+    taken = lexicon().verbs.match((lemma(flat[before]),)) or lexicon().places.match(flat, before)
+    return (
+        starts and (link or (flat[index] == "my" and taken is None)) and flat[index - 1] not in _SUBORDINATE
+    )
 
 
 _SUBORDINATE = _COURTEOUS | frozenset(_WORDS["joining"])

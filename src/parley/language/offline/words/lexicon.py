@@ -7,7 +7,7 @@ from dataclasses import dataclass
 from functools import cache
 from typing import Any
 
-from parley.language.word_lists import load_data
+from parley.language.word_lists import load_data, written_out
 
 __all__ = ["Lexicon", "PhraseTable", "lexicon"]
 
@@ -24,8 +24,8 @@ class PhraseTable:
 
     @classmethod
     def of(cls, phrases: Iterable[str]) -> PhraseTable:
-        """A table whose values are the phrases themselves."""
-        return cls({phrase: phrase for phrase in phrases})
+        """A table whose values are the phrases themselves; "(a|b) c" stands for "a c" and "b c"."""
+        return cls({one: one for phrase in phrases for one in written_out(phrase)})
 
     def __contains__(self, words: object) -> bool:
         return words in self._table
@@ -85,7 +85,6 @@ class Lexicon:
     wants: PhraseTable
     reporting: PhraseTable
     corrections: PhraseTable
-    sequence: PhraseTable
     greetings: PhraseTable
     thanks: PhraseTable
     farewells: PhraseTable
@@ -183,7 +182,6 @@ def lexicon() -> Lexicon:
         wants=PhraseTable.of(openers["wants"]),
         reporting=PhraseTable.of(words["reporting"]),
         corrections=PhraseTable.of(words["corrections"]),
-        sequence=PhraseTable.of(words["sequence"]),
         greetings=PhraseTable.of(words["greetings"]),
         thanks=PhraseTable.of(words["thanks"]),
         farewells=PhraseTable.of(words["farewells"]),

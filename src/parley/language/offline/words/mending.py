@@ -25,6 +25,7 @@ _REPORTED = forms(_INCIDENTS["events"]) | frozenset(
     word for kind in ("events", "happened", "states", "things") for word in _INCIDENTS[kind]
 )
 """Words for what people report, which are no typing errors."""
+_LONG_ENOUGH = 4
 _REAL = frozenset(load_data("real_words")["words"])
 
 
@@ -51,7 +52,25 @@ def mended(words: Phrase, situation: Situation) -> Phrase:
         for index, word in enumerate(words)
         for part in ((word,) if _stays_whole(word, index, named) else _cut(word, frozenset(known)))
     )
+    words = tuple(word if word.key in known else _unswapped(word) for word in words)
     return _without_haste(mend(words, frozenset(known), lexicon().often_mistyped, _verbs() | own))
+
+
+_THINGS = {
+    tuple(sorted(word)): word
+    for line in (*load_data("deeds")["nouns"], _INCIDENTS["things"])
+    for word in line
+    if len(word) > _LONG_ENOUGH and word.isalpha()
+}
+"""Words for common things by their letters."""
+
+
+def _unswapped(word: Word) -> Word:
+    """For "ligths" "lights": two letters the wrong way round in a word for a common thing."""
+    meant = _THINGS.get(tuple(sorted(word.key)), "")
+    differ = [i for i, (one, other) in enumerate(zip(word.key, meant, strict=False)) if one != other]
+    swapped = len(differ) == len("ab") and differ[1] == differ[0] + 1 and not word.is_capital
+    return Word(meant, meant) if swapped else word
 
 
 _SHORT_NAME = 4
@@ -114,7 +133,7 @@ _GLUE = frozenset(
 
 
 def _apart(words: Phrase, situation: Situation) -> Phrase:
-    """Words written together or cut in the wrong place ("box1", "tot he box"), and "2" for "to"."""
+    """Words written together or cut in the wrong place ("box1", "tot he box", "off ice"); "2" for "to"."""
     texts = (f"{item.description} {item.class_name}" for item in situation.objects)
     named = {word.key for text in texts for word in tokens(text)}
     compounds = _compounds(situation)
@@ -131,6 +150,10 @@ def _apart(words: Phrase, situation: Situation) -> Phrase:
         label = _LABEL.fullmatch(word.key)
         if word.key[-1:] == "t" and following == "he" and word.key[:-1] in _BEFORE_THE:
             result += [Word(word.key[:-1], word.raw[:-1]), Word("the", "the")]
+            index += 2
+            continue
+        if len(word.key) > 2 and len(following) > 2 and word.key + following in named - {*compounds}:
+            result.append(Word(word.key + following, word.raw + following))
             index += 2
             continue
         if word.key in compounds and word.key not in named:
@@ -220,17 +243,29 @@ _DEEDS = frozenset(
 )
 
 
+_BEFORE_HASTE = _HASTE | {"a", "another", ",", ".", "and"}
+
+
+def _between_haste(words: Phrase, index: int) -> bool:
+    """For the comma of "a quick, close look"."""
+    return words[index - 1].key in _HASTE and words[index + 1].key in _HASTE
+
+
 def _without_haste(words: Phrase) -> Phrase:
     """For "have a quick look" reads "have a look": how it is done changes nothing."""
+    words = tuple(
+        word
+        for index, word in enumerate(words)
+        if word.key != "," or not 0 < index < len(words) - 1 or not _between_haste(words, index)
+    )
     flat = tuple(word.key for word in words)
     return tuple(
         word
         for index, word in enumerate(words)
         if not (
             word.key in _HASTE
-            and (flat[index - 1 : index] in {("a",), ("another",), (",",), (".",), ("and",)} or not index)
-            and flat[index + 1 : index + 2]
-            and flat[index + 1] in _DEEDS
+            and (index == 0 or flat[index - 1] in _BEFORE_HASTE)
+            and next((key for key in flat[index + 1 :] if key not in _HASTE), "") in _DEEDS
         )
     )
 

@@ -5,9 +5,11 @@
 
 from __future__ import annotations
 
+import re
 from collections.abc import Collection
-from functools import lru_cache
+from functools import cache, lru_cache
 
+from parley.language.offline.words.lexicon import lexicon
 from parley.language.offline.words.text import lemma, split_name
 from parley.language.word_lists import load_data
 
@@ -22,7 +24,40 @@ _KINDS: dict[str, str] = {
 @lru_cache(maxsize=4096)
 def name_words(name: str) -> tuple[str, ...]:
     """The words of a name in any style, written out: "navGoal" is navigate, goal; "takeoff" take, off."""
-    return tuple(word for part in split_name(name) for word in _SHORT.get(part, [part]) if not part.isdigit())
+    parts = (part for part in split_name(name) if not part.isdigit())
+    return tuple(word for part in parts for word in (_SHORT.get(part) or [_written_out(part)]))
+
+
+def _written_out(part: str) -> str:
+    """For "vlv" "valve": the one word that is left without its vowels, deeds before things; else as it is."""
+    if len(part) < _SHORTEST or _VOWELS & set(part):
+        return part
+    for words in _whole_words():
+        found = {word for word in words if word[0] == part[0] and _without_vowels(word) == part}
+        if found:
+            return min(found) if len(found) == 1 else part
+    return part
+
+
+_SHORTEST = 3
+_VOWELS = frozenset("aeiou")
+
+
+def _without_vowels(word: str) -> str:
+    """What is left of a word without its vowels, double letters once."""
+    kept = "".join(letter for letter in word if letter not in _VOWELS)
+    return re.sub(r"(.)\1", r"\1", kept)
+
+
+@cache
+def _whole_words() -> tuple[frozenset[str], ...]:
+    """What names may be short for: verbs, then what deeds are about, then things at large."""
+    deeds = load_data("deeds")
+    verbs = {words.split()[0] for kind in lexicon().verb_classes.values() for words in kind}
+    listed = [
+        {word for line in deeds[kind] for word in line if " " not in word} for kind in ("verbs", "nouns")
+    ]
+    return tuple(frozenset(words) for words in (verbs, *listed, lexicon().nouns))
 
 
 def kind_of(kind: str) -> str:

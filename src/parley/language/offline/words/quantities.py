@@ -6,12 +6,21 @@ import re
 from collections.abc import Sequence
 from dataclasses import dataclass
 
-from parley.language.offline.words.lexicon import lexicon
+from parley.language.offline.words.lexicon import PhraseTable, lexicon
 from parley.language.offline.words.naming import name_words
 from parley.language.offline.words.text import Phrase, keys
 from parley.language.word_lists import load_data
 
-__all__ = ["Quantity", "Taken", "plain_coordinates", "plain_units", "quantities", "taken_by"]
+__all__ = [
+    "Quantity",
+    "Taken",
+    "is_unit",
+    "levels",
+    "plain_coordinates",
+    "plain_units",
+    "quantities",
+    "taken_by",
+]
 
 _DATA = load_data("quantities")
 _UNITS: dict[str, dict[str, float]] = {}
@@ -22,7 +31,9 @@ _TENS: dict[str, int] = {word: int(number) for word, number in _DATA["tens"].ite
 _NUMBER = re.compile(r"-?\d+(?:[.,]\d+)?")
 _WITH_UNIT = re.compile(r"(-?\d+(?:[.,]\d+)?)([a-z]+)")
 _SMALL = {"a": 1.0, "an": 1.0, "half": 0.5, "quarter": 0.25, "couple": 2.0, "few": 3.0, "dozen": 12.0}
+_LEVELS = PhraseTable.of(_DATA["levels"])
 _TIMES = {"twice": 2.0, "thrice": 3.0}
+_SHORT_UNIT = 2
 _SI = frozenset({"time", "length"})
 """Given in seconds and metres where a parameter's name has no unit."""
 
@@ -122,6 +133,29 @@ def quantities(words: Phrase) -> list[Quantity]:
     return found
 
 
+def levels(words: Phrase) -> list[Quantity]:
+    """Words for so many percent ("halfway"), in order."""
+    flat = keys(words)
+    found = ((i, _LEVELS.match(flat, i)) for i in range(len(flat)))
+    return [
+        Quantity(float(_DATA["levels"][one[1]]), _units("percent"), i, i + one[0])
+        for i, one in found
+        if one is not None
+    ]
+
+
+def is_unit(word: str) -> bool:
+    """Whether a word names what a number before it measures ("percent", "degrees")."""
+    return word in _UNITS and len(word) > _SHORT_UNIT
+
+
+def is_measure(words: Phrase) -> bool:
+    """Whether words say nothing but how long or how much ("a minute and a half")."""
+    flat = keys(words)
+    bare = is_unit(flat[0]) and flat[1:] in {(), ("and", "a", "half")}
+    return bare or any(q.units and not q.start and q.end == len(flat) for q in quantities(words))
+
+
 def _quantity(flat: Sequence[str], start: int) -> Quantity | None:
     before = flat[start - 1] if start else ""
     if flat[start] in _TIMES or (flat[start] == "once" and start == len(flat) - 1 and start):
@@ -138,8 +172,22 @@ def _quantity(flat: Sequence[str], start: int) -> Quantity | None:
         end += 1
         if flat[end : end + 3] == ("and", "a", "half"):
             value, end = value + 0.5, end + 3
+        elif unit in _METRES and (more := _in_words(flat, end) or _digits(flat, end)):
+            # "A metre twenty".
+            value, end = value + more[0] / 100, more[1]
         return Quantity(value, _units(unit), start, end, before)
     return None if flat[start] in _SMALL else Quantity(value, (), start, end, before)
+
+
+_METRES = frozenset({"metre", "meter", "metres", "meters"})
+
+
+def _digits(flat: Sequence[str], at: int) -> tuple[float, int] | None:
+    """A whole number of two digits without a unit of its own."""
+    said = (
+        at < len(flat) and re.fullmatch(r"[1-9]\d", flat[at]) and not is_unit(" ".join(flat[at + 1 : at + 2]))
+    )
+    return (float(flat[at]), at + 1) if said else None
 
 
 def _units(unit: str) -> tuple[tuple[str, float], ...]:

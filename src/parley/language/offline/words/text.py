@@ -107,6 +107,7 @@ _BEHIND_STATE = frozenset({
     "today", "already", "too", "for", "please", "then", "or", "all", "as", "after", "before", "tonight",
     "up", "down", "anyway", "yet", "right", "till", "of", "from", "tomorrow", "properly", "fine", "over",
     "here", "there", "if", "when", "while", "though", "i", "we", "you", "they", "it", "he", "she",
+    "go", "drive", "come", "head", "wait", "carry", "stay", "tell", "just", "check", "bring",
 })  # fmt: skip
 """What follows "the box's empty", as against "the box's empty lid"."""
 
@@ -129,7 +130,8 @@ def _expand(piece: str, following: str, behind: str) -> list[Word]:
         anybody = stem.lower() in _ANYBODY and (following.endswith("ing") or following in lexicon().states)
         ends = behind in _BEHIND_STATE or not behind[0].isalnum()
         said = anybody or (following in lexicon().states and ends)
-        if following in _HAVING_DONE and behind not in lexicon().nouns:
+        has_done = following in _HAVING_DONE and (low, following) != ("what's", "left")
+        if has_done and behind not in lexicon().nouns:
             return [Word(stem.lower(), stem), Word("has", "has")]
         if stem.lower() in lexicon().is_subjects or following in lexicon().after_is or said:
             return [Word(stem.lower(), stem), Word("is", "is")]
@@ -143,10 +145,14 @@ def keys(phrase: Iterable[Word]) -> tuple[str, ...]:
 
 
 def plain(phrase: Sequence[Word]) -> str:
-    """The text of a phrase as written, punctuation attached to the word before."""
-    text = ""
+    """The text of a phrase as written; marks stand at the word before, quotation marks at what they hold."""
+    text, quoted, opened = "", False, False
     for word in phrase:
-        text += word.raw if not text or not word.is_word else " " + word.raw
+        mark = word.key == '"'
+        close = opened or (not word.is_word and (not mark or quoted))
+        text += word.raw if not text or close else " " + word.raw
+        quoted ^= mark
+        opened = mark and quoted
     return text.strip()
 
 

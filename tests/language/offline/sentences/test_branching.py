@@ -1,0 +1,54 @@
+"""Conditions put plainly: what is found or not found, and who is there."""
+
+from __future__ import annotations
+
+import pytest
+
+from parley.language.offline.sentences.branching import branched
+from parley.language.offline.sentences.clauses import clauses, opens_command
+from parley.language.offline.words.nouns import bare
+from parley.language.offline.words.text import Phrase, keys, plain, tokens
+
+STOPS = {("gate",), ("hall",), ("press", "2")}
+
+
+def is_stop(words: Phrase) -> bool:
+    return keys(bare(words)) in STOPS and all(word.is_word for word in words)
+
+
+@pytest.mark.parametrize(
+    ("text", "meant"),
+    [
+        (
+            "if you find oil at the gate, go to the hall. if there is none, go to the yard",
+            "if there is oil at the gate, go to the hall. if not, go to the yard",
+        ),
+        (
+            "if you see keys in the hall, come back, otherwise go to the gate",
+            "if there are keys in the hall, come back. if not, go to the gate",
+        ),
+        ("if you see smoke, go to the gate", "if you see smoke, go to the gate"),
+        ("if you see smoke at the gate, stop", "if you see smoke at the gate, stop"),
+    ],
+)
+def test_what_is_done_otherwise_makes_a_rule_something_to_look_at(text: str, meant: str) -> None:
+    assert plain(branched(tokens(text), is_stop)) == meant
+
+
+@pytest.mark.parametrize("said", ["if nobody is there", "if there is no one there", "if not"])
+def test_who_is_there_answers_a_question_before(said: str) -> None:
+    words = tokens(f"is anyone in the hall? {said}, go to the gate")
+    read = branched(words, is_stop, lambda asked: tokens("anyone is in the hall"))
+    assert plain(read) == "check whether anyone is in the hall. if not, go to the gate."
+
+
+@pytest.mark.parametrize(
+    ("text", "condition"),
+    [
+        ("if there is milk in the fridge, go to the hall", "there is milk in the fridge"),
+        ("if there is oil under press 2, go to the hall", "there is oil under press 2"),
+        ("if somebody is in go away", "somebody is in"),
+    ],
+)
+def test_a_noun_that_could_be_a_verb_does_not_end_a_condition(text: str, condition: str) -> None:
+    assert plain(clauses(tokens(text), opens_command)[0].condition) == condition
