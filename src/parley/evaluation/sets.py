@@ -32,6 +32,10 @@ _DEVELOPED: Final = (
     "needs",
     "people",
     "readings",
+    "round_five",
+    "round_four",
+    "round_three",
+    "round_two",
     "unseen_actions",
     "voices",
     "wordings",
@@ -39,7 +43,7 @@ _DEVELOPED: Final = (
 _BLIND: Final = ("blind_round",)
 
 SET_NAMES: Final = ("development", "held-out", "blind", "gpsr", "all")
-"""`held-out`: the half of the second set that nobody developed on; `blind` holds `gpsr`."""
+"""`held-out`: the halves of sets that nobody developed on; `blind` holds `gpsr`."""
 
 
 @cache

@@ -33,7 +33,7 @@ from parley.language.offline.words.mending import mended
 from parley.language.offline.words.quantities import plain_coordinates, plain_units
 from parley.language.offline.words.saying import listing
 from parley.language.offline.words.text import Phrase, keys, plain, tokens
-from parley.language.offline.words.wording import shared_out
+from parley.language.offline.words.wording import counted_plainly, shared_out
 from parley.messages.chat import ChatAction, SystemCommand
 
 __all__ = ["interpret"]
@@ -171,7 +171,7 @@ def _sociable(words: Phrase, situation: Situation) -> str | None:
 
 def _plain_words(message: str, situation: Situation) -> Phrase:
     """The words of a message, mended, without courtesy and what is told of the operator's own plans."""
-    words = shared_out(mended(tokens(message), situation))
+    words = shared_out(counted_plainly(mended(tokens(message), situation)))
     return where_it_was_put(straight_on(without_own_plans(plainly(words))))
 
 

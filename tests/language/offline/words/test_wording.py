@@ -9,7 +9,7 @@ from parley.language.offline.sentences.clauses import opens_command
 from parley.language.offline.sentences.simultaneous import side_by_side
 from parley.language.offline.words.saying import in_turn
 from parley.language.offline.words.text import keys, plain, tokens
-from parley.language.offline.words.wording import asked_directly, shared_out, turned
+from parley.language.offline.words.wording import asked_directly, counted_plainly, shared_out, turned
 
 
 @pytest.mark.parametrize(
@@ -75,6 +75,18 @@ def test_what_is_done_at_the_same_time_is_found(said: str, first: str, second: s
 
 def test_conditions_are_told_in_turn() -> None:
     assert in_turn(["look", "if so, go", "if not, stay"]) == "look; if so, go; if not, stay"
+
+
+@pytest.mark.parametrize(
+    ("say", "plainly"),
+    [
+        ("tell me how many cups you can see on the desk", "tell me how many cups on the desk"),
+        ("how many cups there are on the desk", "how many cups on the desk"),
+        ("tell me what you see", "tell me what you see"),
+    ],
+)
+def test_what_is_counted_is_said_without_who_sees_it(say: str, plainly: str) -> None:
+    assert plain(counted_plainly(tokens(say))) == plainly
 
 
 def test_an_amount_for_each_is_an_amount() -> None:

@@ -6,7 +6,7 @@ from parley.language.offline.words.lexicon import lexicon
 from parley.language.offline.words.quantities import quantities
 from parley.language.offline.words.text import Phrase, Word, keys, lemma, plain, singular
 
-__all__ = ["asked_directly", "shared_out", "turned"]
+__all__ = ["asked_directly", "counted_plainly", "shared_out", "turned"]
 
 _TURNED = {
     "me": "you", "my": "your", "i": "you", "us": "you", "myself": "yourself", "you": "me", "your": "my",
@@ -88,3 +88,23 @@ def shared_out(words: Phrase) -> Phrase:
 
 
 _ENDING = {(), (".",), ("!",), (",",), ("?",), ("and",), ("then",)}
+_SIGHTS = frozenset({"see", "find", "notice", "spot", "count", "discover"})
+_FARTHEST = 7
+"""How many words a thing that is counted may have."""
+
+
+def counted_plainly(words: Phrase) -> Phrase:
+    """For "how many A (that) you can see on B" and "how many A there are on B": how many A on B."""
+    flat = keys(words)
+    for at in range(len(flat) - 4):
+        if flat[at : at + 2] != ("how", "many"):
+            continue
+        for start in range(at + 3, min(at + 2 + _FARTHEST, len(flat) - 1)):
+            end = start + (flat[start] == "that")
+            if flat[start : start + 2] == ("there", "are") and lexicon().places.match(flat, start + 2):
+                return (*words[:start], *words[start + 2 :])
+            sees = flat[end] in {"you", "we", "i"}
+            end += 1 + (flat[end + 1 : end + 2] in {("can",), ("could",), ("will",)})
+            if sees and flat[end : end + 1] and flat[end] in _SIGHTS and flat[end + 1 : end + 2]:
+                return (*words[:start], *words[end + 1 :])
+    return words
