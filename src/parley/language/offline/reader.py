@@ -214,10 +214,6 @@ class Reader(Rereading):
                 self.scene.mention(tokens(found.candidates[0].description))
                 return
 
-    def _is_several(self, words: Phrase) -> bool:
-        """Whether words name more than one thing of the map."""
-        return len(self.scene.several(words)) > 1 if self.scene.ground(words).outcome != "none" else False
-
     def _skip_nothing(self) -> None:
         """For "the desk was done, leave it" among orders: there is no step that could be left out."""
         if self.tasks.steps and not self.scene.situation.queue:
