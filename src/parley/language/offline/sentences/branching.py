@@ -10,6 +10,7 @@ from collections.abc import Callable
 
 from parley.language.offline.sentences.clauses import opens_command
 from parley.language.offline.sentences.conditioning import OPPOSITES
+from parley.language.offline.sentences.expecting import FINDING
 from parley.language.offline.words.lexicon import lexicon
 from parley.language.offline.words.nouns import bare
 from parley.language.offline.words.text import Phrase, Word, keys
@@ -130,7 +131,7 @@ def _found_or_not(words: Phrase, is_stop: IsStop) -> Phrase:
     """For "if you find X at A, V; if not, W": if there is X at A. What is done otherwise makes it no rule."""
     flat = keys(words)
     start = next((i for i in range(len(flat) - 4) if flat[i : i + 2] == ("if", "you")), -1)
-    if start < 0 or flat[start + 2] not in _FINDING:
+    if start < 0 or flat[start + 2] not in FINDING:
         return words
     comma = next((i for i in range(start + 4, len(flat)) if flat[i] == ","), len(flat))
     ends = (i for i in range(comma + 1, len(flat)) if _echo(flat, _joint(flat, i))[1] == "if not")
@@ -144,9 +145,6 @@ def _found_or_not(words: Phrase, is_stop: IsStop) -> Phrase:
     link = "are" if flat[start + 3].endswith("s") and not flat[start + 3].endswith("ss") else "is"
     there = (*words[: start + 1], *_words(f"there {link}"), *words[start + 3 : end])
     return (*there, *_words(". if not ,"), *rest)
-
-
-_FINDING = frozenset({"find", "see", "spot", "notice", "discover"})
 
 
 def _looked_first(words: Phrase) -> Phrase:

@@ -10,7 +10,7 @@ from collections.abc import Callable
 from parley.language.offline.sentences.clauses import opens_command
 from parley.language.offline.words.text import Phrase, Word, keys, tokens
 
-__all__ = ["with_looks"]
+__all__ = ["FINDING", "with_looks"]
 
 IsStop = Callable[[Phrase], bool]
 
@@ -53,9 +53,10 @@ _TURNED_ROUND = {
     ("is", "it", "not"): "if not", ("are", "they", "not"): "if not", ("is", "it"): "if so",
     ("are", "they"): "if so", ("is", "that", "so"): "if so", ("is", "that", "not", "so"): "if not",
 }  # fmt: skip
-_FINDING = frozenset(
+FINDING = frozenset(
     {"find", "see", "spot", "notice", "discover", "meet", "encounter", "detect", "catch", "hear"}
 )
+"""How people say that something turns up."""
 _ANY = {
     "somebody": "somebody", "someone": "somebody", "anybody": "somebody", "anyone": "somebody",
     "something": "something", "anything": "something", "nobody": "nobody", "nothing": "nothing",
@@ -259,7 +260,7 @@ def _finding(flat: tuple[str, ...], at: int) -> tuple[int, bool]:
         while flat[end : end + 1] and flat[end] in _HELPING | {"not"}:
             denied ^= flat[end] == "not"
             end += 1
-        finds = flat[end : end + 1] != () and flat[end] in _FINDING
+        finds = flat[end : end + 1] != () and flat[end] in FINDING
         thing = "" if finds else "one" if end > start + 1 and flat[end - 1] in {"do", "can", "not"} else "?"
         end += finds
     else:
@@ -280,7 +281,7 @@ def _found(words: Phrase, is_stop: IsStop) -> Phrase:
     at = next((i for i in range(3, len(flat) - 3) if flat[i] in {"if", "unless"} and flat[i + 1] == "you"), 0)
     if (
         not at
-        or flat[at + 2] not in _FINDING
+        or flat[at + 2] not in FINDING
         or not any(is_stop(words[i : i + n]) for i in range(at) for n in range(1, 5))
     ):
         return words
