@@ -8,7 +8,7 @@ from pathlib import Path
 import pytest
 from typer.testing import CliRunner, Result
 
-from parley.cli import app
+from parley.cli import command_line
 from parley.errors import ConfigError, ParleyError
 
 GRAPH = {
@@ -30,7 +30,7 @@ def file(tmp_path: Path) -> Path:
 
 
 def parley(*arguments: str | Path) -> Result:
-    return CliRunner().invoke(app, ["graph", *map(str, arguments)])
+    return CliRunner().invoke(command_line("graph"), ["graph", *map(str, arguments)])
 
 
 @pytest.mark.parametrize(

@@ -11,7 +11,7 @@ from pathlib import Path
 import pytest
 import structlog
 
-from parley.cli import run
+from parley.cli import command_line, run
 from parley.language.llm.scripted_server import Say, ScriptedServer
 from parley.language.prompts import KINDS
 from tests.language.llm.rig import LOOK_PLAN
@@ -93,7 +93,7 @@ def test_every_question_can_be_shown(
     kind: str, monkeypatch: pytest.MonkeyPatch, capsys: pytest.CaptureFixture[str]
 ) -> None:
     monkeypatch.setattr(sys, "argv", ["parley", "prompt", "show", "--kind", kind])
-    assert run() == 0
+    assert run(command_line()) == 0
     out = capsys.readouterr().out
     assert f"({kind}-" in out
     assert "--- form of the answer" in out
@@ -114,7 +114,7 @@ def test_what_does_not_exist_is_refused_in_one_line(
     arguments: list[str], monkeypatch: pytest.MonkeyPatch, capsys: pytest.CaptureFixture[str]
 ) -> None:
     monkeypatch.setattr(sys, "argv", ["parley", *arguments])
-    assert run() == 2
+    assert run(command_line()) == 2
     err = capsys.readouterr().err
     assert err.startswith("parley: ")
     assert len(err.splitlines()) == 1

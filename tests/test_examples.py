@@ -10,7 +10,7 @@ from pathlib import Path
 import pytest
 from typer.testing import CliRunner
 
-from parley.cli import app
+from parley.cli import command_line
 from parley.config import SystemConfig
 
 EXAMPLES = Path(__file__).parent.parent / "examples"
@@ -19,7 +19,7 @@ GRAPHS = sorted((EXAMPLES / "graphs").glob("*.graph.json"))
 
 
 def invoke(*words: str) -> str:
-    result = CliRunner().invoke(app, list(words))
+    result = CliRunner().invoke(command_line(words[0]), list(words))
     assert result.exit_code == 0, result.output
     return result.stdout
 

@@ -38,9 +38,10 @@ def main() -> None:
     """Run the command line and leave with its exit code."""
     try:
         with ended_by_ctrl_c():
-            from parley.cli import run
+            from parley.cli import command_line, run
 
-        code = run()
+            app = command_line(next(iter(sys.argv[1:]), None))
+        code = run(app)
     except KeyboardInterrupt:
         code = INTERRUPTED
     sys.exit(code)

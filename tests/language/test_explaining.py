@@ -6,7 +6,7 @@ import json
 
 from typer.testing import CliRunner
 
-from parley.cli import app
+from parley.cli import command_line
 from parley.language.offline import OfflineLanguage
 from parley.language.situations import read_situation
 from tests.language.dev_set import CATALOGUES
@@ -63,8 +63,10 @@ def test_what_has_to_be_asked_is_told() -> None:
 
 def test_interpret_adds_explanations_on_demand_only() -> None:
     line = json.dumps(SITUATION) + "\n"
-    told = CliRunner().invoke(app, ["interpret", "--situations", "-", "--explain"], input=line)
-    quiet = CliRunner().invoke(app, ["interpret", "--situations", "-"], input=line)
+    told = CliRunner().invoke(
+        command_line("interpret"), ["interpret", "--situations", "-", "--explain"], input=line
+    )
+    quiet = CliRunner().invoke(command_line("interpret"), ["interpret", "--situations", "-"], input=line)
     assert told.exit_code == quiet.exit_code == 0
     answer, plain = json.loads(told.stdout), json.loads(quiet.stdout)
     assert {part["about"] for part in answer["explanation"]} >= {"clause", "frame", "action"}

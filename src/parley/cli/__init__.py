@@ -6,60 +6,57 @@ command, a setting or a file was wrong, 130 interrupted.
 
 from __future__ import annotations
 
+import importlib
+
 import typer
 from typer.exceptions import TyperException
 
 from parley import __version__
-from parley.cli import (
-    actions,
-    bench,
-    demo,
-    doctor,
-    eval,
-    graph,
-    incidents,
-    interpret,
-    memory,
-    prompt,
-    transcripts,
-    web,
-    world,
-)
 from parley.cli.output import fail
 from parley.errors import ParleyError
 
-__all__ = ["app", "run"]
+__all__ = ["command_line", "run"]
 
-app = typer.Typer(
-    name="parley",
-    help="Run robots by talking to them.",
-    no_args_is_help=True,
-    pretty_exceptions_enable=False,
-    add_completion=False,
-)
-demo.register(app)
-doctor.register(app)
-interpret.register(app)
-eval.register(app)
-incidents.register(app)
-transcripts.register(app)
-app.add_typer(graph.app, name="graph")
-app.add_typer(actions.app, name="actions")
-app.add_typer(memory.app, name="memory")
-app.add_typer(world.app, name="world")
-app.add_typer(prompt.app, name="prompt")
-app.add_typer(bench.app, name="bench")
-app.add_typer(web.app, name="web")
+_COMMANDS = (
+    "demo", "doctor", "interpret", "eval", "incidents", "transcripts",
+    "graph", "actions", "memory", "world", "prompt", "bench", "web",
+)  # fmt: skip
+"""Each is a module of this package: with `register` if it is one command, with an `app` if it is several."""
 
 
-@app.callback(invoke_without_command=True)
+def command_line(only: str | None = None) -> typer.Typer:
+    """Put the command line together.
+
+    Args:
+        only: The one command to load, by name. A list of memories need not wait for the simulator and the
+            language engine. Without it, or if there is no such command, all are loaded: help lists them all.
+            ``--version`` needs none.
+    """
+    app = typer.Typer(
+        name="parley",
+        help="Run robots by talking to them.",
+        no_args_is_help=True,
+        pretty_exceptions_enable=False,
+        add_completion=False,
+    )
+    app.callback(invoke_without_command=True)(_top)
+    needed = () if only == "--version" else _COMMANDS if only not in _COMMANDS else (only,)
+    for name in needed:
+        module = importlib.import_module(f"parley.cli.{name}")
+        if hasattr(module, "register"):
+            module.register(app)
+        else:
+            app.add_typer(module.app, name=name)
+    return app
+
+
 def _top(version: bool = typer.Option(False, "--version", help="Show the version and leave.")) -> None:
     if version:
         typer.echo(f"parley {__version__}")
         raise typer.Exit
 
 
-def run() -> int:
+def run(app: typer.Typer) -> int:
     """Run the command line; every error of ours becomes one line and an exit code."""
     try:
         code = app(standalone_mode=False)
@@ -68,5 +65,7 @@ def run() -> int:
     except ParleyError as error:
         return fail(str(error))
     except TyperException as error:
+        if not error.format_message():  # nothing was asked for, and the help has been shown
+            return error.exit_code
         return fail(f"{error.format_message()} (parley --help tells more)")
     return code if isinstance(code, int) else 0

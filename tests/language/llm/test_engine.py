@@ -153,7 +153,8 @@ async def test_failure_of_every_engine_is_that_of_the_first() -> None:
 
 def test_libraries_for_models_are_not_loaded_for_the_offline_engine() -> None:
     code = (
-        "import sys, parley.system, parley.cli; print('pydantic_ai' in sys.modules, 'openai' in sys.modules)"
+        "import sys, parley.system, parley.cli; parley.cli.command_line();"
+        "print('pydantic_ai' in sys.modules, 'openai' in sys.modules)"
     )
     done = subprocess.run([sys.executable, "-c", code], capture_output=True, text=True, check=True)
     assert done.stdout.split() == ["False", "False"]
