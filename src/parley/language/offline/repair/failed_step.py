@@ -47,7 +47,7 @@ _ASKING: dict[FailureCode, tuple[str, str]] = {
     ),
     FailureCode.BLOCKED: (
         "Something is in my way.",
-        "Can you move it, so that I can try again, or should I go on without it?",
+        "Can you clear the way, so that I can try again, or should I go on without it?",
     ),
     FailureCode.TIMED_OUT: ("It took too long, so I gave up for now.", "Should I try again?"),
     FailureCode.UNAVAILABLE: ("Something I need does not answer.", "Should I try again?"),

@@ -156,7 +156,7 @@ def instead_of_answer(
         commands = (SystemCommand(command="clear"), *_memories(understood))
         return understood.model_copy(update={"message_response": said, "system_cmd": commands})
     if keys(strip_openers(words))[:3] in _WHAT_TO_DO:
-        return ChatAction(message_response="I know no more about it than what I ask you for.")
+        return ChatAction(message_response="What I asked you for is all that I know about it.")
     return None
 
 
