@@ -32,15 +32,19 @@ _DEVELOPED: Final = (
     "needs",
     "people",
     "readings",
+    "round_eight",
     "round_five",
     "round_four",
+    "round_nine",
+    "round_seven",
+    "round_six",
     "round_three",
     "round_two",
     "unseen_actions",
     "voices",
     "wordings",
 )
-_BLIND: Final = ("blind_round",)
+_BLIND: Final = ("blind_round", "blind_examiner")
 
 SET_NAMES: Final = ("development", "held-out", "blind", "gpsr", "all")
 """`held-out`: the halves of sets that nobody developed on; `blind` holds `gpsr`."""

@@ -70,7 +70,7 @@ def _in_full(text: str, words: tuple[str, ...], called: set[str]) -> Control | N
     parts = [
         _unasked(_words(part))[0]
         for part in re.split(
-            r"[.!,;:\n–—]+|\s-\s|\bbecause\b|\bso\b(?!\s+(?:far|fast|that))", _in_full_words(text)
+            r"[.!?,;:\n–—]+|\s-\s|\bbecause\b|\bso\b(?!\s+(?:far|fast|that))", _in_full_words(text)
         )
     ]
 

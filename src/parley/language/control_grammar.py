@@ -79,7 +79,7 @@ def _unasked(words: Words) -> Words:
         words = (next((form for form in (stem, f"{stem}e") if form in known), stem), *words[4:])
     while True:
         lead = next((lead for lead in _phrases("asking") if words[: len(lead)] == lead), ())
-        if not lead or len(lead) >= len(words):
+        if not lead or len(lead) >= len(words) or words[:2] == ("do", "not"):
             return words
         words = words[len(lead) :]
 

@@ -9,6 +9,7 @@ from parley.language.base import Situation
 from parley.language.control import control_of
 from parley.language.offline.dialogue import addressing
 from parley.language.offline.dialogue.amending import amended
+from parley.language.offline.dialogue.crew_words import for_another
 from parley.language.offline.dialogue.crews import plainly_called
 from parley.language.offline.dialogue.elsewhere import elsewhere, in_place_of_misspelt, put_in_place
 from parley.language.offline.dialogue.followup import Request, declines, pending_request
@@ -21,19 +22,23 @@ from parley.language.offline.plan_changes.rearranging import rearranged
 from parley.language.offline.readings.choosing import best_reading
 from parley.language.offline.scene.grounding import ground_phrase
 from parley.language.offline.scene.scene import Scene
+from parley.language.offline.sentences.forms import plainly_put
 from parley.language.offline.sentences.intentions import straight_on, without_own_plans
+from parley.language.offline.sentences.learners import usually_said
 from parley.language.offline.sentences.moved import where_it_was_put
 from parley.language.offline.sentences.spoken import orders_among_talk
+from parley.language.offline.sentences.telling import plainly_so
 from parley.language.offline.tasks.meeting import Meeting
 from parley.language.offline.words import social
 from parley.language.offline.words.courtesy import plainly
 from parley.language.offline.words.explaining import Trace
 from parley.language.offline.words.lexicon import lexicon
 from parley.language.offline.words.mending import mended
+from parley.language.offline.words.naming import name_words
 from parley.language.offline.words.quantities import plain_coordinates, plain_units
 from parley.language.offline.words.saying import listing
 from parley.language.offline.words.text import Phrase, keys, plain, tokens
-from parley.language.offline.words.wording import counted_plainly, shared_out
+from parley.language.offline.words.wording import counted_plainly, shared_out, still_there
 from parley.messages.chat import ChatAction, SystemCommand
 
 __all__ = ["interpret"]
@@ -69,6 +74,15 @@ def _controlled(message: str, situation: Situation, trace: Trace) -> ChatAction 
         control = "clear"
     if control == "stop" and Meeting(Scene.of(situation)).ends_own(strip_openers(tokens(message))):
         return None
+    if control == "clear" and not situation.queue and _clears_things(message, situation):
+        return None
+    if (
+        control == "skip"
+        and situation.queue
+        and rearranged(_plain_words(message, situation), Scene.of(situation))
+    ):
+        # "A is being painted, so leave that one out": not what is being done now.
+        return None
     if control is None or (control == "start" and _wants_again(message, situation)):
         return None
     command, reply = CONTROL_REPLIES[control]
@@ -82,16 +96,17 @@ def _goes_on(message: str, situation: Situation) -> bool:
     words = tuple(word for word in strip_openers(tokens(message)) if word.is_word)
     flat = keys(words)
     lead = next((lead for lead in _NEVER if flat[: len(lead)] == lead), ())
-    return bool(lead) and control_of(plain(words[len(lead) :]), situation.robots) == "stop"
+    rest = words[len(lead) :]
+    for_somebody = keys(rest[:2]) in {(verb, "for") for verb in ("stop", "wait", "pause", "halt", "slow")}
+    return bool(lead) and (for_somebody or control_of(plain(rest), situation.robots) == "stop")
 
 
 _NEVER = (
-    ("do", "not", "you", "dare"),
-    ("do", "not", "ever"),
-    ("you", "must", "not"),
-    ("do", "not"),
-    ("never",),
-)
+    ("do", "not", "you", "dare"), ("do", "not", "ever"), ("you", "must", "not"), ("do", "not"), ("never",),
+    ("there", "is", "no", "need", "to"), ("no", "need", "to"), ("you", "need", "not"), ("no", "reason", "to"),
+    ("you", "do", "not", "need", "to"), ("you", "do", "not", "have", "to"),
+    ("there", "is", "no", "reason", "to"),
+)  # fmt: skip
 _GIVING_UP = frozenset(
     tuple(text.split())
     for text in (
@@ -100,6 +115,12 @@ _GIVING_UP = frozenset(
         "forget it then",
     )
 )  # fmt: skip
+
+
+def _clears_things(message: str, situation: Situation) -> bool:
+    """Whether "clear it" asks for something that this robot clears ("clear_snow"), with nothing planned."""
+    said = set(keys(tokens(message)))
+    return "it" in said and any(said & set(name_words(info.name)[:1]) for info in situation.catalogue)
 
 
 def _gives_up(message: str) -> bool:
@@ -112,9 +133,9 @@ def _read(message: str, situation: Situation, trace: Trace) -> ChatAction:
     words = _plain_words(message, situation)
     if plain(words) != plain(tokens(message)):
         trace.note("words", f"read as “{plain(words)}”")
-    if situation.queue and {"rest", "others"} & set(keys(words)) and rearranged(words, Scene.of(situation)):
-        # "..., the rest stays": the rest of the plan, not of the robots.
-        return best_reading(words, situation, (), trace, ())
+    ready = _to_others(words, situation, trace)
+    if ready is not None:
+        return ready
     words = plainly_called(words, situation)
     others = addressing.other_robots(words, situation)
     if others:
@@ -162,6 +183,19 @@ def _read(message: str, situation: Situation, trace: Trace) -> ChatAction:
     return best_reading(offer, situation, (), trace, targets)
 
 
+def _to_others(words: Phrase, situation: Situation, trace: Trace) -> ChatAction | None:
+    """What is asked of the rest of the plan, not of the robots, and the last order for another robot."""
+    if situation.queue and {"rest", "others"} & set(keys(words)) and rearranged(words, Scene.of(situation)):
+        # "..., the rest stays": the rest of the plan, not of the robots.
+        return best_reading(words, situation, (), trace, ())
+    handed = () if situation.queue else for_another(words, situation)
+    if not handed:
+        return None
+    trace.note("words", f"the last order for another robot: “{plain(handed)}”")
+    robots = tuple(name for name in situation.robots if set(keys(tokens(name))) <= set(keys(words)))
+    return best_reading(handed, replace(situation, robot=robots[0], history=()), (), trace, robots)
+
+
 def _sociable(words: Phrase, situation: Situation) -> str | None:
     """The answer to small talk, greetings and other languages; None if anything is asked for besides."""
     answer = social.reply(words) or social.reply(strip_openers(words))
@@ -171,8 +205,13 @@ def _sociable(words: Phrase, situation: Situation) -> str | None:
 
 def _plain_words(message: str, situation: Situation) -> Phrase:
     """The words of a message, mended, without courtesy and what is told of the operator's own plans."""
-    words = shared_out(counted_plainly(mended(tokens(message), situation)))
-    return where_it_was_put(straight_on(without_own_plans(plainly(words))))
+    words = usually_said(mended(tokens(message), situation), Scene.of(situation))
+    words = shared_out(counted_plainly(still_there(words)))
+    words = where_it_was_put(straight_on(without_own_plans(plainly(words))))
+    scene = Scene.of(situation)
+    # "Everything but A can be dropped" changes the plan as it stands.
+    changes = bool(situation.queue) and rearranged(words, scene) is not None
+    return words if changes else plainly_put(plainly_so(words), scene)
 
 
 def _answered(request: Request, situation: Situation, trace: Trace, targets: tuple[str, ...]) -> ChatAction:

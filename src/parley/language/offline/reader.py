@@ -7,6 +7,7 @@ from dataclasses import dataclass, replace
 
 from parley.language.offline.dialogue.asked import asked
 from parley.language.offline.dialogue.plain_question import plain_question
+from parley.language.offline.facts.declared import is_statement
 from parley.language.offline.facts.facts import read_statement, strip_openers
 from parley.language.offline.facts.stories import mentioned, told_around
 from parley.language.offline.plan_changes.keeping import restarts
@@ -36,7 +37,7 @@ from parley.language.offline.sentences.spoken import Names, spoken
 from parley.language.offline.tasks.abilities import abilities, cannot
 from parley.language.offline.tasks.catalogue import call
 from parley.language.offline.tasks.commands import Command, read_command
-from parley.language.offline.tasks.helping import is_drastic
+from parley.language.offline.tasks.helping import for_each, is_drastic
 from parley.language.offline.tasks.matching import Match
 from parley.language.offline.tasks.tasks import UnableError
 from parley.language.offline.words import social
@@ -142,8 +143,10 @@ class Reader(Rereading):
             words: What is told.
             agreed: Whether it was asked about, and agreed to; what is drastic is done only then.
         """
+        before = len(self.tasks.will)
         try:
-            self.tasks.use_own(match, words)
+            for one in for_each(match, self.scene):
+                self.tasks.use_own(one, words)
         except UnclearError as unclear:
             self.trouble = unclear
             return self._result(unclear.question, (), choices=unclear.choices)
@@ -155,7 +158,7 @@ class Reader(Rereading):
         deed = f"{does[:1].lower()}{does[1:]}{f' ({about})' if about else ''}"
         if is_drastic(match) and not agreed:
             return self._result(f"Shall I {deed}?", ())
-        self.tasks.will[-1:] = [deed]
+        self.tasks.will[before:] = [deed]
         return self._result(self._reply(), self.tasks.steps)
 
     def _carried_out(self, words: Phrase, often: str, times: int) -> ChatAction:
@@ -201,6 +204,7 @@ class Reader(Rereading):
             known = len(self.scene.things)
             self._clause_or_story(clause, index, parts)
             self._side_by_side(start)
+            self._seen_already(start)
             if len(self.scene.things) == known and len(self.tasks.steps) == start and index + 1 < len(parts):
                 self._mention_subject(clause.words)
 
@@ -259,11 +263,10 @@ class Reader(Rereading):
             self.scene.trace.note("frame", f"with people: {clause.said()}")
             return
         others = [part for part in self._parts if part.words != clause.words]
-        order = (
-            asked_by_need(clause, others, self.scene)
-            or recast(clause.words, self.scene)
-            or asked_by_report(clause, others, self.scene)
-        )
+        order = asked_by_need(clause, others, self.scene) or recast(clause.words, self.scene)
+        if order is None:
+            order = asked_by_report(clause, others, self.scene)
+            self.reported |= order is not None
         if order is not None:
             self.scene.trace.note("recast", f"“{plain(order[0])}”, after the pattern: {order[1]}")
             clause = replace(clause, words=order[0], is_question=False)
@@ -488,5 +491,8 @@ class Reader(Rereading):
             raise UnableError(plain(wanted))
         if clause.is_question and alone and words[0].key in lexicon().be | _ASKING:
             self.replies.append("I do not know that. Tell me, and I will remember it.")
+            return
+        if alone and not clause.is_question and is_statement(clause.words):
+            self.told_only = True
             return
         raise UnclearError(f"{social.not_understood(words)} {abilities(self.scene)}", lost=True)

@@ -31,6 +31,8 @@ class Reading(Noting):
     """What was told of before the message's first order."""
     trouble: UnclearError | UnableError | None = None
     """What ended the reading early."""
+    reported: bool = False
+    """Whether something is done only because it was told what has happened."""
     unread: list[Phrase] = field(default_factory=list)
     """Clauses that mean nothing here."""
     _parts: Sequence[Clause] = ()

@@ -4,8 +4,9 @@ from __future__ import annotations
 
 import pytest
 
-from parley.language.base import Situation
+from parley.language.base import Situation, Turn
 from parley.language.offline.dialogue.addressing import addressed
+from parley.language.offline.dialogue.crew_words import for_another
 from parley.language.offline.dialogue.crews import plainly_called
 from parley.language.offline.words.text import plain, tokens
 from parley.world.object_map import MapObject
@@ -64,3 +65,20 @@ def test_whoever_may_do_it_is_left_out(message: str, order: str) -> None:
 @pytest.mark.parametrize("message", ["go to the gate", "Sue and I are at the gate", "where is Sue?"])
 def test_what_calls_nobody_stays_as_it_is(message: str) -> None:
     assert plain(plainly_called(tokens(message), CREW)) == message
+
+
+@pytest.mark.parametrize("message", ["let Sue do it", "no, I meant Sue", "that was for Sue", "and Sue too"])
+def test_the_last_order_is_handed_to_another_robot(message: str) -> None:
+    said = Situation(message, history=(Turn("operator", "Tim, go to the hall"),), robots=CREW.robots)
+    assert plain(for_another(tokens(message), said)) == "go to the hall"
+
+
+@pytest.mark.parametrize("message", ["Sue, go to the gate", "is that Sue?", "Sue found it in the hall"])
+def test_what_says_more_hands_nothing_over(message: str) -> None:
+    said = Situation(message, history=(Turn("operator", "Tim, go to the hall"),), robots=CREW.robots)
+    assert for_another(tokens(message), said) == ()
+
+
+def test_a_pronoun_stands_for_the_robot_that_was_spoken_of() -> None:
+    order, robots = addressed(plainly_called(tokens("Sue is free. Send her to the gate"), CREW), CREW)
+    assert robots == ("Sue",) and plain(order) == "go to the gate"

@@ -23,6 +23,10 @@ WHICH = Turn("assistant", "Which room do you mean: room 1, room 2 or room 3?")
         ("maybe in room 2", "in room 2"),
         ("no, the lobby", "the lobby"),
         ("room 1", "room 1"),
+        ("all except the first", "room 2 and room 3"),
+        ("anything but 1 or 3", "room 2"),
+        ("all of them, room 3 first", "room 3, room 1 and room 2"),
+        ("it is the cupboard beside room 2", "it is beside room 2"),
     ],
 )
 def test_an_answer_is_read_against_what_was_named(answer: str, meant: str) -> None:

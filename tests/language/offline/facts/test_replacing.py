@@ -17,6 +17,8 @@ from parley.language.offline.words.text import plain, tokens
         ("we have renamed the stores to depots", "the stores are now depots"),
         ("the nurse is not Ana any more, it is Tom", "the nurse is Tom"),
         ("I was wrong about the keys, they are in the hall", "the keys are in the hall"),
+        ("what I said about the keys was wrong, they are in the hall", "the keys are in the hall"),
+        ("I told you wrong about Ida, dear, she is in the hall", "Ida is in the hall"),
         ("actually, scratch that, Ida is in the hall", "Ida is in the hall"),
         ("Noah put it in the hall", "Noah has put it in the hall"),
         ("put it in the hall", "put it in the hall"),

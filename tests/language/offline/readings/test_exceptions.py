@@ -47,6 +47,20 @@ async def test_the_answer_is_left_out() -> None:
     assert places == ["hall 1", "hall 3"]
 
 
+async def test_so_many_of_more_are_asked_about_and_the_answer_is_done() -> None:
+    reply, places = await answer("go to both halls")
+    assert places == []
+    assert "Which do you mean" in reply
+    asked = (Turn("operator", "go to both halls"), Turn("assistant", reply))
+    assert (await answer("hall 1 and hall 3", *asked))[1] == ["hall 1", "hall 3"]
+    assert (await answer("2 and 3", *asked))[1] == ["hall 2", "hall 3"]
+
+
+@pytest.mark.parametrize("message", ["do not go to any hall but hall 2", "go nowhere except hall 2"])
+async def test_nothing_but_one_is_that_one(message: str) -> None:
+    assert (await answer(message))[1] == ["hall 2"]
+
+
 async def test_an_exception_by_its_name_is_no_question() -> None:
     assert (await answer("go to all halls but hall 3"))[1] == ["hall 1", "hall 2"]
 

@@ -42,6 +42,10 @@ def group(text: str, named: tuple[MapObject, ...] = ()) -> list[str]:
         ("every other gate", ["g1", "g3", "g5"]),
         ("every second gate beginning with gate 2", ["g2", "g4"]),
         ("all gates from 4 upwards", ["g4", "g5"]),
+        ("all gates above 3", ["g4", "g5"]),
+        ("the gates below 3", ["g1", "g2"]),
+        ("the gates with even numbers", ["g2", "g4"]),
+        ("three of the gates, namely 1, 3 and 4", ["g1", "g3", "g4"]),
         ("every gate apart from gate 3", ["g1", "g2", "g4", "g5"]),
         ("all gates but 2 and 3", ["g1", "g4", "g5"]),
         ("all gates except the last", ["g1", "g2", "g3", "g4"]),
@@ -78,6 +82,21 @@ def test_what_names_no_group_stays_as_it_is(text: str) -> None:
 
 def test_the_others_are_those_that_were_not_named() -> None:
     assert group("check the other tanks", TANKS[:1]) == ["t2", "t3"]
+
+
+def test_what_was_named_just_before_can_be_left_out() -> None:
+    assert group("tank 1 leaks, so check all tanks but that one", TANKS[:1]) == ["t2", "t3"]
+
+
+def test_so_many_are_those_that_were_named_before() -> None:
+    assert group("check the two tanks", TANKS[1:]) == ["t2", "t3"]
+
+
+def test_so_many_of_more_that_nothing_tells_are_noted() -> None:
+    reader = GroupReader(OBJECTS, Pose2D(0.0, 0.0), (), lambda said: ())
+    reader.read(tokens("check both gates"))
+    assert reader.uncounted is not None
+    assert reader.uncounted.items == GATES
 
 
 def test_a_pronoun_stands_for_the_group_before_it() -> None:

@@ -83,6 +83,15 @@ def test_the_numbers_of_a_list_are_no_words_of_it(said: str, meant: str) -> None
             "go to the desk, then go to the hall, then go to the lift",
         ),
         ("inspect the desk after you have been to the hall", "go to the hall, then inspect the desk"),
+        (
+            "start with the desk, end with the hall; the lift goes between them",
+            "go to the desk, then go to the lift, then go to the hall",
+        ),
+        (
+            "the desk, the hall, the lift in reverse order",
+            "go to the lift, then go to the hall, then go to the desk",
+        ),
+        ("the desk, then the hall, then back here", "go to the desk, then go to the hall, then come back"),
     ],
 )
 def test_stops_come_in_the_order_that_is_said_pair_by_pair(said: str, meant: str) -> None:
@@ -99,6 +108,9 @@ def test_stops_come_in_the_order_that_is_said_pair_by_pair(said: str, meant: str
         ("Check the desk last. Then go to the hall.", "Then go to the hall. Check the desk."),
         ("Check the desk, but go to the hall before you do that.", "but go to the hall. Check the desk."),
         ("Leave the desk until last. Check the hall.", "Check the hall. go to the desk."),
+        ("Go to the desk. Check the hall before you start.", "Check the hall. Go to the desk."),
+        ("Go to the desk. But check the hall first.", "check the hall. Go to the desk."),
+        ("Check the desk. Right at the start, go to the hall.", "go to the hall. Check the desk."),
     ],
 )
 def test_orders_come_where_they_are_meant(said: str, meant: str) -> None:

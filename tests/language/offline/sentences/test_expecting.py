@@ -74,3 +74,22 @@ def test_what_hangs_on_finding_something_hangs_on_the_look_for_it(text: str, mea
 )
 def test_a_condition_without_a_search_before_it_stays(text: str) -> None:
     assert plain(with_looks(tokens(text), is_stop)) == text
+
+
+@pytest.mark.parametrize(
+    ("text", "meant"),
+    [
+        (
+            "if you find oil at the gate, go to the hall. if there is none, go to the yard",
+            "if there is oil at the gate, go to the hall. if not, go to the yard",
+        ),
+        (
+            "if you see keys in the hall, come back, otherwise go to the gate",
+            "if there are keys in the hall, come back. if not, go to the gate",
+        ),
+        ("if you see smoke, go to the gate", "if you see smoke, go to the gate"),
+        ("if you see smoke at the gate, stop", "if you see smoke at the gate, stop"),
+    ],
+)
+def test_what_is_done_otherwise_makes_a_rule_something_to_look_at(text: str, meant: str) -> None:
+    assert plain(with_looks(tokens(text), is_stop)) == meant

@@ -17,6 +17,7 @@ from parley.language.offline.words.text import plain, tokens
         ),
         ("The lamp was broken. She moved it to the shop", "The lamp was broken. The lamp is in the shop"),
         ("The lamp was here but she moved it to the shop", "The lamp was here. The lamp is in the shop"),
+        ("The lamp was here, Ben put it in the shop", "The lamp was here. The lamp is in the shop"),
         ("It is gone, I put it in the box", "It is gone, I put it in the box"),
     ],
 )

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import pytest
 
-from parley.language.offline.sentences.ranking import ranked_stops
+from parley.language.offline.sentences.ranking import named_first, ranked_stops
 from parley.language.offline.words.text import keys, tokens
 
 
@@ -22,3 +22,26 @@ from parley.language.offline.words.text import keys, tokens
 )
 def test_stops_are_put_in_the_order_that_is_said(said: str, read: str) -> None:
     assert keys(ranked_stops(tokens(said))) == keys(tokens(read))
+
+
+@pytest.mark.parametrize(
+    ("said", "read"),
+    [
+        (
+            "Look at the shed and the fuel pump, the pump first because of the risk, and then go home",
+            "look at the fuel pump, then look at the shed because of the risk, and then go home",
+        ),
+        (
+            "Check the shed and the old barn, the shed last please.",
+            "check the old barn, then check the shed.",
+        ),
+        ("Check the shed and the barn. The barn first.", "check the barn, then check the shed."),
+        ("Check the shed and the barn, the pond first.", "Check the shed and the barn, the pond first."),
+        (
+            "If the shed and the barn are shut, the gate first.",
+            "If the shed and the barn are shut, the gate first.",
+        ),
+    ],
+)
+def test_one_of_a_list_that_is_to_come_first_or_last_is_moved(said: str, read: str) -> None:
+    assert keys(named_first(tokens(said))) == tuple(key.lower() for key in keys(tokens(read)))

@@ -42,3 +42,13 @@ def test_somebody_is_told_what_was_found() -> None:
 
 def test_what_is_so_already_is_not_done() -> None:
     assert steps("the north gate is open.") == []
+
+
+def test_what_is_sought_is_sought_where_it_may_be_otherwise() -> None:
+    found = steps("look for a red bag in the hall. If it is not there, try the yard.")
+    assert found[-2:] == [("drive_to", "yard"), ("check", "red bag")]
+
+
+def test_a_part_of_a_place_is_looked_at_there_and_not_at_its_like_elsewhere() -> None:
+    assert steps("if the tap in the yard is dripping, go to the hall")[0] == ("drive_to", "yard")
+    assert ("drive_to", "north gate") not in steps("check whether the light in the hall is on")

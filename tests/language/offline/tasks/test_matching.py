@@ -164,3 +164,58 @@ def test_it_is_what_was_told_of_before() -> None:
     assert steps("The peppers look rather dry to me, can you test it?", SOIL) == [
         ("testSoil", {"row": "pepper row"})
     ]
+
+
+FIELDS = (
+    MapObject("north", "north field", 0.0, 9.0, "field"),
+    MapObject("south", "south field", 9.0, 9.0, "field"),
+    MapObject("orchard", "orchard", 9.0, 0.0, "field"),
+)
+MOWING = ActionInfo(name="start_mowing", inputs={"field": "string"})
+STOVE = ActionInfo(name="set_burner", inputs={"level": "string"}, description="level: off|low|medium|high")
+LAMP = ActionInfo(
+    name="adjust_lamp",
+    inputs={"direction": "string", "degrees": "number"},
+    description="direction: up, down, left or right",
+)
+
+
+@pytest.mark.parametrize(
+    "say", ["mow the orchard", "cut the grass in the orchard", "start mowing the orchard"]
+)
+def test_what_a_name_says_begins_is_asked_for_by_the_deed_alone(say: str) -> None:
+    assert steps(say, MOWING, objects=FIELDS) == [("start_mowing", {"field": "orchard"})]
+
+
+def test_everything_is_all_of_the_kind_that_an_input_takes() -> None:
+    done = steps("mow everything except the orchard", MOWING, objects=FIELDS)
+    assert [values["field"] for _, values in done] == ["north field", "south field"]
+
+
+@pytest.mark.parametrize(
+    ("say", "level"), [("turn the burner down to low", "low"), ("burner at full power", "high")]
+)
+def test_one_of_a_few_values_is_said_in_other_words(say: str, level: str) -> None:
+    assert steps(say, STOVE, objects=()) == [("set_burner", {"level": level})]
+
+
+def test_a_deed_says_where_something_is_to_go() -> None:
+    down = steps("lower the lamp by 15 degrees", LAMP, objects=())
+    assert down == [("adjust_lamp", {"direction": "down", "degrees": 15.0})]
+
+
+def test_what_is_to_be_told_is_not_looked_at_for_other_inputs() -> None:
+    page = ActionInfo(name="page_doctor", inputs={"doctor": "string", "reason": "string"})
+    beds = (MapObject("bed", "bed 1", 0.0, 0.0, "bed"),)
+    told = steps("tell Doctor Brandt that the patient in bed 1 is in pain", page, objects=beds)
+    assert told == [("page_doctor", {"doctor": "Doctor Brandt", "reason": "the patient in bed 1 is in pain"})]
+
+
+def test_an_action_that_ends_something_is_not_meant_by_the_deed_alone() -> None:
+    stop = ActionInfo(name="stop_mowing")
+    assert steps("mow the orchard", stop, objects=FIELDS) == []
+
+
+def test_nothing_is_no_value() -> None:
+    spray = ActionInfo(name="spray_row", inputs={"row": "string"})
+    assert steps("nothing needs spraying", spray) == []

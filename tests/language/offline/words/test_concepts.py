@@ -28,7 +28,8 @@ def test_words_of_one_line_are_alike_and_others_are_not() -> None:
 
 
 def test_a_word_within_a_longer_phrase_does_not_count_alone() -> None:
-    assert "call" not in {concept.text for concept in concepts(("end", "the", "call"))}
+    said = concepts(("end", "the", "call"))
+    assert [(concept.text, concept.within) for concept in said] == [("end the call", False), ("call", True)]
 
 
 def test_the_contrary_of_what_is_said_is_told_apart() -> None:
@@ -40,3 +41,13 @@ def test_the_contrary_of_what_is_said_is_told_apart() -> None:
 
 def test_orders_may_begin_with_other_words_for_a_deed() -> None:
     assert ("crack", "a", "joke") in other_verbs(("tell", "joke"))
+
+
+def test_near_words_are_less_alike_than_those_that_may_stand_for_each_other() -> None:
+    (orbit,), (circle,) = concepts(("orbit",)), concepts(("circle",))
+    (close,), (shut,) = concepts(("close",)), concepts(("shut",))
+    assert 0.7 <= likeness(orbit, circle) < likeness(close, shut) < 1
+
+
+def test_a_particle_before_to_belongs_to_where_somebody_goes() -> None:
+    assert "go up" not in {one.text for one in concepts(("go", "up", "to", "the", "attic"))}

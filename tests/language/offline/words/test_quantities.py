@@ -57,3 +57,11 @@ def test_a_place_in_numbers_is_one_place_however_it_is_written(said: str) -> Non
 
 def test_three_numbers_keep_their_axes() -> None:
     assert plain_coordinates("fly to (12, -3, 8)") == "fly to x 12 y -3 z 8"
+
+
+def test_both_numbers_of_a_size_have_its_unit() -> None:
+    said = quantities(tokens("trim it to 40 by 60 cm"))
+    assert [(one.value, one.dimensions) for one in said] == [
+        (40.0, frozenset({"length"})),
+        (60.0, frozenset({"length"})),
+    ]

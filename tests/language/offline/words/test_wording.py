@@ -9,7 +9,13 @@ from parley.language.offline.sentences.clauses import opens_command
 from parley.language.offline.sentences.simultaneous import side_by_side
 from parley.language.offline.words.saying import in_turn
 from parley.language.offline.words.text import keys, plain, tokens
-from parley.language.offline.words.wording import asked_directly, counted_plainly, shared_out, turned
+from parley.language.offline.words.wording import (
+    asked_directly,
+    counted_plainly,
+    shared_out,
+    still_there,
+    turned,
+)
 
 
 @pytest.mark.parametrize(
@@ -92,3 +98,13 @@ def test_what_is_counted_is_said_without_who_sees_it(say: str, plainly: str) -> 
 def test_an_amount_for_each_is_an_amount() -> None:
     assert plain(shared_out(tokens("water both rows, five litres each"))) == "water both rows, five litres"
     assert plain(shared_out(tokens("check each room"))) == "check each room"
+
+
+@pytest.mark.parametrize(("say", "plainly"), [
+    ("if there is no tea left, go on", "if there is no tea, go on"),
+    ("there are two cups remaining", "there are two cups"),
+    ("there is a door on the left", "there is a door on the left"),
+    ("there is a bag left at the gate", "there is a bag left at the gate"),
+])  # fmt: skip
+def test_what_is_left_over_is_there(say: str, plainly: str) -> None:
+    assert plain(still_there(tokens(say))) == plainly

@@ -67,9 +67,10 @@ def able(words: Phrase, flat: tuple[str, ...], scene: Scene) -> Answer | None:
     indefinite = kinds or (
         asks and (not rest or rest[0] in {"a", "an", "any", "some"} or singular(rest[-1]) != rest[-1])
     )
-    if any(singular(word) not in _GENERIC for word in rest) and not indefinite:
-        return None
     kind = found[1].partition(":")[0]
+    lifts = asks and kind == "grasp" and scene.catalogue.with_role("fetch", "grasp") is None
+    if any(singular(word) not in _GENERIC for word in rest) and not (indefinite or lifts):
+        return None
     said = plain((Word(base[0], base[0]), *words[size + 1 :]))
     roles = {"whether": {"look"}, "transfer": {"fetch", "grasp", "ask_operator"}, "back": {"motion"}}.get(
         kind, {kind}

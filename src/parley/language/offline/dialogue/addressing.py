@@ -187,7 +187,9 @@ def stranger(words: Phrase, situation: Situation) -> str:
     ):
         return ""
     name = words[0].key
-    known = lexicon().vocabulary | {part for robot in situation.robots for part in keys(tokens(robot))}
+    known = (
+        _NOBODY | lexicon().vocabulary | {part for robot in situation.robots for part in keys(tokens(robot))}
+    )
     told = {word.key for entry in situation.memory for word in tokens(entry.data[:400])}
     mapped = {word.key for item in situation.objects for word in tokens(item.description)}
     ordered = next((w.key for w in words[2:] if w.key not in {"please", "can", "you", "could"}), "")
@@ -196,6 +198,7 @@ def stranger(words: Phrase, situation: Situation) -> str:
     return words[0].raw if orders and name not in known | told | mapped and named else ""
 
 
+_NOBODY = frozenset({"neither", "none", "nobody", "nowhere", "anyway", "anyhow", "either", "both"})
 _SENDING = (("send",), ("dispatch",), ("direct",), ("route",))
 _WISHING = (
     ("i", "want"), ("i", "need"), ("we", "want"), ("we", "need"), ("would", "like"), ("instruct",),

@@ -11,8 +11,8 @@ from collections.abc import Callable
 
 from parley.language.offline.dialogue.about_map import Answer
 from parley.language.offline.dialogue.about_told import own_taste, taught, where_before
+from parley.language.offline.dialogue.of_plan import of_plan
 from parley.language.offline.dialogue.own_state import step_words, told_about
-from parley.language.offline.dialogue.progress import progress
 from parley.language.offline.facts.remembering import newest
 from parley.language.offline.plan_changes.replanning import Visit, visit_of, visits
 from parley.language.offline.scene.grounding import describe, ground_phrase
@@ -64,7 +64,7 @@ _ABOUT_TELLING = frozenset({
     "please", "can", "could", "full", "whole", "a", "as", "my", "notes", "on", "file",
 })  # fmt: skip
 _TALENTS = frozenset({
-    "use", "good", "useful", "suit", "suits", "jobs", "help", "trained", "purpose", "talents",
+    "able", "use", "good", "useful", "suit", "suits", "jobs", "help", "trained", "purpose", "talents",
     "abilities", "capable", "tricks", "skills", "offer", "job", "made", "meant", "built", "strengths",
 })  # fmt: skip
 _ABOUT_TALENTS = frozenset({
@@ -73,6 +73,7 @@ _ABOUT_TALENTS = frozenset({
     "we", "tasks", "robot", "really", "all", "so", "on", "be", "here", "how", "could", "work", "give",
     "learned", "learnt", "like", "you're", "use", "else", "able", "what's", "does", "well",
 })  # fmt: skip
+_TELLING_TO = frozenset({"tell", "ask", "order", "have", "get", "give", "say"})
 _LANGUAGES = frozenset({
     "german", "french", "spanish", "estonian", "russian", "english", "finnish", "chinese", "italian",
     "portuguese", "polish", "arabic", "hindi", "japanese", "turkish", "dutch", "swedish", "language",
@@ -104,7 +105,7 @@ def _why(words: Phrase, flat: tuple[str, ...], scene: Scene) -> Answer | None:
         not why
         or "you" not in flat
         or flat[1:4] in {("do", "not", "you"), ("not", "you")}
-        or {"not"} & set(flat[1:3])
+        or ({"not"} & set(flat[1:3]) and flat[1] not in lexicon().be)
     ):
         return None
     if scene.situation.status == "paused" and _STANDING & set(flat):
@@ -395,7 +396,9 @@ def _saw(words: Phrase, flat: tuple[str, ...], scene: Scene) -> Answer | None:
 def _talents(words: Phrase, flat: tuple[str, ...], scene: Scene) -> Answer | None:
     """For "what kinds of jobs suit you?", "are you good for anything?"."""
     said = set(flat)
-    if said & _TALENTS and said <= _TALENTS | _ABOUT_TALENTS and {"you", "your"} & said and len(flat) > 3:
+    told_to = {"what", "which"} & {flat[0]} and {"can", "i", "you"} <= said and said & _TELLING_TO
+    about = said <= _TALENTS | _ABOUT_TALENTS | _TELLING_TO and {"you", "your"} & said and len(flat) > 3
+    if about and (said & _TALENTS or told_to):
         return Answer(abilities(scene))
     if said & _LANGUAGES and said <= _LANGUAGES | {
         "do",
@@ -457,10 +460,10 @@ _READERS: tuple[_Reader, ...] = (
     taught,
     where_before,
     _last_asked,
-    progress,
     _why,
     _order_of,
     _last_stop,
+    of_plan,
     _left,
     _far,
     _saw,

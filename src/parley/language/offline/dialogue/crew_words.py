@@ -13,10 +13,12 @@ from parley.language.word_lists import load_data
 
 __all__ = [
     "DUTY",
+    "for_another",
     "idles",
     "is_verb",
     "lead_size",
     "only_greets",
+    "pronoun_named",
     "sentences",
     "spelled",
     "turn_of",
@@ -36,6 +38,14 @@ _SENDING = PhraseTable.of(_DATA["sending"])
 _RESTING = frozenset(_DATA["resting"])
 _AROUND_REST = frozenset(_DATA["around_rest"])
 _NEEDLESS = frozenset(_DATA["needless"])
+_FREE = frozenset({
+    "free", "available", "idle", "nearest", "closest", "nearer", "closer", "not", "busy", "doing", "nothing",
+    "around", "there", "already", "the", "now", "right", "standing", "still", "at", "moment", "ready",
+})  # fmt: skip
+_HANDING = frozenset(_DATA["handing"])
+_HANDED = frozenset(_DATA["handed"])
+_GOALS = frozenset({"to", "into", "over", "back", "there", "home", "go"})
+_PRONOUNS = frozenset({"him", "her", "it", "them"})
 _MARKS = frozenset({".", "!", "?", ";", "\n"})
 
 
@@ -84,7 +94,7 @@ def idles(flat: tuple[str, ...]) -> bool:
         words = words[1:]
     if not words:
         return False
-    if words[0] in _RESTING:
+    if lemma(words[0]) in _RESTING:
         return set(words[1:]) <= _AROUND_REST
     return (
         "not" in words and set(words) <= _NEEDLESS and bool({"need", "needed", "have", "bother"} & set(words))
@@ -187,10 +197,12 @@ def sentences(words: Phrase) -> list[tuple[Phrase, Phrase]]:
 
 
 def only_greets(words: Phrase, robots: Sequence[str]) -> bool:
-    """Whether a sentence is nothing but a greeting of several ("hello A, hello B")."""
+    """Whether a sentence only greets several ("hello A, hello B") or says that one is free."""
     names = {part for name in robots for part in keys(tokens(name))}
     flat = tuple(key for key in keys(words) if key.isalnum())
     greeting = lexicon().greetings.match(flat)
+    if len(flat) > 2 and flat[0] in names and flat[1] in lexicon().be and set(flat[2:]) <= _FREE:
+        return True
     return (
         greeting is not None
         and len(flat) > 3
@@ -238,3 +250,45 @@ _TURNS = (
     ("task", "to"),
     ("turn", "now", "to"),
 )
+
+
+def pronoun_named(words: Phrase, situation: Situation) -> Phrase:
+    """For "send him to the gate": by name, where a robot was spoken of last."""
+    flat = keys(words)
+    at = next((i for i in range(1, len(flat) - 1) if flat[i] in _PRONOUNS), 0)
+    sent = at and len(situation.robots) > 1 and _SENDING.match_end(flat[:at])
+    if not sent or (flat[at] == "it" and flat[at - 1] not in {"send", "tell", "ask", "order", "let"}):
+        return words
+    if flat[at + 1] not in {"to", "into", "over", "back", "there", "home", "go"} and not is_verb(
+        flat[at + 1]
+    ):
+        return words
+    said = (words[:at], *(tokens(turn.content) for turn in reversed(situation.history)))
+    names = {name.lower(): name for name in situation.robots if name.isalpha()}
+    meant = next((names[w.key] for part in said for w in reversed(part) if w.key in names), "")
+    others = [name for name in situation.robots if name != situation.robot]
+    meant = meant or (others[0] if len(others) == 1 and flat[at - 1] == "send" else "")
+    return (*words[:at], *tokens(meant), *words[at + 1 :]) if meant else words
+
+
+def for_another(words: Phrase, situation: Situation) -> Phrase:
+    """The last order for the robots that are named: "let A do it", "no, I meant A", "and A too".
+
+    Args:
+        words: All words and punctuation, with the names.
+        situation: Its robots, and what was said before.
+
+    Returns:
+        The order without names; empty if more is said, or nothing was asked for.
+    """
+    names = {part for name in situation.robots for part in keys(tokens(name))}
+    flat = tuple(word.key for word in words if word.is_word)
+    rest = set(flat) - names
+    asks = flat[:1] in {("is",), ("does",), ("can",)} and keys(words[-1:]) == ("?",)
+    if not names & set(flat) or not rest & _HANDED or not rest <= _HANDING | _HANDED or asks:
+        return ()
+    said = next((t.content for t in reversed(situation.history) if t.role == "operator"), "")
+    order = tuple(word for word in tokens(said) if word.key not in names)
+    while order and (not order[0].is_word or order[0].key in {"and", "please"}):
+        order = order[1:]
+    return order if order and is_verb(lemma(order[0].key)) else ()

@@ -16,6 +16,7 @@ from parley.language.offline.dialogue.crew_words import (
     is_verb,
     lead_size,
     only_greets,
+    pronoun_named,
     sentences,
     spelled,
     turn_of,
@@ -32,7 +33,6 @@ from parley.language.word_lists import load_data
 __all__ = ["plainly_called"]
 
 _DATA = load_data("crews")
-_EVERYBODY = PhraseTable.of(_DATA["everybody"])
 _SENDING = PhraseTable.of(_DATA["sending"])
 _CALLING = PhraseTable.of(_DATA["calling"])
 _DOING_IT = PhraseTable.of(_DATA["doing_it"])
@@ -69,7 +69,7 @@ def plainly_called(words: Phrase, situation: Situation) -> Phrase:
         # The one that is spoken to comes first.
         robots = (situation.robot, *(name for name in robots if name != situation.robot))
     situation = replace(situation, robots=robots)
-    words = without_whoever(spelled(words, situation))
+    words = pronoun_named(without_whoever(spelled(words, situation)), situation)
     if not robots:
         return words
     result: list[Word] = []
@@ -254,16 +254,17 @@ def _names_at(words: Phrase, at: int, robots: Sequence[str]) -> tuple[tuple[str,
     number = lexicon().numbers.get(counted[1], 0) if len(counted) == 3 and counted[0] == "all" else 0
     if number == len(robots) > 1 and (counted[2] in _TOWARDS or is_verb(counted[2])):
         return tuple(robots), at + 2
-    everybody = _EVERYBODY.match(keys(words), at)
-    if everybody is not None:
-        end = at + everybody[0]
-        excepted = keys(words[end : end + 1]) in {("but",), ("except",), ("apart",), ("other",)}
-        return ((), at) if excepted else (tuple(robots), end)
     pair = keys(words[at : at + 2]) in {("you", "two"), ("you", "three"), ("you", "both")}
     if pair:
         more = at + 2 + (keys(words[at + 2 : at + 3]) == (",",))
         named, end = _names_at(words, more, robots)
-        return (named, end) if named else ((), at)
+        if named:
+            return named, end
+    everybody = lexicon().everybody.match(keys(words), at)
+    if everybody is not None:
+        end = at + everybody[0]
+        excepted = keys(words[end : end + 1]) in {("but",), ("except",), ("apart",), ("other",)}
+        return ((), at) if excepted else (tuple(robots), end)
     names: list[str] = []
     end = at
     while True:

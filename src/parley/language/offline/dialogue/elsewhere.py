@@ -10,11 +10,13 @@ from collections.abc import Sequence
 
 from parley.language.base import Situation, Turn
 from parley.language.offline.dialogue.turning import turned
+from parley.language.offline.facts.remembering import find_fact
 from parley.language.offline.grammar.things import Item, items_of
 from parley.language.offline.scene.grounding import describe, ground_phrase
 from parley.language.offline.scene.known import UnclearError
 from parley.language.offline.scene.scene import Scene
 from parley.language.offline.words.lexicon import lexicon
+from parley.language.offline.words.nouns import bare
 from parley.language.offline.words.saying import the
 from parley.language.offline.words.text import Phrase, Word, keys, plain, singular, tokens
 from parley.language.word_lists import load_data
@@ -27,6 +29,8 @@ _MARKS = frozenset(_DATA["marks"])
 _SMALL = frozenset(_DATA["small"])
 _PASSED = frozenset(tuple(text.split()) for text in _DATA["passed"])
 _OTHERS = frozenset({"other", "others", "rest", "remaining"})
+_ALL = frozenset({"all", "both", "each", "every", "everyone"})
+_OF_THEM = frozenset({"of", "them", "these", "those", "the", "one", "single"})
 _ONES = frozenset({"one", "ones"})
 _AGAIN = frozenset(_DATA["again"])
 _REPEATING = frozenset(_DATA["repeating"])
@@ -111,7 +115,8 @@ def _named(words: Phrase) -> Phrase | None:
     """What a follow-up names; None if more is said than that, or nothing marks it."""
     words = _instead_of(words)
     flat = keys(words)
-    if (not _MARKS & set(flat) and "?" not in flat) or "but" in flat:
+    refused = flat[:2] == ("no", ",") and flat[2:3] in {("to",), ("at",), ("in",), ("for",), ("from",)}
+    if (not _MARKS & set(flat) and "?" not in flat and not refused) or "but" in flat:
         return None
     inner = [i for i, word in enumerate(words) if word.is_word and word.key not in _SMALL]
     if not inner:
@@ -154,10 +159,10 @@ def put_in_place(named: Phrase, said: Phrase, scene: Scene) -> Phrase:
     if len(fitting) > 1:
         # Two things were named before: what is of the same kind as one of them takes its place.
         fitting = [(at, old, new) for at, old, new in fitting if new and _kinds(new) == _kinds(old)]
-    if len(fitting) != 1:
-        return ()
+    if len(fitting) != 1 or not fitting[0][2]:
+        return _told_in_place(named, said, scene)
     at, old, new = fitting[0]
-    if not new or set(new) <= set(old):
+    if set(new) <= set(old):
         return ()
     before = tuple(word for item in items[:at] for word in item.words)
     after = tuple(word for item in items[at + 1 :] for word in item.words)
@@ -171,8 +176,31 @@ def put_in_place(named: Phrase, said: Phrase, scene: Scene) -> Phrase:
     return tuple(result)
 
 
+def _told_in_place(named: Phrase, said: Phrase, scene: Scene) -> Phrase:
+    """For "where is A?" and "and B?", where one of them or both are remembered: the question about B."""
+    noun = bool(named) and (named[0].key in lexicon().determiners or named[0].is_capital)
+    if keys(said[:2]) in {("where", "is"), ("where", "are")} and noun and len(named) < 5:
+        return (*said[:2], *named, *(said[-1:] if not said[-1].is_word else ()))
+    if find_fact(named, scene.facts, locations=False)[0] is None:
+        found = ground_phrase(named, scene.objects, scene.situation.robot_pose, strict=True)
+        if found.outcome != "match":
+            return ()
+    flat, subjects = keys(said), {keys(bare(known.fact.subject)) for known in scene.facts}
+    for size in range(4, 0, -1):
+        for start in range(len(flat) - size + 1):
+            if flat[start : start + size] in subjects:
+                lead = start - (start > 0 and flat[start - 1] in lexicon().determiners)
+                return (*said[:lead], *named, *said[start + size :])
+    return ()
+
+
+_NAME_ENDS = frozenset(
+    {"and", "then", "for", "to", "at", "in", "on", "from", "with", "if", "whether", "please"}
+)
+
+
 def in_place_of_misspelt(named: Phrase, said: Phrase, scene: Scene) -> Phrase:
-    """What was said, with `named` for the last name in it that only sounds like one of the map.
+    """What was said, with `named` for the last name in it that only sounds like one of the map, or is none.
 
     Empty if there is no such name in it.
 
@@ -188,6 +216,13 @@ def in_place_of_misspelt(named: Phrase, said: Phrase, scene: Scene) -> Phrase:
         if ground_phrase(name, scene.objects, scene.situation.robot_pose).outcome == "match":
             kept = start - (said[start - 1].key != "to")
             return (*said[:kept], *named, *said[start + 1 :])
+    for start in range(len(said) - 1, 0, -1):
+        end = start
+        while end < len(said) and said[end].is_word and said[end].key not in _NAME_ENDS:
+            end += 1
+        if said[start - 1].key in {"the", "a", "an"} and end > start:
+            unknown = ground_phrase(said[start:end], scene.objects, strict=True).outcome == "none"
+            return (*said[: start - 1], *named, *said[end:]) if unknown else ()
     return ()
 
 
@@ -205,6 +240,11 @@ def _meant(named: Phrase, old: Sequence[MapObject], scene: Scene) -> list[MapObj
     """The things on the map that the follow-up names, the noun of the last order filled in."""
     flat = keys(named)
     noun = singular(_noun(old[0]))
+    if _ALL & set(flat) and set(flat) <= _ALL | _OF_THEM | set(lexicon().numbers):
+        # "Not just that one, all three".
+        alike = [item for item in scene.objects if _kind_name(item) == _kind_name(old[0])]
+        count = next((int(lexicon().numbers[key]) for key in flat if key in lexicon().numbers), len(alike))
+        return alike if len(alike) == count > 1 else []
     if _OTHERS & set(flat):
         return _others(named, noun, old, scene)
     if flat[-1] in _ONES:

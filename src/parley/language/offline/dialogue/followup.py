@@ -5,13 +5,16 @@ from __future__ import annotations
 from dataclasses import dataclass
 
 from parley.language.base import Situation, Turn
-from parley.language.offline.dialogue.offered import plain_answer
+from parley.language.offline.dialogue.offered import chosen_by_answer, plain_answer, without_tail
 from parley.language.offline.facts.facts import read_statement, strip_openers
+from parley.language.offline.facts.remembering import find_fact
 from parley.language.offline.repair.replies import agrees
 from parley.language.offline.scene.grounding import ground_phrase
+from parley.language.offline.scene.scene import Scene
 from parley.language.offline.sentences.clauses import clauses, opens_command
 from parley.language.offline.words import social
 from parley.language.offline.words.lexicon import lexicon
+from parley.language.offline.words.nouns import bare
 from parley.language.offline.words.text import Phrase, keys, plain, tokens
 
 __all__ = ["Request", "declines", "pending_request"]
@@ -35,6 +38,7 @@ _ASKING_BACK = (
 )
 _WHAT_FOR = ("what should i look for", "what shall i look for", "what am i to look for", "look for what")
 _LONGEST_ANSWER = 14
+_MEANING = (("i", "mean"), ("i", "meant"), ("i", "was", "thinking", "of"), ("i", "wanted", "to", "say"))
 _QUANTIFIED = frozenset({"all", "every", "each", "both", "except", "but", "any"})
 
 
@@ -53,10 +57,11 @@ class Request:
 
 def pending_request(words: Phrase, situation: Situation) -> Request | None:
     """The message that was asked about, if `words` answer the question."""
-    history = situation.history
+    history, words = situation.history, without_tail(words)
     if not history or not _asks(history[-1]) or not _is_answer(words, history[-1]):
         return None
-    answer = plain_answer(words, history[-1], situation.objects)
+    told = _where_told(words, situation)
+    answer = plain(told) if told else plain_answer(words, history[-1], situation.objects)
     hints = [answer]
     at = len(history) - 1
     while at > 0 and _asks(history[at]):
@@ -69,12 +74,39 @@ def pending_request(words: Phrase, situation: Situation) -> Request | None:
             at -= 1
             continue
         free = any(lexicon().your_choice.match(keys(words), i) for i in range(len(words)))
-        refuses = agrees(plain(words)) is False and len(words) <= 4 and not free
-        instead = refuses and ground_phrase(tokens(answer), situation.objects).outcome == "match"
+        chooses = bool(chosen_by_answer(words, history[-1], situation.objects))
+        refuses = agrees(plain(words)) is False and len(words) <= 4 and not free and not chooses
+        meant = next((m for m in _MEANING if keys(words[: len(m)]) == m and len(words) > len(m)), ())
+        if meant:
+            hints[-1] = answer = plain(words[len(meant) :])
+        instead = (
+            bool(refuses or meant) and ground_phrase(tokens(answer), situation.objects).outcome == "match"
+        )
         sought = any(text in history[-1].content.lower() for text in _WHAT_FOR)
         message = f"{turn.content.rstrip(' .!?')} for {answer}" if sought else turn.content
         return Request(message, tuple(hints), history[:at], refuses and not instead, instead)
     return None
+
+
+def _tells_where(flat: tuple[str, ...]) -> tuple[int, int]:
+    """Where what is spoken of stands in "(the one) where A is", "the one with A in it"; nothing elsewhere."""
+    at = next((i for i in range(min(4, len(flat))) if flat[i] in {"where", "with"}), -1)
+    described = at >= 0 and flat[:at] in {(), ("the", "one"), ("one",), ("that",)}
+    if not described or len(flat) < at + 3:
+        return 0, 0
+    if flat[at] == "where":
+        return (at + 1, len(flat) - 1) if flat[-1] in lexicon().be | lexicon().location_verbs else (0, 0)
+    inside = flat[-2:] in {("in", "it"), ("on", "it"), ("at", "it"), ("by", "it")}
+    return (at + 1, len(flat) - 2 * inside) if at else (0, 0)
+
+
+def _where_told(words: Phrase, situation: Situation) -> Phrase:
+    """The place that "(the one) where A is" means, where it is remembered; empty if it is none."""
+    words = tuple(word for word in words if word.is_word)
+    start, end = _tells_where(keys(words))
+    about = bare(words[start:end])
+    known = find_fact(about, Scene.of(situation).facts)[0] if about else None
+    return known.fact.place if known is not None else ()
 
 
 def declines(message: str, situation: Situation) -> bool:
@@ -109,7 +141,10 @@ def _is_answer(words: Phrase, question: Turn) -> bool:
     if not words or len(words) > _LONGEST_ANSWER:
         return False
     flat = keys(strip_openers(words))
-    if agrees(plain(words)) is not None and len(words) <= 5:
+    free = any(lexicon().your_choice.match(keys(words), i) is not None for i in range(len(words)))
+    if len(words) <= 5 and (free or agrees(plain(words)) is not None):
+        return True
+    if _tells_where(flat)[1] and flat[0] == "where":
         return True
     if flat[0] in lexicon().question_starts or social.reply(words) is not None:
         return False

@@ -8,7 +8,7 @@ from __future__ import annotations
 
 from parley.language.offline.facts.facts import strip_openers
 from parley.language.offline.words.lexicon import lexicon
-from parley.language.offline.words.text import Phrase, Word, keys
+from parley.language.offline.words.text import Phrase, Word, keys, lemma
 from parley.language.word_lists import load_data
 
 __all__ = ["plain_question"]
@@ -21,6 +21,9 @@ _AROUND_SHORT = frozenset(_DATA["around_short"])
 _MARKED_ONLY = frozenset(_DATA["short_if_marked"])
 _MEANT = {"status": "what are you doing", "left": "what is left", "self": "where are you"}
 _LONGEST_SHORT = 5
+_AROUND_NEXT = frozenset(
+    word for text in (*_DATA["after_this"], *_DATA["around_next"]) for word in text.split()
+)
 
 
 def plain_question(words: Phrase, *, marked: bool) -> Phrase:
@@ -33,13 +36,15 @@ def plain_question(words: Phrase, *, marked: bool) -> Phrase:
     raw = tuple(word for word in words if word.is_word)
     while raw and raw[0].key in _JOINING:
         raw = raw[1:]
+    if marked and _after_this(keys(raw)):
+        return tuple(Word(part, part) for part in _MEANT["left"].split())
     behind = _behind(keys(raw)) if marked else 0
     if behind:
         # "And once you are through with the desk?"
         return (*(Word(part, part) for part in ("what", "comes", "after")), *raw[behind:])
     if marked and keys(raw[-2:]) in {("then", "what"), ("what", "then"), ("what", "next")}:
         return tuple(Word(part, part) for part in _MEANT["left"].split())
-    words = strip_openers(words)
+    words = _about_ability(strip_openers(words))
     said = tuple(word for word in words if word.is_word)
     short = _short(said, marked=marked)
     if short:
@@ -59,6 +64,30 @@ def plain_question(words: Phrase, *, marked: bool) -> Phrase:
             word for i, word in enumerate(said) if i == 0 or flat[i] not in _FILLERS or len(flat) < 4
         )
     return said
+
+
+def _after_this(flat: tuple[str, ...]) -> bool:
+    """Whether a question asks what comes after that which is being done, and nothing else."""
+    text = " ".join(flat)
+    at = next((text.find(lead) for lead in _DATA["after_this"] if f" {lead} " in f" {text} "), -1)
+    return at >= 0 and set(flat) <= _AROUND_NEXT
+
+
+def _about_ability(words: Phrase) -> Phrase:
+    """For "is V-ing A something that you could do?" "are you able to V A"."""
+    said = tuple(word for word in words if word.is_word)
+    flat = keys(said)
+    at = next((i for i in range(2, len(flat) - 2) if flat[i] in {"something", "anything"}), 0)
+    asks = (
+        flat[:1] in {("is",), ("would",)}
+        and "you" in flat[at:]
+        and flat[-1:] in {("do",), ("of",), ("handle",)}
+    )
+    start = 2 if flat[:1] == ("would",) else 1
+    if not at or not asks or not flat[start].endswith("ing"):
+        return words
+    verb = lemma(flat[start])
+    return (*(Word(part, part) for part in ("are", "you", "able", "to", verb)), *said[start + 1 : at])
 
 
 _JOINING = frozenset({"and", "so", "ok", "okay", "well", "but", "then", "right"})

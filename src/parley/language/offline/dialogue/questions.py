@@ -7,6 +7,7 @@ from functools import cache
 from parley.language.offline.dialogue import about_map
 from parley.language.offline.dialogue.able import KNOWING_HOW, able
 from parley.language.offline.dialogue.about_map import Answer
+from parley.language.offline.dialogue.about_told import taught
 from parley.language.offline.dialogue.asked import asked, told_of
 from parley.language.offline.dialogue.own_state import ABOUT_ITSELF, told_about
 from parley.language.offline.dialogue.plain_question import plain_question
@@ -23,7 +24,6 @@ from parley.language.offline.words.nouns import bare, noun_phrase
 from parley.language.offline.words.saying import a, capital, listing, the, whole_sentence
 from parley.language.offline.words.text import Phrase, Word, keys, plain, tokens
 from parley.language.word_lists import load_data
-from parley.messages.chat import ActionCall
 
 __all__ = ["Answer", "answer", "unwrapped"]
 
@@ -50,7 +50,13 @@ def answer(clause: Clause, scene: Scene) -> Answer | None:
         UnclearError: It can be read in several ways.
     """
     words = plain_question(clause.words, marked=clause.is_question)
-    if clause.is_question and words[:1] and words[0].key in {"any", "anything", "anybody", "anyone"}:
+    wrapped = unwrapped(words)[1]
+    if (
+        clause.is_question
+        and not wrapped
+        and words[:1]
+        and words[0].key in {"any", "anything", "anybody", "anyone"}
+    ):
         words = (Word("is", "is"), *turned(words, scene)[:1], *words)
     whole = recalled_fully(words, scene) if keys(words)[:1] in _WH else None
     if whole is not None:
@@ -59,6 +65,7 @@ def answer(clause: Clause, scene: Scene) -> Answer | None:
         return Answer(whole[0])
     knows_how = clause.is_question and keys(words)[:5] == KNOWING_HOW
     found = able(words, keys(words), scene) if knows_how else told_of(words, keys(words), scene)
+    found = found or (taught(words, keys(words), scene) if keys(words)[:1] in _RECITING else None)
     found = found or _read(words, clause, scene)
     if found is None and not _asks_of_others(clause, keys(words)):
         return None
@@ -72,6 +79,7 @@ def answer(clause: Clause, scene: Scene) -> Answer | None:
     return Answer(told[0])
 
 
+_RECITING = frozenset({("list",), ("repeat",), ("show",), ("tell",), ("give",)})
 _WH = frozenset({("what",), ("who",), ("whose",), ("which",), ("why",)})
 _MAY = frozenset({"can", "could", "may", "should", "must", "will", "would"})
 """How questions begin that ask whether something may or will be done, by whomever but the robot."""
@@ -102,7 +110,7 @@ def _read(words: Phrase, clause: Clause, scene: Scene) -> Answer | None:
     if not question:
         return None
     marked = clause.is_question
-    ready = (_planned(flat, scene) or able(words, flat, scene)) if marked else None
+    ready = able(words, flat, scene) if marked else None
     ready = ready or asked(words, flat, scene)
     if ready is not None:
         return ready
@@ -140,30 +148,6 @@ def _to_be_done(asked: tuple[str, ...], said: tuple[str, ...], scene: Scene) -> 
         return True
     counted = asked[:2] == ("how", "many") and catalogue.with_role("count") is not None
     return counted and len(asked) > 3 and asked[2] not in {"robots", "steps"}
-
-
-def _planned(flat: tuple[str, ...], scene: Scene) -> Answer | None:
-    """For "will you go to the box?", "are you going to inspect it?": about the plan, if it says so."""
-    start = next((s for s in _WILL if flat[: len(s)] == s), ())
-    if not start or not scene.situation.queue or "please" in flat:
-        return None
-    names = [item.lower() for step in scene.situation.queue for item in _values(step)]
-    said = f" {' '.join(flat[len(start) :])} "
-    if any(f" {name} " in said for name in names):
-        return Answer(f"Yes, {said.strip()} is part of the plan.")
-    return None
-
-
-_WILL = (
-    ("will", "you"),
-    ("are", "you", "going", "to"),
-    ("do", "you", "still", "plan", "to"),
-    ("do", "you", "plan", "to"),
-)
-
-
-def _values(step: ActionCall) -> list[str]:
-    return [p.value for p in step.input_parameters.values() if isinstance(p.value, str)]
 
 
 def unwrapped(words: Phrase) -> tuple[Phrase, bool]:
@@ -325,7 +309,7 @@ def _how_many(words: Phrase, flat: tuple[str, ...], scene: Scene, _: bool) -> An
         start == 1 and (flat[0] not in {"which", "what"} or flat[1] in lexicon().be | lexicon().auxiliaries)
     ):
         return None
-    end = next((i for i in range(start + 1, len(flat)) if flat[i] in lexicon().be | {"do", "can"}), len(flat))
+    end = next((i for i in range(start + 1, len(flat)) if flat[i] in _COUNTED_BY), len(flat))
     about = bare(words[start:end])
     found = ground_phrase(about, scene.objects) if about else None
     where = noun_phrase(words[start:]) if start == 2 else None
@@ -340,6 +324,9 @@ def _how_many(words: Phrase, flat: tuple[str, ...], scene: Scene, _: bool) -> An
         return Answer(f"I do not know of any {plain(about)}.") if start == 2 else None
     names = listing([the(describe(item, scene.objects)) for item in found.candidates])
     return Answer(f"I know {len(found.candidates)} on my map: {names}.")
+
+
+_COUNTED_BY = lexicon().be | {"do", "can", "have", "has", "did", "does", "got", "will", "could"}
 
 
 def _who(words: Phrase, flat: tuple[str, ...], scene: Scene, _: bool) -> Answer | None:

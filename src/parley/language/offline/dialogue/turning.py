@@ -27,7 +27,7 @@ def turned(words: Phrase, scene: Scene) -> Phrase:
     """
     words = tuple(word for word in words if word.is_word)
     flat = keys(words)
-    if len(flat) < 3:
+    if len(flat) < (2 if flat[:1] and flat[0] in _ANY else 3):
         return ()
     if flat[0] in _ANY:
         return (Word("there", "there"), Word("is", "is"), *words)

@@ -6,19 +6,21 @@ remembered, or of somebody by name.
 
 from __future__ import annotations
 
-from parley.language.offline.facts.facts import Fact, read_statement, strip_openers
+from parley.language.offline.facts.facts import Fact, only_before, read_statement, strip_openers
+from parley.language.offline.facts.framed import asked_to_keep
 from parley.language.offline.facts.groups import read_group
 from parley.language.offline.facts.redirecting import read_redirect
 from parley.language.offline.facts.stories import mentioned
 from parley.language.offline.scene.scene import Scene
 from parley.language.offline.sentences.clauses import opens_command
 from parley.language.offline.sentences.finite import verb_at
+from parley.language.offline.sentences.telling import is_usual
 from parley.language.offline.words.lexicon import lexicon
 from parley.language.offline.words.nouns import bare, coordinated
 from parley.language.offline.words.text import Phrase, Word, keys, plain, tokens
 from parley.language.word_lists import load_data
 
-__all__ = ["laid_down", "read_declared", "read_rule"]
+__all__ = ["is_statement", "laid_down", "read_declared", "read_rule"]
 
 _GIVING = frozenset(
     {"gave", "sold", "lent", "handed", "passed", "transferred", "assigned", "given", "rented"}
@@ -80,6 +82,7 @@ _TELLING = frozenset(
 )
 _RULES = tuple(tuple(text.split()) for text in load_data("telling")["rules"])
 _MOST_WORDS = 24
+_PAST = frozenset(load_data("units")["past"])
 
 
 def read_declared(words: Phrase, scene: Scene) -> Fact | None:
@@ -106,12 +109,12 @@ def read_declared(words: Phrase, scene: Scene) -> Fact | None:
     if len(subject) > 1 and subject[-1].key in {"may", "can", "must"}:
         # "Only A may V": of A.
         subject = subject[int(subject[0].key == "only") : -1]
-    if not subject or at >= len(said) - 1:
+    if not subject or (at >= len(said) - 1 and verb_at(said)):
         return None
     known = _is_known(subject, scene)
     if not known and not mentioned(said[at:], scene):
         return None
-    text = plain(said)
+    text = plain((*only_before(words, said), *said))
     sentence = text[:1].upper() + text[1:]
     goal = next((i for i in range(at + 2, len(flat) - 1) if flat[i] == "to"), 0)
     if flat[at] in _GIVING and goal:
@@ -122,13 +125,37 @@ def read_declared(words: Phrase, scene: Scene) -> Fact | None:
 
 def _unknown_verb(said: Phrase, scene: Scene) -> int:
     """Where a verb that no list has stands behind a thing of the map ("the machine refuses coins")."""
-    for at in range(min(5, len(said) - 2), 0, -1):
+    for at in range(min(5, len(said) - 1), 0, -1):
         verb = said[at].key
         third = len(verb) > 3 and verb.endswith("s") and "'" not in verb and not verb.endswith("ss")
-        unknown = third and verb not in lexicon().vocabulary
+        unknown = (third and verb not in lexicon().vocabulary) or verb in _PAST
         if unknown and scene.ground(said[:at]).outcome == "match":
             return at
     return 0
+
+
+def is_statement(words: Phrase) -> bool:
+    """Whether a clause plainly tells something, of whatever it is ("the harbour master retires next year").
+
+    Args:
+        words: One clause.
+    """
+    said = tuple(word for word in strip_openers(words) if word.is_word)
+    flat = keys(said)
+    begins = lexicon().determiners | {"we", "they", "he", "she", "people", "it"}
+    if (
+        not begins & set(flat[:1])
+        or len(said) < 3
+        or {"you", "your", "please"} & set(flat)
+        or opens_command(said)
+    ):
+        return False
+    third = (
+        i
+        for i in range(1, min(6, len(flat)))
+        if flat[i].endswith("s") and flat[i] not in lexicon().vocabulary and len(flat[i]) > 3
+    )
+    return bool(verb_at(said)) or next(third, 0) > 0
 
 
 def read_rule(words: Phrase) -> Fact | None:
@@ -205,12 +232,13 @@ def _habit(words: Phrase, scene: Scene) -> Fact | None:
     third = at and flat[at].endswith("s") and flat[at] not in lexicon().be | {"has", "was", "does"}
     if (
         not third
-        or not _HABIT & set(flat[at:])
+        or not (_HABIT & set(flat[at:]) or is_usual(flat))
         or {"and", "then", "if", "when"} & set(flat)
         or len(said) > 14
     ):
         return None
-    if not scene.is_person(bare(said[:at])) or flat[0] in _OWN:
+    somebody = scene.is_person(bare(said[:at])) or (is_usual(flat) and at < _LONGEST_SUBJECT)
+    if not somebody or flat[0] in _OWN:
         return None
     text = plain(said)
     return Fact(
@@ -218,6 +246,7 @@ def _habit(words: Phrase, scene: Scene) -> Fact | None:
     )
 
 
+_LONGEST_SUBJECT = 6
 _SENTENCE_ENDS = frozenset({".", "!", "?", ";", "\n"})
 _USING = frozenset(
     {"use", "using", "used", "everything", "moved", "replaces", "replaced", "contents", "stuff"}
@@ -253,6 +282,18 @@ def _replacement(words: Phrase, scene: Scene) -> Fact | None:
     return Fact(told.place, relation="is", state=words, sentence=text[:1].upper() + text[1:])
 
 
+def _kept_whole(sentence: Phrase, scene: Scene) -> Fact | None:
+    """For "remember that A always goes to B": what is asked to be kept, with an order's words in it."""
+    said = asked_to_keep(strip_openers(sentence))
+    inner = (i for i in range(1, len(said)) if lexicon().verbs.match(keys(said), i) is not None)
+    if not said or next(inner, None) is None or opens_command(said, scene.catalogue.verbs):
+        return None
+    if not verb_at(said) and not is_usual(keys(said)):
+        return None
+    text = plain(said)
+    return Fact(said[:4], relation="note", state=said, sentence=text[:1].upper() + text[1:])
+
+
 def laid_down(words: Phrase, scene: Scene) -> tuple[tuple[Fact, ...], Phrase]:
     """What whole sentences of a message list or lay down for later, and the message without them.
 
@@ -275,6 +316,7 @@ def laid_down(words: Phrase, scene: Scene) -> tuple[tuple[Fact, ...], Phrase]:
             or read_rule(sentence)
             or _habit(sentence, scene)
             or _replacement(sentence, scene)
+            or _kept_whole(sentence, scene)
         )
         if fact is None:
             left += (*sentence, *mark)

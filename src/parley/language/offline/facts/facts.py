@@ -11,7 +11,7 @@ from parley.language.offline.words.nouns import bare, noun_phrase
 from parley.language.offline.words.text import Phrase, Word, keys, plain
 from parley.language.word_lists import load_data
 
-__all__ = ["NO_PLACES", "TASTES", "Fact", "read_statement", "strip_openers", "where_only"]
+__all__ = ["NO_PLACES", "TASTES", "Fact", "only_before", "read_statement", "strip_openers", "where_only"]
 
 
 def strip_openers(phrase: Phrase, *, requests: bool = False, reporting: bool = False) -> Phrase:
@@ -40,9 +40,20 @@ def strip_openers(phrase: Phrase, *, requests: bool = False, reporting: bool = F
     return phrase
 
 
+def only_before(said: Phrase, stripped: Phrase) -> Phrase:
+    """The word "only" right before what is left of a statement ("only A may V").
+
+    Args:
+        said: The whole statement.
+        stripped: The same without what opens it.
+    """
+    at = next((i for i in range(len(said)) if said[i : i + 2] == stripped[:2]), 0)
+    return said[at - 1 : at] if at and said[at - 1].key == "only" else ()
+
+
 def read_statement(phrase: Phrase) -> Fact | None:
     """The fact that a clause states, or None if it states none."""
-    phrase = _without_end(strip_openers(phrase, reporting=True))
+    said, phrase = phrase, _without_end(strip_openers(phrase, reporting=True))
     flat = keys(phrase)
     if len(flat) < 3 or flat[0] in lexicon().question_starts - {"when"} | lexicon().be:
         return None
@@ -65,7 +76,8 @@ def read_statement(phrase: Phrase) -> Fact | None:
     )
     if fact is None:
         return None
-    return replace(fact, place=where_only(fact.place), sentence=_sentence(phrase))
+    sentence = _sentence((*only_before(said, phrase), *phrase))
+    return replace(fact, place=where_only(fact.place), sentence=sentence)
 
 
 TASTES = frozenset({"like", "love", "prefer", "hate", "dislike", "enjoy"})

@@ -5,6 +5,7 @@ A frame is made of small words and at least one that speaks of knowing or keepin
 
 from __future__ import annotations
 
+from parley.language.offline.facts.facts import strip_openers
 from parley.language.offline.facts.replacing import put_plainly
 from parley.language.offline.sentences.clauses import opens_command
 from parley.language.offline.sentences.finite import has_verb, verb_at
@@ -12,7 +13,7 @@ from parley.language.offline.words.lexicon import lexicon
 from parley.language.offline.words.text import Phrase, Word, keys
 from parley.language.word_lists import load_data
 
-__all__ = ["told_plainly"]
+__all__ = ["asked_to_keep", "told_plainly"]
 
 _DATA = load_data("telling")
 _KEEPING = frozenset(_DATA["keeping"])
@@ -50,13 +51,19 @@ def told_plainly(words: Phrase) -> Phrase:
         words: All words and punctuation.
     """
     if "?" in keys(words[-1:]):
-        return words
+        return _asked_to_keep_so(words)
     words = put_plainly(words)
     result: list[Word] = []
-    start = 0
+    start = before = 0
     while start < len(words):
         end = next((i for i in range(start, len(words)) if words[i].key in _ENDS), len(words))
         size = _frame(words[start:])
+        if before < len(result) and _is_frame(words[start:end]) and _is_news(tuple(result[before:])):
+            # "S. Keep that in mind."
+            result[before:before] = _REMEMBER
+            start = end + 1
+            continue
+        before = len(result)
         if size:
             start += size
             end = next((i for i in range(start, len(words)) if words[i].key in _ENDS), len(words))
@@ -67,7 +74,55 @@ def told_plainly(words: Phrase) -> Phrase:
     return tuple(result)
 
 
+def _asked_to_keep_so(words: Phrase) -> Phrase:
+    """For "S, would you be so kind as to keep that in mind?": the same as without the question."""
+    end = max((i for i, word in enumerate(words[:-1]) if word.key == ","), default=0)
+    polite = strip_openers(words[end + 1 : -1], requests=True)
+    asks = end and len(polite) < len(words) - end - 2 and _is_frame(polite)
+    return (
+        (*_REMEMBER, *words[:end], Word(".", ".")) if asks and _tells(words[:end], telegram=False) else words
+    )
+
+
 _REMEMBER = (Word("remember", "remember"), Word("that", "that"))
+
+
+def asked_to_keep(sentence: Phrase) -> Phrase:
+    """What a sentence asks to remember in so many words ("note that S", "make a note: S"); empty if nothing.
+
+    Args:
+        sentence: Its words, without courtesy at its start.
+    """
+    flat = keys(sentence)
+    lead = next((lead for lead in _LEADS if flat[: len(lead)] == lead), ())
+    end = next((i for i in range(len(lead), min(len(flat), _LONGEST)) if flat[i] in {"that", ":", ","}), 0)
+    if not lead or not end or not set(flat[len(lead) : end]) <= _AROUND | _BEHIND | {"on", "from"}:
+        return ()
+    return sentence[end + 1 :] if _tells(sentence[end + 1 :], telegram=False) else ()
+
+
+_LEADS = tuple(
+    tuple(text.split())
+    for text in (
+        "remember", "note", "note down", "make a note", "bear in mind", "keep in mind", "do not forget",
+        "never forget", "take note", "write down", "be aware", "please remember", "please note",
+        "always remember", "for your information", "fyi", "just so you know", "for the record",
+    )
+)  # fmt: skip
+
+
+def _is_frame(sentence: Phrase) -> bool:
+    """Whether a sentence only asks to keep what was said before it."""
+    flat = keys(word for word in sentence if word.is_word)
+    kept = any(key in _KEEPING and _keeps(flat, i) for i, key in enumerate(flat))
+    points = {"that", "it", "this", "down"} & set(flat)
+    return 1 < len(flat) < 9 and kept and bool(points) and set(flat) <= _AROUND | _KEEPING | {"and"}
+
+
+def _is_news(sentence: Phrase) -> bool:
+    """Whether a sentence may be kept as it stands."""
+    said = tuple(word for word in sentence if word.key not in _ENDS)
+    return keys(said[:2]) != keys(_REMEMBER) and _tells(said, telegram=True) and not opens_command(said)
 
 
 def _frame(words: Phrase) -> int:

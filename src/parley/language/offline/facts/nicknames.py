@@ -15,7 +15,7 @@ from parley.language.offline.words.text import Phrase, Word, keys, plain, tokens
 from parley.messages.memory import MemoryEntry
 from parley.world.object_map import MapObject
 
-__all__ = ["Nickname", "by_their_real_names", "nicknames"]
+__all__ = ["Nickname", "by_their_real_names", "nicknames", "remembered_plainly"]
 
 _CALLING = frozenset({"call", "calls", "named", "name", "nicknamed", "nickname", "dub", "dubbed"})
 _CALLED = frozenset(
@@ -69,6 +69,37 @@ def nicknames(memory: Sequence[MemoryEntry], objects: Sequence[MapObject]) -> li
             found.setdefault(keys(called), Nickname(called, item, entry))
             break
     return list(found.values())
+
+
+def remembered_plainly(words: Phrase, scene: Scene) -> Phrase:
+    """For "ladle. V it" "the ladle. V it", for "A with the B on it" "A where the B is", B remembered."""
+    flat = keys(words)
+    for subject in {keys(bare(known.fact.subject)) for known in scene.facts}:
+        size = len(subject)
+        starts = (i for i in range(len(flat) - size) if subject and flat[i : i + size] == subject)
+        for at in starts:
+            begins = at == 0 or flat[at - 1] in {".", "!", "?"}
+            if (
+                begins
+                and flat[at + size] in {".", "!", ":"}
+                and {"it", "there", "them"} & set(flat[at + size :])
+            ):
+                return (Word("the", "the"), *words) if at == 0 else words
+            behind = flat[at + size : at + size + 2]
+            held = (
+                behind[:1]
+                and behind[0] in {"on", "in", "at", "inside"}
+                and behind[1:] in {("it",), ("them",)}
+            )
+            if held and flat[at - 2 : at] == ("with", "the"):
+                return (
+                    *words[: at - 2],
+                    *tokens("where the"),
+                    *words[at : at + size],
+                    *tokens("is"),
+                    *words[at + size + 2 :],
+                )
+    return words
 
 
 def by_their_real_names(words: Phrase, scene: Scene) -> Phrase:

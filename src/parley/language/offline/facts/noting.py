@@ -12,6 +12,8 @@ from parley.language.offline.facts.worth import is_idle, worth_keeping
 from parley.language.offline.scene.known import ONLY_NOW
 from parley.language.offline.scene.scene import Scene
 from parley.language.offline.sentences.clauses import Clause
+from parley.language.offline.sentences.deeds import Deeds
+from parley.language.offline.sentences.telling import telling
 from parley.language.offline.words.lexicon import lexicon
 from parley.language.offline.words.nouns import bare, coordinated
 from parley.language.offline.words.saying import the, whole_sentence
@@ -55,6 +57,13 @@ class Noting:
         if not self._asked_to_keep(clause.words) and not worth_keeping(fact, clause.words):
             self.scene.trace.note("memory", f"not kept: {fact.sentence}")
             self.scene.mention(fact.subject)
+            self.told_only = True
+            return True
+        told = telling(clause.words, Deeds.of(self.scene))
+        if told is not None and told.kind == "undone" and not self._asked_to_keep(clause.words):
+            # It is done, or only explains what is.
+            self.scene.mention(fact.subject)
+            self.scene.places.extend((fact.place,) if fact.place else ())
             self.told_only = True
             return True
         if clause.passing and not self._asked_to_keep(clause.words):

@@ -106,7 +106,11 @@ class Recalling(Doing):
         """Clauses put so that what is needed is known first, and that say plainly what is to be looked at."""
         parts = [replace(part, words=as_look(part.words)) for part in parts]
         parts = looking_in(stated_first(parts, self.scene.is_person), self.scene.is_person)
-        return watched_for(confirming(parts), lambda words: len(self.scene.several(words)) > 1)
+        return watched_for(
+            confirming(parts),
+            lambda words: len(self.scene.several(words)) > 1,
+            lambda words: words[-1].is_capital or self.scene.ground(words).outcome != "none",
+        )
 
     def _mention_answer(self) -> None:
         """Where something is that was asked for just now: "there" in what follows."""

@@ -121,13 +121,20 @@ def _no_longer(words: Phrase, flat: tuple[str, ...]) -> Phrase:
 
 def _wrong_about(words: Phrase, flat: tuple[str, ...]) -> Phrase:
     """For "I was wrong about A, they are in B": "A are in B"."""
-    at = next((i for i in range(min(6, len(flat))) if flat[i] == "about"), 0)
-    comma = _end(flat, at, frozenset({",", ":", ".", ";", "-"}))
+    at = next((i for i in range(min(9, len(flat))) if flat[i] == "about"), 0)
+    end = comma = _end(flat, at, frozenset({",", ":", ".", ";", "-"}))
+    if at and flat[0] == "what" and flat[end - 2 : end] in {("was", "wrong"), ("is", "wrong")}:
+        # "What I said about A was wrong, they are in B".
+        words = (words[end - 1], *words[at : end - 2], *words[end:])
+        at, end, flat = 1, end - 1 - at, keys(words)
+        comma = end
+    while flat[comma + 2 : comma + 3] == (",",):
+        comma += 2
     pronoun = flat[comma + 1] if comma + 2 < len(flat) else ""
     verb = flat[comma + 2] if pronoun else ""
     if not at or not _WRONG & set(flat[:at]) or pronoun not in _PRONOUNS or verb not in lexicon().be:
         return ()
-    return (*words[at + 1 : comma], *words[comma + 2 :])
+    return (*words[at + 1 : end], *words[comma + 2 :])
 
 
 def _is(subject: Phrase) -> Word:

@@ -88,7 +88,9 @@ def worth_keeping(fact: Fact, words: Phrase) -> bool:
     subject = keys(fact.subject)
     if not flat or not subject:
         return True
-    nobody = flat[0] in _REASONS or _WITHOUT_SUBJECT & {flat[0], subject[0]}
+    # "Neither gate should be open": what is to be so now, and no rule.
+    wished = flat[0] == "neither" and bool({"should", "must", "may", "ought"} & set(flat))
+    nobody = wished or flat[0] in _REASONS or _WITHOUT_SUBJECT & {flat[0], subject[0]}
     never = _set("never_subjects") & (set(subject) - (set(subject[:-1]) & _SHIFTS))
     if nobody or (never and not fact.is_location):
         return False

@@ -160,7 +160,7 @@ class Draft:
     def _moves(self, order: Order) -> bool:
         """For "A, B and C, start with B", "..., but finish at A": what is planned already moves."""
         first = order.words[0].key if order.words else ""
-        planned = [s for s in self.plan.steps if any(same_place(s.place, t) for t in order.things)]
+        planned = self._planned(order)
         if (
             order.kind != "go"
             or not planned
@@ -172,10 +172,20 @@ class Draft:
         self._place(order)
         return True
 
+    def _planned(self, order: Order) -> list[Step]:
+        """The steps that are planned for what an order names, "the gate" where there is one gate so far."""
+        found = [s for s in self.plan.steps if any(same_place(s.place, t) for t in order.things)]
+        if found or len(order.things) != 1:
+            return found
+        short = keys(order.things[0])
+        short = short[short[:1] == ("the",) :]
+        alike = [s for s in self.plan.steps if short and keys(s.place)[-len(short) :] == short]
+        return alike if len({keys(step.place) for step in alike}) == 1 else []
+
     def _place(self, order: Order) -> None:
         """Put it where it belongs; what is planned already is moved."""
         anchor = self.plan.steps[self.last_start] if self.last_start < len(self.plan.steps) else None
-        moved_steps = [s for s in self.plan.steps if any(same_place(s.place, t) for t in order.things)]
+        moved_steps = self._planned(order)
         rest = [s for s in self.plan.steps if s not in moved_steps]
         current = list(self.current)
         if not moved_steps:
@@ -282,12 +292,10 @@ class Draft:
             self.told += order.things
             self.told_group = list(order.things)
             return
-        planned = [
-            i for i, s in enumerate(self.plan.steps) if any(same_place(s.place, t) for t in order.things)
-        ]
+        planned = self._planned(order)
         if planned and len(order.things) == 1:
             # "..., and A after B": A is planned already.
-            self.last_start, self.current = planned[0], list(order.things)
+            self.last_start, self.current = self.plan.steps.index(planned[0]), list(order.things)
             return
         if last is not None and last.kind in small().sets["looks"] and not self._is_topic():
             self._again(order)

@@ -7,19 +7,22 @@ from parley.language.offline.grammar.small import base, is_past, small, verb_cla
 from parley.language.offline.grammar.things import Item
 from parley.language.offline.grammar.topics import Topics
 from parley.language.offline.grammar.verbs import Head
+from parley.language.offline.sentences.echoes import leads
 from parley.language.offline.words.lexicon import lexicon
 from parley.language.offline.words.text import Word
 
 __all__ = ["Hanging"]
 
 
-_CONDITIONS = {
-    ("if",): "if", ("unless",): "unless", ("in", "case"): "if", ("provided",): "if",
-    ("provided", "that"): "if",
-    ("should",): "if", ("otherwise",): "otherwise", ("else",): "otherwise", ("or", "else"): "otherwise",
-    ("if", "not"): "otherwise", ("if", "so"): "then", ("as", "long", "as"): "if", ("supposing",): "if",
-    ("assuming",): "if", ("only", "if"): "if", ("even", "if"): "if",
-}  # fmt: skip
+_OTHER = {"otherwise": "otherwise", "else": "otherwise", "or else": "otherwise", "if not": "otherwise",
+          "if so": "then", "even if": "if", "should": "if"}  # fmt: skip
+
+
+def _mark(subordinator: str) -> str:
+    """What leads a condition in is one of "if", "unless", "otherwise" and "then"; empty for other words."""
+    words = tuple(subordinator.split())
+    lead = leads().match(words)
+    return _OTHER.get(subordinator) or (lead[1] if lead is not None and lead[0] == len(words) else "")
 
 
 _BEFORE = frozenset({"before", "prior to"})
@@ -58,7 +61,7 @@ class Hanging(Topics):
         if found is None or (found[1] == "should" and self.key(self.at + 1) == "you"):
             return False
         words = tuple(found[1].split())
-        if words in _CONDITIONS:
+        if _mark(found[1]):
             return self._condition(words, self.at + found[0])
         if found[1] in _BEFORE | _AFTER:
             return self._temporal("before" if found[1] in _BEFORE else "after", self.at + found[0])
@@ -107,7 +110,7 @@ class Hanging(Topics):
             return True
         if words == ("if",) and self._would_be_good(start):
             return True
-        mark = _CONDITIONS[words]
+        mark = _mark(" ".join(words))
         if mark in {"otherwise", "then"}:
             self.parts.append(Node("otherwise" if mark == "otherwise" else "if"))
             self.at = start

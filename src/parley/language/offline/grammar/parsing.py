@@ -11,6 +11,7 @@ from parley.language.offline.grammar.small import base, small, verb_class
 from parley.language.offline.grammar.things import Item, items_of
 from parley.language.offline.scene.scene import Scene
 from parley.language.offline.words.lexicon import lexicon
+from parley.language.offline.words.order import phrases_due
 from parley.language.offline.words.text import Phrase, keys
 
 __all__ = ["parse"]
@@ -37,23 +38,16 @@ _SUBJECTS = frozenset(
         "had",
     }
 )
-_FRONT = (
-    ("first",),
-    ("to", "start", "with"),
-    ("to", "begin", "with"),
-    ("first", "of", "all"),
-    ("before", "anything", "else"),
-)
-_BACK = (
-    ("last",),
-    ("to", "finish"),
-    ("to", "finish", "with"),
-    ("at", "the", "end"),
-    ("in", "the", "end"),
-    ("last", "of", "all"),
-    ("at", "last"),
-    ("at", "the", "very", "end"),
-)
+
+
+def _due(*kinds: str) -> tuple[tuple[str, ...], ...]:
+    """What says that something is due then, longest first, without "and" and "but" before it."""
+    listed = [tuple(text.split()) for text in phrases_due(*kinds)]
+    return tuple(sorted((p for p in listed if p[0] not in {"and", "but"}), key=len, reverse=True))
+
+
+_FRONT = _due("opening", "early")
+_BACK = _due("late", "closing", "kept")
 
 
 def parse(words: Phrase, scene: Scene) -> list[Part]:

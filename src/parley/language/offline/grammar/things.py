@@ -11,12 +11,13 @@ from parley.language.offline.scene.grounding import describe, ground_phrase
 from parley.language.offline.scene.marks import marks_of, members_of
 from parley.language.offline.scene.scene import Scene
 from parley.language.offline.words.lexicon import lexicon
-from parley.language.offline.words.nouns import number_of
+from parley.language.offline.words.nouns import beside_at, number_of
 from parley.language.offline.words.text import Phrase, Word, closest, keys, singular, tokens
 
 __all__ = ["Item", "Thing", "items_of"]
 
 _LONGEST = 7
+_BEING = frozenset({("in",), ("at",), ("on",), ("by",)})
 _ROOM_FOR = frozenset({("for",), ("to",), ("left",), ("enough",)})
 
 
@@ -226,7 +227,25 @@ class _Finder(Groups):
         for subject, named in self.subjects.items():
             end = start + len(subject)
             if keys(self.words[start:end]) == subject:
+                elsewhere = self._said_to_be(at, end)
+                if elsewhere[1] is not None:
+                    return elsewhere
                 return end, Thing((named,), self.words[at:end], known=True)
+        return at, None
+
+    def _said_to_be(self, at: int, end: int) -> tuple[int, Thing | None]:
+        """For "(go to) A in B", whatever is remembered of A: B."""
+        before = [
+            word.key for word in self.words[max(0, at - 3) : at] if word.key not in {"to", "over", "up"}
+        ]
+        if [verb_class(verb) for verb in before[-1:]] != ["go"] or keys(
+            self.words[end : end + 1]
+        ) not in _BEING:
+            return at, None
+        for stop in range(self._limit(end + 1), end + 1, -1):
+            place = self.words[self._content(end + 1) : stop]
+            if place and self._ends_name(stop) and self._is_one(place):
+                return stop, Thing((place,), self.words[at:stop])
         return at, None
 
     def _content(self, at: int) -> int:
@@ -265,6 +284,8 @@ class _Finder(Groups):
         ):
             return None
         phrase = self.words[at:stop]
+        if self.scene.has_its_own(self.words, start, stop):
+            return None
         found = ground_phrase(content, self.scene.objects, self.scene.situation.robot_pose, strict=True)
         if found.outcome == "none":
             return None
@@ -309,7 +330,7 @@ class _Finder(Groups):
 
     def _where(self, at: int, start: int, stop: int, thing: Thing) -> tuple[int, Thing]:
         """For "the door next to the lift": what tells equals apart belongs to the name."""
-        if self._is_one(self.words[start:stop]):
+        if self._is_one(self.words[start:stop]) and beside_at(keys(self.words), stop) == stop:
             return stop, thing
         for end in range(self._limit(stop), stop + 1, -1):
             whole = self.words[start:end]
@@ -362,7 +383,9 @@ class _Finder(Groups):
         if first in {"that", "which", "where", "whose", "who"} or somebody:
             return True
         begins = lexicon().places.match(keys(self.words[stop : stop + 5])) is not None
-        begins = begins or first in {"closest", "nearest", "farthest"}
+        begins = (
+            begins or first in {"closest", "nearest", "farthest"} or beside_at(keys(self.words), stop) > stop
+        )
         begins = begins or (first == "to" and last in {"left", "right"} and end == stop + 3)
         return begins and (
             self._ends_name(end) or last in small().sets["sides"] or last in self.subject_words

@@ -12,15 +12,14 @@ from dataclasses import dataclass, field, replace
 
 from parley.language.offline.grammar.small import is_past
 from parley.language.offline.grammar.things import items_of
-from parley.language.offline.plan_changes.edits import Change, Edit
 from parley.language.offline.plan_changes.pending import pending_visits
-from parley.language.offline.plan_changes.replanning import same_steps
+from parley.language.offline.plan_changes.replanning import Change, Edit, pops, same_steps, visit_of
 from parley.language.offline.plan_changes.restated import named_visits, restated
 from parley.language.offline.scene.scene import Scene
 from parley.language.offline.sentences.clauses import opens_command
 from parley.language.offline.words.lexicon import lexicon
 from parley.language.offline.words.text import Phrase, keys, tokens
-from parley.messages.chat import ActionCall, SystemCommand
+from parley.messages.chat import ActionCall
 
 __all__ = ["by_clause"]
 
@@ -145,7 +144,7 @@ class _Clauses:
                 return None
             gone = set(range(len(queue))) - set(places)
             at = places[self.at] if self.at < len(places) else len(queue)
-            return Change(Edit(_pops(gone), " ".join(self.replies)), self.order, at)
+            return Change(Edit(pops(gone), " ".join(self.replies)), self.order, at)
         kept = [step for _, step in self.left]
         same = next(
             (i for i, (a, b) in enumerate(zip(queue, kept, strict=False)) if a is not b),
@@ -154,7 +153,7 @@ class _Clauses:
         again = tuple(kept[same:])
         if any(step.flow is not None for step in again):
             return None
-        return Change(Edit(_pops(range(same, len(queue))), " ".join(self.replies), again))
+        return Change(Edit(pops(range(same, len(queue))), " ".join(self.replies), again))
 
     def _now(self) -> Scene:
         """The scene with what is left of the plan."""
@@ -174,6 +173,9 @@ class _Clauses:
         change = self._change(words, now)
         if change is None and self.alone:
             change = self._change((*self.topic, *words), now)
+        if change is None and self.topic and keys(words[-1:]) == ("instead",):
+            # "A is closed. Go to B instead."
+            change = self.read((*words[:-1], *tokens("instead of"), *self.topic), now)
         if change is None and self.gone:
             change = self._in_its_place(words)
         self.alone = False
@@ -186,9 +188,13 @@ class _Clauses:
 
     def _goes_on(self, words: Phrase) -> bool:
         """For "drop A, go to B": a new order comes at the end."""
-        words = words[1:] if words[0].key == "do" and opens_command(words[1:]) else words
+        idle = words[0].key in {"do", "just", "only", "then", "simply"}
+        words = words[1:] if idle and opens_command(words[1:]) else words
         if not self.dropped or not opens_command(words) or not _names_other(words, self.scene):
             return False
+        if visit_of(words, self._now()) == 0:
+            # "Forget A, go straight to B", which comes next anyway.
+            return True
         self.order, self.at = words, len(self.left)
         return True
 
@@ -319,10 +325,3 @@ class _Clauses:
         before = {id(step): i for i, step in self.left}
         self.left = [*kept, *((before.get(id(step), -1), step) for step in edit.queue)]
         self.replies += [edit.reply] if edit.reply else []
-
-
-def _pops(indices: Sequence[int] | set[int] | range) -> tuple[SystemCommand, ...]:
-    return tuple(
-        SystemCommand(command="pop", arguments={"parameters": index})
-        for index in sorted(indices, reverse=True)
-    )

@@ -113,6 +113,8 @@ class Changing(Reading):
         return False
 
     def _do_not(self, command: Command) -> None:
+        to = max((i + 1 for i, word in enumerate(command.theme[:-1]) if word.key == "to"), default=0)
+        self.scene.mention(bare(command.recipient or command.theme[to or len(command.theme) :]))
         for phrase in (command.place, command.theme):
             # What is refused may be spoken of later, but what was wanted comes to mind first.
             wanted = list(self.scene.things) if self.tasks.steps else []

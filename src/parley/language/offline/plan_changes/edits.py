@@ -2,13 +2,12 @@
 
 from __future__ import annotations
 
-from collections.abc import Sequence
-from dataclasses import dataclass
-
 from parley.language.offline.facts.facts import TASTES, read_statement, strip_openers
 from parley.language.offline.facts.protocols import read_protocol
 from parley.language.offline.facts.remembering import Remembered, find_fact
 from parley.language.offline.facts.sharing import content_of, shared
+from parley.language.offline.plan_changes.pending import pending_steps, ranked_steps, said_of
+from parley.language.offline.plan_changes.replanning import Edit, pops
 from parley.language.offline.scene.scene import Scene, UnclearError
 from parley.language.offline.tasks.commands import Command
 from parley.language.offline.words.lexicon import lexicon
@@ -16,14 +15,11 @@ from parley.language.offline.words.nouns import bare
 from parley.language.offline.words.saying import listing, the, whole_sentence
 from parley.language.offline.words.text import Phrase, Word, keys, lemma, plain, singular, split_name, tokens
 from parley.language.word_lists import load_data
-from parley.messages.chat import ActionCall, SystemCommand
+from parley.messages.chat import SystemCommand
 from parley.messages.memory import MemoryEntry
 
-__all__ = ["Change", "Edit", "drop_verb", "of_plan", "read_edit", "steps_of"]
+__all__ = ["drop_verb", "read_edit", "steps_of"]
 
-_STEP_WORDS = frozenset(
-    {"step", "action", "task", "item", "stop", "one", "order", "command", "part", "thing", "waypoint"}
-)
 _FORGET_STARTS = (
     ("forget",),
     ("do", "not", "remember"),
@@ -34,27 +30,6 @@ _FORGET_STARTS = (
     ("clear",),
     ("wipe",),
 )
-
-
-@dataclass(frozen=True, slots=True)
-class Edit:
-    """What changes, and what is said about it."""
-
-    commands: tuple[SystemCommand, ...]
-    reply: str
-    queue: tuple[ActionCall, ...] = ()
-    """Pending steps that were taken out and are put back in another order."""
-
-
-@dataclass(frozen=True, slots=True)
-class Change:
-    """What becomes of the plan."""
-
-    edit: Edit | None = None
-    order: Phrase = ()
-    """A new order, to be done at `at`."""
-    at: int = 0
-    """The first pending step that comes after it."""
 
 
 def read_edit(words: Phrase, scene: Scene) -> Edit | None:
@@ -73,52 +48,17 @@ def _drop(words: Phrase, scene: Scene) -> Edit | None:
     size = drop_verb(words)
     if not size or size >= len(words):
         return None
-    first = lemma(words[0].key)
-    rest = keys(of_plan(bare(words[size:])))
-    several = _last_ones(rest, scene)
-    if several is not None:
-        return several
-    index = _step_index(rest, len(scene.situation.queue))
-    if index is None:
-        index = _named_step(rest, scene.situation.queue, first)
-    if index is None:
-        return None
-    if scene.situation.queue and index >= len(scene.situation.queue):
-        return Edit(
-            (), f"There are only {len(scene.situation.queue)} steps left, so there is no step {index + 1}."
-        )
-    if not scene.situation.queue:
+    named, queue = bare(words[size:]), scene.situation.queue
+    asked = ranked_steps(named, max(len(queue), 1))
+    if not queue and asked:
         return Edit((), "There is nothing planned that I could leave out.")
-    dropped = _said(scene.situation.queue[index])
-    return Edit(
-        (SystemCommand(command="pop", arguments={"parameters": index}),),
-        f"I leave out step {index + 1}: {dropped}.",
-    )
-
-
-def _last_ones(rest: tuple[str, ...], scene: Scene) -> Edit | None:
-    """For "drop the last two (steps)", "drop the first three", "drop steps 2 and 3"."""
-    lex, count = lexicon(), len(scene.situation.queue)
-    numbers = [int(w) if w.isdigit() else lex.numbers.get(w, lex.ordinals.get(w, 0)) for w in rest]
-    if len(rest) in {2, 3} and rest[0] in {"last", "final", "first", "next"} and numbers[1] > 1:
-        if rest[2:] and singular(rest[2]) not in _STEP_WORDS:
-            return None
-        size = min(numbers[1], count)
-        start = {"first": 0, "next": min(1, count)}.get(rest[0], count - size)
-        indices = list(range(start, min(start + size, count)))
-    elif (rest and singular(rest[0]) in _STEP_WORDS and "and" in rest) or (
-        rest[-1:] in {("steps",), ("step",)} and "and" in rest
-    ):
-        indices = sorted({number - 1 for number in numbers if 0 < number <= count})
-        if len(indices) < 2:
-            return None
-    else:
-        return None
-    if not indices:
-        return Edit((), "There is nothing planned that I could leave out.")
-    pops = tuple(SystemCommand(command="pop", arguments={"parameters": i}) for i in reversed(indices))
-    said = [_said(scene.situation.queue[i]) for i in indices]
-    return Edit(pops, f"I leave out {listing(said)}.")
+    if asked and max(asked) >= len(queue):
+        text = f"There are only {len(queue)} steps left, so there is no step {max(asked) + 1}."
+        return Edit((), text)
+    forgets = lemma(words[0].key) == "forget"
+    gone = asked if forgets else pending_steps(named, scene)
+    said = [f"step {i + 1}: {said_of(queue[i])}" for i in gone]
+    return Edit(pops(gone), f"I leave out {listing(said)}.") if gone else None
 
 
 def drop_verb(words: Phrase) -> int:
@@ -129,73 +69,6 @@ def drop_verb(words: Phrase) -> int:
     verbs = lexicon().verb_classes["drop_step"]
     first = lemma(flat[0])
     return next((n for n in (3, 2, 1) if " ".join((first, *flat[1:n])) in verbs and n <= len(flat)), 0)
-
-
-def of_plan(phrase: Phrase) -> Phrase:
-    """Without "from the plan" and the like at the end."""
-    while len(phrase) > 3 and _is_plan(keys(phrase[-3:])):
-        phrase = phrase[:-3]
-    return phrase
-
-
-def _is_plan(end: tuple[str, ...]) -> bool:
-    prepositions, plans = (
-        {"of", "from", "in", "on"},
-        {"plan", "queue", "list", "route", "mission", "tour", "schedule"},
-    )
-    return end[0] in prepositions and end[1] in {"the", "your"} and end[2] in plans
-
-
-def _step_index(rest: tuple[str, ...], count: int) -> int | None:
-    """The 0-based place of "the second step", "step 3", "number two", "the last one", "the next step"."""
-    lex = lexicon()
-    if not rest or not (
-        set(rest) & _STEP_WORDS
-        or (
-            len(rest) <= 2
-            and (rest[0] in {"number"} or rest[-1] in lex.ordinals or rest[-1] in {"last", "next"})
-        )
-    ):
-        return None
-    if len(rest) > 4:
-        return None
-    for word in rest:
-        if word in lex.ordinals:
-            return lex.ordinals[word] - 1
-        if word.isdigit():
-            return int(word) - 1
-        if word in lex.numbers and (word != "one" or rest[-2:] in {("step", "one"), ("number", "one")}):
-            return lex.numbers[word] - 1
-    if "last" in rest or "final" in rest:
-        return max(count - 1, 0)
-    if "next" in rest or "following" in rest:
-        return 1
-    return None
-
-
-def _named_step(rest: tuple[str, ...], queue: Sequence[ActionCall], verb: str) -> int | None:
-    """For "Drop the inspection", "cancel going to the door": the one step whose name or words say so."""
-    if verb == "forget" or not rest:
-        return None
-    wanted = (
-        {singular(lemma(word)) for word in rest}
-        - lexicon().determiners
-        - {"part", "step", "to", "go", "at", "of", "trip", "visit"}
-    )
-    hits = []
-    for index, step in enumerate(queue):
-        words = {singular(lemma(word)) for word in (*split_name(step.name), *step.reason.lower().split())}
-        for parameter in step.input_parameters.values():
-            if isinstance(parameter.value, str):
-                words.update(singular(word.key) for word in tokens(parameter.value))
-        words |= {"inspection"} if words & {"inspect", "look"} else set()
-        if wanted and wanted <= words:
-            hits.append(index)
-    return hits[-1] if len(hits) == 1 else None
-
-
-def _said(step: ActionCall) -> str:
-    return step.reason or " ".join(split_name(step.name))
 
 
 def steps_of(command: Command, scene: Scene) -> list[int]:

@@ -10,12 +10,13 @@ from parley.language.offline.scene.members import in_order
 from parley.language.offline.scene.scene import Scene
 from parley.language.offline.words.lexicon import lexicon
 from parley.language.offline.words.nouns import bare, coordinated
-from parley.language.offline.words.text import Phrase, keys, singular, tokens
+from parley.language.offline.words.text import Phrase, keys, lemma, singular, split_name, tokens
+from parley.messages.chat import ActionCall
 from parley.world.object_map import MapObject
 
-__all__ = ["CURRENT", "pending_visits"]
+__all__ = ["CURRENT", "pending_steps", "pending_visits", "ranked_steps", "said_of"]
 
-_STEP_WORDS = frozenset({
+_STOP_WORDS = frozenset({
     "stop", "visit", "place", "one", "item", "job", "part", "entry", "thing", "leg", "room",
     "destination", "waypoint", "station",
 })  # fmt: skip
@@ -102,34 +103,104 @@ def _is_name(phrase: Phrase) -> bool:
 
 def _by_rank(phrase: Phrase, scene: Scene) -> list[int]:
     """For "the second stop", "the last two", "number three", "the next one", "the first and the last"."""
-    count = len(visits(scene))
-    lead, at = read_lead(phrase, 0)
-    flat = keys(phrase)
-    rest = flat[at:]
-    if lead.end and set(map(singular, rest)) <= _STEP_WORDS:
-        size = lead.count
-        if size > count:
-            return []
-        return list(range(size)) if lead.end == "first" else list(range(count - size, count))
-    if lead.ordinals and set(map(singular, rest)) <= _STEP_WORDS:
-        found = [place - 1 if place > 0 else count - 1 for place in lead.ordinals]
-        return found if all(0 <= place < count for place in found) else []
-    words = keys(bare(phrase))
+    count, words = len(visits(scene)), keys(bare(phrase))
     stepwise = any(len(visit.steps) > 3 for visit in visits(scene))
     if stepwise and (words in {("next", "one"), ("next",), ("following", "one")} or words[:1] == ("number",)):
         # Where a stop is many steps, a step is meant.
         return []
-    if len(words) == 2 and singular(words[0]) in _STEP_WORDS | {"number", "no"} and words[0] != "room":
-        number = int(words[1]) if words[1].isdigit() else lexicon().numbers.get(words[1], 0)
-        return [number - 1] if 0 < number <= count else []
-    if not words or len(words) > 2 or (words[1:] and singular(words[1]) not in _STEP_WORDS):
+    found = _ranked(phrase, count, _STOP_WORDS)
+    return found if all(0 <= place < count for place in found) else []
+
+
+def _ranked(phrase: Phrase, count: int, nouns: frozenset[str]) -> list[int]:
+    """The places in a row that rank words name; they may lie beyond its end.
+
+    Args:
+        phrase: What is named.
+        count: How many there are.
+        nouns: What one of them may be called.
+    """
+    lead, at = read_lead(phrase, 0)
+    flat = keys(phrase)
+    named = {singular(word) for word in flat[at:]} <= nouns
+    if lead.end and named:
+        size = lead.count
+        return list(range(size)) if lead.end == "first" or size > count else list(range(count - size, count))
+    if lead.ordinals and named:
+        return [place - 1 if place > 0 else count - 1 for place in lead.ordinals]
+    words = keys(bare(phrase))
+    size = lexicon().numbers.get(words[1], 0) if len(words) > 1 and words[0] in {"next", "following"} else 0
+    if size > 1 and {singular(word) for word in words[2:]} <= nouns:
+        return list(range(1, size + 1)) if count > size else list(range(size))
+    if words[:1] and singular(words[0]) in nouns | {"number", "no"} and words[0] != "room":
+        numbers = [
+            int(w) if w.isdigit() else lexicon().numbers.get(w, 0) for w in words[1:] if w not in _JOINS
+        ]
+        return [number - 1 for number in numbers] if all(numbers) else []
+    if not words or len(words) > 2 or (words[1:] and singular(words[1]) not in nouns):
         return []
     if words[0] in {"last", "final"}:
         return [count - 1]
     if words[0] in {"next", "following"}:
-        return [1] if count > 1 else []
+        return [1]
     place = lexicon().ordinals.get(words[0], 0)
-    return [place - 1] if 0 < place <= count and (len(words) > 1 or flat[0] == "the") else []
+    return [place - 1] if place > 0 and (len(words) > 1 or flat[0] == "the") else []
+
+
+_JOINS = frozenset({"and", ",", "number", "no", "the"})
+_STEPS = frozenset({"step", "action", "task", "order", "command", "number", "one", "item", "part", "thing"})
+_PLANS = frozenset({"plan", "queue", "list", "route", "mission", "tour", "schedule", "round"})
+
+
+def pending_steps(phrase: Phrase, scene: Scene) -> list[int]:
+    """The pending steps, not whole visits, that a phrase means: "the second step", "the inspection"."""
+    count = len(scene.situation.queue)
+    found = ranked_steps(phrase, count)
+    return sorted({i for i in found if i < count}) if found else _by_deed(phrase, scene)
+
+
+def ranked_steps(phrase: Phrase, count: int) -> list[int]:
+    """The places, from 0, of steps that are named by rank; they may lie beyond the `count` pending ones."""
+    return _ranked(_of_plan(phrase), count, _STEPS)
+
+
+def _of_plan(phrase: Phrase) -> Phrase:
+    """Without "from the plan" and the like at the end."""
+    while (
+        len(phrase) > 3 and phrase[-1].key in _PLANS and phrase[-3].key in {"of", "from", "in", "on", "off"}
+    ):
+        phrase = phrase[:-3]
+    return phrase
+
+
+def _by_deed(phrase: Phrase, scene: Scene) -> list[int]:
+    """For "the inspection", "the look at the door", "the counting": the one step that is meant, or all."""
+    rest = keys(_of_plan(bare(phrase)))
+    wanted = {singular(lemma(word)) for word in rest} - lexicon().determiners - _NO_DEED
+    if not wanted or not all(word.is_word for word in phrase):
+        return []
+    named = [(i, *_words_of(step)) for i, step in enumerate(scene.situation.queue)]
+    hits = [i for i, deed, about in named if wanted <= deed | about and wanted & deed]
+    several = len(wanted) == 1 and any(word.endswith(("ing", "ion")) for word in rest)
+    return hits if len(hits) == 1 or several else []
+
+
+_NO_DEED = frozenset(
+    {"part", "step", "to", "go", "at", "of", "trip", "visit", "bit", "business", "all", "that"}
+)
+
+
+def _words_of(step: ActionCall) -> tuple[set[str], set[str]]:
+    """What the deed of a step may be called by, and what tells what it is about."""
+    deed = {form for word in split_name(step.name) for form in (singular(lemma(word)), f"{word}ion")}
+    deed |= {"inspection"} if deed & {"inspect", "look"} else set()
+    values = [p.value for p in step.input_parameters.values() if isinstance(p.value, str)]
+    return deed, {singular(lemma(word.key)) for value in (*values, step.reason) for word in tokens(value)}
+
+
+def said_of(step: ActionCall) -> str:
+    """What a pending step is called."""
+    return step.reason or " ".join(split_name(step.name))
 
 
 _SEVERAL = lexicon().quantifiers | {

@@ -2,26 +2,35 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable, Iterable, Sequence
+from collections.abc import Callable, Sequence
 from functools import cache
 
 from parley.language.control import control_of
 from parley.language.offline.facts.facts import strip_openers
 from parley.language.offline.plan_changes.by_clause import by_clause
-from parley.language.offline.plan_changes.edits import Change, Edit
 from parley.language.offline.plan_changes.patterns import Part, matches, parsed
-from parley.language.offline.plan_changes.pending import pending_visits
-from parley.language.offline.plan_changes.replanning import renamed, same_steps, visits
+from parley.language.offline.plan_changes.pending import pending_steps, pending_visits, said_of
+from parley.language.offline.plan_changes.replanning import (
+    Change,
+    Edit,
+    left,
+    pops,
+    renamed,
+    same_steps,
+    visit_names,
+    visits,
+)
+from parley.language.offline.plan_changes.restated import named_visits, placed
 from parley.language.offline.scene.grounding import describe
 from parley.language.offline.scene.scene import Scene
 from parley.language.offline.sentences.clauses import opens_command
 from parley.language.offline.tasks.catalogue import Catalogue
+from parley.language.offline.tasks.commands import read_command
 from parley.language.offline.words.lexicon import lexicon
 from parley.language.offline.words.nouns import bare
 from parley.language.offline.words.saying import listing, the
-from parley.language.offline.words.text import Phrase, Word, keys, lemma, plain, split_name, tokens
+from parley.language.offline.words.text import Phrase, Word, keys, lemma, tokens
 from parley.language.word_lists import load_data
-from parley.messages.chat import ActionCall, SystemCommand
 from parley.messages.status import ActionInfo
 
 __all__ = ["rearranged", "without_going_on"]
@@ -52,12 +61,21 @@ def rearranged(words: Phrase, scene: Scene) -> Change | None:
     if not scene.situation.queue or len(words) > _LONGEST or "?" in keys(words):
         return None
     body = _bare(words)
-    if len(body) < 2 or control_of(" ".join(keys(body))) is not None:
-        return None
     several = bool({",", ".", ";", ":"} & set(keys(body)))
+    control = control_of(" ".join(keys(body)))
+    # "A is being painted, so leave that one out": A, not what is being done now.
+    named = several and control == "skip" and _names_one(body, scene)
+    if len(body) < 2 or (control is not None and not named):
+        return None
     change = by_clause(words, scene, _bare, _read) if several else None
     change = change or _read(body, scene)
     return change if change is not None or several else by_clause(words, scene, _bare, _read)
+
+
+def _names_one(body: Phrase, scene: Scene) -> bool:
+    """Whether a pending visit is named, and not only by its rank ("the next one")."""
+    ranks = {"next", "first", "last", "second", "following"}
+    return any(not ranks & set(keys(body[a:b])) for a, b, _ in named_visits(body, scene))
 
 
 _GOING_ON = tuple(
@@ -124,7 +142,19 @@ def _read(body: Phrase, scene: Scene) -> Change | None:
             change = _CHANGES[kind](slots, scene)
             if change is not None:
                 return change
-    return None
+    tail = next((t for t in _TAILS if len(body) > len(t) + 1 and keys(body[-len(t) :]) == t), ())
+    return _read(_bare(body[: -len(tail)]), scene) if tail else None
+
+
+_TAILS = tuple(
+    tuple(text.split())
+    for text in (
+        "for today", "for now", "today", "please", "thanks", "thank you", "for the moment", "if you can",
+        "if possible", "then", "now", "after all", "will you", "would you", "could you", "can you", "for me",
+        "this time", "tonight", "this morning", "this afternoon", "if you like", "ok", "okay", "anyway",
+    )
+)  # fmt: skip
+"""What changes nothing behind a change of the plan."""
 
 
 def _bare(words: Phrase) -> Phrase:
@@ -134,12 +164,18 @@ def _bare(words: Phrase) -> Phrase:
         if (lead == ("no",) and keys(body[1:2]) != (",",)) or not (lead or body[0].key == ","):
             break
         behind = keys(body[len(lead) : len(lead) + 1])
-        if lead and (behind == ("about",) or (lead == ("on", "the", "way") and behind != (",",))):
+        if lead and (
+            behind in {("about",), ("with",)} or (lead == ("on", "the", "way") and behind != (",",))
+        ):
             break
         body = body[len(lead) or 1 :]
     while body and not body[-1].is_word:
         body = body[:-1]
     return body
+
+
+def _left(scene: Scene, order: Sequence[int], text: str = "") -> Change:
+    return Change(left(order, scene, text))
 
 
 def _named(slots: dict[str, Phrase], scene: Scene, *names: str) -> list[list[int]] | None:
@@ -152,40 +188,26 @@ def _drop(slots: dict[str, Phrase], scene: Scene) -> Change | None:
     if "b" in slots and not pending_visits(slots["b"], scene):
         return None
     if found is None:
-        return _undone(slots["a"], scene)
+        gone = pending_steps(slots["a"], scene)
+        steps = [said_of(scene.situation.queue[i]) for i in gone]
+        return Change(Edit(pops(gone), f"I leave out {listing(steps)}.")) if gone else None
     gone = sorted(set(found[0]))
-    return _left(
-        scene, [i for i in range(len(visits(scene))) if i not in gone], f"I leave out {_names(gone, scene)}."
-    )
-
-
-def _undone(words: Phrase, scene: Scene) -> Change | None:
-    """For "skip the counting": every step that does it."""
-    wanted = {lemma(word) for word in keys(bare(words))} - {"part", "bit", "business", "all", "that", "of"}
-    if len(wanted) != 1 or not any(word.endswith(("ing", "ion")) for word in keys(words)):
-        return None
-    deed = min(wanted)
-    gone = [
-        i
-        for i, step in enumerate(scene.situation.queue)
-        if any(
-            part == deed or lemma(part) == deed or deed.startswith(part + "ion")
-            for part in split_name(step.name)
-        )
-    ]
-    return Change(Edit(_pops(gone), f"I leave out the {plain(bare(words))}.")) if gone else None
+    text = f"I leave out {visit_names(gone, scene)}."
+    return _left(scene, [i for i in range(len(visits(scene))) if i not in gone], text)
 
 
 def _keep(slots: dict[str, Phrase], scene: Scene) -> Change | None:
     found = _named(slots, scene, "a")
     return (
-        None if found is None else _left(scene, sorted(found[0]), f"I keep only {_names(found[0], scene)}.")
+        None
+        if found is None
+        else _left(scene, sorted(found[0]), f"I keep only {visit_names(found[0], scene)}.")
     )
 
 
 def _rest(slots: dict[str, Phrase], scene: Scene) -> Change | None:
     """For "cancel the rest": what is being done now is finished."""
-    return _left(scene, [0], f"I keep only {_names([0], scene)}.") if visits(scene) else None
+    return _left(scene, [0], f"I keep only {visit_names([0], scene)}.") if visits(scene) else None
 
 
 def _until(slots: dict[str, Phrase], scene: Scene) -> Change | None:
@@ -193,7 +215,7 @@ def _until(slots: dict[str, Phrase], scene: Scene) -> Change | None:
     if found is None:
         return None
     last = max(found[0])
-    return _left(scene, list(range(last + 1)), f"I leave out everything after {_names([last], scene)}.")
+    return _left(scene, list(range(last + 1)), f"I leave out everything after {visit_names([last], scene)}.")
 
 
 def _from(slots: dict[str, Phrase], scene: Scene) -> Change | None:
@@ -202,7 +224,7 @@ def _from(slots: dict[str, Phrase], scene: Scene) -> Change | None:
         return None
     first = min(found[0])
     rest = list(range(first, len(visits(scene))))
-    return _left(scene, rest, f"I go on with {_names([first], scene)} and leave out what comes before.")
+    return _left(scene, rest, f"I go on with {visit_names([first], scene)} and leave out what comes before.")
 
 
 def _swap(slots: dict[str, Phrase], scene: Scene) -> Change | None:
@@ -237,11 +259,8 @@ def _last(slots: dict[str, Phrase], scene: Scene) -> Change | None:
 def _moved(after: bool) -> Callable[[dict[str, Phrase], Scene], Change | None]:
     def change(slots: dict[str, Phrase], scene: Scene) -> Change | None:
         found = _named(slots, scene, "a", "b")
-        if found is None or set(found[0]) & set(found[1]):
-            return None
-        rest = [i for i in range(len(visits(scene))) if i not in found[0]]
-        at = rest.index(max(found[1])) + 1 if after else rest.index(min(found[1]))
-        return _left(scene, [*rest[:at], *found[0], *rest[at:]])
+        edit = placed(found[0], found[1], scene, after=after) if found is not None else None
+        return Change(edit) if edit is not None else None
 
     return change
 
@@ -264,8 +283,8 @@ def _instead(slots: dict[str, Phrase], scene: Scene) -> Change | None:
     looked = any(scene.catalogue.roles(info) & {"look"} for info in _infos(at, scene))
     if looked and keys(order[:1]) == ("visit",):
         order = (Word("inspect", "inspect"), *order[1:])
-    gone = _pops(listed[i].start + n for i in found[0] for n in range(len(listed[i].steps)))
-    edit = Edit(gone, f"I leave out {_names(found[0], scene)}.")
+    gone = pops(listed[i].start + n for i in found[0] for n in range(len(listed[i].steps)))
+    edit = Edit(gone, f"I leave out {visit_names(found[0], scene)}.")
     return Change(edit, order, listed[min(found[0])].start)
 
 
@@ -282,7 +301,7 @@ def _renamed(at: int, named: Phrase, scene: Scene) -> Change | None:
     if any(step.flow is not None for step in again):
         return None
     text = f"I will go to {the(name)} instead of {the(listed[at].names[0])}."
-    return Change(Edit(_pops(range(listed[at].start, len(scene.situation.queue))), text, again))
+    return Change(Edit(pops(range(listed[at].start, len(scene.situation.queue))), text, again))
 
 
 def _infos(at: int, scene: Scene) -> list[ActionInfo]:
@@ -318,7 +337,7 @@ def _no_look(slots: dict[str, Phrase], scene: Scene) -> Change | None:
         if (info := scene.catalogue.get(step.name)) is not None
         and scene.catalogue.roles(info) & {"look", "search"}
     ]
-    return Change(Edit(_pops(gone), "I will go there without looking.")) if gone else None
+    return Change(Edit(pops(gone), "I will go there without looking.")) if gone else None
 
 
 def _reverse(slots: dict[str, Phrase], scene: Scene) -> Change | None:
@@ -333,7 +352,11 @@ def _copy(slots: dict[str, Phrase], scene: Scene) -> Change | None:
         return None
     listed = visits(scene)
     steps = tuple(step for index in found[0] for step in listed[index].steps if step.flow is None)
-    return Change(Edit((), f"I do {_names(found[0], scene)} once more at the end.", steps)) if steps else None
+    return (
+        Change(Edit((), f"I do {visit_names(found[0], scene)} once more at the end.", steps))
+        if steps
+        else None
+    )
 
 
 def _nth(slots: dict[str, Phrase], scene: Scene) -> Change | None:
@@ -387,6 +410,8 @@ _ADDING = frozenset({
     "have",
     "pop", "work", "schedule", "plan", "take",
 })  # fmt: skip
+_DOING = frozenset({"put", "do", "visit", "go", "have", "plan", "take"})
+"""Of these words those that may also be said of what is pending already."""
 _LOOKS = tuple(
     tuple(text.split())
     for text in ("an inspection of", "a look at", "a check of", "a quick look at", "a look into")
@@ -414,38 +439,14 @@ def _new(words: Phrase, scene: Scene) -> Phrase:
     visit = next((m for m in _VISITS if keys(body[: len(m)]) == m), ())
     named = body[len(look or visit) :]
     if 0 < len(named) <= 8 and scene.ground(named).outcome == "match":
-        if pending_visits(named, scene) and rest is body:
+        if pending_visits(named, scene) and rest[0].key not in _ADDING - _DOING:
             return ()
         return (Word("inspect" if look else "visit", "inspect" if look else "visit"), *named)
-    verbs = Catalogue(scene.situation.catalogue).verbs
-    return rest if opens_command(rest, verbs) and len(rest) > 1 and rest[0].key != "do" else ()
-
-
-def _left(scene: Scene, order: Sequence[int], text: str = "") -> Change | None:
-    """The visits in this order, and no others; what stays in front is left alone."""
-    listed, queue = visits(scene), scene.situation.queue
-    kept = list(order)
-    if kept == sorted(kept):
-        gone = [i for i in range(len(listed)) if i not in kept]
-        pops = _pops(listed[i].start + n for i in gone for n in range(len(listed[i].steps)))
-        return Change(Edit(pops, text or f"All right, in this order: {_names(kept, scene)}."))
-    same = next(i for i, index in enumerate([*kept, -1]) if index != i)
-    again: list[ActionCall] = [step for index in kept[same:] for step in listed[index].steps]
-    if any(step.flow is not None for step in again):
-        text = "Some of these steps depend on others, so I leave the order as it is. Cancel and tell me anew?"
-        return Change(Edit((), text))
-    first = listed[same].start
-    text = text or f"All right, in this order: {_names(kept, scene)}."
-    return Change(Edit(_pops(range(first, len(queue))), text, tuple(again)))
-
-
-def _pops(indices: Iterable[int]) -> tuple[SystemCommand, ...]:
-    return tuple(
-        SystemCommand(command="pop", arguments={"parameters": index})
-        for index in sorted(indices, reverse=True)
-    )
-
-
-def _names(indices: Sequence[int], scene: Scene) -> str:
-    listed = visits(scene)
-    return listing([the(listed[i].names[0]) if listed[i].names else "this step" for i in indices])
+    verbs = Catalogue.of(scene.situation.catalogue).verbs
+    plainly = opens_command(rest, verbs) and lemma(rest[0].key) == rest[0].key != "do"
+    if not plainly or len(rest) < 2:
+        return ()
+    going = read_command(rest, scene.is_person, verbs)
+    pending = going is not None and going.kind == "motion" and pending_visits(bare(going.place), scene)
+    # "Skip A and carry on with B": no order that is new.
+    return () if pending else rest

@@ -6,11 +6,10 @@ first step on, and put back in the new order.
 
 from __future__ import annotations
 
-from collections.abc import Sequence
+from collections.abc import Iterable, Sequence
 from dataclasses import dataclass, replace
 
 from parley.language.offline.facts.facts import strip_openers
-from parley.language.offline.plan_changes.edits import Edit
 from parley.language.offline.scene.grounding import describe
 from parley.language.offline.scene.scene import Scene
 from parley.language.offline.tasks.catalogue import text_inputs
@@ -20,7 +19,31 @@ from parley.language.offline.words.saying import listing, the
 from parley.language.offline.words.text import Phrase, keys, lemma, plain, singular, tokens
 from parley.messages.chat import ActionCall, SystemCommand
 
-__all__ = ["Visit", "ordered", "renamed", "same_steps", "visit_of", "visits", "without"]
+__all__ = [
+    "Change", "Edit", "Visit", "left", "pops", "renamed", "same_steps", "visit_names", "visit_of", "visits",
+    "without",
+]  # fmt: skip
+
+
+@dataclass(frozen=True, slots=True)
+class Edit:
+    """What changes, and what is said about it."""
+
+    commands: tuple[SystemCommand, ...]
+    reply: str
+    queue: tuple[ActionCall, ...] = ()
+    """Pending steps that were taken out and are put back in another order."""
+
+
+@dataclass(frozen=True, slots=True)
+class Change:
+    """What becomes of the plan."""
+
+    edit: Edit | None = None
+    order: Phrase = ()
+    """A new order, to be done at `at`."""
+    at: int = 0
+    """The first pending step that comes after it."""
 
 
 @dataclass(frozen=True, slots=True)
@@ -117,32 +140,35 @@ def same_steps(named: Phrase, scene: Scene, at: int) -> tuple[str, tuple[ActionC
     return name, tuple(renamed(step, old, name, scene) for step in model.steps)
 
 
-def ordered(order: Sequence[int], scene: Scene) -> Edit | None:
-    """The pending visits in another order, given by their places in the present one."""
+def visit_names(indices: Iterable[int], scene: Scene) -> str:
+    """What the visits at these places are called, as a list in words."""
     listed = visits(scene)
-    first = next((i for i, index in enumerate(order) if i != index), None)
-    names = [
-        the(visit.names[0]) if visit.names else "the current step" for visit in (listed[i] for i in order)
-    ]
-    text = f"All right, in this order: {listing(names, 'and then')}."
-    if first is None:
-        return Edit((), text)
-    return _put_back([listed[index] for index in order], first, scene, text)
+    return listing([the(listed[i].names[0]) if listed[i].names else "this step" for i in indices])
 
 
-def _put_back(listed: Sequence[Visit], first: int, scene: Scene, text: str) -> Edit:
-    """Take out everything from the first visit that changes and put it back as listed."""
-    again = [step for visit in listed[first:] for step in visit.steps]
+def left(order: Sequence[int], scene: Scene, text: str = "") -> Edit:
+    """The visits at these places of the plan in this order, and no others; what stays in front is left alone.
+
+    Args:
+        order: Places among the visits.
+        scene: What is known, with its pending steps.
+        text: What is said of it; the order if empty.
+    """
+    listed, kept = visits(scene), list(order)
+    text = text or f"All right, in this order: {visit_names(kept, scene)}."
+    if kept == sorted(kept):
+        gone = [visit for i, visit in enumerate(listed) if i not in kept]
+        return Edit(pops(visit.start + n for visit in gone for n in range(len(visit.steps))), text)
+    same = next(i for i, index in enumerate([*kept, -1]) if index != i)
+    again = tuple(step for index in kept[same:] for step in listed[index].steps)
     if any(step.flow is not None for step in again):
-        return Edit(
-            (),
-            "Some of these steps depend on others, so I leave the order as it is. Cancel and tell me anew?",
-        )
-    kept = sum(len(visit.steps) for visit in visits(scene)[:first])
-    return Edit(_pops(range(kept, len(scene.situation.queue))), text, tuple(again))
+        text = "Some of these steps depend on others, so I leave the order as it is. Cancel and tell me anew?"
+        return Edit((), text)
+    return Edit(pops(range(listed[same].start, len(scene.situation.queue))), text, again)
 
 
-def _pops(indices: Sequence[int]) -> tuple[SystemCommand, ...]:
+def pops(indices: Iterable[int]) -> tuple[SystemCommand, ...]:
+    """The commands that take out pending steps, the last one first so that places keep their meaning."""
     return tuple(
         SystemCommand(command="pop", arguments={"parameters": index})
         for index in sorted(indices, reverse=True)
@@ -151,7 +177,5 @@ def _pops(indices: Sequence[int]) -> tuple[SystemCommand, ...]:
 
 def without(at: int, scene: Scene) -> Edit:
     """Leave a whole visit out."""
-    visit = visits(scene)[at]
-    name = the(visit.names[0]) if visit.names else "this step"
-    indices = range(visit.start, visit.start + len(visit.steps))
-    return Edit(_pops(indices), f"I leave out {name}.")
+    kept = [i for i in range(len(visits(scene))) if i != at]
+    return left(kept, scene, f"I leave out {visit_names([at], scene)}.")

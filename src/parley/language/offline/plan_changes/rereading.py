@@ -13,10 +13,9 @@ from parley.language.offline.dialogue.own_state import ABOUT_ITSELF
 from parley.language.offline.dialogue.plain_question import plain_question
 from parley.language.offline.dialogue.questions import unwrapped
 from parley.language.offline.facts.recalling import Recalling
-from parley.language.offline.plan_changes.edits import Change, Edit
 from parley.language.offline.plan_changes.once_more import changed_again
-from parley.language.offline.plan_changes.rearranging import rearranged
-from parley.language.offline.plan_changes.replanning import visit_of
+from parley.language.offline.plan_changes.rearranging import rearranged, without_going_on
+from parley.language.offline.plan_changes.replanning import Change, Edit, visit_of, visits
 from parley.language.offline.scene.grouping import grouped, names_things
 from parley.language.offline.scene.scene import Scene
 from parley.language.offline.sentences.branching import branched
@@ -42,6 +41,7 @@ class Rereading(Recalling):
     def changed_plan(self, words: Phrase) -> ChatAction | None:
         """What a message changes of the plan as it stands, if that is all that it asks for."""
         self._mention_history()
+        words = without_going_on(words)
         about_plan = _asked_of_plan(words, self.scene) if self.scene.situation.queue else None
         if about_plan is not None:
             return self._result(about_plan.text, ())
@@ -94,12 +94,25 @@ class Rereading(Recalling):
         if not new.queue and self.reread is not None:
             new = self.reread(change.order, replace(plain_scene.situation, status="idle"))
         if not new.queue:
+            new = self._at_stop(change, plain_scene) or new
+        if not new.queue:
             return new
         pops = [SystemCommand(command="pop", arguments={"parameters": i}) for i in reversed(taken)]
         self.commands.extend(pops)
         reply = f"{edit.reply} {new.message_response}".strip()
         self.scene.trace.note("edit", reply)
         return self._result(reply, (*new.queue, *after))
+
+    def _at_stop(self, change: Change, scene: Scene) -> ChatAction | None:
+        """A new order that is due at a pending stop, and needs no more than to be there."""
+        stop = next((v for v in visits(self.scene) if v.start + len(v.steps) == change.at and v.names), None)
+        if stop is None or self.reread is None:
+            return None
+        words = (*change.order, *tokens("at the"), *tokens(stop.names[0]))
+        found = self.reread(words, replace(scene.situation, status="idle"))
+        there = [step.name for step in stop.steps[:2]]
+        going = next((n for n in (2, 1) if [step.name for step in found.queue[:n]] == there[:n]), 0)
+        return found.model_copy(update={"queue": found.queue[going:]}) if found.queue else None
 
     def _grouped(self, words: Phrase) -> Phrase:
         """The message with one word for each group, and without what is only denied."""

@@ -203,9 +203,17 @@ class _Cutting:
             return None
         flat = keys(core)
         if flat not in self.known:
-            self.known[flat] = self._order(core, hangs=hangs)
+            self.known[flat] = self._in_one(core) or self._order(core, hangs=hangs)
         found = self.known[flat]
         return None if found is None else replace(found, when=when, hangs=hangs)
+
+    def _in_one(self, core: Phrase) -> _Piece | None:
+        """For "start it at 40 degrees, no spin": one order, where an action explains all of it."""
+        words = tuple(word for word in core if word.key != ",")
+        match = self._match(words) if len(words) < len(core) and not _JOINTS & set(keys(words)) else None
+        if match is None or not match.verb_first or match.filled.left or len(match.filled.values) < _SEVERAL:
+            return None
+        return _Piece(words, 1.0 + match.score, match, changed=True)
 
     def _alike(self, part: Phrase, pieces: Sequence[_Piece]) -> _Piece | None:
         """For "open A halfway and B wide": the deed before once more, with all inputs said anew."""

@@ -12,14 +12,23 @@ from parley.language.offline.facts.declared import laid_down
 from parley.language.offline.facts.facts import Fact
 from parley.language.offline.facts.framed import told_plainly
 from parley.language.offline.facts.groups import with_members
-from parley.language.offline.facts.nicknames import by_their_real_names
+from parley.language.offline.facts.nicknames import by_their_real_names, remembered_plainly
 from parley.language.offline.facts.noting import mention_listed
 from parley.language.offline.facts.plain_names import plainly_named
 from parley.language.offline.grammar.canonical import Plainly, plainly_ordered
 from parley.language.offline.reader import Reader
 from parley.language.offline.readings.by_catalogue import asked_of_catalogue
-from parley.language.offline.readings.exceptions import unknown_exception, with_answer
+from parley.language.offline.readings.exceptions import unknown_exception, which_of_those, with_answer
 from parley.language.offline.readings.judging import Judgement, gone_to, is_odd, judge, texts_of
+from parley.language.offline.readings.kinds import (
+    complains,
+    done_by_others,
+    only_news,
+    only_to_be_seen_to,
+    with_undone_deeds,
+    without_vague_orders,
+)
+from parley.language.offline.readings.told_besides import with_what_is_told
 from parley.language.offline.repair.replies import agrees
 from parley.language.offline.scene.grounding import describe
 from parley.language.offline.scene.grouping import grouped, ids_in, names_things
@@ -38,10 +47,10 @@ from parley.language.offline.sentences.numbering import unnumbered
 from parley.language.offline.sentences.scoping import scoped
 from parley.language.offline.sentences.spoken import Names
 from parley.language.offline.sentences.talk import without_talk
-from parley.language.offline.sentences.told import when_done
+from parley.language.offline.sentences.told import told_apart, when_done
 from parley.language.offline.sentences.units import Unit, units
 from parley.language.offline.tasks.abilities import cannot
-from parley.language.offline.tasks.helping import helping
+from parley.language.offline.tasks.helping import helping, is_drastic
 from parley.language.offline.tasks.tasks import Tasks
 from parley.language.offline.words.explaining import Trace
 from parley.language.offline.words.lexicon import lexicon
@@ -51,7 +60,7 @@ from parley.messages.chat import ChatAction
 
 __all__ = ["best_reading"]
 
-_SMALL = frozenset({"the", "a", "an", "is", "are", "whether", "of", "in", "at", "on", "it", "any"})
+_SMALL = frozenset({"the", "a", "an", "is", "are", "whether", "of", "in", "at", "on", "it", "any", "and"})
 """What makes no difference to what a step is about."""
 
 
@@ -61,6 +70,8 @@ class _Reading:
     judged: Judgement
     trace: Trace
     how: str
+    reported: bool = False
+    """Whether it only looks at what was reported."""
 
 
 _Reread = Callable[[Phrase, Sequence[Phrase], str], _Reading]
@@ -79,13 +90,16 @@ def best_reading(
         targets: The robots that are spoken to.
     """
     scene = Scene.of(situation, hints)
-    words = _to_the_point(thought_there(by_their_real_names(words, scene), scene), scene, trace)
+    words = thought_there(by_their_real_names(remembered_plainly(words, scene), scene), scene)
+    words = _to_the_point(told_plainly(words), scene, trace)
     changed = _changed_plan(words, situation, hints, trace, targets)
     if changed is not None:
         return changed
     words = with_looks(words, Names(scene).is_stop)
     told, words = laid_down(told_plainly(words), scene)
     mention_listed(told, scene)
+    words = without_vague_orders(words, _units(words, scene))
+    words = with_undone_deeds(words, _units(words, scene), scene)
     whole = plainly_named(with_members(words, told), scene)
     words = _settled(words, scene)
     names = names_things(scene)
@@ -131,12 +145,14 @@ def best_reading(
     best = _offered(best, readings, wanted, parts, told, situation, hints, targets, spared, scene)
     if ordered is not None and ordered.unable and not ordered.against:
         best = _unable(best, ordered.unable, scene)
+    besides = with_what_is_told(best.action, readings[0].action, parts)
+    best = best if besides is best.action else replace(best, action=besides)
     best = _helpful(best, message, parts, situation, hints, targets, scene)
     trace.decisions += best.trace.decisions
     for reading in readings if len(readings) > 1 else ():
-        taken = ", taken" if reading is best else ""
+        taken = ", taken" if reading.trace is best.trace else ""
         trace.note("reading", f"{reading.how}: against it {reading.judged}{taken}")
-    action = _sparing(best, spared, scene) or _honest(best, scene)
+    action = _sparing(best, spared, scene) or which_of_those(best.action, scene) or _honest(best, scene)
     sources = tuple(dict.fromkeys((*scene.sources, *action.sources)))
     return action.model_copy(update={"sources": sources}) if scene.sources else action
 
@@ -154,7 +170,7 @@ def _offered(
     scene: Scene,
 ) -> _Reading:
     """The reading by what the robot offers, where that makes more of the message than the best one so far."""
-    if spared or any(step.flow is not None for step in best.action.queue):
+    if spared or any(step.flow is not None for step in best.action.queue) or only_news(parts, scene):
         return best
 
     def tells(sentence: Phrase) -> bool:
@@ -190,10 +206,10 @@ def _helpful(
     scene: Scene,
 ) -> _Reading:
     """With what helps against what is only told, where nothing else comes of it."""
-    if not _is_idle(best) or any(unit.kind in {"order", "asked", "condition"} for unit in parts):
+    if not (_is_idle(best) or best.reported or only_to_be_seen_to(parts)) or not complains(parts, scene):
         return best
-    match = helping(message, scene)
-    if match is None:
+    match = helping(message, scene, done_by_others(parts, scene))
+    if match is None or (is_drastic(match) and not _is_idle(best)):
         return best
     trace = Trace()
     agreed = any(agrees(hint) for hint in hints)
@@ -320,7 +336,9 @@ def _more_sense(said: _Reading, ordered: _Reading, *, certain: bool) -> _Reading
 
 def _says_less(reading: _Reading, other: _Reading) -> bool:
     """Whether a reading leaves out what another one makes of a message, and adds nothing to it."""
-    return bool(other.action.queue) and _about(reading) < _about(other)
+    said, whole = _about(reading), _about(other)
+    fewer = len(reading.action.queue) < len(other.action.queue)
+    return bool(other.action.queue) and (said < whole or (said == whole and fewer))
 
 
 def _unable(reading: _Reading, words: Phrase, scene: Scene) -> _Reading:
@@ -417,7 +435,8 @@ def _settled(words: Phrase, scene: Scene) -> Phrase:
     words = back_to_first(verb_first(unnumbered(when_done(without_end(words))), is_stop), is_stop)
     if {"each", "all", "both", "them", "those", "these"} & set(keys(words)):
         words = each_in_turn(_units(words, scene)) or words
-    return corrected(words, is_stop, lambda part: opens_command(part, scene.catalogue.verbs))
+    words = corrected(words, is_stop, lambda part: opens_command(part, scene.catalogue.verbs))
+    return told_apart(words, _units(words, scene)) if "," in keys(words) else words
 
 
 def _others(
@@ -452,7 +471,9 @@ def _read(
     scene = Scene.of(situation, hints, trace)
     reader = Reader(scene, targets=targets, about=tuple(about), told=told, reread=_read_again)
     action = reader.read(words)
-    return _Reading(action, judge(action, reader.trouble, parts, scene, spared), trace, how)
+    return _Reading(
+        action, judge(action, reader.trouble, parts, scene, spared), trace, how, reported=reader.reported
+    )
 
 
 def _read_again(words: Phrase, situation: Situation) -> ChatAction:

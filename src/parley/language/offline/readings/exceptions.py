@@ -1,21 +1,25 @@
-"""Exceptions that nothing tells: "all rooms but the one with the piano", where nobody knows which that is.
+"""What nothing tells: "all rooms but the one with the piano", "the two rooms" of three.
 
-What is to be left out must not be done: who does not know what that is asks.
+What is to be left out must not be done, nor what may not be meant: who does not know what that is asks.
 """
 
 from __future__ import annotations
 
 from typing import Final
 
+from parley.language.offline.readings.judging import gone_to
+from parley.language.offline.scene.grounding import describe
 from parley.language.offline.scene.group_words import exception_at
 from parley.language.offline.scene.grouping import grouped
-from parley.language.offline.scene.marks import marks_of
+from parley.language.offline.scene.marks import by_ids, marks_of
 from parley.language.offline.scene.scene import Scene
 from parley.language.offline.words.lexicon import lexicon
 from parley.language.offline.words.nouns import coordinated
-from parley.language.offline.words.text import Phrase, keys, tokens
+from parley.language.offline.words.saying import listing, the
+from parley.language.offline.words.text import Phrase, keys, plain, tokens
+from parley.messages.chat import ChatAction
 
-__all__ = ["unknown_exception", "with_answer"]
+__all__ = ["unknown_exception", "which_of_those", "with_answer"]
 
 _ALL: Final = frozenset({"all", "every", "each", "any", "both", "everything", "everywhere"})
 _ONES: Final = frozenset({"one", "ones"})
@@ -39,6 +43,19 @@ def unknown_exception(words: Phrase) -> tuple[int, int] | None:
     return None
 
 
+def which_of_those(action: ChatAction, scene: Scene) -> ChatAction | None:
+    """A question where a plan goes to some of "the two rooms" of three; None if it need not be asked."""
+    several = scene.uncounted
+    if several is None or scene.situation.queue or scene.hints:
+        return None
+    choices = [describe(item, scene.objects) for item in several.items]
+    if not gone_to(action, scene) & {item.id for item in several.items}:
+        return None
+    known = f"I know {len(choices)} of those: {listing([the(one) for one in choices])}."
+    text = f"{known} Which do you mean by “{plain(several.words)}”?"
+    return ChatAction(message_response=text, targets=action.targets, choices=tuple(choices))
+
+
 def with_answer(words: Phrase, hints: list[str], scene: Scene) -> Phrase:
     """The words with the answers to questions about them in the place of what was asked about.
 
@@ -48,6 +65,9 @@ def with_answer(words: Phrase, hints: list[str], scene: Scene) -> Phrase:
     answer = next((tokens(hint) for hint in hints if scene.ground(tokens(hint)).outcome == "match"), ())
     if place is not None and answer:
         return (*words[: place[0]], *answer, *words[place[1] :])
+    counted = _told_later(words, hints, scene) if hints else words
+    if counted != words:
+        return counted
     for hint in hints:
         said = tokens(hint)
         if exception_at(keys(said), 0) and (kind := _kind_of(words, set(), scene)) is not None:
@@ -55,18 +75,36 @@ def with_answer(words: Phrase, hints: list[str], scene: Scene) -> Phrase:
         several: Phrase = next(((word,) for word in grouped(said, scene) if marks_of(word)), ())
         meant = set(marks_of(several[0])) if several else set()
         if not several:
-            several, meant = tokens(hint), _listed(tokens(hint), scene)
+            several, meant = tokens(hint), set(_listed(tokens(hint), scene))
         span = _kind_of(words, meant, scene) if meant else None
         if span is not None:
             return (*words[: span[0]], *several, *words[span[1] :])
     return words
 
 
-def _listed(words: Phrase, scene: Scene) -> set[str]:
+def _told_later(words: Phrase, hints: list[str], scene: Scene) -> Phrase:
+    """The words with those that an answer names in the place of "the two rooms" of three."""
+    grouped(words, scene)
+    several, flat = scene.uncounted, keys(words)
+    if several is None:
+        return words
+    asked = keys(several.words)
+    at = next((i for i in range(len(flat)) if flat[i : i + len(asked)] == asked), -1)
+    for said in map(tokens, hints) if at >= 0 else ():
+        for named in (said, (*several.words[-1:], *said), (*said[:1], *several.words[-1:])):
+            listed = _listed(named, scene)
+            group = (by_ids(listed, plain(named)),) if listed else grouped(named, scene)
+            if len(group) == 1 and marks_of(group[0]):
+                scene.uncounted = None
+                return (*words[:at], *group, *words[at + len(asked) :])
+    return words
+
+
+def _listed(words: Phrase, scene: Scene) -> list[str]:
     """The things that "A, B and C" are; empty if that is no such list."""
     found = [scene.ground(part) for part in coordinated(words)]
     whole = len(found) > 1 and all(one.outcome == "match" for one in found)
-    return {one.candidates[0].id for one in found} if whole else set()
+    return [one.candidates[0].id for one in found] if whole else []
 
 
 def _kind_of(words: Phrase, meant: set[str], scene: Scene) -> tuple[int, int] | None:

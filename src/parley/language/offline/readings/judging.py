@@ -16,7 +16,7 @@ from parley.language.offline.sentences.units import Unit
 from parley.language.offline.tasks.catalogue import parameter_role
 from parley.language.offline.tasks.tasks import UnableError
 from parley.language.offline.words.lexicon import PhraseTable, lexicon
-from parley.language.offline.words.nouns import bare
+from parley.language.offline.words.nouns import bare, beside_at
 from parley.language.offline.words.text import Phrase, keys, lemma, singular, tokens
 from parley.messages.chat import ActionCall, ChatAction
 
@@ -192,9 +192,21 @@ def _left(action: ChatAction, units: Sequence[Unit], scene: Scene) -> int:
         if unit.kind not in {"order", "wish"} or not action.queue:
             continue
         named = {key for name in unit.names for key in keys(name)} | robots
-        said = {key for key in _due_whenever(unit.words) if _means_something(key)} - named
+        said = (
+            {key for key in _due_whenever(unit.words) if _means_something(key)} - named - _beside(unit.words)
+        )
         count += sum(not {key, singular(key), lemma(key)} & there for key in said)
     return count
+
+
+def _beside(words: Phrase) -> set[str]:
+    """The words that only say what something is beside ("the door next to the lift")."""
+    flat = keys(words)
+    starts = (end for i in range(1, len(flat)) if (end := beside_at(flat, i)) > i)
+    return {key for start in starts for key in flat[start : start + _LONGEST_ANCHOR]}
+
+
+_LONGEST_ANCHOR = 3
 
 
 def _means_something(key: str) -> bool:
@@ -313,8 +325,21 @@ def _makes_sense(words: Phrase, scene: Scene) -> bool:
 
 def _named_in(units: Sequence[Unit], kinds: set[str], scene: Scene) -> set[str]:
     """The ids of what the parts of some kinds name."""
-    phrases = (p for unit in units if unit.kind in kinds and not unit.refuses for p in unit.names)
+    phrases = (
+        p
+        for unit in units
+        if unit.kind in kinds and not unit.refuses
+        for p in unit.names
+        if not _belongs_elsewhere(bare(p), unit.words, scene)
+    )
     return {item.id for phrase in phrases for item in scene.ground(phrase).candidates[:1]}
+
+
+def _belongs_elsewhere(name: Phrase, words: Phrase, scene: Scene) -> bool:
+    """For "the door of the shed", where the only door of the map is far from the shed."""
+    return len(name) == 1 and any(
+        word.key == name[0].key and scene.has_its_own(words, at, at + 1) for at, word in enumerate(words)
+    )
 
 
 def _used(action: ChatAction, units: Sequence[Unit], scene: Scene) -> set[str]:

@@ -94,7 +94,8 @@ def is_request(words: Phrase) -> bool:
     if flat[:1] not in {("whether",), ("how",), ("if",), ("what",), ("where",), ("who",), ("which",)}:
         return names_something(words, people=True)
     rest = words[1:]
-    if any(flat[i] in {"the", "a", "an"} and flat[i + 1] in _NO_NOUNS for i in range(len(flat) - 1)):
+    articles = (i for i in range(len(flat) - 1) if flat[i] in {"the", "a", "an"})
+    if any(flat[i + 1] in _NO_NOUNS and not _labelled(words[: i + 1]) for i in articles):
         return False
     if flat[:1] in {("what",), ("who",), ("how",), ("where",)} and len(flat) < 6:
         return True

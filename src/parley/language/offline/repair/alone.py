@@ -30,6 +30,7 @@ __all__ = ["NEAR_M", "Interpret", "as_message", "looked_there", "remembered_plac
 Interpret = Callable[[Situation], ChatAction]
 """Understands an order; handed in, because understanding messages is built on top of this."""
 
+_MOST_HOPS = 4
 NEAR_M = 2.5
 """Farther away from a thing than this, looking at it is worth another try from close by."""
 
@@ -190,7 +191,7 @@ def _looked_for_elsewhere(situation: ErrorSituation) -> ChatAction | None:
     if item is None or found is None or found.outcome != "match":
         return None
     place = found.candidates[0]
-    if _is_at(situation, place):
+    if _is_at(situation, place) and not _sees_another_place(situation, place):
         return None
     words = describe(place, situation.objects)
     steps = way_to(situation, words)
@@ -202,10 +203,26 @@ def _looked_for_elsewhere(situation: ErrorSituation) -> ChatAction | None:
     )
 
 
+def _sees_another_place(situation: ErrorSituation, place: MapObject) -> bool:
+    """Whether what was seen is a thing of the map, and not the one where something should be."""
+    seen = situation.details.get("seen")
+    names = [str(item) for item in seen] if isinstance(seen, list | tuple) else []
+    found = [ground_phrase(tokens(name), situation.objects, strict=True) for name in names]
+    known = [one.candidates[0].id for one in found if one.outcome == "match"]
+    return bool(known) and place.id not in known
+
+
 def _fact_about(wanted: Phrase, situation: ErrorSituation) -> Remembered | None:
     """The one fact that says where the thing is now."""
-    phrase = bare(wanted)
-    return find_fact(phrase, remembered(situation.memory))[0] if phrase else None
+    phrase, facts = bare(wanted), remembered(situation.memory)
+    found = find_fact(phrase, facts)[0] if phrase else None
+    for _ in range(_MOST_HOPS):
+        # What something is in may be remembered to be somewhere itself.
+        place = bare(found.fact.place) if found is not None else ()
+        if not place or ground_phrase(place, situation.objects).outcome != "none":
+            break
+        found = find_fact(place, facts)[0] or found
+    return found
 
 
 def _with_other_words(

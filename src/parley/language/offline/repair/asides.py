@@ -44,7 +44,11 @@ _WHERE_IT = (
 )  # fmt: skip
 _OTHER_WAY = ("another way", "other way", "way around", "different way", "any way", "alternative")
 _SHORT = {("why",), ("where",), ("which",)}
-_CHOICES = (("which",), ("what", "are", "the", "options"), ("what", "can", "i", "choose"))
+_CHOICES = (
+    ("which",), ("what", "are", "the", "options"), ("what", "can", "i", "choose"), ("what", "choices"),
+    ("what", "are", "my", "options"), ("what", "are", "my", "choices"), ("what", "are", "the", "choices"),
+    ("what", "options"), ("what", "is", "there", "to", "choose"), ("between", "what"), ("how", "many", "are"),
+)  # fmt: skip
 
 
 def asks(reply: str) -> bool:
@@ -53,6 +57,8 @@ def asks(reply: str) -> bool:
     flat = keys(words)
     if not flat or not any(word.is_word for word in words):
         return False
+    if questions.unwrapped(words)[1]:
+        return True
     if opens_command(words) and flat[0] not in lexicon().question_starts:
         return False
     starts = lexicon().question_starts | {"why", "how"}
@@ -70,6 +76,7 @@ def about_failure(situation: ErrorSituation, message: str) -> ChatAction | None:
 def answered_aside(situation: ErrorSituation, reply: str) -> ChatAction | None:
     """The answer to a question about the failure, the robot or what it knows; None if there is none."""
     words = tuple(word for word in strip_openers(tokens(reply)) if word.is_word)
+    words = tuple(w for w in questions.unwrapped(words)[0] if w.key not in {"exactly", "actually", "just"})
     flat = keys(words)
     if len(flat) < 2 and flat not in _SHORT:
         return None

@@ -64,7 +64,7 @@ def place_in_its_stead(situation: ErrorSituation) -> ChatAction | None:
 
 def way_to(situation: ErrorSituation, place: str) -> list[ActionCall] | None:
     """The steps that bring the robot to a place; None if it cannot go."""
-    catalogue = Catalogue(situation.catalogue)
+    catalogue = Catalogue.of(situation.catalogue)
     mover = catalogue.mover
     return catalogue.chain(mover, {}, place, f"go to {the(place)}") if mover is not None else None
 

@@ -9,6 +9,7 @@ from __future__ import annotations
 
 import re
 from collections.abc import Sequence
+from dataclasses import replace
 from functools import cache
 
 from parley.errors import FailureCode
@@ -40,27 +41,31 @@ from parley.language.offline.repair.reordering import new_order, with_order_behi
 from parley.language.offline.repair.replies import agrees
 from parley.language.offline.scene.choosing import choose, choose_object, strip_lead_ins
 from parley.language.offline.scene.grounding import describe, ground_phrase
-from parley.language.offline.scene.scene import place_said
+from parley.language.offline.scene.scene import Scene, place_said
 from parley.language.offline.sentences.clauses import clauses, opens_command
+from parley.language.offline.sentences.forms import plainly_put
 from parley.language.offline.tasks.catalogue import roles_of
 from parley.language.offline.tasks.commands import read_command
 from parley.language.offline.words.durations import duration_s
 from parley.language.offline.words.lexicon import lexicon
 from parley.language.offline.words.saying import capital, the
-from parley.language.offline.words.text import Phrase, keys, tokens
+from parley.language.offline.words.text import Phrase, keys, plain, tokens
 from parley.language.word_lists import load_data
 from parley.messages.chat import ChatAction, SystemCommand
 
 __all__ = ["resolve"]
 
-_SUGGESTION = re.compile(r"^why (?:don['’]?t|do not|not) (?:you )?(?:just )?(?=\w)", re.IGNORECASE)
+_SUGGESTION = re.compile(
+    r"^(?:why (?:don['’]?t|do not|not) (?:you )?|(?:can|could)(?:['’]?t|n['’]?t| not) you )(?:just )?(?=\w)",
+    re.IGNORECASE,
+)
 """How an order may be put as a question."""
 _BLIND = "I cannot see what is in a picture."
 
 
 def resolve(situation: ErrorSituation) -> ChatAction:
     """Repair a failure, or ask."""
-    situation = with_code(situation)
+    situation = _plainly(with_code(situation))
     if situation.pictures and not (situation.reply or "").strip():
         return ChatAction(success=None, message_response=f"{_BLIND} Please tell me in words.")
     resolution = with_order_behind(situation, _resolve, interpret) or _resolve(situation)
@@ -68,6 +73,13 @@ def resolve(situation: ErrorSituation) -> ChatAction:
         said = f"{_BLIND} {resolution.message_response}".rstrip()
         resolution = resolution.model_copy(update={"message_response": said})
     return resolution
+
+
+def _plainly(situation: ErrorSituation) -> ErrorSituation:
+    """With the reply in plain orders ("it would be best if you skipped that one")."""
+    said = tokens(situation.reply or "")
+    plainer = plainly_put(said, Scene.of(as_message(situation, situation.reply or ""))) if said else said
+    return situation if keys(plainer) == keys(said) else replace(situation, reply=plain(plainer))
 
 
 def _resolve(situation: ErrorSituation) -> ChatAction:
@@ -209,9 +221,18 @@ def _promised(situation: ErrorSituation, reply: str) -> ChatAction | None:
     coming = flat[:2] in {("i", "will"), ("we", "will"), ("let", "me"), ("let", "us")} or _mentions(
         text, ("i am coming", "on my way")
     )
+    coming = coming or bool(_ON_IT & set(flat[1:6]) and lexicon().be & set(flat[1:5]))
     if not coming or "not" in flat or _mentions(text, _said("without")):
         return None
     return ChatAction(message_response="All right, I wait. Please tell me when it is done.")
+
+
+_ON_IT = frozenset({
+    "opening", "moving", "coming", "clearing", "removing", "fixing", "bringing", "fetching", "looking",
+    "working",
+    "repairing", "unlocking", "cleaning", "mopping", "getting", "charging", "pushing", "seeing",
+})  # fmt: skip
+"""What somebody may be doing about a failure."""
 
 
 def _asked(situation: ErrorSituation, reply: str) -> ChatAction | None:
@@ -307,6 +328,12 @@ def _denied(text: str) -> bool:
             "not important",
             "do not bother",
             "no need",
+            "no longer",
+            "do not need",
+            "not needed",
+            "not necessary",
+            "do not want",
+            "does not have to",
             "no idea",
             "no matter",
         ),
@@ -385,6 +412,10 @@ def _where_said(situation: ErrorSituation, reply: str, ordered: Phrase = ()) -> 
     """
     phrase = tokens(reply)
     fact = None if ordered else read_statement(phrase)
+    step = keys(tokens(words_of(situation.failed_action)))
+    if fact is not None and {*keys(fact.subject), fact.relation} <= set(step) and len(fact.state) > 1:
+        # "The gate A likes": "A likes the east one".
+        ordered, fact = fact.state[1:], None
     if fact is not None and not (fact.is_location and _is_about_step(fact, situation)):
         return None
     said = (fact.relation, fact.place) if fact is not None else place_said(strip_lead_ins(phrase))
@@ -398,7 +429,13 @@ def _where_said(situation: ErrorSituation, reply: str, ordered: Phrase = ()) -> 
 def _as_memory(situation: ErrorSituation, relation: str, place: str) -> list[SystemCommand]:
     """The operator's answer as a memory."""
     wanted = words_of(situation.failed_action)
-    if not wanted or wanted.startswith(("whether", "what")) or "instead" in (situation.reply or "").lower():
+    corrects = {"meant", "mean"} & set(keys(tokens(situation.reply or "")))
+    if (
+        corrects
+        or not wanted
+        or wanted.startswith(("whether", "what"))
+        or "instead" in (situation.reply or "").lower()
+    ):
         return []
     sentence = f"{capital(the(wanted))} is {relation} {the(place)}"
     fact = read_statement(tokens(sentence))

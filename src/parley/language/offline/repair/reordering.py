@@ -77,6 +77,9 @@ def new_order(
         return None
     text = plain(rest) if dropped or left_out or later or again else reply
     understood = interpret(_situation(situation, text))
+    replanned = _replanned(situation, understood) if not (dropped or later or again) else None
+    if replanned is not None:
+        return replanned
     if not understood.queue:
         return None
     if again and not situation.pending:
@@ -95,6 +98,19 @@ def new_order(
     if situation.pending:
         said = f"{said} After that I go on with the rest of the plan."
     return solved(situation, said, _not_again(understood.queue, situation), commands)
+
+
+def _replanned(situation: ErrorSituation, understood: ChatAction) -> ChatAction | None:
+    """What is left of the plan where a reply leaves out pending steps; None if it leaves out none."""
+    gone = {c.pop_index for c in understood.system_cmd if c.command == "pop"}
+    if not gone:
+        return None
+    steps = (situation.failed_action, *situation.pending)
+    plan = (*(step for i, step in enumerate(steps) if i not in gone), *understood.queue)
+    count, text = len(situation.pending), understood.message_response
+    if plan[len(plan) - count :] == situation.pending:
+        return solved(situation, text, plan[: len(plan) - count], _memories(understood))
+    return solved(situation, text, plan, [SystemCommand(command="clear"), *_memories(understood)])
 
 
 _THEN = re.compile(r"[\s,;.!]+(?:and\s+)?(?:then|after\s+(?:that|this)|afterwards)[\s,]+", re.IGNORECASE)

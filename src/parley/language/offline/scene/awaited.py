@@ -11,9 +11,10 @@ from functools import cache
 from parley.language.offline.facts.facts import strip_openers
 from parley.language.offline.scene.report_words import phrase_of, place_named
 from parley.language.offline.scene.scene import Scene
+from parley.language.offline.words.inflecting import forms
 from parley.language.offline.words.lexicon import PhraseTable, lexicon
 from parley.language.offline.words.nouns import bare
-from parley.language.offline.words.text import Phrase, keys, lemma
+from parley.language.offline.words.text import Phrase, keys
 from parley.language.word_lists import load_data
 
 __all__ = ["awaited"]
@@ -85,12 +86,13 @@ def _words(kind: str) -> PhraseTable:
 
 
 def _is(kind: str, verb: str) -> bool:
-    return bool({(verb,), (lemma(verb),), (verb.removesuffix("s"),)} & set(_forms(kind)))
+    return verb in _forms(kind)
 
 
 @cache
-def _forms(kind: str) -> frozenset[tuple[str, ...]]:
-    return frozenset((verb,) for verb in load_data("needs")[kind])
+def _forms(kind: str) -> frozenset[str]:
+    """Verbs of a kind in all their forms."""
+    return frozenset(load_data("needs")[kind]) | forms(load_data("needs")[kind])
 
 
 def _wants_you(words: Phrase) -> tuple[Phrase, Phrase] | None:
@@ -99,23 +101,25 @@ def _wants_you(words: Phrase) -> tuple[Phrase, Phrase] | None:
     for at in range(2, len(flat)):
         if flat[at] != "you":
             continue
+        meets = flat[at - 2 : at] == ("to", "see") and bool(_WISHING & set(flat[1 : at - 2]))
         calling = flat[at - 1] in {"for", "on", "after"} and _is("calling_for", flat[at - 2])
-        verb = at - 2 if calling else at - 1
-        if not calling and not _is("wanting_you", flat[verb]):
+        verb = at - 2 if calling or meets else at - 1
+        if not (calling or meets) and not _is("wanting_you", flat[verb]):
             continue
         begin = verb
-        while begin and flat[begin - 1] in _HELPING:
+        while begin and flat[begin - 1] in (_HELPING | _WISHING if meets else _HELPING):
             begin -= 1
         if 0 < begin <= _LONGEST_SUBJECT:
             return words[:begin], words[at + 1 :]
     return None
 
 
+_WISHING = frozenset({"want", "wants", "like", "love", "need", "needs", "asks", "asked", "wishes"})
 _HELPING = frozenset({
     "is", "are", "am", "be", "been", "being", "has", "have", "had", "keeps", "keep", "will", "would",
     "still", "already", "now", "just", "really", "urgently", "desperately", "badly", "all", "both",
     "impatiently", "may", "might", "seems", "seem", "to", "out", "also", "currently", "there", "who",
-    "that", "does", "do",
+    "that", "does", "do", "like", "love", "want", "wants", "wish", "wishes",
 })  # fmt: skip
 
 
@@ -180,6 +184,9 @@ def _going(subject: Phrase, rest: Phrase, scene: Scene) -> Phrase | None:
         where = place_named(subject, scene)
         if where is not None:
             return phrase_of("go to the", bare(subject[where[0] : where[1]]))
+        theirs = named[:-1] if named[-1].key in load_data("needs")["there"] else ()
+        if theirs and scene.ground(theirs).outcome == "match":
+            return phrase_of("go to the", theirs)
         return phrase_of("go to", subject) if scene.is_person(named) else None
     there = {"there", "over"} & set(keys(rest)) and bool(scene.places)
     return phrase_of("go there") if there else None

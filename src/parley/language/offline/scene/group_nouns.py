@@ -12,17 +12,19 @@ from parley.language.offline.scene.group_words import (
     Lead,
     in_turn_at,
     labels_at,
+    parity_at,
     read_lead,
     stops,
 )
 from parley.language.offline.scene.members import chosen, labelled
 from parley.language.offline.words.lexicon import lexicon
 from parley.language.offline.words.nouns import bare, coordinated
+from parley.language.offline.words.quantities import quantities
 from parley.language.offline.words.text import Phrase, Word, keys, singular
 from parley.world.geometry import Pose2D
 from parley.world.object_map import MapObject
 
-__all__ = ["LONGEST_NOUN", "NO_NOUN", "Found", "GroupNouns"]
+__all__ = ["LONGEST_NOUN", "NO_NOUN", "Found", "GroupNouns", "Uncounted"]
 
 LONGEST_NOUN = 5
 
@@ -60,7 +62,14 @@ _LEADING_TO_NAME = frozenset({
     "marked", "labelled", "labeled", "says", "saying", "up", "over", "out", "down", "round", "in", "to",
     "at", "on", "the",
 })  # fmt: skip
+_POINTED_OUT = (("that", "one"), ("this", "one"), ("it",), ("that",), ("this",), ("there",))
+_JOINTS = frozenset({"so", "and", "because"})
 _GENERIC = frozenset({"place", "point", "spot", "way", "side", "end"})
+
+
+def _ends_noun(flat: tuple[str, ...], at: int) -> bool:
+    """Whether words say which of a kind, or in what order, and are no part of its name."""
+    return bool(in_turn_at(flat, at)) or parity_at(flat, at)[0] >= 0
 
 
 @dataclass(frozen=True)
@@ -72,6 +81,14 @@ class Found:
     each: bool = False
     cut: tuple[int, int] = (0, 0)
     """Words farther on that said what is left out."""
+
+
+@dataclass(frozen=True, slots=True)
+class Uncounted:
+    """So many of a kind, as if there were no more, where there are."""
+
+    words: Phrase
+    items: tuple[MapObject, ...]
 
 
 @dataclass
@@ -113,7 +130,10 @@ class GroupNouns:
                 continue
             if bare(part)[-1:] != part[-1:] or part[0].key in lexicon().goals_and_places:
                 continue
-            if "between" in keys(part) or any(in_turn_at(keys(words), i) for i in range(at + 1, at + size)):
+            if len(part) > 2 and any(q.units for q in quantities(part)):
+                # "Both seams at 90 amps".
+                continue
+            if "between" in keys(part) or any(_ends_noun(keys(words), i) for i in range(at + 1, at + size)):
                 continue
             items = self._things(part)
             if len(items) > 1 or (items and lead.other and size == 1):
@@ -188,6 +208,11 @@ class GroupNouns:
     ) -> tuple[tuple[MapObject, ...], int]:
         """What an exception names, and where it ends; nothing if that cannot be told."""
         flat = keys(words)
+        size = next(
+            (len(m) for m in _POINTED_OUT if flat[at : at + len(m)] == m and stops(words, at + len(m))), 0
+        )
+        if size:
+            return self._spoken_of(words[:at], items), at + size
         counted = flat[at : at + 1] and (flat[at][0].isdigit() or "one" in flat[at : at + 2])
         lead, start = (Lead(), at) if counted else read_lead(words, at)
         if lead.end or lead.ordinals:
@@ -207,6 +232,15 @@ class GroupNouns:
             gone = tuple(item for item in named if item is not None)
             return (gone, end) if gone else ((), at)
         return self._named_out(words, start, items, noun)
+
+    def _spoken_of(self, words: Phrase, items: Sequence[MapObject]) -> tuple[MapObject, ...]:
+        """The one of a group that the clauses before have named, for "all but that one"."""
+        flat = keys(words)
+        clause = next(
+            (i for i in range(len(flat) - 1, 0, -1) if flat[i] in _JOINTS or not words[i].is_word), 0
+        )
+        named = [item for item in self.named(words[:clause]) if item in items]
+        return tuple(named[-1:])
 
     def _named_out(
         self, words: Phrase, at: int, items: Sequence[MapObject], noun: Phrase

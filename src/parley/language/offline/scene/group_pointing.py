@@ -256,7 +256,8 @@ class GroupPointing(GroupNouns):
         start = end + (flat[end : end + 1] == ("please",))
         if flat[start : start + 1] not in {(",",), (":",)}:
             return None
-        parts, after = labels_at(words, start + 1)
+        namely = next((len(m) for m in _NAMELY if flat[start + 1 : start + 1 + len(m)] == m), 0)
+        parts, after = labels_at(words, start + 1 + namely)
         numbers = [label for part in parts for label in part]
         fitting = self._labelled(words[at:end], parts) if len(numbers) > 1 and stops(words, after) else ()
         counted = lead.count in {0, len(fitting)}
@@ -273,6 +274,14 @@ class GroupPointing(GroupNouns):
         return Found((in_order(items)[-1],), end) if numbered and places is None else None
 
 
+_NAMELY = (
+    ("namely",),
+    ("that", "is"),
+    ("to", "be", "precise"),
+    ("being",),
+    ("specifically",),
+    ("these", "are"),
+)
 _BEFORE_THAT = frozenset(
     (word,) for word in ("to", "at", "in", "on", "of", "by", "into", "check", "inspect", "see", "visit")
 ) | {()}

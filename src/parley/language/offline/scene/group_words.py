@@ -18,6 +18,7 @@ __all__ = [
     "labels_at",
     "may_lead",
     "open_range_at",
+    "parity_at",
     "read_lead",
     "stops",
 ]
@@ -33,6 +34,8 @@ _ALL, _FREE, _LIMITS, _NONE = _table("all"), _table("free"), _table("limits"), _
 _OTHERS, _STEPS, _PAIRS = _table("others"), _table("every_other"), _table("pairs")
 _ODD, _EVEN, _OUTER, _NEAR, _FAR = (_table(name) for name in ("odd", "even", "outer", "near", "far"))
 _NUMBERED = _table("numbered")
+_ODD_BEHIND, _EVEN_BEHIND = _table("odd_behind"), _table("even_behind")
+_OVER, _UNDER = _table("over"), _table("under")
 _EXCEPT, _IN_TURN = _table("except"), _table("in_turn")
 BETTER = {
     "nearer": "nearest", "closer": "closest", "farther": "farthest", "further": "furthest",
@@ -261,6 +264,12 @@ def in_turn_at(flat: tuple[str, ...], at: int) -> int:
     return size + comma if size else 0
 
 
+def parity_at(flat: tuple[str, ...], at: int) -> tuple[int, int]:
+    """For "with even numbers" behind a noun: 1 odd, 0 even, -1 neither; and where that ends."""
+    odd, even = _at(flat, at, _ODD_BEHIND), _at(flat, at, _EVEN_BEHIND)
+    return (1 if odd else 0 if even else -1), at + odd + even
+
+
 def labels_at(words: Phrase, at: int) -> tuple[list[tuple[str, ...]], int]:
     """Numbers and letters in a row ("2, 3 and 5", "2 to 4", "A and C"), and where they end.
 
@@ -286,7 +295,11 @@ def labels_at(words: Phrase, at: int) -> tuple[list[tuple[str, ...]], int]:
 
 
 def open_range_at(flat: tuple[str, ...], at: int) -> tuple[int, int, int] | None:
-    """For "from 3 upwards", "4 and above", "up to 3": lowest and highest number, and where that ends."""
+    """For "from 3 upwards", "above 3", "up to 3": lowest and highest number, and where that ends."""
+    over, under = _at(flat, at, _OVER), _at(flat, at, _UNDER)
+    limit = _count(flat[at + over + under : at + over + under + 1]) if over or under else 0
+    if limit:
+        return (limit + 1, 10**6, at + over + 1) if over else (0, limit - 1, at + under + 1)
     start = at + (flat[at : at + 1] == ("from",))
     upper = flat[start : start + 2] == ("up", "to") and start == at
     number = _count(flat[start + 2 * upper : start + 2 * upper + 1])

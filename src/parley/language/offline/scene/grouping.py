@@ -6,12 +6,15 @@ from collections.abc import Callable, Sequence
 
 from parley.language.offline.facts.stories import mentioned
 from parley.language.offline.scene.grounding import describe, ground_phrase
+from parley.language.offline.scene.group_nouns import Uncounted
 from parley.language.offline.scene.group_words import BETTER
 from parley.language.offline.scene.groups import GroupReader
 from parley.language.offline.scene.labels import with_heads, with_kinds
 from parley.language.offline.scene.marks import marks_of
 from parley.language.offline.scene.scene import Scene
-from parley.language.offline.scene.subsets import with_exception_behind
+from parley.language.offline.scene.states import restricted
+from parley.language.offline.scene.subsets import only_exception, with_exception_behind
+from parley.language.offline.sentences.clauses import opens_command
 from parley.language.offline.words.lexicon import lexicon
 from parley.language.offline.words.nouns import bare
 from parley.language.offline.words.saying import the
@@ -40,13 +43,32 @@ def grouped(words: Phrase, scene: Scene, *, pronouns: bool = True) -> Phrase:
         return [item for turn in turns for item in _named(tokens(turn.content), scene)]
 
     spoken_of = [turn.content for turn in scene.situation.history[-_LAST_TURNS:]]
+    words = _restricted(only_exception(words), scene)
     words = with_exception_behind(with_heads(_labelled(words, scene, spoken_of), scene.objects, spoken_of))
     words = _without_stand_in(_told_of(_there_is_one(_which_then(_wrong_one(words)), scene), scene), scene)
     reader = GroupReader(scene.objects, scene.situation.robot_pose, scene.facts, named, pronouns=pronouns)
     read = reader.read(words)
+    scene.uncounted = reader.uncounted or scene.uncounted
     if keys(read) != keys(words):
         scene.trace.note("words", f"groups found in “{plain(words)}”")
     return read
+
+
+def _restricted(words: Phrase, scene: Scene) -> Phrase:
+    """With a look at each of "all doors that are open" where nobody knows which these are; or it is asked."""
+
+    def is_order(part: Phrase) -> bool:
+        return opens_command(part, scene.catalogue.verbs)
+
+    found = None if scene.situation.queue else restricted(words, scene.objects, scene.facts, is_order)
+    if found is None:
+        return words
+    for fact in found.used:
+        scene.use(fact)
+    if found.used or any(scene.catalogue.all_with_role("look")):
+        return found.words
+    scene.uncounted = Uncounted(found.group, found.items)
+    return words
 
 
 def _labelled(words: Phrase, scene: Scene, spoken_of: Sequence[str]) -> Phrase:

@@ -10,7 +10,7 @@ from collections.abc import Sequence
 from dataclasses import dataclass, replace
 
 from parley.language.offline.scene.grounding import describe
-from parley.language.offline.scene.group_nouns import Found
+from parley.language.offline.scene.group_nouns import Found, Uncounted
 from parley.language.offline.scene.group_pointing import GroupPointing
 from parley.language.offline.scene.group_words import (
     Lead,
@@ -19,16 +19,23 @@ from parley.language.offline.scene.group_words import (
     labels_at,
     may_lead,
     open_range_at,
+    parity_at,
     read_lead,
     stops,
 )
 from parley.language.offline.scene.marks import marked
 from parley.language.offline.scene.members import chosen, in_order, numbered_from
 from parley.language.offline.words.lexicon import lexicon
+from parley.language.offline.words.quantities import quantities
 from parley.language.offline.words.text import Phrase, Word, keys, plain, singular, tokens
 from parley.world.object_map import MapObject
 
 __all__ = ["GroupReader"]
+
+
+_AFTER_COUNTED = frozenset(
+    {"and", "or", "then", "please", "for", "if", "whether", "first", "now", "today", "too", "but", "so"}
+)
 
 
 _SAYING_STATE = frozenset({"is", "are", "if", "whether", "that", "see", "sure"})
@@ -43,6 +50,8 @@ class GroupReader(GroupPointing):
     """
 
     pronouns: bool = True
+    uncounted: Uncounted | None = None
+    """So many of more that nothing tells which."""
     _plural_at: tuple[int, int] = (-1, 0)
     """Where several of a kind were spoken of that are no group yet."""
 
@@ -62,10 +71,11 @@ class GroupReader(GroupPointing):
                 index += 1
                 continue
             first, last = self._plural_at
+            behind = last + in_turn_at(keys(words), last)
             if (
                 found.items == self._plural
                 and first in places
-                and keys(words[last : last + 1]) in _ENDING_ORDER
+                and keys(words[behind : behind + 1]) in _ENDING_ORDER
             ):
                 # "Go to the doors and look at each of them": the doors, one by one.
                 result[places[first] : places[first] + last - first] = [
@@ -143,13 +153,18 @@ class GroupReader(GroupPointing):
         if not items:
             return None
         noun = words[at:end] or tokens(items[0].class_name or items[0].description)
+        parity, after = parity_at(keys(words), end)
+        if parity >= 0:
+            lead.parity, end = parity, after
         in_turn = in_turn_at(keys(words), end)
         open_end = None if in_turn else open_range_at(keys(words), end)
         if open_end is not None:
             low, high, end = open_end
             items = numbered_from(items, low, high)
             return Found(items, end, lead.each) if items else None
-        parts, after = ([], end) if in_turn else labels_at(words, end)
+        much = next(iter(quantities(words[end : end + 3])), None)
+        measured = much is not None and bool(much.units) and not much.start
+        parts, after = ([], end) if in_turn or measured else labels_at(words, end)
         them = 0 if parts else _all_of_them(keys(words), end)
         lead.everything, end = lead.everything or them > 0, end + them
         if parts:
@@ -157,7 +172,7 @@ class GroupReader(GroupPointing):
             lead.listed = not lead.says_something
             if not items:
                 return None
-        elif not self._plural_or_counted(noun, lead):
+        elif not (at == end and keys(words[start:at]) in _OTHERS) and not self._plural_or_counted(noun, lead):
             return None
         group = self._with_rest(words, start, Found(items, end, lead.each), lead, noun)
         several = parts or lead.says_something
@@ -264,9 +279,26 @@ class GroupReader(GroupPointing):
                 return Found(tuple(row[row.index(begun[0][0]) :: 2]), begun[1])
         some = chosen(items, lead, self.pose)
         if not some:
-            return None
+            return self._counted_before(words, start, items, end, lead)
         some, end = self._ranked(words, some, end, noun)
         return Found(some, end, lead.each)
+
+    def _counted_before(
+        self, words: Phrase, start: int, items: tuple[MapObject, ...], end: int, lead: Lead
+    ) -> Found | None:
+        """For "the two doors" where there are three: those that were spoken of; noted if nothing tells."""
+        if lead.free or not 1 < lead.count < len(items) or not (lead.definite or lead.everything):
+            return None
+        spoken_of = (*self.named(words[:start]), *self._last)
+        before = tuple(dict.fromkeys(item for item in spoken_of if item in items))
+        kind = singular(words[end - 1].key)
+        called = tuple(item for item in items if kind in item.description.lower().split())
+        for some in (before, called):
+            if len(some) == lead.count:
+                return Found(some, end, lead.each)
+        if end >= len(words) or not words[end].is_word or words[end].key in _AFTER_COUNTED:
+            self.uncounted = Uncounted(words[start:end], items)
+        return None
 
     def _ranked(
         self, words: Phrase, items: tuple[MapObject, ...], end: int, noun: Phrase
@@ -285,7 +317,7 @@ class GroupReader(GroupPointing):
         if not rank:
             return items, end
         rest = tuple(item for item in items if item not in found)
-        first = rank[-1] in {"first", "with", "begin"}
+        first = rank[-1] in {"first", "with", "begin"} or rank[0] in {"before", "ahead"}
         return ((*found, *rest) if first else (*rest, *found)), start + size + len(rank)
 
     def _begun_with(
@@ -313,7 +345,17 @@ class GroupReader(GroupPointing):
         return plural or lead.none or lead.each or lead.free or bool(lead.ordinals) or lead.every_other
 
 
+_OTHERS = frozenset({("the", "others"), ("all", "others"), ("all", "the", "others"), ("others",)})
 _RANKS = (
+    ("before", "the", "others"),
+    ("before", "all", "others"),
+    ("before", "all", "the", "others"),
+    ("before", "the", "rest"),
+    ("before", "any", "of", "the", "others"),
+    ("ahead", "of", "the", "others"),
+    ("after", "the", "others"),
+    ("after", "all", "the", "others"),
+    ("after", "the", "rest"),
     ("last", "of", "all"),
     ("at", "the", "end"),
     ("at", "last"),

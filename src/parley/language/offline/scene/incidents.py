@@ -47,9 +47,10 @@ def happened(words: Phrase, scene: Scene, *, alone: bool = True) -> Phrase | Non
     lost = left_by_somebody(said, scene) or missing_from(said, scene)
     if lost is not None:
         return lost
-    if not (_alarming(said) or (alone and _seems_so(said))):
-        return None
     where = place_named(said, scene)
+    faulty = where is not None and flat[where[1] : where[1] + 1] != () and flat[where[1]] in _faulty()
+    if not (faulty or _alarming(said) or (alone and _seems_so(said))):
+        return None
     if where is None and flat[-1] == "there" and scene.places and not lexicon().be & set(flat):
         return phrase_of("inspect the", bare(scene.places[-1]))
     if where is None:
@@ -74,6 +75,12 @@ _NO_REPORTS = (
 def _events() -> frozenset[str]:
     """Each verb of an event as it is used of what goes on now."""
     return forms(words_for("events"))
+
+
+@cache
+def _faulty() -> frozenset[str]:
+    """What something does that is not all right, as it is said of one thing."""
+    return frozenset(f"{verb}es" if verb[-1] in "zhx" else f"{verb}s" for verb in words_for("faults"))
 
 
 def _without_teller(words: Phrase) -> Phrase:

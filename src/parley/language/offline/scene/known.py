@@ -9,6 +9,7 @@ from parley.language.base import Grounding, Situation
 from parley.language.offline.facts.facts import Fact
 from parley.language.offline.facts.remembering import Remembered, speaks_of_several
 from parley.language.offline.scene.grounding import ground_phrase
+from parley.language.offline.scene.group_nouns import Uncounted
 from parley.language.offline.scene.relative import described_by_facts
 from parley.language.offline.scene.states import in_state
 from parley.language.offline.tasks.catalogue import Catalogue
@@ -116,6 +117,8 @@ class Known:
     """What was decided, for those who ask why."""
     served: set[tuple[str, ...]] = field(default_factory=set)
     """Who gets something already, by the words for them."""
+    uncounted: Uncounted | None = None
+    """A group that was named with a number that does not fit ("the two doors" of three)."""
     _told: dict[tuple[tuple[str, ...], int], tuple[MapObject, tuple[Remembered, ...]] | None] = field(
         default_factory=dict
     )

@@ -16,6 +16,7 @@ from parley.language.offline.words.lexicon import lexicon
 from parley.language.offline.words.nouns import bare, noun_phrase
 from parley.language.offline.words.saying import listing, the
 from parley.language.offline.words.text import Phrase, keys, plain, tokens
+from parley.language.word_lists import load_data
 from parley.messages.memory import MemoryEntry
 from parley.world.object_map import MapObject
 
@@ -66,11 +67,15 @@ class Placing(Referring):
                 return Place(name, chosen, via)
             item = self.pick(phrase, found.candidates)
             return Place(describe(item, self.objects), item)
+        beside = self.beside(phrase)
+        if beside is not None:
+            # Where somebody is said to be now counts, whatever is remembered.
+            return Place(describe(beside, self.objects), beside, via)
         if hops < _MAX_HOPS:
             place = self.remembered_place(phrase, hops)
             if place is not None:
                 return place
-        other = self.beside(phrase) or self._home(phrase) or self._without_tail(phrase)
+        other = self._home(phrase) or self._without_tail(phrase)
         if other is not None:
             return Place(describe(other, self.objects), other, via)
         if not remembered_words and self.objects:
@@ -134,7 +139,8 @@ class Placing(Referring):
         if not noun.core and len(noun.anchors) == 1:
             noun = noun_phrase(noun.anchors[0])
         part = bool(noun.core) and noun.core[-1] in _PARTS and noun.relation in {"in", "at", "inside", "near"}
-        if len(noun.anchors) != 1 or not noun.core or not (part or noun.core[-1] in lexicon().person_words):
+        somebody = part or (noun.core[-1:] != () and noun.core[-1] in lexicon().person_words)
+        if len(noun.anchors) != 1 or not (somebody or self.is_person(noun.phrase[: len(noun.core)])):
             return None
         found = self.ground(noun.anchors[0])
         return found.candidates[0] if found.outcome == "match" else None
@@ -275,10 +281,7 @@ class Placing(Referring):
         return None
 
 
-_PARTS = frozenset({
-    "floor", "ground", "wall", "ceiling", "corner", "door", "window", "roof", "carpet", "shelf", "air",
-})  # fmt: skip
-"""What a place has of its own."""
+_PARTS = frozenset(load_data("names")["parts"])
 _TAILS = frozenset({",", "for", "and", "because", "until", "till", "so", "who", "as", "with", "while"})
 
 

@@ -7,7 +7,6 @@ from collections.abc import Sequence
 from parley.language.offline.scene.awaited import awaited
 from parley.language.offline.scene.incidents import happened
 from parley.language.offline.scene.needs import granted, needed
-from parley.language.offline.scene.neglect import neglected
 from parley.language.offline.scene.scene import Scene
 from parley.language.offline.sentences.clauses import Clause, opens_command
 from parley.language.offline.sentences.look_only import is_look
@@ -56,9 +55,6 @@ def asked_by_report(clause: Clause, others: Sequence[Clause], scene: Scene) -> t
     """The order that telling what has happened means; arguments as for `asked_by_need`."""
     if not _only_tells(clause, others, scene):
         return None
-    overdue = neglected(clause.words, scene)
-    if overdue is not None:
-        return overdue, "something has not been looked at for long"
     report = happened(clause.words, scene, alone=not others)
     return None if report is None else (report, "something has happened")
 

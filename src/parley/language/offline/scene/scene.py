@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import math
 from collections.abc import Sequence
 from dataclasses import dataclass
 
@@ -12,7 +13,6 @@ from parley.language.offline.scene.known import OPERATOR, Place, UnclearError
 from parley.language.offline.scene.marks import members_of
 from parley.language.offline.scene.placing import Placing, place_said
 from parley.language.offline.scene.states import all_in_state
-from parley.language.offline.scene.subsets import part_of
 from parley.language.offline.tasks.catalogue import Catalogue
 from parley.language.offline.words.explaining import Trace
 from parley.language.offline.words.lexicon import lexicon
@@ -29,6 +29,12 @@ _ALL_OF_THEM = frozenset(
         "both",
         "all",
         "both of them",
+        "them both",
+        "them all",
+        "all of these",
+        "both of these",
+        "each of those",
+        "every one of them",
         "all of them",
         "all three",
         "all of those",
@@ -39,6 +45,12 @@ _ALL_OF_THEM = frozenset(
     )
 )
 
+_HAS_ITS_OWN = frozenset((word,) for word in ("in", "at", "of", "inside"))
+_ARTICLES = frozenset({"the", "a", "an", "this", "that"})
+_LONGEST_PLACE = 5
+_REACH_M = 1.5
+"""How near to a place something stands that is said to be at it, metres."""
+
 
 @dataclass
 class Scene(Placing):
@@ -47,7 +59,7 @@ class Scene(Placing):
     @classmethod
     def of(cls, situation: Situation, hints: Sequence[str] = (), trace: Trace | None = None) -> Scene:
         """The scene of a situation."""
-        known = Catalogue(situation.catalogue), remembered(situation.memory)
+        known = Catalogue.of(situation.catalogue), remembered(situation.memory)
         return cls(situation, *known, list(hints), trace=Trace() if trace is None else trace)
 
     def several(self, phrase: Phrase) -> list[Phrase]:
@@ -58,9 +70,6 @@ class Scene(Placing):
         told = self.told_apart(phrase)
         if told is not None:
             return [tokens(describe(told, self.objects))]
-        some = part_of(phrase, self.objects, self.situation.robot_pose)
-        if some is not None:
-            return [tokens(describe(item, self.objects)) for item in some]
         so = self._by_state(phrase)
         if so:
             return so
@@ -109,6 +118,47 @@ class Scene(Placing):
             return []
         self.hints.remove(everything)
         return [tokens(describe(item, self.objects)) for item in found.candidates]
+
+    def far_from(self, core: tuple[str, ...], anchor: Phrase) -> bool:
+        """Whether all things on the map that are called so are far from a place."""
+        there = ground_phrase(anchor, self.objects, strict=True)
+        words = tuple(Word(part, part) for part in core)
+        if there.outcome != "match" or not words:
+            return False
+        place = there.candidates[0]
+        if not set(keys(anchor)) & set(place.description.lower().split()):
+            # "In the north-east".
+            return False
+        reach_m = _REACH_M + math.hypot(place.width_m, place.height_m) / 2
+        called = self.several(words)
+        return bool(called) and all(
+            math.hypot(item.x_m - place.x_m, item.y_m - place.y_m) > reach_m
+            for one in called
+            for item in self.ground(one).candidates
+        )
+
+    def has_its_own(self, words: Phrase, at: int, end: int) -> bool:
+        """Whether what is named by one word is said to be at a place far from all that are called so.
+
+        "The door of the shed" is no door of the map where that one is far from the shed.
+
+        Args:
+            words: All words and punctuation.
+            at: Where the word stands.
+            end: Where what it names ends.
+        """
+        if end - at != 1 or words[at].key in lexicon().determiners:
+            return False
+        sizes = range(_LONGEST_PLACE, 0, -1)
+        start = end + 1
+        while start < len(words) and words[start].key in _ARTICLES:
+            start += 1
+        behind = keys(words[end : end + 1]) in _HAS_ITS_OWN
+        found = [words[start : start + size] for size in sizes] if behind else []
+        found += [words[at - size : at] for size in sizes if size <= at]
+        named = (p for p in found if p and all(w.is_word and w.key not in _ARTICLES for w in p))
+        place = next((p for p in named if ground_phrase(p, self.objects, strict=True).outcome == "match"), ())
+        return bool(place) and self.far_from(keys(words[at:end]), place)
 
     def _side_by_side(self, phrase: Phrase) -> list[Phrase]:
         """For "the desk the door the box": things named one after the other without any mark."""

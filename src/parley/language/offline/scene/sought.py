@@ -35,7 +35,7 @@ _LOOKING = frozenset({
     "can", "you", "could", "would", "please", "go", "and", "look", "check", "have", "a", "see", "for", "me",
     "it", "them", "there", "find", "us", "him", "her", "will", "just", "quick", "take", "over", "so",
     "then", "thanks", "ta", "if", "he", "she", "they", "is", "are", "still", "whether", "out", "any",
-    "sign", "of", "quickly",
+    "sign", "of", "quickly", "has", "to", "be", "found", "needs", "must", "should", "track", "down", "back",
 })  # fmt: skip
 
 
@@ -51,7 +51,10 @@ def thought_there(words: Phrase, scene: Scene) -> Phrase:
         words: All words and punctuation.
         scene: What is known.
     """
-    if len(words) > _LONGEST or not (_DOUBT | _LEAVING) & set(keys(words)):
+    if not (_DOUBT | _LEAVING) & set(keys(words)):
+        return words
+    words = _with_hints(words, scene)
+    if len(words) > _LONGEST:
         return words
     parts = _parts(words)
     left = _left_there(parts, scene)
@@ -66,13 +69,52 @@ def thought_there(words: Phrase, scene: Scene) -> Phrase:
         if where is None:
             continue
         around = [other for i, other in enumerate(parts) if i not in {at, index}]
-        if all(set(keys(other)) <= _LOOKING for other in around):
+        if all(set(keys(other)) <= _LOOKING | set(keys(thing)) for other in around):
             return phrase_of("inspect the", bare(where), "for", thing)
     return words
 
 
+def _with_hints(words: Phrase, scene: Scene) -> Phrase:
+    """For "V. look for A, it may be in B. W" "V. look for A at the B. W"."""
+    flat = keys(words)
+    for at in range(3, len(flat) - 3):
+        if flat[at] not in {",", ".", ";"} and not _joins(words, at):
+            continue
+        end = next((i for i in range(at + 2, len(flat)) if words[i].key in _MARKS), len(flat))
+        end = next((i for i in range(at + 2, end) if flat[i] in {"and", "so"}), end)
+        part = words[at + (words[at].key in _MARKS) : end]
+        while part and part[0].key in _LEADING:
+            part = part[1:]
+        where = _where(part, scene) if part else None
+        if where is None or not _HINTING & set(keys(part)):
+            continue
+        start = next((i + 1 for i in range(at - 1, -1, -1) if flat[i] in _MARKS), 0)
+        order = words[start:at]
+        if _searches_somewhere(order, scene):
+            going_on = words[end:] if keys(words[end : end + 1]) != (",",) else words[end + 1 :]
+            return (*words[:at], *phrase_of("at the", bare(where)), *_with_hints(going_on, scene))
+    return words
+
+
+_HINTING = _DOUBT - {"last", "had", "try", "usually", "normally", "put", "left"}
+
+
+def _searches_somewhere(order: Phrase, scene: Scene) -> bool:
+    """Whether words end in an order to look for something that does not say where."""
+    flat = keys(order)
+    verbs = ("look for", "search for", "find", "hunt for", "see if you can find", "try to find", "locate")
+    leads = [tuple(verb.split()) for verb in verbs]
+    at = next((i + len(v) for i in range(len(flat)) for v in leads if flat[i : i + len(v)] == v), 0)
+    thing = order[at:]
+    named = place_named(thing, scene) is not None and any(
+        lexicon().places.match(keys(thing), i) for i in range(len(thing))
+    )
+    told = {"nobody", "cannot", "not", "i", "we"} & set(flat[:at]) if at else set()
+    return 0 < len(thing) <= 6 and bool(at) and not named and not told and keys(thing[:1]) != ("out",)
+
+
 _LEAVING = frozenset({"left", "forgot", "forgotten", "lost", "dropped", "mislaid", "misplaced"})
-_OWNERS = frozenset({"his", "her", "their", "my", "our", "its"})
+_OWNERS = frozenset({"his", "her", "their", "my", "our", "its", "a", "an", "some"})
 
 
 def _left_there(parts: list[Phrase], scene: Scene) -> Phrase | None:

@@ -1,78 +1,42 @@
-"""Parts of a group: "any two doors", "at least three of the boxes", "every other chair"."""
+"""Parts of a group that an exception tells: "apart from A, check all doors", "check nothing but A"."""
 
 from __future__ import annotations
 
-from collections.abc import Sequence
-
-from parley.language.offline.scene.grounding import ground_phrase
 from parley.language.offline.scene.group_words import exception_at
-from parley.language.offline.words.lexicon import lexicon
-from parley.language.offline.words.nouns import bare
 from parley.language.offline.words.text import Phrase, Word, keys, singular
-from parley.world.geometry import Pose2D
-from parley.world.object_map import MapObject
 
-__all__ = ["part_of", "with_exception_behind"]
+__all__ = ["only_exception", "with_exception_behind"]
 
-_FREELY = (
-    "at least", "at most", "up to", "no more than", "no fewer than", "not more than", "a minimum of",
-    "a maximum of", "any", "some", "just", "only", "whichever", "exactly", "least", "most",
-)  # fmt: skip
-_LEADS = tuple(sorted((tuple(text.split()) for text in _FREELY), key=len, reverse=True))
 _ALL = frozenset({"all", "every", "each", "everything", "both"})
 
 
-def part_of(
-    phrase: Phrase, objects: Sequence[MapObject], pose: Pose2D | None
-) -> tuple[MapObject, ...] | None:
-    """The things that are meant by a number of equals that anybody may choose, nearest first.
-
-    None if the words ask for no such part, or there are not as many.
-    """
-    words = tuple(word for word in phrase if word.is_word)
+def only_exception(words: Phrase) -> Phrase:
+    """For "do not check any door but door 2", "check nothing except A": "check door 2", "check A"."""
     flat = keys(words)
-    if flat[:2] == ("every", "other") and len(flat) > 2:
-        group = _group(words[2:], objects)
-        return group[::2] if len(group) > 2 else None
-    at, freely = 0, False
-    while lead := next((lead for lead in _LEADS if flat[at : at + len(lead)] == lead), ()):
-        at, freely = at + len(lead), True
-    count = _number(flat[at : at + 1])
-    if count < 2 or at + 1 >= len(flat):
-        return None
-    rest = words[at + 1 :]
-    of = keys(rest[:1]) == ("of",)
-    rest = bare(rest[1:] if of else rest)
-    if not rest or singular(_noun(rest)) == _noun(rest):
-        return None
-    group = _group(rest, objects)
-    if (
-        len(group) < count
-        or (len(group) == count and not freely)
-        or (at == 0 and flat[0].isdigit() and not of)
-    ):
-        return None
-    if pose is not None:
-        near = sorted(group, key=lambda item: (item.x_m - pose.x_m) ** 2 + (item.y_m - pose.y_m) ** 2)
-        return tuple(near[:count])
-    return group[:count]
+    for at in range(len(flat) - 4):
+        begins = not at or not words[at - 1].is_word or flat[at - 1] in {"and", "but", "so", "please"}
+        denied = 2 if flat[at : at + 2] == ("do", "not") else int(flat[at] == "never")
+        some = next(
+            (i for i in range(at + denied + 1, min(at + denied + 5, len(flat))) if flat[i] in _ANY), 0
+        )
+        if not begins or not some or bool(denied) is (flat[some] in _NOTHING):
+            continue
+        limit = min(some + _LONGEST_KIND, len(flat))
+        out = next((i for i in range(some + 1, limit) if exception_at(flat, i)), 0)
+        if not out or any(not word.is_word for word in words[at:out]):
+            continue
+        wanted = words[out + exception_at(flat, out) :]
+        label = wanted[:1] and (wanted[0].key.isdigit() or len(wanted[0].key) == 1)
+        last = words[out - 1]
+        kind = (Word(singular(last.key), singular(last.raw)),) if label and out > some + 1 else ()
+        link = (Word("to", "to"),) if flat[some] in {"anywhere", "nowhere"} else ()
+        return (*words[:at], *words[at + denied : some], *link, *kind, *wanted)
+    return words
 
 
-def _noun(words: Phrase) -> str:
-    """The word that says what they are: the one before the first that says where."""
-    flat = keys(words)
-    end = next((i for i in range(1, len(flat)) if lexicon().places.match(flat, i)), len(flat))
-    return flat[end - 1]
-
-
-def _group(words: Phrase, objects: Sequence[MapObject]) -> tuple[MapObject, ...]:
-    return ground_phrase(bare(words), objects).candidates
-
-
-def _number(words: tuple[str, ...]) -> int:
-    if not words:
-        return 0
-    return int(words[0]) if words[0].isdigit() else int(lexicon().numbers.get(words[0], 0))
+_NOTHING = frozenset({"nothing", "nowhere", "none", "no"})
+_ANY = _NOTHING | {"any", "anything", "anywhere"}
+_LONGEST_KIND = 5
 
 
 def with_exception_behind(words: Phrase) -> Phrase:

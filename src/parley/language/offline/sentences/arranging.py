@@ -38,7 +38,7 @@ def arranged(units: Sequence[Unit]) -> Phrase | None:
         before = _ordered_before(parts, index)
         if before < 0:
             continue
-        early, late = _early(unit.words), _BEFORE_IT.match_end(keys(unit.words))
+        early, late = _early(unit.words), _late(keys(unit.words))
         late = late if unit.kind == "order" and unit.names and len(unit.words) > late + 2 else 0
         if (early and len(unit.words) > early) or late:
             end = _joined_end(parts, index)
@@ -58,6 +58,7 @@ def arranged(units: Sequence[Unit]) -> Phrase | None:
     return tuple(word for unit in kept if unit.words for word in (*unit.words, _mark(unit)))
 
 
+_PAIR = 2
 _PLURAL = frozenset({"each", "all", "both", "them", "every", "everyone"})
 _COUNTED = frozenset(_DATA["counted"])
 _THOSE_TWO = frozenset((those, many) for those in ("those", "these") for many in ("two", "three", "four"))
@@ -111,6 +112,8 @@ def each_in_turn(units: Sequence[Unit]) -> Phrase | None:
     rest = cut + 1
     while rest < len(flat) and flat[rest] in _COUNTED:
         rest += 1
+    if flat[cut : cut + 1] == ("both",) and not any(unit.kind == "name" for unit in units[start:at]):
+        start, names = at, _told_pair(units[:at])
     if len(names) < 2 or not cut or units[at].names or flat[rest : rest + 1] not in {(), ("for",)}:
         return None
     if any(set(keys(unit.words)) & {"after", "before", "not", "except", "or"} for unit in units[start:at]):
@@ -119,6 +122,18 @@ def each_in_turn(units: Sequence[Unit]) -> Phrase | None:
     each = [(*words[:cut], *name, *words[rest:], _STOP) for name in names]
     after = [(*unit.words, _mark(unit)) for unit in units[at + 1 :] if unit.words]
     return tuple(word for part in (*before, *each, *after) for word in part)
+
+
+def _told_pair(units: Sequence[Unit]) -> list[Phrase]:
+    """The two things that a story was about last, if it was about two ("it came from A or B")."""
+    names: dict[tuple[str, ...], Phrase] = {}
+    for unit in reversed(units):
+        if unit.kind not in {"told", "reason", "idle"}:
+            return []
+        names = {keys(name): name for name in unit.names} | names
+        if len(names) > 1:
+            break
+    return list(names.values()) if len(names) == _PAIR else []
 
 
 def _is_aside(unit: Unit) -> bool:
@@ -141,17 +156,38 @@ def _ranked(parts: list[Unit]) -> tuple[list[Unit], bool]:
         flat = keys(unit.words)
         last = _LAST.match_end(flat) if index in orders else 0
         first = _FIRST.match_end(flat) if index in orders else 0
-        hedged = {"if", "unless", "but", "when", "second"} & set(flat)
+        begin = next((i for i, key in enumerate(flat) if key not in _AH), 0)
+        hedged = {"if", "unless", "but", "when", "second"} & set(flat[begin:])
+        early = _EARLY.match(flat, begin) if index in orders and index != orders[0] else None
+        if early is not None and flat[begin + early[0] : begin + early[0] + 1] not in {(), ("of",)}:
+            front.append(_said(unit, unit.words[begin + early[0] :]))
+            changed = True
+            continue
+        later = index in orders and flat[-1:] == ("later",) and _now_first(parts[index + 1 :])
+        if later:
+            back.append(_said(unit, unit.words[:-1]))
+            changed = True
+            continue
         if last and not hedged and len(flat) > last + 1:
-            back.append(_said(unit, _kept_for_last(unit.words[:-last])))
+            back.append(_said(unit, _kept_for_last(unit.words[begin:-last])))
             changed = True
         elif first and not hedged and index != orders[0] and len(flat) > first + 1:
-            front.append(_said(unit, unit.words[:-first]))
+            front.append(_said(unit, unit.words[begin:-first]))
             changed = True
         else:
             middle.append(unit)
     at = next((i for i, unit in enumerate(middle) if unit.kind == "order"), len(middle))
     return [*middle[:at], *front, *middle[at:], *back], changed
+
+
+_EARLY = due("early")
+_AH = frozenset({"ah", "oh", "now", "please", "and", "but", "so", "ok", "well", ",", "yes", "right", "also"})
+
+
+def _now_first(parts: Sequence[Unit]) -> bool:
+    """Whether the next order is to be done first ("A later, first B")."""
+    flat = keys(parts[0].words) if parts and parts[0].kind in {"order", "name"} else ()
+    return bool({"first", "now"} & set(flat))
 
 
 def _kept_for_last(words: Phrase) -> Phrase:
@@ -178,6 +214,17 @@ def _ordered_before(parts: Sequence[Unit], index: int) -> int:
     """The order before another one in a message that names something itself; -1 if there is none."""
     kinds = {"order", "name", "wish"}
     return next((i for i in range(index - 1, -1, -1) if parts[i].kind in kinds and parts[i].names), -1)
+
+
+def _late(flat: tuple[str, ...]) -> int:
+    """How many words at the end say that this comes before what was said last."""
+    size = _BEFORE_IT.match_end(flat)
+    return size or int(flat[-1:] == ("before",) and flat[-2:-1] not in _NO_BEFORE)
+
+
+_NO_BEFORE = frozenset(
+    (word,) for word in ("as", "like", "than", "the", "day", "night", "week", "ever", "from")
+)
 
 
 def _early(words: Phrase) -> int:

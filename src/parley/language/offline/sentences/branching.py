@@ -9,8 +9,7 @@ from __future__ import annotations
 from collections.abc import Callable
 
 from parley.language.offline.sentences.clauses import opens_command
-from parley.language.offline.sentences.conditioning import OPPOSITES
-from parley.language.offline.sentences.expecting import FINDING
+from parley.language.offline.sentences.echoes import OPPOSITES, STATES, Echo, echo
 from parley.language.offline.words.lexicon import lexicon
 from parley.language.offline.words.nouns import bare
 from parley.language.offline.words.text import Phrase, Word, keys
@@ -30,7 +29,6 @@ _IFS = frozenset({"if", "unless"})
 _POINTING = frozenset({"it", "there"})
 _BEHIND = frozenset({"in", "on", "at", "inside", "under", "behind", "near", "by"})
 _NOBODY = {"nobody": "somebody", "none": "some", "nothing": "something"}
-_OPPOSITES = OPPOSITES | {("there", "gone"), ("gone", "there")}
 _LINKS = lexicon().be | {"has", "does"}
 _LONGEST_STOP = 6
 
@@ -48,8 +46,8 @@ def branched(words: Phrase, is_stop: IsStop, turn: Turn = lambda asked: ()) -> P
         & set(keys(words))
     ):
         return words
-    words = _found_or_not(_looked_first(words), is_stop)
-    words = _answered(_state_alone(_depending(_as_if(words), is_stop)), is_stop, turn)
+    words = _looked_first(words)
+    words = _answered(_state_alone(_depending(words, is_stop)), is_stop, turn)
     result: list[Word] = []
     place: Phrase = ()
     about: Phrase = ()
@@ -67,7 +65,7 @@ def branched(words: Phrase, is_stop: IsStop, turn: Turn = lambda asked: ()) -> P
         sentence = _late_echo(sentence)
         sentence = _named(sentence, is_stop)
         sentence = _existing(sentence)
-        result += (*_used(sentence, is_stop), *mark)
+        result += (*_used(sentence, is_stop, tuple(result)), *mark)
     return tuple(result)
 
 
@@ -94,7 +92,7 @@ def _of_the_same(sentence: Phrase, about: Phrase, is_stop: IsStop) -> tuple[Phra
         echoes = told in {",", "not", "then", "so"} or opens_command(sentence[link + 1 :])
         if named:
             about = named
-        elif flat[lead + 1] == "it" and number and about and not echoes and (state, told) not in _OPPOSITES:
+        elif flat[lead + 1] == "it" and number and about and not echoes and (state, told) not in OPPOSITES:
             result += (*sentence[at : lead + 1], *about)
             at = lead + 2
         state = told
@@ -110,41 +108,6 @@ def _sentences(words: Phrase) -> list[tuple[Phrase, Phrase]]:
                 parts.append((words[start:index], words[index : index + 1]))
             start = index + 1
     return parts
-
-
-def _as_if(words: Phrase) -> Phrase:
-    """For "in case it is not" "if it is not"."""
-    flat = keys(words)
-    result: list[Word] = []
-    index = 0
-    while index < len(words):
-        after = flat[index + 2 : index + 4]
-        opens = index == 0 or not words[index - 1].is_word or flat[index - 1] in {"and", "but", "or", "only"}
-        pointed = after[:1] in {("it",), ("that",), ("there",), ("not",), ("yes",)}
-        case = flat[index : index + 2] == ("in", "case") and after and (opens or pointed)
-        result += _words("if") if case else (words[index],)
-        index += 2 if case else 1
-    return tuple(result)
-
-
-def _found_or_not(words: Phrase, is_stop: IsStop) -> Phrase:
-    """For "if you find X at A, V; if not, W": if there is X at A. What is done otherwise makes it no rule."""
-    flat = keys(words)
-    start = next((i for i in range(len(flat) - 4) if flat[i : i + 2] == ("if", "you")), -1)
-    if start < 0 or flat[start + 2] not in FINDING:
-        return words
-    comma = next((i for i in range(start + 4, len(flat)) if flat[i] == ","), len(flat))
-    ends = (i for i in range(comma + 1, len(flat)) if _echo(flat, _joint(flat, i))[1] == "if not")
-    end = next(ends, 0)
-    named = any(is_stop(words[i:comma]) for i in range(start + 4, comma))
-    if not (end and named and opens_command(words[comma + 1 :])):
-        return words
-    at = _joint(flat, end)
-    rest = words[at + _echo(flat, at)[0] :]
-    rest = rest[int(keys(rest[:1]) == (",",)) :]
-    link = "are" if flat[start + 3].endswith("s") and not flat[start + 3].endswith("ss") else "is"
-    there = (*words[: start + 1], *_words(f"there {link}"), *words[start + 3 : end])
-    return (*there, *_words(". if not ,"), *rest)
 
 
 def _looked_first(words: Phrase) -> Phrase:
@@ -179,7 +142,7 @@ def _state_alone(words: Phrase) -> Phrase:
     for index, word in enumerate(words):
         result.append(word)
         denied = index + 1 + (flat[index + 1 : index + 2] in {("not",), ("still",)})
-        bare = word.key in _IFS and set(flat[denied : denied + 1]) & _STATES - {"there", "light"}
+        bare = word.key in _IFS and set(flat[denied : denied + 1]) & STATES - {"light"}
         if bare and index and (flat[denied + 1 : denied + 2] == (",",) or opens_command(words[denied + 1 :])):
             result += _words("it is")
     return tuple(result)
@@ -194,13 +157,10 @@ def _when_state(words: Phrase, is_stop: IsStop) -> Phrase:
             continue
         link = next((i for i in range(index + 2, min(index + 8, len(flat))) if flat[i] in lexicon().be), 0)
         state = flat[link + 1] if link and link + 1 < len(flat) else ""
-        told = state in _STATES and (is_stop(words[index + 1 : link]) or flat[index + 1] in {"it", "they"})
+        told = state in STATES and (is_stop(words[index + 1 : link]) or flat[index + 1] in {"it", "they"})
         if told:
             result[index] = Word("if", "if")
     return tuple(result)
-
-
-_STATES = frozenset(word for pair in _OPPOSITES for word in pair)
 
 
 def _depending(words: Phrase, is_stop: IsStop) -> Phrase:
@@ -233,7 +193,10 @@ def _answered(words: Phrase, is_stop: IsStop, turn: Turn) -> Phrase:
     for sentence, mark in _sentences(words):
         end = start + len(sentence)
         rest = words[end + len(mark) :]
-        if keys(mark) == ("?",) and _echo(keys(rest), 0)[0]:
+        skipped = _aside(keys(rest))
+        rest = rest[skipped:]
+        rest = _said_again(sentence, rest) if keys(mark) == ("?",) else rest
+        if keys(mark) == ("?",) and _echo(rest, 0, is_stop) is not None:
             said, after = _branches(rest, is_stop)
             lead = 1 if keys(sentence[:1]) in {("and",), ("so",), ("ok",), ("but",), ("please",)} else 0
             topic, question = _topic_of(sentence[lead:], is_stop)
@@ -244,6 +207,32 @@ def _answered(words: Phrase, is_stop: IsStop, turn: Turn) -> Phrase:
                 return (*words[:start], *look, *said, *_answered(rest[after:], is_stop, turn))
         start = end + len(mark)
     return words
+
+
+def _said_again(asked: Phrase, rest: Phrase) -> Phrase:
+    """For "(is A shut?) If it is shut, V" "if so, V", for "if it is open" "if not"."""
+    flat = keys(rest)
+    if flat[:1] != ("if",) or flat[1:2] not in _IT or flat[2:3] not in {("is",), ("are",)} or not asked:
+        return rest
+    denied = flat[3:4] == ("not",)
+    state, end = keys(asked)[-1], 4 + denied
+    same = flat[3 + denied : end] == (state,)
+    other = flat[3 + denied : end] != () and (state, flat[3 + denied]) in OPPOSITES
+    if not (same or other):
+        return rest
+    return (*_words("if so" if same != denied else "if not"), *rest[end:])
+
+
+_IT = frozenset({("it",), ("they",), ("that",), ("he",), ("she",)})
+
+
+def _aside(flat: tuple[str, ...]) -> int:
+    """How many words only lead on to what follows from an answer ("because (if it is)", "well, (if so)")."""
+    size = next((i for i, key in enumerate(flat) if key not in _LEADING_ON), len(flat))
+    return size if flat[size : size + 1] in {("if",), ("unless",), ("in",), ("yes",), ("no",)} else 0
+
+
+_LEADING_ON = frozenset({"because", "cause", "since", "and", "so", "well", "now", "ok", "okay", ",", "but"})
 
 
 def _topic_of(asked: Phrase, is_stop: IsStop) -> tuple[Phrase, Phrase]:
@@ -258,12 +247,15 @@ def _branches(words: Phrase, is_stop: IsStop) -> tuple[Phrase, int]:
     flat = keys(words)
     result: list[Word] = []
     at = 0
-    while (found := _echo(flat, at))[0]:
-        size, meant = found
-        at += size
+    while (found := _echo(words, at, is_stop)) is not None:
+        at += found.size
         while flat[at : at + 1] and flat[at] in {",", ":", "-", "then", "please"}:
             at += 1
-        ends = (i for i in range(at, len(flat)) if flat[i] in _MARKS or _echo(flat, _joint(flat, i))[0])
+        ends = (
+            i
+            for i in range(at, len(flat))
+            if flat[i] in _MARKS or _echo(words, _joint(flat, i), is_stop) is not None
+        )
         end = next(ends, len(flat))
         order = words[at:end]
         while order and not order[-1].is_word:
@@ -274,7 +266,7 @@ def _branches(words: Phrase, is_stop: IsStop) -> tuple[Phrase, int]:
             order = (*_words("go to"), *order)
         if not opens_command(order):
             return (), 0
-        result += (*_words(f"{meant} ,"), *order, *_words("."))
+        result += (*_words("if so ," if found.holds else "if not ,"), *order, *_words("."))
         at = max(_joint(flat, end), end)
     return tuple(result), at
 
@@ -287,41 +279,10 @@ def _joint(flat: tuple[str, ...], at: int) -> int:
     return at if at > start else -1
 
 
-def _echo(flat: tuple[str, ...], at: int) -> tuple[int, str]:
-    """How many words say "if so" or "if not", and which of both; 0 if none do."""
-    if at < 0:
-        return 0, ""
-    for meant, echoes in _ECHOES:
-        size = next((len(e) for e in echoes if flat[at : at + len(e)] == e), 0)
-        if size and flat[at + size : at + size + 1] != ():
-            return size, meant
-    return 0, ""
-
-
-_NOT_SO = _table(
-    "if not", "if no", "if it is not", "if it does not", "if they are not", "if there is not",
-    "if there are not", "if there is none", "if there are none", "if he is not", "if she is not",
-    "when not", "when it is not", "no", "else", "otherwise", "or else", "if it has not", "if none",
-    "if that is not the case", "if you do not", "if you find none", "if you find nothing", "if you see none",
-    "if you see nothing",
-)  # fmt: skip
-_SO = _table(
-    "if so", "if yes", "if it is", "if it does", "if they are", "if there is", "if there are", "if he is",
-    "if she is", "when so", "when it is", "when it does", "yes", "then", "if it has", "in that case",
-    "if there is one", "if that is the case", "if that is so", "and if so",
-)  # fmt: skip
-_NOBODY_THERE = _table(
-    "if nobody is there", "if no one is there", "if there is nobody there", "if there is nobody",
-    "if there is no one there", "if there is no one", "if nobody is",
-)  # fmt: skip
-_SOMEBODY_THERE = _table(
-    "if somebody is there", "if someone is there", "if anyone is there", "if anybody is there",
-    "if there is somebody there", "if there is somebody", "if there is someone there", "if there is someone",
-    "if somebody is", "if someone is", "if there is anyone", "if there is anybody",
-)  # fmt: skip
-_ECHOES = (
-    ("if not", (*_NOBODY_THERE, *_NOT_SO)), ("if so", (*_SOMEBODY_THERE, *_SO)),
-)  # fmt: skip
+def _echo(words: Phrase, at: int, is_stop: IsStop) -> Echo | None:
+    """What says "if so" or "if not" behind a question; None if nothing does, or nothing follows."""
+    found = echo(words, at, lambda order: opens_command(order) or is_stop(order), answers=True)
+    return found if found is not None and at + found.size < len(words) else None
 
 
 def _both_ways(words: Phrase, is_stop: IsStop) -> Phrase:
@@ -335,7 +296,7 @@ def _both_ways(words: Phrase, is_stop: IsStop) -> Phrase:
     second = words[joint + 1 : other] if joint else ()
     second = second[1:] if keys(second[:1]) in {("and",), ("but",)} else second
     told, opposite = set(flat[one:joint]), flat[other + 1 :]
-    turned = "not" in opposite or any((a, b) in _OPPOSITES for a in told for b in opposite)
+    turned = "not" in opposite or any((a, b) in OPPOSITES for a in told for b in opposite)
     if not second or not turned:
         return words
     if keys(second[:1]) == ("to",):
@@ -350,32 +311,29 @@ def _both_ways(words: Phrase, is_stop: IsStop) -> Phrase:
 
 def _late_echo(words: Phrase) -> Phrase:
     """For "see whether S and V if not": if not, V."""
-    flat = keys(words)
-    echo = next((one for one in _LATE if flat[-len(one) :] == one), ())
-    body = words[: len(words) - len(echo)]
+    last = next((i for i in range(len(words) - 1, 1, -1) if words[i].key in {"if", "when", "unless"}), 0)
+    again = echo(words, last, opens_command) if last else None
+    if again is None or last + again.size != len(words) or again.kind != "state":
+        return words
+    body = words[:last]
     joints = [i for i in range(len(body) - 1, 1, -1) if body[i].key in {"and", ","} and body[i + 1 :]]
     cut = next((i for i in joints if opens_command(body[i + 1 :])), 0)
-    if not cut and {"if", "whether"} & set(flat[1:4]):
+    if not cut and {"if", "whether"} & set(keys(words[1:4])):
         # Verbs that only the catalogue knows.
         cut = joints[0] if joints else 0
-    if not (echo and cut):
+    if not cut:
         return words
-    return (*body[:cut], *_words("."), *words[len(body) :], *_words(","), *body[cut + 1 :])
-
-
-_LATE = tuple(
-    sorted(
-        (one for one in (*_SO, *_NOT_SO) if one[0] in {"if", "when"} and len(one) > 1), key=len, reverse=True
-    )
-)
-"""Conditions that only repeat one, longest first."""
+    return (*body[:cut], *_words(". if so ," if again.holds else ". if not ,"), *body[cut + 1 :])
 
 
 def _named(words: Phrase, is_stop: IsStop) -> Phrase:
     """For "go to A unless somebody is on it": unless somebody is on A."""
     flat = keys(words)
     at = next((i for i in range(2, len(flat)) if flat[i] in _IFS), 0)
-    if not at or at + 2 > len(flat) or flat[at - 1] in {"see", "check", "whether", "know", "and", ","}:
+    if not at or at + 2 > len(flat) or flat[at - 1] in {"see", "check", "whether", "know", "and"}:
+        return words
+    behind = range(at + 2, len(words))
+    if flat[at - 1] == "," and any(flat[i] == "," or opens_command(words[i:]) for i in behind):
         return words
     named = _stop_in(words[:at], is_stop)
     end = next((i for i in range(at, len(flat)) if flat[i] in {",", "otherwise", "else"}), len(flat))
@@ -406,14 +364,15 @@ def _named(words: Phrase, is_stop: IsStop) -> Phrase:
 
 
 def _with_name(condition: Phrase, named: Phrase) -> Phrase:
-    """A condition with the name in place of "it" and "there" behind a preposition of place."""
+    """A condition with the name in place of "it" and "there" ("it is on it", "the door there is open")."""
     flat = keys(condition)
     result: list[Word] = []
     for index, word in enumerate(condition):
         behind = index and flat[index - 1] in _BEHIND
+        part = index and flat[index + 1 : index + 2] and flat[index + 1] in _LINKS
         if word.key in _POINTING and behind:
             result += named
-        elif word.key == "there" and index == len(flat) - 1:
+        elif word.key == "there" and (index == len(flat) - 1 or part):
             result += (*_words("at"), *named)
         else:
             result.append(word)
@@ -436,13 +395,11 @@ def _stop_in(words: Phrase, is_stop: IsStop) -> Phrase:
 def _existing(words: Phrase) -> Phrase:
     """For "if nobody is there" "unless somebody is there", for "if there is no X" "unless there is a X"."""
     flat = keys(words)
-    lead = next((i for i in range(len(flat)) if flat[i] in _IFS | {"provided", "as", "assuming"}), -1)
+    lead = next((i for i in range(len(flat)) if flat[i] in _IFS), -1)
     if lead < 0:
         return words
-    start, holds = _condition_start(flat, lead)
-    if not start:
-        return words
-    other = "unless" if holds else "if"
+    start = lead + 1
+    other = "unless" if flat[lead] == "if" else "if"
     here = flat[start : start + 4]
     if here[:1] and here[0] in _NOBODY and len(here) > 1 and here[1] != "of":
         return (*words[:lead], *_words(f"{other} {_NOBODY[here[0]]}"), *words[start + 1 :])
@@ -465,19 +422,8 @@ def _existing(words: Phrase) -> Phrase:
     return words
 
 
-def _condition_start(flat: tuple[str, ...], lead: int) -> tuple[int, bool]:
-    """Where a condition begins behind what leads it, and whether it has to hold; 0 if none does."""
-    for marker, holds in (
-        (("if",), True), (("unless",), False), (("provided", "that"), True), (("provided",), True),
-        (("as", "long", "as"), True), (("assuming", "that"), True), (("assuming",), True),
-    ):  # fmt: skip
-        if flat[lead : lead + len(marker)] == marker:
-            return lead + len(marker), holds
-    return 0, True
-
-
-def _used(words: Phrase, is_stop: IsStop) -> Phrase:
-    """For "if A is shut use B", "if not try B": go to B."""
+def _used(words: Phrase, is_stop: IsStop, before: Phrase) -> Phrase:
+    """For "if A is shut use B", "if not try B": go to B; what was sought before is sought there."""
     flat = keys(words)
     for index in range(1, len(flat) - 1):
         if flat[index] not in {"use", "try"} or (
@@ -489,8 +435,22 @@ def _used(words: Phrase, is_stop: IsStop) -> Phrase:
         )
         if is_stop(words[index + 1 : end]):
             comma = () if flat[index - 1] in {",", "then"} else _words(",")
-            return (*words[:index], *comma, *_words("go to"), *words[index + 1 :])
+            sought = flat[index] == "try" and _seeks((*before, *words[:index]))
+            return (*words[:index], *comma, *_words("check" if sought else "go to"), *words[index + 1 :])
     return words
+
+
+def _seeks(words: Phrase) -> bool:
+    """Whether a thing is looked for, or whether it is at a place is asked; where people are, one goes."""
+    flat = keys(words)
+    for at in range(len(flat)):
+        size = 2 if flat[at : at + 2] == ("look", "for") else int(flat[at] in {"search", "find", "locate"})
+        if size:
+            return not any(word.is_capital for word in words[at + size : at + size + 1])
+    asked = next((i for i, key in enumerate(flat) if key in {"if", "whether"}), len(flat))
+    links = (i for i in range(asked + 2, len(flat) - 1) if flat[i] in lexicon().be)
+    placed = any(flat[i + 1] in _BEHIND or flat[i + 2 : i + 3] in {("in",), ("on",), ("at",)} for i in links)
+    return placed and not words[asked + 1].is_capital
 
 
 def _words(text: str) -> Phrase:

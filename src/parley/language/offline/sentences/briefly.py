@@ -1,110 +1,49 @@
 """Small things that people say around what they mean, put briefly before a message is cut into its parts.
 
-How well something is to be done, "to me" beside a place, "A, he is over there, has left B", "look for it"
-where the telling names the thing, and conditions that are dictated without a mark.
+"To me" beside a place, "A, he is over there, has left B", "look for it" where the telling names the thing,
+one of several that is picked, conditions dictated without a mark. What is only said around: `asides`.
 """
 
 from __future__ import annotations
 
-from parley.language.offline.sentences.clauses import opens_command
+from parley.language.offline.sentences.asides import without_asides
 from parley.language.offline.sentences.finite import subject_apart
 from parley.language.offline.sentences.lost import with_what_was_lost
 from parley.language.offline.sentences.moved import what_was_left
-from parley.language.offline.sentences.ranking import ranked_stops
+from parley.language.offline.sentences.ranking import named_first, ranked_stops
 from parley.language.offline.sentences.reasons import closed_reasons
-from parley.language.offline.words.lexicon import PhraseTable, lexicon
+from parley.language.offline.words.lexicon import lexicon
 from parley.language.offline.words.text import Phrase, Word, keys, lemma, singular, tokens
-from parley.language.word_lists import load_data
 
 __all__ = ["briefly"]
 
-_MANNER = PhraseTable.of(load_data("units")["manner"])
 _ENDING = frozenset({",", ".", "!", "?", ";", "and", "then", "please", "but", "so"})
 _STOP = Word(".", ".")
 
 
 def briefly(words: Phrase) -> Phrase:
     """The same message, with less around what is meant."""
-    words = with_what_was_lost(what_was_left(subject_apart(_without_manner(_in_general(words)))))
-    words = _without_relief(_without_time_for_it(_without_arrivals(words)))
-    words = ranked_stops(_picked(_there_and_with(_the_same(_asked_apart(closed_reasons(words))))))
-    return _without_me(_with_short_conditions(words))
+    words = with_what_was_lost(what_was_left(subject_apart(without_asides(words))))
+    words = ranked_stops(
+        named_first(_picked(_there_and_with(_the_same(_asked_apart(_sought_first(closed_reasons(words)))))))
+    )
+    return _without_me(_with_short_conditions(_as_well(_seeing(words))))
 
 
-def _in_general(words: Phrase) -> Phrase:
-    """For "you can hardly breathe at A" "one can hardly ...": told of anybody, and no order."""
+def _sought_first(words: Phrase) -> Phrase:
+    """For "cracks? check A" "check A for cracks"."""
     flat = keys(words)
-    if flat[1:2] == ("everywhere",) and flat[2:3] in _AT and not opens_command(words):
-        # "Water everywhere in A!"
-        return (Word("there", "there"), Word("is", "is"), *words)
-    if flat[:2] == ("you", "can") and flat[2:3] in {("hardly",), ("barely",), ("scarcely",)}:
-        return (Word("one", "one"), *words[1:])
-    return words
+    at = flat.index("?") if "?" in flat[1:3] else 0
+    end = next((i for i in range(at + 1, len(flat)) if not words[i].is_word), len(flat))
+    looks = flat[at + 1 : at + 2] and flat[at + 1] in _LOOKING and end > at + 2
+    known = lexicon().vocabulary - lexicon().nouns
+    if not at or not looks or _SOUGHT & set(flat[at + 1 : end]) or known & set(flat[:at]):
+        return words
+    return (*words[at + 1 : end], Word("for", "for"), *(Word(w.key, w.key) for w in words[:at]), *words[end:])
 
 
-_AT = frozenset((place,) for place in ("in", "at", "on", "around", "near", "under", "by"))
-
-
-def _without_arrivals(words: Phrase) -> Phrase:
-    """Without "before A comes" behind what is asked for: when it is due, not where to go."""
-    flat = keys(words)
-    for at in range(3, len(flat) - 2):
-        end = next((i for i in range(at + 1, len(flat)) if not words[i].is_word), len(flat))
-        if flat[at] != "before" or flat[at + 1] in {"you", "i", "it", "that"} or end - at > 7:
-            continue
-        coming = next((i for i in range(at + 2, end) if flat[i] in _COMES), 0)
-        if coming and end - coming < 3:
-            return (*words[:at], *words[end:])
-    return words
-
-
-def _without_relief(words: Phrase) -> Phrase:
-    """Without "It would put my mind at rest." behind what is asked for."""
-    flat = keys(words)
-    for at in range(3, len(flat) - 4):
-        starts = not words[at - 1].is_word and flat[at] in {"it", "that", "this"} and flat[at + 1] == "would"
-        end = next((i for i in range(at, len(flat)) if not words[i].is_word), len(flat))
-        helps = next((i for i in range(at + 2, min(at + 5, end)) if flat[i] in _RELIEVING), 0)
-        if starts and helps and {"my", "me", "us", "our"} & set(flat[helps + 1 : end]) and end - at < 10:
-            return (*words[:at], *words[end + 1 :])
-    return words
-
-
-_RELIEVING = frozenset(
-    {"put", "set", "ease", "make", "help", "save", "mean", "do", "please", "cheer", "spare"}
-)
-
-
-def _without_time_for_it(words: Phrase) -> Phrase:
-    """For "spare a minute to look at A" "look at A"."""
-    flat = keys(words)
-    for at in range(len(flat) - 4):
-        if flat[at] not in {"spare", "find", "take"} or flat[at + 1] not in {"a", "me", "us", "some", "the"}:
-            continue
-        end = next((i for i in range(at + 2, min(at + 6, len(flat) - 1)) if flat[i] == "to"), 0)
-        between = set(flat[at + 2 : end]) if end else set()
-        if between <= _MOMENTS and {"minute", "minutes", "moment", "second", "sec", "time"} & between:
-            return (*words[:at], *words[end + 1 :])
-    return words
-
-
-_MOMENTS = frozenset(
-    {
-        "a",
-        "minute",
-        "moment",
-        "second",
-        "sec",
-        "bit",
-        "of",
-        "time",
-        "your",
-        "little",
-        "quick",
-        "two",
-        "minutes",
-    }
-)
+_LOOKING = frozenset({"check", "inspect", "examine", "look", "search", "scan", "go"})
+_SOUGHT = frozenset({"for", "whether", "if", "then", "it", "there", "them", "that", "go", "tell"})
 
 
 def _asked_apart(words: Phrase) -> Phrase:
@@ -262,31 +201,57 @@ _HANDED = frozenset({"handed", "given", "delivered", "dropped", "brought", "pass
 _BRINGING = frozenset({"bring", "take", "give", "deliver", "hand", "carry", "pass"})
 _WHAT_TO_WHOM = frozenset({"it", "them", "that", "those", "everything", "over", "off", "to", "him", "her"})
 
-_COMES = frozenset(
-    {"comes", "arrives", "arrive", "gets", "get", "leaves", "starts", "begins", "returns", "opens"}
-)
 
-
-def _without_manner(words: Phrase) -> Phrase:
-    """Without "very well" and "one last time", which say nothing that is not done anyway."""
+def _seeing(words: Phrase) -> Phrase:
+    """For "see if you can tell what it is" "see what it is", for "see if you can find A" "look for A"."""
     flat = keys(words)
-    result: list[Word] = []
-    index = 0
-    while index < len(words):
-        found = _MANNER.match(flat, index) if result and result[-1].is_word else None
-        behind = flat[index + found[0] : index + found[0] + 1] if found is not None else ()
-        if found is not None and (not behind or behind[0] in _ENDING):
-            index += found[0]
+    for at in range(len(flat) - 6):
+        if flat[at] not in {"see", "check", "look"} or flat[at + 1] not in {"if", "whether"}:
             continue
-        result.append(words[index])
-        index += 1
-    return tuple(result)
+        if flat[at + 2 : at + 4] not in {("you", "can"), ("you", "could")}:
+            continue
+        verb = next((v for v in _MAKING_OUT if flat[at + 4 : at + 4 + len(v)] == v), ())
+        behind = at + 4 + len(verb)
+        asks = flat[behind : behind + 1] != () and flat[behind] in lexicon().question_starts | {
+            "whether",
+            "if",
+        }
+        if verb and (asks or verb[-1] in {"find", "spot", "see"}):
+            plainly = tokens("see") if asks else tokens("look for")
+            return (*words[:at], *plainly, *_seeing(words[behind:]))
+    return words
+
+
+def _as_well(words: Phrase) -> Phrase:
+    """For "see if A is open, and B as well" "see if A is open. and B as well"."""
+    flat = keys(words)
+    for at in range(6, len(flat) - 2):
+        start = next((i + 1 for i in range(at - 1, -1, -1) if flat[i] in {".", "!", "?", ";"}), 0)
+        end = next((i for i in range(at + 2, min(at + 7, len(flat))) if flat[i] in {"too", "as", "also"}), 0)
+        behind = end + 1 + (flat[end : end + 2] == ("as", "well"))
+        ended = behind >= len(flat) or not words[behind].is_word or flat[behind] in {"and", "then", "please"}
+        if flat[at] != "and" or not end or not ended or not {"if", "whether"} & set(flat[start + 1 : at - 2]):
+            continue
+        named = flat[at + 1 : end]
+        verb = lexicon().verbs.match(flat, at + 1) is not None or lexicon().be & set(named)
+        if not verb and all(word.is_word for word in words[at:end]) and flat[start] not in {"if", "and"}:
+            return (*words[: at - (flat[at - 1] == ",")], _STOP, *words[at:])
+    return words
+
+
+_MAKING_OUT = (
+    ("find", "out"), ("work", "out"), ("make", "out"), ("figure", "out"), ("tell",), ("see",), ("spot",),
+    ("find",),
+)  # fmt: skip
 
 
 def _without_me(words: Phrase) -> Phrase:
     """For "come to me at the desk" "come to the desk"."""
     flat = keys(words)
     for index in range(1, len(flat) - 3):
+        if flat[index] == "find" and flat[index + 1] in {"me", "us"} and flat[index + 2] in _WHERE_AT:
+            start = index - 2 * (flat[index - 1] == "and" and flat[max(0, index - 2)] in {"go", "come"})
+            return (*words[:start], *tokens("come to"), *words[index + 3 :])
         if flat[index] in {"to", "by"} and flat[index + 1] in {"me", "us"} and flat[index + 2] in _WHERE_AT:
             verb = next((flat[i] for i in range(index - 1, max(-1, index - 4), -1) if flat[i] in _COMING), "")
             if verb and "report" in flat[max(0, index - 2) : index]:

@@ -32,6 +32,8 @@ class Clause:
     conditional: bool = False
     late: bool = False
     """Whether the condition was said behind the clause."""
+    anew: bool = False
+    """Whether its condition begins with it, and does not only go on."""
     otherwise: bool = False
     """To be done if the condition of the clause before does not hold."""
     first: bool = False
@@ -73,7 +75,9 @@ def clauses(message: Phrase, opens: Opens) -> list[Clause]:
         result.extend(
             replace(
                 clause,
-                is_question=(asked and (clause is parts[-1] or _inverted(clause.words)))
+                is_question=(
+                    asked and not _has_a(clause) and (clause is parts[-1] or _inverted(clause.words))
+                )
                 or (clause is parts[0] and asks(clause.words)),
                 sentence=number,
             )
@@ -89,6 +93,14 @@ def clauses(message: Phrase, opens: Opens) -> list[Clause]:
         else:
             ordered.append(clause)
     return ordered
+
+
+def _has_a(clause: Clause) -> bool:
+    """For "have a look at A(, would you?)": an order, whatever its mark."""
+    found = lexicon().verbs.match(keys(clause.words))
+    return (
+        found is not None and found[0] > 2 and clause.words[0].key == "have" and found[0] < len(clause.words)
+    )
 
 
 def _parts_of(sentence: Phrase, opens: Opens) -> list[Clause]:
@@ -133,12 +145,21 @@ def opens_command(words: Phrase, extra_verbs: Sequence[tuple[str, ...]] = ()) ->
     if flat[1:2] in _FINITE_BEHIND and flat[0] not in {"do", "have", "be"}:
         # "Water is dripping": what looks like a verb is the subject.
         return False
+    if kind in {"motion", "guide"} and flat[2:3] in _FINITE_BEHIND and _is_noun(flat[1]):
+        # "Head office is calling".
+        return False
     if base[0] != flat[0] and flat[0].endswith("ed") and len(words) == len(unasked):
         return False
     if flat[0] in lexicon().transition_verbs | lexicon().placing_verbs and base[0] != flat[0]:
         return False
     # Many words of the last class are nouns too ("water", "light"): alone they are not an order.
     return kind != "other" or len(words) > found[0]
+
+
+def _is_noun(word: str) -> bool:
+    """Whether a word can be the noun of a subject behind another one."""
+    small = lexicon().determiners | lexicon().operator_pronouns | {"to", "it", "there", "where", "what"}
+    return word.isalpha() and word not in small and lexicon().places.match((word,)) is None
 
 
 _FINITE_BEHIND = frozenset({("is",), ("are",), ("was",), ("were",), ("has",), ("keeps",)})
@@ -174,14 +195,16 @@ def _conditional(sentence: Phrase, opens: Opens) -> list[Clause]:
         return [Clause(_trim(parts.then), condition=condition)]
     result = _before_after(_trim(parts.before), opens) if parts.before else []
     for words, otherwise in ((parts.then, False), (parts.otherwise, True)):
-        for clause in _conditional(_trim(words), opens) if words else ():
-            result.append(
-                clause
-                if clause.condition or clause.conditional
-                else replace(
-                    clause, condition=condition, conditional=True, otherwise=otherwise, late=parts.late
-                )
+        for index, clause in enumerate(_conditional(_trim(words), opens) if words else ()):
+            hanging = replace(
+                clause,
+                condition=condition,
+                conditional=True,
+                otherwise=otherwise,
+                late=parts.late,
+                anew=not index,
             )
+            result.append(clause if clause.condition or clause.conditional else hanging)
     return result
 
 
@@ -310,12 +333,17 @@ def _with_verb(words: Phrase, opens: Opens) -> Phrase:
     return (Word("visit", "visit"), *words)
 
 
+_BEEN = frozenset(
+    ("been", way) for way in ("to", "at", "in", "round", "around", "by", "past", "through", "over")
+)
+
+
 def _without_you(words: Phrase) -> Phrase:
     flat = keys(words)
     if flat[:1] in {("you",), ("i",), ("we",)}:
         skip = 2 if flat[1:2] and flat[1] in lexicon().auxiliaries | lexicon().be else 1
         words = words[skip:]
-        if keys(words[:2]) in {("been", "to"), ("been", "at"), ("been", "in")}:
+        if keys(words[:2]) in _BEEN:
             return (Word("visit", "visit"), *words[2:])
         # "Once you have inspected it": what is done is meant.
         return (Word(lemma(words[0].key), lemma(words[0].key)), *words[1:]) if words else words
@@ -323,7 +351,7 @@ def _without_you(words: Phrase) -> Phrase:
 
 
 _FOLLOWING = due("following", "closing")
-_WHEN = due("earlier", "late", "early")
+_WHEN = due("earlier", "late", "early", "between")
 _EARLIER = frozenset(phrases_due("earlier"))
 
 

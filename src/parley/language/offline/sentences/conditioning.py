@@ -5,89 +5,15 @@ from __future__ import annotations
 from collections.abc import Callable
 
 from parley.language.offline.sentences.clauses import opens_command
+from parley.language.offline.sentences.echoes import OPPOSITES, STATES, echo, leads, put_briefly
 from parley.language.offline.words.lexicon import lexicon
 from parley.language.offline.words.nouns import bare
 from parley.language.offline.words.text import Phrase, Word, keys, lemma
 
-__all__ = ["OPPOSITES", "as_conditions"]
+__all__ = ["as_conditions"]
 
 Names = Callable[[Phrase], bool]
 
-_IF = tuple(
-    tuple(text.split())
-    for text in (
-        "provided that", "provided", "providing that", "providing", "on condition that",
-        "on the condition that", "supposing that", "supposing", "assuming that", "assuming", "so long as",
-        "as long as", "if and only if", "only when", "only in case", "in the event that", "but only when",
-    )
-)  # fmt: skip
-_OTHER_SHAPES = tuple(
-    (tuple(said.split()), tuple(meant.split()))
-    for said, meant in (
-        ("should it be so", "if so"),
-        ("should that be the case", "if so"),
-        ("should this be the case", "if so"),
-        ("in that case", "if so"),
-        ("if that is so", "if so"),
-        ("if it is so", "if so"),
-        ("if this is the case", "if so"),
-        ("should it not be so", "if not"),
-        ("should it not be there", "if not"),
-        ("should they not be there", "if not"),
-        ("should it not", "if not"),
-        ("in the other case", "otherwise"),
-        ("in any other case", "otherwise"),
-        ("if not so", "if not"),
-        ("failing that", "otherwise"),
-        ("but not if", "unless"),
-        ("but not when", "unless"),
-        ("except if", "unless"),
-        ("except when", "unless"),
-        ("just not if", "unless"),
-        ("only not if", "unless"),
-        ("not if", "unless"),
-        ("or if not", "otherwise"),
-    )
-)
-_STATES = (
-    ("open", "closed"),
-    ("open", "shut"),
-    ("unlocked", "locked"),
-    ("empty", "full"),
-    ("empty", "occupied"),
-    ("free", "occupied"),
-    ("free", "busy"),
-    ("free", "taken"),
-    ("wet", "dry"),
-    ("clean", "dirty"),
-    ("on", "off"),
-    ("broken", "working"),
-    ("broken", "fine"),
-    ("broken", "ok"),
-    ("light", "dark"),
-    ("blocked", "clear"),
-    ("blocked", "free"),
-    ("hot", "cold"),
-    ("warm", "cold"),
-    ("present", "missing"),
-    ("cracked", "fine"),
-    ("damaged", "fine"),
-    ("damaged", "ok"),
-    ("ready", "busy"),
-    ("tidy", "messy"),
-    ("quiet", "noisy"),
-    ("unlocked", "shut"),
-    ("available", "occupied"),
-    ("lit", "dark"),
-    ("full", "free"),
-    ("locked", "open"),
-    ("running", "stopped"),
-    ("running", "off"),
-    ("running", "idle"),
-)
-OPPOSITES = frozenset((*_STATES, *((b, a) for a, b in _STATES)))
-"""States of which a thing has one or the other."""
-_ADJECTIVES = frozenset(word for pair in _STATES for word in pair)
 _LINKS = lexicon().be | {"has", "have"}
 _MARKS = frozenset({".", "!", "?", ";", "\n"})
 _HAPPENS = frozenset(
@@ -139,8 +65,6 @@ _ALLOWED = (
     ("then",),
     (",",),
 )
-_YES = (("if", "yes"), ("if", "so"), ("then",), ("yes",))
-_NO = (("if", "not"), ("if", "no"), ("otherwise",), ("else",), ("or", "else"), ("no",), ("not",))
 
 
 def as_conditions(words: Phrase, is_stop: Names, is_person: Names) -> Phrase:
@@ -151,7 +75,7 @@ def as_conditions(words: Phrase, is_stop: Names, is_person: Names) -> Phrase:
         is_stop: Whether words name something on the map.
         is_person: Whether words name a person.
     """
-    words = _opposite(_with(_with_if(_in_other_shape(words)), is_stop), is_stop)
+    words = _opposite(_with(_with_if(put_briefly(words, opens_command)), is_stop), is_stop)
     parts = _asked(_sentences(words), is_stop)
     result: list[Word] = []
     for sentence, mark in parts:
@@ -179,52 +103,48 @@ def _sentences(words: Phrase) -> list[tuple[Phrase, Word | None]]:
 
 
 def _with_if(words: Phrase) -> Phrase:
-    """For "provided that S" "if S", wherever it stands."""
+    """For "provided that S" "if S", for "but not if S" "unless S", wherever it stands."""
     flat = keys(words)
     result: list[Word] = []
     index = 0
     while index < len(words):
-        found = next((m for m in _IF if flat[index : index + len(m)] == m), ())
-        end = index + len(found)
-        clause = flat[end : end + 8]
-        if found and clause and clause[0] not in {"by", "with", "you", "for"} and _has_verb(clause):
-            result.append(_word("if"))
-            index = end
-            continue
-        result.append(words[index])
-        index += 1
+        found = leads().match(flat, index)
+        end = index + (found[0] if found is not None else 1)
+        if found is not None and _leads_in(flat, index, end):
+            if found[1] == "unless" and keys(result[-1:]) == (",",):
+                result.pop()
+            result += _words(found[1])
+        else:
+            result += words[index:end]
+        index = end
     flat = keys(result)
-    if flat[:1] == ("only",) and "if" in flat and opens_command(tuple(result[1:])):
+    if flat[:1] == ("only",) and flat[1:2] != ("if",) and "if" in flat and opens_command(tuple(result[1:])):
         return tuple(result[1:])
     return tuple(result)
 
 
-def _in_other_shape(words: Phrase) -> Phrase:
-    """For "in that case" "if so", for "but not if S" "unless S"."""
-    flat = keys(words)
-    result: list[Word] = []
-    index = 0
-    while index < len(words):
-        size, meant = next(
-            ((len(s), m) for s, m in _OTHER_SHAPES if flat[index : index + len(s)] == s), (0, ())
-        )
-        if meant == ("unless",) and keys(result[-1:]) == (",",):
-            result.pop()
-        result += _words(" ".join(meant)) if size else (words[index],)
-        index += size or 1
-    return tuple(result)
+def _leads_in(flat: tuple[str, ...], index: int, end: int) -> bool:
+    """Whether what may lead a condition in does so, and is not one of the plain words for it."""
+    said, clause = flat[index:end], flat[end : end + 8]
+    if said in _PLAIN or not clause:
+        return False
+    if said[:2] == ("in", "case"):
+        begins = index == 0 or flat[index - 1] in _BEFORE_CASE or not flat[index - 1][0].isalnum()
+        return begins or clause[0] in {"it", "that", "there", "not", "yes"}
+    return flat[end - 1] in {"if", "when", "case"} or (
+        clause[0] not in {"by", "with", "you", "for"} and _has_verb(clause)
+    )
+
+
+_PLAIN = frozenset({("if",), ("only", "if"), ("unless",), ("should",)})
+_BEFORE_CASE = frozenset({"and", "but", "or", "only"})
 
 
 def _with(words: Phrase, is_stop: Names) -> Phrase:
     """For "with the door shut, V" "if the door is shut, V"; for "the door, if it is shut, V" the same."""
     flat = keys(words)
     comma = flat.index(",") if "," in flat else 0
-    if (
-        flat[:1] == ("with",)
-        and comma > 2
-        and flat[comma - 1] in _ADJECTIVES
-        and is_stop(words[1 : comma - 1])
-    ):
+    if flat[:1] == ("with",) and comma > 2 and flat[comma - 1] in STATES and is_stop(words[1 : comma - 1]):
         return (*_words("if"), *words[1 : comma - 1], *_words("is"), *words[comma - 1 :])
     if (
         comma
@@ -238,7 +158,7 @@ def _with(words: Phrase, is_stop: Names) -> Phrase:
 def _opposite(words: Phrase, is_stop: Names) -> Phrase:
     """For "if it is open V, if it is shut W": W otherwise."""
     flat = keys(words)
-    first = next((i for i in range(len(flat) - 1) if flat[i] in _LINKS and flat[i + 1] in _ADJECTIVES), 0)
+    first = next((i for i in range(len(flat) - 1) if flat[i] in _LINKS and flat[i + 1] in STATES), 0)
     if not first or "if" not in flat[:first]:
         return words
     for at in range(first + 2, len(flat) - 4):
@@ -312,7 +232,7 @@ def _state_asked(sentence: Phrase, is_stop: Names) -> tuple[Phrase, str] | None:
     flat = keys(body)
     while flat[:1] in {("is",), ("it",), ("still",), ("and",)} and len(flat) > 1:
         body, flat = body[1:], flat[1:]
-    if not flat or len(flat) > 6 or (flat[-1] not in _ADJECTIVES and not flat[-1].endswith("ed")):
+    if not flat or len(flat) > 6 or (flat[-1] not in STATES and not flat[-1].endswith("ed")):
         return None
     if len(flat) == 1:
         return (), flat[0]
@@ -324,9 +244,8 @@ def _ordering(sentence: Phrase, is_stop: Names) -> Phrase:
     words = sentence
     while words and (not words[0].is_word or words[0].key in {"then", "so"}):
         words = words[1:]
-    flat = keys(words)
-    yes = next((m for m in _YES if flat[: len(m)] == m), ())
-    words = words[len(yes) :]
+    again = echo(words, 0, lambda order: opens_command(order) or is_stop(order), answers=True)
+    words = words[again.size if again is not None and again.holds else 0 :]
     pieces: list[Word] = []
     start = 0
     for index in range(len(words) + 1):
@@ -341,9 +260,9 @@ def _ordering(sentence: Phrase, is_stop: Names) -> Phrase:
 
 def _with_verb(piece: Phrase, is_stop: Names) -> Phrase:
     """For "otherwise the desk", "the desk": going there."""
-    flat = keys(piece)
-    no = next((m for m in _NO if flat[: len(m)] == m), ())
-    rest = piece[len(no) :]
+    again = echo(piece, 0, lambda order: opens_command(order) or is_stop(order), answers=True)
+    no = again is not None and not again.holds and again.size < len(piece)
+    rest = piece[again.size if again is not None and no else 0 :]
     while rest and rest[0].key == ",":
         rest = rest[1:]
     lead = _words("otherwise") if no else ()

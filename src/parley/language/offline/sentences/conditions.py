@@ -6,6 +6,7 @@ from collections.abc import Callable
 from dataclasses import dataclass, replace
 
 from parley.language.offline.facts.facts import strip_openers
+from parley.language.offline.sentences.echoes import echo
 from parley.language.offline.words.lexicon import lexicon
 from parley.language.offline.words.text import Phrase, keys, lemma
 
@@ -18,12 +19,8 @@ LAST: Phrase = ()
 
 _LEADING: tuple[tuple[tuple[str, ...], bool], ...] = (
     (("if",), True),
+    (("only", "if"), True),
     (("in", "case"), True),
-    (("provided", "that"), True),
-    (("provided",), True),
-    (("assuming", "that"), True),
-    (("assuming",), True),
-    (("as", "long", "as"), True),
     (("should",), True),
     (("unless",), False),
 )
@@ -31,27 +28,10 @@ _LEADING: tuple[tuple[tuple[str, ...], bool], ...] = (
 _TRAILING: tuple[tuple[tuple[str, ...], bool], ...] = (
     (("only", "if"), True),
     (("but", "only", "if"), True),
-    (("provided", "that"), True),
     (("in", "case"), True),
-    (("as", "long", "as"), True),
     (("unless",), False),
     (("if",), True),
 )
-_FURTHER: tuple[tuple[tuple[str, ...], bool], ...] = (
-    (("if", "it", "is", "not"), False),
-    (("if", "that", "is", "not", "the", "case"), False),
-    (("if", "there", "is", "none"), False),
-    (("if", "not"), False),
-    (("if", "no"), False),
-    (("or", "else"), False),
-    (("otherwise",), False),
-    (("else",), False),
-    (("if", "it", "is"), True),
-    (("if", "that", "is", "the", "case"), True),
-    (("if", "so"), True),
-    (("if", "yes"), True),
-)
-"""What refers to a condition said before."""
 _ASKING = frozenset(
     [
         "as",
@@ -110,52 +90,16 @@ def split_condition(sentence: Phrase, opens: Opens) -> Conditional | None:
     return _further(words, opens) or _leading(words, opens) or _inside(words, opens)
 
 
-_ABOUT_LAST = frozenset({"it", "he", "she", "they", "there", "that", "this"})
-_HOLDS = frozenset({"is", "are", "does", "do", "has", "have", "was", "were", "can"})
-
-
-def _echo(flat: tuple[str, ...], words: Phrase, opens: Opens) -> tuple[int, bool] | None:
-    """For "if there are(n't any), V", "if it does, V": how long the echo is, and what it says."""
-    if len(flat) < 4 or flat[0] not in {"if", "unless"} or flat[1] not in _ABOUT_LAST:
-        return None
-    if flat[2] not in _HOLDS:
-        return None
-    end, holds = 3, flat[0] != "unless"
-    while end < len(flat) and flat[end] in {
-        "not",
-        "none",
-        "no",
-        "any",
-        "one",
-        "some",
-        "indeed",
-        "so",
-        "nothing",
-    }:
-        holds = holds != (flat[end] in {"not", "none", "no", "nothing"})
-        end += 1
-    if end >= len(flat):
-        return None
-    orders = opens(words[end:]) and flat[end + 1 : end + 2] not in {(",",), ("then",)}
-    if end == 3 and flat[1] == "there":
-        orders = False  # "if there is water on it, V": what is there, although one may also water things
-    ends = flat[end] in {",", "then"} or (orders and not flat[end].endswith(("ing", "ed")))
-    return (end, holds) if ends else None
-
-
 def _further(words: Phrase, opens: Opens) -> Conditional | None:
     """A sentence that begins with "if not" and the like."""
-    flat = keys(words)
-    echo = _echo(flat, words, opens)
-    if echo is not None:
-        rest = words[echo[0] :]
-        return Conditional((), LAST, rest, ()) if echo[1] else Conditional((), LAST, (), rest)
-    for marker, holds in _FURTHER:
-        end = len(marker)
-        if flat[:end] == marker and len(flat) > end and (len(marker) < 3 or flat[end] in {",", "then"}):
-            rest = words[end:]
-            return Conditional((), LAST, rest, ()) if holds else Conditional((), LAST, (), rest)
-    return None
+    again = echo(words, 0, opens)
+    if again is None or again.kind not in _REPEATING or again.size >= len(words):
+        return None
+    rest = words[again.size :]
+    return Conditional((), LAST, rest, ()) if again.holds else Conditional((), LAST, (), rest)
+
+
+_REPEATING = frozenset({"state", "there", "else"})
 
 
 def _leading(words: Phrase, opens: Opens) -> Conditional | None:
@@ -188,7 +132,7 @@ def _leading(words: Phrase, opens: Opens) -> Conditional | None:
     condition = words[start:cut]
     if marker == ("should",):
         condition = tuple(replace(w, key="is", raw="is") if w.key == "be" else w for w in condition)
-    return _parts((), condition, words[cut:], holds)
+    return _parts((), condition, words[cut:], opens, holds=holds)
 
 
 def _polite(flat: tuple[str, ...]) -> bool:
@@ -228,7 +172,7 @@ def _inside(words: Phrase, opens: Opens) -> Conditional | None:
             start = next((i for i in range(index - 1, 0, -1) if flat[i] == "then"), 0)
             before = words[:start] if start and opens(words[start + 1 : index]) else ()
             main = words[start + 1 : index] if before else words[:index]
-            return replace(_parts(before, words[index + len(marker) :], main, holds), late=True)
+            return replace(_parts(before, words[index + len(marker) :], main, opens, holds=holds), late=True)
     return None
 
 
@@ -249,10 +193,10 @@ def _may_follow(flat: tuple[str, ...], index: int, marker: tuple[str, ...]) -> b
     )
 
 
-def _parts(before: Phrase, condition: Phrase, rest: Phrase, holds: bool) -> Conditional:
+def _parts(before: Phrase, condition: Phrase, rest: Phrase, opens: Opens, *, holds: bool) -> Conditional:
     """Cut "otherwise" off, which may stand behind the condition as well."""
-    condition, late = _otherwise(condition)
-    rest, other = _otherwise(rest)
+    condition, late = _otherwise(condition, opens)
+    rest, other = _otherwise(rest, opens)
     other = other or late
     if is_rule(condition):
         return Conditional(before, condition, rest, ())
@@ -271,12 +215,11 @@ def _positive(condition: Phrase) -> tuple[Phrase, bool]:
     return condition, False
 
 
-def _otherwise(words: Phrase) -> tuple[Phrase, Phrase]:
-    flat = keys(words)
-    for index in range(1, len(flat)):
-        for marker, holds in _FURTHER:
-            if not holds and flat[index : index + len(marker)] == marker:
-                return words[:index], words[index + len(marker) :]
+def _otherwise(words: Phrase, opens: Opens) -> tuple[Phrase, Phrase]:
+    for index in range(1, len(words) - 1):
+        again = echo(words, index, opens)
+        if again is not None and not again.holds and again.kind in _REPEATING:
+            return words[:index], words[index + again.size :]
     return words, ()
 
 

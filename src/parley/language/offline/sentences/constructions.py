@@ -139,6 +139,9 @@ def _fits(kind: str, phrase: Phrase, scene: Scene) -> bool:
         case "thing":
             first = keys(phrase)[0]
             return first not in {"to", "you", "help", "that"} and not scene.is_person(phrase)
+        case "remembered":
+            known = find_fact(bare_words, scene.facts)[0]
+            return known is not None and known.fact.is_location
         case "place":
             return _is_somewhere(phrase, scene)
         case "incident":

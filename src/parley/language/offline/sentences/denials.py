@@ -184,8 +184,12 @@ def _verb_denied(words: Phrase, is_stop: IsStop) -> Phrase | None:
     """What was to be done with what is denied, with its preposition; None if no verb says so."""
     flat = keys(words)
     while flat[:1] in {("no",), ("but",), ("and",), ("oh",), ("actually",), ("so",)} and len(flat) > 2:
+        if flat[0] == "no" and lexicon().prohibitions.match(flat) is not None:
+            break
         words, flat = words[1:], flat[1:]
     end = stop_end(words, 0, is_stop)
+    if end and flat[end:] in {("not",), ("no",)}:
+        return ()
     if (
         end
         and flat[end : end + 2] in {("is", "not"), ("was", "not")}
@@ -211,7 +215,9 @@ def _verb_denied(words: Phrase, is_stop: IsStop) -> Phrase | None:
     verb = lexicon().verbs.match((lemma(rest[0].key), *keys(rest[1:])))
     if verb is None or verb[1].partition(":")[0] in {"other", "wait", "speak"}:
         return None
-    size = verb[0] + (keys(rest[verb[0] : verb[0] + 1]) != () and rest[verb[0]].key in LINKS)
+    goal = lexicon().goals.match(keys(rest), verb[0])
+    linked = keys(rest[verb[0] : verb[0] + 1]) != () and rest[verb[0]].key in LINKS
+    size = verb[0] + (goal[0] if goal is not None and goal[0] > 1 else linked)
     return (
         (*words_of(verb[1].partition(":")[2]), *rest[verb[0] : size])
         if _only_stops(rest[size:], is_stop)

@@ -8,93 +8,27 @@ from __future__ import annotations
 from collections.abc import Callable
 
 from parley.language.offline.sentences.clauses import opens_command
+from parley.language.offline.sentences.echoes import FINDING, Echo, echo, phrases, put_briefly
+from parley.language.offline.words.lexicon import lexicon
 from parley.language.offline.words.text import Phrase, Word, keys, tokens
 
-__all__ = ["FINDING", "with_looks"]
+__all__ = ["with_looks"]
 
 IsStop = Callable[[Phrase], bool]
 
 _MARKS = frozenset({".", "!", "?", ";", "\n"})
 _LONGEST_NAME = 7
-_SUPPOSED = tuple(
-    tuple(text.split())
-    for text in (
-        "ought to be", "should be", "is supposed to be", "are supposed to be", "must be", "is meant to be",
-        "might be", "may be", "could be", "should probably be", "ought to have been", "should have been",
-        "has to be", "is probably", "are probably", "is hopefully", "will be", "is apparently",
-    )
-)  # fmt: skip
-_GUESSING = tuple(
-    tuple(text.split())
-    for text in (
-        "i think", "i believe", "i guess", "i reckon", "i suppose", "i hope", "i expect", "normally",
-        "usually",
-    )
-)  # fmt: skip
-_SO = tuple(
-    tuple(text.split())
-    for text in (
-        "if so", "if yes", "in that case", "in which case", "if it is", "if that is", "if they are",
-        "when so",
-        "if that is so",
-    )
-)  # fmt: skip
-_NOT_SO = tuple(
-    tuple(text.split())
-    for text in (
-        "if not", "if no", "if it is not", "if that is not", "if they are not", "if i am wrong",
-        "if that is wrong",
-    )
-)  # fmt: skip
-_ELSE = (("else",), ("otherwise",), ("or", "else"))
-_ECHOES = sorted((*_SO, *_NOT_SO, *_ELSE), key=len, reverse=True)
+_IFS = frozenset({"if", "unless", "whether"})
 _STILL = (("if", "it", "is"), ("if", "that", "is"), ("if", "they", "are"))
-_TURNED_ROUND = {
-    ("is", "it", "not"): "if not", ("are", "they", "not"): "if not", ("is", "it"): "if so",
-    ("are", "they"): "if so", ("is", "that", "so"): "if so", ("is", "that", "not", "so"): "if not",
-}  # fmt: skip
-FINDING = frozenset(
-    {"find", "see", "spot", "notice", "discover", "meet", "encounter", "detect", "catch", "hear"}
-)
-"""How people say that something turns up."""
 _ANY = {
     "somebody": "somebody", "someone": "somebody", "anybody": "somebody", "anyone": "somebody",
     "something": "something", "anything": "something", "nobody": "nobody", "nothing": "nothing",
 }  # fmt: skip
-
-_FOUND_AGAIN = frozenset({"it", "that", "them", "him", "her", "one", "any", "some", "this"})
-_NONE_FOUND = frozenset({"none", "nothing", "nobody"})
-_WHEN = tuple(
-    tuple(text.split())
-    for text in ("if", "when", "once", "as soon as", "unless", "in case", "should", "only if", "only when")
-)
-_HELPING = frozenset({"do", "can", "could", "did", "manage", "to", "happen", "should", "actually", "really"})
-_PLACES = (("there",), ("in", "there"), ("at", "all"), ("anywhere",), ("on", "it"), ("in", "it"))
-_THERE = ("there is", "there are", "it is there", "he is there", "she is there", "it is still there")
-_AWAY = (
-    "there is not", "there are not", "it is not there", "he is not there", "she is not there", "it is gone",
-    "it has gone", "it is missing", "it is no longer there", "he is gone", "she is gone", "he has left",
-    "she has left", "it is not there any more", "it is not there anymore",
-)  # fmt: skip
-_EXISTING = sorted(
-    ((tuple(text.split()), text in _AWAY) for text in (*_THERE, *_AWAY)), key=lambda one: -len(one[0])
-)
+_NOT_WHAT = frozenset({"it", "that", "them", "him", "her", "one", "any", "some", "this", "out"})
 _LOOKING = frozenset(
-    {
-        "look",
-        "search",
-        "find",
-        "check",
-        "inspect",
-        "see",
-        "scan",
-        "locate",
-        "whether",
-        "seek",
-        "hunt",
-        "watch",
-    }
-)
+    {"look", "search", "find", "check", "inspect", "see", "scan", "locate", "whether", "seek", "hunt",
+     "watch"}
+)  # fmt: skip
 
 
 def with_looks(words: Phrase, is_stop: IsStop) -> Phrase:
@@ -104,17 +38,24 @@ def with_looks(words: Phrase, is_stop: IsStop) -> Phrase:
         words: All words and punctuation.
         is_stop: Whether words name something on the map.
     """
-    flat = set(keys(words))
-    if not flat & {"if", "unless", "case", "depending", "is", "are", "find", "see", "spot"}:
+    words = put_briefly(words, opens_command)
+    if not set(keys(words)) & {"if", "unless", "otherwise", "depending", "is", "are", "find", "see", "spot"}:
         return words
     return _or_nothing(_both(_found(_found_again(_turned_round(_supposed(words, is_stop))), is_stop)))
+
+
+def _again(words: Phrase, at: int, *kinds: str) -> Echo | None:
+    """What only repeats a condition there, if it is of some kinds and something follows."""
+    found = echo(words, at, opens_command)
+    follows = found is not None and at + found.size < len(words)
+    return found if found is not None and follows and found.kind in kinds else None
 
 
 def _supposed(words: Phrase, is_stop: IsStop) -> Phrase:
     """For "A ought to be S; if it is not, V": check whether A is S. If not, V."""
     flat = keys(words)
     for start in _starts(flat):
-        at = start + next((len(m) for m in _GUESSING if flat[start : start + len(m)] == m), 0)
+        at = start + (phrases("guessing").match(flat, start) or (0, ""))[0]
         end = next(
             (
                 at + n
@@ -124,17 +65,13 @@ def _supposed(words: Phrase, is_stop: IsStop) -> Phrase:
             0,
         )
         guessed = at > start and flat[end : end + 1] in {("is",), ("are",)}
-        size = 1 if guessed else next((len(m) for m in _SUPPOSED if flat[end : end + len(m)] == m), 0)
+        size = 1 if guessed else (phrases("supposed").match(flat, end) or (0, ""))[0]
         close = next((i for i in range(end + size, len(flat)) if flat[i] in _MARKS | {","}), 0)
         if not end or not size or close < end + size + 1:
             continue
         behind = close + 1 + (flat[close + 1 : close + 2] in {("but",), ("and",), ("so",)})
-        echo = next(
-            ((m, "if so" if m in _SO else "if not") for m in _ECHOES
-             if flat[behind : behind + len(m)] == m),
-            None,
-        )  # fmt: skip
-        still = behind + 3 if flat[behind : behind + 3] in _STILL else 0
+        again = _again(words, behind, "state", "there", "else", "found")
+        still = behind + 3 if again is None and flat[behind : behind + 3] in _STILL else 0
         state = still + (flat[still : still + 1] == ("still",)) if still else 0
         if state and flat[state : state + 1] and flat[state] not in {",", "not", "then"}:
             return (
@@ -144,23 +81,19 @@ def _supposed(words: Phrase, is_stop: IsStop) -> Phrase:
                 *words[behind + 2 : behind + 3],
                 *words[state:],
             )
-        if echo is None:
+        if again is None:
             continue
-        rest = words[behind + len(echo[0]) :]
+        rest = words[behind + again.size :]
         rest = rest[1:] if keys(rest[:1]) in {(",",), ("then",)} else rest
         plural = flat[end - 1].endswith("s") and not flat[end - 1].endswith("ss")
         link = tokens("are" if plural or "are" in flat[end : end + size] else "is")
-        told = words[end + size : close]
-        return (
-            *words[:start],
-            *tokens("check whether"),
-            *words[at:end],
-            *link,
-            *told,
-            *_said(f". {echo[1]} ,"),
-            *rest,
-        )
+        look = (*tokens("check whether"), *words[at:end], *link, *words[end + size : close])
+        return (*words[:start], *look, *_said(f". {_so(again)} ,"), *rest)
     return words
+
+
+def _so(again: Echo) -> str:
+    return "if so" if again.holds else "if not"
 
 
 def _starts(flat: tuple[str, ...]) -> list[int]:
@@ -171,13 +104,16 @@ def _turned_round(words: Phrase) -> Phrase:
     """For "(See that A is shut.) Is it not, then V": if not, V."""
     flat = keys(words)
     for start in _starts(flat)[1:]:
-        found = next((m for m in _TURNED_ROUND if flat[start : start + len(m)] == m), None)
-        end = start + len(found) if found is not None else 0
+        if flat[start : start + 2] not in {("is", "it"), ("are", "they"), ("is", "that")}:
+            continue
+        denied = flat[start + 2 : start + 3] == ("not",)
+        end = start + 2 + denied
+        end += flat[end : end + 1] == ("so",)
         comma = end + (flat[end : end + 1] == (",",))
         behind = comma + (flat[comma : comma + 1] == ("then",))
-        if found is None or behind == end or not opens_command(words[behind:]):
+        if behind == end or not opens_command(words[behind:]):
             continue
-        return (*words[:start], *_said(f"{_TURNED_ROUND[found]} ,"), *words[behind:])
+        return (*words[:start], *_said("if not ," if denied else "if so ,"), *words[behind:])
     return words
 
 
@@ -185,12 +121,13 @@ def _found_again(words: Phrase) -> Phrase:
     """For "look for X and V it if you find one", "if there is none, W": if so V it, if not W."""
     flat = keys(words)
     for at in range(3, len(flat) - 1):
-        end, denied = _finding(flat, at)
-        if not end or not _LOOKING & set(flat[:at]):
+        again = echo(words, at, opens_command)
+        if again is None or again.kind not in {"found", "there"} or not _LOOKING & set(flat[:at]):
             continue
+        end = at + again.size
         if flat[at - 1] in {"see", "check", "know", "sure", "whether", "look", "tell"}:
             continue
-        echo = _said(". if not ," if denied else ". if so ,")
+        said = _said(f". {_so(again)} ,")
         closes = (
             end >= len(flat)
             or flat[end] in _MARKS | {"else", "otherwise"}
@@ -201,12 +138,12 @@ def _found_again(words: Phrase) -> Phrase:
             begin = next((i for i in starts if opens_command(words[i:at])), 0)
             if not begin or not _LOOKING & set(flat[: begin - 1]):
                 continue
-            return (*_closed(words[:begin]), *echo, *_closed(words[begin:at]), *words[end:])
+            return (*_closed(words[:begin]), *said, *_closed(words[begin:at]), *words[end:])
         behind = end
         while flat[behind : behind + 1] and flat[behind] in {",", "then", "you", "please"}:
             behind += 1
         if opens_command(words[behind:]):
-            return _found_again((*_closed(words[:at]), *echo, *words[behind:]))
+            return _found_again((*_closed(words[:at]), *said, *words[behind:]))
     return words
 
 
@@ -214,27 +151,16 @@ def _or_nothing(words: Phrase) -> Phrase:
     """For "if S, V, otherwise leave it": if S, V."""
     flat = keys(words)
     for at in range(3, len(flat)):
-        lead = next((m for m in (*_NOT_SO, *_ELSE, *_NOT_THERE) if flat[at : at + len(m)] == m), ())
-        end = at + len(lead)
-        while lead and flat[end : end + 1] and flat[end] in {",", "then", "just", "simply"}:
+        again = _again(words, at, "state", "there", "else")
+        if again is None or again.holds or not _IFS & set(flat[:at]):
+            continue
+        end = at + again.size
+        while end < len(flat) and flat[end] in {",", "then", "just", "simply"}:
             end += 1
-        done = next((m for m in _NOTHING_TO_DO if flat[end : end + len(m)] == m), ()) if lead else ()
-        close = end + len(done)
-        if done and _IFS & set(flat[:at]) and (close >= len(flat) or flat[close] in _MARKS):
+        close = end + (phrases("nothing_to_do").match(flat, end) or (0, ""))[0]
+        if close > end and (close >= len(flat) or flat[close] in _MARKS):
             return (*_closed(words[:at]), *words[close:])
     return words
-
-
-_IFS = frozenset({"if", "unless", "whether"})
-_NOT_THERE = (("if", "there", "is", "not"), ("if", "there", "is", "none"), ("if", "there", "are", "none"))
-_NOTHING_TO_DO = tuple(
-    tuple(text.split())
-    for text in (
-        "forget about it", "forget it", "leave it", "leave it at that", "leave it alone", "do nothing",
-        "nothing", "never mind", "do not bother", "it is fine", "that is fine", "fine", "stay there",
-        "stay where you are", "stay put", "do not do anything", "ignore it", "no problem",
-    )
-)  # fmt: skip
 
 
 def _closed(words: Phrase) -> Phrase:
@@ -244,74 +170,67 @@ def _closed(words: Phrase) -> Phrase:
     return words
 
 
-def _finding(flat: tuple[str, ...], at: int) -> tuple[int, bool]:
-    """Where "if you find it" and "if there is none" end, and whether they deny it; 0 if none begins here."""
-    lead = next((m for m in _WHEN if flat[at : at + len(m)] == m), ())
-    start = at + len(lead)
-    if not lead:
-        return 0, False
-    denied = lead == ("unless",)
-    existing = next(((m, no) for m, no in _EXISTING if flat[start : start + len(m)] == m), None)
-    if existing is not None:
-        end, thing = start + len(existing[0]), "" if existing[0][0] == "there" else "one"
-        denied ^= existing[1]
-    elif flat[start : start + 1] == ("you",):
-        end = start + 1
-        while flat[end : end + 1] and flat[end] in _HELPING | {"not"}:
-            denied ^= flat[end] == "not"
-            end += 1
-        finds = flat[end : end + 1] != () and flat[end] in FINDING
-        thing = "" if finds else "one" if end > start + 1 and flat[end - 1] in {"do", "can", "not"} else "?"
-        end += finds
-    else:
-        return 0, False
-    if not thing:
-        thing = flat[end] if end < len(flat) else "?"
-        denied ^= thing in _NONE_FOUND
-        end += 1
-    if thing not in _FOUND_AGAIN | _NONE_FOUND:
-        return 0, False
-    end += next((len(m) for m in _PLACES if flat[end : end + len(m)] == m), 0)
-    return end, denied
-
-
 def _found(words: Phrase, is_stop: IsStop) -> Phrase:
-    """For "go to A and if you find X there V": if there is X there, V."""
+    """For "go to A and if you find X there V": if there is X there, V.
+
+    "If you find X at A, V; if not, W" looks at A; without either, "if you find X" is a rule for later.
+    """
     flat = keys(words)
-    at = next((i for i in range(3, len(flat) - 3) if flat[i] in {"if", "unless"} and flat[i + 1] == "you"), 0)
-    if (
-        not at
-        or flat[at + 2] not in FINDING
-        or not any(is_stop(words[i : i + n]) for i in range(at) for n in range(1, 5))
-    ):
-        return words
-    start = at + 3
-    end = next(
-        (
-            i
-            for i in range(start + 1, len(flat))
-            if flat[i] in {",", "then", "there"} | _MARKS or opens_command(words[i:])
-        ),
-        len(flat),
-    )
-    what = words[start:end]
-    if not what or end == len(flat):
-        return words
-    if what[0].key in _FOUND_AGAIN | {"out"}:
-        return words
-    there = end + (flat[end] == "there")
-    comma = there + (flat[there : there + 1] in {(",",), ("then",)})
-    body = keys(what[:1])[0]
-    said = (*_said(_ANY[body]), *_said("is"), *what[1:]) if body in _ANY else (*_said("there is"), *what)
-    return (*words[: at + 1], *said, *_said("there ,"), *words[comma:])
+    for at in range(len(flat) - 4):
+        if flat[at] not in {"if", "unless"} or flat[at + 1] != "you" or flat[at + 2] not in FINDING:
+            continue
+        end = _end_of_finding(words, at + 4, is_stop)
+        what = words[at + 3 : end]
+        if end == len(flat) or what[0].key in _NOT_WHAT:
+            continue
+        inside = any(is_stop(what[i:]) for i in range(1, len(what)))
+        before = any(is_stop(words[i : i + n]) for i in range(at) for n in range(1, 5))
+        rest = words[end + (flat[end] == "there") :]
+        rest = rest[1:] if keys(rest[:1]) in {(",",), ("then",)} else rest
+        other = _otherwise_at(rest)
+        if not (before or (inside and other and opens_command(rest))):
+            continue
+        thing = what[0].key
+        first = next((w.key for w in what if w.key not in lexicon().determiners), thing)
+        plural = inside and first.endswith("s") and not first.endswith("ss")
+        said = _said(f"{_ANY[thing]} is" if thing in _ANY else "there are" if plural else "there is")
+        said = (*said, *what[thing in _ANY :], *(() if inside else _said("there")), *_said(","))
+        if inside and other:
+            rest = (*_closed(rest[: other[0]]), *_said(". if not ,"), *rest[sum(other) :])
+        return (*words[: at + 1], *said, *rest)
+    return words
+
+
+def _end_of_finding(words: Phrase, start: int, is_stop: IsStop) -> int:
+    """Where "(if you find) oil at press 2" ends: at a mark or "there", or where an order begins."""
+    flat = keys(words)
+    ends = {",", "then", "there"} | _MARKS
+    mark = next((i for i in range(start, len(flat)) if flat[i] in ends), len(flat))
+    if any(is_stop(words[i:mark]) for i in range(start, mark)):
+        return mark
+    return next((i for i in range(start, mark) if opens_command(words[i:])), mark)
+
+
+def _otherwise_at(words: Phrase) -> tuple[int, int]:
+    """Where what is done otherwise is led in, and how many words do; zeros if nothing is."""
+    flat = keys(words)
+    for at in range(1, len(words)):
+        again = _again(words, at, "state", "there", "else", "found")
+        if again is not None and not again.holds:
+            return at, again.size + (flat[at + again.size : at + again.size + 1] == (",",))
+    return 0, 0
 
 
 def _both(words: Phrase) -> Phrase:
     """For "(depending on whether S,) V A if so and B if not": check whether S. If so, V A. If not, B."""
     flat = keys(words)
-    one, first = _at(flat, _SO, 2)
-    other, second = _at(flat, _NOT_SO, one + first) if one else (0, 0)
-    if not other or flat[one - 1] in _MARKS | {","} or _MARKS & set(flat[one:other]):
+    found = [(i, again) for i in range(2, len(words)) if (again := echo(words, i, opens_command))]
+    found = [(i, again) for i, again in found if again.kind in {"state", "else"}]
+    if len(found) != 2 or not found[0][1].holds or found[1][1].holds:
+        return words
+    (one, so), (other, otherwise) = found
+    first, second = so.size, otherwise.size
+    if flat[one - 1] in _MARKS | {","} or _MARKS & set(flat[one:other]):
         return words
     begins = [
         i
@@ -342,14 +261,6 @@ def _both(words: Phrase) -> Phrase:
 
 
 _DEPENDING = (("depending", "on", "whether"), ("depending", "on", "if"))
-
-
-def _at(flat: tuple[str, ...], phrases: tuple[tuple[str, ...], ...], start: int) -> tuple[int, int]:
-    """Where one of some phrases stands first, and its size; zeros if none does."""
-    longest = sorted(phrases, key=len, reverse=True)
-    return next(
-        ((i, len(m)) for i in range(start, len(flat)) for m in longest if flat[i : i + len(m)] == m), (0, 0)
-    )
 
 
 def _said(text: str) -> Phrase:

@@ -38,7 +38,8 @@ _LEADS = {
         (_ANY, "after them, now, so, ok, okay, please, also, after"),
         (_ANY, "back to, back at, back in, home to, then home to, only after both, only after all that"),
         (_ANY, "only after all of them, step one, step two, step three, step four, number one, number two"),
-        (_ANY, "number three, stop one, stop two, stop three, step 1, step 2, step 3, from"),
+        (_ANY, "from there on to, from there to, on to, onward to, onwards to, number three, stop one"),
+        (_ANY, "stop two, stop three, step 1, step 2, step 3, from"),
     ),
     **_due(_ANY, "following", "next", "counting", "between", "back", "next_thing"),
     **_due(_FIRST, "early", "opening", "beginning", "first_thing"),
@@ -48,16 +49,12 @@ _LEADS = {
 }
 _TAILS = {
     **_table(
-        (_FIRST, "comes first, goes first, is first"),
-        (_LAST, "comes last, goes last, is last"),
-        (_ANY, "goes in between, goes between them, comes in between, too, also, as well, please, now"),
-        (_ANY, "comes after it, comes after that, comes next, comes second, thanks"),
-        (_BEFORE_LAST, "comes before it, comes before that"),
+        (_ANY, "too, also, as well, please, now, thanks"),
     ),
-    **_due(_ANY, "following", "next", "counting", "between"),
-    **_due(_FIRST, "early", "opening"),
-    **_due(_LAST, "late", "closing", "kept"),
-    **_due(_BEFORE_LAST, "earlier"),
+    **_due(_ANY, "following", "next", "counting", "between", "placed_between"),
+    **_due(_FIRST, "early", "opening", "placed_first"),
+    **_due(_LAST, "late", "closing", "kept", "placed_last"),
+    **_due(_BEFORE_LAST, "earlier", "placed_before"),
 }
 _ALL = frozenset(
     tuple(text.split())
@@ -68,10 +65,22 @@ _ALL = frozenset(
 )  # fmt: skip
 _ORDERS = frozenset(
     (*lead, which, what)
-    for lead in (("in",), ("exactly", "in"), ("just", "in"))
+    for lead in (
+        ("in",),
+        ("exactly", "in"),
+        ("just", "in"),
+        ("in", "just"),
+        ("in", "exactly"),
+        ("strictly", "in"),
+    )
     for which in ("that", "this")
     for what in ("order", "sequence")
 )
+_REVERSED = frozenset({
+    ("in", "reverse"), ("in", "reverse", "order"), ("in", "the", "reverse", "order"), ("backwards",),
+    ("in", "the", "opposite", "order"), ("in", "reversed", "order"), ("the", "other", "way", "round"),
+    ("the", "other", "way", "around"), ("from", "last", "to", "first"), ("from", "the", "end"),
+})  # fmt: skip
 _COURTESY = frozenset({("please",), ("thanks",), ("thank", "you"), ("ok",), ("okay",), ()})
 _JOINTS = frozenset({"before", "after", "once", "when"})
 _BEEN = (("you", "have", "been", "at"), ("you", "have", "been", "to"), ("you", "have", "been", "in"),
@@ -166,19 +175,30 @@ def _simpler(words: Phrase) -> Phrase:
 
 
 def _whole(words: Phrase, is_stop: IsStop) -> Phrase | None:
-    words = _simpler(words)
+    words, backwards = _forwards(_simpler(words))
     try:
         stops, ordered, shared = _stops(words, is_stop)
     except _UnknownError:
         return None
+    if backwards and not ordered:
+        stops, ordered = stops[::-1], True
     verbless = any(not stop.kind for stop in stops[:1]) or bool(shared)
     if len(stops) < 2 or not (ordered or verbless):
         return None
     result: list[Word] = []
     for stop in sorted(stops, key=lambda one: one.rank):
         result += _words(", then") if result else ()
-        result += (*_words("inspect" if (shared or stop.kind) == "look" else "go to"), *stop.words)
+        going = _words("inspect" if (shared or stop.kind) == "look" else "go to")
+        result += stop.words if stop.kind == "back" else (*going, *stop.words)
     return tuple(result)
+
+
+def _forwards(words: Phrase) -> tuple[Phrase, bool]:
+    """Without "in reverse order", and whether that was said."""
+    body = tuple(word for word in words if word.is_word and word.key != "please")
+    found = next((r for r in _REVERSED if keys(body)[-len(r) :] == r and len(r) < len(body)), ())
+    at = next((i for i in range(len(words)) if keys(words[i : i + len(found)]) == found), 0) if found else 0
+    return (words[:at], True) if at else (words, False)
 
 
 def _stops(words: Phrase, is_stop: IsStop) -> tuple[list[_Stop], bool, str]:
@@ -199,7 +219,7 @@ def _stops(words: Phrase, is_stop: IsStop) -> tuple[list[_Stop], bool, str]:
             # "On the way there, the desk".
             marked = _LEADS[keys(piece)]
             continue
-        read = _read(piece, is_stop)
+        read = _back_here(piece) or _read(piece, is_stop)
         if len(read) == 1 and _RETURNING & set(keys(piece)):
             read = [replace(read[0], again=True)]
         if marked != _ANY:
@@ -214,7 +234,7 @@ def _stops(words: Phrase, is_stop: IsStop) -> tuple[list[_Stop], bool, str]:
             continue
         for stop in read:
             kind = stop.kind or kind
-            ordered = ordered or stop.rank != _ANY
+            ordered = ordered or stop.rank != _ANY or stop.kind == "back"
             _put(replace(stop, kind=kind), stops, early=early)
         early = keys(piece[:1]) == ("before",) and keys(piece[:2])[-1] not in {"that", "it", "this"}
         ordered = ordered or early or bool((_JOINTS | {"do", "only"}) & set(keys(piece)))
@@ -222,6 +242,22 @@ def _stops(words: Phrase, is_stop: IsStop) -> tuple[list[_Stop], bool, str]:
 
 
 _RETURNING = frozenset({"back", "return", "again"})
+
+
+def _back_here(piece: Phrase) -> list[_Stop]:
+    """For "then back here": coming back, as the last stop."""
+    return (
+        [_Stop(_words("come back"), "back", again=True)] if keys(_stripped(piece, _ANY)[0]) in _HERE else []
+    )
+
+
+_HERE = frozenset(
+    tuple(text.split())
+    for text in (
+        "back here", "return here", "come back", "come back here", "return", "here again", "back", "go back",
+        "back again", "head back", "back to here", "return to here", "back to start", "back to the start",
+    )
+)  # fmt: skip
 
 
 def _at(stop: _Stop, stops: list[_Stop]) -> int:

@@ -1,11 +1,11 @@
-"""What was lost, where the order only says "look for it": the thing that the telling before it names."""
+"""What "it" is in an order: the thing told before to be lost ("look for it") or needed ("bring it here")."""
 
 from __future__ import annotations
 
 from typing import Final
 
-from parley.language.offline.words.lexicon import lexicon
-from parley.language.offline.words.text import Phrase, Word, keys
+from parley.language.offline.words.lexicon import PhraseTable, lexicon
+from parley.language.offline.words.text import Phrase, Word, keys, tokens
 from parley.language.word_lists import load_data
 
 __all__ = ["with_what_was_lost"]
@@ -28,7 +28,7 @@ _LONGEST: Final = 4
 
 def with_what_was_lost(words: Phrase) -> Phrase:
     """For "I dropped my A near B. Look for it" "... Look for the A"."""
-    words = _sought_for(_fetched_for(_how_bad(words)))
+    words = _with_what_is_needed(_sought_for(_fetched_for(_how_bad(words))))
     flat = keys(words)
     at = next((i for i in range(2, len(flat)) if flat[i] in _IT and flat[i - 1] == "for"), 0)
     thing = _lost(words, flat, at) if at and _searches(flat, at) else ()
@@ -111,3 +111,100 @@ def _lost(words: Phrase, flat: tuple[str, ...], before: int) -> Phrase:
 
 def _ends(flat: tuple[str, ...], index: int) -> bool:
     return flat[index] in _ENDS or lexicon().places.match(flat, index) is not None
+
+
+_NEEDS: Final = PhraseTable.of(load_data("units")["needing"])
+_FETCHING: Final = frozenset({
+    "bring", "take", "get", "fetch", "give", "deliver", "carry", "hand", "pass", "grab", "collect", "put",
+})  # fmt: skip
+_FOR_IT: Final = frozenset({"it", "them", "some", "one", "that"})
+_THOSE: Final = frozenset({"him", "her", "them"})
+_LONGEST_WHO: Final = 6
+
+
+def _with_what_is_needed(words: Phrase) -> Phrase:
+    """For "A needs a B from C. Get it from there and bring it to her" "Get the B from C and bring it to A".
+
+    Args:
+        words: All words and punctuation.
+    """
+    flat = keys(words)
+    order = next((i for i in range(5, len(flat) - 1) if _fetches(flat, i)), 0)
+    need = _need(words, flat, order) if order else None
+    if need is None:
+        return words
+    start, end, who, thing, source = need
+    rest = words[order + 2 :]
+    told = keys(rest[: next((i for i, word in enumerate(rest) if word.key in _MARKS), len(rest))])
+    there = next((i for i in range(len(told) - 1) if told[i : i + 2] == ("from", "there")), -1)
+    if source and there >= 0:
+        rest = (*rest[:there], *source, *rest[there + 2 :])
+    elif source and "from" not in told:
+        thing = (*thing, *source)
+    if keys(who[:1]) in {("i",), ("we",)}:
+        who = (Word("me", "me"),)
+    for_whom = {"to", "for", "me", "us", "him", "her", "them", "on", "in", "back"} & set(told)
+    named = next((i for i in range(len(told)) if told[i] in _THOSE and keys(who) != ("me",)), -1)
+    if named > 0 and told[named - 1] in {"to", "give", "bring", "hand", "for"}:
+        rest = (*rest[:named], *who, *rest[named + 1 :])
+    if not for_whom:
+        rest = (
+            (*tokens("and bring it to"), *who, *rest)
+            if not told
+            else (*rest[: len(told)], *tokens("and bring it to"), *who, *rest[len(told) :])
+        )
+    between = _placed(words[end:order], thing)
+    return (*words[:start], *between, words[order], Word("the", "the"), *thing, *rest)
+
+
+def _fetches(flat: tuple[str, ...], at: int) -> bool:
+    """Whether "bring it" stands there as an order."""
+    before = flat[at - 1]
+    return (
+        flat[at] in _FETCHING and flat[at + 1] in _FOR_IT and before not in {"i", "we", "they", "to", "not"}
+    )
+
+
+def _need(words: Phrase, flat: tuple[str, ...], order: int) -> tuple[int, int, Phrase, Phrase, Phrase] | None:
+    """Where a need is told before an order: its start and end, who needs it, what, and "from" where."""
+    for at in range(order - 3, 0, -1):
+        found = _NEEDS.match(flat, at)
+        start = next((i + 1 for i in range(at - 1, -1, -1) if not words[i].is_word or flat[i] in _JOINS), 0)
+        who = words[start:at]
+        if found is None or not 0 < len(who) <= _LONGEST_WHO or flat[start] in {"you", "if", "it", "there"}:
+            continue
+        first = at + found[0]
+        end = next(
+            (i for i in range(first, order) if not words[i].is_word or flat[i] in {"and", "so", "but"}), 0
+        )
+        body = flat[first:end]
+        cut = body.index("from") if "from" in body else len(body)
+        size = next((i for i in range(1, cut) if lexicon().places.match(body, i)), cut)
+        thing = tuple(
+            w for w in words[first : first + size] if w.key not in lexicon().determiners | {"some", "more"}
+        )
+        if end and 0 < len(thing) <= _LONGEST and not {"to", "you", "that", "me"} & set(keys(thing)):
+            stop = end + (flat[end] in _MARKS | {","})
+            return start, stop, who, thing, words[first + cut : end]
+    return None
+
+
+def _placed(words: Phrase, thing: Phrase) -> Phrase:
+    """For "it is in C" behind a need "the B is in C"; nothing but joints is nothing."""
+    flat = keys(words)
+    if "unless" in flat:
+        # "It is in C, unless somebody has taken it".
+        words = (*words[: flat.index("unless")], _STOP)
+    if flat[:1] in {("it",), ("they",)} and flat[1:2] in {("is",), ("are",)}:
+        return (Word("the", "the"), *thing, *words[1:])
+    if flat[:3] in {("there", "are", "some"), ("there", "is", "one"), ("there", "is", "some")}:
+        return (Word("the", "the"), *thing, *words[1:2], *words[3:])
+    return (
+        words
+        if any(word.is_word and word.key not in _JOINS | {"please", "can", "could", "you"} for word in words)
+        else ()
+    )
+
+
+_STOP: Final = Word(".", ".")
+_JOINS: Final = frozenset({"and", "but", "so", "because", "then", "since"})

@@ -56,7 +56,8 @@ def where_it_was_put(words: Phrase) -> Phrase:
     flat = keys(words)
     for at in range(1, len(flat) - 3):
         who, put, what, where = flat[at : at + 4]
-        if who not in _WHO or put not in _PUT or what not in _IT or where not in _WHERE:
+        named = words[at].is_capital and (not words[at - 1].is_word or words[at - 1].key in _JOINTS)
+        if not (who in _WHO or named) or put not in _PUT or what not in _IT or where not in _WHERE:
             continue
         before = at - 1 if flat[at - 1] in {"and", "but", "because", "since"} else at
         mark = before - 1 if before and flat[before - 1] in {",", ";", "."} else before

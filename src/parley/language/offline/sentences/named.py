@@ -5,8 +5,9 @@ from __future__ import annotations
 from collections.abc import Callable
 
 from parley.language.offline.sentences.units import spans
+from parley.language.offline.words.durations import duration_s
 from parley.language.offline.words.lexicon import lexicon
-from parley.language.offline.words.text import Phrase, Word, keys, lemma
+from parley.language.offline.words.text import Phrase, Word, keys, lemma, singular
 
 __all__ = ["back_to_first", "verb_first", "with_articles"]
 
@@ -69,15 +70,79 @@ def verb_first(words: Phrase, is_stop: IsStop) -> Phrase:
 def _turned(sentence: Phrase, is_stop: IsStop) -> Phrase:
     flat = keys(sentence)
     at = next((i for i in range(1, len(flat) - 1) if flat[i] in {",", ":"}), 0)
-    if not at or not is_stop(sentence[:at]):
+    kind, name = _visit(sentence[:at])
+    if not at or not is_stop(name):
         return sentence
+    what = _sought(sentence[at + 1 :], listed=kind == "look" and flat[at] == ":")
+    if what:
+        return (*_plain("inspect"), *name, *_plain("for"), *what)
     deed = tuple(word for word in sentence[at + 1 :] if word.key not in _SMALL)
-    found = lexicon().verbs.match(keys(deed)) if deed else None
+    found = lexicon().verbs.match(keys(deed)) if deed and not kind else None
     kind = found[1].partition(":")[0] if found is not None else ""
     if found is None or found[0] != len(deed) or kind not in {"look", "motion"}:
         return sentence
-    verb = ("inspect",) if kind == "look" else ("go", "to")
-    return (*(Word(part, part) for part in verb), *sentence[:at])
+    return (*_plain("inspect" if kind == "look" else "go to"), *sentence[:at])
+
+
+def _visit(words: Phrase) -> tuple[str, Phrase]:
+    """What is to be done ("look", "motion"; empty if nothing says so), and where."""
+    while words and words[0].key in _LEADS:
+        words = words[1:]
+    flat = keys(words)
+    found = lexicon().verbs.match(flat) if flat else None
+    kind = found[1].partition(":")[0] if found is not None else ""
+    if found is None or kind not in {"look", "motion"}:
+        return "", words
+    goal = lexicon().goals.match(flat, found[0])
+    return kind, words[found[0] + (goal[0] if goal is not None else 0) :]
+
+
+def _sought(words: Phrase, *, listed: bool) -> Phrase:
+    """What to look for: "for the bag", and behind a colon a list of things ("lights, windows")."""
+    what = words[1:] if keys(words[:1]) == ("for",) else words if listed else ()
+    flat = keys(what)
+    if not flat or len(flat) > _LONGEST_LIST or set(flat) & _NO_THINGS or duration_s(what) is not None:
+        return ()
+    heads = [i for i in range(len(flat)) if not i or flat[i - 1] in {",", "and", "or"}]
+    acts = any(lexicon().verbs.match(flat, i) and not _is_thing(flat, i) for i in heads)
+    return () if acts or lexicon().places.match(flat) is not None else what
+
+
+def _is_thing(flat: tuple[str, ...], at: int) -> bool:
+    """Whether a word that may be a verb is a thing ("lights")."""
+    return singular(flat[at]) in lexicon().nouns or singular(flat[at]) != flat[at]
+
+
+def _plain(text: str) -> Phrase:
+    return tuple(Word(part, part) for part in text.split())
+
+
+_LEADS = frozenset({"just", "only", "please", "then", "and", "also", "next", "now"})
+_LONGEST_LIST = 10
+_NO_THINGS = (
+    lexicon().be
+    | lexicon().auxiliaries
+    | lexicon().question_starts
+    | frozenset(
+        {
+            "me",
+            "us",
+            "now",
+            "today",
+            "once",
+            "it",
+            "them",
+            "that",
+            "you",
+            "i",
+            "we",
+            "if",
+            "then",
+            "not",
+            "no",
+        }
+    )
+)
 
 
 _BEGAN = tuple(

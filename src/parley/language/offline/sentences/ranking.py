@@ -7,7 +7,7 @@ from parley.language.offline.words.lexicon import lexicon
 from parley.language.offline.words.nouns import bare
 from parley.language.offline.words.text import Phrase, Word, keys
 
-__all__ = ["participle_order", "ranked", "ranked_stops"]
+__all__ = ["named_first", "participle_order", "ranked", "ranked_stops"]
 
 _RANKS = {
     "first": 1, "firstly": 1, "second": 2, "secondly": 2, "third": 3, "thirdly": 3, "fourth": 4, "fifth": 5,
@@ -50,6 +50,31 @@ def ranked(words: Phrase) -> Phrase:
     return words
 
 
+def named_first(words: Phrase) -> Phrase:
+    """For "V A and B, the B first please, and then W" "V B, then V A. and then W"."""
+    flat = keys(words)
+    for at in range(5, len(flat)):
+        comma = next((i for i in range(at - 2, max(at - 6, 3), -1) if flat[i] in {",", "."}), 0)
+        behind = at + 1 + (flat[at + 1 : at + 2] == ("please",))
+        ends = behind == len(flat) or not words[behind].is_word or flat[behind] in _NOT_LISTED
+        if flat[at] not in {"first", "last"} or not comma or not ends:
+            continue
+        start = next((i + 1 for i in range(comma - 1, -1, -1) if flat[i] in {".", "!", "?", ";", ":"}), 0)
+        named = tuple(word for word in words[comma + 1 : at] if word.key not in {"and", "but", "with"})
+        end = comma - 2 if flat[comma - 2 : comma] == (",", "please") else comma
+        members = _pieces(words[start:end])
+        told = {"if", "when", "unless", "whether", "not", "then", "is", "before", "after"} & set(
+            flat[start:end]
+        )
+        moved = (
+            _moved(members, named, last=flat[at] == "last") if named and len(members) > 1 and not told else ()
+        )
+        if moved:
+            return (*words[:start], *moved, *words[behind:])
+    return words
+
+
+_NOT_LISTED = frozenset({"and", "then", "because", "since", "so", "as"})
 _COMING = frozenset({"comes", "goes", "is", "should", "be", "come", "will", "being"})
 _MIDDLE = (("in", "the", "middle"), ("in", "between"), ("the", "middle", "one"))
 _ALL_OF_THEM = frozenset({

@@ -141,7 +141,8 @@ def _whichever(words: Phrase) -> Phrase:
     """For "whichever door is closer (to you)", "whatever is nearest to the desk"."""
     flat = keys(words)
     at = next((i for i, word in enumerate(flat) if word in {"whichever", "whatever"}), -1)
-    link = next((i for i in range(at + 1, min(at + 6, len(flat))) if flat[i] in lexicon().be), 0)
+    links = lexicon().be | lexicon().location_verbs
+    link = next((i for i in range(at + 1, min(at + 6, len(flat))) if flat[i] in links), 0)
     if at < 0 or not link:
         return words
     if link == at + 1 and lexicon().places.match(flat, link + 1) is not None:
@@ -212,10 +213,11 @@ def _choosing(words: Phrase) -> Phrase:
     if at < 0 or not noun or not opens_command(rest):
         return words
     size = 2 if keys(rest[at : at + 2]) == ("that", "one") else 1
-    named = (*((_word("to"),) if rest[at].key == "there" else ()), _word("any"), *noun)
+    going = (lexicon().verbs.match(keys(rest)) or (0, ""))[1].startswith("motion:")
+    link = (_word("to" if going else "at"),) if rest[at].key == "there" else ()
+    named = (*link, _word("any"), *noun)
     if len(free) > 1:
-        named = (*named[: -len(noun)], _word("one"), _word("of"), _word("the"), *noun)
-        named = tuple(w for w in named if w.key != "any")
+        named = (*link, *(_word(part) for part in ("one", "of", "the")), *noun)
     return (*words[:start], *rest[:at], *named, *rest[at + size :])
 
 

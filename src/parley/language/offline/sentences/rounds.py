@@ -5,10 +5,11 @@ from __future__ import annotations
 from collections.abc import Callable, Sequence
 from dataclasses import replace
 
+from parley.language.offline.scene.marks import marks_of
 from parley.language.offline.sentences.clauses import Clause
 from parley.language.offline.words.lexicon import lexicon
 from parley.language.offline.words.nouns import bare
-from parley.language.offline.words.text import Phrase, Word, keys, lemma
+from parley.language.offline.words.text import Phrase, Word, keys, lemma, singular
 
 __all__ = ["as_round", "watched_for"]
 
@@ -127,17 +128,21 @@ def as_round(words: Phrase) -> Phrase:
     return words
 
 
-def watched_for(parts: Sequence[Clause], is_several: Callable[[Phrase], bool]) -> list[Clause]:
+def watched_for(
+    parts: Sequence[Clause], is_several: Callable[[Phrase], bool], is_known: Callable[[Phrase], bool]
+) -> list[Clause]:
     """Going somewhere and watching for something as one clause, where that is to be done at several places.
 
     Args:
         parts: The clauses.
         is_several: Whether words name more than one thing of the map.
+        is_known: Whether words name something of the map, or something remembered.
     """
     result: list[Clause] = []
     for part in parts:
-        what = _watched(part)
         before = result[-1] if result else None
+        there = _without_same(part, _place(before.words) if before is not None else ())
+        what = _watched(there) or _looked_at(there, is_known)
         place = _place(before.words) if before is not None and what else ()
         if before is None or not place or part.condition or before.condition or not is_several(place):
             result.append(part)
@@ -145,6 +150,13 @@ def watched_for(parts: Sequence[Clause], is_several: Callable[[Phrase], bool]) -
         words = (Word("inspect", "inspect"), *place, Word("for", "for"), *what)
         result[-1] = replace(before, words=words)
     return result
+
+
+def _without_same(part: Clause, place: Phrase) -> Clause:
+    """For "(go to the doors and) count the bolts in each": where it is done anyway."""
+    same = len(place) > 0 and marks_of(place[-1]) != () and marks_of(part.words[-1]) == marks_of(place[-1])
+    link = keys(part.words[-2:-1]) in {("in",), ("at",), ("on",), ("of",)}
+    return replace(part, words=part.words[:-2]) if same and link else part
 
 
 def _watched(part: Clause) -> Phrase:
@@ -155,6 +167,25 @@ def _watched(part: Clause) -> Phrase:
         size = 1
     rest = bare(part.words[at + size :]) if size else ()
     return rest if rest and lexicon().places.match(keys(rest)) is None and not _says_where(rest) else ()
+
+
+def _looked_at(part: Clause, is_known: Callable[[Phrase], bool]) -> Phrase:
+    """For "count the people", "check the gas taps": what every place has of its own."""
+    flat = keys(part.words)
+    found = lexicon().verbs.match(flat, int(flat[:1] in {("and",), ("then",)}))
+    if found is None or found[1].partition(":")[0] not in _LOOKING:
+        return ()
+    rest = part.words[found[0] + int(flat[0] in {"and", "then"}) :]
+    named = bare(rest)
+    whole = 0 < len(named) <= _LONGEST_SIGHT and all(word.is_word for word in named)
+    several = whole and singular(named[-1].key) != named[-1].key
+    if not whole or (named == rest and not several) or _says_where(rest) or is_known(named):
+        return ()
+    return named
+
+
+_LOOKING = frozenset({"look", "count", "search"})
+_LONGEST_SIGHT = 4
 
 
 def _says_where(words: Phrase) -> bool:

@@ -63,7 +63,7 @@ def scoped(words: Phrase, is_stop: IsStop, is_pending: IsStop, ids_of: IdsOf = l
         is_pending: Whether they name something that the robot is still to do; to deny that changes the plan.
         ids_of: The identifiers of what words name.
     """
-    words = _contrasted(_stressed(words, is_stop), is_stop)
+    words = _contrasted(_stressed(_left_undone(words), is_stop), is_stop)
     plainer = _along(_each_asked(words), is_stop)
     preferred = _preferred(plainer, is_stop)
     if len(preferred) < len(plainer) and _from_group(plainer, preferred, is_stop, ids_of):
@@ -73,8 +73,11 @@ def scoped(words: Phrase, is_stop: IsStop, is_pending: IsStop, ids_of: IdsOf = l
     words = _without_tail(_sure(preferred))
     parts = led_in(pointed(with_denials(words, is_stop), is_stop))
     denied = [part for part in parts if part.denied]
-    if not denied or any(names_stop(part.words, is_pending) for part in denied) or _wanted_after_all(parts):
+    if not denied or any(names_stop(part.words, is_pending) for part in denied):
         return Scoped(words)
+    after_all = _wanted_after_all(parts)
+    if after_all is not None:
+        return Scoped(after_all or words)
     wanted = [name for part in parts if not part.denied for name in names_in(part.words, is_stop)]
     single = {found[0] for name in wanted if len(found := ids_of(name)) == 1 and not any(map(marks_of, name))}
     spared = frozenset(one for part in denied for name in part.names for one in ids_of(name)) - single
@@ -131,15 +134,29 @@ def _without_comma(words: Phrase) -> Phrase:
     return words[:-1] if keys(words[-1:]) in {(",",), ("but",), ("and",)} else words
 
 
-def _wanted_after_all(parts: list[Part]) -> bool:
-    """Whether an order goes back to what was denied: "do not look at A, only go there"."""
+def _wanted_after_all(parts: list[Part]) -> Phrase | None:
+    """The order that goes back to what was denied: "do not look at A, only go there"; None if none does.
+
+    Empty where it says no more than the message does.
+    """
     for before, part in itertools.pairwise(parts):
         flat = keys(part.words)
-        if not before.denied or part.denied or not before.verb or len(part.words) > 8:
+        if not before.denied or part.denied or len(part.words) > 8:
             continue
-        if "there" in flat[1:] or (_BACK & set(flat) and opens_command(_without_lead(part.words))):
-            return True
-    return False
+        order = _without_lead(part.words)
+        if before.names and keys(order[1:2]) in {("it",), ("them",)} and len(order) < _LONGEST_DENIED:
+            # "Do not V A, just W it".
+            return ()
+        if not before.verb:
+            continue
+        if "there" not in flat[1:] and not (_BACK & set(flat) and opens_command(order)):
+            continue
+        passive = keys(before.words)[:2] in {("i", "do"), ("we", "do")}
+        if not passive or len(parts) > 2 or len(before.names) != 1 or "there" not in flat:
+            return ()
+        at = flat.index("there")
+        return (*part.words[:at], *words_of("to"), *before.names[0], *part.words[at + 1 :])
+    return None
 
 
 def _without_lead(words: Phrase) -> Phrase:
@@ -207,26 +224,47 @@ _WISHES = tuple(
 
 
 def _contrasted(words: Phrase, is_stop: IsStop) -> Phrase:
-    """For "A does not need checking but B does": B needs checking."""
+    """For "A does not need checking but B does", "neither A needs a visit, only B does": B needs it."""
     flat = keys(words)
     end = next((i for i in range(len(flat)) if flat[i] in MARKS), len(flat))
-    at = next(
-        (i for i in range(1, end - 3) if flat[i] in {"does", "do", "is", "are"} and flat[i + 1] == "not"), 0
-    )
-    joint = next((i for i in range(at + 2, end) if flat[i] in {"but", "only", ","}), 0) if at else 0
+    joint = next((i for i in range(3, end - 2) if flat[i] in {"but", "only", ","}), 0)
     other = joint + 1 + (flat[joint + 1 : joint + 2] in {("but",), ("only",)})
-    if (
-        not joint
-        or flat[end - 1] != flat[at]
-        or not is_stop(words[:at])
-        or not is_stop(words[other : end - 1])
-    ):
+    helper = flat[end - 1] if joint else ""
+    if helper not in _HELPERS or not is_stop(words[other : end - 1]):
         return words
-    told = words[at + 2 : joint]
-    if flat[at] in {"is", "are"}:
-        return (*words[other:end], *told, *words[end:])
-    verb = Word(f"{told[0].key}s", f"{told[0].raw}s") if flat[at] == "does" else told[0]
-    return (*words[other : end - 1], verb, *told[1:], *words[end:])
+    told = without_end(_denied_of(words[:joint], is_stop))
+    if not told or (told[0].key in lexicon().be) is not (helper in lexicon().be):
+        return words
+    verb = helper if helper in lexicon().be else told[0].key
+    if helper == "does":
+        verb = "has" if verb == "have" else f"{verb}s"
+    return (*words[other : end - 1], Word(verb, verb), *told[1:], *words[end:])
+
+
+_HELPERS = frozenset({"does", "do", "is", "are", "has", "have"})
+_NEITHER = frozenset({"neither", "none", "no"})
+_LONGEST_DENIED = 6
+
+
+def _denied_of(words: Phrase, is_stop: IsStop) -> Phrase:
+    """What is not so of what a clause is about, with its verb in its base form: "need checking"."""
+    flat = keys(words)
+    if flat[0] in _NEITHER:
+        verb = next((i for i in range(2, min(len(flat), _LONGEST_DENIED)) if flat[i] in _NEEDING), 0)
+        return (*words_of(_NEEDING[flat[verb]]), *words[verb + 1 :]) if verb else ()
+    at = next((i for i in range(1, len(flat) - 1) if flat[i + 1] in {"not", "no"} and is_stop(words[:i])), 0)
+    if not at:
+        return ()
+    if flat[at + 1] == "no":
+        verb_said = _NEEDING.get(flat[at], "")
+        return (*words_of(f"{verb_said} a"), *words[at + 2 :]) if verb_said not in {"", "is"} else ()
+    return words[at + 2 :] if flat[at] in {"does", "do"} else (*words_of("is"), *words[at + 2 :])
+
+
+_NEEDING = {
+    "needs": "need", "need": "need", "has": "have", "have": "have", "wants": "want", "want": "want",
+    "requires": "require", "require": "require", "is": "is", "are": "is",
+}  # fmt: skip
 
 
 def _along(words: Phrase, is_stop: IsStop) -> Phrase:
@@ -277,6 +315,8 @@ def _preferred(words: Phrase, is_stop: IsStop) -> Phrase:
         found = _PREFERRED.match(flat, index)
         if found is None or flat[index - 1] in {"is", "are", "do", "did", "does", "am", "if", "or"}:
             continue
+        if found[1].startswith("than") and _compares(flat[:index]):
+            continue
         start = index + found[0]
         start += flat[start : start + 1] != () and flat[start] in LINKS
         end = stop_end(words, start, is_stop)
@@ -291,7 +331,33 @@ def _preferred(words: Phrase, is_stop: IsStop) -> Phrase:
     return words
 
 
+def _left_undone(words: Phrase) -> Phrase:
+    """Without what is left undone or to others: "V A without being W-ed", "V A and leave the W-ing to me"."""
+    flat = keys(words)
+    for index in range(2, len(flat) - 2):
+        end = next((i for i in range(index, len(flat)) if flat[i] in MARKS | {",", "and", "but"}), len(flat))
+        undone = flat[index : index + 2] == ("without", "being") and end == index + 3
+        at = index + 1 + (flat[index + 1] == "all")
+        others = flat[index] == "leave" and flat[at : at + 1] == ("the",) and "to" in flat[at + 2 : end]
+        others = others and flat[at + 1].endswith("ing") and flat[index - 1] in MARKS | {",", "and", "but"}
+        if undone or others:
+            start = index - others
+            start -= others and flat[start - 1] == ","
+            return (*words[:start], *words[end:])
+    return words
+
+
+def _compares(flat: tuple[str, ...]) -> bool:
+    """Whether "than" follows a measure ("closer to A than B") and no wish ("rather A than B")."""
+    if _PREFERRING & set(flat):
+        return False
+    return any(key in _MEASURING or key.endswith("er") for key in flat)
+
+
+_PREFERRING = frozenset({"rather", "sooner", "better", "prefer", "preferably"})
+_MEASURING = frozenset({"more", "less", "fewer", "other", "else", "worse", "different", "no", "is", "are"})
 _BACK = frozenset({"there", "it", "them"})
+_TRANSITIVE = frozenset({"enter", "visit", "approach", "reach", "tour", "patrol", "pass"})
 
 
 def _wanted(words: Phrase, verb: Phrase, is_stop: IsStop, *, alone: bool) -> Phrase:
@@ -307,7 +373,15 @@ def _wanted(words: Phrase, verb: Phrase, is_stop: IsStop, *, alone: bool) -> Phr
         return done
     if keys(rest[:2]) == ("it", "is") or _says(rest, is_stop):
         rest = rest[2:]
-    while keys(rest[-1:]) in {("instead",), ("rather",), ("does",), ("do",), ("is",), ("are",)}:
+    while keys(rest[-2:]) != ("will", "do") and keys(rest[-1:]) in {
+        ("instead",),
+        ("rather",),
+        ("yes",),
+        ("does",),
+        ("do",),
+        ("is",),
+        ("are",),
+    }:
         rest = rest[:-1]
     start = int(bool(rest) and rest[0].key in LINKS)
     end = stop_end(rest, start, is_stop)
@@ -320,8 +394,12 @@ def _wanted(words: Phrase, verb: Phrase, is_stop: IsStop, *, alone: bool) -> Phr
         return rest
     if not verb:
         return words if words != rest and opens_command(words) else (*words_of("go to"), *rest)
+    if (size := ABOUT.match_end(keys(without_end(rest[end:])))) and end + size == len(without_end(rest)):
+        rest = rest[:end]
     goes = lexicon().verbs.match(keys(verb))
     moving = goes is not None and goes[1].partition(":")[0] in _GOING
+    if moving and len(verb) == 1 and verb[0].key in _TRANSITIVE:
+        return (*words_of("go to"), *rest[start:])
     link = () if start or not moving or verb[-1].key in LINKS else words_of("to")
     return (*verb, *link, *rest[start if verb[-1].key in LINKS else 0 :])
 

@@ -71,7 +71,7 @@ _BEHIND_SAME = frozenset({",", ".", "and", "please", "there", "then", "again", "
 BE = frozenset({"is", "are", "was", "were", "am"})
 HELPING = frozenset({
     "has", "have", "had", "do", "does", "did", "will", "would", "can", "could", "must", "should", "may",
-    "might",
+    "might", "ought",
 })  # fmt: skip
 _STRONG = frozenset({
     "motion", "back", "look", "whether", "search", "transfer", "grasp", "place", "speak", "follow", "guide",
@@ -252,7 +252,9 @@ class Signs:
         if at in self.named or lemma(word) != word or before in lexicon().determiners | {"to"}:
             return framed and lemma(word) == word and self.opens(self.words[at : at + 6])
         if word in {"do", "not"} and self.flat[at : at + 2] in {("do", "not"), ("not", "to")}:
-            return self.flat[at + 2 : at + 3] not in {("know",), ("have",), ("mind",), ("worry",), ()}
+            about = self.flat[at + 2 : at + 4] == ("worry", "about")
+            verb = self.flat[at + 2 : at + 3]
+            return about or verb not in {("know",), ("have",), ("mind",), ("worry",), ()}
         if not self.opens(self.words[at : at + 8]):
             return False
         found = lexicon().verbs.match(self.flat, at)

@@ -68,6 +68,8 @@ class Names:
     scene: Scene
     known: dict[tuple[str, ...], bool] = field(init=False)
     said: frozenset[str] = field(init=False)
+    heads: frozenset[str] = field(init=False)
+    """The last words of names."""
     called: frozenset[str] = field(init=False)
     """What only one thing is called."""
 
@@ -77,6 +79,7 @@ class Names:
             self.known.clear()
         names = (part for item in self.scene.objects for part in item.description.lower().split())
         self.said = frozenset(names)
+        self.heads = frozenset(item.description.lower().split()[-1] for item in self.scene.objects)
         called = Counter(item.description.lower() for item in self.scene.objects)
         self.called = frozenset(name for name, count in called.items() if count == 1)
 
@@ -103,8 +106,8 @@ class Names:
         if named[-1:] != words[-1:]:
             # "The desk first": more than the name.
             return False
-        sides = all(is_view(word.key) or word.key == "your" for word in named)
-        if sides and not set(keys(named)) & self.said:
+        sides = all(is_view(word.key) or word.key in {"your", "back"} for word in named)
+        if sides and not set(keys(named)) & (self.heads if len(named) == 1 else self.said):
             # "On your right": where something is, and no name.
             return False
         rest = set(flat) - self.said - lexicon().determiners

@@ -112,6 +112,9 @@ class _Caller:
         at = self.flat.index("here") if "here" in self.flat else 0
         behind = self.flat[at + 1 : at + 2]
         head = self.flat[:at]
+        if head[:1] in _THEN:
+            # "Then return here".
+            head, at = head[1:], at - 1
         if not 0 < at <= 4 or (behind and behind[0] not in _WHERE_FROM | {"again", ","}):
             return False
         if _NO_CALLER & set(head) or any(not word.is_word for word in self.words[:at]):
@@ -119,6 +122,9 @@ class _Caller:
         verb = lexicon().verbs.match(head)
         # "Stop here" is an order, "dock office here" is none.
         return verb is None or (len(head) > 1 and verb[0] < len(head) and head[-1] in lexicon().nouns)
+
+
+_THEN = frozenset((word,) for word in ("then", "and", "finally", "afterwards"))
 
 
 def introduces(words: Phrase, *, first_is_thing: bool = False) -> bool:

@@ -6,14 +6,16 @@ is a sentence of its own, "same thing there" says nothing that the order before 
 
 from __future__ import annotations
 
-from collections.abc import Callable
+from collections.abc import Callable, Sequence
+from itertools import pairwise
 
 from parley.language.offline.sentences.clauses import opens_command
+from parley.language.offline.sentences.units import Unit
 from parley.language.offline.words.lexicon import lexicon
 from parley.language.offline.words.order import due
 from parley.language.offline.words.text import Phrase, Word, keys, lemma
 
-__all__ = ["in_order", "when_done"]
+__all__ = ["in_order", "told_apart", "when_done"]
 
 IsStop = Callable[[Phrase], bool]
 
@@ -89,6 +91,49 @@ def in_order(words: Phrase, is_stop: IsStop) -> Phrase:
     return tuple(word for sentence, mark in _closed(result) for word in (*sentence, *mark))
 
 
+def told_apart(words: Phrase, parts: Sequence[Unit]) -> Phrase:
+    """The same message with what is told behind an order, or asked for behind a question, set apart.
+
+    Why something is asked for goes, where it names nothing.
+
+    Args:
+        words: All words and punctuation.
+        parts: The parts of the message.
+    """
+    result: list[Word] = []
+    at = 0
+    for before, part in pairwise(parts):
+        start = part.start
+        comma = keys(words[start - 1 : start]) == (",",) or keys(words[start : start + 1]) == (",",)
+        if comma and before.kind == "asked" and _is_plain_order(part):
+            # "Where is A, and can you look at it?"
+            start += keys(words[start : start + 1]) == (",",)
+            result += (*words[at : start - 1], _ASKED)
+            at = start + (keys(words[start : start + 1]) == ("and",))
+            continue
+        if before.kind != "order" or not comma or part.kind not in {"told", "reason"}:
+            continue
+        start -= keys(words[start - 1 : start]) == (",",)
+        flat = keys(part.words)
+        if part.kind == "reason" and (part.names or flat[:1] not in _WHY):
+            continue
+        if part.kind == "told" and (len(flat) < _SHORTEST or flat[0] not in _TELLERS or _HANGING & set(flat)):
+            continue
+        result += (*words[at:start], *(() if part.kind == "reason" else (_STOP,)))
+        at = part.end if part.kind == "reason" else start + 1
+    return (*result, *words[at:]) if result else words
+
+
+def _is_plain_order(part: Unit) -> bool:
+    return part.kind == "order" and not {"if", "unless", "when", "otherwise", "then"} & set(keys(part.words))
+
+
+_ASKED = Word("?", "?")
+_WHY = frozenset({("since",), ("as",), ("because",)})
+_SHORTEST = 4
+_HANGING = frozenset({"if", "unless", "whether", "instead", "fine"})
+
+
 def _closed(parts: list[tuple[Phrase, Phrase]]) -> list[tuple[Phrase, Phrase]]:
     """Every sentence but the last ends with a mark."""
     return [(s, m or ((_STOP,) if i < len(parts) - 1 and s else ())) for i, (s, m) in enumerate(parts)]
@@ -110,13 +155,13 @@ def when_done(words: Phrase) -> Phrase:
     while index < len(words):
         marker = next((m for m in _WHEN if flat[index : index + len(m)] == m), ())
         end = index + len(marker)
-        while marker and end < len(flat) and flat[end] in _DOING | _SEEN:
+        while marker and end < len(flat) and (flat[end] in _DOING | _SEEN or _others(flat, end)):
             end += 1
         seen = end > 1 and flat[end - 1] in _LISTED and flat[end - 2] in _SEEN
         if (
             marker
             and (seen or _DONE & set(flat[index:end]))
-            and flat[end - 1] in _DOING - {"you", "is", "have"}
+            and flat[end - 1] in _DOING - {"you", "is", "have", "with", "of"} | {"rest", "others", "lot"}
         ):
             result.append(Word("then", "then"))
             index = end + (flat[end : end + 1] == (",",))
@@ -124,6 +169,11 @@ def when_done(words: Phrase) -> Phrase:
         result.append(words[index])
         index += 1
     return tuple(result)
+
+
+def _others(flat: tuple[str, ...], at: int) -> bool:
+    """Whether "the rest" stands here."""
+    return bool({"rest", "others", "lot"} & set(flat[at + (flat[at] == "the") : at + 2]))
 
 
 _RANKED = frozenset({"first", "second", "third", "fourth", "next", "last", "final", "other"})
@@ -330,6 +380,7 @@ def _going_on(sentence: Phrase, is_stop: IsStop) -> Phrase:
         if (
             word.key == "to"
             and index > 1
+            and flat[index - 1] not in {"back", "over", "up", "down", "on", "home"}
             and flat[0] in {"after", "afterwards", "finally", "then", "next"}
             and any(
                 is_stop(sentence[index + 1 : end]) for end in range(index + 2, min(index + 6, len(flat)) + 1)

@@ -7,7 +7,7 @@ from collections.abc import Callable
 from parley.language.offline.words.lexicon import lexicon
 from parley.language.offline.words.text import Phrase, Word, keys, lemma
 
-__all__ = ["KINDS", "in_active"]
+__all__ = ["KINDS", "base_forms", "in_active"]
 
 IsStop = Callable[[Phrase], bool]
 
@@ -55,7 +55,7 @@ def in_active(
         at += 1
     if not end or at >= len(flat) or (at == end and not getting) or "not" in flat[end:at]:
         return None
-    verb = _base(flat[at]) if wished or getting else lemma(flat[at])
+    verb = base_forms(flat[at])[0] if wished or getting else lemma(flat[at])
     found = lexicon().verbs.match((verb, *flat[at + 1 :]))
     usual = found is not None and found[1].partition(":")[0] in KINDS
     free = wished or getting
@@ -71,17 +71,21 @@ def in_active(
     return (Word(verb, verb), *words[at + 1 : at + size], *words[:end], *tail)
 
 
-def _base(word: str) -> str:
-    """The base form, also of a verb that is in no list ("aired")."""
+def base_forms(word: str) -> tuple[str, ...]:
+    """The verbs of which a word may be a form ("aired", "scraping"), the likeliest first."""
     base = lemma(word)
-    if base != word or not word.endswith("ed") or len(word) < 5:
-        return base
-    stem = word[:-2]
+    suffix = next((ending for ending in ("ing", "ed") if word.endswith(ending)), "")
+    stem = word[: -len(suffix)] if suffix else ""
+    if base != word or len(stem) < _SHORTEST_STEM or not _VOWELS & set(stem):
+        return (base,)
+    if stem[-1] == stem[-2]:
+        return stem[:-1], stem
     short = stem[-1] not in _VOWELS and stem[-2] in _VOWELS and stem[-3:-2] not in _VOWELS
-    return stem[:-1] if stem[-1] == stem[-2] else f"{stem}e" if short else stem
+    return (f"{stem}e", stem) if short else (stem, f"{stem}e")
 
 
-_VOWELS = frozenset("aeiou")
+_SHORTEST_STEM = 3
+_VOWELS = frozenset("aeiouy")
 
 
 def _done_at(flat: tuple[str, ...]) -> int:

@@ -180,7 +180,12 @@ class Carrying(Looking):
         fetcher = self.catalogue.with_role("fetch")
         if fetcher is None or self.catalogue.with_role("grasp") is not None or self._knows(command.theme):
             return False
-        if command.source or self.scene.is_person(command.theme) or keys(command.theme)[0] in ASKING:
+        if command.source and not self._grounds(command.source) and fetcher in self.catalogue.infos:
+            # "The letter from the ministry": what is on no map says which letter.
+            whole = (*command.theme, *tokens("from the"), *command.source)
+            command = replace(command, theme=whole, source=())
+        theme = bare(self.scene.referent(command.theme))
+        if command.source or self.scene.is_person(theme) or keys(theme)[:1] in {(word,) for word in ASKING}:
             return False
         recipient = command.recipient or (() if command.place else OPERATOR)
         self._invoke(fetcher, replace(command, recipient=self.scene.referent(recipient) if recipient else ()))

@@ -8,6 +8,7 @@ whose outputs carry exactly that name and type.
 from __future__ import annotations
 
 import re
+from collections import deque
 from collections.abc import Mapping, Sequence
 from typing import Any
 
@@ -21,7 +22,7 @@ from parley.language.offline.tasks.roles import (
 )
 from parley.language.offline.words.concepts import other_verbs
 from parley.language.offline.words.lexicon import lexicon
-from parley.language.offline.words.naming import kind_of, name_words
+from parley.language.offline.words.naming import kind_of, name_words, told_deed
 from parley.language.offline.words.quantities import taken_by
 from parley.language.offline.words.text import lemma, singular, split_name
 from parley.language.word_lists import load_data
@@ -29,7 +30,7 @@ from parley.messages.chat import ActionCall
 from parley.messages.pvf import Parameter
 from parley.messages.status import ActionInfo
 
-__all__ = ["Catalogue", "call", "parameter_role", "roles_of", "templates", "text_inputs"]
+__all__ = ["Catalogue", "call", "goes_itself", "parameter_role", "roles_of", "templates", "text_inputs"]
 
 
 def _shared_prefix(infos: Sequence[ActionInfo]) -> str:
@@ -76,6 +77,13 @@ def _names_something(word: str) -> bool:
     return word[:1].isupper() or word.lower() in lexicon().determiners
 
 
+def goes_itself(info: ActionInfo) -> bool:
+    """Whether an action goes to what it is for, as its description says ("drives to a gate and opens it")."""
+    told = re.findall(r"[a-z]+", info.description.lower())
+    found = lexicon().verbs.match((lemma(told[0]), *told[1:])) if told else None
+    return found is not None and found[1].startswith("motion:") and "and" in told
+
+
 def call(info: ActionInfo, values: Mapping[str, Any], reason: str = "") -> ActionCall:
     """One step: given values written in, everything that is handed over left without value."""
     return ActionCall(
@@ -84,6 +92,9 @@ def call(info: ActionInfo, values: Mapping[str, Any], reason: str = "") -> Actio
         output_parameters={name: Parameter(kind) for name, kind in info.outputs.items()},
         reason=reason,
     )
+
+
+_RECENT: deque[Catalogue] = deque(maxlen=16)
 
 
 class Catalogue:
@@ -100,6 +111,15 @@ class Catalogue:
         also = {words for info in self.of_own_kind for words in _other_words(self.plainly_named(info))}
         self.verbs = tuple(sorted({*self._table, *also}, key=len, reverse=True))
         """First words by which actions of no common role can be asked for."""
+
+    @classmethod
+    def of(cls, infos: tuple[ActionInfo, ...]) -> Catalogue:
+        """The actions of one robot; what was worked out about them last is kept, as it does not change."""
+        known = next((one for one in _RECENT if one.infos is infos), None)
+        if known is None:
+            known = cls(infos)
+            _RECENT.appendleft(known)
+        return known
 
     @property
     def times_itself(self) -> bool:
@@ -129,6 +149,16 @@ class Catalogue:
             return takes == {"place"} or (takes <= {"place", ""} and bool(topic))
         if roles & _IN_WORDS and self._takes_more(info):
             return True
+        if roles == {"look"} and name_words(info.name)[0] in _BY_INSTRUMENT:
+            # "scan (sample)".
+            return [parameter_role(name) for name in text_inputs(info)] == [""]
+        texts = [name for name in text_inputs(info) if name not in info.optional]
+        if roles == {"speak"} and {parameter_role(name) for name in texts} >= {"text", "place"}:
+            # "announce (message, area)".
+            return True
+        if roles == {"handover"} and not any(parameter_role(n) == "person" for n in text_inputs(info)):
+            # "offer_drink" of a robot that takes nothing itself.
+            return self.with_role("grasp", "fetch") is None
         return not roles or (not info.inputs and not roles & {"look", "answer", "ask_operator"})
 
     def plainly_named(self, info: ActionInfo) -> ActionInfo:
@@ -286,6 +316,8 @@ class Catalogue:
 _COUNTED_AT_LARGE = frozenset({
     "count", "number", "of", "get", "object", "objects", "thing", "things", "item", "items", "stuff",
 })  # fmt: skip
+_BY_INSTRUMENT = frozenset({"scan", "probe"})
+"""What is seen by an instrument, and by nothing else."""
 _IN_WORDS = frozenset({"speak", "look", "search", "grasp", "place", "handover", "fetch", "guide", "follow"})
 """What such tasks give to an action is words alone."""
 _HANDLES = frozenset(
@@ -342,9 +374,9 @@ _COVERED = {
 def _other_words(info: ActionInfo) -> set[tuple[str, ...]]:
     """Verbs that no list has, for an action of its own kind: of its name's kind, or of its description."""
     found = set(other_verbs(name_words(info.name)))
-    told = re.findall(r"[a-z]+", info.description.lower())[:1]
+    told = told_deed(info.description)[:1]
     verb = lemma(told[0]) if told else ""
-    verb = singular(verb) if verb == (told or [""])[0] else verb
+    verb = singular(verb) if verb == (told or ("",))[0] else verb
     known = lexicon().verbs.match((verb,)) if verb else None
     if verb and known is None and verb not in lexicon().determiners | lexicon().vocabulary | _EMPTY:
         found |= {(verb,), *other_verbs((verb,))}

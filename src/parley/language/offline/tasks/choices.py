@@ -9,14 +9,14 @@ from parley.language.offline.tasks.roles import parameter_role, text_inputs
 from parley.language.offline.words.concepts import Concept, concepts, likeness, opposed, reversed_at
 from parley.language.offline.words.lexicon import lexicon
 from parley.language.offline.words.naming import kind_of, name_words
-from parley.language.offline.words.text import Phrase, keys, lemma
+from parley.language.offline.words.text import Phrase, keys, lemma, singular
 from parley.language.word_lists import load_data
 from parley.messages.status import ActionInfo
 
 __all__ = ["choices_of", "chosen", "is_listed", "says_choice", "states_verb", "switched", "told_state"]
 
 _LANGUAGES = frozenset(load_data("names")["languages"])
-_IN_PROSE = re.compile(r"(?:\w+(?:, | \| |/)){1,9}\w+(?:,? or \w+)?|\w+ or \w+")
+_IN_PROSE = re.compile(r"(?:\w+(?:, |\s*\|\s*|/)){1,9}\w+(?:,? or \w+)?|\w+ or \w+")
 _ENUMERATED = re.compile(r"\((\w+(?:,\s*\w+)+)\)|one of:?\s*(\w+(?:,\s*\w+)+)")
 _FEW = 2
 
@@ -39,7 +39,11 @@ def _said(value: str) -> str:
 
 def choices_of(info: ActionInfo) -> dict[str, dict[str, str]]:
     """For each input in words that takes one of a few values: these, by what is said for them."""
-    texts = [name for name in text_inputs(info) if parameter_role(name) not in {"person", "place"}]
+    texts = [
+        name
+        for name in text_inputs(info)
+        if parameter_role(name) not in {"person", "place"} or f"{name.lower()}:" in info.description.lower()
+    ]
     found: dict[str, dict[str, str]] = {}
     for name in texts:
         kind = info.inputs[name]
@@ -91,15 +95,41 @@ def chosen(info: ActionInfo, words: Phrase) -> dict[str, tuple[str, range]]:
     flat = keys(words)
     found: dict[str, tuple[str, range]] = {}
     for name, values in choices_of(info).items():
+        none = next((values[said] for said in ("none", "no", "off") if said in values), "")
+        denied = next(
+            (
+                i
+                for i, w in enumerate(flat[:-1])
+                if w in {"no", "without"} and flat[i + 1] in name_words(name)
+            ),
+            -1,
+        )
+        if none and denied >= 0:
+            # "No spin" where the spin may be none.
+            found[name] = none, range(denied, denied + 2)
+            continue
         for index in range(len(flat)):
             value = _value(values, flat, index)
             taken = any(index in at for _, at in found.values())
             verb = index == 0 and len(flat) > 1 and lexicon().verbs.match((lemma(flat[0]),)) is not None
-            if value is None or taken or (verb and not _is_deed(values)):
+            if value is None or taken or (verb and not (_is_deed(values) or _is_about(info, flat[1:]))):
                 continue
             found[name] = value[0], range(index, index + value[1])
             break
+        meant = _BY_VERB.get(lemma(flat[0]), ()) if flat and name not in found else ()
+        value_of_verb = next((values[one] for one in meant if one in values), None)
+        if value_of_verb is not None:
+            # "Lower the lamp" where it goes up or down.
+            found[name] = value_of_verb, range(1)
     return found
+
+
+_BY_VERB = {verb: tuple(said) for verb, said in load_data("deeds")["states"].items()}
+
+
+def _is_about(info: ActionInfo, flat: tuple[str, ...]) -> bool:
+    """Whether what an action is called by is named: "dim the lights" for "lights_level"."""
+    return bool({singular(word) for word in name_words(info.name)} & {singular(word) for word in flat})
 
 
 def _is_deed(values: dict[str, str]) -> bool:
@@ -117,10 +147,28 @@ def _value(values: dict[str, str], flat: tuple[str, ...], index: int) -> tuple[s
     if word == "out" and {"on", "off"} <= values.keys() and index + 1 == len(flat):
         # "Lights out".
         return values["off"], 1
-    for form in (word, word.removesuffix("ly"), lemma(word), *lexicon().synonyms.get(word, ())):
+    graded = [
+        word[:-cut] for end, cut in (("est", 2), ("est", 3), ("er", 1), ("er", 2)) if word.endswith(end)
+    ]
+    for form in (word, word.removesuffix("ly"), lemma(word), *graded, *lexicon().synonyms.get(word, ())):
         if form in values:
             return values[form], 1
-    return None
+    return _on_scale(values, flat, index)
+
+
+def _on_scale(values: dict[str, str], flat: tuple[str, ...], index: int) -> tuple[str, int] | None:
+    """For "at full power", where low, medium and high are offered: the one that says as much."""
+    listed = next((words for words in _SCALE.values() if flat[index] in words), None)
+    if listed is None:
+        return None
+    same = [value for said, value in values.items() if said in listed]
+    behind, before = flat[index + 1 : index + 2], flat[index - 1 : index]
+    measured = not behind or bool(set(behind) & _MEASURES)
+    return (same[0], 1) if len(same) == 1 and len(values) > 1 and measured and before else None
+
+
+_SCALE = {name: frozenset(words) for name, words in load_data("quantities")["scale"].items()}
+_MEASURES = frozenset(load_data("quantities")["measures"])
 
 
 _TRUE = frozenset({"on", "true", "yes", "with", "enabled"})
@@ -133,6 +181,10 @@ _GENERAL = frozenset({
 _DENYING = frozenset({"not", "no", "without", "never", "un"})
 _STARTING = concepts(("turn", "on"))[0], concepts(("start",))[0]
 _STOPPING = concepts(("turn", "off"))[0], concepts(("stop",))[0]
+_GOING_OVER = frozenset(
+    (verb, way) for verb in ("switch", "go", "change", "turn") for way in ("to", "into", "over", "in")
+)
+"""How a state begins that is so or not ("switch to quiet mode")."""
 _ON_OFF = frozenset({"on", "off", "open", "closed"})
 
 
@@ -158,6 +210,13 @@ def switched(info: ActionInfo, name: str, words: Phrase) -> tuple[bool | str, se
             like = any(likeness(one, word) >= _LIKE for word in words_for)
             if like and (set(named) & _GENERAL or not telling):
                 return value, set(one.at)
+    if set(named) & _GENERAL and flat[:2] in _GOING_OVER:
+        return True, set()
+    return _said_outright(flat, telling)
+
+
+def _said_outright(flat: tuple[str, ...], telling: list[Concept]) -> tuple[bool, set[int]] | None:
+    """Whether "on" or "off" and the like is said."""
     for index, word in enumerate(flat):
         if word == "out" and index + 1 == len(flat) and not telling:
             return False, {index}

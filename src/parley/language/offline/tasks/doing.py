@@ -155,6 +155,9 @@ class Doing(Meaning):
         if not clause.condition:
             # "If it is, V, otherwise W": W depends on the same look as V, which may look at something itself.
             goes_on = clause.otherwise and before is not None and before.conditional and not before.condition
+            if goes_on and before is not None and before.otherwise and clause.anew:
+                # "If not, look at B. If not, W": W depends on the look at B.
+                goes_on = self._last_look() <= self._checked[1]
             self._checked = self._checked if goes_on else ((), self._last_look())
             if goes_on and clause.otherwise:
                 self._back_to_the_look()
@@ -194,8 +197,22 @@ class Doing(Meaning):
             self.tasks.will[told] = f"{word}, {self.tasks.will[told]}"
 
     def _what_was_found(self, clause: Clause) -> Phrase:
-        """For "if it is not there, tell A": what A is to be told, where nothing else is said."""
+        """For "if it is not there, tell A": what A is to be told; for "..., look in B" what is sought."""
         command = read_command(clause.words, self.scene.is_person)
+        sought = self.last if clause.otherwise and not clause.condition else None
+        placed = sought is not None and sought.kind == "whether" and bool(sought.place and sought.theme)
+        finds = sought is not None and (
+            sought.kind == "search" or (placed and not self._stands(sought.theme))
+        )
+        if sought is not None and finds and command is not None and command.kind == "look":
+            named = (
+                bool(command.theme)
+                and not command.place
+                and self.scene.ground(command.theme).outcome == "match"
+            )
+            return (
+                (*tokens("look for"), *sought.theme, *tokens("at"), *command.theme) if named else clause.words
+            )
         if command is None or command.kind != "speak" or command.verb not in {"tell", "inform", "notify"}:
             return clause.words
         said, listener = spoken(command, self.scene.is_person)
@@ -211,6 +228,10 @@ class Doing(Meaning):
         link = next((i for i, word in enumerate(found) if word.key in lexicon().be), -1) + 1
         denied = tokens("not") if clause.otherwise and link else ()
         return (*clause.words, *tokens("that"), *found[:link], *denied, *found[link:])
+
+    def _stands(self, theme: Phrase) -> bool:
+        """Whether something is on the map, and nothing that is sought."""
+        return ground_phrase(theme, self.scene.objects, strict=True).outcome != "none"
 
     def _back_to_the_look(self) -> None:
         """What is done otherwise begins where it looked; "it" and "there" are what it looked at."""
@@ -277,6 +298,23 @@ class Doing(Meaning):
         if len(general) == len(special) == 1 and general[0] in special[0]:
             del steps[before - 1]
             del self.tasks.will[-2:-1]
+
+    def _seen_already(self, start: int) -> None:
+        """A look at what was just looked at to see whether it is so says nothing more."""
+        steps = self.tasks.steps
+        if start < 1 or len(steps) != start + 1 or any(step.flow is not None for step in steps[start - 1 :]):
+            return
+        said = [
+            [str(p.value).lower() for p in step.input_parameters.values() if isinstance(p.value, str)]
+            for step in steps[start - 1 :]
+        ]
+        if steps[start].name != steps[start - 1].name or not len(said[0]) == len(said[1]) == 1:
+            return
+        special, general = (set(keys(tokens(text))) - lexicon().determiners for (text,) in said)
+        named = self.scene.ground(tokens(said[1][0])).outcome != "none"
+        if said[0][0].startswith("whether ") and not named and general and general < special:
+            del steps[start:]
+            del self.tasks.will[-1:]
 
     def _last_look(self) -> int:
         """The step that looked last, for "if not, ...".

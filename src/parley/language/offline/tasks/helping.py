@@ -8,11 +8,12 @@ action needs has to be said, too.
 from __future__ import annotations
 
 import re
-from collections.abc import Iterator
-from dataclasses import dataclass
+from collections.abc import Iterator, Sequence
+from dataclasses import dataclass, replace
 from functools import cache
 from typing import Any
 
+from parley.language.offline.scene.marks import members_of
 from parley.language.offline.scene.scene import Scene
 from parley.language.offline.tasks.choices import chosen
 from parley.language.offline.tasks.matching import Match
@@ -23,11 +24,12 @@ from parley.language.offline.words.concepts import LIGHT_VERBS, Concept, concept
 from parley.language.offline.words.lexicon import PhraseTable, lexicon
 from parley.language.offline.words.naming import kind_of, name_words
 from parley.language.offline.words.nouns import bare
-from parley.language.offline.words.text import Phrase, keys, lemma, plain, singular
+from parley.language.offline.words.text import Phrase, keys, lemma, plain, singular, tokens
 from parley.language.word_lists import load_data
 from parley.messages.status import ActionInfo
+from parley.world.object_map import MapObject
 
-__all__ = ["helping", "is_drastic"]
+__all__ = ["for_each", "helping", "is_drastic"]
 
 _NAMES = load_data("names")
 _EMPTY = frozenset(_NAMES["empty"] + _NAMES["small"] + _NAMES["vague"])
@@ -62,12 +64,13 @@ def _undone() -> frozenset[str]:
     return frozenset(_data()["undone"])
 
 
-def helping(words: Phrase, scene: Scene) -> Match | None:
+def helping(words: Phrase, scene: Scene, done: frozenset[str] = frozenset()) -> Match | None:
     """The one action that helps with what a message tells, with its inputs; None if none clearly does.
 
     Args:
         words: What is told, all words and punctuation.
         scene: What is known.
+        done: Verbs of what is told to be done already.
     """
     if not 2 <= len(words) <= _MOST_WORDS:
         return None
@@ -77,12 +80,14 @@ def helping(words: Phrase, scene: Scene) -> Match | None:
     told = _Told(words, scene)
     found: list[tuple[float, Match]] = []
     for info in scene.catalogue.infos:
-        if scene.catalogue.roles(info) & _COMMON:
+        if scene.catalogue.roles(info) & _COMMON or _is_done(info, done):
             continue
         score = told.helps(info)
         filled = told.fill(info) if score >= _ENOUGH else None
         if filled is not None:
-            score += 0.3 * len(filled.phrases) - 0.5 * len(filled.missing)
+            score += (
+                0.3 * len(filled.phrases) - 0.5 * len(filled.missing) + 0.6 * _is_about(info, filled, scene)
+            )
             found.append((score, Match(info, score, True, filled, 1.0, frozenset())))
     found.sort(key=lambda one: -one[0])
     if not found or (len(found) > 1 and found[0][0] - found[1][0] < _CLEAR):
@@ -90,10 +95,44 @@ def helping(words: Phrase, scene: Scene) -> Match | None:
     return found[0][1]
 
 
+def _is_about(info: ActionInfo, filled: Filled, scene: Scene) -> bool:
+    """Whether what an action is to be done to is called as its name or its input says."""
+    about = {singular(word) for one in (info.name, *filled.phrases) for word in name_words(one)} - _EMPTY
+    return any(
+        about & ({singular(word) for word in keys(phrase)} | _kinds(members_of(phrase, scene.objects)))
+        for phrase in filled.phrases.values()
+    )
+
+
+def _is_done(info: ActionInfo, done: frozenset[str]) -> bool:
+    """Whether others did what an action does."""
+    verbs = concepts(name_words(info.name)[:1], spoken=False)
+    return any(likeness(verb, deed) >= _LIKE for verb in verbs for word in done for deed in concepts((word,)))
+
+
 def _states_told(flat: tuple[str, ...]) -> int:
     """How often something is said to be open or closed."""
     be, states = lexicon().be, {"open", "closed", "shut", "locked", "unlocked"}
     return sum(flat[i - 1] in be and flat[i] in states for i in range(1, len(flat)))
+
+
+def for_each(match: Match, scene: Scene) -> list[Match]:
+    """An action that helps, once for each of several things that it is for ("both bins are full").
+
+    Args:
+        match: The action, and what is said for its inputs.
+        scene: What is known.
+    """
+    for name, phrase in match.filled.phrases.items():
+        members = scene.several(phrase)
+        if len(members) > 1:
+            said = [({**match.filled.values, name: plain(one)}, one) for one in members]
+            filled = [
+                replace(match.filled, values=values, phrases={**match.filled.phrases, name: one})
+                for values, one in said
+            ]
+            return [replace(match, filled=one) for one in filled]
+    return [match]
 
 
 def is_drastic(match: Match) -> bool:
@@ -127,17 +166,23 @@ class _Told:
         self.words, self.scene = words, scene
         self.flat = keys(words)
         self.base = tuple(lemma(word) for word in self.flat)
-        self.said = concepts(self.flat)
         self.named = list(_named(words, scene))
-        self.undone = next((i for i, w in enumerate(self.flat) if w in _undone()), -1)
         self.signs = [helps for signs, helps in _remedies() if self._has(signs)]
         self.wanted = self._wanted()
 
     def _has(self, signs: PhraseTable) -> bool:
-        return any(
+        left = keys(self._left_so())
+        return signs.match(left) is not None or any(
             signs.match(self.flat, i) is not None or signs.match(self.base, i) is not None
             for i in range(len(self.flat))
         )
+
+    def _left_so(self) -> Phrase:
+        """For "somebody left the gate open" the words "left open" together."""
+        at = next((i for i, key in enumerate(self.flat) if key in {"left", "leaves", "leave", "stands"}), -1)
+        so = (key for key in self.flat[at + 1 : at + 8] if key in {"open", "unlocked", "ajar", "on"})
+        last = next(so, "") if at >= 0 else ""
+        return tokens(f"left {last}") if last else ()
 
     def _wanted(self) -> frozenset[str]:
         """The words for what is said to be wanted."""
@@ -157,14 +202,15 @@ class _Told:
         """How much speaks for it that an action is wanted."""
         name = set(_bases(name_words(info.name)))
         told = set(_bases(re.findall(r"[a-z]+", info.description.lower())))
-        score = sum(2.0 + 0.5 * bool(helps & name) for helps in self.signs if helps & (name | told))
+        signs = [helps for helps in self.signs if not name & _ENDING or helps & _ENDING]
+        score = sum(2.0 + 0.5 * bool(helps & name) for helps in signs if helps & (name | told))
         typed = {singular(w) for one in info.inputs for w in name_words(one)}
         things = (name | told) - _EMPTY - typed - LIGHT_VERBS
         nouns = {singular(word) for word in things if lexicon().verbs.match((word,)) is None or word in name}
         choice = {key for text, _ in chosen(info, self.words).values() for key in text.lower().split()}
         if self.wanted & nouns or {singular(one) for one in choice} & self.wanted:
             score += 2.0
-        score += self._left_undone(info, name) + 2.0 * self._starts_what_helps(name)
+        score += 1.5 * self._is_missed(info) + 2.0 * self._starts_what_helps(name)
         return score + 0.5 * len(nouns & {singular(word) for word in self.flat})
 
     def _starts_what_helps(self, name: set[str]) -> bool:
@@ -174,24 +220,11 @@ class _Told:
             bool({"off", "out"} & set(self.flat)) and bool(_ON & name) and any(h & things for h in self.signs)
         )
 
-    def _left_undone(self, info: ActionInfo, name: set[str]) -> float:
-        """Whether a deed was not done that should have been."""
-        if self.undone < 0:
-            return 0.0
-        first = re.findall(r"[a-z]+", info.description.lower())[:1]
-        verbs = [one for word in (*name_words(info.name)[:1], *first) for one in concepts((word,))]
-        deeds = [c for c in self.said if self._is_deed(c)]
-        if any(likeness(verb, deed) >= _LIKE for verb in verbs for deed in deeds):
-            return 2.0
-        words = (word for word in name_words(info.name)[1:] if word not in _EMPTY | LIGHT_VERBS)
-        about = {singular(word) for word in words}
-        return 1.5 if about and about <= {singular(word) for word in self.flat} else 0.0
-
-    def _is_deed(self, concept: Concept) -> bool:
-        """Whether a word is a verb in the form that "not done yet" takes."""
-        at = concept.at[0]
-        raw = self.flat[at]
-        return concept.text not in LIGHT_VERBS and at > 0 and lemma(raw) != raw and not raw.endswith("'s")
+    def _is_missed(self, info: ActionInfo) -> bool:
+        """For "nobody has been round for the eggs yet": what an action is about is still waited for."""
+        about = {singular(word) for word in name_words(info.name)[1:]} - _EMPTY - LIGHT_VERBS
+        said = {singular(word) for word in self.flat}
+        return bool(about and _undone() & set(self.flat)) and about <= said
 
     def fill(self, info: ActionInfo) -> Filled | None:
         """What is said for an action's inputs; None if something that only words can give is missing."""
@@ -204,7 +237,9 @@ class _Told:
         for name in text_inputs(info):
             if name in kept:
                 continue
-            scored = [(_fit(name, one, self.scene), -free.index(one), one) for one in free]
+            known = [one for one in free if one.grounded and _fit(name, one, self.scene) >= 1.0]
+            among = known if parameter_role(name) == "place" and known else free
+            scored = [(_fit(name, one, self.scene), -free.index(one), one) for one in among]
             best = max(scored, key=lambda one: one[:2], default=None)
             if best is None or best[0] < 1.0:
                 if name in info.optional:
@@ -262,12 +297,20 @@ def _fit(name: str, named: _Named, scene: Scene) -> float:
     person = scene.is_person(named.words) or (role == "person" and named.words[0].is_capital)
     if role == "text" or (role == "person" and not person) or (person and role in {"place", "object"}):
         return 0.0
-    if not (called or named.grounded or person or proper or role == "place"):
+    lacked = role == "object" and named.before in _LACKED and not named.grounded
+    if not (called or named.grounded or person or proper or lacked or role == "place"):
+        return 0.0
+    if not called and role != "place" and words & {item.class_name for item in scene.objects}:
+        # No aisle where windows are known.
         return 0.0
     score = 3.0 * called + 1.5 * named.grounded
     if named.before in _PLACES:
-        score += 2.0 if role == "place" else 0.5
-    return score + (1.0 if named.definite or person else 0.3)
+        score += (2.1 if named.before == "of" else 2.0) if role == "place" else 0.5
+    return score + (1.0 if named.definite or person or lacked else 0.3)
+
+
+_LACKED = frozenset({"of", "more", "no", "any", "without", "on"})
+"""Before what there is none of ("run out of A", "no more A")."""
 
 
 def _named(words: Phrase, scene: Scene) -> Iterator[_Named]:
@@ -277,12 +320,10 @@ def _named(words: Phrase, scene: Scene) -> Iterator[_Named]:
     while index < len(words):
         if index in spans:
             end, item = spans[index]
-            kinds = (
-                frozenset(singular(w) for w in name_words(item.class_name))
-                if item is not None
-                else frozenset()
-            )
-            yield _Named(_before(words, index), words[index:end], True, True, kinds)
+            kinds = _kinds(members_of(words[index:end], scene.objects) if item is None else (item,))
+            begin = index - 1 if index and scene.ground(words[index - 1 : end]).outcome == "match" else index
+            begin = index if words[begin].key in lexicon().determiners | _PLACES else begin
+            yield _Named(_before(words, begin), words[begin:end], True, True, kinds)
             index = end
             continue
         end = index
@@ -290,8 +331,14 @@ def _named(words: Phrase, scene: Scene) -> Iterator[_Named]:
             end += 1
         part = bare(words[index:end])
         if part and not set(keys(part)) & _NO_THINGS:
-            yield _Named(_before(words, index), part, _definite(words, index, end), False, frozenset())
+            group = members_of(part, scene.objects)
+            definite = bool(group) or _definite(words, index, end)
+            yield _Named(_before(words, index), part, definite, bool(group), _kinds(group))
         index = max(end, index + 1)
+
+
+def _kinds(items: Sequence[MapObject]) -> frozenset[str]:
+    return frozenset(singular(word) for item in items for word in name_words(item.class_name))
 
 
 def _definite(words: Phrase, index: int, end: int) -> bool:

@@ -157,6 +157,8 @@ class Looking(Docking):
 
     def _looker(self, command: Command) -> ActionInfo | None:
         """The action to look with: one that is called like the verb, for pictures one that takes them."""
+        if self._only_found(command):
+            return self._searcher(command.theme)
         lookers = self.catalogue.all_with_role("look")
         pictures = bool(_PICTURES & set(keys(command.clause[:4])) or _PICTURES & set(command.verb.split()))
         taking = [info for info in lookers if _PICTURES & set(name_words(info.name))]
@@ -174,9 +176,11 @@ class Looking(Docking):
         if command.kind == "whether":
             subject = keys(bare(command.theme))
             known = self._grounds(command.theme) and not _in_general(command)
+            placed = noun_phrase(command.theme)
+            known = known and not self._elsewhere(placed)
             if (known and not self._may_have_gone(command)) or (subject and subject[0] in ASKING):
                 return None
-            noun = noun_phrase(command.words)
+            noun = placed if len(placed.anchors) == 1 else noun_phrase(command.words)
         else:
             noun = noun_phrase(command.theme)
             counted = {"count", "many", "number"} & set(command.verb.split()) and not self._is_kind(
@@ -185,7 +189,9 @@ class Looking(Docking):
             found = self.scene.ground(command.theme).outcome != "none"
             if found and not counted and not self._elsewhere(noun):
                 return None
-        if len(noun.anchors) != 1 or noun.relation in {"of", "with", "from"} or not noun.core:
+        if len(noun.anchors) != 1 or noun.relation in {"with", "from"} or not noun.core:
+            return None
+        if noun.relation == "of" and not self.scene.far_from(noun.core, noun.anchors[0]):
             return None
         if keys(noun.anchors[0])[:1] and keys(noun.anchors[0])[0] in NO_PLACES:
             # "The shelves are in place": how they are, not where.
@@ -213,23 +219,8 @@ class Looking(Docking):
 
     def _elsewhere(self, noun: NounPhrase) -> bool:
         """Whether all things on the map that are called so are far from where these are said to be."""
-        if len(noun.anchors) != 1 or noun.relation not in {"in", "at", "inside", "within"}:
-            return False
-        there = ground_phrase(noun.anchors[0], self.scene.objects, strict=True)
-        words = tuple(Word(part, part) for part in noun.core)
-        if there.outcome != "match" or not words:
-            return False
-        place = there.candidates[0]
-        if not set(keys(noun.anchors[0])) & set(place.description.lower().split()):
-            # "In the north-east".
-            return False
-        reach_m = _REACH_M + math.hypot(place.width_m, place.height_m) / 2
-        called = self.scene.several(words)
-        return bool(called) and all(
-            math.hypot(item.x_m - place.x_m, item.y_m - place.y_m) > reach_m
-            for one in called
-            for item in self.scene.ground(one).candidates
-        )
+        near = len(noun.anchors) == 1 and noun.relation in {"in", "at", "inside", "within", "of"}
+        return near and self.scene.far_from(noun.core, noun.anchors[0])
 
     def _is_kind(self, core: tuple[str, ...]) -> bool:
         """Whether things of the map are called so, as against "toys" where there is a "toy box"."""
@@ -245,8 +236,9 @@ class Looking(Docking):
                 self._look_there(replace(command, place=member), looker)
             return
         there = keys(command.words[:1]) == ("there",) and self._grounds(command.place)
-        whole = command.kind == "whether" and self._grounds(command.theme) and not _in_general(command)
+        whole = command.kind == "whether" and self._strictly(command.theme) and not _in_general(command)
         whole = whole and not there and not self._said_to_be(command)
+        whole = whole and not self.scene.far_from(keys(bare(command.theme)), command.place)
         stand = self._place_or_here(command.theme if whole else command.place)
         theme = plain(self.scene.referent(command.theme)) if command.theme else ""
         request = self._whether(command) if command.kind == "whether" else theme
@@ -306,7 +298,16 @@ class Looking(Docking):
             math.hypot(item.x_m - place.x_m, item.y_m - place.y_m) <= reach_m for item in items
         )
 
+    def _only_found(self, command: Command) -> bool:
+        """Whether the robot can only find people, and that is what a question comes to ("if A is in B")."""
+        if command.kind != "whether" or self.catalogue.with_role("look") is not None:
+            return False
+        found = self._searcher(command.theme) if command.theme and self._is_somebody(command.theme) else None
+        return found is not None and "person" in {parameter_role(name) for name in text_inputs(found)}
+
     def _whether(self, command: Command) -> str:
+        if self._only_found(command):
+            return plain(bare(self.scene.referent(command.theme)))
         words, asking = command.words, "how" if command.verb.endswith("how") else "whether"
         somebody = keys(command.theme) in _SOMEBODY and bool(self.scene.persons)
         if somebody or (command.theme and keys(bare(command.theme))[0] in ASKING):

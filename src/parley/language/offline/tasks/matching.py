@@ -2,43 +2,33 @@
 
 from __future__ import annotations
 
-import re
-from collections.abc import Sequence
+from collections.abc import Collection, Sequence
 from dataclasses import dataclass, replace
-from functools import lru_cache
+from itertools import pairwise
 
 from parley.language.offline.scene.scene import Scene
 from parley.language.offline.tasks.choices import says_choice, states_verb
 from parley.language.offline.tasks.parts import map_spans, unquoted
 from parley.language.offline.tasks.recalled import recall_inputs
 from parley.language.offline.tasks.roles import number_inputs, parameter_role, text_inputs
+from parley.language.offline.tasks.signature import EMPTY, ENDING, STATES, VAGUE, Signature, signature_of
 from parley.language.offline.tasks.slots import Filled, fill_slots
-from parley.language.offline.words.concepts import LIGHT_VERBS, Concept, concepts, likeness, opposed
+from parley.language.offline.words.concepts import (
+    LIGHT_VERBS,
+    VERB_LINES,
+    Concept,
+    concepts,
+    likeness,
+    opposed,
+)
 from parley.language.offline.words.lexicon import lexicon
-from parley.language.offline.words.naming import name_words
-from parley.language.offline.words.text import Phrase, keys, lemma, singular
+from parley.language.offline.words.text import Phrase, Word, keys, lemma, singular
 from parley.language.word_lists import load_data
 from parley.messages.status import ActionInfo
 
 __all__ = ["Match", "best_match"]
 
 _DATA = load_data("names")
-_EMPTY = frozenset(_DATA["empty"] + _DATA["small"])
-_VAGUE = frozenset(_DATA["vague"])
-"""Words of names and descriptions that tell no action from another."""
-
-
-@dataclass(frozen=True, slots=True)
-class _Signature:
-    """An action's name taken apart."""
-
-    verb: Concept | None
-    about: tuple[Concept, ...]
-    """What its name names besides."""
-    typed: frozenset[str]
-    described: tuple[Concept, ...]
-    doing: Concept | None
-    """The verb of its description."""
 
 
 @dataclass(frozen=True, slots=True)
@@ -67,78 +57,6 @@ class Match:
         return self.plain and used and not self.filled.missing and not self.filled.numbers_left
 
 
-@lru_cache(maxsize=2048)
-def _signature(name: str, inputs: tuple[str, ...], description: str) -> _Signature:
-    words = name_words(name)
-    typed = frozenset(singular(word) for one in inputs for word in name_words(one.replace("::", "_")))
-    parts = _segments(words)
-    verb = next((part for part in parts if _is_verb(part)), None)
-    if (
-        verb is not None
-        and parts[0] is not verb
-        and not parts[0].lines
-        and parts[0].text not in lexicon().nouns
-        and verb.text in lexicon().nouns
-    ):
-        verb = parts[0]
-    if verb is None and len(parts) > 1 and not parts[0].lines and parts[0].text not in lexicon().nouns:
-        verb = parts[0]
-    if verb is not None and verb.text in lexicon().be | lexicon().auxiliaries | {"be", "have"}:
-        verb = None
-    # The "reading" of a "reading light" is no deed.
-    parts = [
-        p
-        if p is verb or len(p.at) != 1 or not words[p.at[0]].endswith("ing")
-        else replace(p, lines=frozenset())
-        for p in parts
-    ]
-    people = any(parameter_role(one) == "person" for one in inputs)
-    alike = frozenset(line for one in typed for concept in concepts((one,)) for line in concept.lines)
-    about = tuple(
-        p
-        for p in parts
-        if p is not verb
-        and p.text not in _EMPTY | _VAGUE
-        and singular(p.text) not in typed
-        and not p.lines & alike
-        and not (people and singular(p.text) in _PEOPLE)
-    )
-    if verb is None and not about:
-        # "is_done" is about being done.
-        about = tuple(part for part in parts[-1:] if part.text not in lexicon().be)
-    told = re.findall(r"[a-z]+", description.lower())
-    doing = next(iter(_segments(tuple(told[:3]))), None)
-    described = tuple(
-        p for p in _segments(tuple(told)) if p.text not in _EMPTY | _VAGUE and singular(p.text) not in typed
-    )
-    return _Signature(verb, about, typed, described, doing)
-
-
-def _segments(words: tuple[str, ...]) -> list[Concept]:
-    """Words in a row as phrases where they are known phrases, else one by one."""
-    found = concepts(words, spoken=False)
-    parts: list[Concept] = []
-    index = 0
-    while index < len(words):
-        here = [c for c in found if c.at[:1] == (index,) and c.at[-1] == index + len(c.at) - 1]
-        longest = max(
-            here, key=lambda concept: len(concept.at), default=Concept(words[index], frozenset(), (index,))
-        )
-        parts.append(longest)
-        index += len(longest.at)
-    return parts
-
-
-def _is_verb(part: Concept) -> bool:
-    first = part.text.split()[0]
-    return lexicon().verbs.match((first,)) is not None or bool(part.lines & _verb_lines())
-
-
-@lru_cache(maxsize=1)
-def _verb_lines() -> frozenset[int]:
-    return frozenset(range(len(load_data("deeds")["verbs"])))
-
-
 def best_match(infos: Sequence[ActionInfo], words: Phrase, scene: Scene) -> Match | None:
     """The one action that fits a clause best; None if none does, or two fit alike.
 
@@ -148,7 +66,14 @@ def best_match(infos: Sequence[ActionInfo], words: Phrase, scene: Scene) -> Matc
         scene: What is known.
     """
     said = concepts(keys(unquoted(words)))
-    found = [match for info in infos if (match := _match(info, words, said, scene)) is not None]
+    told = _told_as_text(words)
+    retold = concepts(keys(unquoted(told))) if told != words else said
+    found = [
+        match
+        for info in infos
+        if (match := _match(info, *((told, retold) if _takes_text(info) else (words, said)), scene))
+        is not None
+    ]
     if not found:
         return None
     found = [match for match in found if match.strong or match.complete] or found
@@ -158,9 +83,23 @@ def best_match(infos: Sequence[ActionInfo], words: Phrase, scene: Scene) -> Matc
     return found[0]
 
 
-_STATES = frozenset({"on", "off", "up", "down"})
+def _takes_text(info: ActionInfo) -> bool:
+    return any(parameter_role(name) == "text" for name in text_inputs(info))
+
+
+def _told_as_text(words: Phrase) -> Phrase:
+    """With what is to be told in quotation marks: "that the patient in room 1 is in pain"."""
+    flat = keys(words)
+    if '"' in flat:
+        return words
+    begins = lexicon().determiners | lexicon().person_pronouns | {"there", "it", "we", "they", "i", "you"}
+    at = next((i for i, w in enumerate(flat[:-2]) if i > 1 and w in {"that", "saying"}), 0)
+    if not at or not (flat[at + 1] in begins or words[at + 1].is_capital):
+        return words
+    return (*words[:at], Word('"', '"'), *words[at + 1 :])
+
+
 _LEAST_SAYING = frozenset(_DATA["least_saying"])
-_PEOPLE = lexicon().person_words | {"human", "people", "staff", "crew", "team"}
 _MARGIN = 0.15
 _LEAST = 0.7
 _HALF = 0.4
@@ -168,10 +107,18 @@ _TWO = 2
 
 
 def _match(info: ActionInfo, words: Phrase, said: Sequence[Concept], scene: Scene) -> Match | None:
-    signature = _signature(scene.catalogue.plainly_named(info).name, tuple(info.inputs), info.description)
+    signature = signature_of(scene.catalogue.plainly_named(info).name, tuple(info.inputs), info.description)
+    if signature.starting and said and said[0].text in ENDING:
+        return None
+    ending = signature.verb is not None and signature.verb.text in ENDING
+    if ending and signature.verb is not None and not any(likeness(signature.verb, c) for c in said):
+        # What ends something is not meant by the deed alone.
+        return None
     relative = bool(number_inputs(info)) and not text_inputs(info)
     named = (signature.verb, *signature.about)
     if not relative and any(opposed(part, said) for part in named if part is not None):
+        return None
+    if _NOTHING & set(keys(words[:3])) and not _takes_text(info):
         return None
     found = _Found(info, signature, words, said)
     if not (found.anything or says_choice(info, words)):
@@ -179,9 +126,12 @@ def _match(info: ActionInfo, words: Phrase, said: Sequence[Concept], scene: Scen
     explained = found.explained
     if found.verb_at[:1] == (0,):
         explained -= _named_on_map(explained - set(found.verb_at), words, info, scene)
+    explained -= _named_so(words, explained)
     opening = _opening(words, said, explained)
     retold = _retold(signature, said, explained, words, scene) if found.shared else set()
     filled = fill_slots(info, words, {*explained, *opening, *retold}, scene)
+    if any(_goes_on(phrase) for name, phrase in filled.phrases.items() if parameter_role(name) != "text"):
+        return None
     recall_inputs(info, filled, words, scene)
     evidence = _Evidence(found, filled, bool(opening))
     strong = evidence.strong
@@ -203,6 +153,9 @@ _DOING = frozenset({"do", "make", "perform", "run", "execute", "start", "begin",
 
 
 _QUESTIONS = frozenset({"how", "what", "which", "is", "are", "does", "do"})
+_NOTHING = frozenset({"nothing", "nobody", "none", "neither", "noone"})
+_WRITING = frozenset({"write", "put", "show", "display", "have", "say", "print"})
+"""How a text gets onto a display, whatever the name of the action says."""
 _CHOOSING = frozenset({"speak", "talk", "select", "choose", "continue", "go"})
 
 
@@ -210,7 +163,7 @@ class _Found:
     """Which of an action's words a clause has."""
 
     def __init__(
-        self, info: ActionInfo, signature: _Signature, words: Phrase, said: Sequence[Concept]
+        self, info: ActionInfo, signature: Signature, words: Phrase, said: Sequence[Concept]
     ) -> None:
         self.info, self.signature, self.said = info, signature, said
         self.first = keys(words[:1])[0]
@@ -219,7 +172,10 @@ class _Found:
         self.verb, self.verb_at = _verb_likeness(signature, said, self.shared)
         if self.verb < _BY_STATE and states_verb(info, words):
             self.verb, self.verb_at = _BY_STATE, (0,)
-        about = [_nearest(part, said) for part in signature.about]
+        by_second = self.verb_at == (0,) and _names_deed(signature, said[0])
+        about = [
+            _nearest(part, said) for part in signature.about if not (by_second and part is signature.second)
+        ]
         pointed = keys(words[1:3])[:1] in _POINTING and self.verb >= _LEAST
         if pointed and not any(score >= _LEAST for score, _ in about):
             about = [(_BY_POINTING, at) for _, at in about]
@@ -245,7 +201,7 @@ class _Evidence:
         signature = found.signature
         scores = [
             max(score, _LEAST) if _measures(part, filled) else score
-            for (score, _), part in zip(found.about, signature.about, strict=True)
+            for (score, _), part in zip(found.about, signature.about, strict=False)
         ]
         self.covered = sum(scores) / len(scores) if scores else 0.0
         self.whole = all(score >= _LEAST for score in scores)
@@ -253,7 +209,8 @@ class _Evidence:
             # "Smoke off" for a smoke machine.
             self.whole = True
         self.about = bool(scores)
-        self.unexplained = _unexplained(filled, signature)
+        named = {at[0] for (score, at) in found.about if score >= _LEAST and at}
+        self.unexplained = _unexplained(filled, signature, named)
         self.light = not opened or found.first in LIGHT_VERBS
         if signature.verb is None and not found.info.inputs:
             # "Sound the horn" for an action called "horn".
@@ -300,7 +257,13 @@ class _Evidence:
         named = found.verb > 0 or (self.about and (self.light or self.name_light))
         if filled.measured and named and not text_inputs(found.info):
             return True
+        every = not (filled.left or filled.missing or filled.numbers_left)
+        if self.about and self.name_light and filled.chosen and every:
+            # "Tilt the lamp to the left" for "adjust_lamp (direction)".
+            return True
         all_said = not (filled.left or filled.missing or filled.numbers_left)
+        if all_said and self.about and found.first in _WRITING and filled.phrases:
+            return True
         typed = self.some and found.typed and (self.name_light or found.verb > 0)
         return self.nameless and all_said and (self.about or typed)
 
@@ -325,6 +288,9 @@ class _Evidence:
         )
         if self.whole and (named or (verb > 0 and filled.phrases and self.of_kind)):
             return True
+        all_said = several and not (filled.left or filled.missing or filled.numbers_left)
+        if self.whole and all_said and verb > 0 and self.found.verb_at[:1] == (0,):
+            return True
         if filled.chosen and self.of_kind and self.light and not filled.missing:
             return True
         return bool(self.light and filled.measured and several and (self.of_kind or verb > 0))
@@ -338,7 +304,7 @@ class _Evidence:
         return score - 0.5 * filled.numbers_left - (0 if self.whole else 1)
 
 
-def _typed_said(signature: _Signature, said: Sequence[Concept]) -> bool:
+def _typed_said(signature: Signature, said: Sequence[Concept]) -> bool:
     """Whether the kind of thing that an input takes is said."""
     types = [concept for one in signature.typed for concept in concepts((one,))]
     return any(likeness(one, concept) >= _LEAST for one in types for concept in said)
@@ -350,7 +316,7 @@ def _measures(part: Concept, filled: Filled) -> bool:
 
 
 def _retold(
-    signature: _Signature, said: Sequence[Concept], explained: set[int], words: Phrase, scene: Scene
+    signature: Signature, said: Sequence[Concept], explained: set[int], words: Phrase, scene: Scene
 ) -> set[int]:
     """Words of the description itself, which are no values; names of things on the map stay what they are."""
     spans = [range(start, end) for start, end, _ in map_spans(words, scene)]
@@ -365,7 +331,7 @@ def _opening(words: Phrase, said: Sequence[Concept], explained: set[int]) -> set
         return set()
     first = keys(words[:1])
     known = lexicon().verbs.match((lemma(first[0]), *keys(words[1:])))
-    return {0} if known is not None or any(c.at[0] == 0 and c.lines & _verb_lines() for c in said) else set()
+    return {0} if known is not None or any(c.at[0] == 0 and c.lines & VERB_LINES for c in said) else set()
 
 
 def _named_on_map(explained: set[int], words: Phrase, info: ActionInfo, scene: Scene) -> set[int]:
@@ -376,6 +342,21 @@ def _named_on_map(explained: set[int], words: Phrase, info: ActionInfo, scene: S
     return {index for index in explained for span in spans if index in span}
 
 
+def _named_so(words: Phrase, explained: set[int]) -> set[int]:
+    """Of the words that say what an action is about, those that begin a name: "Radio" in "Radio 4"."""
+    return {
+        i
+        for i in explained
+        if i and words[i].is_capital and i + 1 < len(words) and words[i + 1].key[:1].isdigit()
+    }
+
+
+def _goes_on(phrase: Phrase) -> bool:
+    """Whether a name has another clause behind it ("counter 3 once you have wiped it")."""
+    flat = keys(phrase)
+    return any(a in {"once", "after", "before", "when", "until"} and b == "you" for a, b in pairwise(flat))
+
+
 _POINTING = frozenset({("it",), ("them",), ("everything",), ("all",)})
 _BY_STATE = 0.8
 """How well what an input can be stands for the verb of a name."""
@@ -384,7 +365,7 @@ _BY_POINTING = 0.7
 
 
 def _verb_likeness(
-    signature: _Signature, said: Sequence[Concept], shared: int
+    signature: Signature, said: Sequence[Concept], shared: int
 ) -> tuple[float, tuple[int, ...]]:
     """How well the verb of the name, or of the description with more of that, is said; and where."""
     best: tuple[float, tuple[int, ...]] = (0.0, ())
@@ -395,17 +376,30 @@ def _verb_likeness(
     )
     for part, weight in ((signature.verb, 1.0), (doing if exact or shared > 1 else None, 0.8)):
         for concept in said:
-            if part is None or concept.text in _EMPTY - _STATES:
+            if part is None or concept.within or concept.text in EMPTY - STATES:
                 continue
-            score = likeness(part, concept) * weight * (1.0 if concept.at[0] == 0 else 0.9)
+            alike = likeness(_as_deed(part), concept)
+            score = alike * weight * (1.0 if concept.at[0] == 0 else 0.9)
             if concept.text in _LEAST_SAYING and part.text != concept.text and len(concept.at) == 1:
                 score *= 0.6
+            if part is signature.verb and concept.at == (0,) and _names_deed(signature, concept):
+                score = max(score, 0.9)
             if score > best[0] or (score and score == best[0] and len(concept.at) > len(best[1])):
                 best = score, concept.at
     return best
 
 
-def _acts_on(signature: _Signature) -> bool:
+def _names_deed(signature: Signature, said: Concept) -> bool:
+    """Whether a clause opens with a second deed of a name ("paint A red" for "spray_paint")."""
+    return signature.second is not None and signature.second.text == said.text
+
+
+def _as_deed(part: Concept) -> Concept:
+    """A verb of a name, without the things that its word may stand for."""
+    return replace(part, lines=part.lines & VERB_LINES) if part.lines & VERB_LINES else part
+
+
+def _acts_on(signature: Signature) -> bool:
     """Whether the verb of a description says enough: it takes something, and is no way to move."""
     found = lexicon().verbs.match((signature.doing.text,)) if signature.doing is not None else None
     return bool(signature.typed) and not (found is not None and found[1].startswith(("motion:", "back:")))
@@ -413,22 +407,34 @@ def _acts_on(signature: _Signature) -> bool:
 
 def _nearest(part: Concept, said: Sequence[Concept]) -> tuple[float, tuple[int, ...]]:
     scored = (
-        (likeness(part, concept), concept.at)
+        (_same_thing(part, concept), concept.at)
         for concept in said
-        if concept.text not in _EMPTY - _STATES or concept.text == part.text
+        if concept.text not in EMPTY - STATES or concept.text == part.text
     )
     return max(scored, key=lambda one: one[0], default=(0.0, ()))
 
 
-def _described(signature: _Signature, said: Sequence[Concept]) -> int:
+def _same_thing(part: Concept, said: Concept) -> float:
+    """How alike two things are; a compound is a kind of what it ends in ("worksheets" are sheets)."""
+    alike = likeness(part, said)
+    one, other = singular(part.text), singular(said.text)
+    return alike or (_COMPOUND if len(one) >= _SHORT and other != one and other.endswith(one) else 0.0)
+
+
+_COMPOUND = 0.75
+_SHORT = 4
+"""How much a compound is like its last part, and letters of such a part at least."""
+
+
+def _described(signature: Signature, said: Sequence[Concept]) -> int:
     """How many words of the description are said."""
     content = [
-        c for c in said if c.text not in _EMPTY | _VAGUE and (len(c.at) > 1 or c.text not in LIGHT_VERBS)
+        c for c in said if c.text not in EMPTY | VAGUE and (len(c.at) > 1 or c.text not in LIGHT_VERBS)
     ]
     return sum(any(likeness(part, c) >= _LEAST for c in content) for part in signature.described)
 
 
-def _unexplained(filled: Filled, signature: _Signature) -> list[str]:
+def _unexplained(filled: Filled, signature: Signature, named: Collection[int]) -> list[str]:
     """Things that are named and that neither the action's name, its inputs nor its description knows."""
     known = (
         *signature.about,
@@ -438,10 +444,15 @@ def _unexplained(filled: Filled, signature: _Signature) -> list[str]:
     )
     left: list[str] = []
     for part in filled.left:
-        if part.before not in {"", "of"} or part.grounded:
+        if part.before not in {"", "of"} or part.grounded or part.start in filled.counted:
+            continue
+        if part.end in named and len(part.words) == 1:
+            # "The print heads" for "clean_heads".
             continue
         for word in keys(part.words):
-            if word in _EMPTY | _FILLERS or word in lexicon().person_pronouns or lemma(word) in LIGHT_VERBS:
+            if word in EMPTY | _FILLERS or word in lexicon().person_pronouns or lemma(word) in LIGHT_VERBS:
+                continue
+            if word in lexicon().person_words and not part.grounded and _serves(signature):
                 continue
             concept = concepts((word,))[-1]
             if singular(word) not in signature.typed and not any(
@@ -449,6 +460,12 @@ def _unexplained(filled: Filled, signature: _Signature) -> list[str]:
             ):
                 left.append(word)
     return left
+
+
+def _serves(signature: Signature) -> bool:
+    """Whether somebody gets something by an action, so that they may be named."""
+    found = lexicon().verbs.match((signature.verb.text,)) if signature.verb is not None else None
+    return found is not None and found[1].startswith(("transfer:", "speak:"))
 
 
 _FILLERS = frozenset(_DATA["fillers"] + _DATA["oneself"])

@@ -62,7 +62,7 @@ def _end_of(theme: Phrase, words: Phrase) -> int:
 
 _NO_NAMES = frozenset({
     "never", "whatever", "anyway", "because", "although", "while", "somebody", "someone", "nobody",
-    "everybody", "we", "they",
+    "everybody", "we", "they", "i", "he", "she", "you", "there",
 })  # fmt: skip
 """With these no name of a thing begins."""
 
@@ -118,6 +118,9 @@ def _is_so_already(flat: tuple[str, ...]) -> bool:
 
 
 _DUE = frozenset({("to",), ("due",), ("supposed",), ("meant",), ("wanted",), ("needed",)})
+
+
+_STAYING = frozenset({"stays", "stay", "remains", "remain", "keeps"})
 
 
 @dataclass
@@ -214,7 +217,7 @@ class Meaning(Answering):
         words = words[1:] if negated else words
         found = lexicon().goals.match(keys(words))
         words = bare(words[found[0] :] if found and found[0] < len(words) else words)
-        if not words or any(w.key in lexicon().be for w in words) or self._happens(words):
+        if not words or any(w.key in lexicon().be | _STAYING for w in words) or self._happens(words):
             return None
         words = self._labelled(words)
         if self.last.kind == "whether":
@@ -226,6 +229,11 @@ class Meaning(Answering):
                 self.last, place=words, clause=(Word("go", "go"), Word("to", "to"), *words), negated=negated
             )
         there = self.last.place and self.last.kind in {"look", "search", "count"}
+        sought = keys(words).index("for") if there and "for" in keys(words[:-1]) else 0
+        if sought and self.scene.ground(words[:sought]).outcome == "match":
+            # "Check A for cracks, then B for rust".
+            named, thing = words[:sought], bare(words[sought + 1 :])
+            return replace(self.last, place=named, theme=thing, clause=words, negated=negated)
         if (
             there
             and self.scene.ground(words).outcome == "match"

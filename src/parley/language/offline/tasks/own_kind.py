@@ -9,12 +9,12 @@ from typing import Any
 from parley.language.offline.scene.scene import OPERATOR, UnclearError
 from parley.language.offline.tasks.carrying import Carrying
 from parley.language.offline.tasks.catalogue import call, text_inputs
-from parley.language.offline.tasks.choices import says_choice, told_state
+from parley.language.offline.tasks.choices import choices_of, says_choice, told_state
 from parley.language.offline.tasks.fill import named
 from parley.language.offline.tasks.looking import ASKING
 from parley.language.offline.tasks.matching import Match, best_match
 from parley.language.offline.tasks.roles import number_inputs, parameter_role
-from parley.language.offline.tasks.slots import COLOURS
+from parley.language.offline.tasks.slots import COLOURS, kind_on_map
 from parley.language.offline.words.lexicon import lexicon
 from parley.language.offline.words.naming import name_words
 from parley.language.offline.words.nouns import bare, noun_phrase
@@ -29,6 +29,17 @@ _AT = frozenset({"in", "at", "on", "to", "near", "inside", "by", "from", "into",
 
 _ENDING = frozenset({"stop", "end", "finish", "cancel", "abort"})
 _BEGINNING = frozenset({"start", "begin", "launch", "run", "turn"})
+
+
+def _takes_language(info: ActionInfo) -> bool:
+    return any({"language", "lang"} & set(name_words(name)) for name in text_inputs(info))
+
+
+def _takes_text(info: ActionInfo) -> bool:
+    return "text" in {parameter_role(name) for name in text_inputs(info)}
+
+
+_TAKING_ON = frozenset({"load", "collect", "pick", "fetch", "take", "retrieve", "gather"})
 
 
 @dataclass
@@ -60,9 +71,8 @@ class OwnKind(Carrying):
         return [
             info
             for info in self.catalogue.infos
-            if info.optional
-            and "speak" in self.catalogue.roles(info)
-            and "text" not in {parameter_role(name) for name in text_inputs(info)}
+            if "speak" in self.catalogue.roles(info)
+            and (_takes_language(info) or (info.optional and not _takes_text(info)))
             and info not in self.catalogue.of_own_kind
             and says_choice(info, words)
         ]
@@ -101,16 +111,23 @@ class OwnKind(Carrying):
             self._stand_at(self.scene.place(place.words))
         spread = self._members(info, filled.phrases)
         for member in spread or [()]:
+            each = dict(member)
             values = {
-                name: self._value(info, name, value, filled.phrases) for name, value in filled.values.items()
+                name: named(each[name], self.scene)
+                if name in each
+                else self._value(info, name, value, filled.phrases)
+                for name, value in filled.values.items()
             }
-            if member:
-                name, phrase = next(iter(member))
-                values[name] = named(phrase, self.scene)
             self._use_once(info, values, filled.phrases, list(filled.missing), words)
         self.will.append(_said(words))
         for phrase in filled.phrases.values():
             self.scene.mention(bare(phrase))
+        if (
+            name_words(info.name)[0] in _TAKING_ON
+            and filled.phrases
+            and self.catalogue.with_role("grasp") is None
+        ):
+            self.carried = bare(self.scene.referent(next(iter(filled.phrases.values()))))
 
     def _members(self, info: ActionInfo, phrases: dict[str, Phrase]) -> list[tuple[tuple[str, Phrase], ...]]:
         """One use for each of several things ("both plates", "A and B")."""
@@ -127,8 +144,30 @@ class OwnKind(Carrying):
     def _value(self, info: ActionInfo, name: str, value: Any, phrases: dict[str, Phrase]) -> Any:
         if name not in phrases or parameter_role(name) == "text" or not isinstance(value, str):
             return value
+        if value in choices_of(info).get(name, {}).values():
+            return value
         coloured = {"color", "colour"} & set(name_words(name))
+        told = parameter_role(name) == "place" and "where" in keys(phrases[name][1:])
+        there = self._where_that_is(phrases[name]) if told or kind_on_map(name, self.scene.objects) else ()
+        if there or kind_on_map(name, self.scene.objects):
+            return self._called(there or phrases[name], strict=False)
         return self._called(phrases[name], strict=bool(coloured) or not COLOURS & set(keys(phrases[name])))
+
+    def _where_that_is(self, phrase: Phrase) -> Phrase:
+        """For "it" that stands for the grass in the orchard, where an action takes the place: the orchard."""
+        words = bare(self.scene.referent(phrase))
+        if "where" in keys(words[1:]):
+            return tokens(self.scene.place(words).value)
+        if self._grounds(words):
+            return ()
+        noun = noun_phrase(words)
+        if len(noun.anchors) == 1 and self._grounds(noun.anchors[0]):
+            return bare(noun.anchors[0])
+        if keys(phrase) not in {("it",), ("there",)}:
+            return ()
+        # What was looked for there is no place.
+        named = (*self.scene.things[::-1], *self.scene.places[::-1])
+        return bare(next((one for one in named if self._grounds(one)), ()))
 
     def _called(self, phrase: Phrase, *, strict: bool = True) -> str:
         """The words for something: an object of the map by its description, pronouns resolved.
@@ -180,6 +219,11 @@ class OwnKind(Carrying):
 
     def _from_here(self, info: ActionInfo, values: dict[str, Any], missing: list[str]) -> list[str]:
         """Where the robot is by then, for a place that is not said."""
+        before = self.steps[-1].input_parameters if self.steps else {}
+        for name in [n for n in missing if n in before and kind_on_map(n, self.scene.objects)]:
+            # "Deliver it to room 4 and ring the bell".
+            values[name] = before[name].value
+            missing = [one for one in missing if one != name]
         texts = [n for n in missing if n in text_inputs(info) and parameter_role(n) not in {"text", "person"}]
         if not texts:
             return missing

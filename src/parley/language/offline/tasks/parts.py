@@ -10,7 +10,8 @@ from parley.language.offline.scene.scene import Scene
 from parley.language.offline.words.lexicon import lexicon
 from parley.language.offline.words.naming import name_words
 from parley.language.offline.words.nouns import bare
-from parley.language.offline.words.text import Phrase, keys, singular
+from parley.language.offline.words.quantities import quantities
+from parley.language.offline.words.text import Phrase, Word, keys, singular
 from parley.world.object_map import MapObject
 
 __all__ = ["Part", "map_spans", "parts_of", "trimmed", "unquoted"]
@@ -108,7 +109,7 @@ def map_spans(words: Phrase, scene: Scene) -> list[tuple[int, int, MapObject | N
     while index < len(words):
         size = 0
         for length in range(min(_LONGEST_NAME, len(words) - index), 0, -1):
-            part = words[index : index + length]
+            part = _owner(words[index : index + length])
             if not (part[0].is_word and part[-1].is_word) or part[-1].key in lexicon().goals_and_places:
                 continue
             if part[0].key in lexicon().determiners or part[0].key in lexicon().goals_and_places:
@@ -119,6 +120,8 @@ def map_spans(words: Phrase, scene: Scene) -> list[tuple[int, int, MapObject | N
                 exact = any(keys(part) == tuple(o.description.lower().split()) for o in scene.objects)
                 if not exact:
                     continue
+            if length > 1 and _counts(words, index + length - 1):
+                continue
             text = " ".join(keys(part))
             if set(keys(part)) & _CUTS and not any(
                 text == item.description.lower() for item in scene.objects
@@ -141,9 +144,25 @@ def map_spans(words: Phrase, scene: Scene) -> list[tuple[int, int, MapObject | N
     return spans
 
 
+def _owner(phrase: Phrase) -> Phrase:
+    """For "the cargo bike's (chain)": the cargo bike."""
+    last = phrase[-1]
+    if not last.key.endswith("'s"):
+        return phrase
+    return (*phrase[:-1], Word(last.key.removesuffix("'s"), last.raw.removesuffix("'s")))
+
+
+def _counts(words: Phrase, at: int) -> bool:
+    """Whether a word is a number with its unit behind it ("the roses two litres")."""
+    found = next(iter(quantities(words[at : at + 2])), None)
+    return found is not None and bool(found.units) and found.end == 2
+
+
 def _ends_phrase(words: Phrase, end: int) -> bool:
     """Whether a noun phrase can end here."""
-    return end == len(words) or not words[end].is_word or words[end].key in _CUTS
+    if end == len(words) or not words[end].is_word:
+        return True
+    return words[end].key in _CUTS | lexicon().be | {"have", "has", "got", "get", "need", "needs"}
 
 
 def parts_of(
@@ -173,6 +192,7 @@ def parts_of(
         phrase = trimmed(tuple(words[i] for i in current))
         if phrase:
             touched = [starts[i] for i in current if i in starts]
+            phrase = _owner(phrase) if touched else phrase
             one = touched[0][1] if len(touched) == 1 else None
             classes = (item.class_name for _, item in touched if item is not None)
             kinds = frozenset(singular(word) for name in classes for word in name_words(name))
@@ -269,9 +289,18 @@ def _new_phrase(words: Phrase, index: int, inside: set[int]) -> bool:
 _DANGLING = frozenset({"of", "with", "for", "to", "in", "at"})
 
 
+def _tells_where(phrase: Phrase) -> bool:
+    """For "the pen where Bella is"."""
+    return phrase[-1].key in {"is", "are"} and "where" in keys(phrase[1:-1])
+
+
 def trimmed(phrase: Phrase) -> Phrase:
     """A phrase without small words at both ends."""
-    while phrase and (phrase[-1].key in _EMPTY | _DANGLING | lexicon().determiners or not phrase[-1].is_word):
+    while (
+        phrase
+        and not _tells_where(phrase)
+        and (phrase[-1].key in _EMPTY | _DANGLING | lexicon().determiners or not phrase[-1].is_word)
+    ):
         if len(phrase) > 1 and len(phrase[-1].key) == 1 and phrase[-1].is_capital:
             # "Area A".
             break

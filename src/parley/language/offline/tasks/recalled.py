@@ -8,7 +8,7 @@ from parley.language.offline.facts.remembering import Remembered
 from parley.language.offline.scene.scene import Scene
 from parley.language.offline.tasks.parts import map_spans
 from parley.language.offline.tasks.roles import number_inputs, parameter_role
-from parley.language.offline.tasks.slots import Filled, kind_on_map
+from parley.language.offline.tasks.slots import COLOURS, Filled, kind_on_map
 from parley.language.offline.words.lexicon import lexicon
 from parley.language.offline.words.naming import name_words
 from parley.language.offline.words.quantities import quantities, taken_by
@@ -42,7 +42,8 @@ def recall_inputs(info: ActionInfo, filled: Filled, words: Phrase, scene: Scene)
     _as_told(filled, scene)
     if not filled.missing:
         return
-    named = list(_named(filled, words, scene))
+    topic = frozenset(singular(word) for word in name_words(info.name)[1:])
+    named = [*_named(filled, words, scene), *([topic] if topic and topic <= _content(words) else [])]
     found: set[str] = set()
     back = bool(_BACK & set(keys(words)))
     for name in list(filled.missing):
@@ -102,6 +103,11 @@ _BACK = frozenset({"back", "belongs", "belong", "where", "usual", "place", "goes
 _OF_LAST = {"her": "person", "his": "person", "him": "person", "its": "thing", "it": "thing"}
 
 
+_CALLED_AT_LARGE = frozenset(
+    {"name", "id", "text", "object", "item", "target", "place", "location", "what", "person"}
+)
+
+
 def _is_about(item: Remembered, content: frozenset[str]) -> bool:
     fact = item.fact
     said = {singular(key.removesuffix("'s")) for key in keys(tokens(fact.sentence))}
@@ -117,6 +123,14 @@ def _told(
         takes = taken_by(name, info.description)
         said = (q for q in quantities(sentence) if takes.fit(q) >= _AGREES)
         return next((takes.value_of(q) for q in said), None)
+    called = {singular(word) for word in name_words(name)} - _CALLED_AT_LARGE
+    flat = [singular(key) for key in keys(sentence)]
+    link = next((i for i, key in enumerate(flat) if key in {"is", "are"} and i), 0)
+    if link and called & set(flat[:link]) and about <= set(flat[:link]):
+        # "The code of the gate is 4711".
+        return plain(tuple(word for word in sentence[link + 1 :] if word.is_word)) or None
+    if {"colour", "color"} & set(name_words(name)):
+        return next((key for key in keys(sentence) if key in COLOURS), None)
     place = parameter_role(name) == "place"
     if not place and not kind_on_map(name, scene.objects):
         return None

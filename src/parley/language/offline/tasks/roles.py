@@ -144,18 +144,20 @@ def roles_of(info: ActionInfo) -> frozenset[str]:
     if " ".join(words[:2]) in _OWN_PHRASES:
         return frozenset()
     by_name = _by_name(info, words)
+    if by_name == frozenset({"ask"}) and not any(
+        parameter_role(name) in {"text", "person"} for name in text_inputs(info)
+    ):
+        # "request_lift" asks nobody anything.
+        return frozenset()
     if by_name is not None:
         return _fitting(info, words, by_name)
     told = _by_phrases(info, words)
     if told == {"speak"} and info.outputs:
         # "Tells how many packs are left".
         return frozenset()
-    if (
-        told & _HELD
-        and text_inputs(info)
-        and not any(parameter_role(name) in {"object", ""} for name in text_inputs(info))
-    ):
-        # "Take the moisture out of the air of a room".
+    taken = {parameter_role(name) for name in text_inputs(info)}
+    if told & _HELD and taken and ("text" in taken or not taken & {"object", ""}):
+        # "Take the moisture out of the air of a room", "put a label with a text on a box".
         return frozenset()
     return frozenset() if told == {"motion"} and not (text_inputs(info) or pose_inputs(info)) else told
 
@@ -172,6 +174,9 @@ def _fitting(info: ActionInfo, words: tuple[str, ...], roles: frozenset[str]) ->
         return roles
     role = next(iter(roles))
     inputs = {parameter_role(name) for name in text_inputs(info)}
+    if role == "back" and inputs - {"place"}:
+        # "return_book (book)".
+        return frozenset()
     if role == "place" and "person" in inputs and "place" not in inputs:
         role = "handover"
     if role == "motion" and not (inputs or pose_inputs(info)):
@@ -203,7 +208,8 @@ def _fitting(info: ActionInfo, words: tuple[str, ...], roles: frozenset[str]) ->
 
 def _speaks_there(info: ActionInfo, words: tuple[str, ...], inputs: set[str]) -> bool:
     """Whether an action says something to those who are there, and does not tell, notify or measure."""
-    if info.outputs and not inputs & {"text", "person"}:
+    if (info.outputs and not inputs & {"text", "person"}) or (info.inputs and not inputs):
+        # "warning_lights (on)" says nothing.
         return False
     if words[0] not in _FROM_AFAR:
         return True

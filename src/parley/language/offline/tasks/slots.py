@@ -47,6 +47,8 @@ class Filled:
     missing: list[str] = field(default_factory=list)
     left: list[Part] = field(default_factory=list)
     numbers_left: int = 0
+    counted: set[int] = field(default_factory=set)
+    """Where what is counted stands behind a number ("24 boxes")."""
     measured: list[frozenset[str]] = field(default_factory=list)
     """For each number whose unit fits its input, what such inputs are called."""
     exact: bool = False
@@ -202,6 +204,7 @@ def _numbers(
             if best.value > 0 and contrary(keys(words), (*name_words(info.name), *told)):
                 filled.values[name] = -filled.values[name]
             left.remove(best)
+            filled.counted |= set() if best.units else {best.end}
             named = best.start - 1 if best.before in takes[name].words else best.start
             used |= set(range(named, best.end))
     filled.numbers_left = len(left)
@@ -295,6 +298,7 @@ def _assigned(
     """Give parts to the inputs that take words, best fits first; those taken and those left."""
     names = [name for name in text_inputs(info) if name not in filled.values and not is_listed(name, info)]
     left, taken = [_labelled(_of_it(part, names), names, scene) for part in parts], dict[str, Part]()
+    left = _all_of_kind(left, names, scene)
     while names and left:
         fits = [
             (_fit(name, part, number, scene), -names.index(name), -number, name, part)
@@ -323,6 +327,25 @@ def _of_it(part: Part, names: Sequence[str]) -> Part:
     ):
         return part
     return replace(part, words=trimmed(part.words[at + 1 :]), start=part.end - len(part.words) + at + 1)
+
+
+def _all_of_kind(parts: list[Part], names: Sequence[str], scene: Scene) -> list[Part]:
+    """For "everything except A", where an input takes a zone: all zones except A."""
+    kind = next((word for name in names for word in _kinds_on_map(name, scene.objects)), "")
+    at = next((i for i, part in enumerate(parts) if keys(part.words)[:1] in _EVERYTHING), -1)
+    if not kind or at < 0:
+        return parts
+    words, end = (*tokens(f"all {kind}s"), *parts[at].words[1:]), at + 1
+    if words[-1].key in _EXCEPTING or (len(words) > 2 and words[2].key in _EXCEPTING):
+        # What is excepted may be cut off by its article.
+        words = (*words, *(word for part in parts[end:] for word in (*tokens("the"), *part.words)))
+        end = len(parts)
+    whole = replace(parts[at], words=words, grounded=True, kinds=frozenset({kind}))
+    return [*parts[:at], whole, *parts[end:]]
+
+
+_EXCEPTING = frozenset({"except", "but", "bar", "excluding", "apart", "besides"})
+_EVERYTHING = frozenset({("everything",), ("everywhere",), ("all",)})
 
 
 def _labelled(part: Part, names: Sequence[str], scene: Scene) -> Part:
@@ -366,10 +389,16 @@ def _of_kind(part: Part, words: set[str], core: set[str]) -> bool:
     return bool(same & (part.kinds | core)) or (part.grounded and not part.kinds)
 
 
+def _kinds_on_map(name: str, objects: Sequence[MapObject]) -> list[str]:
+    """The kinds of things on the map that an input is called by."""
+    words = {singular(word) for word in name_words(name)}
+    kinds = {singular(word) for item in objects for word in name_words(item.class_name)}
+    return sorted(words & kinds)
+
+
 def kind_on_map(name: str, objects: Sequence[MapObject]) -> bool:
     """Whether an input is called by a kind of things that the map has: then it takes one of those."""
-    words = {singular(word) for word in name_words(name)}
-    return any(words & {singular(word) for word in name_words(item.class_name)} for item in objects)
+    return bool(_kinds_on_map(name, objects))
 
 
 _SURE = 6.0
@@ -377,7 +406,7 @@ _SURE = 6.0
 COLOURS = frozenset(load_data("names")["colours"])
 _PRONOUNS = frozenset({("it",), ("there",), ("them",), ("that",)})
 _POINTING = frozenset({"it", "that", "this", "there", "them", "here"})
-_SOURCES = frozenset({"source", "origin", "start"})
+_SOURCES = frozenset({"source", "origin", "start", "from"})
 _GOALS = frozenset(
     {"destination", "goal", "target", "to", "end", "container", "vessel", "receptacle", "bowl", "pot", "pan"}
 )

@@ -10,7 +10,7 @@ import re
 from dataclasses import dataclass, replace
 
 from parley.language.offline.scene.scene import UnclearError
-from parley.language.offline.tasks.catalogue import call, parameter_role, text_inputs
+from parley.language.offline.tasks.catalogue import call, goes_itself, parameter_role, text_inputs
 from parley.language.offline.tasks.commands import Command, read_command
 from parley.language.offline.tasks.going import UnableError
 from parley.language.offline.tasks.matching import Match
@@ -47,9 +47,22 @@ class Tasks(OwnKind):
             return
         start = len(self.steps)
         why = self._add(command)
+        self._leave_out_ways(start)
         names = [step.name for step in self.steps[start:]]
         if names:
             self.scene.trace.note("action", f"{', '.join(names)}: {why}")
+
+    def _leave_out_ways(self, start: int) -> None:
+        """Leave out going to where the next action goes by itself ("goes to a gauge and reads it")."""
+        for at in range(len(self.steps) - 2, start - 1, -1):
+            way, deed = self.steps[at], self.steps[at + 1]
+            info, mover = self.catalogue.get(deed.name), self.catalogue.mover
+            if info is None or mover is None or way.name != mover.name or way.flow is not None:
+                continue
+            there = [one.value for one in way.input_parameters.values() if isinstance(one.value, str)]
+            same = any(one.value in there for one in deed.input_parameters.values())
+            if same and goes_itself(info):
+                del self.steps[at]
 
     def _add(self, command: Command) -> str:
         """Add the steps for a command; why just these is returned."""

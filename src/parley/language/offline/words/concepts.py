@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Iterable, Sequence
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from functools import lru_cache
 
 from parley.language.offline.words.lexicon import PhraseTable, lexicon
@@ -12,6 +12,7 @@ from parley.language.word_lists import load_data
 
 __all__ = [
     "LIGHT_VERBS",
+    "VERB_LINES",
     "Concept",
     "concepts",
     "contrary",
@@ -28,7 +29,7 @@ LIGHT_VERBS = frozenset(_DATA["light"])
 
 def _lines() -> dict[str, frozenset[int]]:
     table: dict[str, set[int]] = {}
-    for number, line in enumerate((*_DATA["verbs"], *_DATA["nouns"])):
+    for number, line in enumerate((*_DATA["verbs"], *_DATA["near"], *_DATA["nouns"])):
         for phrase in line:
             table.setdefault(phrase, set()).add(number)
     return {phrase: frozenset(numbers) for phrase, numbers in table.items()}
@@ -44,7 +45,12 @@ def _phrase_lines(phrase: str, head: str) -> frozenset[int]:
     return lines | alone if lines & alone else lines
 
 
-_VERB_LINES = len(_DATA["verbs"])
+_VERBS = (*_DATA["verbs"], *_DATA["near"])
+_SURE_LINES = len(_DATA["verbs"])
+_VERB_LINES = _SURE_LINES + len(_DATA["near"])
+_NEAR = frozenset(range(_SURE_LINES, _VERB_LINES))
+VERB_LINES = frozenset(range(_VERB_LINES))
+"""The lines that say what is done; the others say what with."""
 _PHRASES = PhraseTable.of(_LINES)
 _OPPOSITES: dict[str, frozenset[str]] = {}
 for _one, _other in _DATA["opposites"]:
@@ -64,6 +70,8 @@ class Concept:
     lines: frozenset[int]
     at: tuple[int, ...] = ()
     """Its words in what it was read from."""
+    within: bool = False
+    """Whether it is only a thing within a longer phrase ("call" in "end the call")."""
 
 
 def _base(word: str) -> tuple[str, ...]:
@@ -85,7 +93,7 @@ def concepts(words: tuple[str, ...], *, spoken: bool = True) -> tuple[Concept, .
         for form in _base(words[index]):
             rest = (form, *words[index + 1 :])
             matched = _PHRASES.match(rest)
-            if matched is not None and matched[0] > 1:
+            if matched is not None and matched[0] > 1 and not _leads_on(rest, matched[0]):
                 found.append(
                     Concept(
                         matched[1], _phrase_lines(matched[1], form), tuple(range(index, index + matched[0]))
@@ -101,10 +109,34 @@ def concepts(words: tuple[str, ...], *, spoken: bool = True) -> tuple[Concept, .
     return _without_parts(found)
 
 
+def _leads_on(words: Sequence[str], size: int) -> bool:
+    """Whether a particle belongs to where somebody goes: "up" in "go up to the third floor"."""
+    if words[size - 1] not in _PARTICLES or words[size : size + 1] not in {("to",), ("towards",)}:
+        return False
+    return words[0] in _WAYS and not any(word[0].isdigit() for word in words[size + 1 : size + 2])
+
+
+_WAYS = frozenset({"go", "come", "move", "drive", "walk", "fly", "head", "get", "roll", "climb"})
+
+
 def _without_parts(found: Sequence[Concept]) -> tuple[Concept, ...]:
-    """Without the single words of longer phrases: in "end the call" nothing is called."""
-    longer = [set(concept.at) for concept in found if len(concept.at) > 1]
-    return tuple(c for c in found if not any(set(c.at) < phrase for phrase in longer))
+    """Without the single words of longer phrases, but for things: in "end the call" nobody calls."""
+    whole = [set(concept.at) for concept in found if len(concept.at) > 1]
+    first = {concept.at[0] for concept in found if len(concept.at) > 1}
+    kept: list[Concept] = []
+    for one in found:
+        if len(one.at) == 1 and one.at[0] in first:
+            continue
+        if any(set(one.at) < phrase for phrase in whole):
+            if (
+                len(one.at) > 1
+                or one.text in _PARTICLES
+                or not (one.lines - VERB_LINES or singular(one.text) in lexicon().nouns)
+            ):
+                continue
+            one = replace(one, lines=one.lines - VERB_LINES, within=True)
+        kept.append(one)
+    return tuple(kept)
 
 
 def _split(words: Sequence[str], index: int) -> Iterable[Concept]:
@@ -127,6 +159,10 @@ def _split(words: Sequence[str], index: int) -> Iterable[Concept]:
                     "by",
                     "for",
                     "now",
+                    "on",
+                    "onto",
+                    "into",
+                    "where",
                 }
             )
             if ends:
@@ -134,11 +170,12 @@ def _split(words: Sequence[str], index: int) -> Iterable[Concept]:
 
 
 def likeness(one: Concept, other: Concept) -> float:
-    """How alike two concepts are: 1 the same, 0.8 of the same line, else 0."""
+    """How alike two concepts are: 1 the same, 0.8 of the same line, 0.72 near each other, else 0."""
     if one.text == other.text or singular(one.text) == singular(other.text):
         return 1.0
-    if one.lines & other.lines:
-        return 0.8
+    shared = one.lines & other.lines
+    if shared:
+        return 0.8 if shared - _NEAR else 0.72
     same = lexicon().synonyms.get(one.text, frozenset())
     return 0.8 if other.text in same else 0.0
 
@@ -200,7 +237,7 @@ def other_verbs(name: tuple[str, ...]) -> frozenset[tuple[str, ...]]:
     for size in range(min(3, len(name)), 0, -1):
         lines = frozenset(line for line in _LINES.get(" ".join(name[:size]), ()) if line < _VERB_LINES)
         for number in lines:
-            for phrase in _DATA["verbs"][number]:
+            for phrase in _VERBS[number]:
                 words = tuple(phrase.split())
                 known = lexicon().verbs.match(words)
                 if known is None and words[0] not in _no_openers():

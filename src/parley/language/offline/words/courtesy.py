@@ -33,7 +33,7 @@ _THANKS = (
 
 def plainly(words: Phrase) -> Phrase:
     """A message without the courtesy at its start and its end."""
-    words = _going(_without_thanks(_apart(words)))
+    words = _forbidden(_going(_without_thanks(_apart(words))))
     start = 0
     result: list[Word] = []
     for index in range(len(words) + 1):
@@ -46,16 +46,56 @@ def plainly(words: Phrase) -> Phrase:
     return tuple(result)
 
 
+def _forbidden(words: Phrase) -> Phrase:
+    """For "under no circumstances V", "you are not allowed to V" "do not V", so that nobody reads V alone."""
+    flat = keys(words)
+    result: list[Word] = []
+    index = 0
+    while index < len(words):
+        begins = not index or not words[index - 1].is_word or flat[index - 1] in {"and", "but", "so"}
+        found = lexicon().prohibitions.match(flat, index) if begins else None
+        size = found[0] if found is not None and _STRICT & set(flat[index : index + found[0]]) else 0
+        if size and flat[index + size - 2 : index + size] == ("go", "to"):
+            size -= 2
+        done = flat[index + size] if size and index + size < len(flat) else ""
+        verb = lexicon().verbs.match(flat, index + size) if done and lemma(done) == done else None
+        if verb is None:
+            result.append(words[index])
+            index += 1
+            continue
+        result += (Word("do", "do"), Word("not", "not"))
+        index += size
+    return tuple(result)
+
+
+_STRICT = frozenset({"circumstances", "account", "time", "means", "case", "forbidden", "allowed"})
+
+
 def _leaves_it_open(flat: tuple[str, ...]) -> bool:
     """For "only when it suits you, of course", said behind an order."""
     enough = len(flat) > 2 or (len(flat) == 2 and flat[1] in _OPEN - _COURTEOUS)
+    # "If it is, V" repeats a condition.
+    enough = enough and not set(flat) <= _REPEATING
     return enough and flat[0] in _OPEN_FIRST and set(flat[1:]) <= _COURTEOUS | _OPEN | {","}
 
 
+_REPEATING = frozenset({
+    "one", "any", "none", "some", "case", "if", "when", "it", "is", "that", "they", "are", "not", "there",
+    "so", "he", "she", "does", "do", "you",
+})  # fmt: skip
+
+
 def _without_open_end(sentence: Phrase) -> Phrase:
-    """Without "..., take your time" at the end."""
+    """Without "..., take your time" at the end, and "if it is no trouble, ..." at the start."""
+    first = next((i for i, word in enumerate(sentence) if word.key == ","), 0)
+    opens = keys(sentence[:1]) in _OPEN_START and keys(sentence[first + 2 : first + 3]) not in {(), (",",)}
+    if opens and _leaves_it_open(keys(sentence[:first])):
+        sentence = sentence[first + 1 :]
     at = max((i for i, word in enumerate(sentence) if word.key == ","), default=0)
     return sentence[:at] if at and _leaves_it_open(keys(sentence[at + 1 :])) else sentence
+
+
+_OPEN_START = {("if",), ("when",), ("whenever",), ("no",), ("at",)}
 
 
 def _minding(sentence: Phrase) -> Phrase:
@@ -189,7 +229,8 @@ def _apart(words: Phrase) -> Phrase:
     dictated = len(flat) > 14 and all(word.is_word for word in words[:-1])
     for index, word in enumerate(words):
         if index > 2 and (
-            flat[index : index + 3] == ("by", "the", "way") or (dictated and _tells(flat, index))
+            flat[index : index + 3] == ("by", "the", "way")
+            or (dictated and flat[index - 1] not in _LEADING and _tells(flat, index))
         ):
             result.append(Word(".", "."))
         begins = flat[index : index + 2] in _ASKING and lexicon().verbs.match(flat, index + 2) is not None
@@ -202,6 +243,12 @@ def _apart(words: Phrase) -> Phrase:
             result.append(Word(".", "."))
         result.append(word)
     return tuple(result)
+
+
+_LEADING = frozenset({
+    "if", "unless", "when", "that", "because", "whether", "where", "while", "since", "until", "once",
+    "case", "as",
+})  # fmt: skip
 
 
 def _tells(flat: tuple[str, ...], index: int) -> bool:

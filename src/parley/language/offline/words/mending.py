@@ -3,13 +3,14 @@
 from __future__ import annotations
 
 import re
+from collections.abc import Container
 from functools import cache
 from itertools import pairwise
 
 from parley.language.base import Situation
 from parley.language.offline.words.inflecting import forms
 from parley.language.offline.words.lexicon import lexicon
-from parley.language.offline.words.text import Phrase, Word, closest, mend, split_name, tokens
+from parley.language.offline.words.text import Phrase, Word, closest, mend, singular, split_name, tokens
 from parley.language.word_lists import load_data
 
 __all__ = ["mended"]
@@ -46,6 +47,9 @@ def mended(words: Phrase, situation: Situation) -> Phrase:
     known.update(name.lower() for name in situation.robots)
     named = _named(situation)
     own = {split_name(info.name)[0] for info in situation.catalogue if split_name(info.name)}
+    inflected = forms(verb for verb in own if len(verb) > _SHORT_NAME - 1)
+    known.update(inflected)
+    inflected = frozenset(form for form in inflected if len(form) > _SHORT_NAME and form.endswith(_FORMS))
     own = {verb for verb in own if len(verb) > _SHORT_NAME}
     words = tuple(
         part
@@ -53,7 +57,7 @@ def mended(words: Phrase, situation: Situation) -> Phrase:
         for part in ((word,) if _stays_whole(word, index, named) else _cut(word, frozenset(known)))
     )
     words = tuple(word if word.key in known else _unswapped(word) for word in words)
-    return _without_haste(mend(words, frozenset(known), lexicon().often_mistyped, _verbs() | own))
+    return _without_haste(mend(words, frozenset(known), lexicon().often_mistyped | inflected, _verbs() | own))
 
 
 _THINGS = {
@@ -73,6 +77,7 @@ def _unswapped(word: Word) -> Word:
     return Word(meant, meant) if swapped else word
 
 
+_FORMS = ("ed", "ing")
 _SHORT_NAME = 4
 """Words of so many letters in an action's name may be short for something."""
 
@@ -169,7 +174,7 @@ def _apart(words: Phrase, situation: Situation) -> Phrase:
         elif (
             word.key == "2"
             and index
-            and (following in _ARTICLES or flat[index - 1] in _GOING)
+            and (following in _ARTICLES or (flat[index - 1] in _GOING and not _more_than(flat, index, named)))
             and not {"2", flat[index - 1]} <= set(named)
         ):
             result.append(Word("to", "to"))
@@ -177,6 +182,11 @@ def _apart(words: Phrase, situation: Situation) -> Phrase:
             result.append(word)
         index += 1
     return tuple(result)
+
+
+def _more_than(flat: tuple[str, ...], index: int, named: Container[str]) -> bool:
+    """For "the doors over 2": a number."""
+    return flat[index - 1] == "over" and index > 1 and singular(flat[index - 2]) in named
 
 
 def _compounds(situation: Situation) -> dict[str, tuple[str, ...]]:

@@ -13,7 +13,7 @@ from parley.language.offline.words.lexicon import lexicon
 from parley.language.offline.words.text import lemma, split_name
 from parley.language.word_lists import load_data
 
-__all__ = ["kind_of", "name_words", "role_by_any_word"]
+__all__ = ["kind_of", "name_words", "role_by_any_word", "told_deed"]
 
 _SHORT: dict[str, list[str]] = {short: text.split() for short, text in load_data("names")["short"].items()}
 _KINDS: dict[str, str] = {
@@ -30,7 +30,7 @@ def name_words(name: str) -> tuple[str, ...]:
 
 def _written_out(part: str) -> str:
     """For "vlv" "valve": the one word that is left without its vowels, deeds before things; else as it is."""
-    if len(part) < _SHORTEST or _VOWELS & set(part):
+    if len(part) < _SHORTEST or _VOWELS & set(part[1:]):
         return part
     for words in _whole_words():
         found = {word for word in words if word[0] == part[0] and _without_vowels(word) == part}
@@ -45,7 +45,7 @@ _VOWELS = frozenset("aeiou")
 
 def _without_vowels(word: str) -> str:
     """What is left of a word without its vowels, double letters once."""
-    kept = "".join(letter for letter in word if letter not in _VOWELS)
+    kept = word[0] + "".join(letter for letter in word[1:] if letter not in _VOWELS)
     return re.sub(r"(.)\1", r"\1", kept)
 
 
@@ -91,3 +91,11 @@ def role_by_any_word(name: str, inputs: Collection[str]) -> frozenset[str]:
     if len(found) > 1:
         found -= {"motion"}
     return frozenset(found) if len(found) == 1 else frozenset()
+
+
+def told_deed(description: str) -> tuple[str, ...]:
+    """The words of a description from its deed on: in "Goes to A and oils it" it is what is done there."""
+    told = tuple(re.findall(r"[a-z]+", description.lower()))
+    moves = bool(told) and (lexicon().verbs.match((lemma(told[0]),)) or (0, ""))[1].startswith("motion:")
+    at = told.index("and") + 1 if moves and "and" in told[:-1] else 0
+    return told[at:]

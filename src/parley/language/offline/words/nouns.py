@@ -7,7 +7,7 @@ from dataclasses import dataclass, replace
 from parley.language.offline.words.lexicon import lexicon
 from parley.language.offline.words.text import Phrase, Word, keys, plain, singular
 
-__all__ = ["NounPhrase", "bare", "coordinated", "noun_phrase", "number_of", "split_exception"]
+__all__ = ["NounPhrase", "bare", "beside_at", "coordinated", "noun_phrase", "number_of", "split_exception"]
 
 
 @dataclass(frozen=True, slots=True)
@@ -85,10 +85,44 @@ def bare(phrase: Phrase) -> Phrase:
 
 
 def _sided(phrase: Phrase) -> Phrase:
-    """For "the desk to your right" "the desk on your right": that is where it is, and not where to go."""
-    if keys(phrase[-3:-1]) in {("to", "your"), ("to", "the")} and phrase[-1].key in {"left", "right"}:
-        return (*phrase[:-3], Word("on", "on"), *phrase[-2:]) if len(phrase) > 3 else phrase
-    return phrase
+    """For "the desk to your right", "... furthest to the east": "the desk on your right", "... far east".
+
+    That is where it is, and not where to go.
+    """
+    phrase = _outermost(phrase)
+    flat = keys(phrase)
+    at = len(flat) - 1 - (flat[-1:] in {("side",), ("end",)})
+    if at < 2 or flat[at] not in _DIRECTIONS:
+        return phrase
+    lead = at - (flat[at - 1] in {"the", "your"})
+    to = lead - (lead > 0 and flat[lead - 1] in {"to", "towards", "toward"})
+    most = to - (to > 0 and flat[to - 1] in _SUPERLATIVES | {"most", "far"})
+    placed = flat[most - 1] in lexicon().determiners | {"on", "at", "in"}
+    if (most == to and (to == lead or lead == at)) or most < 1 or placed:
+        return phrase
+    far = most < to and flat[at] in {"left", "right"}
+    side = (Word("far", "far"), phrase[at]) if far else phrase[at:]
+    return (*phrase[:most], Word("on", "on"), *(phrase[lead:at] or (Word("the", "the"),)), *side)
+
+
+def _outermost(phrase: Phrase) -> Phrase:
+    """For "the most northern desk" "the northernmost desk"."""
+    flat = keys(phrase)
+    at = next((i for i in range(len(flat) - 1) if flat[i] == "most" and flat[i + 1][:-3] in _DIRECTIONS), -1)
+    if at < 0 or not flat[at + 1].endswith("ern"):
+        return phrase
+    word = Word(f"{flat[at + 1]}most", f"{flat[at + 1]}most")
+    return (*phrase[:at], word, *phrase[at + 2 :])
+
+
+_DIRECTIONS = frozenset({
+    "left", "right", "north", "south", "east", "west", "north-east", "north-west", "south-east", "south-west",
+    "northeast", "northwest", "southeast", "southwest",
+})  # fmt: skip
+_BEFORE_PLACE = frozenset({
+    "just", "right", "directly", "immediately", "straight", "standing", "located", "situated", "sitting",
+    "lying", "parked", "placed", "somewhere", "stands", "lies", "sits",
+})  # fmt: skip
 
 
 def noun_phrase(phrase: Phrase) -> NounPhrase:
@@ -111,17 +145,49 @@ def noun_phrase(phrase: Phrase) -> NounPhrase:
         counted = _is_rest(phrase) and keys(phrase[1:2])[:1] and phrase[1].key in lex.numbers
         phrase = bare(_without_of(phrase[2 if counted else 1 :]))
     cut, size = _first_relation(phrase)
-    core_words = phrase[:cut]
+    core_words = _without_link(phrase[:cut]) if cut < len(phrase) else phrase
     core = tuple(number_of(singular(word.key)) for word in core_words if word.is_word)
     if cut == len(phrase):
         return NounPhrase(phrase, core, quantifier=quantifier, excluded=excluded)
-    relation = " ".join(keys(phrase[cut : cut + size]))
+    relation = " ".join(keys(_without_relative(phrase[cut : cut + size])))
     relation = "with" if relation.endswith((" has", " have", " had")) else relation
     rest = bare(phrase[cut + size :])
     anchors = tuple(coordinated(rest)) if "between" in relation else (rest,)
     if relation.startswith("halfway"):
         relation = "between"
     return NounPhrase(phrase, core, relation, anchors, quantifier, excluded)
+
+
+def _without_relative(words: Phrase) -> Phrase:
+    """For "that is on", "which lies to" "on", "to"."""
+    if words[0].key not in {"that", "which"} or len(words) < 3:
+        return words
+    rest = words[2:]
+    while len(rest) > 1 and rest[0].key in _BEFORE_PLACE:
+        rest = rest[1:]
+    return rest
+
+
+def beside_at(flat: tuple[str, ...], at: int) -> int:
+    """Where "next to", "lying in" and the like end, which only tell where a thing is; `at` if none begins."""
+    lying = at + (flat[at : at + 1] != () and flat[at] in _RESTING)
+    found = lexicon().places.match(flat, lying)
+    return at if found is None or (lying == at and found[1] in _AT_PLACE) else lying + found[0]
+
+
+_RESTING = frozenset({"standing", "located", "situated", "sitting", "lying", "parked", "hanging", "leaning"})
+_AT_PLACE = frozenset({
+    "in", "at", "on", "inside", "of", "with", "from", "into", "onto", "upon", "around", "along", "under",
+    "underneath", "beneath", "below", "above", "over", "within", "outside", "against", "by", "behind",
+})  # fmt: skip
+
+
+def _without_link(words: Phrase) -> Phrase:
+    """Without what stands between a thing and its place: "the bin that is (right behind A)"."""
+    while len(words) > 1 and words[-1].key in _BEFORE_PLACE:
+        words = words[:-1]
+    related = keys(words[-2:-1]) in {("that",), ("which",)} and words[-1].key in lexicon().be
+    return words[:-2] if related and len(words) > 2 else words
 
 
 def split_exception(phrase: Phrase) -> tuple[Phrase, Phrase]:

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import re
 from collections.abc import Sequence
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 
 from parley.language.offline.words.lexicon import PhraseTable, lexicon
 from parley.language.offline.words.naming import name_words
@@ -130,6 +130,17 @@ def quantities(words: Phrase) -> list[Quantity]:
             continue
         found.append(read)
         index = read.end
+    for at in range(len(found) - 2, -1, -1):
+        # "40 by 60 cm" measures both in the same unit.
+        one, other = found[at], found[at + 1]
+        between = flat[one.end : other.start] in {("by",), ("x",)}
+        if (
+            between
+            and other.units
+            and not one.units
+            and one.before in {"to", "a", "of", "into", "size", "is", "at"}
+        ):
+            found[at] = replace(one, units=other.units)
     return found
 
 
@@ -266,7 +277,7 @@ _RATES = tuple((re.compile(pattern, re.IGNORECASE), unit) for pattern, unit in _
 
 def plain_units(text: str) -> str:
     """The text with units of several words as one: "metres per second" is "mps", "40 %" is "40 percent"."""
-    if "per" in text or "/" in text or "%" in text or "degree" in text:
+    if "per" in text or "/" in text or "%" in text or "degree" in text or "turn" in text:
         for pattern, unit in _RATES:
             text = pattern.sub(unit, text)
     return text

@@ -53,8 +53,8 @@ _TOKEN = re.compile(
     r"(?<![^\s(,;])-\d+(?:[.,]\d+)*|\d+(?:[.,]\d+)+|[^\W_]+(?:['-][^\W_]+)*'?|\.{2,}|[.,!?;:()\"]|\n",
     re.UNICODE,
 )
-_QUOTED = re.compile(r"(?<!\w)'(\S[^'\n]*\s[^'\n]*)'(?!\w)")
-"""Several words between single quotation marks."""
+_QUOTED = re.compile(r"(?<!\w)'([^\s'][^'\n]*)'(?!\w)")
+"""Words between single quotation marks."""
 _DASH = re.compile(r"\s+(?:[-=]+>|-+|[–—→])\s+")
 """Between words it parts them like a comma."""
 _ABBREVIATIONS = tuple(
@@ -106,8 +106,8 @@ _BEHIND_STATE = frozenset({
     "now", "so", "and", "but", "again", "because", "at", "in", "on", "by", "with", "to", "until", "since",
     "today", "already", "too", "for", "please", "then", "or", "all", "as", "after", "before", "tonight",
     "up", "down", "anyway", "yet", "right", "till", "of", "from", "tomorrow", "properly", "fine", "over",
-    "here", "there", "if", "when", "while", "though", "i", "we", "you", "they", "it", "he", "she",
-    "go", "drive", "come", "head", "wait", "carry", "stay", "tell", "just", "check", "bring",
+    "here", "there", "if", "when", "while", "though", "i", "we", "you", "they", "it", "he", "she", "open",
+    "go", "drive", "come", "head", "wait", "carry", "stay", "tell", "just", "check", "bring", "apart",
 })  # fmt: skip
 """What follows "the box's empty", as against "the box's empty lid"."""
 
@@ -156,6 +156,7 @@ def plain(phrase: Sequence[Word]) -> str:
     return text.strip()
 
 
+@lru_cache(maxsize=8192)
 def lemma(word: str, verbs: frozenset[str] | None = None) -> str:
     """The base form of a verb as far as the list of known verbs tells; otherwise the word itself."""
     known = _verb_words() if verbs is None else verbs
@@ -192,6 +193,7 @@ def _verb_words() -> frozenset[str]:
     return _KNOWN_VERBS[0]
 
 
+@lru_cache(maxsize=8192)
 def singular(noun: str) -> str:
     """The singular of a regular English noun (words that are no plural come back unchanged)."""
     if noun in lexicon().plurals:

@@ -6,7 +6,7 @@ from parley.language.offline.words.lexicon import lexicon
 from parley.language.offline.words.quantities import quantities
 from parley.language.offline.words.text import Phrase, Word, keys, lemma, plain, singular
 
-__all__ = ["asked_directly", "counted_plainly", "shared_out", "turned"]
+__all__ = ["asked_directly", "counted_plainly", "shared_out", "still_there", "turned"]
 
 _TURNED = {
     "me": "you", "my": "your", "i": "you", "us": "you", "myself": "yourself", "you": "me", "your": "my",
@@ -107,4 +107,15 @@ def counted_plainly(words: Phrase) -> Phrase:
             end += 1 + (flat[end + 1 : end + 2] in {("can",), ("could",), ("will",)})
             if sees and flat[end : end + 1] and flat[end] in _SIGHTS and flat[end + 1 : end + 2]:
                 return (*words[:start], *words[end + 1 :])
+    return words
+
+
+def still_there(words: Phrase) -> Phrase:
+    """For "if there is no A left, V" "if there is no A, V"; "a door on the left" stays."""
+    flat = keys(words)
+    for at in range(3, len(flat)):
+        ends = flat[at] in {"left", "remaining"} and (at + 1 == len(flat) or not words[at + 1].is_word)
+        there = next((i for i in range(at - 2, max(at - _FARTHEST, 0), -1) if flat[i - 1] == "there"), 0)
+        if ends and there and flat[there] in lexicon().be and flat[at - 1] not in lexicon().determiners:
+            return (*words[:at], *words[at + 1 :])
     return words
