@@ -25,7 +25,7 @@ from parley.language.offline.scene.scene import Scene
 from parley.language.offline.sentences.forms import plainly_put
 from parley.language.offline.sentences.intentions import straight_on, without_own_plans
 from parley.language.offline.sentences.learners import usually_said
-from parley.language.offline.sentences.moved import where_it_was_put
+from parley.language.offline.sentences.moved import out_of_the_way, where_it_was_put
 from parley.language.offline.sentences.spoken import orders_among_talk
 from parley.language.offline.sentences.telling import plainly_so
 from parley.language.offline.tasks.meeting import Meeting
@@ -211,7 +211,10 @@ def _plain_words(message: str, situation: Situation) -> Phrase:
     scene = Scene.of(situation)
     # "Everything but A can be dropped" changes the plan as it stands.
     changes = bool(situation.queue) and rearranged(words, scene) is not None
-    return words if changes else plainly_put(plainly_so(words), scene)
+    if changes:
+        return words
+    own = frozenset(name_words(info.name)[0] for info in scene.catalogue.of_own_kind if name_words(info.name))
+    return out_of_the_way(plainly_put(plainly_so(words), scene), own)
 
 
 def _answered(request: Request, situation: Situation, trace: Trace, targets: tuple[str, ...]) -> ChatAction:

@@ -183,6 +183,63 @@ def read_rule(words: Phrase) -> Fact | None:
     )
 
 
+_LEAVE = frozenset({
+    "asking", "telling", "calling", "informing", "warning", "consulting", "my", "our", "permission", "being",
+})  # fmt: skip
+_SAYING = frozenset({"tell", "tells", "ask", "asks", "say", "says", "order", "orders", "want", "wants"})
+
+
+_ASK_FIRST = tuple(
+    (*said, *asked)
+    for said in (
+        (),
+        ("always",),
+        ("you", "should", "always"),
+        ("you", "must", "always"),
+        ("please", "always"),
+    )
+    for asked in (
+        ("ask", "me"),
+        ("ask",),
+        ("tell", "me"),
+        ("ask", "us"),
+        ("call", "me"),
+        ("check", "with", "me"),
+    )
+    if said or asked == ("ask", "me")
+)
+
+
+def _reserved(words: Phrase) -> Fact | None:
+    """For "never V A without asking me", "do not V A unless I say so", "only V A if N asks you to"."""
+    words = tuple(words[: len(words) - (bool(words) and not words[-1].is_word)])
+    flat = keys(words)
+    lead = next((lead for lead in _ASK_FIRST if flat[: len(lead)] == lead), ())
+    if (
+        lead
+        and "before" in flat[: len(lead) + 2]
+        and {"you", "going", "doing", "entering"} & set(flat[len(lead) :])
+    ):
+        text = plain(words)
+        behind = bare(words[flat.index("before") + 2 :])[-3:]
+        return Fact(behind, relation="rule", state=words, sentence=text[:1].upper() + text[1:])
+    found = lexicon().prohibitions.match(flat)
+    size = found[0] if found is not None else int(flat[:1] == ("only",))
+    if not size or not opens_command(words[size:]):
+        return None
+    bound = (
+        {"without": _LEAVE, "unless": _SAYING | {"i", "we"}}
+        if found is not None
+        else {"if": _SAYING, "when": _SAYING}
+    )
+    at = next((i for i in range(size + 2, len(flat)) if flat[i] in bound), 0)
+    if not at or not bound[flat[at]] & set(flat[at + 1 : at + 4]):
+        return None
+    text = plain(words)
+    sentence = text[:1].upper() + text[1:]
+    return Fact(bare(words[size:at])[-3:], relation="rule", state=words, sentence=sentence)
+
+
 def _is_known(subject: Phrase, scene: Scene) -> bool:
     if any(scene.is_person(part) and part[0].is_capital for part in coordinated(subject)):
         return True
@@ -314,6 +371,7 @@ def laid_down(words: Phrase, scene: Scene) -> tuple[tuple[Fact, ...], Phrase]:
             if keys(mark) == ("?",)
             else read_group(sentence)
             or read_rule(sentence)
+            or _reserved(sentence)
             or _habit(sentence, scene)
             or _replacement(sentence, scene)
             or _kept_whole(sentence, scene)

@@ -172,7 +172,10 @@ class Noting:
             .replace("the operator", "you", 1)
             .replace("you is", "you are", 1)
         )
-        self.replies.append(f"I will remember that {said}.")
+        orders = fact.relation == "rule" and keys(fact.state) == keys(tokens(fact.sentence))
+        self.replies.append(
+            f"I will remember that: {fact.sentence}." if orders else f"I will remember that {said}."
+        )
 
     def _own_name(self, fact: Fact, name: str) -> str:
         """Two things said of one in the same message ("A is called B and is allergic to C") are kept both."""

@@ -33,6 +33,7 @@ _TOLD_TO = PhraseTable.of(_DATA["told_to"])
 _ASKING = PhraseTable.of(_DATA["asking"])
 _WH_WORDS = frozenset(_DATA["wh_words"])
 _STATES = frozenset(_DATA["states"])
+_BARRED = PhraseTable.of(_DATA["barred"])
 _MOTION = PhraseTable.of(_DATA["motion"])
 _OF_ROBOT = PhraseTable.of(f"of {name}" for name in _DATA["of_robot"])
 _ENDS = frozenset({".", "!", "?", ";", ",", ":", "\n", "and", "but", "then"})
@@ -181,6 +182,10 @@ def _without_please(words: Phrase, can: Callable[[str], bool]) -> Phrase:
 def _forbidden(words: Phrase, deeds: Deeds) -> Phrase:
     """For "no go to A", "no weighing", "go not to A": "do not go to A", "do not weigh"."""
     flat = keys(words)
+    barred = _BARRED.match_end(flat[: len(flat) - (flat[-1:] in {(".",), ("!",)})])
+    if barred and (verb := deeds.doing(flat[0])) and len(flat) > barred + 1 and words[-1 - barred].is_word:
+        end = len(flat) - (not words[-1].is_word) - barred
+        return (*tokens(f"do not {verb}"), *words[1:end], *words[end + barred :])
     result: list[Word] = []
     for index, word in enumerate(words):
         begins = not index or flat[index - 1] in _ENDS
@@ -257,5 +262,5 @@ def _with_to(words: Phrase, scene: Scene) -> Phrase:
         result.append(word)
         at = index + moving[0] if moving is not None and moving[0] == 1 else 0
         if at and any(flat[at : at + len(name)] == name for name in names):
-            result += tokens("to" if word.key != "move" and words[at].is_capital else "to the")
+            result += tokens("to" if words[at].is_capital else "to the")
     return tuple(result)

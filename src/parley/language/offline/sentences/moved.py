@@ -1,12 +1,13 @@
-"""Where somebody has put what was just spoken of ("A is not in B any more, I put it in C"): told plainly."""
+"""What was moved or is to be: where something was put ("I put it in C"), what is to get out of the way."""
 
 from __future__ import annotations
 
 from typing import Final
 
+from parley.language.offline.words.lexicon import lexicon
 from parley.language.offline.words.text import Phrase, Word, keys
 
-__all__ = ["what_was_left", "where_it_was_put"]
+__all__ = ["out_of_the_way", "what_was_left", "where_it_was_put"]
 
 _WHO: Final = frozenset({"i", "we", "he", "she", "they", "somebody", "someone"})
 _PUT: Final = frozenset({"put", "left", "moved", "placed", "brought", "took", "stored", "carried"})
@@ -72,4 +73,39 @@ def where_it_was_put(words: Phrase) -> Phrase:
             Word(_WHERE[where], _WHERE[where]),
         )
         return (*words[:mark], *told, *words[at + 4 :])
+    return words
+
+
+_SHIFTING: Final = frozenset({"move", "drive", "get", "take"})
+_STEPPING: Final = frozenset({"go", "move", "drive", "get", "step", "back", "come", "roll"})
+_AWAY: Final = tuple(
+    tuple(text.split())
+    for text in ("out of the way", "aside", "away", "to the side", "to one side", "over a bit", "back a bit")
+)
+_MARKS: Final = frozenset({".", "!", "?", ";", ",", "\n", "and", "then"})
+
+
+def out_of_the_way(words: Phrase, deeds: frozenset[str]) -> Phrase:
+    """A message in which nobody is sent to what is to be moved, or to what is to be left.
+
+    "Move the van out of the way" shifts it, "move away from the van" and "get out of the way" only go: where
+    to is asked.
+
+    Args:
+        words: All words and punctuation.
+        deeds: First words of what robots do besides going about.
+    """
+    flat = keys(words)
+    for at in range(len(flat)):
+        if at and flat[at - 1] not in _MARKS | {"please", "you"}:
+            continue
+        end = next((i for i in range(at, len(flat)) if flat[i] in _MARKS), len(flat))
+        said = flat[at + 1 + (flat[at + 1 : at + 2] == ("yourself",)) : end]
+        leaves = said[:2] == ("away", "from") or (said[:2] == ("out", "of") and said[-1] == "way")
+        if flat[at] in _STEPPING and leaves:
+            return (*words[:at], Word("go", "go"), *words[end:])
+        named = said[:1] and said[0] in lexicon().determiners | {"it", "them"}
+        away = named and any(said[-len(one) :] == one for one in _AWAY)
+        if away and flat[at] in _SHIFTING - deeds:
+            return (*words[:at], Word("shift", "shift"), *words[at + 1 :])
     return words
