@@ -205,13 +205,12 @@ def _sociable(words: Phrase, situation: Situation) -> str | None:
 
 def _plain_words(message: str, situation: Situation) -> Phrase:
     """The words of a message, mended, without courtesy and what is told of the operator's own plans."""
-    words = usually_said(mended(tokens(message), situation), Scene.of(situation))
+    scene = Scene.of(situation)
+    words = usually_said(mended(tokens(message), situation), scene)
     words = shared_out(counted_plainly(still_there(words)))
     words = where_it_was_put(straight_on(without_own_plans(plainly(words))))
-    scene = Scene.of(situation)
     # "Everything but A can be dropped" changes the plan as it stands.
-    changes = bool(situation.queue) and rearranged(words, scene) is not None
-    if changes:
+    if situation.queue and rearranged(words, scene) is not None:
         return words
     own = frozenset(name_words(info.name)[0] for info in scene.catalogue.of_own_kind if name_words(info.name))
     return out_of_the_way(plainly_put(plainly_so(words), scene), own)

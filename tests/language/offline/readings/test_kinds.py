@@ -60,24 +60,12 @@ async def test_what_is_told_is_done_where_the_robot_has_the_deed(message: str, p
         "Tom emptied the north bin this morning",
         "the south bin is emptied every Friday",
         "the garden gate must stay closed at night",
-    ],
-)
-async def test_news_and_rules_ask_for_nothing(message: str) -> None:
-    action = await understood(message)
-
-    assert not action.queue
-    assert "not sure what you mean" not in action.message_response
-
-
-@pytest.mark.parametrize(
-    "message",
-    [
         "Our caretaker retires next year",
         "remember that letters always go to the entrance hall",
         "note that the north bin has to be painted in May",
     ],
 )
-async def test_what_is_only_told_is_understood(message: str) -> None:
+async def test_news_rules_and_what_is_only_told_are_understood_and_ask_for_nothing(message: str) -> None:
     action = await understood(message)
 
     assert not action.queue

@@ -44,7 +44,6 @@ _FREE = frozenset({
 })  # fmt: skip
 _HANDING = frozenset(_DATA["handing"])
 _HANDED = frozenset(_DATA["handed"])
-_GOALS = frozenset({"to", "into", "over", "back", "there", "home", "go"})
 _PRONOUNS = frozenset({"him", "her", "it", "them"})
 _MARKS = frozenset({".", "!", "?", ";", "\n"})
 
