@@ -92,7 +92,7 @@ class EmbeddingSettings(BaseModel):
     """File with the key; None: from the environment (``PARLEY_EMBEDDINGS_KEY``), or no key."""
     timeout_s: float = Field(default=2.0, gt=0)
     """Wall time an answer may take; then words alone decide."""
-    min_alike: float = Field(default=0.3, ge=-1, le=1)
+    min_alike: float = Field(default=0.2, ge=-1, le=1)
     """Least cosine of what counts as alike; models differ."""
 
 

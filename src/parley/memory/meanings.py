@@ -64,7 +64,7 @@ class Meanings:
         *,
         tell: Callable[[str], None] = lambda _: None,
         retry_s: float = 30.0,
-        min_alike: float = 0.3,
+        min_alike: float = 0.2,
     ) -> None:
         self._store, self._embedder, self._clock, self._tell = store, embedder, clock, tell
         self._retry_s, self._min_alike = retry_s, min_alike
