@@ -20,6 +20,7 @@ from parley.language.offline.repair.reordering import instead_of_answer
 from parley.language.offline.scene import grounding
 from parley.language.offline.tasks import pictures
 from parley.language.offline.words.explaining import Decision, Trace
+from parley.language.offline.words.proper import Proper, unmarked
 from parley.messages.chat import ChatAction
 from parley.messages.memory import MemoryEntry
 from parley.robots.base import CameraImage
@@ -54,6 +55,9 @@ class OfflineLanguage:
 
     def explain(self, situation: Situation) -> tuple[ChatAction, tuple[Decision, ...]]:
         """As `interpret`, with what was decided on the way, in order."""
+        proper = Proper.of(situation)
+        if proper is not None:
+            situation = proper.situation(situation)
         trace = Trace()
         failure = situation.failure
         aside = about_failure(failure, situation.message) if failure is not None else None
@@ -62,7 +66,10 @@ class OfflineLanguage:
         answer = aside or interpreter.interpret(situation, trace)
         if any(picture.sent for picture in situation.pictures):
             answer = answer.model_copy(update={"message_response": f"{answer.message_response} {_BLIND}"})
-        return answer, tuple(trace.decisions)
+        if proper is None:
+            return answer, tuple(trace.decisions)
+        told = tuple(Decision(decision.about, unmarked(decision.text)) for decision in trace.decisions)
+        return unmarked(answer), told
 
     async def select_memories(self, query: str, index: Sequence[MemoryEntry]) -> list[str]:
         """See `Language.select_memories`."""
@@ -70,7 +77,12 @@ class OfflineLanguage:
 
     async def resolve(self, situation: ErrorSituation) -> ChatAction:
         """See `Language.resolve`."""
-        return recovery.resolve(situation)
+        proper = Proper.of(situation)
+        return (
+            recovery.resolve(situation)
+            if proper is None
+            else unmarked(recovery.resolve(proper.failure(situation)))
+        )
 
     async def ground(
         self, description: str, objects: Sequence[MapObject], pose: Pose2D | None = None

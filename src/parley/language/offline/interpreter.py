@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import re
 from collections.abc import Sequence
 from dataclasses import replace
 
@@ -11,7 +12,12 @@ from parley.language.offline.dialogue import addressing
 from parley.language.offline.dialogue.amending import amended
 from parley.language.offline.dialogue.crew_words import for_another
 from parley.language.offline.dialogue.crews import plainly_called
-from parley.language.offline.dialogue.elsewhere import elsewhere, in_place_of_misspelt, put_in_place
+from parley.language.offline.dialogue.elsewhere import (
+    elsewhere,
+    in_place_of_misspelt,
+    in_place_of_unclear,
+    put_in_place,
+)
 from parley.language.offline.dialogue.followup import Request, declines, pending_request
 from parley.language.offline.dialogue.offered import accepted_offer
 from parley.language.offline.facts.facts import strip_openers
@@ -32,13 +38,14 @@ from parley.language.offline.tasks.meeting import Meeting
 from parley.language.offline.words import social
 from parley.language.offline.words.courtesy import plainly
 from parley.language.offline.words.explaining import Trace
+from parley.language.offline.words.foreign import ONLY_ENGLISH, is_foreign
 from parley.language.offline.words.lexicon import lexicon
 from parley.language.offline.words.mending import mended
 from parley.language.offline.words.naming import name_words
 from parley.language.offline.words.quantities import plain_coordinates, plain_units
 from parley.language.offline.words.saying import listing
 from parley.language.offline.words.text import Phrase, keys, plain, tokens
-from parley.language.offline.words.wording import counted_plainly, shared_out, still_there
+from parley.language.offline.words.wording import as_others_say, counted_plainly, shared_out, still_there
 from parley.messages.chat import ChatAction, SystemCommand
 
 __all__ = ["interpret"]
@@ -59,7 +66,19 @@ def interpret(situation: Situation, trace: Trace | None = None) -> ChatAction:
         return _say(situation, "I did not get any words. What can I do for you?")
     if len(message) > _LONGEST_CHARS:
         return _say(situation, "That is too long for me to follow. Please tell me in a few short sentences.")
-    return _controlled(message, situation, trace) or _read(message, situation, trace)
+    controlled = _controlled(message, situation, trace)
+    if controlled is None and is_foreign(tokens(message), _names(situation)):
+        trace.note("answer", "another language")
+        return _say(situation, ONLY_ENGLISH)
+    return controlled or _read(message, situation, trace)
+
+
+def _names(situation: Situation) -> frozenset[str]:
+    """The words of the names that are known here, in whatever language they are."""
+    told = (entry.data for entry in situation.memory if entry.type == "text")
+    things = (f"{item.description} {item.class_name}" for item in situation.objects)
+    said = " ".join((*things, *told, *situation.robots)).lower()
+    return frozenset(re.findall(r"[^\W\d_]+", said))
 
 
 def _controlled(message: str, situation: Situation, trace: Trace) -> ChatAction | None:
@@ -170,7 +189,7 @@ def _read(message: str, situation: Situation, trace: Trace) -> ChatAction:
     offered = request is not None or accepted_offer(words, situation) is not None
     answer = None if offered else _sociable(words, situation)
     if answer is not None:
-        trace.note("answer", "small talk, a greeting, thanks, or another language")
+        trace.note("answer", "small talk, a greeting or thanks")
         return _say(situation, answer, targets=targets)
     offer = accepted_offer(words, situation)
     looks = not offer or bool({"look", "check"} & set(keys(offer)))
@@ -198,7 +217,8 @@ def _to_others(words: Phrase, situation: Situation, trace: Trace) -> ChatAction 
 
 def _sociable(words: Phrase, situation: Situation) -> str | None:
     """The answer to small talk, greetings and other languages; None if anything is asked for besides."""
-    answer = social.reply(words) or social.reply(strip_openers(words))
+    opened = strip_openers(words)
+    answer = social.reply(words) or (social.reply(opened) if opened != words else None)
     asks = answer is not None and orders_among_talk(words, Scene.of(situation))
     return None if asks else answer
 
@@ -207,13 +227,13 @@ def _plain_words(message: str, situation: Situation) -> Phrase:
     """The words of a message, mended, without courtesy and what is told of the operator's own plans."""
     scene = Scene.of(situation)
     words = usually_said(mended(tokens(message), situation), scene)
-    words = shared_out(counted_plainly(still_there(words)))
+    words = shared_out(counted_plainly(still_there(as_others_say(words))))
     words = where_it_was_put(straight_on(without_own_plans(plainly(words))))
-    # "Everything but A can be dropped" changes the plan as it stands.
-    if situation.queue and rearranged(words, scene) is not None:
-        return words
     own = frozenset(name_words(info.name)[0] for info in scene.catalogue.of_own_kind if name_words(info.name))
-    return out_of_the_way(plainly_put(plainly_so(words), scene), own)
+    plainer = out_of_the_way(plainly_put(plainly_so(words), scene), own)
+    # "Everything but A can be dropped" changes the plan as it stands.
+    stands = situation.queue and plainer != words and rearranged(words, scene) is not None
+    return words if stands else plainer
 
 
 def _answered(request: Request, situation: Situation, trace: Trace, targets: tuple[str, ...]) -> ChatAction:
@@ -226,7 +246,11 @@ def _answered(request: Request, situation: Situation, trace: Trace, targets: tup
     situation = replace(situation, history=request.history)
     if request.instead:
         named, scene = tokens(request.hints[-1]), Scene.of(situation)
-        words = put_in_place(named, words, scene) or in_place_of_misspelt(named, words, scene) or words
+        for instead in (put_in_place, in_place_of_unclear, in_place_of_misspelt):
+            found = instead(named, words, scene)
+            if found:
+                words = found
+                break
     action = best_reading(words, situation, request.hints, trace, targets)
     return _or_small_talk(action, words, situation, trace)
 

@@ -32,8 +32,8 @@ async def reply_to(message: str, answer: str, world: str = "home") -> ChatAction
         ("go to the sofa and then to the TV", "the small one", ["go small sofa", "go TV"]),
         ("inspect the plant", "the one near the TV", ["go plant near the TV", "look plant near the TV"]),
         ("go to the fridge or the TV", "the TV", ["go TV"]),
-        ("is the TV on?", "yes", ["go TV", "look whether the TV is on"]),
-        ("is the TV on?", "no", []),
+        ("has the TV been mended?", "yes", ["go TV", "look whether the TV has been mended"]),
+        ("has the TV been mended?", "no", []),
         (
             "get John the newspaper",
             "it is on the bookshelf",

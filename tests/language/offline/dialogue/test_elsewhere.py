@@ -4,8 +4,10 @@ from __future__ import annotations
 
 import pytest
 
+from parley.evaluation.catalogues import CATALOGUES
 from parley.language.base import Situation, Turn
 from parley.language.offline.dialogue.elsewhere import elsewhere, in_place_of_misspelt
+from parley.language.offline.engine import OfflineLanguage
 from parley.language.offline.scene.scene import Scene
 from parley.language.offline.words.text import plain, tokens
 from parley.world.object_map import MapObject
@@ -76,3 +78,22 @@ def test_another_thing_takes_the_place_of_a_misspelt_one_that_was_guessed_wrong(
     order = in_place_of_misspelt(tokens("the lobby"), tokens("Go to the saona"), scene)
     assert plain(order) == "Go to the lobby"
     assert not in_place_of_misspelt(tokens("the lobby"), tokens("Carry on"), scene)
+
+
+def test_an_order_to_have_a_look_is_no_question() -> None:
+    said = meant("and gate 2?", "Have a look whether gate 1 is shut", "It is shut.")
+    assert said == "Have a look whether gate 2 is shut"
+
+
+@pytest.mark.parametrize(
+    "answer", ["none of them, I meant the hall", "neither, the hall please", "no, the hall"]
+)
+async def test_what_was_none_of_those_offered_takes_their_place(answer: str) -> None:
+    turns = (
+        Turn("operator", "Drive to the box."),
+        Turn("assistant", "Which one do you mean: the red box or the blue box?"),
+    )
+    action = await OfflineLanguage().interpret(
+        Situation(message=answer, history=turns, objects=MAP, catalogue=CATALOGUES["thesis"])
+    )
+    assert action.message_response == "I will go to the hall."

@@ -84,3 +84,23 @@ async def test_a_question_about_the_plan_leaves_it_as_it_is(said: str, told: str
 
 async def test_a_question_about_somebody_else_is_no_order() -> None:
     assert not (await asked("Does Mia drive to the ramp?")).queue
+
+
+@pytest.mark.parametrize(
+    "said",
+    [
+        "what will you do after this",
+        "and which step follows the current one",
+        "what are you going to do once that is done",
+        "after this step, what happens",
+    ],
+)
+def test_what_comes_after_this_asks_for_what_is_left(said: str) -> None:
+    assert plain(plain_question(tokens(said), marked=True)) == "what is left"
+
+
+@pytest.mark.parametrize(
+    "said", ["what did you see after that", "what is behind this one", "what is after the ramp"]
+)
+def test_what_asks_for_more_than_what_comes_next_does_not(said: str) -> None:
+    assert plain(plain_question(tokens(said), marked=True)) == said

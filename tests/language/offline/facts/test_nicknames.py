@@ -5,7 +5,7 @@ from __future__ import annotations
 import pytest
 
 from parley.language.base import Situation
-from parley.language.offline.facts.nicknames import by_their_real_names, nicknames
+from parley.language.offline.facts.nicknames import by_their_real_names, nicknames, remembered_plainly
 from parley.language.offline.scene.scene import Scene
 from parley.language.offline.words.text import plain, tokens
 from parley.messages.memory import MemoryEntry
@@ -54,3 +54,31 @@ def test_what_is_about_the_name_or_only_told_keeps_it(message: str) -> None:
 def test_other_facts_name_nothing(told: str) -> None:
     memory = (MemoryEntry(name="told", data=told),)
     assert nicknames(memory, OBJECTS) == []
+
+
+@pytest.mark.parametrize(
+    ("told", "said", "meant"),
+    [
+        ("The ladle is in the drawer", "ladle. Bring it.", "the ladle. Bring it."),
+        (
+            "The kettle is on the stove",
+            "wipe the stove with the kettle on it",
+            "wipe the stove where the kettle is",
+        ),
+        (
+            "The wasps are in the shed",
+            "go to the shed with the wasps in it now",
+            "go to the shed where the wasps is now",
+        ),
+    ],
+)
+def test_what_is_remembered_is_named_as_the_rest_reads_it(told: str, said: str, meant: str) -> None:
+    assert plain(remembered_plainly(tokens(said), scene(told))) == meant
+
+
+@pytest.mark.parametrize(
+    "said",
+    ["ladle. I am hungry.", "spoon. Bring it.", "put the ladle on it", "wipe the stove with the spoon on it"],
+)
+def test_what_is_not_remembered_or_not_meant_stays_as_it_is(said: str) -> None:
+    assert plain(remembered_plainly(tokens(said), scene("The ladle is in the drawer"))) == said

@@ -5,10 +5,14 @@ from __future__ import annotations
 import pytest
 
 from parley.evaluation.steps import pending, read_steps
-from parley.language.offline import OfflineLanguage
+from parley.language.offline import OfflineLanguage, interpreter, reader
+from parley.language.offline.plan_changes import rereading
 from parley.language.offline.plan_changes.once_more import changed_again
 from parley.language.offline.plan_changes.patterns import matches, parsed
-from parley.language.offline.words.text import plain, tokens
+from parley.language.offline.plan_changes.rearranging import rearranged
+from parley.language.offline.plan_changes.replanning import Change
+from parley.language.offline.scene.scene import Scene
+from parley.language.offline.words.text import Phrase, plain, tokens
 from parley.messages.chat import ActionCall
 from parley.messages.pvf import Parameter
 from tests.language.dev_set import situation
@@ -34,6 +38,8 @@ async def places(message: str, status: str = "running") -> str:
     [
         ("the last two can go", "A"),
         ("take area B off your list", "A C"),
+        ("and the loading area as well, at the end", "A B C loading area"),
+        ("something more urgent: go to the loading area before you do the rest", "loading area A B C"),
         ("the next one isn't necessary", "A C"),
         ("keep only area B and forget the others", "B"),
         ("drop everything except area C", "C"),
@@ -92,3 +98,16 @@ def test_a_pattern_covers_all_words_or_does_not_match() -> None:
 )
 def test_what_is_to_be_different_the_next_time_is_found(message: str, different: str) -> None:
     assert plain(changed_again(tokens(message))) == different
+
+
+async def test_a_change_is_worked_out_once(monkeypatch: pytest.MonkeyPatch) -> None:
+    asked: list[str] = []
+
+    def counted(words: Phrase, scene: Scene) -> Change | None:
+        asked.append(plain(words))
+        return rearranged(words, scene)
+
+    for module in (interpreter, rereading, reader):
+        monkeypatch.setattr(module, "rearranged", counted)
+    assert await places("swap area B and area C") == "A C B"
+    assert asked == ["swap area B and area C"]

@@ -165,3 +165,40 @@ async def test_offline_engine_says_that_it_cannot_see_into_the_picture_of_an_ans
     worded = await ambiguous("the small one", pictures=picture)
     assert worded.success and plan(worded)
     assert worded.message_response.startswith("I cannot see what is in a picture. Thank you.")
+
+
+@pytest.mark.parametrize(
+    ("error", "code", "reply", "named"),
+    [
+        ("'sofa' could be large sofa or small sofa.", FailureCode.AMBIGUOUS, "the second one", "small sofa"),
+        ("Several objects match.", FailureCode.AMBIGUOUS, "the large one", "large sofa"),
+        ("There is no such object.", FailureCode.NO_MATCH, "sorry, I meant the large sofa", "large sofa"),
+        (
+            "There is no such object.",
+            FailureCode.NO_MATCH,
+            "my mistake, it should be the small sofa",
+            "small sofa",
+        ),
+    ],
+)
+async def test_what_was_meant_is_taken_where_nothing_is_listed(
+    error: str, code: FailureCode, reply: str, named: str
+) -> None:
+    action = await answered(4, code, reply, error_message=error)
+    assert action.success
+    assert action.message_response == f"Thank you. I take the {named}."
+
+
+async def test_what_may_be_meant_is_found_on_the_map() -> None:
+    action = await answered(
+        4, FailureCode.AMBIGUOUS, None, error_message="'sofa' could be small sofa or large sofa."
+    )
+    assert action.choices == ("small sofa", "large sofa")
+
+
+async def test_instead_means_not_that_step_again() -> None:
+    action = await blocked("ok then go to the small sofa instead")
+    assert (
+        action.message_response
+        == "All right. I will go to the small sofa. After that I go on with the rest of the plan."
+    )

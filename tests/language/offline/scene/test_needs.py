@@ -37,7 +37,7 @@ def scene() -> Scene:
         ("Ada can not work without her gloves", "bring Ada's gloves to Ada"),
         ("soup for Ada", "bring soup to Ada"),
         ("ada hungry", "bring something to eat to ada"),
-        ("the woman on the red chair wants her soup now", "bring soup to red chair"),
+        ("the woman on the red chair wants her soup now", "bring soup to woman on the red chair"),
     ],
 )
 def test_a_need_is_an_order_to_bring_what_helps(said: str, order: str) -> None:

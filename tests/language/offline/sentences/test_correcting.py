@@ -127,12 +127,33 @@ def test_orders_come_where_they_are_meant(said: str, meant: str) -> None:
             "The desk and the hall are left, check those two for dirt.",
             "check The desk for dirt. check the hall for dirt.",
         ),
+        (
+            "There was smoke at the desk or the lift. Check both.",
+            "There was smoke at the desk or the lift. Check the desk. Check the lift.",
+        ),
+        (
+            "The lift was loud. The noise came from the desk or the hall. Check both for rats.",
+            "The lift was loud. The noise came from the desk or the hall. Check the desk for rats. "
+            "Check the hall for rats.",
+        ),
     ],
 )
 def test_what_is_to_be_done_with_each_is_done_in_the_order_of_the_list(said: str, meant: str) -> None:
     found = each_in_turn(units(tokens(said), is_stop, opens_command))
     assert found is not None
     assert plain(found) == meant
+
+
+@pytest.mark.parametrize(
+    "said",
+    [
+        "The hall was loud. Check both.",
+        "The noise came from the desk or the hall. Go to the lift. Check both.",
+        "There was smoke at the desk, the hall or the lift. Check both.",
+    ],
+)
+def test_both_are_the_two_that_were_told_of_last_and_no_others(said: str) -> None:
+    assert each_in_turn(units(tokens(said), is_stop, opens_command)) is None
 
 
 def test_a_name_that_begins_like_an_order_gets_its_article() -> None:

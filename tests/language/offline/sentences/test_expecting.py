@@ -42,6 +42,20 @@ def is_stop(words: Phrase) -> bool:
             "see that the gate is shut. is it not, then come back",
             "see that the gate is shut. if not, come back",
         ),
+        (
+            "if you see oil on the floor in the hall, go to the yard",
+            "if there is oil on the floor in the hall, go to the yard",
+        ),
+        ("if you find the gate open, go to the yard", "if the gate is open, go to the yard"),
+        ("if you see that the gate is open, go to the yard", "if the gate is open, go to the yard"),
+        (
+            "check if the gate is shut, otherwise go to the yard",
+            "check if the gate is shut. if not, go to the yard",
+        ),
+        (
+            "from now on, if you see oil in the hall, come back",
+            "from now on, if you see oil in the hall, come back",
+        ),
         ("the gate should be shut", "the gate should be shut"),
         ("if you see a leak, stop", "if you see a leak, stop"),
     ],

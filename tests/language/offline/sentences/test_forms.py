@@ -55,6 +55,20 @@ def put(message: str) -> str:
             "rinse the tall yacht, not the yellow dinghy",
         ),
         ("the yellow dinghy need not be waxed, only rinsed", "rinse the yellow dinghy"),
+        ("the owner wants the tall yacht waxed by six", "wax the tall yacht by six"),
+        ("the port winch should be oiled by five o'clock", "oil the port winch"),
+        ("would be nice if the tall yacht was rinsed", "rinse the tall yacht"),
+        ("can we have the port winch oiled?", "oil the port winch."),
+        ("she would love to have the port winch oiled", "oil the port winch"),
+        ("we would be ever so pleased if the tall yacht could be rinsed", "rinse the tall yacht"),
+        ("I would be happier if the port winch was oiled before lunch", "oil the port winch before lunch"),
+        ("could the yellow dinghy be rinsed by somebody", "rinse the yellow dinghy"),
+        ("the yellow dinghy does not need waxing but the tall yacht does", "wax the tall yacht"),
+        ("neither yacht has to be rinsed, but the yellow dinghy does", "rinse the yellow dinghy"),
+        ("the tall yacht does need rinsing", "rinse the tall yacht"),
+        ("the port winch wants seeing to", "inspect the port winch"),
+        ("I want the tall yacht seen to", "inspect the tall yacht"),
+        ("the yacht, the tall one, is to be rinsed", "rinse the yacht, the tall one"),
     ],
 )  # fmt: skip
 def test_what_is_due_or_wanted_in_the_passive_is_an_order(said: str, order: str) -> None:
@@ -116,6 +130,11 @@ def test_deeds_told_in_their_order_or_only_named_are_orders(said: str, order: st
         "if the tall yacht should be rinsed, tell me",
         "it is a pity that the quay is wet",
         "is the quay where I can moor?",
+        "the owner wants to wax the tall yacht",
+        "she does not want the tall yacht rinsed",
+        "somebody wants the port winch, take it from wherever it was left",
+        "the port winch does not need oiling",
+        "I would be glad if you were a bit quicker",
     ],
 )
 def test_news_rules_questions_and_what_is_to_be_left_alone_stay_as_they_are(said: str) -> None:

@@ -25,6 +25,11 @@ from parley.language.offline.words.text import keys, tokens
             "We are out of nails in the barn. There are some in the shed. Bring some to the barn.",
             "the nails are in the shed. Bring the nails to the barn.",
         ),
+        (
+            "There is something wrong with the pump, have a look at it.",
+            "the pump is not right, have a look at it.",
+        ),
+        ("Something is wrong with the pump, look at it.", "the pump is not right, look at it."),
         ("I need the saw. Get it from the shed.", "Get the saw from the shed and bring it to me."),
     ],
 )
@@ -34,7 +39,12 @@ def test_the_thing_that_was_lost_or_needed_takes_the_place_of_it(said: str, read
 
 @pytest.mark.parametrize(
     "said",
-    ["I need you in the barn. Take it easy.", "Ann needs the saw. Check the shed.", "Bring it to Ann."],
+    [
+        "I need you in the barn. Take it easy.",
+        "Ann needs the saw. Check the shed.",
+        "Bring it to Ann.",
+        "Is something wrong?",
+    ],
 )
 def test_orders_about_something_else_are_left(said: str) -> None:
     assert keys(with_what_was_lost(tokens(said))) == keys(tokens(said))

@@ -23,6 +23,36 @@ CATALOGUE = (
 )
 
 
+LODGING = (
+    ActionInfo(name="change_sheets", inputs={"cabin": "string"}, description="Put new sheets on the beds."),
+    ActionInfo(name="restockFridge", inputs={"cabin": "string"}, description="Fill up the fridge."),
+    ActionInfo(name="wipe_slate", inputs={"cabin": "string"}, description="Clean the slate in a cabin."),
+    ActionInfo(name="fillTank", inputs={"cabin": "string"}, description="Fill the tank with water."),
+    ActionInfo(
+        name="check_tank",
+        inputs={"cabin": "string"},
+        outputs={"level": "number"},
+        description="Look how much water is in the tank of a cabin, for washing and to drink.",
+    ),
+)
+
+
+@pytest.mark.parametrize(
+    ("message", "action"),
+    [
+        ("the couple in cabin 4 have no sheets left", "change_sheets"),
+        ("the sheets in cabin 4 are all damp", "change_sheets"),
+        ("they have nothing left in the fridge of cabin 4", "restockFridge"),
+        ("the slate in cabin 4 is full of scrawl", "wipe_slate"),
+        ("the people in cabin 4 are thirsty", "fillTank"),
+    ],
+)
+def test_what_is_used_up_or_spoilt_is_seen_to_by_what_is_called_so(message: str, action: str) -> None:
+    found = helping(tokens(message), Scene.of(replace(situation(message), catalogue=LODGING)))
+    assert found is not None
+    assert (found.info.name, *found.filled.values.values()) == (action, "cabin 4")
+
+
 def situation(message: str) -> Situation:
     return Situation(message=message, catalogue=CATALOGUE, robot="Bo", robots=("Bo",))
 

@@ -19,12 +19,27 @@ from parley.messages.status import ActionInfo
         ("land", {}, set()),
         ("homeArm", {}, set()),
         ("charge_now", {}, {"dock"}),
+        ("request_crane", {"floor": "integer"}, set()),
+        ("request_help", {"message": "string"}, {"ask"}),
+        ("return_tray", {"tray": "string"}, set()),
+        ("return_to", {"location": "string"}, {"back"}),
+        ("warning_lamp", {"on": "bool"}, set()),
+        ("warning", {"text": "string"}, {"speak"}),
     ],
 )
 def test_the_whole_name_decides_what_an_action_is_good_for(
     name: str, inputs: dict[str, str], role: set[str]
 ) -> None:
     assert roles_of(ActionInfo(name=name, inputs=inputs)) == role
+
+
+def test_what_is_put_with_a_text_is_no_thing_that_is_put_down() -> None:
+    note = ActionInfo(
+        name="stick_note", inputs={"crate": "string", "text": "string"}, phrases=("put a note on",)
+    )
+    assert roles_of(note) == set()
+    lay = ActionInfo(name="lay", inputs={"crate": "string"}, phrases=("put it down",))
+    assert roles_of(lay) == {"place"}
 
 
 def test_numbers_for_axes_are_a_place() -> None:

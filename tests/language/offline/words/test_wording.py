@@ -10,6 +10,7 @@ from parley.language.offline.sentences.simultaneous import side_by_side
 from parley.language.offline.words.saying import in_turn
 from parley.language.offline.words.text import keys, plain, tokens
 from parley.language.offline.words.wording import (
+    as_others_say,
     asked_directly,
     counted_plainly,
     shared_out,
@@ -108,3 +109,38 @@ def test_an_amount_for_each_is_an_amount() -> None:
 ])  # fmt: skip
 def test_what_is_left_over_is_there(say: str, plainly: str) -> None:
     assert plain(still_there(tokens(say))) == plainly
+
+
+@pytest.mark.parametrize(
+    ("said", "plainly_put"),
+    [
+        ("The campers on lot 4 say it smells of gas.", "The campers on lot 4 says it smells of gas."),
+        (
+            "The couple in hut 1 complain that the tap drips.",
+            "The couple in hut 1 complains that the tap drips.",
+        ),
+        ("It would be nice if the guests had fresh sheets.", "the guests would like fresh sheets."),
+        (
+            "it would be lovely if the visitors could see the otters",
+            "the visitors would like to see the otters",
+        ),
+        ("Neither of the taps has been tested yet.", "both taps have not been tested yet."),
+        ("None of the boats has been washed.", "all the boats have not been washed."),
+    ],
+)
+def test_what_others_tell_and_wish_is_put_plainly(said: str, plainly_put: str) -> None:
+    assert plain(as_others_say(tokens(said))) == plainly_put
+
+
+@pytest.mark.parametrize(
+    "said",
+    [
+        "Then say that the shop is closed.",
+        "The guests say hello.",
+        "It would be nice if you could check the boats.",
+        "It would be nice if somebody could see to it.",
+        "None of the boats is blue.",
+    ],
+)
+def test_orders_and_facts_stay_as_they_are(said: str) -> None:
+    assert as_others_say(tokens(said)) == tokens(said)

@@ -46,11 +46,21 @@ def _own_deed(words: Phrase, scene: Scene) -> ActionInfo | None:
     return match.info if match is not None else None
 
 
+def _joined(words: Phrase, flat: tuple[str, ...], size: int) -> tuple[Phrase, tuple[str, ...]]:
+    """With "pick up things" for "pick things up", where that is one verb."""
+    together = (lemma(flat[size]), flat[-1])
+    found = lexicon().verbs.match(together) if len(flat) == size + 3 else None
+    if found is None or found[0] != len(together):
+        return words, flat
+    return (*words[: size + 1], words[-1], words[size + 1]), (*flat[: size + 1], flat[-1], flat[size + 1])
+
+
 def able(words: Phrase, flat: tuple[str, ...], scene: Scene) -> Answer | None:
     """For "can you carry things?", "are you able to drive?": about abilities, not about doing it now."""
     size = next((len(start) for start in _ABLE if flat[: len(start)] == start), 0)
     if not size or size >= len(flat):
         return None
+    words, flat = _joined(words, flat, size)
     base = (lemma(flat[size]), *flat[size + 1 :])
     found = lexicon().verbs.match(base)
     rest = flat[size + found[0] :] if found is not None else ()

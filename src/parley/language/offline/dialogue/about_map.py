@@ -10,11 +10,11 @@ from parley.language.offline.facts.remembering import find_fact
 from parley.language.offline.scene.grounding import describe, ground_phrase
 from parley.language.offline.scene.scene import Scene
 from parley.language.offline.words.lexicon import lexicon
-from parley.language.offline.words.nouns import bare
+from parley.language.offline.words.nouns import NounPhrase, bare, noun_phrase
 from parley.language.offline.words.saying import listing, the, whole_sentence
 from parley.language.offline.words.text import Phrase, keys, lemma, plain, singular
 
-__all__ = ["Answer", "attribute", "how_far", "told", "which"]
+__all__ = ["Answer", "attribute", "how_far", "known_there", "near", "told", "which"]
 
 
 @dataclass(frozen=True, slots=True)
@@ -25,6 +25,10 @@ class Answer:
     look: Phrase = ()
     counts: bool = False
     """Whether `look` names what is to be counted instead."""
+    at: Phrase = ()
+    """Where it is to be seen, if that is known."""
+    now: bool = False
+    """Whether it is looked at at once, because it is about how things are now; else looking is offered."""
 
 
 _COMPARING = frozenset({"closest", "nearest", "farthest", "furthest", "nearer", "closer", "next"})
@@ -57,6 +61,54 @@ def which(words: Phrase, flat: tuple[str, ...], scene: Scene, _: bool) -> Answer
         return None
     names = listing([the(describe(item, scene.objects)) for item in found.candidates], "or")
     return Answer(f"It is {names}.")
+
+
+def known_there(subject: Phrase, place: Phrase, there: bool, scene: Scene) -> Answer | None:
+    """What is remembered of whether something is somewhere.
+
+    Args:
+        subject: What it is asked of.
+        place: Where; empty if that is not said.
+        there: Whether it is asked if there is any ("is there ink in the machine?").
+        scene: What is known.
+    """
+    fact, _ = find_fact(subject, scene.facts) if subject and (there or place) else (None, [])
+    wanted = set(noun_phrase(place).core) if place else set()
+    same = fact is not None and (not place or wanted <= set(noun_phrase(fact.fact.place).core))
+    if fact is not None and place and not same:
+        # That some of it is elsewhere says nothing of this place.
+        here = there and ground_phrase(place, scene.objects).outcome == "match"
+        fact = None if here or not fact.fact.is_location else fact
+    if fact is not None:
+        scene.use(fact)
+        return Answer(("Yes: " if same else "As far as I know, no: ") + whole_sentence(fact.fact.sentence))
+    denied = next((f for f in scene.facts if f.fact.negated and keys(f.fact.subject) == keys(subject)), None)
+    if denied is not None and place and wanted <= set(noun_phrase(denied.fact.place).core):
+        scene.use(denied)
+        return Answer(f"As far as I know, no: {whole_sentence(denied.fact.sentence)}")
+    return None
+
+
+def near(subject: Phrase, noun: NounPhrase, scene: Scene) -> Answer | None:
+    """For "is the box next to the door?", where both are on the map.
+
+    Args:
+        subject: What it is asked of.
+        noun: The question's noun phrase, with what is beside it.
+        scene: What is known.
+    """
+    if noun.relation not in _NEAR or not subject:
+        return None
+    ends = [ground_phrase(part, scene.objects, strict=True) for part in (subject, noun.anchors[0])]
+    if any(end.outcome != "match" for end in ends):
+        return None
+    first, second = (end.candidates[0] for end in ends)
+    away_m = math.hypot(first.x_m - second.x_m, first.y_m - second.y_m)
+    names = [the(describe(item, scene.objects)) for item in (first, second)]
+    return Answer(f"On my map {names[0]} is about {away_m:.1f} m from {names[1]}.")
+
+
+_NEAR = frozenset({"next to", "near", "beside", "close to", "by", "nearby", "near to", "alongside"})
 
 
 def how_far(words: Phrase, flat: tuple[str, ...], scene: Scene, _: bool) -> Answer | None:

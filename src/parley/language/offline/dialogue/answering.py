@@ -2,26 +2,45 @@
 
 from __future__ import annotations
 
+from abc import abstractmethod
 from collections.abc import Sequence
 from dataclasses import dataclass, replace
 
 from parley.language.offline.dialogue import questions
+from parley.language.offline.dialogue.to_be_seen import sees, with_owner_named
 from parley.language.offline.dialogue.turning import turned
 from parley.language.offline.facts.facts import strip_openers
 from parley.language.offline.facts.stories import mentioned, told_around
 from parley.language.offline.plan_changes.changing import Changing
 from parley.language.offline.repair.replies import agrees
+from parley.language.offline.scene.grounding import ground_phrase
 from parley.language.offline.scene.scene import UnclearError
 from parley.language.offline.sentences.clauses import Clause
 from parley.language.offline.tasks.abilities import abilities, cannot
 from parley.language.offline.tasks.commands import Command, read_command
 from parley.language.offline.tasks.going import UnableError
 from parley.language.offline.words import social
+from parley.language.offline.words.nouns import bare
 from parley.language.offline.words.saying import in_turn, whole_sentence
 from parley.language.offline.words.text import Phrase, Word, keys, plain
 from parley.messages.chat import ActionCall, ChatAction
 
 __all__ = ["Answering"]
+
+_POINTING = frozenset({"it", "that", "this", "them", "him", "her", "all", "both", "each"})
+_IN_TURN = (
+    ("one", "after", "the", "other"),
+    ("one", "after", "another"),
+    ("one", "by", "one"),
+    ("in", "turn"),
+)
+
+
+def _at_once(words: Phrase) -> Phrase:
+    """Without "one after the other" behind."""
+    flat = keys(words)
+    size = next((len(tail) for tail in _IN_TURN if flat[len(flat) - len(tail) :] == tail), 0)
+    return words[: len(words) - size]
 
 
 @dataclass
@@ -30,6 +49,7 @@ class Answering(Changing):
 
     def _spoken(self, clause: Clause) -> bool:
         """Questions, and what is only social."""
+        clause = replace(clause, words=with_owner_named(clause.words, self.scene))
         if clause.is_question and self._goes_to_look():
             asked = turned(strip_openers(clause.words), self.scene)
             if asked:
@@ -58,6 +78,10 @@ class Answering(Changing):
             self.scene.mention(phrase)
             self.scene.places.append(phrase)
 
+    @abstractmethod
+    def _own_check(self, condition: Phrase) -> bool:
+        """Tell whether something is so by an action of its own kind; what reads conditions says how."""
+
     def _look_for_answer(self, answer: questions.Answer) -> None:
         following = self._parts[self._at + 1 : self._at + 2]
         if following and following[0].conditional and not following[0].condition:
@@ -67,6 +91,16 @@ class Answering(Changing):
         if self._goes_to_look():
             self._look_now(answer)
             self._parts = self._parts[: self._at + 1]
+            return
+        if answer.look and self._own_check(answer.look):
+            return
+        if not sees(self.scene.catalogue):
+            self.replies.append(
+                "I do not know that, and I cannot look at it. Tell me, and I will remember it."
+            )
+            return
+        if answer.now:
+            self._look_now(answer)
             return
         if answer.counts and self.scene.catalogue.with_role("search") is not None:
             self._look_now(answer)
@@ -80,12 +114,12 @@ class Answering(Changing):
     def _goes_to_look(self) -> bool:
         """Whether the next clause says to go and look, and nothing more: "Is it open? Please check."."""
         following = self._parts[self._at + 1 : self._at + 2]
-        command = read_command(following[0].words, self.scene.is_person) if following else None
+        command = read_command(_at_once(following[0].words), self.scene.is_person) if following else None
         return (
             command is not None
             and command.kind in {"look", "whether", "count"}
             and not command.place
-            and keys(command.theme) in {(), ("it",), ("that",), ("this",), ("them",), ("him",), ("her",)}
+            and [word.raw.lower() for word in command.theme] in [[], *([word] for word in _POINTING)]
         )
 
     def _look_now(self, answer: questions.Answer) -> None:
@@ -94,7 +128,14 @@ class Answering(Changing):
         )
         command = read_command((*(Word(v, v) for v in verb), *answer.look), self.scene.is_person)
         if command is not None:
+            if answer.at and self._is_nowhere(command):
+                command = replace(command, place=answer.at)
             self.tasks.do(command)
+
+    def _is_nowhere(self, command: Command) -> bool:
+        """Whether nothing that a look is about, or is said to be at, is on the map."""
+        about = command.place or command.theme
+        return ground_phrase(bare(about), self.scene.objects).outcome == "none"
 
     def _complain(self) -> None:
         """Ask about what was not understood, unless it was only told around something that was."""

@@ -224,7 +224,7 @@ def _named(words: Phrase, scene: Scene) -> Phrase:
     for size in range(min(6, len(words)), 0, -1):
         for start in range(len(words) - size, -1, -1):
             part = bare(words[start : start + size])
-            known = part and (size > 1 or part[0].key not in lexicon().vocabulary - lexicon().nouns)
+            known = part and (size > 1 or part[0].key not in lexicon().small)
             if known and ground_phrase(part, scene.objects, strict=True).outcome == "match":
                 return part
     text = f" {' '.join(keys(words))} "
@@ -345,6 +345,9 @@ def told_of(words: Phrase, flat: tuple[str, ...], scene: Scene) -> Answer | None
         return None
     about = bare(words[at + 1 :])
     found = told_about(scene.referent(about), scene) if about else []
+    if wrong:
+        # Where something is says nothing of what is wrong with it, nor what is kept there.
+        found = [item for item in found if not item.fact.is_location]
     for item in found:
         scene.use(item)
     text = " ".join(dict.fromkeys(whole_sentence(item.fact.sentence) for item in found))

@@ -14,6 +14,7 @@ from parley.language.offline.facts.remembering import find_fact
 from parley.language.offline.grammar.things import Item, items_of
 from parley.language.offline.scene.grounding import describe, ground_phrase
 from parley.language.offline.scene.known import UnclearError
+from parley.language.offline.scene.members import alike
 from parley.language.offline.scene.scene import Scene
 from parley.language.offline.words.lexicon import lexicon
 from parley.language.offline.words.nouns import bare
@@ -22,7 +23,7 @@ from parley.language.offline.words.text import Phrase, Word, keys, plain, singul
 from parley.language.word_lists import load_data
 from parley.world.object_map import MapObject
 
-__all__ = ["elsewhere", "put_in_place"]
+__all__ = ["elsewhere", "in_place_of_misspelt", "in_place_of_unclear", "put_in_place"]
 
 _DATA = load_data("elsewhere")
 _MARKS = frozenset(_DATA["marks"])
@@ -73,6 +74,7 @@ def elsewhere(words: Phrase, situation: Situation, depth: int = 0) -> Phrase:
     said = elsewhere(said, earlier, depth + 1) or said
     said = said if named is None else put_in_place(named, said, scene)
     asks = bool(said) and said[0].key in lexicon().be | {"has", "have", "does", "do", "did"}
+    asks = asks and keys(said[:2]) not in {("have", "a"), ("have", "another"), ("do", "the")}
     turns = [turned(part, scene) for part in _sentences(said)] if asks else []
     if not turns or not all(turns):
         return said
@@ -226,6 +228,23 @@ def in_place_of_misspelt(named: Phrase, said: Phrase, scene: Scene) -> Phrase:
     return ()
 
 
+def in_place_of_unclear(named: Phrase, said: Phrase, scene: Scene) -> Phrase:
+    """What was said, with `named` for what could have been several things; empty if nothing could.
+
+    Args:
+        named: What is meant, and is none of those.
+        said: The order that was asked about.
+        scene: What is known.
+    """
+    for start in range(len(said)):
+        if said[start].key not in lexicon().determiners:
+            continue
+        for end in range(min(len(said), start + 5), start + 1, -1):
+            if ground_phrase(said[start:end], scene.objects).outcome == "ambiguous":
+                return (*said[:start], *named, *said[end:])
+    return ()
+
+
 def _kinds(items: Sequence[MapObject]) -> set[str]:
     return {item.class_name for item in items}
 
@@ -296,6 +315,7 @@ def _others(named: Phrase, noun: str, old: Sequence[MapObject], scene: Scene) ->
         and (singular(_noun(item)) == wanted or (item.class_name in kind and not content))
         and not _spoken_of(item, words)
     ]
+    found = list(alike(tuple(found), old))
     several = bool({"others", "rest", "remaining", "ones"} & set(keys(named))) or plain(named).endswith("s")
     count = next((lexicon().numbers[key] for key in keys(named) if key in lexicon().numbers), 1)
     return found if several or len(found) == int(count) else []

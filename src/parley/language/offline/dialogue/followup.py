@@ -57,7 +57,7 @@ class Request:
 
 def pending_request(words: Phrase, situation: Situation) -> Request | None:
     """The message that was asked about, if `words` answer the question."""
-    history, words = situation.history, without_tail(words)
+    history, words = situation.history, _meant_instead(without_tail(words))
     if not history or not _asks(history[-1]) or not _is_answer(words, history[-1]):
         return None
     told = _where_told(words, situation)
@@ -86,6 +86,25 @@ def pending_request(words: Phrase, situation: Situation) -> Request | None:
         message = f"{turn.content.rstrip(' .!?')} for {answer}" if sought else turn.content
         return Request(message, tuple(hints), history[:at], refuses and not instead, instead)
     return None
+
+
+def _meant_instead(words: Phrase) -> Phrase:
+    """For "none of them, A": "I meant A"; other answers come back unchanged."""
+    lead = next((n for n in _NEITHER if keys(words[: len(n)]) == n), ())
+    rest = words[len(lead) :]
+    while rest and (not rest[0].is_word or rest[0].key in {"but", "please"}):
+        rest = rest[1:]
+    if not lead or not rest or opens_command(rest):
+        return words
+    said = any(keys(rest[: len(m)]) == m for m in _MEANING)
+    return rest if said else (*tokens("I meant"), *rest)
+
+
+_NEITHER = tuple(
+    tuple(text.split())
+    for text in ("none of them", "none of those", "none of these", "neither of them", "neither of those",
+                 "neither one", "neither", "none")
+)  # fmt: skip
 
 
 def _tells_where(flat: tuple[str, ...]) -> tuple[int, int]:

@@ -29,6 +29,9 @@ _RANKING = frozenset({"first", "next", "last", "before", "after"})
 _WH = frozenset({"what", "where", "which", "who", "how", "when", "why"})
 _MOVING = frozenset({"going", "heading", "headed", "bound", "driving", "doing"})
 _PLANNING = {("will", "you"), ("are", "you"), ("do", "you")}
+_LISTS = frozenset(
+    {"list", "plan", "route", "tour", "round", "queue", "agenda", "schedule", "itinerary", "programme"}
+)
 _LATE = frozenset({"when", "soon", "turn", "long"})
 
 
@@ -41,7 +44,7 @@ def of_plan(words: Phrase, flat: tuple[str, ...], scene: Scene) -> Answer | None
         scene: What is known.
     """
     said = tuple(Word(w.key.removesuffix("'s"), w.raw.removesuffix("'s")) for w in words)
-    names = mentioned(said, scene)
+    names = mentioned(said[: _list_at(keys(said))], scene)
     rest = _without(keys(said), [keys(name) for name in names])
     at = visit_of(names[-1], scene) if names else None
     marked = set(rest) & _MARKS or (at is not None and rest[:2] in _PLANNING)
@@ -68,6 +71,14 @@ def of_plan(words: Phrase, flat: tuple[str, ...], scene: Scene) -> Answer | None
     fits = all(right for word, right in ranked.items() if word in rest)
     lead = "" if _OMITTING & set(rest) else "Yes, " if fits else "No, "
     return Answer(whole_sentence(f"{lead}{name} is {place}"))
+
+
+def _list_at(flat: tuple[str, ...]) -> int:
+    """Where "on your list", "part of the plan" begins, which is part of no name; else where all ends."""
+    for at in range(1, len(flat) - 2):
+        if flat[at] in {"on", "in", "of"} and flat[at + 1] in {"your", "the"} and flat[at + 2] in _LISTS:
+            return at
+    return len(flat)
 
 
 def _without(flat: tuple[str, ...], names: list[tuple[str, ...]]) -> tuple[str, ...]:

@@ -11,8 +11,15 @@ from parley.language.offline.dialogue.about_told import taught
 from parley.language.offline.dialogue.asked import asked, told_of
 from parley.language.offline.dialogue.own_state import ABOUT_ITSELF, told_about
 from parley.language.offline.dialogue.plain_question import plain_question
-from parley.language.offline.dialogue.retrieval import condition_of, known_of, recalled, recalled_fully
-from parley.language.offline.dialogue.turning import turned
+from parley.language.offline.dialogue.retrieval import (
+    condition_of,
+    known_of,
+    recalled,
+    recalled_fully,
+    when_told,
+)
+from parley.language.offline.dialogue.to_be_seen import at_once, seen_there
+from parley.language.offline.dialogue.turning import third, turned
 from parley.language.offline.facts.facts import NO_PLACES
 from parley.language.offline.facts.remembering import find_fact, newest
 from parley.language.offline.scene.grounding import describe, ground_phrase
@@ -67,11 +74,19 @@ def answer(clause: Clause, scene: Scene) -> Answer | None:
     found = able(words, keys(words), scene) if knows_how else told_of(words, keys(words), scene)
     found = found or (taught(words, keys(words), scene) if keys(words)[:1] in _RECITING else None)
     found = found or _read(words, clause, scene)
+    if found is not None and found.look:
+        return at_once(found, words, scene)
+    if found is None or found.text.startswith(_AT_A_LOSS):
+        owned = None if keys(words)[:1] in _NOW else recalled(words, scene)
+        statement, place = seen_there(words, scene) if owned is None else ((), ())
+        if statement:
+            ask = f"I do not know. Shall I go to {the(plain(place))} and have a look?"
+            return Answer(ask, statement, at=place, now=True)
     if found is None and not _asks_of_others(clause, keys(words)):
         return None
     if found is not None and (found.look or not found.text.startswith(_AT_A_LOSS)):
         return found
-    told = recalled(words, scene) or known_of(words, scene)
+    told = recalled(words, scene) or when_told(words, scene) or known_of(words, scene)
     if told is None:
         return found
     for item in told[1]:
@@ -81,6 +96,7 @@ def answer(clause: Clause, scene: Scene) -> Answer | None:
 
 _RECITING = frozenset({("list",), ("repeat",), ("show",), ("tell",), ("give",)})
 _WH = frozenset({("what",), ("who",), ("whose",), ("which",), ("why",)})
+_NOW = frozenset({("is",), ("are",)})
 _MAY = frozenset({"can", "could", "may", "should", "must", "will", "would"})
 """How questions begin that ask whether something may or will be done, by whomever but the robot."""
 _AT_A_LOSS = "I do not know"
@@ -360,33 +376,26 @@ def _whether(words: Phrase, flat: tuple[str, ...], scene: Scene, asked: bool) ->
     there = flat[1] == "there"
     rest = words[2:] if there else words[1:]
     noun = noun_phrase(rest)
-    cut = _cut(rest, noun.relation)
-    subject = bare(rest[:cut])
+    subject = bare(rest[: _cut(rest, noun.relation)])
     place = noun.anchors[0] if noun.anchors else ()
     told = find_fact(subject, scene.facts)[0] if subject and place else None
+    beside = about_map.near(subject, noun, scene)
+    if beside is not None:
+        return beside
     if not there and (told is None or keys(told.fact.subject) != keys(subject)):
         about = _grounded_prefix(rest, scene)
         if about and about < len(rest) and lexicon().places.match(keys(rest), about) is None:
             return _state(rest, scene, words)
-    fact, _ = find_fact(subject, scene.facts) if subject else (None, [])
-    if fact is not None and (there or place):
-        scene.use(fact)
-        same = not place or set(noun_phrase(place).core) <= set(noun_phrase(fact.fact.place).core)
-        return Answer(("Yes: " if same else "As far as I know, no: ") + whole_sentence(fact.fact.sentence))
-    denied = next((f for f in scene.facts if f.fact.negated and keys(f.fact.subject) == keys(subject)), None)
-    if (
-        denied is not None
-        and place
-        and set(noun_phrase(place).core) <= set(noun_phrase(denied.fact.place).core)
-    ):
-        scene.use(denied)
-        return Answer(f"As far as I know, no: {whole_sentence(denied.fact.sentence)}")
+    ready = about_map.known_there(subject, place, there, scene)
+    if ready is not None:
+        return ready
     if place and ground_phrase(place, scene.objects).outcome != "none":
         inner = lexicon().places.match(keys(place))
         # "Are the lights on in the hall": the hall.
         place = place[inner[0] :] if inner is not None and inner[0] < len(place) else place
         return Answer(
-            f"I do not know. Shall I go to {the(plain(place))} and have a look?", _statement(there, words)
+            f"I do not know. Shall I go to {the(plain(place))} and have a look?",
+            turned(words, scene) or _statement(there, words),
         )
     known = ground_phrase(subject, scene.objects) if subject else None
     if there and known is not None and known.outcome != "none" and not place:
@@ -418,10 +427,8 @@ def _state(rest: Phrase, scene: Scene, words: Phrase) -> Answer:
     if told_so is not None:
         return told_so
     if size:
-        turned = (*rest[:size], words[0], *rest[size:])
-        return Answer(
-            f"I do not know. Shall I go to {the(plain(bare(rest[:size])))} and have a look?", turned
-        )
+        said = (*rest[:size], Word(words[0].key, words[0].key), *rest[size:])
+        return Answer(f"I do not know. Shall I go to {the(plain(bare(rest[:size])))} and have a look?", said)
     fact, _ = find_fact(bare(rest[:-1]) or rest, scene.facts, locations=False)
     if fact is not None:
         scene.use(fact)
@@ -440,9 +447,8 @@ def _does(words: Phrase, flat: tuple[str, ...], scene: Scene, asked: bool) -> An
     told_so = _so_told(rest, size, scene)
     if told_so is not None:
         return told_so
-    verb = rest[size]
-    third = f"{verb.key}es" if verb.key.endswith(("s", "sh", "ch", "x")) else f"{verb.key}s"
-    said = (words[0], *rest[size:]) if flat[0] in {"has", "have"} else (Word(third, third), *rest[size + 1 :])
+    held = flat[0] in {"has", "have"}
+    said = (Word(flat[0], flat[0]), *rest[size:]) if held else (third(rest[size]), *rest[size + 1 :])
     return Answer(
         f"I do not know. Shall I go to {the(plain(bare(rest[:size])))} and have a look?",
         (*rest[:size], *said),

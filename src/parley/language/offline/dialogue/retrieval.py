@@ -6,6 +6,7 @@ which) chooses among facts that share as much.
 
 from __future__ import annotations
 
+import re
 from collections.abc import Iterable
 
 from parley.language.offline.facts.owning import owner_of
@@ -15,9 +16,9 @@ from parley.language.offline.scene.scene import Scene
 from parley.language.offline.words.lexicon import lexicon
 from parley.language.offline.words.nouns import bare
 from parley.language.offline.words.saying import whole_sentence
-from parley.language.offline.words.text import Phrase, keys
+from parley.language.offline.words.text import Phrase, keys, lemma, singular, tokens
 
-__all__ = ["condition_of", "known_of", "recalled", "recalled_fully"]
+__all__ = ["condition_of", "known_of", "recalled", "recalled_fully", "when_told"]
 
 _OWNERSHIP = frozenset({"whose", "own", "owns", "owner", "belong", "belongs", "owned", "driver"})
 _MOST_TOLD = 3
@@ -105,6 +106,48 @@ def known_of(words: Phrase, scene: Scene) -> tuple[str, list[Remembered]] | None
     hits = _last_words(item for item in scene.facts if keys(item.fact.subject) in subjects)[:_MOST_TOLD]
     text = " ".join(dict.fromkeys(whole_sentence(item.fact.sentence) for item in hits))
     return f"I only know this: {text}", hits
+
+
+def when_told(words: Phrase, scene: Scene) -> tuple[str, list[Remembered]] | None:
+    """What was told with a time in it, for "until what time can people visit?"; None if none fits best.
+
+    Args:
+        words: The question.
+        scene: What is known.
+    """
+    flat = keys(words)
+    if "when" not in flat[:2] and not ("time" in flat[:4] and {"what", "which"} & set(flat[:3])):
+        return None
+    wanted = {_stem(key) for key in flat if key not in _ASKING_WHEN and key not in lexicon().determiners}
+    timed = [item for item in scene.facts if _TIMES & set(_said(item)) or any(map(_is_hour, _said(item)))]
+    scored = [(len(wanted & {_stem(key) for key in _said(item)}), item) for item in timed]
+    best = max((score for score, _ in scored), default=0)
+    hits = [item for score, item in scored if score == best] if best else []
+    return (whole_sentence(hits[0].fact.sentence), hits) if len(hits) == 1 else None
+
+
+def _said(item: Remembered) -> tuple[str, ...]:
+    return keys(tokens(item.fact.sentence))
+
+
+def _is_hour(word: str) -> bool:
+    return bool(re.fullmatch(r"[0-2]?[0-9]([:.][0-5][0-9])?(am|pm)?", word))
+
+
+def _stem(word: str) -> str:
+    """What a verb and those who do it have in common ("visitors", "visiting")."""
+    base = singular(lemma(word))
+    ending = next((end for end in ("ing", "or", "er") if base.endswith(end) and len(base) > len(end) + 3), "")
+    return base.removesuffix(ending)
+
+
+_TIMES = frozenset({"noon", "midnight", "morning", "evening", "afternoon", "dusk", "dawn", "o'clock"})
+_ASKING_WHEN = frozenset({
+    "when", "what", "which", "time", "until", "till", "from", "by", "at", "to", "since", "is", "are", "was",
+    "do", "does", "did", "can", "may", "could", "will", "would", "must", "should", "have", "has", "people",
+    "it", "they", "there", "in", "on", "of", "for", "and", "or", "i", "we", "you", "one", "be", "get", "go",
+    "come", "day", "today", "usually", "normally",
+})  # fmt: skip
 
 
 def condition_of(about: Phrase, asked: Phrase, scene: Scene) -> Remembered | None:

@@ -351,6 +351,14 @@ def _kept_whole(sentence: Phrase, scene: Scene) -> Fact | None:
     return Fact(said[:4], relation="note", state=said, sentence=text[:1].upper() + text[1:])
 
 
+def _kept_beside(sentence: Phrase) -> Fact | None:
+    """For "And remember that A is B" among other sentences: kept, whatever is made of those."""
+    said = asked_to_keep(strip_openers(sentence))
+    fact = read_statement(said) if said else None
+    pronouns = lexicon().person_pronouns | lexicon().thing_pronouns | lexicon().operator_pronouns
+    return None if fact is None or pronouns & set(keys(fact.subject)) else fact
+
+
 def laid_down(words: Phrase, scene: Scene) -> tuple[tuple[Fact, ...], Phrase]:
     """What whole sentences of a message list or lay down for later, and the message without them.
 
@@ -375,6 +383,7 @@ def laid_down(words: Phrase, scene: Scene) -> tuple[tuple[Fact, ...], Phrase]:
             or _habit(sentence, scene)
             or _replacement(sentence, scene)
             or _kept_whole(sentence, scene)
+            or (_kept_beside(sentence) if len(sentence) < len(words) - 1 else None)
         )
         if fact is None:
             left += (*sentence, *mark)

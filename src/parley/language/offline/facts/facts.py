@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from dataclasses import replace
+from functools import lru_cache
 
 from parley.language.offline.facts.fact import Fact
 from parley.language.offline.facts.said_of import NO_PLACES, NOT_SUBJECTS, said_of
@@ -14,6 +15,7 @@ from parley.language.word_lists import load_data
 __all__ = ["NO_PLACES", "TASTES", "Fact", "only_before", "read_statement", "strip_openers", "where_only"]
 
 
+@lru_cache(maxsize=8192)
 def strip_openers(phrase: Phrase, *, requests: bool = False, reporting: bool = False) -> Phrase:
     """Without politeness (and, if asked for, wordings of requests or reports) at the start."""
     lex = lexicon()

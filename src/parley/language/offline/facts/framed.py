@@ -129,7 +129,7 @@ def _frame(words: Phrase) -> int:
     """How many words frame what is told behind them; 0 if nothing does."""
     flat = keys(words[:_LONGEST])
     before = flat.index(":") if ":" in flat[:7] else 0
-    small = lexicon().vocabulary - lexicon().nouns - _ORDERING
+    small = lexicon().small - _ORDERING
     if before and set(flat[:before]) <= small and _tells_plainly(words[before + 1 :]):
         # "Before you start: S".
         return before + 1

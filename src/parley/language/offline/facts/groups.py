@@ -65,9 +65,10 @@ def read_group(words: Phrase) -> Fact | None:
     if not 4 <= len(flat) <= _MOST_WORDS:
         return None
     lead = next((lead for lead in _LEADS if flat[: len(lead)] == lead), ())
-    kind_at = next((i for i in range(len(flat)) if flat[i] in _kinds()), -1)
+    before = flat.index(":") if ":" in flat else len(flat)
+    kind_at = next((i for i in range(before) if flat[i] in _kinds()), -1)
     if kind_at < 0:
-        kind_at = next((i for i in range(1, len(flat)) if _counted(flat, i)), -1)
+        kind_at = next((i for i in range(1, before) if _counted(flat, i)), -1)
     if kind_at < 0:
         return None
     linked = kind_at + 1 < len(flat) and "are" in flat[kind_at + 1 : kind_at + 9]

@@ -7,6 +7,7 @@ from dataclasses import dataclass
 
 from parley.language.offline.facts.facts import Fact
 from parley.language.offline.facts.remembering import Remembered
+from parley.language.offline.facts.theirs import with_their_names
 from parley.language.offline.scene.grounding import ground_phrase
 from parley.language.offline.scene.scene import Scene
 from parley.language.offline.words.lexicon import lexicon
@@ -73,6 +74,7 @@ def nicknames(memory: Sequence[MemoryEntry], objects: Sequence[MapObject]) -> li
 
 def remembered_plainly(words: Phrase, scene: Scene) -> Phrase:
     """For "ladle. V it" "the ladle. V it", for "A with the B on it" "A where the B is", B remembered."""
+    words = with_their_names(words, scene)
     flat = keys(words)
     for subject in {keys(bare(known.fact.subject)) for known in scene.facts}:
         size = len(subject)

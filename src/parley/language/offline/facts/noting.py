@@ -57,6 +57,8 @@ class Noting:
         if not self._asked_to_keep(clause.words) and not worth_keeping(fact, clause.words):
             self.scene.trace.note("memory", f"not kept: {fact.sentence}")
             self.scene.mention(fact.subject)
+            if self.scene.ground(fact.subject).outcome == "match":
+                self.scene.places.append(fact.subject)
             self.told_only = True
             return True
         told = telling(clause.words, Deeds.of(self.scene))
@@ -92,8 +94,13 @@ class Noting:
 
     def keep_lists(self) -> None:
         """Keep what sentences of the message listed or laid down."""
+        spoken_of = (self.scene.things, self.scene.places, self.scene.persons)
+        before = [len(found) for found in spoken_of]
         for fact in self.told:
             self.remember(fact)
+        for found, size in zip(spoken_of, before, strict=True):
+            # "There" is what orders name, before what is only to be remembered beside them.
+            found[:] = [*found[size:], *found[:size]]
         mention_listed(self.told, self.scene)
 
     def _asked_to_keep(self, words: Phrase) -> bool:

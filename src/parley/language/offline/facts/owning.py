@@ -4,14 +4,16 @@ from __future__ import annotations
 
 from collections.abc import Sequence
 from dataclasses import dataclass, replace
-from functools import cache
 
+from parley.language.offline.facts.naming_it import with_it_named
+from parley.language.offline.facts.posts import by_their_roles, is_somebodys, without_called
 from parley.language.offline.facts.remembering import Remembered
+from parley.language.offline.facts.told_here import told_here
 from parley.language.offline.words.lexicon import lexicon
 from parley.language.offline.words.nouns import bare, noun_phrase
 from parley.language.offline.words.text import Phrase, Word, keys, lemma, singular, tokens
 
-__all__ = ["Belonging", "belongings", "owner_of", "with_owners_named"]
+__all__ = ["Belonging", "belongings", "holder_of", "owner_of", "with_owners_named"]
 
 _OWNING = frozenset({"owns", "own", "has", "have", "drives", "drive", "rents", "uses"})
 _WITH = frozenset({"has", "have", "carries", "keeps", "holds", "wears", "owns"})
@@ -52,7 +54,7 @@ def _by_other_names(known: Sequence[Belonging], facts: Sequence[Remembered]) -> 
     for item in facts:
         fact = item.fact
         called = keys(fact.state[:1]) in {("called",), ("named",)} and not fact.negated
-        name = _called(fact.state) if called and fact.relation in lexicon().be else ()
+        name = without_called(fact.state) if called and fact.relation in lexicon().be else ()
         if name:
             result += (replace(one, owner=name) for one in known if keys(one.owner) == keys(fact.subject))
     return result
@@ -69,6 +71,12 @@ def owner_of(thing: Phrase, facts: Sequence[Remembered]) -> Belonging | None:
     return chosen[0] if len({keys(b.owner) for b in chosen}) == 1 else None
 
 
+def holder_of(thing: Phrase, facts: Sequence[Remembered]) -> Belonging | None:
+    """Who is remembered to have something with them; None if that is not known."""
+    found = owner_of(thing, facts)
+    return found if found is not None and found.source.fact.relation in _WITH else None
+
+
 _FORGETTING = frozenset({("forget",), ("delete",), ("erase",), ("remove",), ("unlearn",)})
 _TELLING = frozenset({"told", "said", "know", "about", "remember", "memory", "mentioned"})
 
@@ -79,6 +87,9 @@ def with_owners_named(words: Phrase, facts: Sequence[Remembered]) -> tuple[Phras
     if flat[:1] in _FORGETTING and _TELLING & set(flat):
         # What is to be forgotten is what goes by that name itself.
         return words, []
+    facts = [*told_here(words), *facts]
+    words = with_it_named(words, belongings(facts), facts) if facts else words
+    flat = keys(words)
     if _SOMEBODY & set(flat) and facts:
         doer = _doer_named(words, flat, facts)
         if doer is not None:
@@ -186,7 +197,7 @@ def _doer_named(
             len(flat),
         )
         wanted = _content(words[index + 1 : end])
-        theirs = [f for f in facts if _is_somebodys(f) or keys(f.fact.subject) in called]
+        theirs = [f for f in facts if is_somebodys(f) or keys(f.fact.subject) in called]
         if flat[index] == "with":
             theirs = [f for f in theirs if f.fact.relation in _WITH and wanted <= _content(f.fact.state)]
         scored = [(len(wanted & _content((*f.fact.state, *f.fact.place))), f) for f in theirs]
@@ -195,10 +206,12 @@ def _doer_named(
         if best and len(names) == 1:
             (known,) = names.values()
             return (*words[:start], *known.fact.subject, *words[end:]), [known]
-        named = [f for f in facts if _is_somebodys(f) and _alike(wanted, _content(f.fact.state))]
+        named = [f for f in facts if is_somebodys(f) and _alike(wanted, _content(f.fact.state))]
         if flat[index] == "with" and not best and len({keys(f.fact.subject) for f in named}) == 1:
             return (*words[:start], *named[0].fact.subject, *words[end:]), [named[0]]
-        owner = owner_of(bare(words[index + 1 : end]), facts) if flat[index] == "with" and not best else None
+        theirs_by = flat[index] == "with" or flat[index + 1] in _OWNING
+        thing = bare(words[index + (1 if flat[index] == "with" else 2) : end])
+        owner = owner_of(thing, facts) if theirs_by and thing and not best else None
         if owner is not None:
             return (*words[:start], *owner.owner, *words[end:]), [owner.source]
     return None
@@ -223,7 +236,7 @@ def _trait_named(words: Phrase, facts: Sequence[Remembered]) -> Phrase:
         fitting = {
             keys(f.fact.subject): f.fact.subject
             for f in facts
-            if wanted and _is_somebodys(f) and wanted <= _content((*f.fact.state, *f.fact.place))
+            if wanted and is_somebodys(f) and wanted <= _content((*f.fact.state, *f.fact.place))
         }
         if len(fitting) == 1:
             (name,) = fitting.values()
@@ -233,9 +246,11 @@ def _trait_named(words: Phrase, facts: Sequence[Remembered]) -> Phrase:
 
 def _by_their_names(words: Phrase, facts: Sequence[Remembered]) -> Phrase:
     """For "A's dog" its name, if it is remembered what it is called."""
-    if {"name", "called", "who"} & set(keys(words)):
+    said = keys(words)
+    asks = said[:1] != () and said[0] in lexicon().question_starts | lexicon().be
+    if {"name", "who"} & set(said) or ("called" in said and (asks or "?" in said)):
         return words
-    words = _by_their_roles(words, facts)
+    words = by_their_roles(words, facts)
     for known in facts:
         state = known.fact.state
         flat = keys(state)
@@ -249,85 +264,6 @@ def _by_their_names(words: Phrase, facts: Sequence[Remembered]) -> Phrase:
         where = next((i for i in range(len(said)) if said[i : i + len(wanted)] == wanted), -1)
         if kind and where >= 0:
             return (*words[:where], *state[at + 1 :], *words[where + len(wanted) :])
-    return words
-
-
-def _by_their_roles(words: Phrase, facts: Sequence[Remembered]) -> Phrase:
-    """For "A's boss" the name of who is remembered to be that."""
-    for known in facts:
-        fact = known.fact
-        if fact.is_location or fact.negated or fact.relation not in lexicon().be or not fact.state:
-            continue
-        for role, name in ((bare(fact.state), fact.subject), (fact.subject, _called(fact.state))):
-            said, wanted = keys(words), keys(role)
-            person = (
-                bool(name)
-                and all(word.is_capital for word in name)
-                and not any("'s" in word.key for word in name)
-            )
-            theirs = len(wanted) > 1 and any(word.endswith("'s") for word in wanted[:-1])
-            named = role is fact.subject and keys(fact.state[:1]) in {("called",), ("named",)}
-            post = bool(wanted) and (named or bool(lexicon().person_words & set(wanted))) and len(name) < 4
-            if not person or not (theirs or post):
-                continue
-            at = next((i for i in range(len(said)) if _same_role(said[i : i + len(wanted)], wanted)), -1)
-            if at < 0 and len(wanted) == 2 and wanted[0].removesuffix("'s") in said:
-                # "A wants to see her brother": A's brother.
-                at = (
-                    next((i for i in range(1, len(said)) if _is_their_role(said[i - 1 : i + 1], wanted)), 0)
-                    - 1
-                )
-            end = at + len(wanted)
-            told = at < 2 and said[end : end + 1] and said[end] in lexicon().be | {"has", "moved", "left"}
-            if at >= 0 and not told and not set(keys(name)) & set(said):
-                start = at - (at > 0 and said[at - 1] in {"the", "our"})
-                return (*words[:start], *name, *words[end:])
-    return _by_what_they_are(words, facts)
-
-
-def _is_their_role(said: tuple[str, ...], role: tuple[str, ...]) -> bool:
-    return said[:1] in {("her",), ("his",)} and said[1:] == role[1:]
-
-
-def _called(state: Phrase) -> Phrase:
-    """A name, without "called" before it."""
-    return bare(state[1:] if keys(state[:1]) in {("called",), ("named",)} else state)
-
-
-def _same_role(said: tuple[str, ...], role: tuple[str, ...]) -> bool:
-    """Whether words name a role, if need be by another word for it ("A's boss")."""
-    alike = lexicon().synonyms.get(role[-1], frozenset()) if role else frozenset()
-    return said == role or (
-        len(role) > 1 and said[:-1] == role[:-1] and said[-1:] != () and said[-1] in alike
-    )
-
-
-@cache
-def _small() -> frozenset[str]:
-    """Words that say nothing about somebody."""
-    return lexicon().determiners | lexicon().vocabulary - lexicon().states
-
-
-def _by_what_they_are(words: Phrase, facts: Sequence[Remembered]) -> Phrase:
-    """For "the left-handed guest" the name of the one person who is remembered to be left-handed."""
-    flat = keys(words)
-    for index in range(1, len(flat)):
-        start = index
-        if flat[index] not in lexicon().person_words:
-            continue
-        while start and flat[start - 1] not in _small():
-            start -= 1
-        traits = set(flat[start:index])
-        if not traits or not start or flat[start - 1] != "the":
-            continue
-        fitting = {
-            keys(f.fact.subject): f.fact.subject
-            for f in facts
-            if _is_somebodys(f) and traits <= set(keys(f.fact.state))
-        }
-        if len(fitting) == 1:
-            (name,) = fitting.values()
-            return (*words[: start - 1], *name, *words[index + 1 :])
     return words
 
 
@@ -351,14 +287,6 @@ def _belonging_said(
         return None
     (belonging,) = theirs.values()
     return (*words[:start], Word("the", "the"), *belonging.thing, *words[end:]), [belonging.source]
-
-
-def _is_somebodys(item: Remembered) -> bool:
-    subject = item.fact.subject
-    named = (
-        bool(subject) and all(word.is_capital for word in subject) and keys(subject)[0] not in lexicon().nouns
-    )
-    return bool(subject) and (named or keys(subject)[-1] in lexicon().person_words) and not item.fact.negated
 
 
 def _content(words: Phrase) -> frozenset[str]:
@@ -420,7 +348,7 @@ def _belonging(item: Remembered) -> Belonging | None:
         state = state[1:]
     if not state:
         return None
-    if fact.relation == "belongs" and keys(state[:1]) == ("to",):
+    if fact.relation in {"belongs", "belong"} and keys(state[:1]) == ("to",):
         return Belonging(bare(state[1:]), fact.subject, _head(fact.subject), item)
     if fact.relation in _OWNING:
         named = fact.subject[0].is_capital or keys(fact.subject)[-1] in lexicon().person_words

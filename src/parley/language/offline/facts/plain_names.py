@@ -8,7 +8,7 @@ from __future__ import annotations
 
 from parley.language.offline.facts.facts import read_statement
 from parley.language.offline.facts.owning import with_owners_named
-from parley.language.offline.scene.grounding import describe, ground_phrase
+from parley.language.offline.scene.grounding import describe
 from parley.language.offline.scene.labels import with_kinds
 from parley.language.offline.scene.missing import left_by_somebody
 from parley.language.offline.scene.owned import owned_thing
@@ -79,7 +79,7 @@ def plainly_named(words: Phrase, scene: Scene) -> Phrase:
     words, used = with_owners_named(_each_state(words), scene.facts)
     for fact in used:
         scene.use(fact)
-    words = _owned(_his_own(words, scene), scene)
+    words = _owned(words, scene)
     words = with_kinds(as_round(words), scene.objects, before)
     return _as_names(_left(_reporting(_searching(words)), scene), scene)
 
@@ -407,35 +407,6 @@ def _guessed_where(sentence: Phrase, scene: Scene) -> bool:
     words = {"apparently", "probably", "maybe", "perhaps", "i", "think", "possibly", "likely", "somewhere"}
     led = at > 0 and set(keys(sentence[:at])) <= words
     return led and len(sentence) < 8 and scene.ground(sentence[at + 1 :]).outcome == "none"
-
-
-def _his_own(words: Phrase, scene: Scene) -> Phrase:
-    """For "A wants it in his room" "A wants it in A's room", if it is known which room that is."""
-    for index in range(1, len(words) - 1):
-        if words[index].key not in {"his", "her", "their"}:
-            continue
-        name = _name_before(words[:index], scene)
-        if not name:
-            continue
-        whose = (*name[:-1], Word(f"{name[-1].key}'s", f"{name[-1].raw}'s"))
-        for size in (3, 2, 1):
-            thing = (*whose, *words[index + 1 : index + 1 + size])
-            known = ground_phrase(thing, scene.objects, strict=True).outcome == "match"
-            if known or owned_thing(thing, scene.objects, scene.facts) is not None:
-                return (*words[:index], *whose, *words[index + 1 :])
-    return words
-
-
-def _name_before(words: Phrase, scene: Scene) -> Phrase:
-    """The last name of somebody; empty if none is said."""
-    end = next((i for i in range(len(words), 0, -1) if words[i - 1].is_capital and i > 0), 0)
-    start = end
-    while start and words[start - 1].is_capital and words[start - 1].is_word:
-        start -= 1
-    name = words[start:end]
-    if len(name) > 1 and opens_command(name):
-        name = name[1:]
-    return name if name and scene.is_person(name) else ()
 
 
 def _owned(words: Phrase, scene: Scene) -> Phrase:

@@ -61,9 +61,11 @@ class Recalling(Doing):
                 continue
             for part in clauses(tokens(turn.content), opens_command):
                 fact = read_statement(part.words)
-                command = read_command(part.words, self.scene.is_person)
+                own = read_command(part.words, self.scene.is_person, self.scene.catalogue.verbs)
+                special = own is not None and self._is_own(own)
+                command = read_command(part.words, self.scene.is_person) or (own if special else None)
                 if command is not None:
-                    self._previous = None if command.negated else command
+                    self._previous = None if command.negated else own if special else command
                     self._hold(command)
                     for phrase in (command.source, command.place, command.theme, command.recipient):
                         self.scene.mention(bare(phrase))
@@ -75,6 +77,11 @@ class Recalling(Doing):
                         self.scene.places.append(fact.place)
                 else:
                     self._mention_names(part.words)
+
+    def _is_own(self, command: Command) -> bool:
+        """Whether an order is for an action of a kind of its own."""
+        catalogue = self.scene.catalogue
+        return command.kind == "catalogue" and catalogue.for_verb(command.verb) in catalogue.of_own_kind
 
     def _hold(self, command: Command) -> None:
         """What the robot still has after an earlier order: what it fetched and gave to nobody."""

@@ -17,7 +17,19 @@ from parley.language.offline.words.text import Phrase, Word, keys, plain, singul
 from parley.messages.memory import MemoryEntry
 from parley.world.object_map import MapObject
 
-__all__ = ["Remembered", "find_fact", "memory_name", "newest", "of_others", "remembered", "speaks_of_several"]
+__all__ = [
+    "WORKING",
+    "Remembered",
+    "find_fact",
+    "memory_name",
+    "newest",
+    "of_others",
+    "remembered",
+    "speaks_of_several",
+]
+
+ONLY_NOW = "only_now"
+"""The name of what is only said for one order, and not kept."""
 
 
 @dataclass(frozen=True, slots=True)
@@ -46,7 +58,7 @@ def remembered(memory: Iterable[MemoryEntry]) -> list[Remembered]:
 
 _ROBOT = frozenset({("you",), ("yourself",), ("your",)})
 """What is kept about the robot itself names nothing in the world: "you" is no other name of it."""
-_WORKING = frozenset({"drives", "operates", "runs", "mans", "minds", "tends", "steers", "staffs"})
+WORKING = frozenset({"drives", "operates", "runs", "mans", "minds", "tends", "steers", "staffs"})
 _BUSY = frozenset({
     "sells", "serves", "helps", "teaches", "cooks", "guards", "watches", "plays", "trains", "studies", "eats",
     "reads", "repairs", "paints", "cleans", "manages", "gives", "checks",
@@ -75,7 +87,7 @@ def _by_work(item: Remembered, placed: set[tuple[str, ...]]) -> Remembered | Non
         at = next((i for i in range(1, len(flat) - 1) if flat[i] in _WHERE), 0)
         place = bare(fact.state[at + 1 :]) if at else ()
         return Remembered(replace(fact, place=place, relation="at", state=()), item.entry) if place else None
-    if fact.relation not in _WORKING:
+    if fact.relation not in WORKING:
         return None
     at = next((i for i, word in enumerate(fact.state) if word.key in lexicon().determiners), -1)
     place = bare(fact.state[at:]) if at >= 0 else ()
@@ -115,7 +127,7 @@ def _read_entry(name: str, data: str) -> Fact | None:
     fact = read_statement(words)
     if fact is not None:
         return fact
-    verb = verb_at(words) if not first.endswith("?") else 0
+    verb = (verb_at(words) or _verb_of_any(words)) if not first.endswith("?") else 0
     about, _, kind = name.rpartition("_")
     if verb and verb < len(words) - 1 and kind not in {"location", "place", "position"}:
         said = tuple(word for word in words if word.is_word)
@@ -125,6 +137,26 @@ def _read_entry(name: str, data: str) -> Fact | None:
         place = noun.anchors[0] if not noun.core and noun.anchors else noun.phrase
         return Fact(tokens(about.replace("_", " ")), place, noun.relation or "at", sentence=data)
     return None
+
+
+_FURTHEST_VERB = 6
+
+
+def _verb_of_any(words: Phrase) -> int:
+    """Where a verb that no list has stands in something remembered ("A tunes the B"); 0 if there is none."""
+    lex, flat = lexicon(), keys(words)
+    for index in range(1, min(_FURTHEST_VERB, len(flat) - 1)):
+        key, before, behind = flat[index], flat[index - 1], words[index + 1]
+        if words[index].is_capital or before in lex.determiners or before.endswith("'s"):
+            continue
+        opens = behind.key in lex.determiners or behind.is_capital or behind.key.isdigit()
+        opens = (
+            opens or lex.places.match(flat, index + 1) is not None or behind.key in {"up", "out", "for", "to"}
+        )
+        several = singular(before) != before and singular(key) == key and key not in lex.vocabulary
+        if opens and (several or (singular(key) != key and singular(before) == before)):
+            return index
+    return 0
 
 
 def find_fact(

@@ -73,6 +73,8 @@ _PASSING = frozenset(
         "horrible",
         "fun",
         "boring",
+        "busy",
+        "quiet",
     }
 )
 
@@ -88,6 +90,8 @@ def worth_keeping(fact: Fact, words: Phrase) -> bool:
     subject = keys(fact.subject)
     if not flat or not subject:
         return True
+    if _is_passing(flat) or _is_opinion(fact):
+        return False
     # "Neither gate should be open": what is to be so now, and no rule.
     wished = flat[0] == "neither" and bool({"should", "must", "may", "ought"} & set(flat))
     nobody = wished or flat[0] in _REASONS or _WITHOUT_SUBJECT & {flat[0], subject[0]}
@@ -99,8 +103,6 @@ def worth_keeping(fact: Fact, words: Phrase) -> bool:
     ):
         return False
     if fact.relation in {"was", "were"} and not fact.is_location and set(flat) & _PASSING:
-        return False
-    if fact.relation in {"is", "are"} and not fact.is_location and set(keys(fact.state)[-2:]) & _OPINIONS:
         return False
     if {"you"} == set(subject[:1]) or any(flat[i : i + 2] in _YOU_LOT for i in range(min(4, len(flat)))):
         return fact.is_location
@@ -117,6 +119,30 @@ def worth_keeping(fact: Fact, words: Phrase) -> bool:
     if (flat[0] in {"you", "your"} and not {"find", "see"} & set(flat[1:4])) or subject[0] in {"you"}:
         return False
     return not (state & _set("weather") and subject[-1] in _set("weather_subjects"))
+
+
+def _is_passing(flat: tuple[str, ...]) -> bool:
+    """For "she looks pale", "A worries me", "nobody is there to help them": how it is at this moment."""
+    seems = flat[0] in {"he", "she", "they"} and bool(set(flat[1:2]) & _SEEMING)
+    nobody = flat[0] == "nobody" or flat[:2] == ("no", "one")
+    if len(flat) > 2 and {"me", "us"} & set(flat[2:]) and _TROUBLING & set(flat[1:-1]):
+        return True
+    return seems or (nobody and bool({"there", "it", "them", "him", "her", "around"} & set(flat)))
+
+
+_TROUBLING = frozenset({
+    "worries", "worry", "bothers", "bother", "scares", "annoys", "concerns", "puzzles", "upsets", "bugs",
+    "troubles", "irritates",
+})  # fmt: skip
+
+
+def _is_opinion(fact: Fact) -> bool:
+    """For "the lawn looks awful", "that was really nice": what somebody thinks of it."""
+    felt = fact.relation in {"is", "are"} | _SEEMING
+    return felt and not fact.is_location and bool(set(keys(fact.state)[-2:]) & _OPINIONS)
+
+
+_SEEMING = frozenset({"looks", "look", "seems", "seem", "sounds", "sound", "feels", "feel", "appears"})
 
 
 def is_idle(words: Phrase) -> bool:

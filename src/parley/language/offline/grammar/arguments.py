@@ -470,7 +470,8 @@ class Arguments:
         start = at
         while start < end and self.key(start) in {"if", "whether", "that", "to", "see", "out", "for"}:
             start += 1
-        order.what = words_of(self.items[start:end])
+        # "Check how full it is": the question is kept.
+        order.what = words_of(self.items[start - (start == at and self.key(start - 1) == "how") : end])
         order.things += self._things(start, end) if not order.refers else []
         for i in range(start, end):
             back = small().back_reference.match(self.heads.flat(i))

@@ -100,7 +100,9 @@ def _said(step: Step) -> Phrase:
         case "whether":
             what = turned_round(step.what)
             asks = keys(what[:1]) in {("how",), ("what",), ("who",)}
-            lead = (*tokens("go to"), *place, _STOP) if place else ()
+            # What hangs on a condition is one order, so that all of it does.
+            joint = Word("and", "and") if step.hangs else _STOP
+            lead = (*tokens("go to"), *place, joint) if place else ()
             return (*lead, *(tokens("check") if asks else tokens("check whether")), *what)
     return step.words
 

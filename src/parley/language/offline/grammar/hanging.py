@@ -25,6 +25,7 @@ def _mark(subordinator: str) -> str:
     return _OTHER.get(subordinator) or (lead[1] if lead is not None and lead[0] == len(words) else "")
 
 
+_POINTING = frozenset({"it", "them", "there", "him", "her"})
 _BEFORE = frozenset({"before", "prior to"})
 
 
@@ -115,7 +116,7 @@ class Hanging(Topics):
             self.parts.append(Node("otherwise" if mark == "otherwise" else "if"))
             self.at = start
             return True
-        end = self._clause_of_condition(start)
+        end = self._order_within(start, self._clause_of_condition(start))
         items = list(self.items[start:end])
         if words == ("should",):
             items = [Item("is", (Word("is", "is"),)) if item.key == "be" else item for item in items]
@@ -160,6 +161,21 @@ class Hanging(Topics):
                 or (end > start and bool(verb_class(self.key(end))))
             )
             end += 1
+        return end
+
+    def _order_within(self, start: int, end: int) -> int:
+        """Where an order begins in a condition that "otherwise" follows ("if S V it, otherwise W")."""
+        behind = self.heads.flat(end + (self.key(end) == ","))
+        other = small().subordinators.match(behind) if behind else None
+        if other is None or _mark(other[1]) != "otherwise":
+            return end
+        for at in range(end - 2, start + 1, -1):
+            word, following = self.key(at), self.items[at + 1]
+            verb = base(word) == word and (bool(verb_class(word)) or self.heads.is_own(at))
+            acts = following.thing is not None or following.key in lexicon().determiners | _POINTING
+            no_verb = self.key(at - 1) in lexicon().determiners | lexicon().be | {"to", "not"}
+            if verb and acts and not no_verb:
+                return at
         return end
 
     def _opens(self, at: int) -> bool:

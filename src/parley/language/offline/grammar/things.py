@@ -8,6 +8,7 @@ from dataclasses import dataclass
 from parley.language.offline.grammar.groups import Groups, Item, Thing
 from parley.language.offline.grammar.small import small, verb_class
 from parley.language.offline.scene.grounding import describe, ground_phrase
+from parley.language.offline.scene.group_nouns import is_room_for
 from parley.language.offline.scene.marks import marks_of, members_of
 from parley.language.offline.scene.scene import Scene
 from parley.language.offline.words.lexicon import lexicon
@@ -18,7 +19,6 @@ __all__ = ["Item", "Thing", "items_of"]
 
 _LONGEST = 7
 _BEING = frozenset({("in",), ("at",), ("on",), ("by",)})
-_ROOM_FOR = frozenset({("for",), ("to",), ("left",), ("enough",)})
 
 
 def items_of(words: Phrase, scene: Scene) -> list[Item]:
@@ -204,7 +204,16 @@ class _Finder(Groups):
         opens = not before[-1:].isalnum() or before in {"and", "then", "please", "you", "to", "but", "or"}
         following = self.words[at + 1].key
         leads = small().determiners | small().prepositions | {"yourself", "it", "them", "if", "whether"}
+        label = self.words[at + 1].raw == "A" or (following == "a" and not self._goes_on(at + 2))
+        if label and self._is_one(self.words[at : at + 2]):
+            # "Go to lift A", as against "lift a box".
+            return False
         return opens and (following in leads) and following not in {"of"}
+
+    def _goes_on(self, at: int) -> bool:
+        """Whether a word stands here that is neither small nor the start of an order."""
+        word = self.words[at].key if at < len(self.words) and self.words[at].is_word else ""
+        return bool(word) and word not in small().frame | small().conjunctions | small().prepositions
 
     def _owned(self, at: int) -> tuple[int, Thing | None]:
         """For "Anna's desk": what memory knows of whose it is."""
@@ -277,14 +286,10 @@ class _Finder(Groups):
             before = self.words[at - 1].key if at else "."
             if before in {"to", "and", "you", "please", "not", "then"}:
                 return None
-        if (
-            not lead
-            and keys(content) in {("room",), ("space",)}
-            and keys(self.words[stop : stop + 1]) in _ROOM_FOR
-        ):
+        if len(content) == 1 and is_room_for(keys(self.words[: stop + 1]), start):
             return None
         phrase = self.words[at:stop]
-        if self.scene.has_its_own(self.words, start, stop):
+        if self.scene.has_its_own(self.words, start, stop) or self._is_part(at, start, stop):
             return None
         found = ground_phrase(content, self.scene.objects, self.scene.situation.robot_pose, strict=True)
         if found.outcome == "none":
@@ -304,6 +309,14 @@ class _Finder(Groups):
             members = tuple(tokens(describe(item, self.scene.objects)) for item in found.candidates)
             return Thing(members, phrase, group=True)
         return Thing((content,), phrase)
+
+    def _is_part(self, at: int, start: int, stop: int) -> bool:
+        """For "the door is" behind what has a door."""
+        said_of = self.words[stop : stop + 1]
+        if stop - start != 1 or keys(said_of)[:1] == () or said_of[0].key not in small().sets["links"]:
+            return False
+        earlier = any(self._is_one(self.words[i - n : i]) for i in range(1, at) for n in (1, 2, 3) if n <= i)
+        return earlier and self.scene.is_part(self.words[start])
 
     def _more(self, at: int, start: int, stop: int, thing: Thing) -> tuple[int, Thing]:
         """What belongs to a name behind it: more labels, a range, an exception, where it is."""

@@ -6,9 +6,9 @@ from collections.abc import Sequence
 
 from parley.language.offline.grammar.arguments import Arguments, words_of
 from parley.language.offline.grammar.orders import Order, Part
-from parley.language.offline.grammar.small import base, is_past, small, verb_class
+from parley.language.offline.grammar.small import base, is_past, small
 from parley.language.offline.grammar.things import Item
-from parley.language.offline.grammar.verbs import Head, Heads
+from parley.language.offline.grammar.verbs import Heads
 from parley.language.offline.scene.scene import Scene
 
 __all__ = ["Topics"]
@@ -78,8 +78,6 @@ class Topics:
     def _topic(self) -> bool:
         """For "The gate needs a check for ice", "I want the gate looked at", "a check of the gate"."""
         at = self.at
-        if self._gerund():
-            return True
         lead = self.heads.flat(at)
         wants = at
         if lead[:2] in {("i", "have"), ("we", "have"), ("you", "have"), ("i", "like"), ("we", "like")}:
@@ -94,8 +92,6 @@ class Topics:
             return False
         order = Order("go")
         behind = self.args.take(order, wants)
-        if lead[max(0, wants - at - 2) : wants - at] == ("it", "is"):
-            return self._cleft(order, behind)
         if self._wants_there(lead[: wants - at]):
             self.parts.append(order)
             self.at = behind
@@ -123,49 +119,12 @@ class Topics:
             return True
         return bool(set(lead) & (small().wishes | {"get", "have"})) and "to" not in lead
 
-    def _cleft(self, order: Order, at: int) -> bool:
-        """For "it is the gate that needs you", "it is the gate I want you to check"."""
-        flat = self.heads.flat(at, 6)
-        if flat[:1] == ("that",):
-            flat, at = flat[1:], at + 1
-        if flat[:2] in {("needs", "you"), ("wants", "you"), ("need", "you")}:
-            self.parts.append(order)
-            self.at = at + 2
-            return True
-        needs = at
-        while self.key(needs) in small().needs | small().sets["needs_to_be"] and needs - at < 6:
-            needs += 1
-        if needs > at and self._needed(order, at, needs):
-            return True
-        head = self.heads.head(at) if {"i", "we"} & set(flat[:1]) else None
-        if head is None or head.kind not in {"look", "go"}:
-            return False
-        order.kind = "look" if head.kind == "look" else "go"
-        self.parts.append(order)
-        self.at = self.args.looked(order, head.end) if head.kind == "look" else head.end
-        return True
-
-    def _gerund(self) -> bool:
-        """For "Inspecting the gate comes first"."""
-        key = self.key()
-        if not key.endswith("ing") or not verb_class(key):
-            return False
-        end, kind = self.heads.kind(self.at)
-        order, end = self.args.read(Head(self.at, end, kind, False, True))
-        flat = self.heads.flat(end, 4)
-        if not order.things or flat[:1] not in {("comes",), ("is",), ("goes",), ("has",), ("will",)}:
-            return False
-        self.parts.append(order)
-        self.at = self._told_end(end)
-        return True
-
     def _needed(self, order: Order, behind: int, needs: int) -> bool:
         """What a thing needs: "looking at", "checked", "a visit"."""
         if self.heads.flat(behind + 1, 2) == ("you", "to") or self.key(behind) == "had":
             # "Somebody wants you to V": who wants it.
             return False
-        owned = self._part_needed(order, needs) if needs > behind else False
-        if owned:
+        if needs > behind and self._part_needed(order, needs):
             return True
         key = self.key(needs)
         between = set(self.heads.flat(behind, needs - behind))

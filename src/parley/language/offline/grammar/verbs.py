@@ -130,6 +130,10 @@ class Heads:
             return True
         return key in small().sets["states"] and not self._goes_to(j)
 
+    def is_own(self, j: int) -> bool:
+        """Whether a word is the verb of an action of the catalogue."""
+        return base(self.key(j)) in self._own
+
     def is_talk(self, j: int) -> bool:
         """Whether a verb is one of those that order nothing."""
         return base(self.key(j)) in small().talk or self.flat(j, 2) in _HOLDING_ON

@@ -106,6 +106,10 @@ def _tells(words: Phrase) -> bool:
     return finite and not opens_command(words)
 
 
+_STAYS = lexicon().be | {"can", "may", "could", "should", "need", "needs", "stays", "stay", "has", "have"}
+_LONGEST_STEP = 4
+
+
 @dataclass
 class _Clauses:
     """Clauses read one after the other."""
@@ -291,7 +295,20 @@ class _Clauses:
         if found:
             start, end, _ = found[0]
             self.topic = tuple(w for w in words if w.is_word)[start:end]
-        return bool(found)
+            return True
+        deed = self._only_step(words, now)
+        self.topic = deed or self.topic
+        return bool(deed)
+
+    def _only_step(self, words: Phrase, now: Scene) -> Phrase:
+        """For "the curtain can stay open": the words for a pending step that nothing of the map names."""
+        flat = keys(words)
+        link = next((i for i in range(1, len(flat)) if flat[i] in _STAYS), 0)
+        if not link or flat[0] not in lexicon().determiners or link > _LONGEST_STEP:
+            return ()
+        change = self.read((*tokens("leave out"), *words[:link]), now)
+        drops = change is not None and change.edit is not None and not change.edit.queue and not change.order
+        return words[:link] if drops else ()
 
     def _confirms(self, words: Phrase, now: Scene) -> bool:
         """For "drop the gates, only the hall": what is left anyway is named."""

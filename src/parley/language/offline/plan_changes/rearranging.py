@@ -269,6 +269,9 @@ def _instead(slots: dict[str, Phrase], scene: Scene) -> Change | None:
     found = _named(slots, scene, "a")
     if found is None:
         return None
+    if len(slots.get("x", ())) == 1 and pending_visits((*slots["a"], *slots["x"]), scene):
+        # "(Drop) the second stop": one phrase, though a bus stop is on the map.
+        return None
     listed, at = visits(scene), found[0][0]
     names = listed[at].names
     kind = tokens(names[0])[-1:] if names else ()

@@ -68,11 +68,34 @@ def visits(scene: Scene) -> list[Visit]:
         info = scene.catalogue.get(step.name)
         roles = scene.catalogue.roles(info) if info is not None else frozenset()
         leads = "locate" in roles or ("motion" in roles and info is not None and bool(text_inputs(info)))
-        if leads or not groups:
+        if leads or not groups or (info is not None and _elsewhere(step, groups[-1], scene)):
             groups.append([])
             starts.append(index)
         groups[-1].append(step)
     return [Visit(start, tuple(group)) for start, group in zip(starts, groups, strict=True)]
+
+
+def _elsewhere(step: ActionCall, group: Sequence[ActionCall], scene: Scene) -> bool:
+    """Whether an action of a kind of its own is for another thing than the steps before it."""
+    info = scene.catalogue.get(step.name)
+    if info not in scene.catalogue.of_own_kind or step.flow is not None:
+        return False
+    named, before = _texts([step]), _texts(group)
+    there = _things(named, scene)
+    if there:
+        return not there & _things(before, scene)
+    return scene.catalogue.get(group[0].name) in scene.catalogue.of_own_kind and not named & before
+
+
+def _texts(steps: Iterable[ActionCall]) -> set[str]:
+    values = (p.value for step in steps for p in step.input_parameters.values())
+    return {value for value in values if isinstance(value, str) and value}
+
+
+def _things(names: Iterable[str], scene: Scene) -> set[str]:
+    """What is meant by names, by what the map calls it."""
+    found = (scene.ground(tokens(name)) for name in names)
+    return {one.candidates[0].id for one in found if one.outcome == "match"}
 
 
 def visit_of(phrase: Phrase, scene: Scene) -> int | None:

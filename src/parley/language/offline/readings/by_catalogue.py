@@ -18,6 +18,7 @@ from parley.language.offline.tasks.commands import read_command
 from parley.language.offline.tasks.matching import Match
 from parley.language.offline.tasks.parts import map_spans
 from parley.language.offline.tasks.roles import parameter_role
+from parley.language.offline.tasks.signature import STATES
 from parley.language.offline.tasks.tasks import Tasks
 from parley.language.offline.words.concepts import LIGHT_VERBS
 from parley.language.offline.words.lexicon import PhraseTable, lexicon
@@ -31,10 +32,9 @@ _DATA = load_data("offering")
 _MARKS = frozenset({".", "!", "?", ";", "\n"})
 _CUTS = frozenset({",", "and", "but", "then", "plus", "also", "so", "before", "after", "once", "when"})
 _JOINTS = frozenset({",", "and", "but", "then", "plus", "also", "so", "&", ":"})
-_MOST_CUTS = 9
+_MOST_CUTS, _MOST_WORDS = 9, 90
 _LONGEST = 4
 """How many stretches between cuts one order may have."""
-_MOST_WORDS = 90
 _LONG_STORY = 14
 _LONGEST_ORDER = 18
 """Words of what only tells and is not looked through, and of one order at most."""
@@ -178,7 +178,7 @@ class _Cutting:
                     continue
                 part = sentence[cuts[start] : cuts[end]]
                 piece = self._piece(part, first=start == 0)
-                if piece is None or piece.named:
+                if piece is None or piece.named or part[-1].key in STATES:
                     piece = self._alike(part, before[1]) or piece
                 piece = piece or self._aside(
                     part, marked="," in keys((*sentence[: cuts[start]][-1:], part[-1]))
@@ -229,10 +229,10 @@ class _Cutting:
         if not said or any(parameter_role(name) == "text" for name in said):
             return None
         values = {word for phrase in last.match.filled.phrases.values() for word in phrase}
-        named = tuple(
-            word for i, word in enumerate(last.words) if i in last.match.explained and word not in values
-        )
-        for lead in (named, (last.words[0], *named), last.words[:1]):
+        explained = (word for i, word in enumerate(last.words) if i in last.match.explained)
+        named = tuple(word for word in explained if word not in values)
+        told = tuple(word for word in named if word.key not in STATES)
+        for lead in filter(None, (told, named, (last.words[0], *told), last.words[:1])):
             match = self._match((*lead, *core))
             if match is not None and match.info is last.match.info and set(match.filled.values) == said:
                 return _Piece((*lead, *core), 1.0 + match.score, match, when=when, changed=True)

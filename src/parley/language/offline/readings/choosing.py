@@ -5,6 +5,7 @@ from __future__ import annotations
 import re
 from collections.abc import Callable, Iterator, Sequence
 from dataclasses import dataclass, replace
+from functools import cache
 
 from parley.language.base import Situation
 from parley.language.offline.dialogue.turning import turned
@@ -28,6 +29,7 @@ from parley.language.offline.readings.kinds import (
     with_undone_deeds,
     without_vague_orders,
 )
+from parley.language.offline.readings.parts import Parts
 from parley.language.offline.readings.told_besides import with_what_is_told
 from parley.language.offline.repair.replies import agrees
 from parley.language.offline.scene.grounding import describe
@@ -37,7 +39,6 @@ from parley.language.offline.scene.sought import thought_there
 from parley.language.offline.sentences.arranging import arranged, each_in_turn, without_end
 from parley.language.offline.sentences.branching import branched
 from parley.language.offline.sentences.briefly import briefly
-from parley.language.offline.sentences.clauses import opens_command
 from parley.language.offline.sentences.conditioning import as_conditions
 from parley.language.offline.sentences.correcting import corrected
 from parley.language.offline.sentences.distilling import context, distilled, with_the_same
@@ -45,10 +46,9 @@ from parley.language.offline.sentences.expecting import with_looks
 from parley.language.offline.sentences.named import back_to_first, verb_first, with_articles
 from parley.language.offline.sentences.numbering import unnumbered
 from parley.language.offline.sentences.scoping import scoped
-from parley.language.offline.sentences.spoken import Names
 from parley.language.offline.sentences.talk import without_talk
 from parley.language.offline.sentences.told import told_apart, when_done
-from parley.language.offline.sentences.units import Unit, units
+from parley.language.offline.sentences.units import Unit
 from parley.language.offline.tasks.abilities import cannot
 from parley.language.offline.tasks.helping import helping, is_drastic
 from parley.language.offline.tasks.tasks import Tasks
@@ -70,6 +70,9 @@ class _Reading:
     judged: Judgement
     trace: Trace
     how: str
+    words: Phrase = ()
+    about: tuple[Phrase, ...] = ()
+    """What was told of before those words."""
     reported: bool = False
     """Whether it only looks at what was reported."""
 
@@ -90,18 +93,21 @@ def best_reading(
         targets: The robots that are spoken to.
     """
     scene = Scene.of(situation, hints)
+    cut = Parts(scene)
+    is_stop = cut.names.is_stop
     words = thought_there(by_their_real_names(remembered_plainly(words, scene), scene), scene)
-    words = _to_the_point(told_plainly(words), scene, trace)
+    words = _to_the_point(told_plainly(words), cut, trace)
     changed = _changed_plan(words, situation, hints, trace, targets)
     if changed is not None:
         return changed
-    words = with_looks(words, Names(scene).is_stop)
+    words = with_looks(words, is_stop)
     told, words = laid_down(told_plainly(words), scene)
     mention_listed(told, scene)
-    words = without_vague_orders(words, _units(words, scene))
-    words = with_undone_deeds(words, _units(words, scene), scene)
-    whole = plainly_named(with_members(words, told), scene)
-    words = _settled(words, scene)
+    words = without_vague_orders(words, cut.of(words))
+    words = with_undone_deeds(words, cut.of(words), scene)
+    named = cache(lambda said: plainly_named(with_members(said, told), scene))
+    whole = named(words)
+    words = _settled(words, cut)
     names = names_things(scene)
     raw = with_answer(words, list(hints), scene)
     put_together = grouped(raw, scene)
@@ -115,16 +121,17 @@ def best_reading(
     hangs = keys(words) != keys(kept.words)
     plainer = not situation.queue and (spared or hangs)
     free = not (plainer or situation.queue)
-    message = words if plainer else grouped(raw, scene, pronouns=False)
-    message = plainly_named(with_members(message, told), scene)
+    # Where no group was found at all, none is without pronouns.
+    groups = raw if plainer or put_together == raw else grouped(raw, scene, pronouns=False)
+    message = named(words if plainer else groups)
     # What was left out or put together already, the plain orders of the whole message would bring back.
     settled = keys(put_together) != keys(words)
-    words = plainly_named(with_members(words, told), scene)
-    said, words = words, with_articles(words, Names(scene).is_stop)
-    parts = _units(words, scene)
+    words = named(words)
+    said, words = words, with_articles(words, is_stop)
+    parts = cut.of(words)
     placed = arranged(parts)
     if placed is not None:
-        words, parts = placed, _units(placed, scene)
+        words, parts = placed, cut.of(placed)
     if keys(said) != keys(words):
         trace.note("words", f"taken as “{plain(words)}”")
     best = _read(words, (), situation, hints, targets, parts, told, "as it is said", spared)
@@ -135,14 +142,17 @@ def best_reading(
     ordered, as_said = (None, None) if made_out or tells else _plain_orders(message, all_said, best, scene)
 
     def reread(said: Phrase, about: Sequence[Phrase], how: str) -> _Reading:
-        readings.append(_read(said, about, situation, hints, targets, parts, told, how, spared))
-        return readings[-1]
+        known = next((one for one in readings if (one.words, one.about) == (said, tuple(about))), None)
+        if known is None:
+            known = _read(said, about, situation, hints, targets, parts, told, how, spared)
+            readings.append(known)
+        return known
 
     best = _in_plain_orders(best, ordered, as_said, reread)
     if readings[0].judged.cost > 0:
         best = _read_otherwise(best, readings[0], _others(words, parts, scene), parts, reread)
     wanted = kept.words if len(kept.words) < len(put_together) else message
-    best = _offered(best, readings, wanted, parts, told, situation, hints, targets, spared, scene)
+    best = best if spared else _offered(best, wanted, parts, cut, reread)
     if ordered is not None and ordered.unable and not ordered.against:
         best = _unable(best, ordered.unable, scene)
     besides = with_what_is_told(best.action, readings[0].action, parts)
@@ -157,31 +167,18 @@ def best_reading(
     return action.model_copy(update={"sources": sources}) if scene.sources else action
 
 
-def _offered(
-    best: _Reading,
-    readings: list[_Reading],
-    message: Phrase,
-    parts: Sequence[Unit],
-    told: tuple[Fact, ...],
-    situation: Situation,
-    hints: Sequence[str],
-    targets: tuple[str, ...],
-    spared: frozenset[str],
-    scene: Scene,
-) -> _Reading:
+def _offered(best: _Reading, message: Phrase, parts: Sequence[Unit], cut: Parts, reread: _Reread) -> _Reading:
     """The reading by what the robot offers, where that makes more of the message than the best one so far."""
-    if spared or any(step.flow is not None for step in best.action.queue) or only_news(parts, scene):
+    if any(step.flow is not None for step in best.action.queue) or only_news(parts, cut.scene):
         return best
 
     def tells(sentence: Phrase) -> bool:
-        return all(unit.kind in {"told", "reason", "idle"} for unit in _units(sentence, scene))
+        return all(unit.kind in {"told", "reason", "idle"} for unit in cut.of(sentence))
 
-    asked = asked_of_catalogue(message, tells, scene)
+    asked = asked_of_catalogue(message, tells, cut.scene)
     if asked is None:
         return best
-    how = f"by what the robot offers, “{plain(asked.words)}”"
-    found = _read(asked.words, (), situation, hints, targets, parts, told, how, spared)
-    readings.append(found)
+    found = reread(asked.words, (), f"by what the robot offers, “{plain(asked.words)}”")
     judged = found.judged
     if judged.lost or judged.nonsense or judged.unable or judged.asks or not found.action.queue:
         return best
@@ -393,50 +390,33 @@ def _is_ours(part: Unit, words: Phrase, scene: Scene) -> bool:
     return ours and not usual and Tasks(scene).own_match(part.words, weak=True) is None
 
 
-def _to_the_point(words: Phrase, scene: Scene, trace: Trace) -> Phrase:
+def _to_the_point(words: Phrase, cut: Parts, trace: Trace) -> Phrase:
     """A message without who is speaking and what is only said to the listener."""
     words = briefly(words)
     ended = without_end(words)
-    parts = _units(ended, scene)
+    parts = cut.of(ended)
     for part in parts if len(parts) > 1 else ():
         trace.note("part", f"{part.kind}: “{plain(part.words)}” ({part.why})")
-    ours = [part for part in parts if _is_ours(part, ended, scene)]
+    ours = [part for part in parts if _is_ours(part, ended, cut.scene)]
     orders = any(part.kind == "order" and part not in ours for part in parts)
     parts = [replace(part, kind="mood") if orders and part in ours else part for part in parts]
     kept = without_talk(ended, parts)
     kept = kept if keys(kept) != keys(ended) else words
     if any(part.same for part in parts):
-        kept = with_the_same(kept, _units(kept, scene))
+        kept = with_the_same(kept, cut.of(kept))
     if keys(kept) != keys(words):
         trace.note("words", f"to the point, “{plain(kept)}”")
     return kept
 
 
-def _units(words: Phrase, scene: Scene) -> list[Unit]:
-    found = units(words, Names(scene).is_stop, lambda part: opens_command(part, scene.catalogue.verbs))
-    return [_as_own_order(unit, scene) for unit in found]
-
-
-def _as_own_order(unit: Unit, scene: Scene) -> Unit:
-    """For "blinds down": what an action of its own kind explains is an order, though no verb begins it."""
-    short = 1 < len(unit.words) <= _SHORT_ORDER
-    match = Tasks(scene).own_match(unit.words) if short and unit.kind in {"who", "idle"} else None
-    if match is None or not match.complete:
-        return unit
-    return replace(unit, kind="order", why=f"{match.info.name} is what it asks for")
-
-
-_SHORT_ORDER = 12
-
-
-def _settled(words: Phrase, scene: Scene) -> Phrase:
+def _settled(words: Phrase, cut: Parts) -> Phrase:
     """With what is taken back gone, and lists as sentences."""
-    is_stop = Names(scene).is_stop
+    is_stop = cut.names.is_stop
     words = back_to_first(verb_first(unnumbered(when_done(without_end(words))), is_stop), is_stop)
     if {"each", "all", "both", "them", "those", "these"} & set(keys(words)):
-        words = each_in_turn(_units(words, scene)) or words
-    words = corrected(words, is_stop, lambda part: opens_command(part, scene.catalogue.verbs))
-    return told_apart(words, _units(words, scene)) if "," in keys(words) else words
+        words = each_in_turn(cut.of(words)) or words
+    words = corrected(words, is_stop, cut.opens)
+    return told_apart(words, cut.of(words)) if "," in keys(words) else words
 
 
 def _others(
@@ -471,9 +451,8 @@ def _read(
     scene = Scene.of(situation, hints, trace)
     reader = Reader(scene, targets=targets, about=tuple(about), told=told, reread=_read_again)
     action = reader.read(words)
-    return _Reading(
-        action, judge(action, reader.trouble, parts, scene, spared), trace, how, reported=reader.reported
-    )
+    judged = judge(action, reader.trouble, parts, scene, spared)
+    return _Reading(action, judged, trace, how, words, tuple(about), reader.reported)
 
 
 def _read_again(words: Phrase, situation: Situation) -> ChatAction:

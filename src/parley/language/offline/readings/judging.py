@@ -14,6 +14,7 @@ from parley.language.offline.sentences.laconic import SEEN
 from parley.language.offline.sentences.signs import LEADING
 from parley.language.offline.sentences.units import Unit
 from parley.language.offline.tasks.catalogue import parameter_role
+from parley.language.offline.tasks.choices import choices_of
 from parley.language.offline.tasks.tasks import UnableError
 from parley.language.offline.words.lexicon import PhraseTable, lexicon
 from parley.language.offline.words.nouns import bare, beside_at
@@ -97,7 +98,8 @@ def judge(
     asked = unclear is not None and bool(unclear.about) and not _can_be(unclear.about, units, scene)
     wrong = sum(_nonsense(step, scene) for step in action.queue) + _kept_orders(action, units)
     ordered = _named_in(units, {"order", "wish", "name", "idle", "condition"}, scene)
-    told = _named_in(units, {"told", "reason"}, scene) - _named_in(
+    stories = [unit for unit in units if not _leads_on(unit, units, action)]
+    told = _named_in(stories, {"told", "reason"}, scene) - _named_in(
         units, {"order", "wish", "name", "asked"}, scene
     )
     used = _used(action, units, scene)
@@ -121,6 +123,21 @@ def judge(
         unshared=_unshared(action, units, scene),
         left=0 if _changes_plan(action) or trouble is not None else _left(action, units, scene),
     )
+
+
+def _leads_on(unit: Unit, units: Sequence[Unit], action: ChatAction) -> bool:
+    """For "A moved to B. Go to A": what is told says where to go, and is kept."""
+    if unit.kind != "told":
+        return False
+    told = set(keys(unit.words))
+    ordered = {key for one in units if one.kind in {"order", "name"} for key in keys(one.words)}
+    for command in action.system_cmd:
+        info = keys(tokens(str(command.arguments.get("info", ""))))
+        about = {key for key in info[1:-1] if key not in lexicon().determiners}
+        data = {key for key in keys(tokens(str(command.arguments.get("data", "")))) if key.isalnum()}
+        if info[:1] == ("where",) and about and about <= ordered and len(data - told - about) <= 1:
+            return True
+    return False
 
 
 def gone_to(action: ChatAction, scene: Scene) -> frozenset[str]:
@@ -213,8 +230,9 @@ def _means_something(key: str) -> bool:
     lex = lexicon()
     if not key.isalpha() or len(key) < 3:
         return False
-    telling = lex.nouns | lex.meaningful | lex.hazards | lex.incidents | SEEN
-    return key in telling or (key not in lex.vocabulary and lemma(key) not in lex.vocabulary)
+    telling = (lex.nouns, lex.meaningful, lex.hazards, lex.incidents, SEEN)
+    known = key in lex.vocabulary or lemma(key) in lex.vocabulary
+    return not known or any(key in words for words in telling)
 
 
 def _changes_plan(action: ChatAction) -> bool:
@@ -305,10 +323,14 @@ def is_odd(step: ActionCall, scene: Scene) -> bool:
 
 def _nonsense(step: ActionCall, scene: Scene) -> int:
     """How many inputs of a step nothing can be called."""
+    info = scene.catalogue.get(step.name)
+    offered = choices_of(info) if info is not None else {}
     values = [
         str(parameter.value)
         for name, parameter in step.input_parameters.items()
         if parameter.has_data and isinstance(parameter.value, str) and parameter_role(name) not in _SAID
+        # "On" is no name, but one of what an input may be.
+        if parameter.value not in offered.get(name, {}).values()
     ]
     return sum(not _makes_sense(tokens(value), scene) for value in values if value)
 
@@ -325,12 +347,14 @@ def _makes_sense(words: Phrase, scene: Scene) -> bool:
 
 def _named_in(units: Sequence[Unit], kinds: set[str], scene: Scene) -> set[str]:
     """The ids of what the parts of some kinds name."""
+    begun = next((at for at, unit in enumerate(units) if unit.names), len(units))
     phrases = (
         p
-        for unit in units
+        for at, unit in enumerate(units)
         if unit.kind in kinds and not unit.refuses
         for p in unit.names
         if not _belongs_elsewhere(bare(p), unit.words, scene)
+        and not (at > begun and len(bare(p)) == 1 and scene.is_part(bare(p)[0]))
     )
     return {item.id for phrase in phrases for item in scene.ground(phrase).candidates[:1]}
 

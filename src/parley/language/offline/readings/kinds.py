@@ -43,10 +43,13 @@ def with_undone_deeds(words: Phrase, parts: Sequence[Unit], scene: Scene) -> Phr
     ordered = any(part.kind in {"order", "condition", "asked"} for part in parts)
     result, at = list(words), len(words)
     for part, told in reversed(tellings(parts, scene)):
-        explains = ordered and told.kind in {"undone", "expected"}
+        asked = _asked_for(part, parts)
+        explains = ordered and asked is None and told.kind in {"undone", "expected"}
         order = () if explains else _order(told, part, scene)
         if not order:
             continue
+        if asked is not None:
+            del result[asked.start : asked.end]
         begin = part.start
         while begin < part.end and keys(words[begin : part.end])[: len(part.words)] != keys(part.words):
             begin += 1
@@ -55,6 +58,16 @@ def with_undone_deeds(words: Phrase, parts: Sequence[Unit], scene: Scene) -> Phr
             at = part.start
             scene.trace.note("recast", f"“{told.deed}” is {told.kind}")
     return tuple(result)
+
+
+def _asked_for(part: Unit, parts: Sequence[Unit]) -> Unit | None:
+    """For "nobody has V-ed A. Please do that" the order behind it, which only says to do what is told."""
+    behind = next((one for one in parts if one.start >= part.end and one.kind != "reason"), None)
+    if behind is None or behind.kind != "order":
+        return None
+    flat = keys(word for word in behind.words if word.is_word)
+    does = flat[:1] == ("do",) or _vague().match(flat, int(flat[:1] == ("and",))) is not None
+    return behind if does and _POINTING & set(flat) and set(flat[1:]) <= _DOING_SO else None
 
 
 def without_vague_orders(words: Phrase, parts: Sequence[Unit]) -> Phrase:
@@ -72,6 +85,10 @@ def without_vague_orders(words: Phrase, parts: Sequence[Unit]) -> Phrase:
 
 
 _POINTING = frozenset({"it", "that", "this", "them", "to"})
+_DOING_SO = _POINTING | {
+    "so", "now", "please", "then", "first", "next", "today", "right", "away", "straight", "for", "me", "us",
+    "of", "care", "both", "all", "soon", "quickly", "at", "once", "too", "as", "well", "and", "you", "could",
+}  # fmt: skip
 
 
 def tellings(parts: Sequence[Unit], scene: Scene) -> list[tuple[Unit, Telling]]:
@@ -147,4 +164,7 @@ def _order(told: Telling, part: Unit, scene: Scene) -> Phrase:
     where = place_named(part.words, scene) if looks else None
     if where is not None:
         return phrase_of("inspect the", bare(part.words[where[0] : where[1]]))
-    return () if looks else told.order
+    return () if looks and len(scene.several(told.order[1:])) < _SEVERAL else told.order
+
+
+_SEVERAL = 2

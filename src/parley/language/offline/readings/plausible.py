@@ -80,8 +80,9 @@ _WHERE = frozenset({
 
 
 def _ends_in_order(flat: tuple[str, ...]) -> bool:
-    """For "bay 1 look": a name with the verb of the next order."""
-    return (
+    """For "bay 1 look", "bay 1 same thing": a name with the next order."""
+    same = flat.index("same") if "same" in flat else 0
+    return (same > 0 and flat[same - 1] not in lexicon().determiners) or (
         len(flat) > 1
         and flat[-1] in {"look", "go", "check", "inspect", "drive", "see"}
         and (flat[-2].isdigit() or len(flat[-2]) == 1)
@@ -105,7 +106,8 @@ def is_request(words: Phrase) -> bool:
         flat[i] in {"and", ",", "then"} and _acts(words[i + 1 :]) for i in range(1, len(flat) - 1)
     ) or _runs_on(rest):
         return False
-    return _labelled(rest) or keys(rest)[-1] not in _NO_ENDS - {"first", "way"}
+    ends = _NO_ENDS - {"first", "way"} - (lexicon().be if flat[0] == "how" else frozenset())
+    return _labelled(rest) or keys(rest)[-1] not in ends
 
 
 def _labelled(words: Phrase) -> bool:
@@ -131,8 +133,10 @@ def _acts(words: Phrase) -> bool:
     if found is None or found[1].startswith("other:") or lemma(flat[0]) != flat[0]:
         return False
     behind = flat[found[0] : found[0] + 1]
+    # In "lift A" the letter is no article.
+    article = len(flat) > found[0] + 1 and words[found[0]].raw != "A"
     directed = bool(behind) and (
-        behind[0] in lexicon().determiners or behind[0] in {"it", "to", "them", "back"}
+        (article and behind[0] in lexicon().determiners) or behind[0] in {"it", "to", "them", "back"}
     )
     return directed and opens_command(words)
 

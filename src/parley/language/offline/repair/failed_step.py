@@ -7,9 +7,10 @@ from dataclasses import replace
 
 from parley.errors import FailureCode
 from parley.language.base import ErrorSituation
-from parley.language.offline.scene.grounding import describe
+from parley.language.offline.scene.grounding import describe, ground_phrase
 from parley.language.offline.tasks.catalogue import roles_of, text_inputs
 from parley.language.offline.words.saying import listing, the, whole_sentence
+from parley.language.offline.words.text import keys, tokens
 from parley.messages.chat import ActionCall, ChatAction, SystemCommand
 from parley.messages.status import ActionInfo
 from parley.world.object_map import MapObject
@@ -80,7 +81,21 @@ def candidates_of(situation: ErrorSituation) -> list[MapObject]:
         elif isinstance(entry, str):
             named = next((item for item in situation.objects if entry in {item.id, item.description}), None)
             result.append(named or MapObject(entry, entry, 0.0, 0.0))
-    return result
+    return result or _fitting(situation)
+
+
+def _fitting(situation: ErrorSituation) -> list[MapObject]:
+    """What an ambiguous name may mean where nothing is listed: by the failure's words, else by the map."""
+    if situation.code is not FailureCode.AMBIGUOUS:
+        return []
+    said = f" {' '.join(keys(w for w in tokens(situation.error_message) if w.is_word))} "
+    named = [item for item in situation.objects if f" {' '.join(keys(tokens(item.description)))} " in said]
+    if len(named) > 1:
+        places = {item.id: said.index(f" {' '.join(keys(tokens(item.description)))} ") for item in named}
+        return sorted(named, key=lambda item: places[item.id])
+    wanted = words_of(situation.failed_action)
+    found = ground_phrase(tokens(wanted), situation.objects, situation.robot_pose) if wanted else None
+    return list(found.candidates) if found is not None and found.outcome == "ambiguous" else []
 
 
 def ask_which(situation: ErrorSituation, candidates: Sequence[MapObject]) -> ChatAction:

@@ -38,7 +38,7 @@ from parley.language.offline.repair.failed_step import (
 from parley.language.offline.repair.other_thing import way_to, with_other_thing
 from parley.language.offline.repair.prose import with_code
 from parley.language.offline.repair.reordering import new_order, with_order_behind
-from parley.language.offline.repair.replies import agrees
+from parley.language.offline.repair.replies import agrees, without_apology
 from parley.language.offline.scene.choosing import choose, choose_object, strip_lead_ins
 from parley.language.offline.scene.grounding import describe, ground_phrase
 from parley.language.offline.scene.scene import Scene, place_said
@@ -95,7 +95,7 @@ def _resolve(situation: ErrorSituation) -> ChatAction:
         asked = ask_which(situation, candidates)
         text = f"I remember: {fact} {asked.message_response}" if fact else asked.message_response
         return asked.model_copy(update={"message_response": text})
-    reply = _SUGGESTION.sub("", situation.reply.strip())
+    reply = without_apology(_SUGGESTION.sub("", situation.reply.strip()))
     if _is_ambiguous(situation) or candidates:
         chosen = choose_object(candidates, reply, situation.objects, situation.robot_pose)
         if chosen is not None and not _asks_about(reply) and not _leaves_it(situation, reply):
@@ -227,6 +227,7 @@ def _promised(situation: ErrorSituation, reply: str) -> ChatAction | None:
     return ChatAction(message_response="All right, I wait. Please tell me when it is done.")
 
 
+_CORRECTING = frozenset({"meant", "mean", "sorry", "mistake", "should", "oops", "fault"})
 _ON_IT = frozenset({
     "opening", "moving", "coming", "clearing", "removing", "fixing", "bringing", "fetching", "looking",
     "working",
@@ -429,7 +430,10 @@ def _where_said(situation: ErrorSituation, reply: str, ordered: Phrase = ()) -> 
 def _as_memory(situation: ErrorSituation, relation: str, place: str) -> list[SystemCommand]:
     """The operator's answer as a memory."""
     wanted = words_of(situation.failed_action)
-    corrects = {"meant", "mean"} & set(keys(tokens(situation.reply or "")))
+    corrects = _CORRECTING & set(keys(tokens(situation.reply or "")))
+    if wanted and keys(tokens(wanted))[:-1] == keys(tokens(place))[:-1] != ():
+        # "Paddock D" is no other name of paddock A.
+        corrects = _CORRECTING
     if (
         corrects
         or not wanted

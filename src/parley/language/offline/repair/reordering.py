@@ -113,6 +113,9 @@ def _replanned(situation: ErrorSituation, understood: ChatAction) -> ChatAction 
     return solved(situation, text, plan, [SystemCommand(command="clear"), *_memories(understood)])
 
 
+_GIVING_IN = frozenset(
+    {"ok", "okay", "well", "right", "all", "alright", "fine", "good", "no", "hm", "oh", "so", "never", "mind"}
+)
 _THEN = re.compile(r"[\s,;.!]+(?:and\s+)?(?:then|after\s+(?:that|this)|afterwards)[\s,]+", re.IGNORECASE)
 
 
@@ -134,6 +137,8 @@ def with_order_behind(
     first, *rest = _THEN.split(situation.reply or "", maxsplit=1)
     if not rest or not first.strip() or not _is_order(tokens(rest[0])):
         return None
+    if "instead" in keys(tokens(rest[0])) and set(keys(w for w in tokens(first) if w.is_word)) <= _GIVING_IN:
+        return None  # "OK then, go to the box instead": not that step again
     if any(_leads(tokens(first), starts) for starts in (_DROPPED, _LEFT_OUT)):
         return None  # what follows takes the place of what is dropped
     repair = resolve(replace(situation, reply=first))

@@ -11,10 +11,10 @@ from parley.language.control import control_of
 from parley.language.offline.repair.asides import asks
 from parley.language.offline.repair.reordering import orders_otherwise
 from parley.language.offline.scene.choosing import choose
-from parley.language.offline.words.text import closest, keys, tokens
+from parley.language.offline.words.text import closest, keys, plain, tokens
 from parley.language.word_lists import load_data
 
-__all__ = ["agrees", "read_reply"]
+__all__ = ["agrees", "read_reply", "without_apology"]
 
 
 @cache
@@ -93,6 +93,36 @@ def _is_open(question: str) -> bool:
     """Whether a question asks for something other than yes, no or that something is done."""
     sentences = [keys(tokens(part)) for part in re.split(r"(?<=[.!?])\s+", question.strip())]
     return any(words and words[0] in _OPENING for words in sentences)
+
+
+def without_apology(reply: str) -> str:
+    """A reply without "sorry", "my mistake" and the like at its ends.
+
+    Args:
+        reply: What the operator said.
+    """
+    words = tokens(reply)
+    while True:
+        flat = keys(words)
+        lead = next(
+            (len(a) for a in _APOLOGIES if flat[: len(a)] == a), int(bool(words) and not words[0].is_word)
+        )
+        tail = next((len(a) for a in _APOLOGIES if flat[len(flat) - len(a) :] == a), 0)
+        if len(words) in {lead, tail} or not (lead or tail):
+            break
+        words = words[lead:] if lead else words[: len(words) - tail]
+    while words and words[-1].key == ",":
+        words = words[:-1]
+    return plain(words) if len(words) < len(tokens(reply)) else reply
+
+
+_APOLOGIES = tuple(
+    tuple(text.split())
+    for text in (
+        "i am sorry", "sorry about that", "sorry for that", "so sorry", "sorry", "my mistake", "my bad",
+        "my fault", "apologies", "pardon", "oops", "whoops", "oh", "ah", "excuse me", "i beg your pardon",
+    )
+)  # fmt: skip
 
 
 def agrees(reply: str) -> bool | None:

@@ -56,10 +56,16 @@ def choose_object(
         return excluded
     meant = strip_lead_ins(words)
     for said in (meant, _where_in(meant)):
-        found = _by_words(said, candidates, objects, pose) or _by_position(keys(bare(said)), candidates)
+        place = _by_position(keys(bare(said)), candidates)
+        # "The second one" is the second that was named, wherever it stands.
+        ranked = place if _RANKS & set(keys(said)) else None
+        found = ranked or _by_words(said, candidates, objects, pose) or place
         if found is not None:
             return found
     return None
+
+
+_RANKS = frozenset(lexicon().ordinals) | {"last", "latter", "former"}
 
 
 def _where_in(words: Phrase) -> Phrase:

@@ -9,34 +9,46 @@ every step. Then what is said about the place, the size and the distance chooses
 from __future__ import annotations
 
 from collections.abc import Iterable, Sequence
-from dataclasses import dataclass, field, replace
-from functools import lru_cache
+from dataclasses import dataclass, field
 
 from rapidfuzz import fuzz
 from rapidfuzz.distance import OSA
 
 from parley.language.base import Grounding
 from parley.language.offline.scene import spatial
+from parley.language.offline.scene.called import (
+    Profile,
+    comparable,
+    head_of,
+    is_label,
+    profile_of,
+    variants,
+)
 from parley.language.offline.scene.marks import members_of
-from parley.language.offline.scene.viewing import COMPASS, by_view, is_view, rank_word
+from parley.language.offline.scene.sided import sided
+from parley.language.offline.scene.viewing import by_view, is_view
 from parley.language.offline.words.lexicon import lexicon
-from parley.language.offline.words.nouns import NounPhrase, bare, noun_phrase, number_of
+from parley.language.offline.words.nouns import NounPhrase, bare, noun_phrase
 from parley.language.offline.words.text import (
     Phrase,
     Word,
     closest,
-    keys,
     plain,
     singular,
-    split_name,
     tokens,
 )
 from parley.world.geometry import Pose2D
 from parley.world.object_map import MapObject
 
-__all__ = ["describe", "ground", "ground_phrase", "head_of", "matching", "variants", "with_kinds"]
-
-_MAX_VARIANTS = 48
+__all__ = [
+    "BESIDE",
+    "describe",
+    "ground",
+    "ground_phrase",
+    "matching",
+    "uncounted",
+    "with_kinds",
+]
 
 
 def ground(description: str, objects: Sequence[MapObject], pose: Pose2D | None = None) -> Grounding:
@@ -109,18 +121,20 @@ def _ground(
     whole = bare(phrase)
     if not whole or not objects:
         return Grounding("none")
-    profiles = [_profile(item) for item in eligible]
+    profiles = [profile_of(item) for item in eligible]
     exact = _exact(whole, profiles)
     if exact:
         return _grounding(exact)
     noun = noun_phrase(phrase)
-    noun = _side(noun)
+    noun = sided(noun)
     if not noun.core and noun.anchors:
         # "in front of the door", "next to the box": the object named is what is meant (thesis 5.1.1).
         return ground_phrase(noun.anchors[0], eligible, pose, strict=strict)
     found, leftover = _candidates(noun, profiles, strict=strict)
     if not found:
         return Grounding("none", tuple(_near_misses(noun, eligible)))
+    if noun.relation and ("between" in noun.relation or spatial.is_across(noun.relation)):
+        found = _of_a_kind(noun, found, profiles, objects, pose)
     return _grounding(_narrow(noun, leftover, found, objects, pose))
 
 
@@ -143,82 +157,8 @@ def describe(item: MapObject, objects: Iterable[MapObject]) -> str:
     return item.description if len(same) <= 1 else item.id
 
 
-def head_of(words: Sequence[str]) -> str:
-    """The head noun of a bare noun phrase's core: its last word (before "of") that is no letter or number."""
-    if "of" in words[1:]:
-        words = words[: list(words).index("of", 1)]
-    for word in reversed(words):
-        if not _is_label(word):
-            return word
-    return words[-1] if words else ""
-
-
-@lru_cache(maxsize=2048)
-def variants(core: tuple[str, ...]) -> tuple[tuple[str, ...], ...]:
-    """The same noun phrase in other words of the same meaning, the words themselves first."""
-    synonyms = lexicon().synonyms
-    result: dict[tuple[str, ...], None] = {core: None}
-    queue = [core]
-    while queue and len(result) < _MAX_VARIANTS:
-        words = queue.pop(0)
-        for start in range(len(words)):
-            for end in range(start + 1, min(start + 3, len(words)) + 1):
-                for other in synonyms.get(" ".join(words[start:end]), ()):
-                    changed = (*words[:start], *map(singular, other.split()), *words[end:])
-                    if changed not in result and len(changed) <= len(core) + 2:
-                        result[changed] = None
-                        queue.append(changed)
-    return tuple(result)
-
-
-@dataclass(frozen=True, slots=True)
-class _Profile:
-    """An object's words, prepared for comparing."""
-
-    item: MapObject
-    names: frozenset[tuple[str, ...]]
-    heads: frozenset[str]
-    words: frozenset[str]
-
-
-@lru_cache(maxsize=4096)
-def _profile(item: MapObject) -> _Profile:
-    names: set[tuple[str, ...]] = set()
-    heads: set[str] = set()
-    words: set[str] = set()
-    id_words = tuple(number_of(singular(word)) for word in split_name(item.id))
-    for text in (item.description, *item.aliases):
-        noun = noun_phrase(tokens(text))
-        named = tokens(text)
-        while len(named) > 1 and named[0].key in lexicon().determiners:
-            named = named[1:]
-        names.add(_comparable(named))
-        heads.update(
-            {head_of(noun.core), head_of(noun.core[noun.core.index("of") + 1 :]) if "of" in noun.core else ""}
-        )
-        words.update(_comparable(noun.phrase))
-    class_words = tuple(singular(word) for word in split_name(item.class_name))
-    if class_words:
-        heads.update({class_words[-1], "".join(class_words)})
-        words.update(class_words)
-    names.add(id_words)
-    words.update(id_words)
-    return _Profile(item, frozenset(names), frozenset(heads - {""}), frozenset(words))
-
-
-def _comparable(phrase: Phrase) -> tuple[str, ...]:
-    articles = {"the", "an"}
-    return tuple(
-        number_of(singular(word.key))
-        for index, word in enumerate(phrase)
-        if word.is_word
-        and word.key not in articles
-        and not (word.key == "a" and index < len(phrase) - 1 and (word.raw != "A" or not index))
-    )
-
-
-def _exact(phrase: Phrase, profiles: Sequence[_Profile]) -> list[MapObject]:
-    wanted = _comparable(phrase)
+def _exact(phrase: Phrase, profiles: Sequence[Profile]) -> list[MapObject]:
+    wanted = comparable(phrase)
     same = [profile.item for profile in profiles if wanted in profile.names]
     if same and not (len(wanted) == 1 and _is_kind(wanted[0], [profile.item for profile in profiles])):
         return same
@@ -227,8 +167,8 @@ def _exact(phrase: Phrase, profiles: Sequence[_Profile]) -> list[MapObject]:
 
 
 def _candidates(
-    noun: NounPhrase, profiles: Sequence[_Profile], *, strict: bool
-) -> tuple[list[_Profile], tuple[str, ...]]:
+    noun: NounPhrase, profiles: Sequence[Profile], *, strict: bool
+) -> tuple[list[Profile], tuple[str, ...]]:
     """Profiles that fit the core of the phrase, and the modifiers that no description settles."""
     core = noun.core
     generic = _without_generic(core, profiles)
@@ -249,61 +189,13 @@ def _candidates(
 _LARGE = ("large", "big", "huge", "largest", "biggest", "larger", "bigger")
 _SMALL = ("small", "little", "tiny", "smallest", "smaller")
 _SIZES = dict.fromkeys(_LARGE, 1.0) | dict.fromkeys(_SMALL, -1.0)
-_SIDES: dict[tuple[str, ...], str] = {
-    ("left",): "left", ("right",): "right", ("left", "side"): "left", ("right", "side"): "right",
-    ("left", "hand", "side"): "left", ("right", "hand", "side"): "right", ("your", "left"): "left",
-    ("your", "right"): "right", ("far", "left"): "leftmost", ("far", "right"): "rightmost",
-    ("left", "end"): "leftmost", ("right", "end"): "rightmost", ("left", "hand", "end"): "leftmost",
-    ("right", "hand", "end"): "rightmost", ("very", "left"): "leftmost", ("very", "right"): "rightmost",
-    ("middle",): "middle", ("center",): "middle", ("centre",): "middle", ("corner",): "corner",
-    **{(name,): name for name in COMPASS}, **{(name, "side"): name for name in COMPASS},
-    **{(name, "corner"): name for name in COMPASS}, **{(name, "end"): name for name in COMPASS},
-    **{(f"{name}ern", "side"): name for name in COMPASS},
-    **{tuple(name.split("-")): name for name in COMPASS if "-" in name},
-}  # fmt: skip
-_HERE = frozenset({
-    ("you",), ("here",), ("where", "you", "are"), ("yourself",), ("position",),
-    ("where", "you", "are", "now"),
-    ("where", "you", "stand"), ("robot",), ("your", "position"),
-})  # fmt: skip
-_BEFORE_YOU = {"in front of": "ahead", "behind": "behind", "ahead of": "ahead"}
-
-
-def _side(noun: NounPhrase) -> NounPhrase:
-    """For "the door on the right": the right door."""
-    near = noun.relation in {"closest to", "nearest to", "nearest", "closest", "next to", "near", "close to"}
-    far = noun.relation.startswith(("far", "fur")) and noun.relation != "far from"
-    here = len(noun.anchors) == 1 and noun.core and keys(bare(noun.anchors[0])) in _HERE
-    if here and (near or far):
-        return replace(noun, core=("nearest" if near else "farthest", *noun.core), relation="", anchors=())
-    if len(noun.anchors) != 1 or not noun.core:
-        return noun
-    anchor = keys(bare(noun.anchors[0]))
-    if anchor == ("you",) and noun.relation in _BEFORE_YOU:
-        return replace(noun, core=(_BEFORE_YOU[noun.relation], *noun.core), relation="", anchors=())
-    if noun.relation == "from" and anchor in _SIDES:
-        return _counted_from(noun, _SIDES[anchor])
-    if noun.relation not in {"on", "at", "to", "in"}:
-        return noun
-    side = _SIDES.get(anchor) or _SIDES.get(anchor[: anchor.index("of")] if "of" in anchor else ())
-    return noun if side is None else replace(noun, core=(side, *noun.core), relation="", anchors=())
-
-
-def _counted_from(noun: NounPhrase, side: str) -> NounPhrase:
-    """For "the second door from the left"."""
-    ordinals = {str(n) for word, n in lexicon().ordinals.items() if word in keys(noun.phrase)}
-    number = next((word for word in noun.core if word in ordinals), "")
-    rest = tuple(word for word in noun.core if word != number)
-    if not number or not rest:
-        return noun
-    return replace(noun, core=(rank_word(int(number), side), *rest), relation="", anchors=())
 
 
 def _settled_later(word: str) -> bool:
     return word in _SIZES or is_view(word)
 
 
-def _without_generic(core: tuple[str, ...], profiles: Sequence[_Profile]) -> tuple[str, ...]:
+def _without_generic(core: tuple[str, ...], profiles: Sequence[Profile]) -> tuple[str, ...]:
     """Drop "one", "thing" and the like where no object is called so ("area one" is "area 1")."""
     known = {word for profile in profiles for word in profile.words}
     heads = {head for profile in profiles for head in profile.heads}
@@ -313,34 +205,36 @@ def _without_generic(core: tuple[str, ...], profiles: Sequence[_Profile]) -> tup
     return tuple(word for word in core if word not in dropped or word in known)
 
 
-def _by_head(words: tuple[str, ...], profiles: Sequence[_Profile]) -> list[_Profile]:
+def _by_head(words: tuple[str, ...], profiles: Sequence[Profile]) -> list[Profile]:
     head = head_of(words)
     return [p for p in profiles if head in p.heads and set(words) <= p.words | p.heads]
 
 
-def _by_synonym(words: tuple[str, ...], profiles: Sequence[_Profile]) -> list[_Profile]:
+def _by_synonym(words: tuple[str, ...], profiles: Sequence[Profile]) -> list[Profile]:
     return _unique(p for other in variants(words)[1:] for p in _by_head(other, profiles))
 
 
-def _by_kind(words: tuple[str, ...], profiles: Sequence[_Profile]) -> list[_Profile]:
+def _by_kind(words: tuple[str, ...], profiles: Sequence[Profile]) -> list[Profile]:
     head = head_of(words)
     members = lexicon().kinds.get(head, frozenset())
     rest = set(words) - {head}
     return [p for p in profiles if p.heads & members and rest <= p.words]
 
 
-def _by_any_word(words: tuple[str, ...], profiles: Sequence[_Profile]) -> list[_Profile]:
+def _by_any_word(words: tuple[str, ...], profiles: Sequence[Profile]) -> list[Profile]:
     return _unique(p for other in variants(words) for p in profiles if set(other) <= p.words)
 
 
-def _by_typo(words: tuple[str, ...], profiles: Sequence[_Profile]) -> list[_Profile]:
+def _by_typo(words: tuple[str, ...], profiles: Sequence[Profile]) -> list[Profile]:
     known = {word for profile in profiles for word in profile.words | profile.heads}
     common = lexicon().synonyms
     known_words = lexicon().nouns | lexicon().person_words
     mended = tuple(
         word
-        if word in known or word in common or word in known_words or _is_label(word)
-        else closest(word, known, dropped=word not in lexicon().vocabulary) or word
+        if word in known or word in common or word in known_words or is_label(word)
+        else closest(word, known, dropped=word not in lexicon().vocabulary)
+        or closest(f"{word}s", known)
+        or word
         for word in words
     )
     if mended == words and len(words) > 1 and words[0] in known:
@@ -351,32 +245,28 @@ def _by_typo(words: tuple[str, ...], profiles: Sequence[_Profile]) -> list[_Prof
     return _by_head(mended, profiles) or _by_synonym(mended, profiles) or _by_any_word(mended, profiles)
 
 
-def _mended_beside(words: tuple[str, ...], profiles: Sequence[_Profile]) -> tuple[str, ...]:
+def _mended_beside(words: tuple[str, ...], profiles: Sequence[Profile]) -> tuple[str, ...]:
     """A short last word mended where all others fit one object: "charging pol" beside "charging pole"."""
     fitting = [p for p in profiles if set(words[:-1]) <= p.words]
     heads = {head for p in fitting for head in p.heads if head[:1] == words[-1][:1] and len(words[-1]) > 2}
     near = [head for head in heads if OSA.distance(head, words[-1]) == 1]
-    unknown = words[-1] not in lexicon().vocabulary | lexicon().nouns and not _is_label(words[-1])
+    unknown = words[-1] not in lexicon().vocabulary | lexicon().nouns and not is_label(words[-1])
     return (*words[:-1], near[0]) if len(near) == 1 and unknown else words
 
 
-def _labels_fit(words: Iterable[str], profile: _Profile) -> bool:
+def _labels_fit(words: Iterable[str], profile: Profile) -> bool:
     """Letters and numbers must be there exactly: "area A" is never "area B"."""
-    return all(word in profile.words for word in words if _is_label(word))
+    return all(word in profile.words for word in words if is_label(word))
 
 
-def _is_label(word: str) -> bool:
-    return len(word) == 1 or word.isdigit()
-
-
-def _unique(profiles: Iterable[_Profile]) -> list[_Profile]:
+def _unique(profiles: Iterable[Profile]) -> list[Profile]:
     return list({profile.item.id: profile for profile in profiles}.values())
 
 
 def _narrow(
     noun: NounPhrase,
     leftover: tuple[str, ...],
-    found: list[_Profile],
+    found: list[Profile],
     objects: Sequence[MapObject],
     pose: Pose2D | None,
 ) -> list[MapObject]:
@@ -389,7 +279,7 @@ def _narrow(
             break
         if word in _SIZES:
             sized = spatial.by_size(items, _SIZES[word])
-            said = [i for i in items if any(set(o) <= _profile(i).words for o in variants((word,)))]
+            said = [i for i in items if any(set(o) <= profile_of(i).words for o in variants((word,)))]
             items = said if len(sized) > 1 and said else sized
         else:
             items = by_view(items, word, pose, objects)
@@ -397,17 +287,11 @@ def _narrow(
 
 
 def _by_relation(
-    noun: NounPhrase, found: list[_Profile], objects: Sequence[MapObject], pose: Pose2D | None
+    noun: NounPhrase, found: list[Profile], objects: Sequence[MapObject], pose: Pose2D | None
 ) -> list[MapObject]:
     items = [profile.item for profile in found]
-    anchors: list[MapObject] = []
-    for anchor in with_kinds([_named_so(part, noun) for part in noun.anchors], noun.core):
-        where = ground_phrase(anchor, [o for o in objects if o not in items] or objects, pose)
-        if where.outcome != "match" or not _is_called(where.candidates[0], anchor):
-            where = ground_phrase(anchor, objects, pose)
-        if where.outcome == "match" and _is_called(where.candidates[0], anchor):
-            anchors.append(where.candidates[0])
-    wanted = tuple(sorted({word for anchor in noun.anchors for word in _comparable(anchor)}))
+    anchors = _anchors(noun, found, objects, pose)
+    wanted = tuple(sorted({word for anchor in noun.anchors for word in comparable(anchor)}))
     compares = "between" in noun.relation or noun.relation.startswith(("far", "fur", "away"))
     told = (
         []
@@ -420,19 +304,78 @@ def _by_relation(
         ]
     )
     if "between" in noun.relation and len(noun.anchors) == 1:
-        pair = ground_phrase(_uncounted(noun.anchors[0]), objects, pose)
-        anchors = (
-            list(pair.candidates) if pair.outcome == "ambiguous" and len(pair.candidates) == 2 else anchors
-        )
         told = []
+    if len(anchors) == 2 and set(noun.core) <= lexicon().generic_things:
+        # "The thing between A and B": anything that really is.
+        inside = spatial.between(items, *anchors)
+        return spatial.by_anchor(inside, noun.relation, anchors, pose) or items
     if told or len(anchors) < len(noun.anchors):
-        return told or items
+        return told or _beside_any(noun, items, objects, pose)
     return spatial.by_anchor([i for i in items if i not in anchors] or items, noun.relation, anchors, pose)
+
+
+def _beside_any(
+    noun: NounPhrase, items: list[MapObject], objects: Sequence[MapObject], pose: Pose2D | None
+) -> list[MapObject]:
+    """For "the desk by the window(s)", where there are several of both: those that stand together."""
+    if len(noun.anchors) != 1 or noun.relation not in BESIDE:
+        return items
+    others = ground_phrase(noun.anchors[0], objects, pose)
+    if others.outcome != "ambiguous" or not all(
+        _is_called(one, noun.anchors[0]) for one in others.candidates
+    ):
+        return items
+    return spatial.nearest_to_any(items, others.candidates)
+
+
+BESIDE = frozenset({
+    "next to", "right next to", "by", "right by", "near", "near to", "beside", "close to", "alongside",
+    "adjacent to", "nearby", "nearest to", "closest to", "nearest", "closest", "at", "with",
+})  # fmt: skip
+"""Relations by which a thing stands close to another."""
+
+
+def _anchors(
+    noun: NounPhrase, found: list[Profile], objects: Sequence[MapObject], pose: Pose2D | None
+) -> list[MapObject]:
+    """What something is said to be beside, between or across from, as far as it is known."""
+    items = {profile.item.id for profile in found}
+    anchors: list[MapObject] = []
+    for anchor in with_kinds([_named_so(part, noun) for part in noun.anchors], noun.core):
+        where = ground_phrase(anchor, [o for o in objects if o.id not in items] or objects, pose)
+        if where.outcome != "match" or not _is_called(where.candidates[0], anchor):
+            where = ground_phrase(anchor, objects, pose)
+        if where.outcome == "match" and _is_called(where.candidates[0], anchor):
+            anchors.append(where.candidates[0])
+    if "between" in noun.relation and len(noun.anchors) == 1:
+        pair = ground_phrase(uncounted(noun.anchors[0]), objects, pose)
+        if pair.outcome == "ambiguous" and len(pair.candidates) == 2:
+            return list(pair.candidates)
+    return anchors
+
+
+def _of_a_kind(
+    noun: NounPhrase,
+    found: list[Profile],
+    profiles: Sequence[Profile],
+    objects: Sequence[MapObject],
+    pose: Pose2D | None,
+) -> list[Profile]:
+    """What is only of that kind ("room" for a hall), where nothing called so is between two things."""
+    anchors = _anchors(noun, found, objects, pose)
+    if len(anchors) != 2 or spatial.between([p.item for p in found], *anchors):
+        return found
+    head = head_of(noun.core)
+    compounds = [p for p in profiles if head and any(word.endswith(head) for word in p.heads)]
+    kinds = _by_synonym(noun.core, profiles) + _by_kind(noun.core, profiles) + compounds
+    wider = [p for p in _unique(kinds) if p.item not in anchors]
+    inside = spatial.between([p.item for p in wider], *anchors)
+    return [p for p in wider if p.item in inside] or found
 
 
 def _named_so(anchor: Phrase, noun: NounPhrase) -> Phrase:
     """For "(the box between) the red one (and the blue one)": the red box."""
-    kind = next((word for word in reversed(noun.core) if not _is_label(word)), "")
+    kind = next((word for word in reversed(noun.core) if not is_label(word)), "")
     at = next((i for i, word in enumerate(anchor) if word.key in {"one", "ones"}), -1)
     if at < 0 or not kind or len(anchor) < 2:
         return anchor
@@ -446,12 +389,12 @@ def with_kinds(anchors: Sequence[Phrase], core: Sequence[str] = ()) -> list[Phra
         anchors: What something is said to be between.
         core: What it is called itself.
     """
-    kind = next((word for word in reversed(core) if not _is_label(word)), "")
+    kind = next((word for word in reversed(core) if not is_label(word)), "")
     head: Phrase = (Word(kind, kind),) if kind else ()
     result: list[Phrase] = []
     for anchor in anchors:
         named = bare(anchor)
-        labelled = bool(named) and _is_label(named[-1].key)
+        labelled = bool(named) and is_label(named[-1].key)
         if labelled and len(named) > 1:
             last = named[-2]
             head = (*named[:-2], Word(singular(last.key), singular(last.raw)))
@@ -459,7 +402,7 @@ def with_kinds(anchors: Sequence[Phrase], core: Sequence[str] = ()) -> list[Phra
     return result
 
 
-def _uncounted(phrase: Phrase) -> Phrase:
+def uncounted(phrase: Phrase) -> Phrase:
     """For "the two doors" "the doors"."""
     words = bare(phrase)
     while len(words) > 1 and (words[0].key in lexicon().numbers or words[0].key in {"both", "all"}):
@@ -469,9 +412,9 @@ def _uncounted(phrase: Phrase) -> Phrase:
 
 def _is_called(item: MapObject, phrase: Phrase) -> bool:
     """Whether the phrase names the object itself and not only something its description mentions."""
-    profile = _profile(item)
+    profile = profile_of(item)
     core = noun_phrase(phrase).core
-    return _comparable(bare(phrase)) in profile.names or any(
+    return comparable(bare(phrase)) in profile.names or any(
         head_of(o) in profile.heads for o in variants(core)
     )
 
@@ -489,8 +432,8 @@ def _near_misses(noun: NounPhrase, objects: Sequence[MapObject]) -> list[MapObje
 
 
 def _likeness(words: set[str], text: str, item: MapObject) -> float:
-    profile = _profile(item)
-    shared = len({word for word in words & profile.words if not _is_label(word)})
+    profile = profile_of(item)
+    shared = len({word for word in words & profile.words if not is_label(word)})
     return shared + fuzz.ratio(text, item.description.lower()) / 100.0
 
 

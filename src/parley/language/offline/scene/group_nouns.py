@@ -24,7 +24,7 @@ from parley.language.offline.words.text import Phrase, Word, keys, singular
 from parley.world.geometry import Pose2D
 from parley.world.object_map import MapObject
 
-__all__ = ["LONGEST_NOUN", "NO_NOUN", "Found", "GroupNouns", "Uncounted"]
+__all__ = ["LONGEST_NOUN", "NO_NOUN", "Found", "GroupNouns", "Uncounted", "is_room_for"]
 
 LONGEST_NOUN = 5
 
@@ -91,6 +91,19 @@ class Uncounted:
     items: tuple[MapObject, ...]
 
 
+def is_room_for(flat: tuple[str, ...], at: int) -> bool:
+    """Whether "space" or "room" at a word is what there is enough of ("any space left"), and no thing."""
+    before = flat[at - 1 : at] if at else ()
+    return flat[at] in _ROOM and before not in _COUNTABLE and flat[at + 1 : at + 2] in _ROOM_FOR
+
+
+_ROOM = frozenset({"room", "space"})
+_ROOM_FOR = frozenset({("for",), ("to",), ("left",), ("enough",)})
+_COUNTABLE = frozenset(
+    (word,) for word in ("the", "this", "that", "each", "every", "which", "a", "my", "your")
+)
+
+
 @dataclass
 class GroupNouns:
     """What names kinds of things and members of them."""
@@ -134,6 +147,8 @@ class GroupNouns:
                 # "Both seams at 90 amps".
                 continue
             if "between" in keys(part) or any(_ends_noun(keys(words), i) for i in range(at + 1, at + size)):
+                continue
+            if size == 1 and is_room_for(keys(words), at):
                 continue
             items = self._things(part)
             if len(items) > 1 or (items and lead.other and size == 1):

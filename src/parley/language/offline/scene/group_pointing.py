@@ -5,7 +5,7 @@ from __future__ import annotations
 from dataclasses import dataclass
 
 from parley.language.offline.scene.choosing import strip_lead_ins
-from parley.language.offline.scene.grounding import ground_phrase, with_kinds
+from parley.language.offline.scene.grounding import BESIDE, ground_phrase, uncounted, with_kinds
 from parley.language.offline.scene.group_nouns import LONGEST_NOUN, NO_NOUN, Found, GroupNouns
 from parley.language.offline.scene.group_words import (
     BETTER,
@@ -15,6 +15,7 @@ from parley.language.offline.scene.group_words import (
     stops,
 )
 from parley.language.offline.scene.members import chosen, in_order, neighbour
+from parley.language.offline.scene.sided import is_side
 from parley.language.offline.words.lexicon import lexicon
 from parley.language.offline.words.nouns import coordinated
 from parley.language.offline.words.text import Phrase, Word, keys, singular
@@ -129,27 +130,63 @@ class GroupPointing(GroupNouns):
 
     def _where_it_is(self, words: Phrase, start: int) -> Found | None:
         """For "the valve next to boiler 3": the one thing that is meant, whatever is to be done with it."""
+        if words[start].key in {"what", "whatever"} or keys(words[start : start + 2]) == ("the", "thing"):
+            return self._standing_between(words, start)
         exists = keys(words[max(0, start - 2) : start]) in {("there", "is"), ("there", "was")}
         if words[start].key not in {"the", "that"} and not (exists and words[start].key in {"a", "an"}):
             return None
         end, items = self._noun(words, start + 1, Lead())
+        noun = words[start + 1 : end]
         flat = keys(words)
+        denied = start and flat[start - 1] in {"not", "but", "except", "without"}
+        again = not items and self._kind and flat[start : start + 2] == ("the", "one") and not denied
+        if again:
+            # "The desk by A, then the one by B": which of the desks.
+            end, items, noun = start + 2, self._kind, (Word("thing", "thing"),)
         link = end + 2 if flat[end : end + 2] in {("that", "is"), ("which", "is")} else end
         found = lexicon().places.match(flat, link) if items else None
-        if found is None or found[1] in _NOT_TELLING or singular(words[end - 1].key) != words[end - 1].key:
+        telling = again or (found is not None and found[1] not in _NOT_TELLING)
+        if found is None or not telling or singular(noun[-1].key) != noun[-1].key:
             return None
         first = link + found[0]
         for size in range(min(10, len(words) - first), 0, -1):
             part = words[first : first + size]
-            if any(not word.is_word for word in part) or not self._anchors(
-                part, found[1], words[start + 1 : end]
-            ):
+            placed = (again and is_side(part)) or self._anchors(part, found[1], noun)
+            if any(not word.is_word for word in part) or not placed:
                 continue
-            phrase = (*words[start + 1 : end], *words[link : first + size])
-            meant = ground_phrase(phrase, self.objects, self.pose)
+            phrase = (*noun, *words[link : first + size])
+            meant = ground_phrase(phrase, self.objects, self.pose, among=items if again else ())
             if meant.outcome == "match" and meant.candidates[0] in items:
+                self._kind = items if len(items) > 1 else self._kind
                 return Found(meant.candidates[:1], first + size)
             return None
+        return None
+
+    def _standing_between(self, words: Phrase, start: int) -> Found | None:
+        """For "(check) what is standing between A and B", "whatever is between them": what is there."""
+        flat = keys(words)
+        asked = (
+            words[start].key == "what" and keys(words[start - 1 : start] if start else ()) not in _LOOKED_AT
+        )
+        stands = flat[start + 1 : start + 2] != () and flat[start + 1] in lexicon().be | _STANDING | {"thing"}
+        at = start + 2
+        while at < len(flat) and flat[at] in _STANDING | {"there"}:
+            at += 1
+        found = lexicon().places.match(flat, at) if stands and not asked else None
+        if found is None or "between" not in found[1]:
+            return None
+        first = at + found[0]
+        for size in range(min(10, len(words) - first), 0, -1):
+            part = words[first : first + size]
+            if any(not word.is_word for word in part):
+                continue
+            pair = ground_phrase(uncounted(part), self.objects, self.pose, strict=True)
+            if self._anchors(part, found[1], ()) or (
+                pair.outcome == "ambiguous" and len(pair.candidates) == 2
+            ):
+                thing = (Word("thing", "thing"), *words[at : first + size])
+                meant = ground_phrase(thing, self.objects, self.pose)
+                return Found(meant.candidates, first + size) if meant.outcome == "match" else None
         return None
 
     def _anchors(self, part: Phrase, relation: str, noun: Phrase) -> bool:
@@ -158,7 +195,8 @@ class GroupPointing(GroupNouns):
         if "between" in relation and len(parts) != 2:
             return False
         found = [ground_phrase(one, self.objects, self.pose, strict=True) for one in parts]
-        return all(one.outcome == "match" for one in found)
+        enough = {"match", "ambiguous"} if relation in BESIDE else {"match"}
+        return all(one.outcome in enough for one in found)
 
     def _best_of(self, words: Phrase, start: int) -> Found | None:
         """For "the bigger of the two racks", "the middle one of the benches": the bigger rack."""
@@ -274,6 +312,10 @@ class GroupPointing(GroupNouns):
         return Found((in_order(items)[-1],), end) if numbered and places is None else None
 
 
+_LOOKED_AT = frozenset({("check",), ("see",), ("inspect",), ("at",), ("examine",)})
+_STANDING = frozenset({
+    "standing", "lying", "parked", "sitting", "placed", "located", "left", "stands", "lies", "sits",
+})  # fmt: skip
 _NAMELY = (
     ("namely",),
     ("that", "is"),

@@ -314,6 +314,12 @@ def open_range_at(flat: tuple[str, ...], at: int) -> tuple[int, int, int] | None
             after = end + len(joint) + 1
             if flat[after : after + 1] == ("to",):
                 return None
+            if joint and flat[after : after + 1] != () and flat[after] in _LOWERED:
+                # "Wash car 2 and lower the gate".
+                return None
+            if word[0] in _ALSO_SMALL and start == at and flat[0] in lexicon().be:
+                # "Is the lamp at stand 2 on?"
+                return None
             if word[0] in _ALSO_SMALL and not joint and not start > at and flat[after : after + 1]:
                 goes_on = flat[after] not in {",", ".", "!", "?", ";", "and", "please", "then", "for"}
                 if goes_on:
@@ -325,6 +331,7 @@ def open_range_at(flat: tuple[str, ...], at: int) -> tuple[int, int, int] | None
 _UPWARDS = frozenset({"upwards", "upward", "onwards", "onward", "above", "higher", "up", "on"})
 _ALSO_SMALL = frozenset({"on", "up", "down", "under"})
 """What goes on with another meaning before a noun: "machine 2 on low"."""
+_LOWERED = lexicon().determiners | lexicon().thing_pronouns | {"them"}
 _OPEN_ENDS = _UPWARDS | {"downwards", "below", "lower", "down", "under"}
 
 

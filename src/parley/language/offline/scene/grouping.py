@@ -100,7 +100,9 @@ def _names(words: Phrase, scene: Scene, said: frozenset[str]) -> bool:
     if not body or len(words) > _LONGEST_NAME or not all(word.is_word for word in words):
         return False
     strange = [key for key in keys(body) if key not in said and singular(key) not in said]
-    if len(strange) > 1 or (flat[0] in lexicon().vocabulary - lexicon().determiners and flat[0] not in said):
+    if len(strange) > 1 or (
+        flat[0] in lexicon().vocabulary and flat[0] not in lexicon().determiners and flat[0] not in said
+    ):
         return False
     found = ground_phrase(body, scene.objects, strict=True)
     plural = singular(body[-1].key) != body[-1].key

@@ -9,6 +9,7 @@ from __future__ import annotations
 from collections.abc import Sequence
 from dataclasses import dataclass, replace
 
+from parley.language.offline.scene.floating import with_how_many
 from parley.language.offline.scene.grounding import describe
 from parley.language.offline.scene.group_nouns import Found, Uncounted
 from parley.language.offline.scene.group_pointing import GroupPointing
@@ -24,7 +25,7 @@ from parley.language.offline.scene.group_words import (
     stops,
 )
 from parley.language.offline.scene.marks import marked
-from parley.language.offline.scene.members import chosen, in_order, numbered_from
+from parley.language.offline.scene.members import alike, chosen, in_order, in_series, numbered_from
 from parley.language.offline.words.lexicon import lexicon
 from parley.language.offline.words.quantities import quantities
 from parley.language.offline.words.text import Phrase, Word, keys, plain, singular, tokens
@@ -39,6 +40,18 @@ _AFTER_COUNTED = frozenset(
 
 
 _SAYING_STATE = frozenset({"is", "are", "if", "whether", "that", "see", "sure"})
+
+
+def _asks_of_each(flat: tuple[str, ...], start: int) -> bool:
+    """Whether what stands before a group asks how things are there."""
+    if _SAYING_STATE & set(flat[max(0, start - 4) : start]):
+        return True
+    begin = next((i + 1 for i in range(start - 1, -1, -1) if flat[i] in _MARKS), 0)
+    before = flat[begin:start]
+    return before[:1] != () and before[0] in lexicon().be and not {"to", "it", "you"} & set(before)
+
+
+_MARKS = frozenset(".,;:!?")
 
 
 @dataclass
@@ -57,6 +70,7 @@ class GroupReader(GroupPointing):
 
     def read(self, words: Phrase) -> Phrase:
         """The message with a word for each group."""
+        words = with_how_many(words, self._kinds_said.__contains__)
         result: list[Word] = []
         places: dict[int, int] = {}
         index, skip = 0, (0, 0)
@@ -84,7 +98,7 @@ class GroupReader(GroupPointing):
             self._plural_at = (-1, 0)
             said = plain(words[index : found.end])
             name = tokens(describe(found.items[0], self.objects))
-            if len(found.items) == 1 and name[-1].key not in _PARTICLES:
+            if len(found.items) == 1 and self._is_name(name, found.items[0]):
                 labelled = name[-1].key.isdigit() or len(name[-1].key) == 1
                 result += name if labelled else (Word("the", "the"), *name)
                 self._last = found.items if self._chosen_freely(words, index) else self._last
@@ -101,6 +115,13 @@ class GroupReader(GroupPointing):
             index, skip = found.end, found.cut if found.cut[1] else skip
         return tuple(result)
 
+    def _is_name(self, words: Phrase, item: MapObject) -> bool:
+        """Whether words that name one thing are read so wherever they stand."""
+        if words[-1].key in _PARTICLES:
+            return False
+        # An identifier ("watch_1") may look like an order.
+        return describe(item, self.objects) != item.id or lexicon().verbs.match(keys(words)) is None
+
     def _in_turn(self, words: Phrase, end: int) -> bool:
         """Whether the words before `end` say that it is one after the other."""
         flat = keys(words[:end])
@@ -116,7 +137,8 @@ class GroupReader(GroupPointing):
 
     def _may_begin(self, word: Word) -> bool:
         """Whether a group may begin with a word; most words are passed over by this."""
-        return word.is_word and (may_lead(word.key) or singular(word.key) in self._kinds_said)
+        leads = may_lead(word.key) or word.key in {"what", "whatever"}
+        return word.is_word and (leads or singular(word.key) in self._kinds_said)
 
     def _at(self, words: Phrase, start: int) -> Found | None:
         """The group that begins at a word, if one does."""
@@ -182,7 +204,7 @@ class GroupReader(GroupPointing):
         """With what is said behind the noun, and what the words before it choose."""
         items, end = self._placed(words, found.end, found.items)
         before = (*self.named(words[:start]), *self._last) if lead.other else ()
-        items = tuple(item for item in items if item not in before)
+        items = alike(tuple(item for item in items if item not in before), before)
         if lead.other and (not before or not items):
             return None
         flat = keys(words)
@@ -258,8 +280,8 @@ class GroupReader(GroupPointing):
         ):
             # "One of the doors is open": that tells, and chooses none.
             return None
-        if lead.free and lead.count < 2 and _SAYING_STATE & set(flat[max(0, start - 4) : start]):
-            # "Whether any door is open": each of them has to be looked at.
+        if lead.free and lead.count < 2 and _asks_of_each(flat, start):
+            # "Whether any door is open", "is there a bag at any of them": each of them has to be looked at.
             return Found(items, end, True)
         end += in_turn_at(flat, end)
         near, size = _whichever(flat, end)
@@ -293,7 +315,8 @@ class GroupReader(GroupPointing):
         before = tuple(dict.fromkeys(item for item in spoken_of if item in items))
         kind = singular(words[end - 1].key)
         called = tuple(item for item in items if kind in item.description.lower().split())
-        for some in (before, called):
+        of_kind = tuple(item for item in items if item.class_name.lower() == kind)
+        for some in (before, called, of_kind, *in_series(items)):
             if len(some) == lead.count:
                 return Found(some, end, lead.each)
         if end >= len(words) or not words[end].is_word or words[end].key in _AFTER_COUNTED:

@@ -20,11 +20,12 @@ from parley.language.offline.scene.report_words import (
     words_for,
 )
 from parley.language.offline.scene.scene import Scene
+from parley.language.offline.scene.unattended import complained_of, told_by, unanswered, unattended
 from parley.language.offline.sentences.finite import verb_at
 from parley.language.offline.words.inflecting import forms
 from parley.language.offline.words.lexicon import lexicon
 from parley.language.offline.words.nouns import bare
-from parley.language.offline.words.text import Phrase, Word, keys, lemma, singular
+from parley.language.offline.words.text import Phrase, Word, keys, lemma, singular, tokens
 
 __all__ = ["happened"]
 
@@ -36,11 +37,13 @@ def happened(words: Phrase, scene: Scene, *, alone: bool = True) -> Phrase | Non
     """The order to have a look that a report means; None if a clause reports nothing of the kind."""
     said = _without_nobody(tuple(word for word in strip_openers(words) if word.is_word))
     flat = keys(said)
-    if not 3 <= len(said) <= _MOST_WORDS or flat[0] in _NO_REPORTS or _denies(flat):
+    if not 3 <= len(said) <= _MOST_WORDS or flat[0] in _NO_REPORTS:
         return None
-    said = _without_teller(without_hedges(said))
-    if len(said) < 3:
-        return None
+    said = without_hedges(said)
+    teller, said = told_by(said, scene)
+    silent, alone_there = unanswered(said, scene), unattended(said)
+    if silent is not None or len(said) < 3 or (_denies(flat) and not alone_there):
+        return silent
     if said[0].key in {"smells", "sounds", "stinks", "reeks"}:
         said = (Word("it", "it"), *said)
     flat = keys(said)
@@ -49,8 +52,12 @@ def happened(words: Phrase, scene: Scene, *, alone: bool = True) -> Phrase | Non
         return lost
     where = place_named(said, scene)
     faulty = where is not None and flat[where[1] : where[1] + 1] != () and flat[where[1]] in _faulty()
-    if not (faulty or _alarming(said) or (alone and _seems_so(said))):
+    alarming = faulty or _alarming(said) or alone_there or (bool(teller) and complained_of(flat))
+    if not (alarming or (alone and _seems_so(said))):
         return None
+    from_where = place_named(teller, scene) if teller else None
+    if from_where is not None and (where is None or not _named_in_full(said[slice(*where)], scene)):
+        return phrase_of("inspect the", bare(teller[slice(*from_where)]))
     if where is None and flat[-1] == "there" and scene.places and not lexicon().be & set(flat):
         return phrase_of("inspect the", bare(scene.places[-1]))
     if where is None:
@@ -83,29 +90,10 @@ def _faulty() -> frozenset[str]:
     return frozenset(f"{verb}es" if verb[-1] in "zhx" else f"{verb}s" for verb in words_for("faults"))
 
 
-def _without_teller(words: Phrase) -> Phrase:
-    """Without "somebody has just rung to say" before what is reported."""
-    flat = keys(words)
-    at = next((i for i in range(1, min(9, len(flat) - 3)) if flat[i] in words_for("reporting")), 0)
-    if not at:
-        return words
-    end = at + 1
-    while end < len(flat) and flat[end] in {
-        "to",
-        "say",
-        "that",
-        "and",
-        "said",
-        "says",
-        "me",
-        "us",
-        "report",
-        "there",
-        "tell",
-    } - {"there"}:
-        end += 1
-    rest = words[end:]
-    return rest if len(rest) > 3 and verb_at(rest) else words
+def _named_in_full(words: Phrase, scene: Scene) -> bool:
+    """Whether words are all of what something on the map is called."""
+    found = scene.ground(words)
+    return found.outcome == "match" and len(tokens(found.candidates[0].description)) <= len(bare(words))
 
 
 def _without_nobody(words: Phrase) -> Phrase:
@@ -149,25 +137,13 @@ def _alarming(said: Phrase) -> bool:
     pairs = {f"{one} {other}" for one, other in pairwise(flat)}
     if pairs & words_for("accidents") or _turned(flat) or _filled(flat, things):
         return True
-    off = {"gone", "went", "going", "goes"} & set(flat) and "off" in flat
-    if off and {
-        "alarm",
-        "siren",
-        "bell",
-        "light",
-        "lights",
-        "power",
-        "sensor",
-        "beeper",
-        "buzzer",
-        "detector",
-    } & set(flat):
+    if _went_off(flat):
         return True
     if {"yesterday"} & set(flat) or (flat[0] in {"i", "we"} and not perceived and not _there_is(flat)):
         return False
     if things and words_for("making") & set(flat):
         return True
-    left = _left_so(flat, 0) and {"left", "forgot", "forgotten"} & set(flat)
+    left = _left_so(flat, 0) and {"left", "forgot", "forgotten", "wide"} & set(flat)
     if left or fragment or happened_:
         return True
     if events and (flat[0] in _SOME | {"there", "it"} or perceived or told or _goes_on(flat, events)):
@@ -184,6 +160,18 @@ def _alarming(said: Phrase) -> bool:
     if usual and flat[0] in _ALIVE and lemma(flat[doing]) in _MENDING:
         return False
     return bool((found or things) and (perceived or told or flat[0] in _SOME | {"it"} or _there_is(flat)))
+
+
+def _went_off(flat: tuple[str, ...]) -> bool:
+    """For "the alarm went off", "the lamp at A has gone off"."""
+    at = next((i for i in range(1, len(flat) - 1) if flat[i] in _GOING and flat[i + 1] == "off"), 0)
+    named = words_for("going off") & set(flat) if {"gone", "went", "going", "goes"} & set(flat) else set()
+    known = at > 1 and flat[0] in {"the", "our"}
+    return bool(named and "off" in flat) or (known and flat[at + 2 :] in _NO_MORE)
+
+
+_GOING = frozenset({"gone", "went"})
+_NO_MORE = frozenset({(), ("again",), ("suddenly",), ("now",), ("just", "now")})
 
 
 def _turned(flat: tuple[str, ...]) -> bool:
@@ -343,12 +331,18 @@ def _sought(words: Phrase, place_at: int) -> Phrase:
         start = next((i + 1 for i in range(end - 1, -1, -1) if _leads(flat, i)), 0)
     if flat[:2] == ("it", "is"):
         return ()
+    if 1 < start <= end - 1 <= start + 1 and _is_past(flat[end - 1]) and flat[end - 2] == "been":
+        # "A box has been left".
+        end = next((i for i in range(1, start) if flat[i] in {"has", "have", "had"}), start)
+        start = next((i + 1 for i in range(end - 1, -1, -1) if _leads(flat, i)), 0)
     linked = start > 1 and flat[start - 1] in lexicon().be | {"has", "have"}
     if linked and "there" not in flat[: start - 1] and not _handled(words[start:end]):
         # "Water is dripping": what drips is looked for.
         end = start - 1
         start = next((i + 1 for i in range(end - 1, -1, -1) if _leads(flat, i)), 0)
     what = tuple(word for word in words[start:end] if word.key not in _LIGHT)
+    where = (i for i in range(2, len(what)) if lexicon().places.match(keys(what), i))
+    what = what[: next(where, len(what))]
     while what and what[0].key in lexicon().determiners:
         what = what[1:]
     what = _handled(what) or what[: next((i for i in range(1, len(what)) if _does(what, i)), len(what))]
@@ -382,6 +376,9 @@ def _leads(flat: tuple[str, ...], index: int) -> bool:
     """Whether a word comes before what is perceived; "smell" only as a verb."""
     if flat[index] in {"smell", "got"} and index:
         return flat[index - 1] in TELLERS | {"can", "you", "could", "have"}
+    if flat[index] == "people" and index:
+        # "Two people (are waiting)": those who are there, not those who tell it.
+        return flat[index - 1] in lexicon().determiners
     if flat[index] in {"of", "about", "like"}:
         return index > 0 and flat[index - 1] in words_for("reporting") | words_for("smelling")
     return flat[index] in _LEADS
@@ -434,6 +431,7 @@ _KEEPING = frozenset(
 _NO_THING = frozenset({"not", "never", "to", "you", "your", "that", "this", "what", "because", "and"})
 _BEFORE_PLACES = lexicon().determiners | {
     "somewhere", "coming", "from", "to", "into", "against", "onto", "right", "around", "over", "out",
+    "middle", "centre", "center", "corner",
     "of", "in", "off", "down", "up",
 }  # fmt: skip
 _LEADS = (

@@ -4,10 +4,11 @@ from __future__ import annotations
 
 from collections.abc import Sequence
 from dataclasses import dataclass, field
+from functools import lru_cache
 
 from parley.language.base import Grounding, Situation
 from parley.language.offline.facts.facts import Fact
-from parley.language.offline.facts.remembering import Remembered, speaks_of_several
+from parley.language.offline.facts.remembering import ONLY_NOW, Remembered, speaks_of_several
 from parley.language.offline.scene.grounding import ground_phrase
 from parley.language.offline.scene.group_nouns import Uncounted
 from parley.language.offline.scene.relative import described_by_facts
@@ -18,7 +19,7 @@ from parley.language.offline.words.lexicon import lexicon
 from parley.language.offline.words.nouns import bare
 from parley.language.offline.words.quantities import is_measure
 from parley.language.offline.words.saying import the
-from parley.language.offline.words.text import Phrase, Word, keys, singular
+from parley.language.offline.words.text import Phrase, Word, keys, singular, tokens
 from parley.language.word_lists import load_data
 from parley.messages.memory import MemoryEntry
 from parley.world.object_map import MapObject
@@ -26,9 +27,6 @@ from parley.world.object_map import MapObject
 __all__ = ["ONLY_NOW", "OPERATOR", "Known", "Place", "UnclearError"]
 
 OPERATOR = (Word("operator", "operator"),)
-
-ONLY_NOW = "only_now"
-"""The name of what is only said for one order, and not kept."""
 
 
 class UnclearError(Exception):
@@ -58,6 +56,23 @@ def _described_person(flat: tuple[str, ...]) -> bool:
 
 
 _TITLES = frozenset(load_data("people")["titles"])
+_TRADES = tuple(load_data("people")["trades"])
+_MAYBE_TRADES = tuple(load_data("people")["maybe_trades"])
+_HIM = frozenset({"he", "she", "him", "his", "her", "hers", "who", "whom"})
+_SHORTEST_TRADE = 6
+
+
+@lru_cache(maxsize=512)
+def _is_of_trade(word: str, message: str) -> bool:
+    """Whether a noun that no list has is somebody: by how it ends, or as the only "him" of a message."""
+    lex, word = lexicon(), singular(word)
+    if len(word) < _SHORTEST_TRADE or word in lex.nouns or not word.endswith(_TRADES + _MAYBE_TRADES):
+        return False
+    if word.endswith(_TRADES):
+        return True
+    said = tokens(message)
+    others = any((w.is_capital and w.key not in lex.vocabulary) or w.key in lex.person_words for w in said)
+    return bool(_HIM & set(keys(said))) and not others
 
 
 def _is_thing(phrase: Phrase) -> bool:
@@ -185,6 +200,8 @@ class Known:
             return True
         if _is_thing(phrase):
             return False
+        if len(flat) == 1 and _is_of_trade(flat[0], self.situation.message):
+            return True
         if any(
             keys(f.fact.subject) == flat
             and f.fact.sentence.lower().startswith(flat[0])

@@ -11,7 +11,7 @@ from parley.language.offline.words.text import Phrase, Word, tokens
 from parley.world.geometry import Pose2D
 from parley.world.object_map import MapObject
 
-__all__ = ["chosen", "in_order", "labelled", "neighbour", "numbered_from"]
+__all__ = ["alike", "chosen", "in_order", "in_series", "labelled", "neighbour", "numbered_from"]
 
 
 def labelled(kind: Phrase, label: str, objects: Sequence[MapObject]) -> MapObject | None:
@@ -102,3 +102,20 @@ def _along(items: Sequence[MapObject]) -> list[MapObject]:
 def numbered_from(items: Sequence[MapObject], low: int, high: int) -> tuple[MapObject, ...]:
     """Those whose number is not below `low` and not above `high`, in order."""
     return tuple(i for i in in_order(items) if (number := _number(i)) is not None and low <= number <= high)
+
+
+def in_series(items: Sequence[MapObject]) -> tuple[tuple[MapObject, ...], ...]:
+    """Those that differ in nothing but a number or letter ("room 1", "room 2", no cloakroom), by name."""
+    series: dict[tuple[str, ...], list[MapObject]] = {}
+    for item in items:
+        words = item.description.lower().split()
+        if len(words) > 1 and (words[-1].isdigit() or len(words[-1]) == 1):
+            series.setdefault(tuple(words[:-1]), []).append(item)
+    return tuple(tuple(one) for one in series.values())
+
+
+def alike(items: tuple[MapObject, ...], before: Sequence[MapObject]) -> tuple[MapObject, ...]:
+    """Of some things those of the kind that was spoken of ("rooms 1 and 2. Now the others"), or all."""
+    kinds = {item.class_name for item in before}
+    same = tuple(item for item in items if item.class_name in kinds)
+    return same if same and len(kinds) == 1 else items

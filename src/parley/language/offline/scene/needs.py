@@ -11,6 +11,7 @@ from typing import Any
 
 from parley.language.offline.facts.facts import strip_openers
 from parley.language.offline.facts.remembering import find_fact
+from parley.language.offline.grammar.small import is_past
 from parley.language.offline.scene.scene import Scene
 from parley.language.offline.words.lexicon import PhraseTable, lexicon
 from parley.language.offline.words.nouns import bare, noun_phrase
@@ -169,12 +170,12 @@ def _who(words: Phrase, scene: Scene) -> Phrase | None:
 
 
 def _somebody_at(words: Phrase, scene: Scene) -> Phrase | None:
-    """For "the lady in room 2" the place where she is."""
+    """For "the lady in room 2", "Anna at the desk": somebody, and where they are."""
     noun = noun_phrase(words)
-    if not noun.core or noun.core[-1] not in lexicon().person_words or len(noun.anchors) != 1:
+    if not noun.core or len(noun.anchors) != 1:
         return None
-    found = scene.ground(noun.anchors[0])
-    return tokens(found.candidates[0].description) if found.outcome == "match" else None
+    person = noun.core[-1] in lexicon().person_words or scene.is_person(noun.phrase[: len(noun.core)])
+    return words if person and scene.ground(noun.anchors[0]).outcome == "match" else None
 
 
 def _handed(words: Phrase, scene: Scene) -> tuple[Phrase, Phrase] | None:
@@ -269,6 +270,8 @@ def _wanted(words: Phrase, scene: Scene) -> tuple[Phrase, Phrase] | None:
             who = _waiting_place(words[:cut], words[cut + desire[0] :], scene)
         if who is None or (lead is not None and _allowed(flat[cut : cut + 2])):
             continue
+        if lead is not None and _is_done(flat[cut + lead[0] :]):
+            return None
         rest = words[cut:]
         used = _using(who, rest[lead[0] :], scene) if lead is not None else None
         if used is not None and lead is not None:
@@ -300,6 +303,12 @@ def _desired(said: str, rest: Phrase, scene: Scene) -> Phrase | None:
 def _allowed(said: tuple[str, ...]) -> bool:
     """For "A may use B": a rule, and nothing that A is to be given."""
     return said in {(may, use) for may in ("may", "can") for use in ("use", "wear", "take", "read")}
+
+
+def _is_done(rest: tuple[str, ...]) -> bool:
+    """For "(they should) have closed it by now": nothing that they are to be given."""
+    done = rest[:1] == ("have",) and rest[1:2] and (rest[1].endswith("ed") or is_past(rest[1]))
+    return bool(done) and rest[2:3] != () and rest[2] in lexicon().thing_pronouns | lexicon().determiners
 
 
 def _lacked(said: str, rest: Phrase, scene: Scene) -> Phrase:

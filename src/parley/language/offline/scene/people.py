@@ -12,7 +12,7 @@ from parley.language.offline.scene.grounding import ground_phrase
 from parley.language.offline.scene.scene import Scene
 from parley.language.offline.words.lexicon import lexicon
 from parley.language.offline.words.nouns import bare
-from parley.language.offline.words.text import Phrase, keys, singular
+from parley.language.offline.words.text import Phrase, Word, keys, singular
 from parley.language.word_lists import load_data
 
 __all__ = ["Somebody", "map_name_end", "read_somebody"]
@@ -119,12 +119,24 @@ def _head(words: Phrase, scene: Scene) -> tuple[int | None, bool]:
     while start < len(flat) and flat[start] in lex.determiners | lex.quantifiers | {"of"}:
         start += 1
     for index in range(start, min(start + _MOST_BEFORE, len(flat))):
-        if singular(flat[index]) in lex.person_words or flat[index] in _GENERAL:
+        if _is_human(words[index], scene) or flat[index] in _GENERAL:
             alone = flat[index] == "one" and not _tells_apart(flat, index + 1)
             return (None, False) if alone else (index + 1, False)
         if lex.places.match(flat, index) is not None or flat[index] in _ENDS | {"of"}:
             break
     return None, False
+
+
+def _is_human(word: Word, scene: Scene) -> bool:
+    """Whether a noun is one for people."""
+    if singular(word.key) in lexicon().person_words:
+        return True
+    return (
+        not word.is_capital
+        and word.is_word
+        and word.key not in lexicon().vocabulary
+        and scene.is_person((word,))
+    )
 
 
 def _tells_apart(flat: tuple[str, ...], at: int) -> bool:

@@ -6,11 +6,13 @@ from collections.abc import Iterator, Sequence
 from dataclasses import dataclass, field, replace
 
 from parley.language.offline.facts.facts import Fact, read_statement
+from parley.language.offline.facts.owning import holder_of
 from parley.language.offline.facts.redirecting import Redirect, is_habit, redirects
 from parley.language.offline.facts.remembering import Remembered, find_fact, memory_name
 from parley.language.offline.scene.choosing import choose_object
 from parley.language.offline.scene.grounding import describe, ground_phrase
 from parley.language.offline.scene.known import Place, UnclearError
+from parley.language.offline.scene.links import worked_with
 from parley.language.offline.scene.referring import Referring
 from parley.language.offline.words.lexicon import lexicon
 from parley.language.offline.words.nouns import bare, noun_phrase
@@ -20,7 +22,7 @@ from parley.language.word_lists import load_data
 from parley.messages.memory import MemoryEntry
 from parley.world.object_map import MapObject
 
-__all__ = ["Placing"]
+__all__ = ["PARTS", "Placing"]
 
 _MAX_HOPS = 3
 _HOME = frozenset(
@@ -138,7 +140,7 @@ class Placing(Referring):
         noun = noun_phrase(phrase)
         if not noun.core and len(noun.anchors) == 1:
             noun = noun_phrase(noun.anchors[0])
-        part = bool(noun.core) and noun.core[-1] in _PARTS and noun.relation in {"in", "at", "inside", "near"}
+        part = bool(noun.core) and noun.core[-1] in PARTS and noun.relation in {"in", "at", "inside", "near"}
         somebody = part or (noun.core[-1:] != () and noun.core[-1] in lexicon().person_words)
         if len(noun.anchors) != 1 or not (somebody or self.is_person(noun.phrase[: len(noun.core)])):
             return None
@@ -212,9 +214,24 @@ class Placing(Referring):
                 raise UnclearError(f"Do you mean {listing(labels, 'or')}?", labels)
             fact = several[stand_ins.index(chosen)]
         if fact is None:
-            return None
+            return self._place_of_holder(phrase, hops)
         self.use(fact)
         return replace(self.place(fact.fact.place, hops=hops + 1, via=fact), via=fact)
+
+    def _place_of_holder(self, phrase: Phrase, hops: int) -> Place | None:
+        """Where whoever has it is ("A has the key"), or what somebody is remembered to work with."""
+        worked = worked_with(phrase, self.objects, self.facts)
+        if worked is not None:
+            self.use(worked[1])
+            return Place(describe(worked[0], self.objects), worked[0], worked[1])
+        held = holder_of(phrase, self.facts) if hops < _MAX_HOPS else None
+        place = self.remembered_place(held.owner, hops + 1) if held is not None else None
+        if place is None or held is None:
+            return None
+        # What is at that place is the thing, though the fact is about whoever has it.
+        via = replace(held.source, fact=replace(held.source.fact, subject=held.thing))
+        self.use(via)
+        return replace(place, via=via)
 
     def pick(self, phrase: Phrase, candidates: Sequence[MapObject]) -> MapObject:
         """One of several equals: by quantifier or an earlier answer; otherwise it is asked.
@@ -281,7 +298,8 @@ class Placing(Referring):
         return None
 
 
-_PARTS = frozenset(load_data("names")["parts"])
+PARTS = frozenset(load_data("names")["parts"])
+"""What things have parts of: their door, their lid."""
 _TAILS = frozenset({",", "for", "and", "because", "until", "till", "so", "who", "as", "with", "while"})
 
 

@@ -5,9 +5,11 @@ from __future__ import annotations
 from collections.abc import Sequence
 
 from parley.language.offline.facts.facts import where_only
+from parley.language.offline.facts.owning import holder_of
 from parley.language.offline.facts.remembering import Remembered, find_fact
 from parley.language.offline.facts.sharing import alike, content_of, shared
 from parley.language.offline.scene.grounding import ground_phrase, matching
+from parley.language.offline.scene.links import linked_thing, worked_with
 from parley.language.offline.scene.owned import owned_thing
 from parley.language.offline.words.lexicon import lexicon
 from parley.language.offline.words.nouns import bare, noun_phrase
@@ -31,7 +33,11 @@ def described_by_facts(
         # "The shelf with A on it".
         words = words[:-2]
     if not 2 < len(words) <= 14:
-        return _the_same(words, objects, facts) or owned_thing(words, objects, facts)
+        return (
+            _the_same(words, objects, facts)
+            or owned_thing(words, objects, facts)
+            or linked_thing(words, objects, facts)
+        )
     return (
         _the_same(words, objects, facts)
         or owned_thing(words, objects, facts)
@@ -41,6 +47,7 @@ def described_by_facts(
         or _holding(words, objects, facts)
         or _beside(words, objects, facts)
         or _as_told(words, objects, facts)
+        or linked_thing(words, objects, facts)
     )
 
 
@@ -139,6 +146,15 @@ def _located(
     about = bare(subject)
     for _ in range(_MAX_HOPS):
         fact, _several = find_fact(about, facts)
+        owner = holder_of(about, facts) if fact is None else None
+        if owner is not None and owner.source not in used:
+            # "A has it": where A is.
+            used.append(owner.source)
+            about = owner.owner
+            continue
+        worked = worked_with(about, objects, facts) if fact is None else None
+        if worked is not None:
+            return worked[0], (*used, worked[1])
         if fact is None or fact in used:
             return None, ()
         used.append(fact)

@@ -2,12 +2,12 @@
 
 from __future__ import annotations
 
-from functools import cache
+from functools import cache, lru_cache
 
 from parley.language.offline.scene.scene import Scene
 from parley.language.offline.words.lexicon import PhraseTable, lexicon
 from parley.language.offline.words.nouns import bare
-from parley.language.offline.words.text import Phrase, Word, keys, singular
+from parley.language.offline.words.text import Phrase, Word, keys, singular, tokens
 from parley.language.word_lists import load_data
 
 __all__ = [
@@ -59,7 +59,7 @@ def _is_place(words: Phrase, scene: Scene) -> bool:
     part = bare(words)
     if not part or part != words or (keys(part)[-1] in lexicon().determiners and not part[-1].raw.isupper()):
         return False
-    if len(part) == 1 and part[0].key in lexicon().vocabulary - lexicon().nouns - _names_on(scene):
+    if len(part) == 1 and part[0].key in lexicon().small - _names_on(scene):
         return False
     if scene.told_apart(part) is not None:
         return True
@@ -80,7 +80,13 @@ def _by_synonym(part: Phrase, scene: Scene) -> bool:
 
 
 def _names_on(scene: Scene) -> frozenset[str]:
-    return frozenset(part for item in scene.objects for part in item.description.lower().split())
+    return _words_of(tuple(item.description for item in scene.objects))
+
+
+@lru_cache(maxsize=8)
+def _words_of(names: tuple[str, ...]) -> frozenset[str]:
+    """All words of some names, as they are compared."""
+    return frozenset(key for name in names for key in (*name.lower().split(), *keys(tokens(name))))
 
 
 def follows_preposition(flat: tuple[str, ...], at: int) -> bool:

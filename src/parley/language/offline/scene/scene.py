@@ -11,7 +11,7 @@ from parley.language.offline.facts.remembering import remembered
 from parley.language.offline.scene.grounding import describe, ground_phrase
 from parley.language.offline.scene.known import OPERATOR, Place, UnclearError
 from parley.language.offline.scene.marks import members_of
-from parley.language.offline.scene.placing import Placing, place_said
+from parley.language.offline.scene.placing import PARTS, Placing, place_said
 from parley.language.offline.scene.states import all_in_state
 from parley.language.offline.tasks.catalogue import Catalogue
 from parley.language.offline.words.explaining import Trace
@@ -130,7 +130,11 @@ class Scene(Placing):
             # "In the north-east".
             return False
         reach_m = _REACH_M + math.hypot(place.width_m, place.height_m) / 2
-        called = self.several(words)
+        try:
+            called = self.several(words)
+        except UnclearError:
+            # "The rest" of nothing that was spoken of.
+            return False
         return bool(called) and all(
             math.hypot(item.x_m - place.x_m, item.y_m - place.y_m) > reach_m
             for one in called
@@ -160,6 +164,18 @@ class Scene(Placing):
         place = next((p for p in named if ground_phrase(p, self.objects, strict=True).outcome == "match"), ())
         return bool(place) and self.far_from(keys(words[at:end]), place)
 
+    def is_part(self, word: Word) -> bool:
+        """Whether a word may mean a part of anything, and the map knows it for a kind at most.
+
+        "The cabin. Is the door shut?" asks for the cabin's, where an entrance is of the kind "door".
+        """
+        part = singular(word.key)
+        if part not in PARTS:
+            return False
+        found = ground_phrase((word,), self.objects, strict=True).candidates
+        called = {singular(one.key) for item in found for one in tokens(item.description)}
+        return part not in called
+
     def _side_by_side(self, phrase: Phrase) -> list[Phrase]:
         """For "the desk the door the box": things named one after the other without any mark."""
         words = bare(phrase)
@@ -179,7 +195,7 @@ class Scene(Placing):
         return parts if len(parts) > 1 else []
 
     def _is_called(self, phrase: Phrase) -> bool:
-        first = keys(phrase)[0] not in lexicon().vocabulary - lexicon().nouns or len(phrase) > 1
+        first = keys(phrase)[0] not in lexicon().small or len(phrase) > 1
         return first and ground_phrase(phrase, self.objects, strict=True).outcome == "match"
 
     def _series(self, phrase: Phrase) -> list[Phrase]:

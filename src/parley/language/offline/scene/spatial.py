@@ -8,11 +8,23 @@ from collections.abc import Callable, Sequence
 from parley.world.geometry import Pose2D
 from parley.world.object_map import MapObject
 
-__all__ = ["all_at", "by_anchor", "by_size", "nearest_to", "smallest"]
+__all__ = [
+    "all_at",
+    "between",
+    "by_anchor",
+    "by_size",
+    "is_across",
+    "nearest_to",
+    "nearest_to_any",
+    "smallest",
+]
 
 _CLEARLY = 1.25
 """Something is clearly nearer if everything else is this much farther away."""
 _SLACK_M = 0.3
+_BESIDE_LINE = 0.35
+"""How far from the line between two things something between them may be, for each metre of the line."""
+_LEVEL = 0.25
 _ROOM_M2 = 2.0
 """What is larger can have things inside on the map: a room, an area."""
 
@@ -23,6 +35,15 @@ _COMPASS = {"north": (0.0, 1.0), "south": (0.0, -1.0), "east": (1.0, 0.0), "west
 def nearest_to(items: Sequence[MapObject], x_m: float, y_m: float) -> list[MapObject]:
     """The items that are clearly nearest to a point: one, or several that are about equally near."""
     return smallest(items, lambda item: _gap(item, x_m, y_m))
+
+
+def nearest_to_any(items: Sequence[MapObject], others: Sequence[MapObject]) -> list[MapObject]:
+    """The items that are clearly nearest to any of some other things."""
+
+    def gap(item: MapObject) -> float:
+        return min((_gap(item, one.x_m, one.y_m) for one in others if one is not item), default=math.inf)
+
+    return smallest(items, gap)
 
 
 def by_size(items: Sequence[MapObject], sign: float) -> list[MapObject]:
@@ -43,9 +64,11 @@ def by_anchor(
     if len(anchors) > 1:
         second = anchors[1]
         return smallest(
-            items,
+            between(items, first, second) or items,
             lambda item: max(_gap(item, first.x_m, first.y_m), _gap(item, second.x_m, second.y_m)),
         )
+    if is_across(relation):
+        return _facing(items, first) or nearest_to(items, first.x_m, first.y_m)
     if first.width_m * first.height_m >= _ROOM_M2 and relation in {
         "in",
         "inside",
@@ -77,6 +100,56 @@ def by_anchor(
     near = nearest_to(items, first.x_m, first.y_m)
     # "The closest to" is a comparison: the nearest is meant even if others are not much farther.
     return near[:1] if "closest" in relation or "nearest" in relation else near
+
+
+def between(items: Sequence[MapObject], first: MapObject, second: MapObject) -> list[MapObject]:
+    """The items that stand in the gap between two things, and not only somewhere near both."""
+    dx, dy = second.x_m - first.x_m, second.y_m - first.y_m
+    length = math.hypot(dx, dy)
+    if not length:
+        return []
+    found: list[MapObject] = []
+    for item in items:
+        x, y = item.x_m - first.x_m, item.y_m - first.y_m
+        along, aside = (x * dx + y * dy) / length, abs(x * dy - y * dx) / length
+        if 0.0 < along < length and aside <= _BESIDE_LINE * length:
+            found.append(item)
+    return found
+
+
+def is_across(relation: str) -> bool:
+    """Whether a relation says that something faces a thing."""
+    return relation.startswith(("opposite", "across", "facing", "on the opposite", "on the other"))
+
+
+def _facing(items: Sequence[MapObject], anchor: MapObject) -> list[MapObject]:
+    """The items across from the anchor: not next in its row, but over against it; none if nothing is."""
+    level = [item for item in items if _slant(item, anchor, along_x=True) <= _LEVEL]
+    upright = [item for item in items if _slant(item, anchor, along_x=False) <= _LEVEL]
+    if level and upright:
+        by_count = len(level) - len(upright) or _nearest_m(upright, anchor) - _nearest_m(level, anchor)
+        row = level if by_count > 0 else upright
+    else:
+        row = level + upright
+        # Two in one line with it, and nothing over against it there: these are its own row.
+        row = row if len(row) > 1 else []
+    along_x = row == level and bool(level)
+    facing = upright if along_x else level
+    facing = [item for item in facing if item not in row]
+    if row and not facing:
+        facing = [i for i in items if i not in row and _slant(i, anchor, along_x=not along_x) <= 2 * _LEVEL]
+    return nearest_to(facing or level or upright, anchor.x_m, anchor.y_m)
+
+
+def _slant(item: MapObject, anchor: MapObject, *, along_x: bool) -> float:
+    """How far an item is from a level (or upright) line through the anchor, for each metre away."""
+    dx, dy = abs(item.x_m - anchor.x_m), abs(item.y_m - anchor.y_m)
+    away, aside = (dx, dy) if along_x else (dy, dx)
+    return aside / away if away else math.inf
+
+
+def _nearest_m(items: Sequence[MapObject], anchor: MapObject) -> float:
+    return min(_gap(item, anchor.x_m, anchor.y_m) for item in items)
 
 
 def all_at(

@@ -5,8 +5,11 @@ It is left out before a message is cut into its parts, so that nobody takes it f
 
 from __future__ import annotations
 
+from collections.abc import Sequence
+
 from parley.language.offline.sentences.clauses import opens_command
 from parley.language.offline.words.lexicon import PhraseTable, lexicon
+from parley.language.offline.words.rewriting import rewritten
 from parley.language.offline.words.text import Phrase, Word, keys, lemma
 from parley.language.word_lists import load_data
 
@@ -109,34 +112,26 @@ _MOMENTS = frozenset(
 def _without_manner(words: Phrase) -> Phrase:
     """Without "very well" and "one last time", which say nothing that is not done anyway."""
     flat = keys(words)
-    result: list[Word] = []
-    index = 0
-    while index < len(words):
-        found = _MANNER.match(flat, index) if result and result[-1].is_word else None
-        behind = flat[index + found[0] : index + found[0] + 1] if found is not None else ()
-        if found is not None and (not behind or behind[0] in _ENDING):
-            index += found[0]
-            continue
-        result.append(words[index])
-        index += 1
-    return tuple(result)
+
+    def manner(at: int, before: Sequence[Word]) -> tuple[int, Phrase] | None:
+        found = _MANNER.match(flat, at) if before and before[-1].is_word else None
+        size = found[0] if found is not None else 0
+        return (size, ()) if size and (at + size == len(flat) or flat[at + size] in _ENDING) else None
+
+    return rewritten(words, manner)
 
 
 def _without_tags(words: Phrase) -> Phrase:
     """Without "would you" and "if you can" behind an order, at its end or before the next one."""
     flat = keys(words)
-    result: list[Word] = []
-    index = 0
-    while index < len(words):
-        at = index + (flat[index] == ",")
-        found = _TAGS.match(flat, at) if result and result[-1].is_word else None
-        end = at + found[0] if found is not None else 0
-        if end and _is_tag(flat, index, end):
-            index = end
-            continue
-        result.append(words[index])
-        index += 1
-    return tuple(result)
+
+    def tag(at: int, before: Sequence[Word]) -> tuple[int, Phrase] | None:
+        start = at + (flat[at] == ",")
+        found = _TAGS.match(flat, start) if before and before[-1].is_word else None
+        end = start + found[0] if found is not None else 0
+        return (end - at, ()) if end and _is_tag(flat, at, end) else None
+
+    return rewritten(words, tag)
 
 
 def _is_tag(flat: tuple[str, ...], index: int, end: int) -> bool:

@@ -52,7 +52,7 @@ def branched(words: Phrase, is_stop: IsStop, turn: Turn = lambda asked: ()) -> P
     place: Phrase = ()
     about: Phrase = ()
     for sentence, mark in _sentences(words):
-        sentence = _when_state(sentence, is_stop)
+        sentence = _cut_off(_when_state(sentence, is_stop), is_stop)
         if place and keys(sentence[:1]) in {("if",), ("unless",)}:
             end = next(
                 (i for i, w in enumerate(sentence) if w.key in {",", "then", "try", "go", "come"}),
@@ -148,6 +148,19 @@ def _state_alone(words: Phrase) -> Phrase:
     return tuple(result)
 
 
+def _cut_off(words: Phrase, is_stop: IsStop) -> Phrase:
+    """For "check A if it is full V (if not W)", said without any mark: check A. If it is full, V."""
+    flat = keys(words)
+    lead = next((i for i in range(2, len(flat) - 4) if flat[i] == "if"), 0)
+    link = lead + 2
+    if not lead or flat[0] not in _LOOKS or flat[lead + 1] not in {"it", "they"} or flat[link] not in _LINKS:
+        return words
+    state = link + 1 + (flat[link + 1] == "not")
+    told = flat[state] in STATES or not opens_command(words[state:])
+    ends = told and state + 1 < len(words) and opens_command(words[state + 1 :])
+    return (*words[:lead], *_words("."), *words[lead:]) if ends and _stop_in(words[:lead], is_stop) else words
+
+
 def _when_state(words: Phrase, is_stop: IsStop) -> Phrase:
     """For "when A is shut V, when it is open W": if A is shut V, if it is open W."""
     result = list(words)
@@ -157,10 +170,24 @@ def _when_state(words: Phrase, is_stop: IsStop) -> Phrase:
             continue
         link = next((i for i in range(index + 2, min(index + 8, len(flat))) if flat[i] in lexicon().be), 0)
         state = flat[link + 1] if link and link + 1 < len(flat) else ""
-        told = state in STATES and (is_stop(words[index + 1 : link]) or flat[index + 1] in {"it", "they"})
-        if told:
+        subject = words[index + 1 : link]
+        told = state in STATES and (is_stop(subject) or flat[index + 1] in {"it", "they"})
+        # "Check A and, when its lid is open, V": what is looked at tells.
+        looked = _LOOKS & set(flat[:index]) and bool(_stop_in(words[:index], is_stop))
+        of_it = state and not any(word.is_capital for word in subject) and flat[index + 1] in _PARTS_OF_IT
+        if told or (looked and of_it) or (state in STATES and _is_at_stop(subject, is_stop)):
             result[index] = Word("if", "if")
     return tuple(result)
+
+
+_LOOKS = frozenset({"check", "look", "inspect", "see", "examine"})
+_PARTS_OF_IT = frozenset({"its", "their", "the", "there"})
+
+
+def _is_at_stop(subject: Phrase, is_stop: IsStop) -> bool:
+    """Whether something is said to be at a place that is known ("the light in A")."""
+    flat = keys(subject)
+    return any(flat[i] in _BEHIND and is_stop(subject[i + 1 :]) for i in range(1, len(subject) - 1))
 
 
 def _depending(words: Phrase, is_stop: IsStop) -> Phrase:

@@ -6,6 +6,8 @@ one of several that is picked, conditions dictated without a mark. What is only 
 
 from __future__ import annotations
 
+from collections.abc import Sequence
+
 from parley.language.offline.sentences.asides import without_asides
 from parley.language.offline.sentences.finite import subject_apart
 from parley.language.offline.sentences.lost import with_what_was_lost
@@ -13,6 +15,7 @@ from parley.language.offline.sentences.moved import what_was_left
 from parley.language.offline.sentences.ranking import named_first, ranked_stops
 from parley.language.offline.sentences.reasons import closed_reasons
 from parley.language.offline.words.lexicon import lexicon
+from parley.language.offline.words.rewriting import rewritten
 from parley.language.offline.words.text import Phrase, Word, keys, lemma, singular, tokens
 
 __all__ = ["briefly"]
@@ -36,8 +39,9 @@ def _sought_first(words: Phrase) -> Phrase:
     at = flat.index("?") if "?" in flat[1:3] else 0
     end = next((i for i in range(at + 1, len(flat)) if not words[i].is_word), len(flat))
     looks = flat[at + 1 : at + 2] and flat[at + 1] in _LOOKING and end > at + 2
-    known = lexicon().vocabulary - lexicon().nouns
-    if not at or not looks or _SOUGHT & set(flat[at + 1 : end]) or known & set(flat[:at]):
+    if not at or not looks or _SOUGHT & set(flat[at + 1 : end]):
+        return words
+    if any(key in lexicon().vocabulary and key not in lexicon().nouns for key in flat[:at]):
         return words
     return (*words[at + 1 : end], Word("for", "for"), *(Word(w.key, w.key) for w in words[:at]), *words[end:])
 
@@ -120,22 +124,16 @@ def _there_and_with(words: Phrase) -> Phrase:
     "When you have handed it over, V" behind an order to bring it is no second order, but "then V".
     """
     flat = keys(words)
-    result: list[Word] = []
-    index = 0
-    while index < len(words):
-        end = _lying_there(flat, index) or _who_is(words, flat, index)
+
+    def put(at: int, before: Sequence[Word]) -> tuple[int, Phrase] | None:
+        del before
+        end = _lying_there(flat, at) or _who_is(words, flat, at)
         if end:
-            result += words[index + 3 : _now_starts(flat, index + 3, end)] if flat[index] == "," else ()
-            index = end
-            continue
-        end = _handed(flat, index)
-        if end:
-            result.append(Word("then", "then"))
-            index = end
-            continue
-        result.append(words[index])
-        index += 1
-    return tuple(result) if len(result) < len(words) else words
+            return end - at, words[at + 3 : _now_starts(flat, at + 3, end)] if flat[at] == "," else ()
+        end = _handed(flat, at)
+        return (end - at, (Word("then", "then"),)) if end else None
+
+    return rewritten(words, put)
 
 
 def _lying_there(flat: tuple[str, ...], index: int) -> int:

@@ -11,6 +11,7 @@ from parley.language.offline.sentences.conditions import is_rule, split_conditio
 from parley.language.offline.sentences.inverted import asks
 from parley.language.offline.sentences.reasons import without_reason
 from parley.language.offline.sentences.simultaneous import side_by_side
+from parley.language.offline.words.durations import is_clock
 from parley.language.offline.words.lexicon import lexicon
 from parley.language.offline.words.order import due, phrases_due
 from parley.language.offline.words.text import Phrase, Word, keys, lemma, plain
@@ -293,10 +294,12 @@ def _before_after(sentence: Phrase, opens: Opens) -> list[Clause]:
                 done = _cut(_trim(sentence[: index - 1]), opens)
                 return [*done, *_before_after(_trim(sentence[index + 1 :]), opens)]
             if flat[index] == marker and flat[index + 1] not in {"that", "this", "all", ","}:
-                main, other = (
-                    _cut(_trim(sentence[:index]), opens),
-                    _cut(_with_verb(_trim(_without_you(sentence[index + 1 :])), opens), opens),
-                )
+                clock = is_clock(flat[index + 1 :]) and not {"never", "not"} & set(flat[:2])
+                if clock or (marker == "before" and flat[index + 1] == "i"):
+                    # "Before nine", "before I go home": no order, and what is told keeps its time.
+                    return _cut(_trim(sentence if clock and not opens(sentence) else sentence[:index]), opens)
+                main = _cut(_trim(sentence[:index]), opens)
+                other = _cut(_with_verb(_trim(_without_you(sentence[index + 1 :])), opens), opens)
                 return [*main, *other] if marker == "before" else [*other, *main]
     return _cut(sentence, opens)
 

@@ -299,6 +299,9 @@ def _after_event(sentence: Phrase, is_stop: Names, is_person: Names) -> Phrase:
         if not end:
             continue
         lead, rest = sentence[:index], sentence[end:]
+        if "ask" in flat[:index] and "to" not in flat[:index]:
+            # "Ask A when B leaves": that is the question.
+            continue
         order = _allowed(rest if index == 0 else lead)
         if (index == 0 or not any(w.is_word for w in rest)) and opens_command(order):
             return (*_words("wait until"), *sentence[start:end], _word("."), *order)

@@ -76,6 +76,7 @@ def is_rule(condition: Phrase) -> bool:
         return False
     # "Somebody is at the desk" can be looked at now; "you see smoke" is about whatever comes.
     flat = keys(condition)
+    flat = (flat[0], *flat[2:]) if flat[1:2] == ("else",) else flat
     there = any(
         lexicon().places.match(flat, at) is not None or flat[at] == "there"
         for at in range(2, min(5, len(flat)))
@@ -120,6 +121,7 @@ def _leading(words: Phrase, opens: Opens) -> Conditional | None:
             for i in range(start + 3, comma)
             if opens(words[i:])
             and not _is_noun(flat, i)
+            and not (flat[i].endswith("s") and lemma(flat[i]) != flat[i])
             and not (i == comma - 1 and opens(words[comma + 1 :]))
             and flat[i - 1] not in lexicon().be | {"still", "already", "not"}
             and not (comma < len(flat) and flat[i].endswith("ing"))

@@ -11,17 +11,18 @@ from parley.language.offline.words.naming import told_deed
 from parley.language.offline.words.text import lemma, singular
 from parley.language.word_lists import load_data
 
-__all__ = ["Deeds"]
+__all__ = ["COMMON", "Deeds"]
 
 _DATA = load_data("forms")
 _STATES = frozenset(_DATA["states"])
 _IRREGULAR: dict[str, str] = dict(_DATA["irregular"])
 _RESULTING = frozenset(_DATA["resulting"])
 _NOUNS: dict[str, str] = dict(_DATA["nouns"])
-_COMMON = frozenset({
+COMMON = frozenset({
     "motion", "look", "whether", "search", "transfer", "grasp", "speak", "follow", "meet", "count",
     "guide", "place", "back", "drop_step", "fetch", "handover",
 })  # fmt: skip
+"""Kinds of orders that people ask for anywhere."""
 _EDITS = frozenset(
     {"skip", "drop", "cancel", "forget", "omit", "delete", "remove", "swap", "postpone", "repeat"}
 )
@@ -92,7 +93,7 @@ class Deeds:
 
     def _can(self, verb: str) -> bool:
         found = lexicon().verbs.match((verb,))
-        common = found is not None and found[1].partition(":")[0] in _COMMON
+        common = found is not None and found[1].partition(":")[0] in COMMON
         if verb in self.own or common or verb in _EDITS:
             return True
         if verb in LIGHT_VERBS:

@@ -42,7 +42,8 @@ def distilled(units: Sequence[Unit]) -> Phrase | None:
         if not words:
             continue
         words = _going(unit, words, units[index + 1 : index + 2], first=not result)
-        if result:
+        if result and keys(result[-1:]) not in {("otherwise",), ("else",)}:
+            # "..., else" is cut off from what it begins.
             result.append(_STOP)
         result += words
     return tuple(result)

@@ -114,6 +114,10 @@ def put_briefly(words: Phrase, opens: Callable[[Phrase], bool]) -> Phrase:
             continue
         found = echo(words, index, opens) if flat[index] in _FIRST else _answers_itself(words, index, flat)
         begins = not index or not words[index - 1].is_word or flat[index - 1] in _JOINTS
+        if found is not None and not begins and _ends_condition(words, index, opens):
+            # "V if S otherwise W", said without any mark.
+            result.append(Word(",", ","))
+            begins = True
         if found is None or found.kind not in {"state", "there", "else"} or not begins:
             result.append(words[index])
             index += 1
@@ -129,6 +133,15 @@ def put_briefly(words: Phrase, opens: Callable[[Phrase], bool]) -> Phrase:
     return tuple(result)
 
 
+def _ends_condition(words: Phrase, at: int, opens: Callable[[Phrase], bool]) -> bool:
+    """Whether "otherwise" stands behind a condition and not behind an order."""
+    flat = keys(words)
+    held = next((i for i in range(at - 1, -1, -1) if flat[i] in _IF_HELD), -1)
+    inside = range(held + 2, at)
+    return flat[at] in {"otherwise", "else"} and held >= 0 and not any(opens(words[i:at]) for i in inside)
+
+
+_IF_HELD: Final = frozenset({"if", "unless", "whether"})
 _IF_SO: Final = frozenset({("if", "so")})
 _FIRST: Final = frozenset(
     text.split()[0]
@@ -258,5 +271,16 @@ def _ends(
         or (found.kind == "there" and flat[end - 1] in _HOLDING)
     ):
         return False
+    if found.kind == "there" and (flat[end - 1] == "no" or (flat[end - 1] == "any" and _is_thing(flat, end))):
+        # "There is no water in the tank": no verb.
+        return False
     noun = flat[end + 1 : end + 2] in {(",",), ("then",)} or flat[end - 1] == "there"
     return opens(words[end:]) and not (noun and found.kind in {"state", "there"})
+
+
+def _is_thing(flat: tuple[str, ...], at: int) -> bool:
+    """Whether a word that may be a verb is a thing there: "(any) water in the tank", "(any) water left"."""
+    found = lexicon().verbs.match(flat, at)
+    behind = flat[at + 1 : at + 2]
+    placed = behind in {("left",), (",",), ()} or lexicon().places.match(flat, at + 1) is not None
+    return found is not None and found[1].startswith("other") and placed

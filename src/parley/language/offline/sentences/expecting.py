@@ -8,7 +8,7 @@ from __future__ import annotations
 from collections.abc import Callable
 
 from parley.language.offline.sentences.clauses import opens_command
-from parley.language.offline.sentences.echoes import FINDING, Echo, echo, phrases, put_briefly
+from parley.language.offline.sentences.echoes import FINDING, STATES, Echo, echo, phrases, put_briefly
 from parley.language.offline.words.lexicon import lexicon
 from parley.language.offline.words.text import Phrase, Word, keys, tokens
 
@@ -24,6 +24,8 @@ _ANY = {
     "somebody": "somebody", "someone": "somebody", "anybody": "somebody", "anyone": "somebody",
     "something": "something", "anything": "something", "nobody": "nobody", "nothing": "nothing",
 }  # fmt: skip
+_LATER = frozenset({"now", "always", "future"})
+"""Words before an "if" by which it is a rule for whatever comes: "from now on"."""
 _NOT_WHAT = frozenset({"it", "that", "them", "him", "her", "one", "any", "some", "this", "out"})
 _LOOKING = frozenset(
     {"look", "search", "find", "check", "inspect", "see", "scan", "locate", "whether", "seek", "hunt",
@@ -38,10 +40,34 @@ def with_looks(words: Phrase, is_stop: IsStop) -> Phrase:
         words: All words and punctuation.
         is_stop: Whether words name something on the map.
     """
-    words = put_briefly(words, opens_command)
+    words = _or_else(put_briefly(words, opens_command))
     if not set(keys(words)) & {"if", "unless", "otherwise", "depending", "is", "are", "find", "see", "spot"}:
         return words
     return _or_nothing(_both(_found(_found_again(_turned_round(_supposed(words, is_stop))), is_stop)))
+
+
+def _or_else(words: Phrase) -> Phrase:
+    """For "check whether S, otherwise V" "check whether S. If not, V"."""
+    flat = keys(words)
+    for at in range(4, len(flat) - 1):
+        if flat[at] != "otherwise":
+            continue
+        start = next((i for i in range(at - 1, -1, -1) if flat[i] in _MARKS), -1) + 1
+        asked = next((i for i in range(start + 1, at) if flat[i] in {"if", "whether"}), 0)
+        if (
+            asked
+            and flat[asked - 1] in {"check", "see", "look"}
+            and not (_IFS & set(flat[asked + 1 : at]) or _acts(words[asked + 1 : at]))
+        ):
+            comma = flat[at + 1 : at + 2] == (",",)
+            return (*_closed(words[:at]), *_said(". if not ,"), *words[at + 1 + comma :])
+    return words
+
+
+def _acts(words: Phrase) -> bool:
+    """Whether an order stands behind a mark or "and" within a sentence."""
+    joints = (i for i in range(1, len(words)) if words[i - 1].key in {",", "and", "then"})
+    return any(opens_command(words[i:]) for i in joints)
 
 
 def _again(words: Phrase, at: int, *kinds: str) -> Echo | None:
@@ -173,32 +199,54 @@ def _closed(words: Phrase) -> Phrase:
 def _found(words: Phrase, is_stop: IsStop) -> Phrase:
     """For "go to A and if you find X there V": if there is X there, V.
 
-    "If you find X at A, V; if not, W" looks at A; without either, "if you find X" is a rule for later.
+    "If you find X at A, V" looks at A; where no place is named, "if you find X" is a rule for later.
     """
     flat = keys(words)
     for at in range(len(flat) - 4):
         if flat[at] not in {"if", "unless"} or flat[at + 1] != "you" or flat[at + 2] not in FINDING:
             continue
+        state = _found_so(words[at + 3 :], is_stop)
+        if state:
+            return (*words[: at + 1], *state)
         end = _end_of_finding(words, at + 4, is_stop)
         what = words[at + 3 : end]
         if end == len(flat) or what[0].key in _NOT_WHAT:
             continue
-        inside = any(is_stop(what[i:]) for i in range(1, len(what)))
+        inside = _said_where(what, is_stop)
         before = any(is_stop(words[i : i + n]) for i in range(at) for n in range(1, 5))
         rest = words[end + (flat[end] == "there") :]
         rest = rest[1:] if keys(rest[:1]) in {(",",), ("then",)} else rest
         other = _otherwise_at(rest)
-        if not (before or (inside and other and opens_command(rest))):
+        if not (before or (inside and opens_command(rest) and not _LATER & set(flat[:at]))):
             continue
         thing = what[0].key
         first = next((w.key for w in what if w.key not in lexicon().determiners), thing)
         plural = inside and first.endswith("s") and not first.endswith("ss")
         said = _said(f"{_ANY[thing]} is" if thing in _ANY else "there are" if plural else "there is")
         said = (*said, *what[thing in _ANY :], *(() if inside else _said("there")), *_said(","))
-        if inside and other:
+        if inside and other[1]:
             rest = (*_closed(rest[: other[0]]), *_said(". if not ,"), *rest[sum(other) :])
         return (*words[: at + 1], *said, *rest)
     return words
+
+
+def _said_where(what: Phrase, is_stop: IsStop) -> bool:
+    """Whether "(if you see) water on the floor in A" says where that is to be seen."""
+    flat = keys(what)
+    places = ((i, lexicon().places.match(flat, i)) for i in range(1, len(what)))
+    return any(found is not None and is_stop(what[i + found[0] :]) for i, found in places)
+
+
+def _found_so(words: Phrase, is_stop: IsStop) -> Phrase:
+    """For "(if you see) that A is open, V", "(if you find) A open, V": A is open, V; empty otherwise."""
+    flat = keys(words)
+    told = int(flat[:1] == ("that",))
+    sizes = range(min(_LONGEST_NAME, len(words) - told - 1), 0, -1)
+    size = next((n for n in sizes if is_stop(words[told : told + n])), 0)
+    end = told + size
+    if told and size and flat[end] in lexicon().be | {"has", "have"}:
+        return words[told:]
+    return (*words[:end], *tokens("is"), *words[end:]) if size and not told and flat[end] in STATES else ()
 
 
 def _end_of_finding(words: Phrase, start: int, is_stop: IsStop) -> int:
@@ -206,7 +254,7 @@ def _end_of_finding(words: Phrase, start: int, is_stop: IsStop) -> int:
     flat = keys(words)
     ends = {",", "then", "there"} | _MARKS
     mark = next((i for i in range(start, len(flat)) if flat[i] in ends), len(flat))
-    if any(is_stop(words[i:mark]) for i in range(start, mark)):
+    if mark < len(flat) and any(is_stop(words[i:mark]) for i in range(start, mark)):
         return mark
     return next((i for i in range(start, mark) if opens_command(words[i:])), mark)
 
@@ -230,7 +278,7 @@ def _both(words: Phrase) -> Phrase:
         return words
     (one, so), (other, otherwise) = found
     first, second = so.size, otherwise.size
-    if flat[one - 1] in _MARKS | {","} or _MARKS & set(flat[one:other]):
+    if flat[one - 1] in _MARKS | {",", "and", "but", "then"} or _MARKS & set(flat[one:other]):
         return words
     begins = [
         i

@@ -16,7 +16,7 @@ from parley.language.offline.sentences.attitudes import (
     wants_to_know,
 )
 from parley.language.offline.sentences.clauses import opens_command
-from parley.language.offline.sentences.voice import KINDS, in_active
+from parley.language.offline.sentences.deeds import COMMON
 from parley.language.offline.words.lexicon import lexicon
 from parley.language.offline.words.text import Phrase, Word, keys, lemma
 from parley.language.word_lists import load_data
@@ -35,8 +35,6 @@ _WORRIED = frozenset(_DATA["worried"])
 _ASIDES = tuple(tuple(text.split()) for text in _DATA["asides"])
 _TAGS = tuple(tuple(text.split()) for text in _DATA["tags"])
 _PAST = frozenset({"if", "wish", "rather", "better", "glad", "happier"})
-_IF = frozenset({"if", "that", "have", "is"})
-_GETTING = frozenset({"love", "have", "get", "see", "want", "like", "having", "need", "wants", "needs"})
 _NOT_MEANT = (
     ("not", "suppose"),
     ("not", "too"),
@@ -64,7 +62,6 @@ _LONGEST_STOP = 6
 _LONGEST_LEAD = 14
 _TIMES = frozenset(_DATA["times"])
 _OPINIONS = tuple(tuple(text.split()) for text in _DATA["opinions"])
-_AT_LEISURE = frozenset(_DATA["at_leisure"])
 
 
 def unframed(words: Phrase, is_stop: IsStop) -> Phrase:
@@ -79,11 +76,11 @@ def unframed(words: Phrase, is_stop: IsStop) -> Phrase:
     for index in range(len(words) + 1):
         if index < len(words) and words[index].key not in _MARKS:
             continue
-        said = _without_remarks(_without_sounds(words[start:index]), is_stop)
+        said = _without_sounds(words[start:index])
         if start and _is_remark(said, is_stop):
             start = index + 1
             continue
-        order = _order(said, is_stop) or _in_parts(said, is_stop)
+        order = _order(said, is_stop)
         mark = words[index : index + 1]
         if order is not None and mark and mark[0].key == "?" and order[0].key not in lexicon().be:
             mark = (Word(".", "."),)
@@ -117,18 +114,6 @@ def _without_sounds(words: Phrase) -> Phrase:
     return tuple(kept)
 
 
-def _without_remarks(words: Phrase, is_stop: IsStop) -> Phrase:
-    """Without ", that makes me nervous"."""
-    flat = keys(words)
-    for at in range(3, len(flat) - 2):
-        comments = flat[at - 1] == "," and flat[at] in {"that", "which", "this", "it"}
-        remarks = comments and _troubles(flat[at + 1 : at + 5])
-        end = next((i for i in range(at, len(flat)) if flat[i] == ","), len(flat))
-        if remarks and not any(_stop_end(words, i, is_stop) > i for i in range(at, end)):
-            return (*words[: at - 1], *words[end:])
-    return words
-
-
 def _is_remark(words: Phrase, is_stop: IsStop) -> bool:
     """Whether a sentence is nothing but "that makes me nervous"."""
     flat = keys(words)
@@ -148,25 +133,6 @@ _TROUBLING = frozenset({
 })  # fmt: skip
 
 
-def _in_parts(words: Phrase, is_stop: IsStop) -> Phrase | None:
-    """A sentence of which a part between commas is such an order."""
-    if "," not in keys(words):
-        return None
-    pieces: list[Word] = []
-    start, changed = 0, False
-    for index in range(len(words) + 1):
-        if index < len(words) and words[index].key != ",":
-            continue
-        whole = start and not {"if", "unless"} & set(keys(words[:index]))
-        order = _order(words[start:index], is_stop) if whole else None
-        if order is not None:
-            pieces[-1:] = [Word(".", ".")]
-            changed = True
-        pieces += (*(order or words[start:index]), *words[index : index + 1])
-        start = index + 1
-    return tuple(pieces) if changed else None
-
-
 def _order(words: Phrase, is_stop: IsStop) -> Phrase | None:
     """The order that a sentence means; None if it needs no rewording."""
     body = tuple(words)
@@ -174,12 +140,8 @@ def _order(words: Phrase, is_stop: IsStop) -> Phrase | None:
         body = body[1:]
     if len(body) < 3 or len(body) > 40:
         return None
-    idle = _idle_condition(body)
-    rest = body[idle:]
-    meant = _meant(rest, is_stop)
-    if meant is not None:
-        return _without_time(meant)
-    return rest if idle else None
+    meant = _meant(body, is_stop)
+    return _without_time(meant) if meant is not None else None
 
 
 def _without_time(words: Phrase) -> Phrase:
@@ -190,20 +152,9 @@ def _without_time(words: Phrase) -> Phrase:
     return words[:at] if timed else words
 
 
-def _idle_condition(words: Phrase) -> int:
-    """How many words at the start say no more than "when you have a moment,"."""
-    flat = keys(words)
-    comma = flat.index(",") if "," in flat[:11] else 0
-    if flat[:1] not in {("if",), ("when",), ("whenever",), ("once",), ("should",)} or flat[1] != "you":
-        return 0
-    return comma + 1 if comma > 2 and set(flat[2:comma]) <= _AT_LEISURE and len(flat) > comma + 3 else 0
-
-
 def _meant(body: Phrase, is_stop: IsStop) -> Phrase | None:
     return (
         _worry(body, is_stop)
-        or _fronted(body, is_stop)
-        or _topic(body, is_stop)
         or _asked_for_opinion(body, is_stop)
         or _unknown(body, is_stop)
         or (_you_at(("you", "be"), body[1:], is_stop) if body[0].key == "be" else None)
@@ -237,7 +188,7 @@ def _worry(words: Phrase, is_stop: IsStop) -> Phrase | None:
             continue
         if end == len(flat) and flat[cut - 1] == "about":
             return (*_words("inspect"), *words[cut:])
-        if flat[end : end + 1] and flat[end] in _FINITE and end + 1 < len(flat) and not _looked(flat, end):
+        if flat[end : end + 1] and flat[end] in _FINITE and end + 1 < len(flat):
             return (*_words("check whether"), *words[cut:])
         return None
     return None
@@ -259,68 +210,29 @@ def _asked_for_opinion(words: Phrase, is_stop: IsStop) -> Phrase | None:
     return (words[end], *words[len(lead) : end], *words[end + 1 :])
 
 
-def _looked(flat: tuple[str, ...], link: int) -> bool:
-    """Whether something is said to be looked at ("I'd be glad if X was inspected"): that is wanted."""
-    done = flat[link + 1]
-    found = lexicon().verbs.match((lemma(done), *flat[link + 2 :]))
-    looks = found is not None and found[1].partition(":")[0] in {"look", "whether"}
-    return looks and lemma(done) != done and bool({"if", "that", "to"} & set(flat[:link]))
-
-
-def _fronted(words: Phrase, is_stop: IsStop) -> Phrase | None:
-    """For "to the desk you must go"."""
-    flat = keys(words)
-    if flat[0] not in {"to", "at", "into", "in"}:
-        return None
-    end = _stop_end(words, 1, is_stop)
-    rest = flat[end:]
-    if end == 1 or rest[:1] != ("you",) or len(rest) > 7:
-        return None
-    verb = lexicon().verbs.match(rest, len(rest) - 1)
-    kind = verb[1].partition(":")[0] if verb is not None else ""
-    if kind not in {"motion", "look", "back"} or "not" in rest:
-        return None
-    return (*_words("inspect" if kind == "look" else "go to"), *words[1:end])
-
-
-def _topic(words: Phrase, is_stop: IsStop) -> Phrase | None:
-    """For "the desk, is it free": asked with the thing in its place."""
-    flat = keys(words)
-    end = _stop_end(words, 0, is_stop)
-    asks = flat[end : end + 1] == (",",) and flat[end + 1 : end + 2] and flat[end + 1] in lexicon().be
-    if not end or not asks or flat[end + 2 : end + 3] not in {("it",), ("that",)} or len(flat) < end + 4:
-        return None
-    return (*_words("check whether"), *words[:end], words[end + 1], *words[end + 3 :])
-
-
 def _inside_frame(words: Phrase, is_stop: IsStop) -> Phrase | None:
     """An order behind words that only say that it is wanted, be they small or an attitude to it."""
     flat = keys(words)
     at = 0
     while at < len(flat) and flat[at] in _FRAME:
         at += 1
-    opens = opens_command(words)
+    if opens_command(words):
+        return None
     for cut in range(_lead_end(words, at, is_stop), 0, -1):
         lead = flat[:cut]
         framed = cut <= at and bool(_DESIRE & set(lead))
         if lead[-1] in lexicon().determiners or not (framed or wants(lead)) or _denied(lead):
             continue
         rest = words[cut:]
-        order = in_active(rest, is_stop, getting=lead[-1] in _GETTING, wished=bool(lead[-1] in _IF))
-        if order is None and not opens:
-            itself = framed or speaks_for_itself(lead)
-            order = (
-                (_active(lead, rest, is_stop) if itself else None)
-                or (_noun_of_order(rest, is_stop) if itself or lead[-1] != "to" else None)
-                or _you_at(lead, rest, is_stop)
-            )
+        itself = framed or speaks_for_itself(lead)
+        order = (
+            (_active(lead, rest, is_stop) if itself else None)
+            or (_noun_of_order(rest, is_stop) if itself or lead[-1] != "to" else None)
+            or _you_at(lead, rest, is_stop)
+        )
         if order is not None:
             return order
-    # "X should be checked by somebody", "could X be emptied".
-    asked = flat[0] in {"could", "can", "would", "may", "might"}
-    if not {"be", "get"} & set(flat[1:]) or not (asked or (_DESIRE & set(flat) and not opens)):
-        return None
-    return in_active(words[asked:], is_stop, wished=asked)
+    return None
 
 
 def _lead_end(words: Phrase, at: int, is_stop: IsStop) -> int:
@@ -366,7 +278,7 @@ def _active(lead: tuple[str, ...], rest: Phrase, is_stop: IsStop) -> Phrase | No
         return None
     base = lemma(rest[0].key)
     found = lexicon().verbs.match((base, *keys(rest[1:])))
-    if found is None or found[1].partition(":")[0] not in KINDS:
+    if found is None or found[1].partition(":")[0] not in COMMON:
         return None
     if base != rest[0].key and lead[-1] in lexicon().be and not rest[0].key.endswith("ing"):
         return None

@@ -62,7 +62,10 @@ def _belongs(flat: tuple[str, ...]) -> bool:
     if not flat or flat[0] not in _STRANDED:
         return False
     behind = flat[1] if len(flat) > 1 else ""
-    if not behind.isalnum() or behind in _BEHIND_STRANDED:
+    if behind in lexicon().quantifiers and flat[2:3] and flat[2].isalpha() and flat[2] not in CUTS:
+        # "In each of the rooms", "in both rooms".
+        return False
+    if not behind[:1].isalnum() or behind in _BEHIND_STRANDED:
         return True
     return flat[0] in _PARTICLES - {"on", "in", "out"} and behind in _BEHIND_PARTICLE
 

@@ -5,11 +5,12 @@ Only what no native speaker would mean otherwise is touched, and nothing between
 
 from __future__ import annotations
 
-from collections.abc import Callable
+from collections.abc import Callable, Sequence
 
 from parley.language.offline.scene.scene import Scene
 from parley.language.offline.sentences.deeds import Deeds
 from parley.language.offline.words.lexicon import PhraseTable, lexicon
+from parley.language.offline.words.rewriting import rewritten
 from parley.language.offline.words.text import Phrase, Word, keys, tokens
 from parley.language.word_lists import load_data, written_out
 
@@ -67,20 +68,15 @@ def usually_said(words: Phrase, scene: Scene) -> Phrase:
 def _plainer(words: Phrase) -> Phrase:
     """With plain words for stilted and mistaken ones."""
     flat = keys(words)
-    result: list[Word] = []
-    index = 0
-    while index < len(words):
-        found = _INSTEAD.match(flat, index)
-        if found is None or (
-            flat[index : index + found[0]] in _BEHIND_NOUNS and not _after_noun(flat, index)
-        ):
-            result.append(words[index])
-            index += 1
-            continue
-        if found[1] != "-":
-            result += tokens(found[1])
-        index += found[0]
-    return tuple(result)
+
+    def put(at: int, before: Sequence[Word]) -> tuple[int, Phrase] | None:
+        del before
+        found = _INSTEAD.match(flat, at)
+        if found is None or (flat[at : at + found[0]] in _BEHIND_NOUNS and not _after_noun(flat, at)):
+            return None
+        return found[0], tokens(found[1]) if found[1] != "-" else ()
+
+    return rewritten(words, put)
 
 
 def _after_noun(flat: tuple[str, ...], at: int) -> bool:
@@ -255,12 +251,12 @@ def _owners_first(words: Phrase, scene: Scene) -> Phrase:
 def _with_to(words: Phrase, scene: Scene) -> Phrase:
     """For "go loading area" "go to the loading area", if something on the map is called so."""
     flat = keys(words)
-    names = {keys(tokens(item.description)) for item in scene.situation.objects}
+    moving = [i for i in range(len(flat) - 1) if (found := _MOTION.match(flat, i)) and found[0] == 1]
+    names = {keys(tokens(item.description)) for item in scene.situation.objects} if moving else set()
     result: list[Word] = []
     for index, word in enumerate(words):
-        moving = _MOTION.match(flat, index)
+        at = index + 1
         result.append(word)
-        at = index + moving[0] if moving is not None and moving[0] == 1 else 0
-        if at and any(flat[at : at + len(name)] == name for name in names):
+        if index in moving and any(flat[at : at + len(name)] == name for name in names):
             result += tokens("to" if words[at].is_capital else "to the")
     return tuple(result)

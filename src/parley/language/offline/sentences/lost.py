@@ -5,7 +5,7 @@ from __future__ import annotations
 from typing import Final
 
 from parley.language.offline.words.lexicon import PhraseTable, lexicon
-from parley.language.offline.words.text import Phrase, Word, keys, tokens
+from parley.language.offline.words.text import Phrase, Word, keys, lemma, tokens
 from parley.language.word_lists import load_data
 
 __all__ = ["with_what_was_lost"]
@@ -28,7 +28,9 @@ _LONGEST: Final = 4
 
 def with_what_was_lost(words: Phrase) -> Phrase:
     """For "I dropped my A near B. Look for it" "... Look for the A"."""
-    words = _with_what_is_needed(_sought_for(_fetched_for(_how_bad(words))))
+    words = _asked_of(
+        _done_to_what_is_needed(_with_what_is_needed(_sought_for(_fetched_for(_not_right(_how_bad(words))))))
+    )
     flat = keys(words)
     at = next((i for i in range(2, len(flat)) if flat[i] in _IT and flat[i - 1] == "for"), 0)
     thing = _lost(words, flat, at) if at and _searches(flat, at) else ()
@@ -81,9 +83,39 @@ def _how_bad(words: Phrase) -> Phrase:
     return words
 
 
+def _not_right(words: Phrase) -> Phrase:
+    """For "there is something wrong with A, look at it" "A is not right, ..."; "it" is A, and no wrong."""
+    flat = keys(words)
+    for at in range(len(flat) - 4):
+        lead = next((m for m in _SOMETHING if flat[at : at + len(m)] == m), ())
+        odd = at + len(lead)
+        link = odd + 1
+        if lead and lead[-1] != "something":
+            link = odd
+        elif flat[odd : odd + 1] != () and flat[odd] not in _ODD:
+            continue
+        if not lead or flat[link : link + 1] not in {("with",), ("about",)}:
+            continue
+        end = next((i for i in range(link + 1, len(flat)) if not words[i].is_word or flat[i] in _JOINTS), 0)
+        if end > link + 1 and any(word.is_word for word in words[end:]):
+            told = tuple(Word(part, part) for part in ("is", "not", "right"))
+            return (*words[:at], *words[link + 1 : end], *told, *words[end:])
+    return words
+
+
+_ODD: Final = frozenset({
+    "wrong", "odd", "strange", "funny", "weird", "off", "amiss", "unusual", "fishy", "up", "broken",
+})  # fmt: skip
+_SOMETHING: Final = (
+    ("there", "is", "something"), ("there", "seems", "to", "be", "something"),
+    ("there", "must", "be", "something"), ("there", "might", "be", "something"),
+    ("something", "is", "wrong"), ("something", "seems", "wrong"), ("something", "is", "odd"),
+    ("something", "seems", "to", "be", "wrong"), ("something", "is", "not", "right"),
+    ("something", "is", "up"), ("something", "is", "off"), ("something", "is", "the", "matter"),
+)  # fmt: skip
+_JOINTS: Final = frozenset({"so", "and", "please", "could", "can"})
 _BAD: Final = frozenset({
-    "bad", "badly", "serious", "severe", "deep", "big", "dirty", "wet", "dangerous", "urgent", "far", "full",
-    "high",
+    "bad", "badly", "serious", "severe", "dangerous", "urgent",
 })  # fmt: skip
 _NO_MORE: Final = frozenset({(), (".",), (",",), ("?",), ("!",), (";",), ("and",), ("please",), ("then",)})
 
@@ -120,6 +152,7 @@ _FETCHING: Final = frozenset({
 _FOR_IT: Final = frozenset({"it", "them", "some", "one", "that"})
 _THOSE: Final = frozenset({"him", "her", "them"})
 _LONGEST_WHO: Final = 6
+_LONGEST_NEED: Final = 7
 
 
 def _with_what_is_needed(words: Phrase) -> Phrase:
@@ -155,6 +188,67 @@ def _with_what_is_needed(words: Phrase) -> Phrase:
         )
     between = _placed(words[end:order], thing)
     return (*words[:start], *between, words[order], Word("the", "the"), *thing, *rest)
+
+
+def _done_to_what_is_needed(words: Phrase) -> Phrase:
+    """For "we need the A on B, call it" "call the A on B"."""
+    flat = keys(words)
+    order = next((i for i in range(4, len(flat) - 1) if _is_order(words, i)), 0)
+    at = next((i for i in range(1, order - 1) if _NEEDS.match(flat, i) is not None), 0)
+    found = _NEEDS.match(flat, at) if at else None
+    start = next((i + 1 for i in range(at - 1, -1, -1) if not words[i].is_word or flat[i] in _JOINS), 0)
+    if (
+        found is None
+        or not 0 < at - start <= _LONGEST_WHO
+        or flat[start] in {"you", "if", "it", "there", "do"}
+    ):
+        return words
+    first = at + found[0]
+    end = next((i for i in range(first, order) if not words[i].is_word or flat[i] in {"and", "so", "but"}), 0)
+    thing = words[first:end]
+    if not thing or flat[first] not in lexicon().determiners or {"to", "you", "that"} & set(flat[first:end]):
+        return words
+    if any(word.is_word and word.key not in _ASKING_FOR for word in words[end:order]):
+        return words
+    if len(thing) > _LONGEST_NEED or {"i", "we", "he", "she", "they"} & set(keys(thing)):
+        return words
+    verb = words[order].key
+    if len(thing) > 2 and (thing[-1].key == verb or lemma(thing[-1].key) == verb):
+        # "The gate open": what is to be done is said again by the order.
+        thing = thing[:-1]
+    return (*words[:start], words[order], *thing, *words[order + 2 :])
+
+
+_ASKING_FOR: Final = frozenset({
+    "please", "can", "could", "would", "you", "so", "and", "then", "just", "kindly", "now", "but",
+})  # fmt: skip
+_NO_ORDERS: Final = frozenset(
+    {"do", "is", "are", "was", "has", "have", "does", "did", "about", "for", "of", "with"}
+)
+
+
+def _is_order(words: Phrase, at: int) -> bool:
+    """Whether an order for "it" or "one" stands there."""
+    before, word, it = words[at - 1], words[at], words[at + 1]
+    begins = not before.is_word or before.key in _ASKING_FOR - {"now"}
+    verb = word.is_word and word.key not in _NO_ORDERS | _FETCHING | lexicon().question_starts
+    last = at + 2 == len(words) or words[at + 2].key != "of"
+    return begins and verb and it.key in {"it", "one", "them"} and last
+
+
+def _asked_of(words: Phrase) -> Phrase:
+    """For "how heavy is the A? Put it on B" "... Put the A on B"."""
+    flat = keys(words)
+    if flat[:1] != ("how",) or "?" not in flat[4:-3] or flat[2] not in lexicon().be:
+        return words
+    end = flat.index("?")
+    thing, it = words[3:end], next((i for i in range(end + 2, len(flat)) if flat[i] in _IT), 0)
+    labelled = bool(thing) and (thing[-1].key.isdigit() or len(thing[-1].key) == 1)
+    named = 1 < len(thing) <= _LONGEST + 1 and (labelled or flat[3] in lexicon().determiners | {"my"})
+    order = [word for word in words[end + 1 : it] if word.key not in _ASKING_FOR]
+    if not it or not named or len(order) != 1 or order[0].key in _NO_ORDERS:
+        return words
+    return (*words[:it], *thing, *words[it + 1 :])
 
 
 def _fetches(flat: tuple[str, ...], at: int) -> bool:

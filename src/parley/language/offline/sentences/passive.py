@@ -7,13 +7,14 @@ order; what stands around them stays.
 
 from __future__ import annotations
 
+from collections.abc import Set
 from dataclasses import dataclass, field, replace
 
 from parley.language.offline.sentences.deeds import Deeds
 from parley.language.offline.sentences.joined import Found, Joined, ordered
 from parley.language.offline.sentences.spoken import Names
 from parley.language.offline.sentences.subjects import ADVERBS, CUTS, LONGEST_SUBJECT, Subjects, is_free
-from parley.language.offline.words.lexicon import PhraseTable
+from parley.language.offline.words.lexicon import PhraseTable, lexicon
 from parley.language.offline.words.text import Phrase, Word, keys
 from parley.language.word_lists import load_data
 
@@ -30,14 +31,21 @@ _WEAK = PhraseTable.of(
 )
 _NEEDING = PhraseTable.of(_DATA["wants_doing"])
 _WANTING = PhraseTable.of(_DATA["wanting"])
-_CLAUSE_WANTED = PhraseTable.of(_DATA["wanting_clause"])
+_GOOD = (f"{lead} {good} if" for lead in _DATA["would_be"] for good in load_data("attitudes")["good"])
+_CLAUSE_WANTED = PhraseTable.of((*_DATA["wanting_clause"], *_GOOD))
+_OTHERS_WANT = PhraseTable.of(_DATA["others_want"])
+_DEGREES = frozenset(_DATA["degrees"])
+_NONE = frozenset({"neither", "none", "no"})
+_SEEN_TO = {("seen", "to"), ("seeing", "to")}
 _USUAL = PhraseTable.of(load_data("telling")["usual"])
 _BEING = frozenset({"is", "are", "was", "were", "be", "gets", "get", "got", "being"})
 _ASKING = frozenset({"could", "can", "would", "may", "might", "will"})
+_HELPING = frozenset({"to", "could", "can", "would", "might", "should", "has", "have"})
 _LIGHT = frozenset({"have", "get", "see", "let", "make", "can", "could", "any"})
 _BEHIND_NOUN = CUTS | ADVERBS | {"before", "after", "please"}
 _REACH = 9
 _NEAR = 6
+_LONGEST_WHO = 4
 
 
 @dataclass
@@ -76,7 +84,7 @@ class Passives:
         return result
 
     def without_agent(self, rest: Phrase) -> tuple[Phrase, Phrase | None]:
-        """What follows without "by you", and the robot that is to do it; None if another does it."""
+        """What follows without "by you" and "by noon", and the robot that is to do it; None if another is."""
         flat = keys(rest)
         at = next((i for i, key in enumerate(flat[:_NEAR]) if key in CUTS | {"by"}), len(flat))
         if flat[at : at + 1] != ("by",):
@@ -86,7 +94,10 @@ class Passives:
         name = who[0].key if who else ""
         if name in self.robots | _BY_NOBODY:
             return (*rest[:at], *rest[begin + 1 :]), who if name in self.robots else ()
-        timed = not name or name in _TIMES or name.isdigit()
+        end = next((i for i in range(begin, len(flat)) if flat[i] in CUTS), len(flat))
+        if {*flat[begin:end]} <= _TIMES | lexicon().numbers.keys() and _TIMES & {*flat[begin:end]}:
+            return (*rest[:at], *rest[end:]), ()
+        timed = not name or name in _TIMES | lexicon().numbers.keys() or name.isdigit()
         return rest, () if timed or begin > at + 1 else None
 
     def _as_order(self, words: Phrase, found: Found) -> tuple[Phrase, int]:
@@ -129,17 +140,23 @@ class Passives:
         if match is None or match[0] >= len(near):
             return None
         deed = near[match[0]]
-        verb, end = self.deeds.done(flat[deed]), deed + 1
+        verb, end = self._done(flat, deed)
         if match is needing:
             verb, end = self._needed(flat, near[match[0] - 1] + 1)
-        start = self.subjects.start(words, at) if self.deeds.may(verb) else None
+        begin = next((i for i in range(max(0, at - _NEAR), at) if flat[i] in _NONE), at)
+        none = begin < at and self.subjects.begins(words, begin)
+        start = None if not self.deeds.may(verb) else begin if none else self.subjects.start(words, at)
         if start is None or (start and match is needing and keys(words[start:at]) in {("it",), ("they",)}):
             return None
-        subject = words[start:at]
+        subject = words[start : at - (flat[at - 1] == ",")]
         if not self._is_meant(subject, verb, weak=weak is not None) or self._is_rule(flat, start, end):
             return None
-        negated = bool({"not", "never"} & set(flat[at:deed]))
+        negated = none or bool({"not", "never"} & set(flat[at:deed]))
         return Found(start, subject, verb, end, negated, doing=match is needing)
+
+    def _done(self, flat: tuple[str, ...], at: int) -> tuple[str, int]:
+        """The deed of a past participle, and where it ends; what is to be "seen to" is to be looked at."""
+        return ("inspect", at + 2) if flat[at : at + 2] in _SEEN_TO else (self.deeds.done(flat[at]), at + 1)
 
     def _needed(self, flat: tuple[str, ...], at: int) -> tuple[str, int]:
         """The deed behind "needs", and where it ends: "V-ing", "a V"."""
@@ -147,6 +164,8 @@ class Passives:
         while at < len(flat) and flat[at] in _BEFORE_NOUNS | ADVERBS:
             at += 1
         word = flat[at] if at < len(flat) else ""
+        if flat[at : at + 2] in _SEEN_TO:
+            return "inspect", at + 2
         verb = self.deeds.doing(word)
         if verb:
             return verb, at + 1
@@ -172,30 +191,32 @@ class Passives:
         while deed < len(flat) - 1 and flat[deed] in ADVERBS:
             deed += 1
         subject = words[begin:end] if link else ()
-        verb = self.deeds.done(flat[deed]) if subject else ""
+        verb, deed_end = self._done(flat, deed) if subject else ("", 0)
         meant = subject and not self.deeds.is_state(verb) and self.subjects.are_things(subject)
-        return Found(at, subject, verb, deed + 1) if meant else None
+        return Found(at, subject, verb, deed_end) if meant else None
 
     def _wanted(self, words: Phrase, at: int) -> Found | None:
-        """For "I want A V-ed", "have A V-ed", "make sure A is V-ed"."""
+        """For "I want A V-ed", "N wants A V-ed", "have A V-ed", "make sure A is V-ed"."""
         flat = keys(words)
         if not self.subjects.begins(words, at):
             return None
-        whole, lead = _CLAUSE_WANTED.match(flat, at), _WANTING.match(flat, at)
         found = None
-        if whole is not None:
-            begin = at + whole[0]
+        if begin := _end(_CLAUSE_WANTED, flat, at):
             found = self._by_you(words, at, begin) or self._done_to(words, at, begin, clause=True)
-        if lead is not None and found is None:
-            found = self._done_to(words, at, at + lead[0], clause=False)
+        if (begin := _end(_WANTING, flat, at)) and found is None:
+            found = self._done_to(words, at, begin, clause=False)
+        for link in range(at + 1, min(len(flat), at + _LONGEST_WHO)):
+            begin = _end(_OTHERS_WANT, flat, link)
+            if begin and found is None and not self.names.is_stop(words[at:link]):
+                found = self._done_to(words, at, begin, clause=False)
         return found
 
     def _done_to(self, words: Phrase, at: int, begin: int, *, clause: bool) -> Found | None:
         """What is to be done to what, behind words that want it."""
         flat = keys(words)
         for deed in range(begin + 1, min(len(flat), begin + LONGEST_SUBJECT)):
-            verb = self.deeds.done(flat[deed])
-            end = self._before_helping(flat, begin, deed) if verb else begin
+            verb, after = self._done(flat, deed)
+            end = self._before_helping(flat, begin, deed, _HELPING if clause else {"to"}) if verb else begin
             passive = bool(_BEING & set(flat[end:deed]))
             if end == begin or "not" in flat[end:deed] or (clause and not passive):
                 continue
@@ -203,16 +224,16 @@ class Passives:
                 continue
             free = self.alone and not clause and flat[at] not in _LIGHT
             sure = self.deeds.can(verb) or (free and self.deeds.may(verb))
-            return Found(at, words[begin:end], verb, deed + 1) if sure else None
+            return Found(at, words[begin:end], verb, after) if sure else None
         return None
 
     @staticmethod
-    def _before_helping(flat: tuple[str, ...], begin: int, end: int) -> int:
+    def _before_helping(flat: tuple[str, ...], begin: int, end: int, helping: Set[str]) -> int:
         """Where what is named ends, before "to be" and the like."""
         while end > begin and flat[end - 1] in ADVERBS:
             end -= 1
         end -= end > begin and flat[end - 1] in _BEING
-        end -= end > begin and flat[end - 1] == "to"
+        end -= end > begin and flat[end - 1] in helping
         return end
 
     def _by_you(self, words: Phrase, at: int, begin: int) -> Found | None:
@@ -240,3 +261,10 @@ class Passives:
         until = next((i for i, key in enumerate(tail) if key in CUTS), len(tail))
         expected = "already" in flat[start:end] or tail[max(0, until - 2) : until] == ("by", "now")
         return expected or any(_USUAL.match(flat, i) for i in range(start + 1, end + until))
+
+
+def _end(table: PhraseTable, flat: tuple[str, ...], at: int) -> int:
+    """Where words of a table that begin at a place end, whatever degrees stand among them; 0 if none do."""
+    near = [i for i in range(at, min(len(flat), at + _REACH)) if i == at or flat[i] not in _DEGREES]
+    size = table.match(tuple("i" if flat[i] == "we" else flat[i] for i in near))
+    return near[size[0] - 1] + 1 if size is not None else 0

@@ -132,6 +132,11 @@ def _in_a_verb(flat: tuple[str, ...], index: int) -> bool:
     return any(verb is not None and at + verb[0] > index for at, verb in found)
 
 
+def _in_a_name(words: Phrase, index: int, is_stop: IsStop) -> bool:
+    """Whether a word is the end of a name, whatever else it means ("the tool store")."""
+    return any(is_stop(words[at : index + 1]) for at in range(max(0, index - 2), index))
+
+
 def punctuated(words: Phrase, is_stop: IsStop) -> Phrase:
     """The same words with a full stop wherever a clause of its own begins without any mark.
 
@@ -152,6 +157,7 @@ def punctuated(words: Phrase, is_stop: IsStop) -> Phrase:
         elif index > start:
             idle = _in_a_verb(flat, index) or _asks_of_another(flat[start:index])
             begins = "" if idle else _order_at(words, flat, index, is_stop)
+            begins = "" if begins and _in_a_name(words, index, is_stop) else begins
             if begins and _may_end(words, flat, start, index, is_stop, strong=begins == "strong"):
                 result.append(_STOP)
                 start, ordered = index, True

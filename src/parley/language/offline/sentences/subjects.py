@@ -125,6 +125,9 @@ class Subjects:
         flat = keys(words)
         while at and flat[at - 1] in ADVERBS - {"both", "all", "each"}:
             at -= 1
+        if flat[at - 1 : at] == (",",) and {"one", "ones"} & set(flat[max(0, at - _LONGEST_NAME) : at]):
+            # "The vase, the one by the window, ...".
+            at -= 1
         free = next((i for i in range(at) if flat[i] in {"what", "whatever"} and is_free(flat[i:at])), None)
         if free is not None and (not free or flat[free - 1] in CUTS):
             return free

@@ -74,7 +74,7 @@ def in_order(words: Phrase, is_stop: IsStop) -> Phrase:
         words: All words and punctuation.
         is_stop: Whether words name something on the map.
     """
-    words = _each(_counted(when_done(_without_remarks(words, is_stop))))
+    words = when_done(_without_remarks(words))
     result: list[tuple[Phrase, Phrase]] = []
     front: list[tuple[Phrase, Phrase]] = []
     start = 0
@@ -176,71 +176,6 @@ def _others(flat: tuple[str, ...], at: int) -> bool:
     return bool({"rest", "others", "lot"} & set(flat[at + (flat[at] == "the") : at + 2]))
 
 
-_RANKED = frozenset({"first", "second", "third", "fourth", "next", "last", "final", "other"})
-_RANKED_NOUNS = frozenset({"thing", "step", "point", "task", "job", "stop", "item", "order"})
-_NUMBERED = frozenset({"one", "two", "three", "four", "five", "1", "2", "3", "4", "5"})
-
-
-def _counted(words: Phrase) -> Phrase:
-    """For "the last thing: V", "step two: V" "then V"."""
-    flat = keys(words)
-    result: list[Word] = []
-    index = 0
-    while index < len(words):
-        at = index + (flat[index] == "the")
-        pair = flat[at : at + 2]
-        ranked = len(pair) == 2 and (
-            (pair[0] in _RANKED and pair[1] in _RANKED_NOUNS)
-            or (pair[0] in {"step", "number"} and pair[1] in _NUMBERED)
-        )
-        if (
-            ranked
-            and flat[at + 2 : at + 3] in {(":",), (",",)}
-            and (index == 0 or flat[index - 1] in _MARKS | {",", "and"})
-        ):
-            result += (Word("then", "then"),) if any(word.is_word for word in result) else ()
-            index = at + 3
-            continue
-        if (
-            flat[index] in {"second", "third", "fourth"}
-            and index
-            and flat[index - 1] in {"and", ",", "."}
-            and (opens_command(words[index + 1 :]) and lexicon().verbs.match(flat, index + 1) is not None)
-        ):
-            result.append(Word("then", "then"))
-            index += 1
-            continue
-        result.append(words[index])
-        index += 1
-    return tuple(result)
-
-
-def _each(words: Phrase) -> Phrase:
-    """For "each of the two doors" "all the doors", for "every single" "every"."""
-    flat = keys(words)
-    result: list[Word] = []
-    index = 0
-    while index < len(words):
-        if (
-            flat[index] in {"each", "all"}
-            and flat[index + 1 : index + 3] == ("of", "the")
-            and (
-                flat[index + 3 : index + 4]
-                and (flat[index + 3] in lexicon().numbers)
-                and flat[index + 4 : index + 5]
-            )
-        ):
-            result += (Word("all", "all"), Word("the", "the"))
-            index += 4
-            continue
-        if flat[index] == "single" and index and flat[index - 1] in {"every", "each"}:
-            index += 1
-            continue
-        result.append(words[index])
-        index += 1
-    return tuple(result)
-
-
 _OPENING = frozenset({"right", "listen", "well", "ok", "okay", "so", "look", "alright"})
 _TAILS = (
     ("that", "is", "it"),
@@ -251,51 +186,17 @@ _TAILS = (
 _TELLERS = frozenset(
     {"i", "we", "it", "he", "she", "they", "there", "nobody", "somebody", "everybody", "my", "our"}
 )
-_PAUSES = _MARKS | {",", "and", "then", "so"}
 
 
-def _without_remarks(words: Phrase, is_stop: IsStop) -> Phrase:
-    """Without "listen", "that is it", ", who is new,", ", in this order" and "before the guests come"."""
+def _without_remarks(words: Phrase) -> Phrase:
+    """Without "listen" and "that is it"."""
     flat = keys(words)
     if len(flat) > 3 and flat[0] in _OPENING and flat[1] in _TELLERS | lexicon().determiners:
         words, flat = words[1:], flat[1:]
     tail = next((t for t in _TAILS if flat[-len(t) :] == t and len(flat) > 8), ())
     if tail:
         words, flat = words[: -len(tail)], flat[: -len(tail)]
-    result: list[Word] = []
-    index = 0
-    while index < len(words):
-        end = _remark_end(words, flat, index, is_stop)
-        if end:
-            index = end
-            continue
-        result.append(words[index])
-        index += 1
-    return tuple(result)
-
-
-def _remark_end(words: Phrase, flat: tuple[str, ...], index: int, is_stop: IsStop) -> int:
-    """Where a remark that begins at `index` ends; 0 if none begins there."""
-    if flat[index] == "," and flat[index + 1 : index + 2] in {("who",), ("which",), ("whose",)}:
-        end = next((i for i in range(index + 2, len(flat)) if flat[i] in _MARKS | {","}), len(flat))
-        return end + (flat[end : end + 1] == (",",))
-    if flat[index] == "," and flat[index + 1 : index + 4] in {
-        ("in", "this", "order"),
-        ("in", "that", "order"),
-    }:
-        return index + 4
-    if flat[index] != "before" or index < 2:
-        return 0
-    end = next((i for i in range(index + 1, len(flat)) if flat[i] in _PAUSES), len(flat))
-    said = flat[index + 1 : end]
-    happens = len(said) > 2 and said[0] in {"the", "my", "our", "his", "her"} and _is_verb(said[-1])
-    named = any(is_stop(words[i:j]) for i in range(index + 1, end) for j in range(i + 1, min(end, i + 5) + 1))
-    return end if happens and not named else 0
-
-
-def _is_verb(word: str) -> bool:
-    base = lemma(word)
-    return lexicon().verbs.match((base,)) is not None or base in {"arrive", "begin", "start", "open", "close"}
+    return words
 
 
 def _early(sentence: Phrase) -> tuple[Phrase, bool]:

@@ -226,7 +226,9 @@ class _Message(Signs):
         subject = self.flat[index] in _RUN_SUBJECTS
         following = self.flat[index + 1 : index + 2]
         finite = following and (following[0] in BE or following[0] in HELPING - {"have", "do"})
-        begins = bool(subject and finite) or self.flat[index : index + 3] in _UNSURE
+        # "Check how full it is": no statement.
+        embedded = "how" in self.flat[max(begun, index - 3) : index]
+        begins = bool(subject and finite and not embedded) or self.flat[index : index + 3] in _UNSURE
         return begins and self._kind(begun, end) in {"order", "name"} and index - begun > 2
 
     def _asks_of_another(self, begun: int, index: int) -> bool:

@@ -11,9 +11,9 @@ from parley.language.offline.scene.scene import Scene
 from parley.language.offline.tasks.commands import Command, read_command
 from parley.language.offline.words.lexicon import lexicon
 from parley.language.offline.words.nouns import bare, noun_phrase
-from parley.language.offline.words.text import Phrase, Word, keys, lemma, tokens
+from parley.language.offline.words.text import Phrase, Word, keys, tokens
 
-__all__ = ["due", "need", "wish"]
+__all__ = ["need", "wish"]
 
 
 def wish(words: Phrase, scene: Scene) -> Command | None:
@@ -54,36 +54,6 @@ def _to_do(theme: Phrase) -> bool:
 
 
 _SOMETHING = frozenset({("something",), ("anything",)})
-_DUE = (
-    ("needs", "to", "be"), ("need", "to", "be"), ("has", "to", "be"), ("have", "to", "be"), ("should", "be"),
-    ("must", "be"), ("ought", "to", "be"), ("is", "to", "be"), ("are", "to", "be"), ("wants",),
-    ("needs",), ("need",),
-    ("requires",), ("require",), ("gets",), ("get",),
-)  # fmt: skip
-
-
-def due(words: Phrase, scene: Scene) -> Command | None:
-    """For "the box should be inspected", "the box needs checking"."""
-    flat = keys(words)
-    for index in range(1, len(flat) - 1):
-        size = next((len(marker) for marker in _DUE if flat[index : index + len(marker)] == marker), 0)
-        done = flat[index + size] if size and index + size < len(flat) else ""
-        passive = flat[index + size - 1 : index + size] == ("be",)
-        passive = passive or flat[index] in {"gets", "get"}
-        if not done or lemma(done) == done or not (passive or done.endswith("ing")):
-            continue
-        subject, rest = words[:index], words[index + size + 1 :]
-        if subject[0].key in {"i", "you", "we", "it"} and len(subject) == 1 and subject[0].key != "it":
-            return None
-        verb = Word(lemma(done), lemma(done))
-        if rest and lexicon().verbs.match((verb.key, rest[0].key)) not in {
-            None,
-            lexicon().verbs.match((verb.key,)),
-        }:
-            # "Needs looking at": look at it.
-            subject, rest = (rest[0], *subject), rest[1:]
-        return read_command((verb, *subject, *rest), scene.is_person, scene.catalogue.verbs)
-    return None
 
 
 def need(words: Phrase, scene: Scene) -> Command | None:

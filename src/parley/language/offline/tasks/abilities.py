@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from parley.language.offline.scene.scene import Scene
-from parley.language.offline.tasks.catalogue import text_inputs
+from parley.language.offline.tasks.catalogue import parameter_role, text_inputs
 from parley.language.offline.words.lexicon import lexicon
 from parley.language.offline.words.naming import name_words
 from parley.language.offline.words.saying import a, listing, whole_sentence
@@ -38,11 +38,18 @@ def can_list(scene: Scene) -> list[str]:
     for info in scene.catalogue.infos:
         roles = scene.catalogue.roles(info)
         known = [_BY_ROLE[role] for role in sorted(roles) if role in _BY_ROLE]
-        if known:
+        if known and not _is_narrow(info):
             result.update(dict.fromkeys(known))
         elif "locate" not in roles:
             result[_described(info)] = None
     return list(result)
+
+
+def _is_narrow(info: ActionInfo) -> bool:
+    """Whether an action does what it is good for to one kind of thing only ("shelve_book", "check_trap")."""
+    topic = [word for word in name_words(info.name)[1:] if word not in lexicon().goals_and_places]
+    inputs = [name for name in text_inputs(info) if not parameter_role(name)]
+    return bool(inputs) and any(word in name_words(name) for word in topic for name in inputs)
 
 
 def _described(info: ActionInfo) -> str:
@@ -74,5 +81,6 @@ _TURNED = {"me": "you", "my": "your", "i": "you", "us": "you", "yourself": "myse
 def cannot(what: str, scene: Scene) -> str:
     """That something is not possible, and what is."""
     turned = " ".join(_TURNED.get(word.lower(), word) for word in what.split())
+    turned = turned[:1].lower() + turned[1:]
     shown = turned if len(turned) <= 80 else turned[:77] + "..."
     return f"I cannot {shown}. {abilities(scene)}"

@@ -3,10 +3,12 @@
 from __future__ import annotations
 
 from abc import abstractmethod
-from dataclasses import dataclass, replace
+from dataclasses import dataclass, field, replace
 
 from parley.language.offline.facts.remembering import find_fact, of_others
+from parley.language.offline.scene.people import map_name_end
 from parley.language.offline.scene.scene import OPERATOR, Place, UnclearError
+from parley.language.offline.tasks.catalogue import parameter_role, text_inputs
 from parley.language.offline.tasks.commands import Command
 from parley.language.offline.tasks.going import UnableError
 from parley.language.offline.tasks.looking import ASKING, Looking
@@ -27,6 +29,8 @@ _DEEDS_GIVEN = frozenset((word,) for word in load_data("names")["deeds_given"])
 """What is given by doing something, not by handing something over."""
 _TO_CARRY = ("motion", "grasp", "fetch", "handover", "place", "ask_operator", "guide")
 """Without any of these nothing can be brought anywhere."""
+_TURNS = 4
+"""How many turns back what was said about a thing still holds."""
 _WAYS = frozenset(
     [
         "lift",
@@ -59,6 +63,9 @@ _WAYS = frozenset(
 @dataclass
 class Carrying(Looking):
     """How to bring things."""
+
+    given: list[tuple[tuple[str, ...], tuple[str, ...]]] = field(default_factory=list)
+    """What is handed to whom by the steps so far."""
 
     def _fetch(self, command: Command) -> None:
         if self.catalogue.with_role(*_TO_CARRY) is None:
@@ -98,17 +105,19 @@ class Carrying(Looking):
             # "I have put it on you": it is there already.
             self.carried, source = theme, None
         recipient, goal = self._destination(command, theme)
+        given = keys(theme), keys(recipient)
+        if recipient and given in self.given:
+            # "Bring it to A, he ordered it": that is planned already.
+            return
+        self.given.append(given)
         fetcher = self.catalogue.with_role("fetch")
         if fetcher is not None and self.catalogue.with_role("grasp") is None:
             self._invoke(fetcher, replace(command, theme=theme, recipient=recipient))
             return
         name = plain(theme)
-        if keys(theme) != keys(self.carried):
-            if keys(theme) != keys(self.seen):
-                if source is not None:
-                    self._stand_at(source)
-                self._look_for(theme)
-            self._take(theme)
+        self._get_on_board(theme, source)
+        if not goal.value and keys(recipient) != keys(OPERATOR):
+            self._look_for_them(recipient)
         if goal.value and goal.value != self.here and self.catalogue.mover is not None:
             self.travel(goal, f"bring {the(name)} to {self._person(recipient) if recipient else goal.label}")
         if self.holds:
@@ -118,6 +127,16 @@ class Carrying(Looking):
             self.carried = ()
         self.scene.mention(recipient)
         self.scene.mention(theme)
+
+    def _get_on_board(self, theme: Phrase, source: Place | None) -> None:
+        """Be where something is and take it, unless the robot has it."""
+        if keys(theme) == keys(self.carried):
+            return
+        if keys(theme) != keys(self.seen):
+            if source is not None:
+                self._stand_at(source)
+            self._look_for(theme)
+        self._take(theme)
 
     def _must_move(self, command: Command, theme: Phrase, source: Place | None) -> None:
         """For "the rubbish to the rubbish bin": what goes there is not the bin.
@@ -246,7 +265,7 @@ class Carrying(Looking):
                 raise self._unplaced(theirs)
         if place is None and not need and self.here:
             return theme, None
-        place = place or self.scene.told_place(theme)
+        place = place or self.scene.told_place(theme) or self._place_ordered(theme)
         if place is None:
             if need:
                 raise UnclearError(
@@ -254,6 +273,20 @@ class Carrying(Looking):
                 )
             raise self._unplaced(theme)
         return (place.via.fact.subject if place.via is not None and place.via.fact.subject else theme), place
+
+    def _place_ordered(self, theme: Phrase) -> Place | None:
+        """Where something was said to be looked for before ("find the A in B", then "and bring it to C")."""
+        wanted = keys(bare(theme))
+        for turn in reversed(self.scene.situation.history[-_TURNS:]):
+            said = tokens(turn.content) if turn.role == "operator" else ()
+            flat = keys(said)
+            for at in (i for i in range(len(flat)) if wanted and flat[i : i + len(wanted)] == wanted):
+                link = lexicon().places.match(flat, at + len(wanted))
+                start = at + len(wanted) + (link[0] if link is not None else 0)
+                size = map_name_end(said[start:], self.scene) if link is not None else 0
+                if size:
+                    return self.scene.place(said[start : start + size])
+        return None
 
     def _destination(self, command: Command, theme: Phrase) -> tuple[Phrase, Place]:
         recipient = command.recipient
@@ -270,7 +303,26 @@ class Carrying(Looking):
             return recipient, self.scene.place(command.place)
         if self._just_arrived() and keys(theme) == keys(self.carried) and not self._is_known(recipient):
             return recipient, Place(self.here)
+        if (
+            not self._is_known(recipient)
+            and not self.scene.hints
+            and self._people_finder(recipient) is not None
+        ):
+            return recipient, Place("")
         return recipient, self._recipient_place(recipient)
+
+    def _people_finder(self, recipient: Phrase) -> ActionInfo | None:
+        """The action that finds somebody, wherever they are; None if there is none or nobody is meant."""
+        finder = self._searcher(recipient) if self.scene.is_person(recipient) else None
+        if finder is None or keys(recipient) == keys(OPERATOR) or self._giver() is None:
+            return None
+        return finder if any(parameter_role(name) == "person" for name in text_inputs(finder)) else None
+
+    def _look_for_them(self, recipient: Phrase) -> None:
+        """Find somebody of whom nobody knows where they are."""
+        finder = self._people_finder(recipient)
+        if finder is not None and keys(self.seen) != keys(recipient):
+            self._add_look(finder, plain(recipient), f"look for {self._person(recipient)}")
 
     def _is_known(self, recipient: Phrase) -> bool:
         return self._grounds(recipient) or find_fact(recipient, self.scene.facts)[0] is not None

@@ -30,7 +30,16 @@ from parley.messages.chat import ActionCall
 from parley.messages.pvf import Parameter
 from parley.messages.status import ActionInfo
 
-__all__ = ["Catalogue", "call", "goes_itself", "parameter_role", "roles_of", "templates", "text_inputs"]
+__all__ = [
+    "BY_INSTRUMENT",
+    "Catalogue",
+    "call",
+    "goes_itself",
+    "parameter_role",
+    "roles_of",
+    "templates",
+    "text_inputs",
+]
 
 
 def _shared_prefix(infos: Sequence[ActionInfo]) -> str:
@@ -149,7 +158,7 @@ class Catalogue:
             return takes == {"place"} or (takes <= {"place", ""} and bool(topic))
         if roles & _IN_WORDS and self._takes_more(info):
             return True
-        if roles == {"look"} and name_words(info.name)[0] in _BY_INSTRUMENT:
+        if roles == {"look"} and name_words(info.name)[0] in BY_INSTRUMENT:
             # "scan (sample)".
             return [parameter_role(name) for name in text_inputs(info)] == [""]
         texts = [name for name in text_inputs(info) if name not in info.optional]
@@ -220,7 +229,7 @@ class Catalogue:
             info.name: info
             for info in self.infos
             for phrase in (*info.phrases, *templates(info))
-            if not self._roles[info.name] & _HELPERS and _says(phrase, text)
+            if not self._roles[info.name] & _HELPERS and _says(phrase, text, info in self.of_own_kind)
         }
         return next(iter(fitting.values())) if len(fitting) == 1 else None
 
@@ -316,7 +325,7 @@ class Catalogue:
 _COUNTED_AT_LARGE = frozenset({
     "count", "number", "of", "get", "object", "objects", "thing", "things", "item", "items", "stuff",
 })  # fmt: skip
-_BY_INSTRUMENT = frozenset({"scan", "probe"})
+BY_INSTRUMENT = frozenset({"scan", "probe"})
 """What is seen by an instrument, and by nothing else."""
 _IN_WORDS = frozenset({"speak", "look", "search", "grasp", "place", "handover", "fetch", "guide", "follow"})
 """What such tasks give to an action is words alone."""
@@ -346,17 +355,26 @@ _OF_READING = frozenset({"level", "status", "state", "value", "reading", "info",
 _EMPTY = frozenset(load_data("names")["empty"])
 
 
-def _says(phrase: str, text: str) -> bool:
-    """Whether the whole text follows a phrase; a value between fixed words must be there."""
+def _says(phrase: str, text: str, own: bool) -> bool:
+    """Whether the whole text follows a phrase; a value between fixed words must be there.
+
+    Args:
+        phrase: Of an action.
+        text: What is said.
+        own: Whether the action is of a kind of its own, so that words between two values say enough.
+    """
     parts = re.split(r"\{\w+\}", phrase.lower())
     if len(parts) < 2 or not parts[0].strip():
         return False
     # Phrases that end with their value are found by their verb.
-    if not parts[-1].strip():
+    if not parts[-1].strip() and not (
+        own and all(part.strip() for part in parts[1:-1]) and len(parts) > _TWO
+    ):
         return False
     return re.fullmatch("(.+)".join(re.escape(part) for part in parts), text) is not None
 
 
+_TWO = 2
 _HELPERS = frozenset({"locate", "ask_operator"})
 """What only serves other steps is not asked for by verb."""
 _COVERED = {

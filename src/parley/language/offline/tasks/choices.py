@@ -17,7 +17,9 @@ __all__ = ["choices_of", "chosen", "is_listed", "says_choice", "states_verb", "s
 
 _LANGUAGES = frozenset(load_data("names")["languages"])
 _IN_PROSE = re.compile(r"(?:\w+(?:, |\s*\|\s*|/)){1,9}\w+(?:,? or \w+)?|\w+ or \w+")
-_ENUMERATED = re.compile(r"\((\w+(?:,\s*\w+)+)\)|one of:?\s*(\w+(?:,\s*\w+)+)")
+_ENUMERATED = re.compile(
+    r"\((\w+(?:,\s*\w+)+)\)|one of:?\s*(\w+(?:,\s*\w+)+)|\w:\s*(\w+(?:,\s*\w+)+(?:,? (?:and|or) \w+)?)"
+)
 _FEW = 2
 
 
@@ -28,7 +30,7 @@ def _listings(text: str) -> Iterator[tuple[int, dict[str, str]]]:
         if len(values) > 1 and ("or" in found[0].split() or "|" in found[0] or "/" in found[0]):
             yield found.start(), {_said(value): value for value in values if not value.isdigit()}
     for found in _ENUMERATED.finditer(text):
-        listed = re.split(r"\s*,\s*", found[1] or found[2])
+        listed = re.split(r"\s*,\s*|\s+(?:and|or)\s+", found[1] or found[2] or found[3])
         yield found.start(), {_said(value): value for value in listed}
 
 
@@ -50,9 +52,17 @@ def choices_of(info: ActionInfo) -> dict[str, dict[str, str]]:
         listed = {_said(v): v for v in re.findall(r"\w+", kind)[kind[:4].lower() == "enum" :]}
         if len(listed) > 1:
             found[name] = listed
+    inputs = {name.lower() for name in info.inputs}
     for at, values in _listings(info.description):
-        free = [name for name in texts if name not in found or found[name].keys() & values.keys()]
-        name = _told_before(info.description[:at].lower(), texts) or next(iter(free), "")
+        if values.keys() & inputs:
+            # "Inputs: wall, colour".
+            continue
+        same = next((name for name in found if found[name].keys() & values.keys()), "")
+        behind = set(re.findall(r"\w+", info.description[at:].lower())) - values.keys()
+        # "Raise or lower a blind": what an input is called by is what that is done to, and takes neither.
+        acted_on = {name for name in texts if not at and _is_deed(values) and set(name_words(name)) <= behind}
+        free = (name for name in texts if name not in found and name not in acted_on)
+        name = same or _told_before(info.description[:at].lower(), texts) or next(free, "")
         if name:
             found[name] = found.get(name, {}) | values
     for name in texts:
@@ -84,7 +94,7 @@ def is_listed(name: str, info: ActionInfo) -> bool:
     values = choices_of(info).get(name, {})
     if "|" in info.inputs[name] or info.inputs[name][:4].lower() == "enum":
         return True
-    told = re.search(rf"\b{re.escape(name)}\b is ", info.description, re.IGNORECASE)
+    told = re.search(rf"\b{re.escape(name)}(?:\b is |s?: )", info.description, re.IGNORECASE)
     alone = len(text_inputs(info)) == 1
     closed = len(values) > _FEW and alone and parameter_role(name) in {"", "object"}
     return closed or (told is not None and not alone and bool(values))

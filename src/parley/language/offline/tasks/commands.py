@@ -156,7 +156,8 @@ def _serial(verb: str, rest: Phrase, kind: str) -> Phrase | None:
     if kind not in {"motion", "back"} or verb not in _SERIAL:
         return None
     while rest and rest[0].key in {"and", "to", "over", "back", "ahead", "out", "there"} and len(rest) > 1:
-        labelled = len(rest) > 2 and (rest[2].key.isdigit() or len(rest[2].key) == 1) and rest[2].key != "a"
+        labelled = len(rest) > 2 and (rest[2].key.isdigit() or len(rest[2].key) == 1)
+        labelled = labelled and (len(rest) == 3 or rest[2].key != "a" or rest[2].is_capital)
         if rest[0].key == "to" and (rest[1].key in lexicon().determiners or labelled):
             # "Go to the check-in", "go to track 4".
             return None

@@ -8,6 +8,7 @@ from parley.language.offline.tasks.catalogue import call, text_inputs
 from parley.language.offline.tasks.commands import Command
 from parley.language.offline.tasks.going import Going, UnableError
 from parley.language.offline.words.nouns import bare
+from parley.language.offline.words.proper import unmarked
 from parley.language.offline.words.text import Phrase, keys, plain, tokens
 
 __all__ = ["Docking"]
@@ -40,7 +41,8 @@ class Docking(Going):
 
     def _charging(self) -> list[Phrase]:
         """The one place that is called after charging ("charging bay")."""
-        called = [i.description for i in self.scene.objects if "charging" in i.description.lower().split()]
+        named = [item.description for item in self.scene.objects]
+        called = [name for name in named if "charging" in unmarked(name).lower().split()]
         return [tokens(called[0])] if len(called) == 1 else []
 
     def _dock(self, command: Command) -> None:

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from abc import abstractmethod
+from collections.abc import Iterator
 from dataclasses import dataclass, replace
 
 from parley.language.offline.facts.facts import Fact, strip_openers
@@ -15,7 +16,7 @@ from parley.language.offline.tasks.commands import Command, read_command
 from parley.language.offline.tasks.meaning import Meaning
 from parley.language.offline.tasks.said import spoken
 from parley.language.offline.words.lexicon import lexicon
-from parley.language.offline.words.naming import name_words
+from parley.language.offline.words.naming import kind_of, name_words
 from parley.language.offline.words.nouns import bare
 from parley.language.offline.words.saying import the
 from parley.language.offline.words.text import Phrase, Word, keys, lemma, plain, tokens
@@ -238,6 +239,14 @@ class Doing(Meaning):
         self.tasks.here = self._looked_from
         if self._looked_from:
             self.scene.mention(tokens(self._looked_from))
+            return
+        look = self.tasks.steps[self._checked[1]]
+        said = (
+            tokens(p.value) for p in look.input_parameters.values() if isinstance(p.value, str) and p.value
+        )
+        for words in said:
+            if self.scene.ground(words).outcome == "match":
+                self.scene.mention(words)
 
     def _told_by_last(self, condition: Phrase) -> bool:
         """Whether the step before tells it: "scan A; if there is an intruder" where it gives `intruder`."""
@@ -250,29 +259,29 @@ class Doing(Meaning):
 
     def _own_check(self, condition: Phrase) -> bool:
         """Tell whether something is so by an action of its own kind, where nothing else can look."""
-        if self.scene.catalogue.with_role("look", "search") is not None:
-            return False
-        last = self.scene.catalogue.get(self.tasks.steps[-1].name) if self.tasks.steps else None
-        looked = last is not None and bool(last.outputs) and last in self.scene.catalogue.of_own_kind
-        if (
-            looked
-            and keys(condition[:1]) in {("it",), ("they",), ("that",)}
-            and self.tasks.steps[-1].flow is None
-        ):
+        looks = self.scene.catalogue.with_role("look", "search") is not None
+        pointed = keys(condition[:1]) in {("it",), ("they",), ("that",)}
+        if pointed and self._last_measured(condition, looks=looks):
             # "Measure A; if it is too warm, V".
             return True
-        link = next((i for i, word in enumerate(condition) if word.key in lexicon().be | {"has", "have"}), 0)
-        if not link:
+        if looks:
             return False
-        subject, rest = condition[:link], condition[link + 1 :]
-        rest = tuple(word for word in rest if word.key != "not")
-        asked = ((condition[link], *subject, *rest), (Word("check", "check"), *subject))
-        for words in asked:
+        for words in _as_checks(condition):
             match = self.tasks.own_match(words, weak=True)
             if match is not None and match.info.outputs and not match.filled.missing:
                 self.tasks.use_own(match, (*_CHECK_WHETHER, *condition))
                 return True
         return False
+
+    def _last_measured(self, condition: Phrase, *, looks: bool) -> bool:
+        """Whether the last step told what is compared; any that tells anything if nothing else `looks`."""
+        step = self.tasks.steps[-1] if self.tasks.steps else None
+        info = self.scene.catalogue.get(step.name) if step is not None and step.flow is None else None
+        if info is None or info not in self.scene.catalogue.of_own_kind or not info.outputs:
+            return False
+        numbers = any(kind_of(kind) == "number" for kind in info.outputs.values())
+        compared = any(word.key[:1].isdigit() or word.key in lexicon().numbers for word in condition)
+        return not looks or (numbers and compared)
 
     def _named_later(self, clause: Clause) -> Phrase:
         """For "Go to the desk only if it is free": the condition with what the order names."""
@@ -280,9 +289,24 @@ class Doing(Meaning):
         mentioned = bool(self.scene.things or self.scene.persons) and not clause.late
         if keys(condition)[0] not in {"it", "they", "he", "she"} or mentioned:
             return condition
+        where = self._where_it_is_so(condition)
+        if where:
+            return where
         command = read_command(clause.words, self.scene.is_person, self.scene.catalogue.verbs)
         named = tokens(the(plain(bare(command.place or command.theme)))) if command is not None else ()
         return (*named, *condition[1:]) if named else condition
+
+    def _where_it_is_so(self, condition: Phrase) -> Phrase:
+        """For "it is dark at A", where "it" is nothing: A is dark; empty if no place is said."""
+        flat = keys(condition)
+        ambient = flat[1:2] != () and flat[1] in lexicon().be and bool(_AMBIENT & set(flat[2:4]))
+        for at in range(3, len(condition)) if ambient else ():
+            found = lexicon().places.match(flat, at)
+            place = condition[at + found[0] :] if found is not None else ()
+            if place and self.scene.ground(place).outcome == "match":
+                lead = tokens("there is") if flat[at - 1].endswith("ing") else (*place, condition[1])
+                return (*lead, *condition[2 : at if lead[1:] != tokens("is") else len(condition)])
+        return ()
 
     def _one_look(self, before: int) -> None:
         """Looking whether something is so takes the place of a look at the same thing just before."""
@@ -349,6 +373,28 @@ class Doing(Meaning):
         """Read one clause; what reads whole messages says how."""
 
 
+def _as_checks(condition: Phrase) -> Iterator[Phrase]:
+    """Orders for what tells whether something is so: "is A dry", "check A", "count the B on A", "read A"."""
+    flat = keys(condition)
+    link = next((i for i, word in enumerate(flat) if word in lexicon().be | {"has", "have"}), 0)
+    if flat[:1] == ("there",) and link == 1:
+        much = next(
+            (i + 1 for i, word in enumerate(flat) if word[:1].isdigit() or word in lexicon().numbers), 0
+        )
+        yield (Word("count", "count"), *condition[much or link + 1 :])
+    if link:
+        subject, rest = condition[:link], condition[link + 1 :]
+        yield (condition[link], *subject, *(word for word in rest if word.key != "not"))
+        yield (Word("check", "check"), *subject)
+        return
+    does = next((i for i in range(1, len(flat)) if flat[i].endswith("s") and lemma(flat[i]) != flat[i]), 0)
+    for verb in (lemma(flat[does]), *(("read", "check") if flat[does] in _SHOWING else ())) if does else ():
+        yield (Word(verb, verb), *condition[:does])
+
+
+_SHOWING = frozenset({"shows", "reads", "says", "indicates", "displays", "measures", "reports", "gives"})
+
+
 def _without_times(command: Command) -> Command:
     """Without "twice" and "three times" at the end of its parts."""
 
@@ -359,3 +405,11 @@ def _without_times(command: Command) -> Command:
         return phrase[:-2] if flat[-1:] == ("times",) and len(flat) > 2 else phrase
 
     return replace(command, place=cut(command.place), theme=cut(command.theme))
+
+
+_AMBIENT = frozenset({
+    "dark", "light", "bright", "wet", "dry", "cold", "warm", "hot", "icy", "slippery", "windy", "foggy",
+    "raining", "snowing", "quiet", "noisy", "loud", "crowded", "busy", "dusty", "smoky", "safe", "freezing",
+    "damp", "humid", "muddy", "dim", "flooded",
+})  # fmt: skip
+"""What "it" is said to be somewhere where it stands for nothing."""

@@ -89,6 +89,9 @@ def named(words: Phrase, scene: Scene, *, strict: bool = False) -> str:
     words = bare(scene.referent(words))
     if keys(words) == ("operator",):
         return "operator"
+    told = scene.told_apart(words) if len(words) > 1 else None
+    if told is not None:
+        return describe(told, scene.objects)
     found = ground_phrase(words, scene.objects, scene.situation.robot_pose, strict=strict)
     if found.outcome == "match":
         return describe(found.candidates[0], scene.objects)

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import re
+from collections.abc import Sequence
 from dataclasses import dataclass, field, replace
 
 from parley.language.offline.facts.remembering import find_fact
@@ -216,10 +217,17 @@ class Going:
                 (s.name, s.input_parameters) for s in found
             ]
             return [*(() if known else found), call(info, {}, why)]
-        steps = self.catalogue.chain(info, {texts[0]: words} if texts else {}, words, why)
+        steps = self.catalogue.chain(info, self._told_to(texts, words), words, why)
         if steps is None:
             raise UnableError(why)
         return steps
+
+    def _told_to(self, texts: Sequence[str], words: str) -> dict[str, str]:
+        """What an action is told; an input for a place besides another one takes where the robot is."""
+        where = [name for name in texts if parameter_role(name) == "place"]
+        told = next((name for name in texts if name not in where), next(iter(texts), ""))
+        here = {name: self.here for name in where if name != told and self.here}
+        return {told: words, **here} if told else {}
 
     def _invoke(self, info: ActionInfo, command: Command) -> None:
         """Use an action as its own catalogue entry says."""

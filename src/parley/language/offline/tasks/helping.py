@@ -55,8 +55,8 @@ def _table(kind: str) -> PhraseTable:
 
 
 @cache
-def _remedies() -> tuple[tuple[PhraseTable, frozenset[str]], ...]:
-    return tuple((PhraseTable.of(one["signs"]), frozenset(one["helps"])) for one in _data()["remedies"])
+def _remedies(kind: str = "remedies") -> tuple[tuple[PhraseTable, frozenset[str]], ...]:
+    return tuple((PhraseTable.of(one["signs"]), frozenset(one["helps"])) for one in _data()[kind])
 
 
 @cache
@@ -167,15 +167,31 @@ class _Told:
         self.flat = keys(words)
         self.base = tuple(lemma(word) for word in self.flat)
         self.named = list(_named(words, scene))
+        self.lacked = self._lacked()
         self.signs = [helps for signs, helps in _remedies() if self._has(signs)]
-        self.wanted = self._wanted()
+        self.own_signs = [helps for signs, helps in _remedies("own_remedies") if self._has(signs)]
+        self.wanted = self._wanted() | self.lacked
 
     def _has(self, signs: PhraseTable) -> bool:
         left = keys(self._left_so())
-        return signs.match(left) is not None or any(
-            signs.match(self.flat, i) is not None or signs.match(self.base, i) is not None
-            for i in range(len(self.flat))
+        none = self.lacked and signs.match(("nothing", "left")) is not None
+        return (
+            bool(none)
+            or signs.match(left) is not None
+            or any(
+                signs.match(self.flat, i) is not None or signs.match(self.base, i) is not None
+                for i in range(len(self.flat))
+            )
         )
+
+    def _lacked(self) -> frozenset[str]:
+        """For "they have no towels left", "there is nothing left in A": the words for what is used up."""
+        end = next((i for i in range(2, len(self.flat)) if self.flat[i] in {"left", "remaining"}), 0)
+        at = next((i for i in range(end - 1, max(end - 6, 0), -1) if self.flat[i] in _NONE), 0)
+        if not at:
+            return frozenset()
+        about = self.flat[at:end] if end - at > 1 else (*self.flat[at:end], *self.flat[end + 1 : end + 5])
+        return frozenset(singular(word) for word in about)
 
     def _left_so(self) -> Phrase:
         """For "somebody left the gate open" the words "left open" together."""
@@ -203,6 +219,11 @@ class _Told:
         name = set(_bases(name_words(info.name)))
         told = set(_bases(re.findall(r"[a-z]+", info.description.lower())))
         signs = [helps for helps in self.signs if not name & _ENDING or helps & _ENDING]
+        if self._is_own(info):
+            signs += self.own_signs
+        if info.outputs and name & _FINDING:
+            # What is found out is no help.
+            signs = []
         score = sum(2.0 + 0.5 * bool(helps & name) for helps in signs if helps & (name | told))
         typed = {singular(w) for one in info.inputs for w in name_words(one)}
         things = (name | told) - _EMPTY - typed - LIGHT_VERBS
@@ -211,7 +232,13 @@ class _Told:
         if self.wanted & nouns or {singular(one) for one in choice} & self.wanted:
             score += 2.0
         score += 1.5 * self._is_missed(info) + 2.0 * self._starts_what_helps(name)
+        score += bool(self.lacked & nouns)
         return score + 0.5 * len(nouns & {singular(word) for word in self.flat})
+
+    def _is_own(self, info: ActionInfo) -> bool:
+        """Whether what is told is told of what an action is for by its name ("the board is full")."""
+        about = {singular(word) for word in name_words(info.name)[1:]} - _EMPTY - LIGHT_VERBS
+        return bool(about & {singular(word) for word in self.flat})
 
     def _starts_what_helps(self, name: set[str]) -> bool:
         """For "it is too dark, the lamp is off": what helps is off, and this switches things on."""
@@ -272,6 +299,8 @@ class _Told:
 
 
 _ON = frozenset({"on", "active", "enabled", "running", "state", "power", "switch"})
+_NONE = frozenset({"no", "any", "nothing", "none", "hardly", "barely"})
+_FINDING = frozenset(_data()["finding"])
 _ENDING = frozenset({"close", "shut", "off", "mute", "silence", "stop"})
 
 

@@ -6,7 +6,8 @@ import math
 from dataclasses import dataclass, replace
 
 from parley.language.offline.facts.facts import NO_PLACES
-from parley.language.offline.scene.grounding import ground_phrase
+from parley.language.offline.scene.grounding import describe, ground_phrase
+from parley.language.offline.scene.placing import PARTS
 from parley.language.offline.scene.scene import Place, UnclearError
 from parley.language.offline.tasks.catalogue import parameter_role, text_inputs
 from parley.language.offline.tasks.commands import Command
@@ -17,7 +18,6 @@ from parley.language.offline.words.naming import name_words
 from parley.language.offline.words.nouns import NounPhrase, bare, noun_phrase
 from parley.language.offline.words.saying import the
 from parley.language.offline.words.text import Phrase, Word, keys, plain, singular, tokens
-from parley.language.word_lists import load_data
 from parley.messages.status import ActionInfo
 
 __all__ = ["ASKING", "Looking"]
@@ -35,6 +35,7 @@ _PICTURES = frozenset({"picture", "pictures", "photo", "photos", "photograph", "
 _REACH_M = 1.5
 """How far from a place things may be that are said to be there."""
 _SOMEBODY = frozenset({("he",), ("she",)})
+_ANYONE = frozenset({("anyone",), ("anybody",), ("someone",), ("somebody",)})
 _PLAIN_LOOKS = frozenset({"check", "look", "inspect", "examine", "have a look", "take a look"})
 _HIDDEN_SIDES = frozenset({"behind", "under", "beneath", "underneath", "below"})
 _GENERAL = frozenset((word,) for word in (
@@ -59,10 +60,10 @@ def _of_one(member: Phrase, command: Command) -> Command:
         return command
     verb = {"are": "is", "were": "was"}.get(command.words[link].key, command.words[link].key)
     named = tokens(the(plain(member)))
-    return replace(command, theme=member, words=(*named, Word(verb, verb), *command.words[link + 1 :]))
-
-
-_PARTS = frozenset(load_data("names")["parts"])
+    much = command.verb.endswith("how") and command.words[0].key not in lexicon().determiners
+    lead = command.words[:1] if much and command.words[0] not in command.theme else ()
+    words = (*lead, *named, Word(verb, verb), *command.words[link + 1 :])
+    return replace(command, theme=member, words=words)
 
 
 @dataclass
@@ -96,7 +97,9 @@ class Looking(Docking):
             self._add_look(looker, request, f"check {request}")
             return
         at_hand = self.here and command.kind == "whether"
-        if at_hand and not self._grounds(command.place) and self._only_described(command.theme):
+        elsewhere = any(self._strictly(anchor) for anchor in noun_phrase(command.words).anchors)
+        at_hand = at_hand and not elsewhere and not self._grounds(command.place)
+        if at_hand and self._only_described(command.theme):
             # "Whether there is diesel on the ground", where a tank for it is on the map: here.
             request = self._whether(command)
             self._add_look(looker, request, f"check {request}")
@@ -153,7 +156,8 @@ class Looking(Docking):
         last = keys(bare(theme))[-1:]
         if len(bare(theme)) != 1 or not self._grounds(theme) or last[0].isdigit() or len(last[0]) == 1:
             return False
-        return ground_phrase(theme, self.scene.objects, strict=True).outcome == "none"
+        found = ground_phrase(theme, self.scene.objects, strict=True)
+        return found.outcome == "none" or self.scene.is_part(bare(theme)[-1])
 
     def _looker(self, command: Command) -> ActionInfo | None:
         """The action to look with: one that is called like the verb, for pictures one that takes them."""
@@ -177,7 +181,7 @@ class Looking(Docking):
             subject = keys(bare(command.theme))
             known = self._grounds(command.theme) and not _in_general(command)
             placed = noun_phrase(command.theme)
-            known = known and not self._elsewhere(placed)
+            known = known and not self._elsewhere(placed) and not self._only_described(command.theme)
             if (known and not self._may_have_gone(command)) or (subject and subject[0] in ASKING):
                 return None
             noun = placed if len(placed.anchors) == 1 else noun_phrase(command.words)
@@ -211,7 +215,7 @@ class Looking(Docking):
 
     def _part_of(self, theme: Phrase) -> Phrase:
         """What a part of something belongs to that is on the map only as a whole ("the A door")."""
-        if len(theme) < 2 or singular(theme[-1].key) not in _PARTS or self._grounds(theme):
+        if len(theme) < 2 or singular(theme[-1].key) not in PARTS or self._grounds(theme):
             return ()
         last = theme[-2]
         whole = (*theme[:-2], Word(last.key.removesuffix("'s"), last.raw.removesuffix("'s")))
@@ -230,6 +234,10 @@ class Looking(Docking):
 
     def _look_there(self, command: Command, looker: ActionInfo) -> None:
         """Something in or at a place: "the shelf for leaks", "whether the cup is on the table"."""
+        meant = self._meant_for(command)
+        if meant:
+            self._look_at(meant, replace(command, theme=meant, place=()), looker)
+            return
         members = self.scene.several(command.place)
         if len(members) > 1 and self.scene.ground(command.place).outcome != "match":
             for member in members:
@@ -245,9 +253,21 @@ class Looking(Docking):
         self._stand_at(stand)
         self.scene.mention(bare(command.theme))
         if command.kind == "whether":
-            self._add_look(looker, request, f"check {request}")
+            found = "look for" if self._only_found(command) else "check"
+            self._add_look(looker, request, f"{found} {request}")
         else:
             self._add_look(looker, request or command.verb, f"look for {self._named(theme)}")
+
+    def _meant_for(self, command: Command) -> Phrase:
+        """For "check the shelf for A" the one of several shelves that is remembered to be for A."""
+        if (
+            command.kind != "look"
+            or not command.theme
+            or self.scene.ground(command.place).outcome != "ambiguous"
+        ):
+            return ()
+        told = self.scene.told_apart((*bare(command.place), Word("for", "for"), *command.theme))
+        return tokens(describe(told, self.scene.objects)) if told is not None else ()
 
     def _said_to_be(self, command: Command) -> bool:
         """For "whether A is on B": it is at B that this can be seen, for A may be anywhere."""
@@ -299,8 +319,9 @@ class Looking(Docking):
         )
 
     def _only_found(self, command: Command) -> bool:
-        """Whether the robot can only find people, and that is what a question comes to ("if A is in B")."""
-        if command.kind != "whether" or self.catalogue.with_role("look") is not None:
+        """Whether the robot can only find people, and it comes to that ("if A is in B", "B for A")."""
+        looks = command.kind == "whether" or (command.kind == "look" and command.place)
+        if not looks or self.catalogue.with_role("look") is not None:
             return False
         found = self._searcher(command.theme) if command.theme and self._is_somebody(command.theme) else None
         return found is not None and "person" in {parameter_role(name) for name in text_inputs(found)}
@@ -310,10 +331,15 @@ class Looking(Docking):
             return plain(bare(self.scene.referent(command.theme)))
         words, asking = command.words, "how" if command.verb.endswith("how") else "whether"
         somebody = keys(command.theme) in _SOMEBODY and bool(self.scene.persons)
+        if asking == "how" and keys(command.theme) == ("it",) and command.place:
+            # "How warm it is in A": "it" is nothing.
+            return f"{asking} {plain(words)}"
         if somebody or (command.theme and keys(bare(command.theme))[0] in ASKING):
             subject = the(plain(self.scene.referent(command.theme)))
-            rest = words[len(command.theme) :]
-            return f"{asking} {subject} {plain(rest)}".strip()
+            size = len(command.theme)
+            starts = (i for i in range(len(words)) if keys(words[i : i + size]) == keys(command.theme))
+            at = next(starts, 0)
+            return " ".join(f"{asking} {plain(words[:at])} {subject} {plain(words[at + size :])}".split())
         return f"{asking} {plain(words)}"
 
     def _add_look(self, looker: ActionInfo, request: str, saying: str) -> None:
@@ -352,6 +378,8 @@ class Looking(Docking):
             own = "search" in self.catalogue.roles(searcher)
             sent = self._just_arrived() and command.verb.startswith("look") and not self._grounds(theme)
             said = keys(command.clause)[-1:] == ("there",) or self._at_large(theme)
+            # "Rubbish" is no rubbish bin, which only is called after it.
+            said = said or self._only_described(theme)
             here = self.here and (said or sent)
             known = None if here else self._known_place(theme)
             if known is not None:
@@ -406,7 +434,8 @@ class Looking(Docking):
 
     def _is_somebody(self, theme: Phrase) -> bool:
         core = noun_phrase(theme).core
-        return self.scene.is_person(theme) or (bool(core) and core[-1] in lexicon().person_words)
+        named = bool(core) and core[-1] in lexicon().person_words
+        return named or keys(theme) in _ANYONE or self.scene.is_person(theme)
 
     def _wanted(self, theme: Phrase, where: str) -> Phrase:
         if not theme:

@@ -22,7 +22,8 @@ from parley.language.offline.words.concepts import (
     opposed,
 )
 from parley.language.offline.words.lexicon import lexicon
-from parley.language.offline.words.text import Phrase, Word, keys, lemma, singular
+from parley.language.offline.words.naming import name_words
+from parley.language.offline.words.text import Phrase, Word, keys, lemma, plain, singular
 from parley.language.word_lists import load_data
 from parley.messages.status import ActionInfo
 
@@ -132,10 +133,11 @@ def _match(info: ActionInfo, words: Phrase, said: Sequence[Concept], scene: Scen
     filled = fill_slots(info, words, {*explained, *opening, *retold}, scene)
     if any(_goes_on(phrase) for name, phrase in filled.phrases.items() if parameter_role(name) != "text"):
         return None
+    _with_their_nouns(info, found, filled, words)
     recall_inputs(info, filled, words, scene)
     evidence = _Evidence(found, filled, bool(opening))
     strong = evidence.strong
-    if not (strong or evidence.weak):
+    if not (strong or evidence.weak) or evidence.another_left:
         return None
     return Match(
         info,
@@ -147,6 +149,21 @@ def _match(info: ActionInfo, words: Phrase, said: Sequence[Concept], scene: Scen
         verb_first=found.verb_at[:1] == (0,),
         plain=not evidence.unexplained,
     )
+
+
+def _with_their_nouns(info: ActionInfo, found: _Found, filled: Filled, words: Phrase) -> None:
+    """What is handled, by its own name where the action has another for it ("red bag": luggage)."""
+    alike = [at for score, at in found.about if at and at[0] and _LEAST <= score < 1.0]
+    for name in text_inputs(info):
+        if parameter_role(name) != "object":
+            continue
+        for at in alike:
+            noun, phrase = words[at[0] : at[-1] + 1], filled.phrases.get(name, ())
+            if name in filled.missing:
+                filled.missing.remove(name)
+            elif not phrase or keys(words[at[0] - len(phrase) : at[0]]) != keys(phrase):
+                continue
+            filled.values[name], filled.phrases[name] = plain((*phrase, *noun)), (*phrase, *noun)
 
 
 _DOING = frozenset({"do", "make", "perform", "run", "execute", "start", "begin", "take"})
@@ -177,7 +194,9 @@ class _Found:
             _nearest(part, said) for part in signature.about if not (by_second and part is signature.second)
         ]
         pointed = keys(words[1:3])[:1] in _POINTING and self.verb >= _LEAST
-        if pointed and not any(score >= _LEAST for score, _ in about):
+        self.pointed = pointed and not any(score >= _LEAST for score, _ in about)
+        """Whether only a pronoun stands for what a name names."""
+        if self.pointed:
             about = [(_BY_POINTING, at) for _, at in about]
         self.about = about
         self.typed = bool(signature.typed & {singular(word) for word in keys(words)})
@@ -231,6 +250,13 @@ class _Evidence:
         if self.unexplained or elsewhere or (len(self.filled.missing) > 1 and not (self.some or found.verb)):
             return False
         return (self.whole and (self._by_name() or self._by_inputs())) or self._nearly()
+
+    @property
+    def another_left(self) -> bool:
+        """Whether another thing of the kind that an input takes is named, and left ("A on and B off")."""
+        takes = {word for name in self.filled.phrases for word in name_words(name)}
+        left = (part for part in self.filled.left if part.grounded and not part.before)
+        return any(takes & part.kinds for part in left)
 
     def _nearly(self) -> bool:
         """Whether half of what its name is about is said, and everything else that it needs, and no more."""
@@ -299,7 +325,8 @@ class _Evidence:
     def score(self) -> float:
         """How much speaks for it."""
         found, filled = self.found, self.filled
-        score = 2 * found.verb + (2 * self.covered if self.about else 0.6) + 0.3 * min(found.shared, 3)
+        about = self.about and not found.pointed
+        score = 2 * found.verb + (2 * self.covered if about else 0.6) + 0.3 * min(found.shared, 3)
         score += 0.5 * filled.fit - 0.5 * len(self.unexplained) - 0.4 * len(filled.missing)
         return score - 0.5 * filled.numbers_left - (0 if self.whole else 1)
 
@@ -371,9 +398,8 @@ def _verb_likeness(
     best: tuple[float, tuple[int, ...]] = (0.0, ())
     doing = signature.doing
     more = shared - (doing is not None and doing.text not in LIGHT_VERBS)
-    exact = (
-        doing is not None and bool(said) and said[0].text == doing.text and (more > 0 or _acts_on(signature))
-    )
+    telling = doing is not None and doing.text not in _LEAST_SAYING and _acts_on(signature)
+    exact = doing is not None and bool(said) and said[0].text == doing.text and (more > 0 or telling)
     for part, weight in ((signature.verb, 1.0), (doing if exact or shared > 1 else None, 0.8)):
         for concept in said:
             if part is None or concept.within or concept.text in EMPTY - STATES:

@@ -8,8 +8,9 @@ from parley.language.offline.dialogue.answering import Answering
 from parley.language.offline.facts.facts import read_statement, strip_openers
 from parley.language.offline.scene.marks import marks_of
 from parley.language.offline.sentences.clauses import Clause, opens_command
-from parley.language.offline.sentences.wishes import due, need, wish
+from parley.language.offline.sentences.wishes import need, wish
 from parley.language.offline.tasks.commands import Command, read_command
+from parley.language.offline.tasks.parts import map_spans
 from parley.language.offline.words.lexicon import lexicon
 from parley.language.offline.words.nouns import bare
 from parley.language.offline.words.quantities import quantities
@@ -155,7 +156,6 @@ class Meaning(Answering):
         if command is None:
             command = (
                 self._own_deed(words)
-                or due(words, self.scene)
                 or wish(words, self.scene)
                 or need(words, self.scene)
                 or self._going(words)
@@ -208,7 +208,9 @@ class Meaning(Answering):
 
     def _elliptical(self, words: Phrase) -> Command | None:
         """For "Go to A, then B": a bare noun phrase does again what the clause before did."""
-        words = self._follow_on(words)
+        given, words = words, self._follow_on(words)
+        if self.last is not None and self.last.kind == "catalogue" and not self.last.negated:
+            return self._own_once_more(self.last, words, asked=len(words) < len(given))
         if self.last is None or self.last.kind not in _ONCE_MORE or not words or len(words) > 9:
             return None
         while len(words) > 1 and words[-1].key in {"too", "also", "next", "then", "now", "please"}:
@@ -243,6 +245,22 @@ class Meaning(Answering):
             return replace(self.last, place=words, clause=words, negated=negated)
         place = self.last.place if self.last.kind == "transfer" else ()
         return replace(self.last, theme=words, place=place, source=(), clause=words, negated=negated)
+
+    def _own_once_more(self, last: Command, words: Phrase, *, asked: bool) -> Command | None:
+        """The deed before for another thing ("empty A, next B"), one of the same kind unless `asked` for."""
+        spans = [span for span in map_spans(last.clause, self.scene) if span[2] is not None]
+        found = lexicon().goals.match(keys(words)) or lexicon().places.match(keys(words))
+        words = bare(words[found[0] :] if found and found[0] < len(words) else words)
+        meant = self.scene.ground(words) if words and spans else None
+        if meant is None or meant.outcome != "match":
+            return None
+        start, end, before = spans[-1]
+        if not asked and before is not None and before.class_name != meant.candidates[0].class_name:
+            return None
+        said = (*last.clause[:start], *words, *last.clause[end:])
+        if self.tasks.own_match(said, weak=True) is None:
+            return None
+        return Command("catalogue", last.verb, theme=bare(said[1:]), words=said[1:], clause=said)
 
     def _happens(self, words: Phrase) -> bool:
         """Whether somebody did something ("the cook made soup"), as against a name with such a word in it."""

@@ -268,8 +268,14 @@ class Meeting(Tasks):
     def _followed(self, rest: Phrase) -> bool:
         info = self.catalogue.with_role("follow")
         somebody, source, _goal = self._journey(rest)
-        if info is None or somebody is None or not (source or self._is_worth_it(somebody)):
+        if info is None or somebody is None:
             return False
+        if not (source or self._is_worth_it(somebody)):
+            if not somebody.described or somebody.size < len(rest):
+                return False
+            self._with_them(info, somebody, (), f"follow {self._them(somebody)}")
+            self.scene.persons.append(somebody.who)
+            return True
         self._go_and_find(Somebody(somebody.who, source or somebody.where, somebody.size))
         self._with_them(info, somebody, (), f"follow {self._them(somebody)}")
         return True

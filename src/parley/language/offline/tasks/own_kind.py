@@ -8,8 +8,9 @@ from typing import Any
 
 from parley.language.offline.scene.scene import OPERATOR, UnclearError
 from parley.language.offline.tasks.carrying import Carrying
-from parley.language.offline.tasks.catalogue import call, text_inputs
+from parley.language.offline.tasks.catalogue import BY_INSTRUMENT, call, text_inputs
 from parley.language.offline.tasks.choices import choices_of, says_choice, told_state
+from parley.language.offline.tasks.commands import Command
 from parley.language.offline.tasks.fill import named
 from parley.language.offline.tasks.looking import ASKING
 from parley.language.offline.tasks.matching import Match, best_match
@@ -18,7 +19,8 @@ from parley.language.offline.tasks.slots import COLOURS, kind_on_map
 from parley.language.offline.words.lexicon import lexicon
 from parley.language.offline.words.naming import name_words
 from parley.language.offline.words.nouns import bare, noun_phrase
-from parley.language.offline.words.text import Phrase, keys, plain, tokens
+from parley.language.offline.words.quantities import quantities, taken_by
+from parley.language.offline.words.text import Phrase, keys, plain, singular, tokens
 from parley.messages.chat import ActionCall
 from parley.messages.status import ActionInfo
 
@@ -39,6 +41,8 @@ def _takes_text(info: ActionInfo) -> bool:
     return "text" in {parameter_role(name) for name in text_inputs(info)}
 
 
+_LABEL = 4
+"""Letters of a number or letter that tells equals apart, at most less one."""
 _TAKING_ON = frozenset({"load", "collect", "pick", "fetch", "take", "retrieve", "gather"})
 
 
@@ -87,6 +91,26 @@ class OwnKind(Carrying):
         about = name_words(match.info.name)[1:]
         names = (name_words(info.name) for info in self.catalogue.infos)
         return bool(about) and any(name[1:] == about and name[0] in _BEGINNING for name in names)
+
+    def _is_machine(self, command: Command) -> bool:
+        """Whether this robot handles heavy things itself ("LiftPallet (pallet)", "set_down (load)")."""
+        handling = [i for role in ("grasp", "place") for i in self.catalogue.all_with_role(role)]
+        special = any(parameter_role(name) == "" for info in handling for name in text_inputs(info))
+        return special or self.own_match(command.clause, weak=True) is not None
+
+    def _by_instrument(self, command: Command) -> Match | None:
+        """For "scan A", which is no mere look where an action of that name takes A ("scan_barcode")."""
+        verb = command.verb.split()[0]
+        if (
+            command.kind != "look"
+            or verb not in BY_INSTRUMENT
+            or command.place
+            or "for" in keys(command.clause)
+        ):
+            return None
+        named = [info for info in self.catalogue.of_own_kind if name_words(info.name)[0] == verb]
+        match = self.own_match(command.clause, weak=True, among=named) if len(named) == 1 else None
+        return match if match is not None and match.complete and match.filled.values else None
 
     def use_own(self, match: Match, words: Phrase) -> None:
         """Add the steps for a matched action.
@@ -150,8 +174,20 @@ class OwnKind(Carrying):
         told = parameter_role(name) == "place" and "where" in keys(phrases[name][1:])
         there = self._where_that_is(phrases[name]) if told or kind_on_map(name, self.scene.objects) else ()
         if there or kind_on_map(name, self.scene.objects):
-            return self._called(there or phrases[name], strict=False)
+            return self._called(there or self._of_its_kind(name, phrases[name]), strict=False)
         return self._called(phrases[name], strict=bool(coloured) or not COLOURS & set(keys(phrases[name])))
+
+    def _of_its_kind(self, name: str, phrase: Phrase) -> Phrase:
+        """For "it" where an input is called by a kind of things: what was last named of that kind."""
+        if keys(phrase) not in {("it",), ("that",), ("this",)}:
+            return phrase
+        kinds = {singular(word) for word in name_words(name)}
+        for thing in self.scene.things[::-1]:
+            found = self.scene.ground(thing)
+            item = found.candidates[0] if found.outcome == "match" else None
+            if item is not None and kinds & {singular(word) for word in name_words(item.class_name)}:
+                return thing
+        return phrase
 
     def _where_that_is(self, phrase: Phrase) -> Phrase:
         """For "it" that stands for the grass in the orchard, where an action takes the place: the orchard."""
@@ -176,10 +212,18 @@ class OwnKind(Carrying):
             phrase: What is said.
             strict: Whether a single word has to be a name ("red" may be the red one otherwise).
         """
-        words = bare(self.scene.referent(phrase))
+        words = self._spoken_of(bare(self.scene.referent(phrase)))
         if keys(words) in {("me",), ("us",), ("operator",)}:
             return plain(OPERATOR)
         return named(words, self.scene, strict=strict and len(words) < 2)
+
+    def _spoken_of(self, words: Phrase) -> Phrase:
+        """For "the sample" after "sample 3", which is not on the map: that one."""
+        if len(words) != 1 or self._grounds(words):
+            return words
+        last = next((bare(one) for one in self.scene.things[::-1] if words[0].key in keys(one)), ())
+        labelled = keys(last)[:-1] == keys(words) and len(last[-1].key) < _LABEL
+        return last if labelled else words
 
     def _use_once(
         self,
@@ -203,7 +247,8 @@ class OwnKind(Carrying):
             if steps is not None:
                 before += steps
                 missing = [one for one in missing if one != name]
-        missing = self._from_here(info, values, missing)
+        missing = self._from_answers(info, values, missing)
+        missing = self._from_here(info, values, missing, owned="its" in keys(words))
         for name in missing:
             if any(name in step.output_parameters for step in self.steps):
                 continue
@@ -217,11 +262,35 @@ class OwnKind(Carrying):
         if not same or not values:
             self.steps += [*before, step]
 
-    def _from_here(self, info: ActionInfo, values: dict[str, Any], missing: list[str]) -> list[str]:
-        """Where the robot is by then, for a place that is not said."""
+    def _from_answers(self, info: ActionInfo, values: dict[str, Any], missing: list[str]) -> list[str]:
+        """What the operator said in answer to a question, for what was asked: a thing, or how much."""
+        for name in list(missing):
+            for hint in list(self.scene.hints):
+                said = tokens(hint)
+                value: str | float | None
+                if name in number_inputs(info):
+                    amounts = quantities(said)
+                    value = (
+                        taken_by(name, info.description).value_of(amounts[0]) if len(amounts) == 1 else None
+                    )
+                elif name in text_inputs(info) and parameter_role(name) != "text" and self._grounds(said):
+                    value = self._called(said)
+                else:
+                    continue
+                if value is not None:
+                    values[name] = value
+                    missing = [one for one in missing if one != name]
+                    self.scene.hints.remove(hint)
+                    break
+        return missing
+
+    def _from_here(
+        self, info: ActionInfo, values: dict[str, Any], missing: list[str], *, owned: bool
+    ) -> list[str]:
+        """Where the robot is by then, for a place not said; what was last used for what is `owned`."""
         before = self.steps[-1].input_parameters if self.steps else {}
-        for name in [n for n in missing if n in before and kind_on_map(n, self.scene.objects)]:
-            # "Deliver it to room 4 and ring the bell".
+        for name in [n for n in missing if n in before and (owned or kind_on_map(n, self.scene.objects))]:
+            # "Deliver it to room 4 and ring the bell", "shake A and measure its weight".
             values[name] = before[name].value
             missing = [one for one in missing if one != name]
         texts = [n for n in missing if n in text_inputs(info) and parameter_role(n) not in {"text", "person"}]

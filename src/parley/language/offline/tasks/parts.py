@@ -105,7 +105,7 @@ def map_spans(words: Phrase, scene: Scene) -> list[tuple[int, int, MapObject | N
     """Where the words name something on the map, longest first: start, end, the thing if it is one."""
     spans: list[tuple[int, int, MapObject | None]] = []
     index = 0
-    small = lexicon().vocabulary - lexicon().nouns
+    small = lexicon().small
     while index < len(words):
         size = 0
         for length in range(min(_LONGEST_NAME, len(words) - index), 0, -1):
@@ -137,11 +137,25 @@ def map_spans(words: Phrase, scene: Scene) -> list[tuple[int, int, MapObject | N
                 found = scene.ground(part)
             if found.outcome != "none":
                 item = found.candidates[0] if found.outcome == "match" else None
-                spans.append((index, index + length, item))
                 size = length
+                if item is None and (seen := _seen_from_you(words[index:], length, scene)) is not None:
+                    size, item = seen
+                spans.append((index, index + size, item))
                 break
         index += size or 1
     return spans
+
+
+def _seen_from_you(words: Phrase, size: int, scene: Scene) -> tuple[int, MapObject] | None:
+    """For "trough nearest to you", of several troughs: in how many words it is told, and the one it is."""
+    flat = keys(words)
+    end = next((i + 1 for i in range(size + 1, min(size + _SIDE, len(flat))) if flat[i] in _YOU), 0)
+    found = scene.ground(words[:end]) if end else None
+    return (end, found.candidates[0]) if found is not None and found.outcome == "match" else None
+
+
+_YOU = frozenset({"you", "yourself", "here"})
+_SIDE = 4
 
 
 def _owner(phrase: Phrase) -> Phrase:
@@ -271,13 +285,19 @@ def _placed(parts: Sequence[Part], words: Phrase, scene: Scene) -> list[Part]:
         ):
             whole = words[last.start : part.end]
             grounding = scene.ground(whole)
-            if grounding.outcome == "match":
+            if grounding.outcome == "match" and not _in_its_like(grounding.candidates[0], part):
                 found[-1] = Part(
                     last.before, bare(whole), grounding.candidates[0], True, last.start, part.end
                 )
                 continue
         found.append(part)
     return found
+
+
+def _in_its_like(item: MapObject, part: Part) -> bool:
+    """For "the soap in soap dispenser 1": it is in no other dispenser, as nothing is in its like."""
+    held = part.before in {"in", "inside", "on"} and part.item is not None
+    return held and part.item is not None and part.item.class_name == item.class_name
 
 
 def _new_phrase(words: Phrase, index: int, inside: set[int]) -> bool:

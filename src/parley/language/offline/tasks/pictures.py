@@ -6,7 +6,8 @@ from collections.abc import Sequence
 
 from parley.errors import LanguageError
 from parley.language.base import InspectionReport
-from parley.language.offline.scene.grounding import ground_phrase, head_of
+from parley.language.offline.scene.called import head_of
+from parley.language.offline.scene.grounding import ground_phrase
 from parley.language.offline.words.lexicon import lexicon
 from parley.language.offline.words.nouns import bare, coordinated, noun_phrase
 from parley.language.offline.words.saying import a, listing, the, whole_sentence

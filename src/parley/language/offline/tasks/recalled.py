@@ -88,7 +88,7 @@ def _named(filled: Filled, words: Phrase, scene: Scene) -> Iterator[frozenset[st
     said += [one for word in words for one in known.get(_OF_LAST.get(word.key, ""), ())]
     for phrase in said:
         content = _content(phrase)
-        if content and not content <= lexicon().vocabulary - lexicon().nouns:
+        if content and not content <= lexicon().small:
             yield content
 
 

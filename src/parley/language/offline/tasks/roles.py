@@ -81,9 +81,12 @@ def parameter_role(name: str) -> str:
     for role, known in _PARAMETER_ROLES.items():
         if any(word in known for word in telling):
             return role
-    return "person" if any(singular(word) in lexicon().person_words for word in telling) else ""
+    people = lexicon().person_words - _MEANS
+    return "person" if any(singular(word) in people for word in telling) else ""
 
 
+_MEANS = frozenset(load_data("names")["means"])
+"""What something is done with: a cleaning agent is nobody."""
 _VAGUE_NAMES = frozenset({"name", "id", "to", "what", "description", "text", "string"})
 """Words of a parameter's name that say little beside another: "item_name" is an item."""
 
@@ -156,12 +159,21 @@ def roles_of(info: ActionInfo) -> frozenset[str]:
         # "Tells how many packs are left".
         return frozenset()
     taken = {parameter_role(name) for name in text_inputs(info)}
-    if told & _HELD and taken and ("text" in taken or not taken & {"object", ""}):
+    if told & _HELD and taken and ("text" in taken or not taken & {"object", ""} or _takes_what_of(info)):
         # "Take the moisture out of the air of a room", "put a label with a text on a box".
         return frozenset()
     return frozenset() if told == {"motion"} and not (text_inputs(info) or pose_inputs(info)) else told
 
 
+def _takes_what_of(info: ActionInfo) -> bool:
+    """Whether a description says that always the same is taken, of what is named ("take a sample of A")."""
+    told = [singular(word) for word in re.findall(r"[a-z]+", info.description.lower())]
+    typed = {singular(word) for name in info.inputs for word in name_words(name.replace("::", "_"))}
+    at = next((i for i, word in enumerate(told) if word in {"of", "from", "off"}), 0)
+    return at > _TWO and not typed & set(told[:at]) and bool(typed & set(told[at:]))
+
+
+_TWO = 2
 _OWN_PHRASES = frozenset(load_data("names")["own_phrases"])
 _GENERIC: dict[str, frozenset[str]] = {
     role: frozenset(listed) for role, listed in load_data("names")["generic"].items()

@@ -15,6 +15,7 @@ from parley.language.offline.scene.scene import Scene
 from parley.language.offline.tasks.choices import chosen, is_listed, switched
 from parley.language.offline.tasks.parts import Part, map_spans, parts_of, trimmed, unquoted
 from parley.language.offline.tasks.roles import number_inputs, parameter_role, pose_inputs, text_inputs
+from parley.language.offline.tasks.stand_ins import kinds_on_map, with_stand_ins
 from parley.language.offline.words.concepts import contrary
 from parley.language.offline.words.lexicon import lexicon
 from parley.language.offline.words.naming import name_words
@@ -298,7 +299,7 @@ def _assigned(
     """Give parts to the inputs that take words, best fits first; those taken and those left."""
     names = [name for name in text_inputs(info) if name not in filled.values and not is_listed(name, info)]
     left, taken = [_labelled(_of_it(part, names), names, scene) for part in parts], dict[str, Part]()
-    left = _all_of_kind(left, names, scene)
+    left = [with_stand_ins(part, names, filled.recalled, scene) for part in _all_of_kind(left, names, scene)]
     while names and left:
         fits = [
             (_fit(name, part, number, scene), -names.index(name), -number, name, part)
@@ -331,7 +332,7 @@ def _of_it(part: Part, names: Sequence[str]) -> Part:
 
 def _all_of_kind(parts: list[Part], names: Sequence[str], scene: Scene) -> list[Part]:
     """For "everything except A", where an input takes a zone: all zones except A."""
-    kind = next((word for name in names for word in _kinds_on_map(name, scene.objects)), "")
+    kind = next((word for name in names for word in kinds_on_map(name, scene.objects)), "")
     at = next((i for i, part in enumerate(parts) if keys(part.words)[:1] in _EVERYTHING), -1)
     if not kind or at < 0:
         return parts
@@ -345,6 +346,7 @@ def _all_of_kind(parts: list[Part], names: Sequence[str], scene: Scene) -> list[
 
 
 _EXCEPTING = frozenset({"except", "but", "bar", "excluding", "apart", "besides"})
+_ONLY_STATES = frozenset({("on",), ("off",)})
 _EVERYTHING = frozenset({("everything",), ("everywhere",), ("all",)})
 
 
@@ -386,21 +388,17 @@ _COURTEOUS = frozenset({"please", "now", "again", "too"})
 def _of_kind(part: Part, words: set[str], core: set[str]) -> bool:
     """Whether a part may be one of the things that an input is called by."""
     same = {other for word in words for other in lexicon().synonyms.get(word, ())} | words
-    return bool(same & (part.kinds | core)) or (part.grounded and not part.kinds)
-
-
-def _kinds_on_map(name: str, objects: Sequence[MapObject]) -> list[str]:
-    """The kinds of things on the map that an input is called by."""
-    words = {singular(word) for word in name_words(name)}
-    kinds = {singular(word) for item in objects for word in name_words(item.class_name)}
-    return sorted(words & kinds)
+    if same & (part.kinds | core) or (part.grounded and not part.kinds):
+        return True
+    return bool(words & _LAND and part.kinds & _LAND)
 
 
 def kind_on_map(name: str, objects: Sequence[MapObject]) -> bool:
     """Whether an input is called by a kind of things that the map has: then it takes one of those."""
-    return bool(_kinds_on_map(name, objects))
+    return bool(kinds_on_map(name, objects))
 
 
+_LAND = frozenset(load_data("names")["land"])
 _SURE = 6.0
 """What it counts that a part is to the deed what an input takes."""
 COLOURS = frozenset(load_data("names")["colours"])

@@ -13,6 +13,7 @@ from parley.language.offline.scene.scene import UnclearError
 from parley.language.offline.tasks.catalogue import call, goes_itself, parameter_role, text_inputs
 from parley.language.offline.tasks.commands import Command, read_command
 from parley.language.offline.tasks.going import UnableError
+from parley.language.offline.tasks.machines import needs_machine
 from parley.language.offline.tasks.matching import Match
 from parley.language.offline.tasks.own_kind import OwnKind
 from parley.language.offline.tasks.said import amount, named_of, person_of, place_size, spoken
@@ -81,6 +82,11 @@ class Tasks(OwnKind):
         if special and own is not None:
             self._invoke_each(own, command)
             return f"its name, a phrase or an example knows “{command.verb}”"
+        if (scanned := self._by_instrument(command)) is not None:
+            self.use_own(scanned, command.clause)
+            return f"its name begins with “{command.verb}”"
+        if needs_machine(command, self.catalogue) and not self._is_machine(command):
+            raise UnableError(plain(command.clause))
         self._by_kind_or_description(command)
         return f"the catalogue's way to do what “{command.verb}” asks for ({command.kind})"
 
@@ -416,10 +422,23 @@ class Tasks(OwnKind):
         if asker is None:
             raise UnableError(plain(command.clause))
         if operator or not listener:
-            self._other(command)
+            self._ask_operator(command, asker)
             return
         self._go_to_person(listener)
         self._have_asked(asker, plain(turned(command.clause)))
+
+    def _ask_operator(self, command: Command, asker: ActionInfo) -> None:
+        """Put what is asked of nobody else to the operator: "ask me what to buy", "ask for help"."""
+        said, listener = spoken(command, self.scene.is_person)
+        if not said or (not listener and said[0].key not in _ASKING_FOR | lexicon().question_starts):
+            self._other(command)
+        elif self.here and not listener and keys(said[:1])[0] in lexicon().question_starts:
+            # "Go to A and ask who it is": whoever is there.
+            self._have_asked(asker, plain(turned(command.clause)))
+        else:
+            wanted = f"{'to ' if keys(command.words[1:2]) == ('to',) else ''}{plain(turned(said))}"
+            self.steps += self._said(asker, f"I am to ask you {wanted}.", f"ask you {wanted}")
+            self.will.append(f"ask you {wanted}")
 
     def _have_asked(self, asker: ActionInfo, what: str) -> None:
         """What only a person can do is asked of one."""
@@ -460,6 +479,7 @@ class Tasks(OwnKind):
         self.scene.mention(bare(listener)[: len(noun.core)] if noun.anchors else bare(listener))
 
 
+_ASKING_FOR = frozenset({"for", "to", "whether", "if", "about"})
 _NO_PLACE = frozenset({"of", "with", "from", "for", "against"})
 
 

@@ -7,7 +7,7 @@ import re
 from parley.language.offline.words.lexicon import lexicon
 from parley.language.offline.words.text import Phrase, keys
 
-__all__ = ["duration_s", "without_duration"]
+__all__ = ["duration_s", "is_clock", "without_duration"]
 
 _UNITS_S = {
     "second": 1.0, "seconds": 1.0, "sec": 1.0, "secs": 1.0, "s": 1.0, "minute": 60.0, "minutes": 60.0,
@@ -54,3 +54,18 @@ _TENS = {
     "sixty": 60.0,
     "ninety": 90.0,
 }
+
+
+def is_clock(flat: tuple[str, ...]) -> bool:
+    """Whether words are nothing but a time of day ("nine", "half past ten", "noon").
+
+    Args:
+        flat: Lower case words.
+    """
+    return bool(flat) and not flat[0].isdigit() and set(flat) <= _CLOCK | set(lexicon().numbers)
+
+
+_CLOCK = frozenset({
+    "half", "quarter", "past", "to", "o'clock", "am", "pm", "sharp", "noon", "midnight", "in", "the",
+    "morning", "evening", "afternoon", "or", "so", "at", "latest", ".", "please",
+})  # fmt: skip

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Iterable, Mapping
 from dataclasses import dataclass
-from functools import cache
+from functools import cache, cached_property
 from typing import Any
 
 from parley.language.word_lists import load_data, written_out
@@ -100,7 +100,6 @@ class Lexicon:
     """Words before which ``'s`` is "is" and no possessive."""
     states: frozenset[str]
     """What things are said to be, after a short "is"."""
-    foreign: frozenset[str]
     """Small words of other languages."""
     prohibitions: PhraseTable
     everybody: PhraseTable
@@ -124,6 +123,11 @@ class Lexicon:
     vocabulary: frozenset[str]
     """Every word that occurs in the lists above: never taken for a typing error."""
 
+    @cached_property
+    def small(self) -> frozenset[str]:
+        """The words of the vocabulary that are no nouns."""
+        return self.vocabulary - self.nouns
+
 
 @cache
 def lexicon() -> Lexicon:
@@ -138,7 +142,6 @@ def lexicon() -> Lexicon:
             for verb in listed:
                 table.setdefault(verb, f"{name}:{verb}")
     openers = words["openers"]
-    foreign = frozenset(words.pop("foreign"))
     sets = {
         name: frozenset(words[name])
         for name in (
@@ -193,7 +196,6 @@ def lexicon() -> Lexicon:
         is_subjects=frozenset(words["contractions"]["subjects"]),
         after_is=frozenset(words["contractions"]["before"]),
         states=frozenset(words["contractions"]["states"]),
-        foreign=foreign,
         prohibitions=PhraseTable.of(words["prohibitions"]),
         everybody=PhraseTable.of(words["everybody"]),
         your_choice=PhraseTable.of(words["your_choice"]),

@@ -4,13 +4,26 @@ from __future__ import annotations
 
 import re
 from collections.abc import Container
-from functools import cache
+from functools import cache, lru_cache
 from itertools import pairwise
+
+from rapidfuzz.distance import OSA
 
 from parley.language.base import Situation
 from parley.language.offline.words.inflecting import forms
 from parley.language.offline.words.lexicon import lexicon
-from parley.language.offline.words.text import Phrase, Word, closest, mend, singular, split_name, tokens
+from parley.language.offline.words.naming import name_words
+from parley.language.offline.words.text import (
+    Phrase,
+    Word,
+    closest,
+    keys,
+    lemma,
+    mend,
+    singular,
+    split_name,
+    tokens,
+)
 from parley.language.word_lists import load_data
 
 __all__ = ["mended"]
@@ -46,18 +59,63 @@ def mended(words: Phrase, situation: Situation) -> Phrase:
         known.update(split_name(info.name))
     known.update(name.lower() for name in situation.robots)
     named = _named(situation)
-    own = {split_name(info.name)[0] for info in situation.catalogue if split_name(info.name)}
+    longer = _longer(named)
+    offered, about = _offered(tuple((info.name, info.description) for info in situation.catalogue))
+    known.update(about)
+    own = {split_name(info.name)[0] for info in situation.catalogue if split_name(info.name)} | offered
     inflected = forms(verb for verb in own if len(verb) > _SHORT_NAME - 1)
     known.update(inflected)
     inflected = frozenset(form for form in inflected if len(form) > _SHORT_NAME and form.endswith(_FORMS))
-    own = {verb for verb in own if len(verb) > _SHORT_NAME}
+    own = {verb for verb in own if len(verb) > _SHORT_NAME} | offered
     words = tuple(
         part
         for index, word in enumerate(words)
-        for part in ((word,) if _stays_whole(word, index, named) else _cut(word, frozenset(known)))
+        for part in ((word,) if _stays_whole(word, index, longer) else _cut(word, frozenset(known)))
     )
-    words = tuple(word if word.key in known else _unswapped(word) for word in words)
+    words = tuple(
+        word if word.key in known else _unswapped(_as_offered(word, about), named) for word in words
+    )
+    words = _with_a_look(words)
     return _without_haste(mend(words, frozenset(known), lexicon().often_mistyped | inflected, _verbs() | own))
+
+
+@lru_cache(maxsize=16)
+def _offered(catalogue: tuple[tuple[str, str], ...]) -> tuple[frozenset[str], frozenset[str]]:
+    """The verbs of a catalogue's names, written out, and the longer words of its names and descriptions."""
+    names = [name_words(name) for name, _ in catalogue]
+    first = {lemma(words[0]) for words in names if words}
+    verbs = {verb for verb in first if len(verb) >= _SHORT_NAME}
+    told = (re.findall(r"[a-z]+", description.lower()) for _, description in catalogue)
+    about = {word for words in (*names, *told) for word in words if len(word) > _SHORT_NAME}
+    return frozenset(verbs), frozenset(about)
+
+
+def _as_offered(word: Word, about: frozenset[str]) -> Word:
+    """A typing error in a word that says what an action of the catalogue is for ("borad")."""
+    if word.is_capital or len(word.key) <= _SHORT_NAME or not word.key.isalpha() or _is_real(word.key):
+        return word
+    meant = closest(word.key, about)
+    if meant is None or meant.startswith(word.key[:-1]) or word.key.startswith(meant[:-1]):
+        # "Cleaner" and "bakery" are no errors for "clean" and "baker".
+        return word
+    swapped = sorted(meant) == sorted(word.key)
+    if not swapped and (len(word.key) <= _SHORT_NAME + 1 or OSA.distance(meant, word.key) > 1):
+        return word
+    return Word(meant, meant)
+
+
+def _is_real(word: str) -> bool:
+    """Whether a word, or the word that it is a form of, is in any of the lists."""
+    return bool({singular(word), lemma(word)} & _listed())
+
+
+@cache
+def _listed() -> frozenset[str]:
+    """All words of the lists of deeds, things and words."""
+    deeds = load_data("deeds")
+    lines = (line for kind in ("verbs", "near", "nouns") for line in deeds[kind])
+    told = frozenset(word for line in lines for phrase in line for word in phrase.split())
+    return told | lexicon().nouns | lexicon().vocabulary | frozenset(lexicon().synonyms) | _REAL
 
 
 _THINGS = {
@@ -69,9 +127,12 @@ _THINGS = {
 """Words for common things by their letters."""
 
 
-def _unswapped(word: Word) -> Word:
-    """For "ligths" "lights": two letters the wrong way round in a word for a common thing."""
-    meant = _THINGS.get(tuple(sorted(word.key)), "")
+def _unswapped(word: Word, named: frozenset[str]) -> Word:
+    """For "ligths" "lights": two letters the wrong way round in a word for a thing, common or on the map."""
+    letters = tuple(sorted(word.key))
+    meant = _THINGS.get(letters, "")
+    if not meant and len(word.key) >= _SHORT_NAME and not _is_real(word.key):
+        meant = next((one for one in named if tuple(sorted(one)) == letters), "")
     differ = [i for i, (one, other) in enumerate(zip(word.key, meant, strict=False)) if one != other]
     swapped = len(differ) == len("ab") and differ[1] == differ[0] + 1 and not word.is_capital
     return Word(meant, meant) if swapped else word
@@ -82,10 +143,32 @@ _SHORT_NAME = 4
 """Words of so many letters in an action's name may be short for something."""
 
 
+def _with_a_look(words: Phrase) -> Phrase:
+    """For "hav a lok at" "have a look at": what is had or taken at something is a look."""
+    flat = keys(words)
+    result = list(words)
+    for at in range(len(flat) - 3):
+        noun = at + 2 + (flat[at + 2] in _SHORT_LOOKS)
+        had = next((v for v in ("have", "take") if OSA.distance(flat[at], v) < 2), "")
+        if not had or flat[at + 1] != "a" or flat[noun + 1 : noun + 2] not in _BEHIND_LOOK:
+            continue
+        if OSA.distance(flat[noun], "look") < 2:
+            result[at], result[noun] = Word(had, had), Word("look", "look")
+    return tuple(result)
+
+
+_SHORT_LOOKS = frozenset({"quick", "good", "closer", "close", "short", "proper", "brief"})
+_BEHIND_LOOK = frozenset({("at",), ("in",), ("into",), ("round",), ("around",), ("inside",)})
+
+
 def _named(situation: Situation) -> frozenset[str]:
     """The longer words of what is on the map."""
     texts = (f"{item.description} {item.class_name}" for item in situation.objects)
-    return frozenset(word.key for text in texts for word in tokens(text) if len(word.key) > _SHORT_NAME)
+    return frozenset(word.key for text in texts for word in tokens(text) if len(word.key) >= _SHORT_NAME)
+
+
+def _longer(words: frozenset[str]) -> frozenset[str]:
+    return frozenset(word for word in words if len(word) > _SHORT_NAME)
 
 
 def _stays_whole(word: Word, index: int, named: frozenset[str]) -> bool:

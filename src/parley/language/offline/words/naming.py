@@ -25,7 +25,24 @@ _KINDS: dict[str, str] = {
 def name_words(name: str) -> tuple[str, ...]:
     """The words of a name in any style, written out: "navGoal" is navigate, goal; "takeoff" take, off."""
     parts = (part for part in split_name(name) if not part.isdigit())
-    return tuple(word for part in parts for word in (_SHORT.get(part) or [_written_out(part)]))
+    words = tuple(word for part in parts for word in (_SHORT.get(part) or [_written_out(part)]))
+    return (_deed_of(words[0]), *words[1:]) if len(words) > 1 else words
+
+
+def _deed_of(word: str) -> str:
+    """The base form of a name's first word that no list has, by the rules of spelling ("skimming": skim)."""
+    if not word.endswith("ing") or len(word) < _SHORTEST_ING or lemma(word) != word:
+        return word
+    stem = word.removesuffix("ing")
+    if not _VOWELS & set(stem) or word in lexicon().nouns or lexicon().verbs.match((word,)) is not None:
+        return word
+    if stem[-1] == stem[-2]:
+        return stem if stem[-1] in "lsfz" else stem[:-1]
+    silent = stem[-1] in "cvuz" or (stem[-1] == "l" and stem[-2] not in _VOWELS | {"w", "r"})
+    return stem + "e" if silent or re.search(r"[^aeiou]at$|dg$|[^s]s$", stem) else stem
+
+
+_SHORTEST_ING = 6
 
 
 def _written_out(part: str) -> str:

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from dataclasses import dataclass, replace
+from functools import lru_cache
 
 from parley.language.offline.words.lexicon import lexicon
 from parley.language.offline.words.text import Phrase, Word, keys, plain, singular
@@ -125,6 +126,7 @@ _BEFORE_PLACE = frozenset({
 })  # fmt: skip
 
 
+@lru_cache(maxsize=8192)
 def noun_phrase(phrase: Phrase) -> NounPhrase:
     """Read a noun phrase."""
     lex = lexicon()

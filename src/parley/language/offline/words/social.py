@@ -1,8 +1,7 @@
-"""Small talk: greetings, thanks, insults, other languages."""
+"""Small talk: greetings, thanks, insults."""
 
 from __future__ import annotations
 
-import unicodedata
 from functools import cache
 
 from parley.language.offline.words.lexicon import PhraseTable, lexicon
@@ -39,9 +38,6 @@ _SHORT = {
     ),
     "shut up": "All right, I say no more.",
 }
-_ALSO_ENGLISH = frozenset(
-    {"is", "on", "do", "die", "un", "in", "la", "de", "es", "les", "en", "mine", "too", "we", "y"}
-)
 
 
 def reply(words: Phrase, *, alone: bool = True) -> str | None:
@@ -77,8 +73,6 @@ def reply(words: Phrase, *, alone: bool = True) -> str | None:
         return "I am sorry, I cannot help with feelings. Is there something to look at for you?"
     if _asks_for_fun(flat):
         return str(load_data("social")["replies"]["trivia"])
-    if _is_foreign(words):
-        return "I understand only English, except for stop words. Please say it in English."
     return None
 
 
@@ -128,9 +122,19 @@ def small_talk(words: Phrase, said: str) -> str | None:
         starts = 2 if said.startswith("I cannot") or kind == "remark" else len(flat)
         if kind in kinds and any(table.match(flat, at) is not None for at in range(starts)):
             return str(load_data("social")["replies"][kind])
+    if "remark" in kinds and _only_feels(flat):
+        return str(load_data("social")["replies"]["remark"])
     return None
 
 
+def _only_feels(flat: tuple[str, ...]) -> bool:
+    """Whether words without a verb only say how something is felt to be ("a bit quiet tonight")."""
+    lex = lexicon()
+    degree = PhraseTable.of(load_data("social")["degrees"]).match(flat)
+    return degree is not None and degree[0] < len(flat) < _SHORT_REMARK and lex.verbs.match(flat) is None
+
+
+_SHORT_REMARK = 8
 _FAILURES = (
     ("I am not sure what you mean", _KINDS),
     ("I did not understand", _KINDS),
@@ -139,17 +143,6 @@ _FAILURES = (
     ("Where", ("insult", "praise", "wishes", "exclaimed")),
 )
 """How an answer begins that says that nothing was made of a message, and what small talk may be behind it."""
-
-
-def _is_foreign(words: Phrase) -> bool:
-    letters = [char for word in words for char in word.raw if char.isalpha()]
-    if letters and sum("LATIN" not in unicodedata.name(char, "") for char in letters) > len(letters) / 2:
-        return True
-    flat = [word.key for word in words if word.is_word]
-    foreign = sum(word in lexicon().foreign for word in flat)
-    strictly = sum(word in lexicon().foreign - _ALSO_ENGLISH for word in flat)
-    english = sum(word in lexicon().vocabulary - (lexicon().foreign - {"is", "do"}) for word in flat)
-    return strictly >= 1 and foreign >= 2 and foreign > english
 
 
 def not_understood(words: Phrase) -> str:

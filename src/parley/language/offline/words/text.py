@@ -79,6 +79,9 @@ def written_out(text: str) -> str:
     return text
 
 
+_LABELLED = re.compile(r"(?<=[^\W_]_)[a-z](?![\w'])")
+
+
 @lru_cache(maxsize=8192)
 def tokens(text: str) -> Phrase:
     """Cut text into words and punctuation, contractions expanded.
@@ -88,6 +91,9 @@ def tokens(text: str) -> Phrase:
     text = unicodedata.normalize("NFC", text).replace("’", "'").replace("‘", "'").replace("`", "'")
     text = text.replace("“", '"').replace("”", '"').replace("„", '"')
     text = _QUOTED.sub(r'"\1"', text)
+    if "_" in text:
+        # "lamp_a" is a name, whose letter is no article.
+        text = _LABELLED.sub(lambda found: found.group().upper(), text)
     text = written_out(text)
     text = _DASH.sub(" , ", text).replace(" & ", " and ")
     raw = [match.group() for match in _TOKEN.finditer(text)]
@@ -193,6 +199,10 @@ def _verb_words() -> frozenset[str]:
     return _KNOWN_VERBS[0]
 
 
+_US_PLURALS = ("buses", "ruses", "puses", "tuses", "cuses", "nuses", "gases", "lenses")
+_USE_WORDS = ("ouses", "auses", "fuses", "peruses", "excuses", "abuses", "recuses", "accuses")
+
+
 @lru_cache(maxsize=8192)
 def singular(noun: str) -> str:
     """The singular of a regular English noun (words that are no plural come back unchanged)."""
@@ -201,6 +211,9 @@ def singular(noun: str) -> str:
     if len(noun) > 4 and noun.endswith("ies"):
         return noun[:-3] + "y"
     if len(noun) > 4 and noun.endswith(("ches", "shes", "sses", "xes", "zes")):
+        return noun[:-2]
+    if len(noun) > 4 and noun.endswith(_US_PLURALS) and not noun.endswith(_USE_WORDS):
+        # "Buses", "viruses": not "houses", "uses".
         return noun[:-2]
     if len(noun) > 3 and noun.endswith("s") and not noun.endswith(("ss", "us", "is")):
         return noun[:-1]

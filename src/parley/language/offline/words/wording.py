@@ -1,4 +1,7 @@
-"""Words turned from one speaker to another: what the operator says, as the robot says it."""
+"""Words turned from one speaker to another.
+
+What the operator says, as the robot says it; what others tell or wish, as the operator would put it.
+"""
 
 from __future__ import annotations
 
@@ -6,7 +9,14 @@ from parley.language.offline.words.lexicon import lexicon
 from parley.language.offline.words.quantities import quantities
 from parley.language.offline.words.text import Phrase, Word, keys, lemma, plain, singular
 
-__all__ = ["asked_directly", "counted_plainly", "shared_out", "still_there", "turned"]
+__all__ = [
+    "as_others_say",
+    "asked_directly",
+    "counted_plainly",
+    "shared_out",
+    "still_there",
+    "turned",
+]
 
 _TURNED = {
     "me": "you", "my": "your", "i": "you", "us": "you", "myself": "yourself", "you": "me", "your": "my",
@@ -119,3 +129,89 @@ def still_there(words: Phrase) -> Phrase:
         if ends and there and flat[there] in lexicon().be and flat[at - 1] not in lexicon().determiners:
             return (*words[:at], *words[at + 1 :])
     return words
+
+
+def as_others_say(words: Phrase) -> Phrase:
+    """What others tell or wish, and what was done to none of several, in the words that the rest reads.
+
+    Args:
+        words: All words and punctuation.
+    """
+    return _none_yet(_wished_by_others(_as_telling(words)))
+
+
+def _as_telling(words: Phrase) -> Phrase:
+    """For "the people in A say it leaks" "... says it leaks": what several tell is no order to say it."""
+    flat = keys(words)
+    if flat[:1] and flat[0] not in _OPENING_SUBJECT:
+        return words
+    end = next((i for i, word in enumerate(words) if not word.is_word), len(words))
+    at = next((i for i in range(2, min(end, _LONGEST_TELLER)) if flat[i] in _SAYING), 0)
+    said = flat[at + 1 : end]
+    told = len(said) > 2 and (said[0] in _TOLD_OF or said[0] in lexicon().determiners)
+    several = any(word.endswith("s") or word in _SEVERAL for word in flat[1:3])
+    if not at or not told or not several or _SAYING_ORDER & set(flat[:at]):
+        return words
+    verb = f"{flat[at]}s"
+    return (*words[:at], Word(verb, verb), *words[at + 1 :])
+
+
+_LONGEST_TELLER = 9
+_OPENING_SUBJECT = frozenset({"the", "some", "two", "three", "four", "both", "our", "people", "several"})
+_SAYING = frozenset({"say", "report", "complain", "claim"})
+_TOLD_OF = frozenset({"it", "they", "there", "that", "their", "something", "somebody", "someone", "nobody"})
+_SEVERAL = frozenset(
+    {"couple", "family", "people", "children", "staff", "crew", "men", "women", "team", "class"}
+)
+_SAYING_ORDER = frozenset(
+    {"then", "please", "should", "could", "can", "will", "must", "to", "not", "and", "go"}
+)
+
+
+def _wished_by_others(words: Phrase) -> Phrase:
+    """For "it would be nice if the guests could hear A" "the guests would like to hear A"."""
+    flat = keys(words)
+    at = next((i + 1 for i in range(3, min(9, len(flat))) if flat[i] in {"if", "when"}), 0)
+    if not at or not {"would", "could"} & set(flat[: at - 1]) or not _GOOD & set(flat[: at - 1]):
+        return words
+    link = next((i for i in range(at + 1, min(at + 8, len(flat) - 1)) if flat[i] in _COULD | _HAD), 0)
+    who = {singular(word) for word in flat[at:link]}
+    if not who & lexicon().person_words or who & _ANYBODY:
+        return words
+    has = flat[link] in _HAD or flat[link + 1] in {"have", "get"}
+    rest = link + 1 + (has and flat[link] not in _HAD)
+    if not has and flat[rest] not in _ENJOYED:
+        return words
+    like = ("would", "like") if has else ("would", "like", "to")
+    return (*words[at:link], *(Word(word, word) for word in like), *words[rest:])
+
+
+_GOOD = frozenset(
+    {"nice", "lovely", "great", "good", "wonderful", "kind", "helpful", "brilliant", "fantastic"}
+)
+_COULD = frozenset({"could", "can", "might", "may"})
+_HAD = frozenset({"had", "got"})
+_ANYBODY = frozenset({"someone", "somebody", "anyone", "anybody", "everyone", "everybody"})
+_ENJOYED = frozenset({
+    "hear", "see", "learn", "know", "listen", "enjoy", "drink", "eat", "try", "taste", "read", "watch",
+    "find",
+})  # fmt: skip
+
+
+def _none_yet(words: Phrase) -> Phrase:
+    """For "neither of the A has been V-ed" "both A have not been V-ed", for "none of the A" "all the A"."""
+    flat = keys(words)
+    at = next((i for i in range(len(flat) - 5) if flat[i : i + 2] in _NONE_OF), -1)
+    if at < 0 or (at and words[at - 1].is_word) or flat[at + 2] not in lexicon().determiners:
+        return words
+    link = next((i for i in range(at + 3, min(at + 9, len(flat) - 2)) if flat[i] in {"has", "have"}), 0)
+    been = link + 1 + (flat[link + 1] == "yet")
+    if not link or flat[been : been + 1] != ("been",) or not all(word.is_word for word in words[at:link]):
+        return words
+    every = ("both",) if flat[at] == "neither" else ("all", "the")
+    put = (*(Word(word, word) for word in every), *words[at + 3 : link])
+    denied = tuple(Word(word, word) for word in ("have", "not"))
+    return (*words[:at], *put, *denied, *words[link + 1 :])
+
+
+_NONE_OF = frozenset({("neither", "of"), ("none", "of")})
