@@ -78,7 +78,9 @@ def test_the_blind_sets_are_large_marked_and_cover_each_phenomenon_often() -> No
     cases = load_set("blind")
     assert len(cases) >= 400
     assert all(case.blind for case in cases)
-    for part in ("blind_round", "blind_examiner"):
+    for part in (
+        "blind_round", "blind_examiner", "blind_trades_one", "blind_trades_two", "blind_trades_three",
+    ):  # fmt: skip
         written = Counter(case.phenomenon for case in cases if case.part == part)
         assert len(written) >= 20
         assert min(written.values()) >= 3

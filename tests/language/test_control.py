@@ -141,6 +141,8 @@ def test_an_order_to_stop_is_told_from_what_only_sounds_like_one(said: str, mean
         ("sit tight for now", "stop"),
         ("stop! there's a child", "stop"),
         ("pause please, somebody is in the corridor", "stop"),
+        ("wait a moment, dogs crossing", "stop"),
+        ("hold on, two pallets in the way", "stop"),
         ("you may resume now, all clear", "start"),
         ("continue with your round", "start"),
         ("right, off you go again", "start"),
@@ -157,6 +159,7 @@ def test_a_control_word_is_found_among_small_words_and_what_is_told(text: str, c
     [
         "wait, the red one",
         "wait, go to the desk",
+        "wait, look at the dogs crossing",
         "hold my bag",
         "leave that chair",
         "move to the left",

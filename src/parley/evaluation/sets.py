@@ -21,6 +21,14 @@ _DEVELOPED: Final = (
     "fourth_set",
     "fifth_set",
     "scenes",
+    "trades_campus",
+    "trades_care",
+    "trades_catalogues",
+    "trades_demos",
+    "trades_goods",
+    "trades_guards",
+    "trades_guests",
+    "trades_public",
     "fresh_calls",
     "fresh_days",
     "fresh_nights",
@@ -44,7 +52,13 @@ _DEVELOPED: Final = (
     "voices",
     "wordings",
 )
-_BLIND: Final = ("blind_round", "blind_examiner")
+_BLIND: Final = (
+    "blind_round",
+    "blind_examiner",
+    "blind_trades_one",
+    "blind_trades_two",
+    "blind_trades_three",
+)
 
 SET_NAMES: Final = ("development", "held-out", "blind", "gpsr", "all")
 """`held-out`: the halves of sets that nobody developed on; `blind` holds `gpsr`."""

@@ -20,6 +20,7 @@ Words = tuple[str, ...]
 
 _ORDER: tuple[Composed, ...] = ("stop", "clear", "skip", "start")
 _LONGEST = 12
+_LONGEST_NAME = 4
 _WEAK = frozenset({"wait", "hold", "hang", "one", "just", "stay", "moment"})
 """With these a sentence may also go on ("wait, the red one")."""
 
@@ -121,6 +122,13 @@ def among_talk(parts: Sequence[Words], control: Callable[[Words], str | None]) -
     return strongest if all(_is_talk(part, weak=weak) for part in rest) else None
 
 
+def _goes_on(words: Words) -> bool:
+    """For "kids crossing" and "two forklifts in the way": what is going on, as people call it out."""
+    tail = next((tail for tail in _phrases("going_on") if words[-len(tail) :] == tail), ())
+    before = words[: -len(tail)] if tail else ()
+    return 0 < len(before) <= _LONGEST_NAME and not frozenset(_data()["no_names"]) & set(before)
+
+
 def _is_talk(words: Words, *, weak: bool) -> bool:
     while words and not any(words[: len(start)] == start for start in _phrases("tells")):
         lead = next((lead for lead in _phrases("interjections") if words[: len(lead)] == lead), ())
@@ -130,5 +138,7 @@ def _is_talk(words: Words, *, weak: bool) -> bool:
     if not words:
         return True
     tells = any(words[: len(lead)] == lead for lead in _phrases("tells"))
+    if _goes_on(words):
+        return True
     called = not weak and words[0] in {"a", "an"}
     return tells and (called or bool(frozenset(_data()["finite"]) & set(words)))

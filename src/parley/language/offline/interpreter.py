@@ -36,7 +36,7 @@ from parley.language.offline.sentences.spoken import orders_among_talk
 from parley.language.offline.sentences.telling import plainly_so
 from parley.language.offline.tasks.meeting import Meeting
 from parley.language.offline.words import social
-from parley.language.offline.words.courtesy import plainly
+from parley.language.offline.words.courtesy import called_plainly, plainly
 from parley.language.offline.words.explaining import Trace
 from parley.language.offline.words.foreign import ONLY_ENGLISH, is_foreign
 from parley.language.offline.words.lexicon import lexicon
@@ -226,7 +226,8 @@ def _sociable(words: Phrase, situation: Situation) -> str | None:
 def _plain_words(message: str, situation: Situation) -> Phrase:
     """The words of a message, mended, without courtesy and what is told of the operator's own plans."""
     scene = Scene.of(situation)
-    words = usually_said(mended(tokens(message), situation), scene)
+    called = frozenset(name.lower() for name in (situation.robot, *situation.robots))
+    words = usually_said(called_plainly(mended(tokens(message), situation), called), scene)
     words = shared_out(counted_plainly(still_there(as_others_say(words))))
     words = where_it_was_put(straight_on(without_own_plans(plainly(words))))
     own = frozenset(name_words(info.name)[0] for info in scene.catalogue.of_own_kind if name_words(info.name))

@@ -270,7 +270,8 @@ class Reader(Rereading):
         if order is not None:
             self.scene.trace.note("recast", f"“{plain(order[0])}”, after the pattern: {order[1]}")
             clause = replace(clause, words=order[0], is_question=False)
-        if self._again(clause) or self._delayed(clause) or self._says_nothing(clause, alone=alone):
+        tells = order is not None and keys(order[0][:1]) == ("tell",) and self.tasks.meet(clause.words)
+        if tells or self._again(clause) or self._delayed(clause) or self._says_nothing(clause, alone=alone):
             return
         if self._reading(clause) or self._order(clause, alone, index) or self._spoken(clause):
             return

@@ -7,6 +7,7 @@ import pytest
 from parley.language.base import Situation, Turn
 from parley.language.offline.dialogue.amending import amended
 from parley.language.offline.words.text import plain, tokens
+from parley.world.object_map import MapObject
 
 
 def said(order: str, message: str) -> tuple[str, bool] | None:
@@ -59,3 +60,12 @@ def test_other_messages_are_no_correction(message: str) -> None:
 def test_an_answer_to_a_question_is_no_correction() -> None:
     history = (Turn("operator", "Set oven 1 to 30 degrees"), Turn("assistant", "For how many minutes?"))
     assert amended(tokens("rather 20"), Situation(message="rather 20", history=history)) is None
+
+
+@pytest.mark.parametrize("message", ["and tank 2 for ten minutes", "now tank 2, ten minutes please"])
+def test_another_thing_and_another_value_both_take_their_places(message: str) -> None:
+    tanks = tuple(MapObject(f"t{n}", f"tank {n}", 3.0 * n, 1.0, "tank") for n in (1, 2))
+    history = (Turn("operator", "Rinse tank 1 for 5 minutes."), Turn("assistant", "All right."))
+    change = amended(tokens(message), Situation(message=message, history=history, objects=tanks))
+    assert change is not None
+    assert plain(change.words) == "Rinse tank 2 for ten minutes"

@@ -43,6 +43,7 @@ async def places(message: str, status: str = "running") -> str:
         ("the next one isn't necessary", "A C"),
         ("keep only area B and forget the others", "B"),
         ("drop everything except area C", "C"),
+        ("only do area C", "C"),
         ("just finish area A, nothing else", "A"),
         ("stop after area B", "A B"),
         ("skip ahead to area C", "C"),

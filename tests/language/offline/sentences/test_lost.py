@@ -48,3 +48,31 @@ def test_the_thing_that_was_lost_or_needed_takes_the_place_of_it(said: str, read
 )
 def test_orders_about_something_else_are_left(said: str) -> None:
     assert keys(with_what_was_lost(tokens(said))) == keys(tokens(said))
+
+
+@pytest.mark.parametrize(
+    ("said", "read"),
+    [
+        (
+            "Ann needs her nails. Fetch them and bring them to the barn.",
+            "Fetch the nails and bring them to the barn.",
+        ),
+        ("Bring the saw to Ann, she asked for it this morning.", "Bring the saw to Ann."),
+        ("Sweep the barn. Ann ordered it.", "Sweep the barn."),
+        (
+            "The roofers left the saw in the barn. Take it to the shed.",
+            "The roofers left the saw in the barn. Take the saw from the barn to the shed.",
+        ),
+        ("The roofers left bay 2 dirty. Sweep it.", "The roofers left bay 2 dirty. Sweep bay 2."),
+        (
+            "Somebody forgot a hat in the barn. Look for it.",
+            "Somebody forgot a hat in the barn. Look for the hat in the barn.",
+        ),
+        ("Look for the saw. Ann wants it.", "Look for the saw. Ann wants it."),
+        ("The nails are in the shed. Ann ordered them.", "The nails are in the shed. Ann ordered them."),
+        ("Ann left the barn. Say that it is locked.", "Ann left the barn. Say that it is locked."),
+        ("Ann left for the barn. Follow her.", "Ann left for the barn. Follow her."),
+    ],
+)
+def test_it_is_what_others_left_and_who_wanted_it_asks_for_nothing(said: str, read: str) -> None:
+    assert keys(with_what_was_lost(tokens(said))) == keys(tokens(read))

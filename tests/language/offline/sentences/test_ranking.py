@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import pytest
 
-from parley.language.offline.sentences.ranking import named_first, ranked_stops
+from parley.language.offline.sentences.ranking import all_of_those, named_first, ranked_stops
 from parley.language.offline.words.text import keys, tokens
 
 
@@ -45,3 +45,19 @@ def test_stops_are_put_in_the_order_that_is_said(said: str, read: str) -> None:
 )
 def test_one_of_a_list_that_is_to_come_first_or_last_is_moved(said: str, read: str) -> None:
     assert keys(named_first(tokens(said))) == tuple(key.lower() for key in keys(tokens(read)))
+
+
+@pytest.mark.parametrize(
+    ("said", "read"),
+    [
+        ("All pumps but the red one, please oil them", "please oil all pumps but the red one"),
+        (
+            "Every pump except pump 2, could you oil those? Thanks.",
+            "could you oil every pump except pump 2? Thanks.",
+        ),
+        ("All pumps are old, oil them", "All pumps are old, oil them"),
+        ("All pumps but one, I oiled them", "All pumps but one, I oiled them"),
+    ],
+)
+def test_what_is_named_first_is_what_the_order_is_for(said: str, read: str) -> None:
+    assert keys(all_of_those(tokens(said))) == keys(tokens(read))

@@ -52,3 +52,16 @@ def test_what_is_sought_is_sought_where_it_may_be_otherwise() -> None:
 def test_a_part_of_a_place_is_looked_at_there_and_not_at_its_like_elsewhere() -> None:
     assert steps("if the tap in the yard is dripping, go to the hall")[0] == ("drive_to", "yard")
     assert ("drive_to", "north gate") not in steps("check whether the light in the hall is on")
+
+
+def test_a_greeting_is_said_where_it_is_said_to_be() -> None:
+    found = steps("say welcome at the yard")
+    assert found[0] == ("drive_to", "yard")
+    assert found[-1][-1] == "welcome"
+
+
+def test_a_deed_that_somebody_is_told_of_is_not_done() -> None:
+    told = steps("tell Mr Ott that the north gate is open")
+    assert told[-1] == ("tell", "Mr Ott", "the north gate is open")
+    assert all(step[0] != "open_gate" for step in told)
+    assert all(step[0] != "open_gate" for step in steps("let Mr Ott know that the north gate was opened"))

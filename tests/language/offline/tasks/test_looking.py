@@ -95,3 +95,19 @@ def test_a_stop_of_the_plan_is_no_stop_of_the_map(say: str) -> None:
 def test_before_the_rest_is_before_what_is_pending(say: str) -> None:
     action = answer(say, queue=("hut 1", "kiln"))
     assert places(action) == ["hut 2", "hut 1", "kiln"]
+
+
+@pytest.mark.parametrize(
+    ("say", "where"),
+    [
+        ("look for rags at the kiln and at the bus stop", ["kiln", "bus stop"]),
+        ("search for rags in hut 1, hut 3 and the boat hut", ["hut 1", "hut 3", "boat hut"]),
+        ("look for rags and pegs at the kiln", ["kiln"]),
+        ("look for rags at the kiln and then go to the bus stop", ["kiln", "bus stop"]),
+    ],
+)
+def test_what_is_sought_in_several_places_is_sought_in_each(say: str, where: list[str]) -> None:
+    action = answer(say)
+    assert places(action) == where
+    looks = [step for step in action.queue if step.name == "look_at"]
+    assert len(looks) == (1 if "go" in say or "pegs" in say else len(where))

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import pytest
 
-from parley.language.offline.words.courtesy import plainly
+from parley.language.offline.words.courtesy import called_plainly, plainly
 from parley.language.offline.words.text import keys, tokens
 
 
@@ -50,3 +50,18 @@ def test_a_request_in_the_middle_of_dictated_words_is_a_sentence_of_its_own() ->
     assert " . could you go" in " ".join(keys(plainly(said))) or ". by the way" in " ".join(
         keys(plainly(said))
     )
+
+
+@pytest.mark.parametrize(
+    ("said", "read"),
+    [
+        ("go to the shed, my dear Fern", "go to the shed, fern"),
+        ("Fern old friend, go to the shed", "fern, go to the shed"),
+        ("check the box, sweetheart", "check the box"),
+        ("look for my dear Lucy", "look for my dear lucy"),
+        ("look for a friend, Fern", "look for a friend, fern"),
+        ("tell Ann I miss her, my love", "tell ann i miss her, my love"),
+    ],
+)
+def test_pet_names_go_from_an_address(said: str, read: str) -> None:
+    assert keys(called_plainly(tokens(said), frozenset({"fern"}))) == keys(tokens(read))

@@ -36,6 +36,16 @@ KNOWN = Situation(
         ("chekc the office", "check the office"),
         ("go to the off ice", "go to the office"),
         ("are the ligths on", "are the lights on"),
+        ("go ot the office adn wait", "go to the office and wait"),
+        ("look fo a hat", "look for a hat"),
+        ("take a picture fo the office", "take a picture of the office"),
+        ("wait ta the office", "wait at the office"),
+        ("say ta to Maria", "say ta to Maria"),
+        ("Si is in the office", "Si is in the office"),
+        ("wait for fiev minutes", "wait for five minutes"),
+        ("tweny minutes", "twenty minutes"),
+        ("look for the fivers", "look for the fivers"),
+        ("wich door is nearst", "which door is nearest"),
     ],
 )
 def test_only_what_is_no_word_is_mended(say: str, meant: str) -> None:

@@ -28,3 +28,18 @@ def test_a_question_where_something_is_stays_one() -> None:
 def test_only_the_robot_is_asked_for_its_age_for_fun() -> None:
     assert reply(tokens("how old are you"))
     assert reply(tokens("what is Peter's favourite drink")) is None
+
+
+def test_this_morning_greets_nobody() -> None:
+    assert small_talk(tokens("bring Ann the saw, she rang this morning"), "Where is the saw?") is None
+    assert small_talk(tokens("good morning"), LOST)
+
+
+@pytest.mark.parametrize("said", ["that was lovely of you", "thanks, how thoughtful of you"])
+def test_thanks_have_any_words(said: str) -> None:
+    assert small_talk(tokens(said), LOST) == "You are welcome."
+
+
+@pytest.mark.parametrize("said", ["that is in front of you", "the box is one of you"])
+def test_not_all_of_you_is_thanks(said: str) -> None:
+    assert small_talk(tokens(said), LOST) is None

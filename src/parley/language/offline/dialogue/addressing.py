@@ -18,9 +18,7 @@ def addressed(words: Phrase, situation: Situation) -> tuple[Phrase, tuple[str, .
     words = _others_named(words, situation)
     group = lexicon().everybody.match(keys(words))
     if group is not None and group[0] < len(words) and situation.robots:
-        rest = words[group[0] :]
-        gapped = keys(rest[:1]) in {("to",), ("into",)} and not (rest[1:] and _is_verb(rest[1].key))
-        return _except((*tokens("go"), *rest) if gapped else _without_lead(rest), situation.robots)
+        return _except(_going(words[group[0] :]), situation.robots)
     before = _all_called_last(words) if len(situation.robots) > 1 else ()
     if before:
         return before, situation.robots
@@ -128,7 +126,13 @@ def _except(words: Phrase, robots: tuple[str, ...]) -> tuple[Phrase, tuple[str, 
         rest = rest[len(tokens(name)) if name else 1 :]
     if not left_out:
         return words, robots
-    return _without_lead(rest), tuple(name for name in robots if name not in left_out)
+    return _going(rest), tuple(name for name in robots if name not in left_out)
+
+
+def _going(rest: Phrase) -> Phrase:
+    """What several are to do: where only a place is named ("to A"), go there."""
+    gapped = keys(rest[:1]) in {("to",), ("into",)} and not (rest[1:] and _is_verb(rest[1].key))
+    return (*tokens("go"), *rest) if gapped else _without_lead(rest)
 
 
 _EXCEPT = (("except", "for"), ("except",), ("but", "not"), ("but",), ("apart", "from"), ("other", "than"))

@@ -10,7 +10,9 @@ from dataclasses import dataclass
 from typing import Final
 
 from parley.language.base import Situation, Turn
+from parley.language.offline.dialogue.elsewhere import put_in_place
 from parley.language.offline.scene.grounding import ground_phrase
+from parley.language.offline.scene.scene import Scene
 from parley.language.offline.sentences.clauses import opens_command
 from parley.language.offline.words.lexicon import lexicon
 from parley.language.offline.words.nouns import bare
@@ -67,7 +69,7 @@ def amended(words: Phrase, situation: Situation) -> Amended | None:
         return None
     changed = _with_share(order, share) if share else order
     if named and changed is not None:
-        changed = _with_value(changed, named)
+        changed = _of_another(changed, named, situation) or _with_value(changed, named)
     if changed is None or keys(changed) == keys(order):
         return None
     return Amended(changed, instead=not adds)
@@ -111,6 +113,19 @@ def _with_value(order: Phrase, named: Phrase) -> Phrase | None:
         return _same_kind(order, named)
     old = [one for one in quantities(order) if not new.units or new.dimensions & one.dimensions]
     return _put(order, old[-1], named) if old else None
+
+
+def _of_another(order: Phrase, named: Phrase, situation: Situation) -> Phrase:
+    """For "(and) A for ten minutes" the order with A in it, and for so long; empty for one thing only."""
+    found = quantities(named)
+    new = found[-1] if found and found[-1].units and found[-1].end == len(named) else None
+    old = [one for one in quantities(order) if new is not None and new.dimensions & one.dimensions]
+    thing = named[: new.start] if new is not None else ()
+    while thing and thing[-1].key in _SMALL:
+        thing = thing[:-1]
+    if new is None or not old or not thing:
+        return ()
+    return put_in_place(bare(thing), _put(order, old[-1], named[new.start :]), Scene.of(situation))
 
 
 def _same_kind(order: Phrase, named: Phrase) -> Phrase | None:

@@ -45,6 +45,7 @@ _FREE = frozenset({
 _HANDING = frozenset(_DATA["handing"])
 _HANDED = frozenset(_DATA["handed"])
 _PRONOUNS = frozenset({"him", "her", "it", "them"})
+_TITLES = frozenset(load_data("people")["titles"])
 _MARKS = frozenset({".", "!", "?", ";", "\n"})
 
 
@@ -61,9 +62,11 @@ def spelled(words: Phrase, situation: Situation) -> Phrase:
     told = {word.key for entry in situation.memory for word in tokens(entry.data[:400])}
     names = {name.lower(): name for name in situation.robots if name.isalpha()}
     result: list[Word] = []
-    for word in words:
+    for at, word in enumerate(words):
         far = 1 + (len(word.key) > 6)
         strange = word.is_capital and len(word.key) > 3 and word.key not in known | told | set(names)
+        # "Mrs Lund" is somebody, whatever robot is called nearly so.
+        strange = strange and not (at and words[at - 1].key in _TITLES)
         near = (
             [n for n in names if n[0] == word.key[0] and OSA.distance(n, word.key) <= far] if strange else []
         )

@@ -35,6 +35,10 @@ _ASKING_BACK = (
     "what do you mean",
     "please name",
     "which",
+    *(
+        f"how {much}"
+        for much in ("many", "much", "long", "fast", "far", "high", "often", "hot", "warm", "bright")
+    ),
 )
 _WHAT_FOR = ("what should i look for", "what shall i look for", "what am i to look for", "look for what")
 _LONGEST_ANSWER = 14

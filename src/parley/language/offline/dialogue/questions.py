@@ -357,6 +357,20 @@ def _who(words: Phrase, flat: tuple[str, ...], scene: Scene, _: bool) -> Answer 
     return Answer(f"I do not know anything about {the(plain(about))}. Tell me, and I will remember it.")
 
 
+def _without_here(words: Phrase, *, there: bool) -> Phrase:
+    """For "is there an X (anywhere) near here?", "is there an X in this building?": on the map or not."""
+    somebody = words[2].key.endswith(("body", "one", "thing"))
+    while len(words) > 3 and words[-1].key in {"somewhere", "anywhere", "here", "around", "left", "nearby"}:
+        words = words[:-1]
+        if there and not somebody and words[-1].key in {"near", "around", "close", "by"}:
+            words = words[:-1]
+    here = keys(words[-3:-1]) in {("in", "this"), ("on", "this")} and words[-1].key in _HEREABOUTS
+    return words[:-3] if there and here and len(words) > 5 else words
+
+
+_HEREABOUTS = frozenset({"building", "house", "floor", "place", "site", "area", "level", "town"})
+
+
 def _whether(words: Phrase, flat: tuple[str, ...], scene: Scene, asked: bool) -> Answer | None:
     """For "Is there an X in the Y?", "is the X open?": from memory, else looking is offered."""
     if flat[0] not in lexicon().be or len(flat) < 3 or flat[1] == "you" or (not asked and flat[1] != "there"):
@@ -370,10 +384,9 @@ def _whether(words: Phrase, flat: tuple[str, ...], scene: Scene, asked: bool) ->
     if flat[1] in lexicon().thing_pronouns | lexicon().person_pronouns and (scene.things or scene.persons):
         words = (words[0], *bare(scene.referent(words[1:2])), *words[2:])
         flat = keys(words)
-    while len(words) > 3 and words[-1].key in {"somewhere", "anywhere", "here", "around", "left"}:
-        words = words[:-1]
-        flat = keys(words)
     there = flat[1] == "there"
+    words = _without_here(words, there=there)
+    flat = keys(words)
     rest = words[2:] if there else words[1:]
     noun = noun_phrase(rest)
     subject = bare(rest[: _cut(rest, noun.relation)])

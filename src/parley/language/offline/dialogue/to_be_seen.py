@@ -33,7 +33,9 @@ def is_of_now(words: Phrase) -> bool:
         words: The words of a question.
     """
     flat = keys(words)
-    if not flat or _NOT_SEEN & set(flat):
+    # "Do we have any A in B" is about A, "do we need to V" is not to be seen.
+    owned = flat[:2] == ("do", "we") and "have" in flat[2:4] and "to" not in flat[3:5]
+    if not flat or _NOT_SEEN & set(flat[2:] if owned else flat):
         return False
     if flat[0] in {"do", "does"}:
         return bool(_STATES & set(flat[2:]))

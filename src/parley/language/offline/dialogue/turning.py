@@ -34,6 +34,9 @@ def turned(words: Phrase, scene: Scene) -> Phrase:
         return ()
     if flat[0] in _ANY:
         return (Word("there", "there"), Word("is", "is"), *words)
+    if flat[0] == "do" and flat[1] in {"we", "they"} and "have" in flat[2:4] and "to" not in flat[3:5]:
+        # "Do we still have any A in B": "we still have any A in B".
+        return words[1:]
     if flat[0] not in lexicon().be | {"has", "have", "does", "do", "did", "can"} or flat[1] in _HELD_BACK:
         return ()
     verb, rest = Word(flat[0], flat[0]), words[1:]

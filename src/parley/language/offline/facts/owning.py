@@ -16,6 +16,8 @@ from parley.language.offline.words.text import Phrase, Word, keys, lemma, singul
 __all__ = ["Belonging", "belongings", "holder_of", "owner_of", "with_owners_named"]
 
 _OWNING = frozenset({"owns", "own", "has", "have", "drives", "drive", "rents", "uses"})
+_GETTING = frozenset({"gets", "receives", "wins", "won", "ordered", "orders", "got"})
+"""What somebody does with what is remembered to be for them."""
 _WITH = frozenset({"has", "have", "carries", "keeps", "holds", "wears", "owns"})
 _GIVEN = frozenset(
     {"sold", "given", "lent", "assigned", "rented", "handed", "leased", "let", "transferred", "passed"}
@@ -209,7 +211,7 @@ def _doer_named(
         named = [f for f in facts if is_somebodys(f) and _alike(wanted, _content(f.fact.state))]
         if flat[index] == "with" and not best and len({keys(f.fact.subject) for f in named}) == 1:
             return (*words[:start], *named[0].fact.subject, *words[end:]), [named[0]]
-        theirs_by = flat[index] == "with" or flat[index + 1] in _OWNING
+        theirs_by = flat[index] == "with" or flat[index + 1] in _OWNING | _GETTING
         thing = bare(words[index + (1 if flat[index] == "with" else 2) : end])
         owner = owner_of(thing, facts) if theirs_by and thing and not best else None
         if owner is not None:

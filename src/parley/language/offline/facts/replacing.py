@@ -32,7 +32,7 @@ def put_plainly(words: Phrase) -> Phrase:
         words: All words and punctuation.
     """
     words = _has_put(_without_taking_back(words))
-    for reader in (_cleft, _changed, _no_longer, _wrong_about):
+    for reader in (_cleft, _changed, _no_longer, _wrong_about, _has_moved):
         found = reader(words, keys(words))
         if found:
             return found
@@ -117,6 +117,28 @@ def _no_longer(words: Phrase, flat: tuple[str, ...]) -> Phrase:
     if flat[start + 1 : start + 2] == () or flat[start + 1] not in lexicon().be:
         return ()
     return (*words[:link], *words[start + 1 :])
+
+
+def _has_moved(words: Phrase, flat: tuple[str, ...]) -> Phrase:
+    """For "A has moved, she is in B now": "A is in B now"; that A moved says nothing more."""
+    link = next((i for i in range(1, min(7, len(flat))) if flat[i] in {"has", "have", "was", "were"}), 0)
+    end = _end(flat, link, _ENDS | {",", "-", "and"}) if link else len(flat)
+    said = flat[link + 1 : end]
+    while said[:1] and said[0] in _AROUND | {"been", "recently"}:
+        said = said[1:]
+    moved = said in _MOVED or (len(said) == 2 and said[0] in _SWAPPED)
+    start = end + 1 + (flat[end + 1 : end + 2] in {("and",), ("now",)})
+    if not moved or flat[0] in _PRONOUNS | _SOMEBODY | lexicon().question_starts or "?" in flat:
+        return ()
+    if flat[start : start + 1] == () or flat[start] not in _PRONOUNS:
+        return ()
+    where = flat[start + 1 : start + 2] != () and flat[start + 1] in lexicon().be | _STAYING
+    return (*words[:link], *words[start + 1 :]) if where else ()
+
+
+_STAYING = frozenset({"lives", "live", "works", "work", "sits", "sit", "sleeps", "stays", "stands", "parks"})
+_MOVED = frozenset({("moved",), ("moved", "house"), ("relocated",), ("moved", "away"), ("moved", "on")})
+_SWAPPED = frozenset({"changed", "swapped", "switched", "moved"})
 
 
 def _wrong_about(words: Phrase, flat: tuple[str, ...]) -> Phrase:

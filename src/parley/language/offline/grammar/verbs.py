@@ -8,6 +8,7 @@ from dataclasses import dataclass
 from parley.language.offline.grammar.small import base, is_past, small, verb_class
 from parley.language.offline.grammar.things import Item
 from parley.language.offline.tasks.catalogue import Catalogue
+from parley.language.offline.tasks.roles import is_narrow_look
 from parley.language.offline.words.lexicon import lexicon
 
 __all__ = ["Head", "Heads"]
@@ -50,7 +51,8 @@ class Heads:
         self.past = False
         """Whether an order was put in the past ("I would love it if you went"): others go on with it."""
         self._own = {verb[0] for verb in self.catalogue.verbs if verb}
-        self._looks = bool(self.catalogue.all_with_role("look") or self.catalogue.all_with_role("search"))
+        narrow = any(is_narrow_look(info) for info in self.catalogue.of_own_kind)
+        self._looks = narrow or self.catalogue.with_role("look", "search") is not None
 
     def key(self, at: int) -> str:
         """The word at a position; "." behind the end."""
@@ -115,7 +117,19 @@ class Heads:
         if not self._fits(frame, key):
             return None
         end, kind = self.kind(j)
+        kind = "other" if key == "read" and self._reads_out(end) else kind
         return Head(j, end, kind, _negated(frame), bool(frame))
+
+    def _reads_out(self, at: int) -> bool:
+        """For "(read) N a W", "(read) the W to N": that is no look."""
+        whom = at < len(self.items) and self.items[at].thing is not None
+        if whom and self.key(at + 1) in lexicon().determiners:
+            return True
+        end = next((i for i in range(at, len(self.items)) if self.key(i) in {".", "!", ",", "and"}), 0)
+        said = self.items[at : end or len(self.items)]
+        to = next((i for i, item in enumerate(said[:-1]) if item.key == "to"), 0)
+        named = to > 0 and said[to + 1].thing is not None and said[to - 1].key not in {"next", "close", "up"}
+        return named or "aloud" in {item.key for item in said}
 
     def _is_no_order(self, j: int) -> bool:
         """Whether a verb orders nothing here: "help", "change of plan", a copula before an adjective."""

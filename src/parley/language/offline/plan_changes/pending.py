@@ -86,7 +86,21 @@ def _found(phrase: Phrase, scene: Scene) -> list[int]:
     one = visit_of(phrase, scene) if _is_name(phrase) else None
     if one is not None:
         return [one]
-    return _together(phrase, scene) or _listed(phrase, scene)
+    return _together(phrase, scene) or _listed(phrase, scene) or _by_own_deed(phrase, scene)
+
+
+def _by_own_deed(phrase: Phrase, scene: Scene) -> list[int]:
+    """For "count the crates (first)", where that is pending: the stop at which it is done."""
+    verb = lexicon().verbs.match(keys(phrase[:1]))
+    if len(phrase) < 2 or (verb is not None and verb[1].partition(":")[0] in _GOING_OR_LOOKING):
+        return []
+    at = visit_of(phrase[1:], scene) if _is_name(phrase[1:]) else None
+    deed = lemma(phrase[0].key)
+    does = at is not None and any(deed in _words_of(step)[0] for step in visits(scene)[at].steps)
+    return [at] if at is not None and does else []
+
+
+_GOING_OR_LOOKING = frozenset({"motion", "look", "whether", "search", "back"})
 
 
 def _is_name(phrase: Phrase) -> bool:

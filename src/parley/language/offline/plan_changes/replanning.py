@@ -78,7 +78,8 @@ def visits(scene: Scene) -> list[Visit]:
 def _elsewhere(step: ActionCall, group: Sequence[ActionCall], scene: Scene) -> bool:
     """Whether an action of a kind of its own is for another thing than the steps before it."""
     info = scene.catalogue.get(step.name)
-    if info not in scene.catalogue.of_own_kind or step.flow is not None:
+    counts = info is not None and "count" in scene.catalogue.roles(info)
+    if step.flow is not None or not (counts or info in scene.catalogue.of_own_kind):
         return False
     named, before = _texts([step]), _texts(group)
     there = _things(named, scene)

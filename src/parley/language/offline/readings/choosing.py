@@ -39,7 +39,7 @@ from parley.language.offline.scene.sought import thought_there
 from parley.language.offline.sentences.arranging import arranged, each_in_turn, without_end
 from parley.language.offline.sentences.branching import branched
 from parley.language.offline.sentences.briefly import briefly
-from parley.language.offline.sentences.conditioning import as_conditions
+from parley.language.offline.sentences.conditioning import as_conditions, awaited_first
 from parley.language.offline.sentences.correcting import corrected
 from parley.language.offline.sentences.distilling import context, distilled, with_the_same
 from parley.language.offline.sentences.expecting import with_looks
@@ -48,12 +48,14 @@ from parley.language.offline.sentences.numbering import unnumbered
 from parley.language.offline.sentences.scoping import scoped
 from parley.language.offline.sentences.talk import without_talk
 from parley.language.offline.sentences.told import told_apart, when_done
+from parley.language.offline.sentences.under_way import under_way
 from parley.language.offline.sentences.units import Unit
 from parley.language.offline.tasks.abilities import cannot
 from parley.language.offline.tasks.helping import helping, is_drastic
 from parley.language.offline.tasks.tasks import Tasks
 from parley.language.offline.words.explaining import Trace
 from parley.language.offline.words.lexicon import lexicon
+from parley.language.offline.words.naming import name_words
 from parley.language.offline.words.saying import listing, the
 from parley.language.offline.words.text import Phrase, keys, plain, tokens
 from parley.messages.chat import ChatAction
@@ -100,7 +102,7 @@ def best_reading(
     changed = _changed_plan(words, situation, hints, trace, targets)
     if changed is not None:
         return changed
-    words = with_looks(words, is_stop)
+    words = with_looks(under_way(words), is_stop)
     told, words = laid_down(told_plainly(words), scene)
     mention_listed(told, scene)
     words = without_vague_orders(words, cut.of(words))
@@ -119,6 +121,8 @@ def best_reading(
         shaped = as_conditions(kept.words, names, scene.is_person)
         words = branched(shaped, names, lambda asked: turned(asked, scene))
     hangs = keys(words) != keys(kept.words)
+    if hangs and (event := awaited_first(words)) and not _can_wait(scene):
+        return _when_it_happens(event, targets, scene)
     plainer = not situation.queue and (spared or hangs)
     free = not (plainer or situation.queue)
     # Where no group was found at all, none is without pronouns.
@@ -190,7 +194,19 @@ def _offered(best: _Reading, message: Phrase, parts: Sequence[Unit], cut: Parts,
     same = set(did) == set(does) and len(set(about)) == len(about)
     reordered = did != does and ((asked.ranked and same) or sorted(did) == sorted(does))
     more = more or (asked.own and len(does) > len(did)) or ((asked.own or asked.ranked) and reordered)
+    more = more or (asked.own and _done_where_gone(best, found, cut.scene))
     return found if more else best
+
+
+def _done_where_gone(one: _Reading, other: _Reading, scene: Scene) -> bool:
+    """Whether a reading only goes where another does something ("empty A, B afterwards")."""
+    mover, pairs = scene.catalogue.mover, list(zip(one.action.queue, other.action.queue, strict=False))
+    differ = [(a, b) for a, b in pairs if (a.name, texts_of([a])) != (b.name, texts_of([b]))]
+    same_length = len(one.action.queue) == len(other.action.queue)
+    gone = mover is not None and all(
+        a.name == mover.name and texts_of([a]) == texts_of([b]) for a, b in differ
+    )
+    return same_length and gone and bool(differ)
 
 
 def _helpful(
@@ -242,6 +258,20 @@ def _only_answers(message: Phrase, said: _Reading) -> bool:
 def _which_to_leave_out(described: Phrase, targets: tuple[str, ...], scene: Scene) -> ChatAction:
     """A question about an exception that nothing tells."""
     text = f"I do not know which one you mean by “{plain(described)}”. Which one should I leave out?"
+    robot = scene.situation.robot
+    return ChatAction(message_response=text, targets=targets or ((robot,) if robot else ()))
+
+
+def _can_wait(scene: Scene) -> bool:
+    """Whether there is a way to wait for something to happen: an action for it, or somebody to ask."""
+    catalogue = scene.catalogue
+    waits = any("wait" in name_words(info.name) for info in catalogue.infos)
+    return waits or catalogue.with_role("ask_operator") is not None
+
+
+def _when_it_happens(event: Phrase, targets: tuple[str, ...], scene: Scene) -> ChatAction:
+    """What is to be done only when something has happened must not be done at once."""
+    text = f"I cannot notice by myself when {plain(event)}. Please tell me again then."
     robot = scene.situation.robot
     return ChatAction(message_response=text, targets=targets or ((robot,) if robot else ()))
 
@@ -353,12 +383,16 @@ def _about(reading: _Reading) -> set[str]:
 
 
 def _sparing(reading: _Reading, spared: frozenset[str], scene: Scene) -> ChatAction | None:
-    """A question instead of a plan that does what was forbidden; None if it does not."""
+    """A question instead of a plan that does what was forbidden; a word of assent where that is all."""
     wrong = gone_to(reading.action, scene) & spared
-    if not wrong:
+    told = reading.judged.lost and not reading.action.system_cmd and "," not in scene.situation.message
+    about = wrong or (spared if told else frozenset())
+    if not about:
         return None
-    names = listing([the(describe(item, scene.objects)) for item in scene.objects if item.id in wrong])
-    text = f"I understood that I should leave {names} alone. What should I do instead?"
+    names = listing([the(describe(item, scene.objects)) for item in scene.objects if item.id in about])
+    text = f"All right, I will leave {names} alone."
+    if wrong:
+        text = f"I understood that I should leave {names} alone. What should I do instead?"
     return ChatAction(message_response=text, targets=reading.action.targets)
 
 

@@ -311,14 +311,27 @@ def _can_be(words: Phrase, units: Sequence[Unit], scene: Scene) -> bool:
 
 
 def is_odd(step: ActionCall, scene: Scene) -> bool:
-    """Whether a step looks at or for something that nothing can be called."""
+    """Whether a step is about something that nothing can be called."""
     roles = {
         role
         for info in scene.catalogue.infos
         if info.name == step.name
         for role in scene.catalogue.roles(info)
     }
-    return bool(roles & {"look", "search"}) and _nonsense(step, scene) > 0
+    return _leaves_open(step) or (bool(roles & {"look", "search"}) and _nonsense(step, scene) > 0)
+
+
+def _leaves_open(step: ActionCall) -> bool:
+    """Whether a step is for "everything except A" where nothing tells what that is."""
+    said = (
+        keys(tokens(parameter.value.lower()))
+        for name, parameter in step.input_parameters.items()
+        if parameter.has_data and isinstance(parameter.value, str) and parameter_role(name) not in _SAID
+    )
+    return any(flat[:1] and flat[0] in _WHOLE and {"except", "but"} & set(flat) for flat in said)
+
+
+_WHOLE = frozenset({"all", "every", "each", "everything", "everywhere"})
 
 
 def _nonsense(step: ActionCall, scene: Scene) -> int:

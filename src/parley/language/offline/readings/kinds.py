@@ -63,10 +63,19 @@ def with_undone_deeds(words: Phrase, parts: Sequence[Unit], scene: Scene) -> Phr
 def _asked_for(part: Unit, parts: Sequence[Unit]) -> Unit | None:
     """For "nobody has V-ed A. Please do that" the order behind it, which only says to do what is told."""
     behind = next((one for one in parts if one.start >= part.end and one.kind != "reason"), None)
-    if behind is None or behind.kind != "order":
+    if behind is None or behind.kind not in {"order", "asked"}:
         return None
     flat = keys(word for word in behind.words if word.is_word)
-    does = flat[:1] == ("do",) or _vague().match(flat, int(flat[:1] == ("and",))) is not None
+    while flat[:1] in {("please",), ("and",), ("so",)}:
+        flat = flat[1:]
+    if (
+        flat[:1] == ("do",)
+        and set(flat[1:]) <= _DOING_SO
+        and (_POINTING & set(flat) or "please" in keys(behind.words))
+    ):
+        # "Please do so".
+        return behind
+    does = behind.kind == "order" and _vague().match(flat) is not None
     return behind if does and _POINTING & set(flat) and set(flat[1:]) <= _DOING_SO else None
 
 

@@ -52,6 +52,7 @@ def _asks_of_each(flat: tuple[str, ...], start: int) -> bool:
 
 
 _MARKS = frozenset(".,;:!?")
+_WHOLE_MAP = frozenset({"everything", "everywhere"})
 
 
 @dataclass
@@ -137,14 +138,15 @@ class GroupReader(GroupPointing):
 
     def _may_begin(self, word: Word) -> bool:
         """Whether a group may begin with a word; most words are passed over by this."""
-        leads = may_lead(word.key) or word.key in {"what", "whatever"}
+        leads = may_lead(word.key) or word.key in {"what", "whatever"} | _WHOLE_MAP
         return word.is_word and (leads or singular(word.key) in self._kinds_said)
 
     def _at(self, words: Phrase, start: int) -> Found | None:
         """The group that begins at a word, if one does."""
         pointed = self._pointed if self.pronouns or self._behind_comma(words, start) else self._elided
         beside = (
-            self._neighbour(words, start)
+            self._all_but(words, start)
+            or self._neighbour(words, start)
             or self._where_it_is(words, start)
             or self._best_of(words, start)
             or self._told_which(words, start)
@@ -199,6 +201,23 @@ class GroupReader(GroupPointing):
         group = self._with_rest(words, start, Found(items, end, lead.each), lead, noun)
         several = parts or lead.says_something
         return group if group is not None and (several or group.end > end or group.cut[1]) else None
+
+    def _all_but(self, words: Phrase, start: int) -> Found | None:
+        """For "look at everything but A and B": all that is on the map but those."""
+        flat = keys(words)
+        size = exception_at(flat, start + 1) if flat[start] in _WHOLE_MAP else 0
+        begin = next((i + 1 for i in range(start - 1, -1, -1) if flat[i] in _MARKS), 0)
+        verbs = (lexicon().verbs.match(flat, i) for i in range(begin, start)) if size else ()
+        if not any(verb is not None and verb[1].startswith(("look:", "motion:")) for verb in verbs):
+            # What robots do in their own ways is done to one kind of thing.
+            return None
+        gone, end = self._left_out(words, start + 1 + size, self.objects, tokens("thing"))
+        if not gone:
+            # "But the doors": all of a kind.
+            lead, at = read_lead(words, start + 1 + size)
+            end, gone = self._noun(words, at, lead)
+        items = tuple(item for item in self.objects if item not in gone)
+        return Found(items, end, True) if gone and len(items) > 1 and stops(words, end) else None
 
     def _with_rest(self, words: Phrase, start: int, found: Found, lead: Lead, noun: Phrase) -> Found | None:
         """With what is said behind the noun, and what the words before it choose."""

@@ -15,6 +15,7 @@ from parley.language.offline.scene.report_words import (
     TELLERS,
     ordinary_words,
     phrase_of,
+    phrases_for,
     place_named,
     without_hedges,
     words_for,
@@ -38,6 +39,9 @@ def happened(words: Phrase, scene: Scene, *, alone: bool = True) -> Phrase | Non
     said = _without_nobody(tuple(word for word in strip_openers(words) if word.is_word))
     flat = keys(said)
     if not 3 <= len(said) <= _MOST_WORDS or flat[0] in _NO_REPORTS:
+        return None
+    if flat[0] in words_for("renewing") and flat[1] in lexicon().determiners:
+        # "Change the light bulb in A" is an order, which nobody here can do.
         return None
     said = without_hedges(said)
     teller, said = told_by(said, scene)
@@ -319,7 +323,7 @@ def _smelled(words: Phrase) -> Phrase:
 def _sought(words: Phrase, place_at: int) -> Phrase:
     """What is to be looked for: what is perceived, is there, or does something, before the place."""
     flat = keys(words)
-    end = place_at
+    end = _owned_until(flat, place_at)
     while end and (size := _preposition_ends(flat, end) or flat[end - 1] in _BEFORE_PLACES):
         end -= size
     start = next((i + 1 for i in range(end - 1, -1, -1) if _leads(flat, i)), 0)
@@ -346,9 +350,28 @@ def _sought(words: Phrase, place_at: int) -> Phrase:
     while what and what[0].key in lexicon().determiners:
         what = what[1:]
     what = _handled(what) or what[: next((i for i in range(1, len(what)) if _does(what, i)), len(what))]
+    if keys(what) == ("there",):
+        # "There is someone in A".
+        return tuple(word for word in words if word.key in {"somebody", "someone"})[:1]
     alone = len(what) == 1 and what[0].key in _NOBODY | lexicon().person_pronouns | lexicon().thing_pronouns
     alone = alone or (len(what) == 1 and _is_past(what[0].key))
     return what if 0 < len(what) <= _MOST_SOUGHT and not alone and what[0].key not in _NO_THING else ()
+
+
+def _owned_until(flat: tuple[str, ...], end: int) -> int:
+    """Where what is sought ends: before "(a bag) nobody owns", "(a bag) that belongs to nobody"."""
+    table = phrases_for("unattended")
+    return next(
+        (
+            i
+            for i in range(2, end)
+            if flat[i] in _WHOSE and any(table.match(flat, j) is not None for j in (i, i + 1))
+        ),
+        end,
+    )
+
+
+_WHOSE = frozenset({"nobody", "no", "that", "which", "who", "belonging"})
 
 
 def _handled(what: Phrase) -> Phrase:

@@ -10,6 +10,7 @@ from parley.language.offline.scene.report_words import (
     phrase_of,
     phrases_for,
     place_named,
+    words_for,
 )
 from parley.language.offline.scene.scene import Scene
 from parley.language.offline.words.lexicon import lexicon
@@ -145,6 +146,9 @@ def _mislaid(words: Phrase, scene: Scene) -> Phrase | None:
         where[0],
     )
     what = rest[:at]
+    while len(what) > 2 and what[-1].key in words_for("left"):
+        # "I think I left the tap running in A": the tap.
+        what = what[:-1]
     named = set(keys(what)) - lexicon().determiners
     return phrase_of("inspect the", bare(rest[where[0] : where[1]]), "for", what) if named else None
 

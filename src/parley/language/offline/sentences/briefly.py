@@ -12,8 +12,9 @@ from parley.language.offline.sentences.asides import without_asides
 from parley.language.offline.sentences.finite import subject_apart
 from parley.language.offline.sentences.lost import with_what_was_lost
 from parley.language.offline.sentences.moved import what_was_left
-from parley.language.offline.sentences.ranking import named_first, ranked_stops
+from parley.language.offline.sentences.ranking import all_of_those, any_of_those, named_first, ranked_stops
 from parley.language.offline.sentences.reasons import closed_reasons
+from parley.language.offline.sentences.said_before import named_before
 from parley.language.offline.words.lexicon import lexicon
 from parley.language.offline.words.rewriting import rewritten
 from parley.language.offline.words.text import Phrase, Word, keys, lemma, singular, tokens
@@ -26,7 +27,9 @@ _STOP = Word(".", ".")
 
 def briefly(words: Phrase) -> Phrase:
     """The same message, with less around what is meant."""
-    words = with_what_was_lost(what_was_left(subject_apart(without_asides(words))))
+    words = with_what_was_lost(
+        what_was_left(subject_apart(without_asides(named_before(any_of_those(all_of_those(words))))))
+    )
     words = ranked_stops(
         named_first(_picked(_there_and_with(_the_same(_asked_apart(_sought_first(closed_reasons(words)))))))
     )

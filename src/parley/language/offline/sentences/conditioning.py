@@ -10,7 +10,7 @@ from parley.language.offline.words.lexicon import lexicon
 from parley.language.offline.words.nouns import bare
 from parley.language.offline.words.text import Phrase, Word, keys, lemma
 
-__all__ = ["as_conditions"]
+__all__ = ["as_conditions", "awaited_first"]
 
 Names = Callable[[Phrase], bool]
 
@@ -295,7 +295,7 @@ def _after_event(sentence: Phrase, is_stop: Names, is_person: Names) -> Phrase:
     for index in range(len(flat) - 2):
         marker = next((m for m in _WHEN if flat[index : index + len(m)] == m), ())
         start = index + len(marker)
-        end = _event_end(sentence, start, is_person) if marker else 0
+        end = (_event_end(sentence, start, is_person) or _has_happened(sentence, start)) if marker else 0
         if not end:
             continue
         lead, rest = sentence[:index], sentence[end:]
@@ -303,10 +303,53 @@ def _after_event(sentence: Phrase, is_stop: Names, is_person: Names) -> Phrase:
             # "Ask A when B leaves": that is the question.
             continue
         order = _allowed(rest if index == 0 else lead)
-        if (index == 0 or not any(w.is_word for w in rest)) and opens_command(order):
+        if (index == 0 or not any(w.is_word for w in rest)) and _is_order(order):
             return (*_words("wait until"), *sentence[start:end], _word("."), *order)
         return sentence
     return sentence
+
+
+def _is_order(words: Phrase) -> bool:
+    """Whether words begin with an order; a verb of the robot's own may be unknown here."""
+    closed = lexicon().question_starts | lexicon().determiners | lexicon().be | lexicon().auxiliaries
+    return opens_command(words) or (
+        len(words) > 1
+        and words[0].key not in closed | _OWN_SUBJECTS | {"he", "she", "they"}
+        and words[1].key in lexicon().determiners
+    )
+
+
+def _has_happened(words: Phrase, start: int) -> int:
+    """Where "the bell has rung ," ends that begins at `start`; 0 if nothing of the kind does."""
+    flat = keys(words)
+    if start >= len(flat) or flat[start] in _OWN_SUBJECTS:
+        return 0
+    end = next((i for i in range(start + 2, len(flat)) if not words[i].is_word), len(flat))
+    at = next((i for i in range(start + 1, end) if flat[i] in {"has", "have", "is", "are"}), 0)
+    rest = tuple(key for key in flat[at + 1 : end] if key not in _ALREADY)
+    if not at or not rest or "not" in rest:
+        return 0
+    if flat[at] in {"is", "are"}:
+        return end if rest in _BEING_BACK else 0
+    done = rest[0].endswith("ed") or lemma(rest[0]) != rest[0] or rest[0] in _HAPPENS
+    return end if done else 0
+
+
+_OWN_SUBJECTS = frozenset({"you", "i", "we", "it", "that", "this", "there", "all", "everything"})
+_ALREADY = frozenset({"already", "just", "finally", "all", "safely"})
+_BEING_BACK = frozenset({("back",), ("gone",), ("over",), ("here",), ("through",), ("past",)})
+
+
+def awaited_first(words: Phrase) -> Phrase:
+    """S in "wait until S. V"; empty if nothing is waited for, or nothing hangs on it.
+
+    Args:
+        words: All words and punctuation, as `as_conditions` puts them.
+    """
+    if keys(words[:2]) != ("wait", "until"):
+        return ()
+    end = next((i for i in range(2, len(words)) if words[i].key == "."), len(words))
+    return words[2:end] if end < len(words) - 1 else ()
 
 
 def _allowed(words: Phrase) -> Phrase:

@@ -135,7 +135,7 @@ def _fits(kind: str, phrase: Phrase, scene: Scene) -> bool:
     bare_words = bare(phrase)
     match kind:
         case "person":
-            return scene.is_person(phrase) and keys(bare_words)[0] not in {"i", "we", "you", "it"}
+            return _is_somebody(phrase, scene) and keys(bare_words)[0] not in {"i", "we", "you", "it"}
         case "thing":
             first = keys(phrase)[0]
             return first not in {"to", "you", "help", "that"} and not scene.is_person(phrase)
@@ -157,6 +157,13 @@ def _fits(kind: str, phrase: Phrase, scene: Scene) -> bool:
     return True
 
 
+def _is_somebody(phrase: Phrase, scene: Scene) -> bool:
+    """Whether words name somebody, wherever they are said to be ("the man at A")."""
+    flat = keys(phrase)
+    at = next((i for i in range(2, len(flat)) if lexicon().places.match(flat, i) is not None), len(flat))
+    return scene.is_person(phrase) or (at < len(flat) and scene.is_person(phrase[:at]))
+
+
 def _is_somewhere(phrase: Phrase, scene: Scene) -> bool:
     words = bare(phrase)
     if len(words) == 1 and words[0].key in lexicon().place_pronouns | lexicon().thing_pronouns:
@@ -174,6 +181,8 @@ def _order(construction: _Construction, slots: dict[str, Phrase]) -> Phrase:
             result.append(Word(text, text))
             continue
         phrase = slots[text[1:-1]]
+        if phrase and phrase[0].key in lexicon().determiners:
+            phrase = (Word(phrase[0].key, phrase[0].key), *phrase[1:])
         if text[1:-1] in bases:
             base = lemma(phrase[0].key)
             phrase = (Word(base, base), *phrase[1:])

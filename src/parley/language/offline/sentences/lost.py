@@ -28,6 +28,7 @@ _LONGEST: Final = 4
 
 def with_what_was_lost(words: Phrase) -> Phrase:
     """For "I dropped my A near B. Look for it" "... Look for the A"."""
+    words = _left_by_others(_without_who_wanted_it(words))
     words = _asked_of(
         _done_to_what_is_needed(_with_what_is_needed(_sought_for(_fetched_for(_not_right(_how_bad(words))))))
     )
@@ -35,6 +36,125 @@ def with_what_was_lost(words: Phrase) -> Phrase:
     at = next((i for i in range(2, len(flat)) if flat[i] in _IT and flat[i - 1] == "for"), 0)
     thing = _lost(words, flat, at) if at and _searches(flat, at) else ()
     return (*words[:at], Word("the", "the"), *thing, *words[at + 1 :]) if thing else words
+
+
+def _without_who_wanted_it(words: Phrase) -> Phrase:
+    """For "V the A to B, he asked for it this morning" "V the A to B": the order is given already."""
+    flat = keys(words)
+    if not _IT & set(flat[4:]):
+        return words
+    result: list[Word] = []
+    start = 0
+    for index in range(len(words) + 1):
+        if index < len(words) and words[index].key not in _MARKS | {","}:
+            continue
+        part = words[start:index]
+        if _told_to_be_wanted(keys(part), keys(result)):
+            result = result[:-1] if result[-1].key == "," else result
+            result += words[index : index + 1] if result[-1].is_word else ()
+        else:
+            result += words[start : index + 1]
+        start = index + 1
+    return tuple(result)
+
+
+def _left_by_others(words: Phrase) -> Phrase:
+    """For "the painters left the A in B. Take it" "... Take the A from B"; "N left A open. V it" is "V A"."""
+    flat = keys(words)
+    at = next((i for i in range(1, len(flat) - 3) if flat[i] in _LEFT and _begins(words, i)), 0)
+    end = next((i for i in range(at + 2, len(flat)) if flat[i] in _MARKS), 0) if at else 0
+    it = next((i for i in range(end + 2, min(end + _NEAR, len(flat))) if flat[i] in _IT), 0) if end else 0
+    if not it or lexicon().determiners & set(flat[end:it]) or flat[it - 1] in lexicon().be | {"if", "that"}:
+        return words
+    where = next((i for i in range(at + 2, end) if lexicon().places.match(flat, i) is not None), end)
+    if "," in flat[at:end] or "and" in flat[at:end]:
+        return words
+    thing, place = words[at + 1 : where], words[where:end]
+    while where == end and len(thing) > 1 and _is_state(thing[-1].key):
+        thing = thing[:-1]
+    labelled = thing[-1].key.isdigit() or len(thing[-1].key) == 1
+    article = () if labelled and flat[at + 1] not in lexicon().determiners else (Word("the", "the"),)
+    named = thing[1:] if flat[at + 1] in lexicon().determiners else thing
+    if not 0 < len(named) <= _LONGEST or set(keys(named)) & _ENDS:
+        return words
+    there = "there" in flat[end:it] or flat[it + 1 : it + 2] in {("from",), ("there",), ("in",), ("at",)}
+    order = flat[end + 1 : it]
+    if there or not place or not {*order} & (_FETCHING | {"look", "search", "find"}):
+        place = ()
+    elif {*order} & _FETCHING:
+        size = lexicon().places.match(keys(place))
+        place = (Word("from", "from"), *place[size[0] if size else 1 :])
+    return (*words[:it], *article, *named, *place, *words[it + 1 :])
+
+
+_LEFT: Final = frozenset({"left", "forgot", "parked", "abandoned", "dumped", "dropped"})
+_NEAR: Final = 7
+_NOT_OTHERS: Final = frozenset({"i", "you", "if", "when", "that", "is", "are", "was", "were"})
+_OTHERS: Final = frozenset({"the", "a", "some", "our", "somebody", "someone"})
+_STATES: Final = frozenset({
+    "open", "dirty", "empty", "closed", "full", "wet", "messy", "on", "off", "untidy", "cold", "warm", "hot",
+    "dry", "loose", "behind",
+})  # fmt: skip
+
+
+def _is_state(word: str) -> bool:
+    return word in _STATES or word.endswith(("ing", "ed"))
+
+
+def _begins(words: Phrase, at: int) -> bool:
+    """Whether some others are the subject of the verb there, and a thing follows it."""
+    start = next((i + 1 for i in range(at - 1, -1, -1) if not words[i].is_word), 0)
+    who = [key for key in keys(words[start:at]) if key not in {"has", "have", "had"}]
+    others = who[:1] and (who[0] in _OTHERS or words[start].is_capital)
+    theirs = words[at + 1].key not in {"his", "her", "their", "my", "me", "us", "it", "them", "you"}
+    return bool(others) and len(who) <= _LONGEST and not _NOT_OTHERS & {*who} and theirs
+
+
+_WANTED: Final = frozenset(
+    tuple(text.split()) for text in (
+        "ordered", "asked for", "has asked for", "asked twice for", "has ordered", "requested", "knows about",
+        "know about", "knows all about", "paid for", "has paid for", "is waiting for", "are waiting for",
+        "waits for", "wait for", "wanted", "expects", "is expecting", "expect", "has requested", "called for",
+        "asked me for", "insists on", "insisted on",
+    )
+)  # fmt: skip
+_SOMEBODY: Final = frozenset({"he", "she", "they"})
+_MOST_SAID: Final = 9
+
+
+def _told_to_be_wanted(flat: tuple[str, ...], before: tuple[str, ...]) -> bool:
+    """Whether words say no more than who wanted "it", behind an order that says what is done with it."""
+    it = next((i for i, key in enumerate(flat) if key in _IT), 0)
+    wanted = next((size for size in (1, 2, 3) if 0 < it - size < 3 and flat[it - size : it] in _WANTED), 0)
+    if not wanted or len(flat) > _MOST_SAID or not set(flat[it + 1 :]) <= _SINCE:
+        return False
+    start = next((i + 1 for i in range(len(before) - 2, -1, -1) if before[i] in _MARKS | {","}), 0)
+    while before[start : start + 1] and before[start] in _ASKING_FOR | _FIRST:
+        start += 1
+    deed = _deed(before[start:])
+    return bool(deed) and (flat[0] in _SOMEBODY or not deed.startswith(_ABOUT_THINGS))
+
+
+_FIRST: Final = frozenset({"first", "finally", "lastly", "afterwards", "also", "next"})
+_ABOUT_THINGS: Final = ("transfer", "grasp", "search", "look", "whether")
+"""With these orders, who wanted "it" may be who is to get it."""
+
+
+def _deed(flat: tuple[str, ...]) -> str:
+    """Which kind of order a sentence is; nothing if it is none."""
+    lex = lexicon()
+    found = lex.verbs.match(flat) if flat else None
+    if found is not None:
+        return found[1]
+    tells = {*flat} & (lex.be | {"has", "have", "had"}) or flat[:1] == () or flat[0] in lex.determiners
+    return "" if tells else "own"
+
+
+_SINCE: Final = frozenset({
+    "this", "morning", "last", "week", "yesterday", "twice", "already", "today", "again", "for", "hours",
+    "ages", "an", "hour", "ago", "night", "long", "time", "since", "monday", "tuesday", "wednesday",
+    "thursday", "friday", "urgently", "specially", "back", "before", "days", "minutes", "impatiently",
+})  # fmt: skip
 
 
 def _sought_for(words: Phrase) -> Phrase:
@@ -177,7 +297,7 @@ def _with_what_is_needed(words: Phrase) -> Phrase:
     if keys(who[:1]) in {("i",), ("we",)}:
         who = (Word("me", "me"),)
     for_whom = {"to", "for", "me", "us", "him", "her", "them", "on", "in", "back"} & set(told)
-    named = next((i for i in range(len(told)) if told[i] in _THOSE and keys(who) != ("me",)), -1)
+    named = next((i for i in range(len(told)) if _receives(told, i) and keys(who) != ("me",)), -1)
     if named > 0 and told[named - 1] in {"to", "give", "bring", "hand", "for"}:
         rest = (*rest[:named], *who, *rest[named + 1 :])
     if not for_whom:
@@ -188,6 +308,12 @@ def _with_what_is_needed(words: Phrase) -> Phrase:
         )
     between = _placed(words[end:order], thing)
     return (*words[:start], *between, words[order], Word("the", "the"), *thing, *rest)
+
+
+def _receives(told: tuple[str, ...], at: int) -> bool:
+    """Whether a word is for who needs something: "bring them A", not "bring them to A"."""
+    carried = told[at] == "them" and told[at + 1 : at + 2] in {("to",), ("over",), ("back",), ("here",)}
+    return told[at] in _THOSE and not carried
 
 
 def _done_to_what_is_needed(words: Phrase) -> Phrase:

@@ -29,6 +29,7 @@ _BEFORE = frozenset(
         "first",
         "next",
         "finally",
+        "please",
         "to",
         "at",
     }
@@ -45,8 +46,19 @@ def with_articles(words: Phrase, is_stop: IsStop) -> Phrase:
         and lexicon().verbs.match((lemma(flat[start]), *flat[start + 1 :])) is not None
         and (start == 0 or flat[start - 1] in _BEFORE)
     }
-    the = Word("the", "the")
-    return tuple(part for i, word in enumerate(words) for part in ((the, word) if i in starts else (word,)))
+    result: list[Word] = []
+    for i, word in enumerate(words):
+        if i in starts and _stops_at(flat, i):
+            result.append(Word("visit", "visit"))
+        elif i - 1 not in starts or not _stops_at(flat, i - 1):
+            result += (Word("the", "the"), word) if i in starts else (word,)
+    return tuple(result)
+
+
+def _stops_at(flat: tuple[str, ...], start: int) -> bool:
+    """For "stop at A" where the map has a bus stop: what is done there, and no stop that is at A."""
+    verb = lexicon().verbs.match(flat, start)
+    return verb is not None and verb[0] == 2 and flat[start + 1] in {"at", "by", "near"}
 
 
 _SMALL = frozenset(

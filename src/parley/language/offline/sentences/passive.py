@@ -74,14 +74,26 @@ class Passives:
 
     def put(self, sentence: Phrase) -> Phrase:
         """A sentence with orders in place of what is due or wanted in it; itself if nothing is."""
-        at, result = 0, sentence
+        at, result = 0, self._as_usual(sentence)
         while at < len(result):
             found = self._wanted(result, at) or self._asked(result, at) or self._due(result, at)
-            if found is None:
+            if found is None or "know" in keys(found.subject):
+                # "Let N know that A is V-ed" only tells of it.
                 at += 1
                 continue
             result, at = self._as_order(result, found)
         return result
+
+    def _as_usual(self, words: Phrase) -> Phrase:
+        """For "A gets V-ed at noon" "A is V-ed at noon", which is usually so and no order."""
+        flat = keys(words)
+        at = next((i for i in range(1, len(flat) - 3) if flat[i] in _GETS), 0)
+        if not at or flat[at - 1] in _WISHED | CUTS or not self.deeds.done(flat[at + 1]):
+            return words
+        end = next((i for i in range(at + 2, len(flat)) if flat[i] in CUTS), len(flat))
+        if not _is_timed(flat[at + 2 : end]):
+            return words
+        return (*words[:at], Word(_GETS[flat[at]], _GETS[flat[at]]), *words[at + 1 :])
 
     def without_agent(self, rest: Phrase) -> tuple[Phrase, Phrase | None]:
         """What follows without "by you" and "by noon", and the robot that is to do it; None if another is."""
@@ -261,6 +273,17 @@ class Passives:
         until = next((i for i, key in enumerate(tail) if key in CUTS), len(tail))
         expected = "already" in flat[start:end] or tail[max(0, until - 2) : until] == ("by", "now")
         return expected or any(_USUAL.match(flat, i) for i in range(start + 1, end + until))
+
+
+_GETS = {"gets": "is", "get": "are"}
+_WISHED = frozenset({"should", "must", "to", "will", "shall", "would", "better", "can", "could"})
+_AT_TIMES = frozenset({"at", "in", "on", "around", "every", "before", "after", "the", "past", "daily"})
+
+
+def _is_timed(flat: tuple[str, ...]) -> bool:
+    """Whether words only say at what time of day: "A gets V-ed at noon" is usually so."""
+    timed = all(key in _AT_TIMES | _TIMES | lexicon().numbers.keys() or key[:1].isdigit() for key in flat)
+    return timed and flat[:1] != () and flat[0] in _AT_TIMES
 
 
 def _end(table: PhraseTable, flat: tuple[str, ...], at: int) -> int:

@@ -7,7 +7,7 @@ from parley.language.offline.words.lexicon import lexicon
 from parley.language.offline.words.nouns import bare
 from parley.language.offline.words.text import Phrase, Word, keys
 
-__all__ = ["named_first", "participle_order", "ranked", "ranked_stops"]
+__all__ = ["all_of_those", "any_of_those", "named_first", "participle_order", "ranked", "ranked_stops"]
 
 _RANKS = {
     "first": 1, "firstly": 1, "second": 2, "secondly": 2, "third": 3, "thirdly": 3, "fourth": 4, "fifth": 5,
@@ -48,6 +48,63 @@ def ranked(words: Phrase) -> Phrase:
     if len(pieces) > 2 and ranks[-1] in {1, 99} and not any(ranks[:-1]):
         return _moved(pieces[:-1], pieces[-1][:-1], last=ranks[-1] == 99) or words
     return words
+
+
+def all_of_those(words: Phrase) -> Phrase:
+    """For "all A but B, please V them" "please V all A but B".
+
+    Args:
+        words: All words and punctuation.
+    """
+    flat = keys(words)
+    end = next((i for i in range(len(flat)) if flat[i] in {".", "!", "?", ";", ":"}), len(flat))
+    at = next((i for i in range(end) if flat[i] in _THOSE), 0)
+    cut = next((i for i in range(at - 1, 0, -1) if flat[i] == ","), 0)
+    if flat[:1] == () or flat[0] not in _ALL_OF or not cut or cut + 1 >= at:
+        return words
+    closed = lexicon().be | lexicon().auxiliaries
+    opens = next((key for key in flat[cut + 1 : at] if key not in _ASKING), "")
+    tells = closed & set(flat[:cut]) or opens in closed | _SUBJECTS or closed & set(flat[cut + 2 : at])
+    if not opens or tells or flat[at + 1 : at + 2] in {("that",), ("which",), ("who",)}:
+        return words
+    return (*words[cut + 1 : at], *words[:cut], *words[at + 1 :])
+
+
+_ALL_OF = frozenset({"all", "every", "each", "everything"})
+_THOSE = frozenset({"them", "those", "these"})
+_ASKING = frozenset({"please", "could", "can", "would", "will", "you", "kindly", "just"})
+_SUBJECTS = frozenset(
+    {"i", "we", "he", "she", "they", "it", "somebody", "someone", "nobody", "there", "to", "of"}
+)
+
+
+def any_of_those(words: Phrase) -> Phrase:
+    """For "I do not care which A, just V one" "V any A".
+
+    Args:
+        words: All words and punctuation.
+    """
+    flat = keys(words)
+    lead = next((len(m) for m in _CARELESS if flat[: len(m)] == m), 0)
+    comma = next((i for i in range(lead + 1, min(len(flat), lead + 5)) if flat[i] in {",", ".", ";"}), 0)
+    at = next((i for i in range(comma + 2, len(flat)) if flat[i] == "one"), 0) if lead and comma else 0
+    if not at or any(word.is_word and word.key not in _AFTER_ONE for word in words[at + 1 : at + 2]):
+        return words
+    start = comma + 1
+    while flat[start] in {"just", "so", "but", "simply", "please"}:
+        start += 1
+    return (*words[start:at], Word("any", "any"), *words[lead:comma], *words[at + 1 :])
+
+
+_CARELESS = tuple(
+    (*said, "which")
+    for said in (
+        ("i", "do", "not", "care"), ("i", "do", "not", "mind"), ("it", "does", "not", "matter"),
+        ("no", "matter"), ("it", "is", "not", "important"), ("we", "do", "not", "mind"),
+        ("we", "do", "not", "care"),
+    )
+)  # fmt: skip
+_AFTER_ONE = frozenset({"and", "then", "please", "now", "for", "today"})
 
 
 def named_first(words: Phrase) -> Phrase:

@@ -33,6 +33,7 @@ _SUBJECT = (
     rf"(?:(?:(?!(?:{_NO_SUBJECT}) )[^# ]+ ){{1,4}}(?:in|at|on|of|from|inside|by|near|behind|with) )?"
     r"(?:the |all |of |both )*# (?:(?:itself|themselves|there|here|too|also|however|though|in particular) )?"
 )
+_OVERLOOKED = "missed|skipped|ignored|omitted|neglected|overlooked|delayed|excluded|avoided"
 _LISTED = re.compile(
     r"# (?:, (?:# |\d+ ))*(?:(?:, )?(?:and|or|nor|plus) (?:# |\d+ ))+|\b(?:both|either|all) (?=# )"
 )
@@ -54,6 +55,8 @@ def _pattern(template: str) -> str:
             parts.append(_SUBJECT if word == "@" else "# ")
         elif word == "*":
             parts.append(r"(?:[^# ]+ ){0,4}?")
+        elif word == "ED":
+            parts.append(rf"(?!(?:{_OVERLOOKED}) )[^# ]+ed ")
         elif word in {"DONE", "DOING"}:
             parts.append(_touched()[word])
         else:

@@ -12,6 +12,7 @@ from parley.language.offline.tasks.catalogue import parameter_role, text_inputs
 from parley.language.offline.tasks.commands import Command
 from parley.language.offline.tasks.going import UnableError
 from parley.language.offline.tasks.looking import ASKING, Looking
+from parley.language.offline.tasks.stand_ins import kinds_on_map
 from parley.language.offline.words.lexicon import lexicon
 from parley.language.offline.words.nouns import bare, coordinated, noun_phrase
 from parley.language.offline.words.saying import the, where_is
@@ -31,6 +32,7 @@ _TO_CARRY = ("motion", "grasp", "fetch", "handover", "place", "ask_operator", "g
 """Without any of these nothing can be brought anywhere."""
 _TURNS = 4
 """How many turns back what was said about a thing still holds."""
+_MORE = frozenset({("more",), ("extra",), ("additional",)})
 _WAYS = frozenset(
     [
         "lift",
@@ -406,12 +408,16 @@ class Carrying(Looking):
         theme = bare(self.scene.referent(command.theme)) if command.theme else self.carried
         placer, asker = self.catalogue.with_role("place"), self.catalogue.with_role("ask_operator")
         if keys(theme) != keys(self.carried):
+            if keys(command.theme[:1]) in _MORE and self._known_place(command.theme) is None:
+                # "Put more salt in A": nothing that lies somewhere and could be brought.
+                raise UnableError(plain(command.clause))
             if command.place and theme:
                 self._fetch(replace(command, kind="transfer", theme=theme))
                 return
             raise UnableError(f"{command.verb} {the(plain(theme)) if theme else 'things'}")
         if not theme and placer is None:
             raise UnclearError("What should I put down?")
+        command = replace(command, place=self._labelled_goal(command.place))
         if command.place:
             self._stand_at(self._place_or_here(command.place))
         if placer is None and asker is None:
@@ -423,6 +429,15 @@ class Carrying(Looking):
             self.steps += self._said(asker, question, f"ask you to take {the(plain(theme))} off me")
             self.will.append(f"ask you to take {the(plain(theme))} off me")
         self.carried = ()
+
+    def _labelled_goal(self, place: Phrase) -> Phrase:
+        """For "put it into A", where what puts things down takes a container: container A."""
+        placer = self.catalogue.with_role("place")
+        if placer is None or len(place) != 1 or len(place[0].key) > 1:
+            return place
+        kinds = [kind for name in text_inputs(placer) for kind in kinds_on_map(name, self.scene.objects)]
+        called = [tokens(f"{kind} {place[0].key}") for kind in kinds]
+        return next((one for one in called if self.scene.ground(one).outcome == "match"), place)
 
     def _stand_at_person(self, person: Phrase) -> None:
         """Go to where somebody is remembered to be."""

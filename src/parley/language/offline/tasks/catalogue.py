@@ -229,9 +229,16 @@ class Catalogue:
             info.name: info
             for info in self.infos
             for phrase in (*info.phrases, *templates(info))
-            if not self._roles[info.name] & _HELPERS and _says(phrase, text, info in self.of_own_kind)
+            if not self._roles[info.name] & _HELPERS and _says(phrase, text, self._only_way(info, words))
         }
         return next(iter(fitting.values())) if len(fitting) == 1 else None
+
+    def _only_way(self, info: ActionInfo, words: Sequence[str]) -> bool:
+        """Whether no common task does what an action does: none of its kind, or nothing can be taken."""
+        if info in self.of_own_kind:
+            return True
+        hands = bool(self._roles[info.name] & {"handover", "fetch"}) and self.with_role("grasp") is None
+        return hands and not lexicon().operator_pronouns & set(words[1:2])
 
     @property
     def mover(self) -> ActionInfo | None:

@@ -338,6 +338,13 @@ def _how_much(words: Phrase) -> int:
 _STATES_OF_USE = frozenset({("on",), ("off",), ("up",), ("down",), ("out",)})
 
 
+_HAVING = frozenset({("we",), ("they",), ("you",)})
+_AT_HAND = frozenset({
+    ("within", "reach"), ("in", "reach"), ("at", "hand"), ("in", "sight"), ("in", "view"),
+    ("within", "sight"),
+})  # fmt: skip
+
+
 def _whether(command: Command) -> Command:
     """For "Whether S": the subject of S is what to look at."""
     lex = lexicon()
@@ -351,11 +358,16 @@ def _whether(command: Command) -> Command:
         link = next((i for i in range(link + 1, len(flat)) if flat[i] in lex.be), link)
     start = _how_much(words[:link]) if command.verb.endswith("how") else 0
     subject = bare(words[start:link])
+    if keys(subject) in _HAVING and flat[link : link + 1] in {("has",), ("have",), ("still",)}:
+        # "Whether we still have any A in B" is about A.
+        having = link + 1 + (flat[link] == "still" or flat[link + 1 : link + 2] == ("got",))
+        return replace(_search(replace(command, words=words[having:])), kind="whether", words=words)
     at = link + 1
     while at < len(flat) and flat[at] in {"still", "not", "there", "now", "really", "also"}:
         at += 1
     # "The lights are on in the hall".
     at += flat[at : at + 1] in _STATES_OF_USE and lex.places.match(flat, at + 1) is not None
+    at += 2 * (flat[at : at + 2] in _AT_HAND)
     found = lex.places.match(flat, at)
     place = bare(words[at + found[0] :]) if found and link < len(flat) else ()
     place = () if keys(place[:1])[:1] and place[0].key in NO_PLACES else place

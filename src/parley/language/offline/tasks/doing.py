@@ -14,6 +14,7 @@ from parley.language.offline.sentences.clauses import Clause
 from parley.language.offline.sentences.conditions import is_rule
 from parley.language.offline.tasks.commands import Command, read_command
 from parley.language.offline.tasks.meaning import Meaning
+from parley.language.offline.tasks.roles import is_narrow_look
 from parley.language.offline.tasks.said import spoken
 from parley.language.offline.words.lexicon import lexicon
 from parley.language.offline.words.naming import kind_of, name_words
@@ -179,9 +180,13 @@ class Doing(Meaning):
                 raise UnclearError(f"How can I tell whether {plain(clause.condition)}?")
             self._looked_for_nothing(clause)
             looked_from = len(self.tasks.steps)
-            if not (self._told_by_last(clause.condition) or self._own_check(clause.condition)):
+            if not (
+                self._told_by_last(clause.condition)
+                or self._own_check(self._where_it_is_so(clause.condition) or clause.condition)
+            ):
                 self.tasks.do(look)
                 self._one_look(looked_from)
+                self._of_all(looked_from, clause.condition)
             self._checked = (clause.condition, len(self.tasks.steps) - 1)
             self._looked_from = self.tasks.here
         elif clause.otherwise:
@@ -268,10 +273,13 @@ class Doing(Meaning):
             return False
         for words in _as_checks(condition):
             match = self.tasks.own_match(words, weak=True)
-            if match is not None and match.info.outputs and not match.filled.missing:
+            if match is None or match.filled.missing:
+                continue
+            if match.info.outputs or is_narrow_look(match.info):
                 self.tasks.use_own(match, (*_CHECK_WHETHER, *condition))
                 return True
-        return False
+        link = next((i for i, word in enumerate(condition) if word.key in lexicon().be | {"has", "have"}), 0)
+        return self.tasks.look_narrowly(bare(condition[:link]), (*_CHECK_WHETHER, *condition))
 
     def _last_measured(self, condition: Phrase, *, looks: bool) -> bool:
         """Whether the last step told what is compared; any that tells anything if nothing else `looks`."""
@@ -298,8 +306,10 @@ class Doing(Meaning):
 
     def _where_it_is_so(self, condition: Phrase) -> Phrase:
         """For "it is dark at A", where "it" is nothing: A is dark; empty if no place is said."""
+        condition = tuple(word for word in condition if word.is_word) if condition[0].key == "it" else ()
         flat = keys(condition)
-        ambient = flat[1:2] != () and flat[1] in lexicon().be and bool(_AMBIENT & set(flat[2:4]))
+        compared = flat[2:3] and flat[2] in _COMPARED and any(word[:1].isdigit() for word in flat[3:5])
+        ambient = flat[1:2] != () and flat[1] in lexicon().be and bool(compared or _AMBIENT & set(flat[2:4]))
         for at in range(3, len(condition)) if ambient else ():
             found = lexicon().places.match(flat, at)
             place = condition[at + found[0] :] if found is not None else ()
@@ -307,6 +317,22 @@ class Doing(Meaning):
                 lead = tokens("there is") if flat[at - 1].endswith("ing") else (*place, condition[1])
                 return (*lead, *condition[2 : at if lead[1:] != tokens("is") else len(condition)])
         return ()
+
+    def _of_all(self, before: int, condition: Phrase) -> None:
+        """For "if none of the doors is shut": the last look tells of all of them, for V hangs on that one."""
+        steps = self.tasks.steps
+        looks = [step for step in steps[before:] if step.name == steps[-1].name]
+        if len(looks) < 2 or plain(condition).lower().split()[0] not in {"none", "neither", "any", "no"}:
+            return
+        asked = {
+            name: parameter.with_value(f"whether {plain(condition)}")
+            for name, parameter in steps[-1].input_parameters.items()
+            if str(parameter.value).startswith("whether ")
+        }
+        if asked:
+            parameters = {**steps[-1].input_parameters, **asked}
+            steps[-1] = steps[-1].model_copy(update={"input_parameters": parameters})
+            self.tasks.will[-1:] = [f"check whether {plain(condition)}"]
 
     def _one_look(self, before: int) -> None:
         """Looking whether something is so takes the place of a look at the same thing just before."""
@@ -384,8 +410,13 @@ def _as_checks(condition: Phrase) -> Iterator[Phrase]:
         yield (Word("count", "count"), *condition[much or link + 1 :])
     if link:
         subject, rest = condition[:link], condition[link + 1 :]
+        if "than" in keys(rest[1:]):
+            # "A is hotter than 30 degrees": how hot it is.
+            yield (condition[link], *subject, *rest[: keys(rest).index("than")])
         yield (condition[link], *subject, *(word for word in rest if word.key != "not"))
         yield (Word("check", "check"), *subject)
+        where = (i for i in range(link + 1, len(flat) - 1) if lexicon().places.match(flat, i) is not None)
+        yield from ((Word("check", "check"), *condition[i + 1 :]) for i in where)
         return
     does = next((i for i in range(1, len(flat)) if flat[i].endswith("s") and lemma(flat[i]) != flat[i]), 0)
     for verb in (lemma(flat[does]), *(("read", "check") if flat[does] in _SHOWING else ())) if does else ():
@@ -411,5 +442,9 @@ _AMBIENT = frozenset({
     "dark", "light", "bright", "wet", "dry", "cold", "warm", "hot", "icy", "slippery", "windy", "foggy",
     "raining", "snowing", "quiet", "noisy", "loud", "crowded", "busy", "dusty", "smoky", "safe", "freezing",
     "damp", "humid", "muddy", "dim", "flooded",
+})  # fmt: skip
+_COMPARED = frozenset({
+    "hotter", "warmer", "colder", "cooler", "darker", "brighter", "wetter", "drier", "louder", "above",
+    "below", "over", "under",
 })  # fmt: skip
 """What "it" is said to be somewhere where it stands for nothing."""

@@ -21,14 +21,14 @@ from parley.language.offline.words.quantities import quantities, taken_by
 from parley.language.offline.words.text import Phrase, keys, lemma, plain, singular, tokens
 from parley.messages.status import ActionInfo
 
-__all__ = ["arguments", "named"]
+__all__ = ["arguments", "by_phrase", "named"]
 
 
 def arguments(info: ActionInfo, command: Command, scene: Scene) -> dict[str, Any]:
     """What the command says for the inputs of `info`; inputs that nothing is said for are left out."""
     values: dict[str, Any] = {
         name: named(words, scene)
-        for name, words in _by_phrase(info, command).items()
+        for name, words in by_phrase(info, command).items()
         if name in text_inputs(info)
     }
     filled = fill_parts(info, command.clause, _parts(info, command, scene), scene, known=values)
@@ -100,8 +100,8 @@ def named(words: Phrase, scene: Scene, *, strict: bool = False) -> str:
     return plain(words)
 
 
-def _by_phrase(info: ActionInfo, command: Command) -> dict[str, Phrase]:
-    """Values where one of the action's own phrases fits the whole clause."""
+def by_phrase(info: ActionInfo, command: Command) -> dict[str, Phrase]:
+    """Values where one of the action's own phrases fits the whole clause; empty otherwise."""
     clause = without_duration(command.clause) if number_inputs(info) else command.clause
     whole = [word for word in clause if word.is_word]
     return _fitted(info, whole) or _fitted(info, [word for word in bare(clause) if word.is_word])

@@ -63,7 +63,11 @@ class Going:
     def _go(self, command: Command) -> None:
         if self.catalogue.mover is None:
             raise UnableError(plain(command.clause))
-        if not command.place and self.scene.places and not self.steps:
+        over = command.verb.endswith(" over")
+        if not command.place and over and not self.scene.places and self.scene.things:
+            # "What is written on the A? Go over and read it."
+            command = replace(command, place=self.scene.things[-1])
+        if not command.place and self.scene.places and (not self.steps or over):
             # "The gym. Go."
             command = replace(command, place=self.scene.places[-1])
         if not command.place:

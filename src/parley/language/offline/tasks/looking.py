@@ -18,6 +18,7 @@ from parley.language.offline.words.naming import name_words
 from parley.language.offline.words.nouns import NounPhrase, bare, noun_phrase
 from parley.language.offline.words.saying import the
 from parley.language.offline.words.text import Phrase, Word, keys, plain, singular, tokens
+from parley.language.word_lists import load_data
 from parley.messages.status import ActionInfo
 
 __all__ = ["ASKING", "Looking"]
@@ -32,6 +33,7 @@ def _start_of(flat: tuple[str, ...], relation: str) -> int:
 
 
 _PICTURES = frozenset({"picture", "pictures", "photo", "photos", "photograph", "image", "snapshot", "pic"})
+_UNSEEN = frozenset(load_data("incidents")["unseen"])
 _REACH_M = 1.5
 """How far from a place things may be that are said to be there."""
 _SOMEBODY = frozenset({("he",), ("she",)})
@@ -213,6 +215,16 @@ class Looking(Docking):
         there = ground_phrase(noun.anchors[0], self.scene.objects, strict=True)
         return there.outcome == "match" and "still" in keys(command.words)
 
+    def _is_read_there(self, command: Command) -> bool:
+        """Whether "read A" is a look at A; "read N a story" is none."""
+        flat = keys(command.theme)
+        at = next((i for i in range(1, len(flat)) if flat[i] in lexicon().determiners), 0)
+        if command.verb != "read" or (
+            at > 0 and flat[0] != "me" and self.scene.is_person(command.theme[:at])
+        ):
+            return False
+        return bool(self.here or self._grounds(command.theme[-2:]))
+
     def _part_of(self, theme: Phrase) -> Phrase:
         """What a part of something belongs to that is on the map only as a whole ("the A door")."""
         if len(theme) < 2 or singular(theme[-1].key) not in PARTS or self._grounds(theme):
@@ -251,12 +263,22 @@ class Looking(Docking):
         theme = plain(self.scene.referent(command.theme)) if command.theme else ""
         request = self._whether(command) if command.kind == "whether" else theme
         self._stand_at(stand)
+        if command.kind == "look" and stand is not None and self._not_seen(theme, looker):
+            # "Noises from A", where all there is to look with takes pictures: of A.
+            self._add_look(looker, stand.value, f"look at {the(stand.value)}")
+            return
         self.scene.mention(bare(command.theme))
         if command.kind == "whether":
             found = "look for" if self._only_found(command) else "check"
             self._add_look(looker, request, f"{found} {request}")
         else:
             self._add_look(looker, request or command.verb, f"look for {self._named(theme)}")
+
+    @staticmethod
+    def _not_seen(theme: str, looker: ActionInfo) -> bool:
+        """Whether what is sought is no sight, for an action that takes a picture of what it is given."""
+        takes = bool(_PICTURES & set(name_words(looker.name)))
+        return takes and bool(_UNSEEN & {singular(word) for word in theme.lower().split()})
 
     def _meant_for(self, command: Command) -> Phrase:
         """For "check the shelf for A" the one of several shelves that is remembered to be for A."""

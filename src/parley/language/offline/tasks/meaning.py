@@ -49,6 +49,8 @@ _FOLLOW_ON = (
 )
 
 
+_AFTER_IT = frozenset({"too", "also", "next", "then", "now", "please", "afterwards", "after", "later"})
+"""Behind a thing that is done next."""
 _ONCE_MORE = frozenset({"motion", "look", "search", "transfer", "whether"})
 
 
@@ -209,12 +211,12 @@ class Meaning(Answering):
     def _elliptical(self, words: Phrase) -> Command | None:
         """For "Go to A, then B": a bare noun phrase does again what the clause before did."""
         given, words = words, self._follow_on(words)
+        while len(words) > 1 and words[-1].key in _AFTER_IT:
+            words = words[:-1]
         if self.last is not None and self.last.kind == "catalogue" and not self.last.negated:
             return self._own_once_more(self.last, words, asked=len(words) < len(given))
         if self.last is None or self.last.kind not in _ONCE_MORE or not words or len(words) > 9:
             return None
-        while len(words) > 1 and words[-1].key in {"too", "also", "next", "then", "now", "please"}:
-            words = words[:-1]
         negated = words[0].key == "not" and len(words) > 1
         words = words[1:] if negated else words
         found = lexicon().goals.match(keys(words))

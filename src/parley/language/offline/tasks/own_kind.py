@@ -14,8 +14,9 @@ from parley.language.offline.tasks.commands import Command
 from parley.language.offline.tasks.fill import named
 from parley.language.offline.tasks.looking import ASKING
 from parley.language.offline.tasks.matching import Match, best_match
-from parley.language.offline.tasks.roles import number_inputs, parameter_role
+from parley.language.offline.tasks.roles import is_narrow_look, number_inputs, parameter_role
 from parley.language.offline.tasks.slots import COLOURS, kind_on_map
+from parley.language.offline.tasks.stand_ins import kinds_on_map
 from parley.language.offline.words.lexicon import lexicon
 from parley.language.offline.words.naming import name_words
 from parley.language.offline.words.nouns import bare, noun_phrase
@@ -91,6 +92,56 @@ class OwnKind(Carrying):
         about = name_words(match.info.name)[1:]
         names = (name_words(info.name) for info in self.catalogue.infos)
         return bool(about) and any(name[1:] == about and name[0] in _BEGINNING for name in names)
+
+    def _only_tells(self, match: Match, command: Command) -> bool:
+        """For a deed only told of ("tell A that B is done"), or words passed on where a look is nearer."""
+        passes_on = any(parameter_role(name) == "text" for name in match.filled.phrases)
+        able = self.catalogue.with_role("look", "search") is not None
+        looks = passes_on and able and command.kind in {"look", "whether", "search"} and match.verb < 1.0
+        told = command.kind == "speak" and not passes_on and "that" in keys(command.theme)
+        return looks or (told and not match.verb_first)
+
+    def _goes_on(self, match: Match, command: Command) -> bool:
+        """For "take it to A" of what is on board: going there, not taking it once more."""
+        left = any(part.before == "to" for part in match.filled.left)
+        return (
+            command.kind == "transfer" and bool(command.place and self.carried) and left and match.verb < 1.0
+        )
+
+    def _takes_kind_of(self, info: ActionInfo, theme: Phrase) -> bool:
+        """Whether a narrow look may be at what is named: only traps for "check_trap (trap)"."""
+        kinds = set(kinds_on_map(text_inputs(info)[0], self.scene.objects)) if is_narrow_look(info) else set()
+        items = self.scene.ground(theme).candidates if kinds and theme else ()
+        return not items or any(kinds & {singular(w) for w in name_words(item.class_name)} for item in items)
+
+    def _narrowly(self, command: Command) -> bool:
+        """Look at something, where all that this robot can look at is things of some kinds."""
+        found = lexicon().verbs.match(tuple(command.verb.split()))
+        looks = command.kind in {"look", "catalogue"} and found is not None and found[1].startswith("look:")
+        able = self.catalogue.with_role("look") is not None
+        return looks and not able and self.look_narrowly(command.theme, command.clause)
+
+    def look_narrowly(self, theme: Phrase, words: Phrase) -> bool:
+        """Look by the one action that looks only at things of the kind that is named, if there is one.
+
+        Args:
+            theme: What is to be looked at.
+            words: The clause, for the operator.
+        """
+        fitting = [
+            info
+            for info in self.catalogue.of_own_kind
+            if is_narrow_look(info)
+            and kinds_on_map(text_inputs(info)[0], self.scene.objects)
+            and self.scene.ground(theme).outcome == "match"
+            and self._takes_kind_of(info, theme)
+        ]
+        if len(fitting) != 1:
+            return False
+        self.steps.append(call(fitting[0], {text_inputs(fitting[0])[0]: self._called(theme)}, plain(words)))
+        self.will.append(_said(words))
+        self.scene.mention(bare(theme))
+        return True
 
     def _is_machine(self, command: Command) -> bool:
         """Whether this robot handles heavy things itself ("LiftPallet (pallet)", "set_down (load)")."""
@@ -260,7 +311,24 @@ class OwnKind(Carrying):
             if (one.name, one.input_parameters) == (step.name, step.input_parameters)
         ]
         if not same or not values:
+            self._leave_out_asked(step)
             self.steps += [*before, step]
+
+    def _leave_out_asked(self, step: ActionCall) -> None:
+        """For "What does A show? Go there and read it": it is read there, and not before as well."""
+        last = len(self.steps) - 1
+        ways = {info.name for role in ("motion", "locate") for info in self.catalogue.all_with_role(role)}
+        while last >= 0 and self.steps[last].name in ways:
+            last -= 1
+        used = [str(one.value).lower() for one in step.input_parameters.values() if one.has_data]
+        if not 0 <= last < len(self.steps) - 1 or self.here.lower() not in used:
+            return
+        earlier = self.steps[last]
+        if earlier.flow is None and (earlier.name, earlier.input_parameters) == (
+            step.name,
+            step.input_parameters,
+        ):
+            del self.steps[last]
 
     def _from_answers(self, info: ActionInfo, values: dict[str, Any], missing: list[str]) -> list[str]:
         """What the operator said in answer to a question, for what was asked: a thing, or how much."""
@@ -314,6 +382,7 @@ def _question(info: ActionInfo, name: str, words: Phrase) -> str:
 
 def _said(words: Phrase) -> str:
     text = plain(words)
-    if words[0].key in lexicon().be | lexicon().auxiliaries | lexicon().question_starts:
+    asking = lexicon().be | lexicon().auxiliaries | lexicon().question_starts
+    if words[0].key in asking and words[1:2] and words[1].key != "a":
         return f"find out “{text}”"
     return text[:1].lower() + text[1:] if words[0].is_capital and not words[0].raw.isupper() else text

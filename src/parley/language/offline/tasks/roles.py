@@ -10,7 +10,7 @@ from parley.language.offline.words.text import lemma, singular
 from parley.language.word_lists import load_data
 from parley.messages.status import ActionInfo
 
-__all__ = ["number_inputs", "parameter_role", "pose_inputs", "roles_of", "text_inputs"]
+__all__ = ["is_narrow_look", "number_inputs", "parameter_role", "pose_inputs", "roles_of", "text_inputs"]
 
 _PARAMETER_ROLES = {
     "place": [
@@ -186,14 +186,15 @@ def _fitting(info: ActionInfo, words: tuple[str, ...], roles: frozenset[str]) ->
         return roles
     role = next(iter(roles))
     inputs = {parameter_role(name) for name in text_inputs(info)}
-    if role == "back" and inputs - {"place"}:
-        # "return_book (book)".
+    if role in {"back", "dock"} and inputs - {"place"}:
+        # "return_book (book)"; "dock_trolley (trolley)" is no way to the charger.
         return frozenset()
     if role == "place" and "person" in inputs and "place" not in inputs:
         role = "handover"
-    if role == "motion" and not (inputs or pose_inputs(info)):
-        return frozenset()
     needed = [name for name in text_inputs(info) if name not in info.optional]
+    if role == "grasp" and words[0] == "hold" and inputs == {""}:
+        # "hold_door (door)" takes nothing away.
+        return frozenset()
     if role == "grasp" and len(needed) > 1 and not {w for n in needed for w in name_words(n)} & _SOURCES:
         # "load_oven (oven, item)" ends with the item elsewhere.
         return frozenset()
@@ -203,8 +204,8 @@ def _fitting(info: ActionInfo, words: tuple[str, ...], roles: frozenset[str]) ->
     if role == "speak" and not _speaks_there(info, words, inputs):
         return frozenset()
     generic = _GENERIC.get(role)
-    if generic is None:
-        return frozenset({role})
+    if generic is None or (role == "motion" and not (inputs or pose_inputs(info))):
+        return frozenset({role} if generic is None else ())
     telling = set(words[:1]) if _by_words(words[:1]) else {w for w in words if role_by_any_word(w, inputs)}
     known = generic | typed | telling
     if any(not {word, singular(word)} & known for word in words):
@@ -231,6 +232,7 @@ def _speaks_there(info: ActionInfo, words: tuple[str, ...], inputs: set[str]) ->
     return not named
 
 
+_COUPLING = frozenset(load_data("names")["coupling"] + load_data("names")["uncoupling"])
 _SOURCES = frozenset(
     {"source", "from", "origin", "place", "location", "surface", "arm", "gripper", "hand", "side"}
 )
@@ -243,21 +245,23 @@ _SETTING = frozenset({"set", "drop", "leave", "store", "release"})
 _DOWN = frozenset({"down", "on", "onto", "in", "at", "object", "item"})
 
 
+def is_narrow_look(info: ActionInfo) -> bool:
+    """Whether an action of its own kind looks at one kind of thing ("check_trap (trap)")."""
+    found = lexicon().verbs.match(name_words(info.name)[:1])
+    return found is not None and found[1].startswith("look:") and len(text_inputs(info)) == 1
+
+
 def _by_name(info: ActionInfo, words: tuple[str, ...]) -> frozenset[str] | None:
     """What an action is good for by its name; None if that tells nothing."""
     roles = _by_words(words) - (frozenset() if text_inputs(info) else _PHYSICAL)
-    typed = {
-        word
-        for name in info.inputs
-        if not name.lower().endswith("id")
-        for word in name_words(name.replace("::", "_"))
-    }
     by_any = role_by_any_word(info.name, {parameter_role(name) for name in text_inputs(info)})
     if roles == {"locate"} and text_inputs(info) and not info.outputs:
         return frozenset({"search"})
     if by_any == {"follow"} and roles and roles <= {"motion", "wait", "guide"}:
         return by_any
-    if roles & {"look", "search"} and not set(words[1:]) <= _ANY_SIGHT | typed:
+    inputs = (name for name in text_inputs(info) if parameter_role(name) and not name.lower().endswith("id"))
+    general = {word for name in inputs for word in name_words(name.replace("::", "_"))}
+    if roles & {"look", "search"} and not set(words[1:]) <= _ANY_SIGHT | general:
         # "CheckBattery" looks at one thing only: it is its own kind.
         return by_any & {"search"} if _SOMEBODY & set(words) else frozenset()
     if roles:
@@ -269,6 +273,9 @@ def _by_name(info: ActionInfo, words: tuple[str, ...]) -> frozenset[str] | None:
 
 def _by_phrases(info: ActionInfo, words: tuple[str, ...]) -> frozenset[str]:
     """What an action is good for by its phrases and description, where its name tells nothing."""
+    if words[0] in _COUPLING and {parameter_role(name) for name in text_inputs(info)} <= {""}:
+        # "detach_cart (cart)" puts nothing else down.
+        return frozenset()
     named = lexicon().verbs.match((lemma(words[0]), *words[1:]))
     speaks = _by_words(tuple(re.findall(r"[a-z]+", info.description.lower())[:1])) == {"speak"}
     if speaks and "text" in {parameter_role(name) for name in text_inputs(info)}:

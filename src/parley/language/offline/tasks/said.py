@@ -5,11 +5,11 @@ from __future__ import annotations
 from collections.abc import Callable
 
 from parley.language.offline.tasks.commands import Command
-from parley.language.offline.words.lexicon import lexicon
+from parley.language.offline.words.lexicon import PhraseTable, lexicon
 from parley.language.offline.words.nouns import bare, noun_phrase
 from parley.language.offline.words.text import Phrase, Word, keys, tokens
 
-__all__ = ["amount", "named_of", "person_of", "place_size", "spoken"]
+__all__ = ["amount", "named_of", "person_of", "place_size", "placed_text", "spoken", "start_of"]
 
 
 def named_of(words: Phrase) -> Phrase:
@@ -35,6 +35,31 @@ def place_size(flat: tuple[str, ...], index: int) -> int:
         if found is not None and index and flat[index] != "of" and index + found[0] < len(flat)
         else 0
     )
+
+
+_GREETING = PhraseTable.of(("hello", "hi", "welcome", "goodbye", "bye", "good night", "thank you", "thanks"))
+
+
+def placed_text(said: Phrase) -> tuple[Phrase, Phrase]:
+    """For "in the hall that the bus is late", "hello in the hall": where, and what is to be said, if so."""
+    flat = keys(said)
+    greeted = _GREETING.match(flat) or lexicon().greetings.match(flat) or lexicon().farewells.match(flat)
+    size = greeted[0] if greeted is not None and '"' not in flat else 0
+    behind = lexicon().places.match(flat, size) if size else None
+    if behind is not None and size + behind[0] < len(flat):
+        # "Hello at the gate": nobody says more than "hello" there.
+        return said[size + behind[0] :], said[:size]
+    found = lexicon().places.match(flat)
+    that = next((i for i in range(2, len(flat) - 1) if flat[i] in {"that", "saying"}), 0)
+    if found is None or not that or found[0] >= that or '"' in flat:
+        return (), said
+    return said[found[0] : that], said[that + 1 :]
+
+
+def start_of(flat: tuple[str, ...], relation: str) -> int:
+    """Where a relation of one or more words begins; the length if it is nowhere."""
+    wanted = tuple(relation.split())
+    return next((i for i in range(len(flat)) if flat[i : i + len(wanted)] == wanted), len(flat))
 
 
 def person_of(words: Phrase) -> Phrase:

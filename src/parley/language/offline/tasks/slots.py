@@ -352,9 +352,12 @@ _EVERYTHING = frozenset({("everything",), ("everywhere",), ("all",)})
 
 def _labelled(part: Part, names: Sequence[str], scene: Scene) -> Part:
     """With "201" as room 201, where an input takes a room."""
-    if part.grounded or len(part.words) != 1 or not part.words[0].key.isdigit():
+    label = part.words[0].key
+    if len(part.words) != 1 or not (label.isdigit() or (len(label) == 1 and part.item is None)):
         return part
-    found = (_called_by_label(part.words[0].key, name, scene) for name in names)
+    if part.grounded and label.isdigit():
+        return part
+    found = (_called_by_label(label, name, scene) for name in names)
     item = next((one for one in found if one is not None), None)
     if item is None:
         return part

@@ -12,12 +12,21 @@ from dataclasses import dataclass, replace
 from parley.language.offline.scene.scene import UnclearError
 from parley.language.offline.tasks.catalogue import call, goes_itself, parameter_role, text_inputs
 from parley.language.offline.tasks.commands import Command, read_command
+from parley.language.offline.tasks.fill import by_phrase
 from parley.language.offline.tasks.going import UnableError
 from parley.language.offline.tasks.machines import needs_machine
 from parley.language.offline.tasks.matching import Match
-from parley.language.offline.tasks.own_kind import OwnKind
-from parley.language.offline.tasks.said import amount, named_of, person_of, place_size, spoken
+from parley.language.offline.tasks.said import (
+    amount,
+    named_of,
+    person_of,
+    place_size,
+    placed_text,
+    spoken,
+    start_of,
+)
 from parley.language.offline.tasks.spreading import spread
+from parley.language.offline.tasks.towing import Towing
 from parley.language.offline.words.durations import duration_s, without_duration
 from parley.language.offline.words.lexicon import lexicon
 from parley.language.offline.words.naming import name_words
@@ -31,7 +40,7 @@ __all__ = ["Tasks", "UnableError"]
 
 
 @dataclass
-class Tasks(OwnKind):
+class Tasks(Towing):
     """The steps for one message, growing command by command."""
 
     def do(self, command: Command) -> None:
@@ -49,8 +58,7 @@ class Tasks(OwnKind):
         start = len(self.steps)
         why = self._add(command)
         self._leave_out_ways(start)
-        names = [step.name for step in self.steps[start:]]
-        if names:
+        if names := [step.name for step in self.steps[start:]]:
             self.scene.trace.note("action", f"{', '.join(names)}: {why}")
 
     def _leave_out_ways(self, start: int) -> None:
@@ -72,6 +80,10 @@ class Tasks(OwnKind):
         if whole is not None:
             self._invoke_each(whole, command)
             return "one of its phrases is what was said"
+        if self._tow(command):
+            return "what it couples is brought so"
+        if self._released_already(command):
+            return "that is planned already"
         match = self.own_match(command.clause)
         if match is not None and not (self._only_tells(match, command) or self._goes_on(match, command)):
             self.use_own(match, command.clause)
@@ -85,27 +97,17 @@ class Tasks(OwnKind):
         if (scanned := self._by_instrument(command)) is not None:
             self.use_own(scanned, command.clause)
             return f"its name begins with “{command.verb}”"
+        if self._narrowly(command):
+            return "it looks at this kind of thing only"
         if needs_machine(command, self.catalogue) and not self._is_machine(command):
             raise UnableError(plain(command.clause))
         self._by_kind_or_description(command)
         return f"the catalogue's way to do what “{command.verb}” asks for ({command.kind})"
 
-    def _only_tells(self, match: Match, command: Command) -> bool:
-        """Whether an action that passes on any words is less like what is said than looking is."""
-        looks = command.kind in {"look", "whether", "search"}
-        passes_on = any(parameter_role(name) == "text" for name in match.filled.phrases)
-        able = self.catalogue.with_role("look", "search") is not None
-        return looks and passes_on and able and match.verb < 1.0
-
-    def _goes_on(self, match: Match, command: Command) -> bool:
-        """For "take it to A" of what is on board: going there, not taking it once more."""
-        left = any(part.before == "to" for part in match.filled.left)
-        return (
-            command.kind == "transfer" and bool(command.place and self.carried) and left and match.verb < 1.0
-        )
-
     def _may_mean(self, info: ActionInfo, command: Command) -> bool:
         """Whether an action that only begins like what is said can be meant: what is named must fit."""
+        if not self._takes_kind_of(info, command.theme):
+            return False
         if info.phrases or info.examples or info not in self.catalogue.of_own_kind:
             return True
         match = self.own_match(command.clause, weak=True, among=(info,), incomplete=True)
@@ -127,10 +129,9 @@ class Tasks(OwnKind):
     def _about_people(self, command: Command) -> Command:
         """Read "them" as somebody where only people can be meant."""
         persons = self.scene.persons
-        if command.kind not in {"follow", "guide", "meet"} or not persons:
-            return command
-        them = keys(command.theme) in {("them",), ("they",)}
-        return replace(command, theme=persons[-1]) if them else command
+        them = persons and keys(command.theme) in {("them",), ("they",)}
+        meant = them and command.kind in {"follow", "guide", "meet"}
+        return replace(command, theme=persons[-1]) if meant else command
 
     def _by_kind_or_description(self, command: Command) -> None:
         """As its kind of task is done, else by an action whose description has all that is said.
@@ -193,7 +194,8 @@ class Tasks(OwnKind):
         if match is not None:
             self.use_own(match, command.clause)
             return
-        command = self._at_its_place(info, replace(command, theme=without_duration(command.theme)))
+        command = replace(command, theme=without_duration(command.theme))
+        command = command if by_phrase(info, command) else self._at_its_place(info, command)
         quantified = bool({"and"} & set(keys(command.theme))) or noun_phrase(command.theme).quantifier
         members = self.scene.several(command.theme) if command.theme and quantified else []
         if len(members) < 2 or ("and" in keys(command.theme) and any(not self._grounds(m) for m in members)):
@@ -226,12 +228,12 @@ class Tasks(OwnKind):
         anchor = anchor[: len(anchor) - len(much)] if much else anchor
         if self._is_one(theme) or not self._grounds(anchor):
             return command
-        left = bare(theme[: _start_of(keys(theme), noun.relation)])
+        left = bare(theme[: start_of(keys(theme), noun.relation)])
         others = [n for n in text_inputs(info) if parameter_role(n) not in {"person", "text"}]
         if takes_place or len(others) > 1:
             return replace(command, theme=left, place=anchor)
         self._stand_at(self.scene.place(anchor))
-        said = command.words[: _start_of(keys(command.words), noun.relation)]
+        said = command.words[: start_of(keys(command.words), noun.relation)]
         return replace(command, theme=left, words=(*said, *much), clause=(*command.clause[:1], *said, *much))
 
     def _is_one(self, theme: Phrase) -> bool:
@@ -250,8 +252,7 @@ class Tasks(OwnKind):
             command = self._question_of(command, info)
         if command.kind == "count" and info is not None:
             command = self._counted_there(command, info)
-        reads = command.verb == "read" and bool(self.here or self._grounds(command.theme[-2:]))
-        if info is None and (command.kind == "count" or reads):
+        if info is None and (command.kind == "count" or self._is_read_there(command)):
             self._look(replace(command, kind="look"))
             return
         if info is None and command.kind == "wait":
@@ -274,7 +275,7 @@ class Tasks(OwnKind):
         if not noun.core or not self._grounds(noun.anchors[0]):
             return command
         self._stand_at(self.scene.place(noun.anchors[0]))
-        theme = bare(command.theme[: _start_of(keys(command.theme), noun.relation)])
+        theme = bare(command.theme[: start_of(keys(command.theme), noun.relation)])
         return replace(command, theme=theme, words=theme, place=noun.anchors[0])
 
     def _question_of(self, command: Command, info: ActionInfo | None) -> Command:
@@ -358,6 +359,12 @@ class Tasks(OwnKind):
             listener = ()
         if not said:
             raise UnclearError("What should I say?")
+        where, rest = ((), said) if listener else placed_text(said)
+        if where and self._grounds(where):
+            for member in self.scene.several(where) or [where]:
+                self._stand_at(self.scene.place(member))
+                self._speak(replace(command, words=rest))
+            return
         if keys(bare(listener)) in {("me",), ("us",)}:
             said, listener = self._find_out(bare(said)), ()
         if listener:
@@ -442,6 +449,7 @@ class Tasks(OwnKind):
 
     def _have_asked(self, asker: ActionInfo, what: str) -> None:
         """What only a person can do is asked of one."""
+        what = what[:1].lower() + what[1:]
         self.steps += self._said(asker, f"Please {what} and tell me the answer.", f"ask you to {what}")
         self.will.append(f"ask you to {what}, because I cannot do that myself")
 
@@ -481,8 +489,3 @@ class Tasks(OwnKind):
 
 _ASKING_FOR = frozenset({"for", "to", "whether", "if", "about"})
 _NO_PLACE = frozenset({"of", "with", "from", "for", "against"})
-
-
-def _start_of(flat: tuple[str, ...], relation: str) -> int:
-    wanted = tuple(relation.split())
-    return next((i for i in range(len(flat)) if flat[i : i + len(wanted)] == wanted), len(flat))

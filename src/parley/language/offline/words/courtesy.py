@@ -6,7 +6,7 @@ from parley.language.offline.words.lexicon import lexicon
 from parley.language.offline.words.text import Phrase, Word, keys, lemma
 from parley.language.word_lists import load_data
 
-__all__ = ["plainly"]
+__all__ = ["called_plainly", "plainly"]
 
 _WORDS = load_data("courtesy")
 _FIRST = frozenset(_WORDS["first"])
@@ -29,6 +29,51 @@ _THANKS = (
     ("ty",),
     ("ta",),
 )
+
+
+_PET_NAMES = frozenset(_WORDS["pet_names"])
+_FOND = frozenset(_WORDS["fond"])
+_SPEAKING = frozenset({"say", "tell", "speak", "announce", "shout", "whisper", "greet", "write"})
+_MOST_FOND = 5
+
+
+def called_plainly(words: Phrase, robots: frozenset[str]) -> Phrase:
+    """Without pet names in an address: for "V, my dear A" and "A my friend, V" "V, A" and "A, V".
+
+    Args:
+        words: All words and punctuation.
+        robots: What the robots are called, in lower case.
+    """
+    flat = keys(words)
+    if not {*flat} & (_PET_NAMES | _FOND) or _SPEAKING & {*flat}:
+        return words
+    result: list[Word] = []
+    start = 0
+    for index in range(len(words) + 1):
+        if index < len(words) and words[index].is_word:
+            continue
+        part, mark = words[start:index], words[index : index + 1]
+        start = index + 1
+        address = _fond(keys(part), robots) and (keys(result[-1:]) == (",",) or keys(mark) == (",",))
+        if not address:
+            result += (*part, *mark)
+            continue
+        name = [word for word in part if word.key in robots]
+        if name:
+            result += (*name, *mark)
+        elif keys(mark) == (",",):
+            # In the middle it stands between two sentences, which are read apart.
+            result += (*part, *mark)
+        else:
+            result = [*result[:-1], *mark]
+    return tuple(result)
+
+
+def _fond(flat: tuple[str, ...], robots: frozenset[str]) -> bool:
+    """Whether words are a pet name, or a robot's name with one."""
+    named = bool(robots & {*flat})
+    fond = {*flat} <= _PET_NAMES | _FOND | robots and not {*flat} <= robots
+    return fond and 0 < len(flat) <= _MOST_FOND and (named or bool({*flat} & _PET_NAMES))
 
 
 def plainly(words: Phrase) -> Phrase:

@@ -13,6 +13,7 @@ from parley.language.base import Situation
 from parley.language.offline.words.inflecting import forms
 from parley.language.offline.words.lexicon import lexicon
 from parley.language.offline.words.naming import name_words
+from parley.language.offline.words.quantities import is_unit, number_words
 from parley.language.offline.words.text import (
     Phrase,
     Word,
@@ -46,7 +47,7 @@ _REAL = frozenset(load_data("real_words")["words"])
 def mended(words: Phrase, situation: Situation) -> Phrase:
     """Typing errors in small words and verbs put right; nouns are compared loosely later."""
     known = set(lexicon().vocabulary | _LOOKS | _REPORTED | _REAL)
-    words = _apart(words, situation)
+    words = _small(_apart(words, situation), situation)
     for item in situation.objects:
         known.update(
             word.key
@@ -72,11 +73,57 @@ def mended(words: Phrase, situation: Situation) -> Phrase:
         for index, word in enumerate(words)
         for part in ((word,) if _stays_whole(word, index, longer) else _cut(word, frozenset(known)))
     )
-    words = tuple(
-        word if word.key in known else _unswapped(_as_offered(word, about), named) for word in words
-    )
+    told = named | {word.lower() for entry in situation.memory for word in _LONG.findall(entry.data[:400])}
+    words = tuple(word if word.key in known else _unswapped(_as_offered(word, about), told) for word in words)
     words = _with_a_look(words)
-    return _without_haste(mend(words, frozenset(known), lexicon().often_mistyped | inflected, _verbs() | own))
+    words = mend(words, frozenset(known), lexicon().often_mistyped | inflected, _verbs() | own)
+    return _without_haste(_counted(words, known))
+
+
+_MISTYPED: dict[str, str] = load_data("real_words")["mistyped"]
+"""What is never a word, and what is meant by it."""
+_PARTS_OF = frozenset(load_data("real_words")["parts_of"])
+_ONLY_BEFORE_ARTICLES = frozenset({"ta", "ni", "fro"})
+
+
+def _small(words: Phrase, situation: Situation) -> Phrase:
+    """Words of two or three letters with the letters the wrong way round: "ot the door adn back"."""
+    if not any(word.key in _MISTYPED for word in words):
+        return words
+    names = {word for item in situation.objects for word in split_name(f"{item.description} {item.id}")}
+    result: list[Word] = []
+    for index, word in enumerate(words):
+        meant = _MISTYPED.get(word.key, "")
+        following = words[index + 1] if index + 1 < len(words) else None
+        # Nothing stands before "ot", a name is in capitals, and "ta" alone is thanks.
+        if not meant or word.key in names or word.is_capital or not result or following is None:
+            result.append(word)
+            continue
+        if word.key in _ONLY_BEFORE_ARTICLES and following.key not in _OBJECTS:
+            meant = word.key
+        if word.key == "fo" and keys(words[max(index - 1, 0) : index]) in _PARTS:
+            meant = "of"
+        result.append(Word(meant, meant))
+    return tuple(result)
+
+
+_OBJECTS = frozenset({
+    "the", "teh", "hte", "a", "an", "my", "your", "this", "that", "me", "us", "him", "her", "them", "it",
+})  # fmt: skip
+_PARTS = frozenset((word,) for word in _PARTS_OF)
+
+
+def _counted(words: Phrase, known: Container[str]) -> Phrase:
+    """For "fiev minutes" "five minutes": a number stands before what it counts."""
+    result = list(words)
+    for at, (word, following) in enumerate(pairwise(words)):
+        if word.key in known or not word.key.isalpha() or len(word.key) < _SHORT_NAME:
+            continue
+        if not is_unit(following.key) and following.key != "times":
+            continue
+        meant = closest(word.key, number_words())
+        result[at] = Word(meant, meant) if meant else word
+    return tuple(result)
 
 
 @lru_cache(maxsize=16)
@@ -99,7 +146,8 @@ def _as_offered(word: Word, about: frozenset[str]) -> Word:
         # "Cleaner" and "bakery" are no errors for "clean" and "baker".
         return word
     swapped = sorted(meant) == sorted(word.key)
-    if not swapped and (len(word.key) <= _SHORT_NAME + 1 or OSA.distance(meant, word.key) > 1):
+    short = len(word.key) == _SHORT_NAME + 1 and len(meant) <= len(word.key)
+    if not swapped and (short or len(word.key) <= _SHORT_NAME or OSA.distance(meant, word.key) > 1):
         return word
     return Word(meant, meant)
 
@@ -138,6 +186,7 @@ def _unswapped(word: Word, named: frozenset[str]) -> Word:
     return Word(meant, meant) if swapped else word
 
 
+_LONG = re.compile(r"\b[a-z]{5,}\b")
 _FORMS = ("ed", "ing")
 _SHORT_NAME = 4
 """Words of so many letters in an action's name may be short for something."""
@@ -250,8 +299,10 @@ def _apart(words: Phrase, situation: Situation) -> Phrase:
             result += [Word(label[1], label[1]), Word(label[2], label[2])]
         elif word.key in _SHORTHAND and "n" not in named and 0 < index < len(words) - 1:
             short = _SHORTHAND[word.key]
+            numbered = {"4", singular(flat[index - 1])} <= set(named)
             fits = word.key != "4" or (
-                flat[index - 1] in {"look", "search", "wait", "check"} or following in _FOR_WHOM
+                flat[index - 1] in {"look", "search", "wait", "check"}
+                or (following in _FOR_WHOM and not numbered)
             )
             result.append(Word(short, short) if fits else word)
         elif (

@@ -16,6 +16,7 @@ __all__ = [
     "Taken",
     "is_unit",
     "levels",
+    "number_words",
     "plain_coordinates",
     "plain_units",
     "quantities",
@@ -158,6 +159,11 @@ def levels(words: Phrase) -> list[Quantity]:
 def is_unit(word: str) -> bool:
     """Whether a word names what a number before it measures ("percent", "degrees")."""
     return word in _UNITS and len(word) > _SHORT_UNIT
+
+
+def number_words() -> frozenset[str]:
+    """All single words for numbers."""
+    return frozenset({*lexicon().numbers, *_TENS})
 
 
 def is_measure(words: Phrase) -> bool:

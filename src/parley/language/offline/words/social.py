@@ -120,11 +120,49 @@ def small_talk(words: Phrase, said: str) -> str | None:
         return None
     for kind, table in _talk():
         starts = 2 if said.startswith("I cannot") or kind == "remark" else len(flat)
-        if kind in kinds and any(table.match(flat, at) is not None for at in range(starts)):
+        if kind in kinds and any(_says(table, flat, at) for at in range(starts)):
             return str(load_data("social")["replies"][kind])
+    if _thanks(flat):
+        return str(load_data("social")["replies"]["thanks"])
     if "remark" in kinds and _only_feels(flat):
         return str(load_data("social")["replies"]["remark"])
     return None
+
+
+def _says(table: PhraseTable, flat: tuple[str, ...], at: int) -> bool:
+    """Whether talk stands there; "this morning" says when, and greets nobody."""
+    return table.match(flat, at) is not None and (not at or flat[at - 1] not in _DATING)
+
+
+_DATING = frozenset({"this", "the", "last", "every", "each", "yesterday", "tomorrow", "next", "one", "all"})
+
+
+def _thanks(flat: tuple[str, ...]) -> bool:
+    """For "that was lovely of you", "how thoughtful of you": whatever the word of praise."""
+    while flat[1:] and flat[0] in {"thanks", "thank", "you", "cheers", "ta", "oh", "wow", "well", "and"}:
+        flat = flat[1:]
+    starts = flat[0] in {"that", "it", "this", "how", "so", "very", "really", "most", "what", "awfully"}
+    some = {
+        "one",
+        "both",
+        "all",
+        "two",
+        "three",
+        "some",
+        "which",
+        "each",
+        "none",
+        "most",
+        "many",
+        "rest",
+        "front",
+        "instead",
+        "because",
+        "ahead",
+        "out",
+        "the",
+    }
+    return flat[-2:] == ("of", "you") and starts and not some & set(flat[-3:-2])
 
 
 def _only_feels(flat: tuple[str, ...]) -> bool:

@@ -99,18 +99,23 @@ def shared_out(words: Phrase) -> Phrase:
 
 _ENDING = {(), (".",), ("!",), (",",), ("?",), ("and",), ("then",)}
 _SIGHTS = frozenset({"see", "find", "notice", "spot", "count", "discover"})
+_KEPT = frozenset({"hanging", "growing", "stored", "stacked", "parked", "kept", "piled", "left", "remaining"})
+"""How things are somewhere; being there is all that is asked."""
 _FARTHEST = 7
 """How many words a thing that is counted may have."""
 
 
 def counted_plainly(words: Phrase) -> Phrase:
-    """For "how many A (that) you can see on B" and "how many A there are on B": how many A on B."""
+    """For "how many A (that) you can see on B", "how many A there are on B": how many A on B."""
     flat = keys(words)
     for at in range(len(flat) - 4):
         if flat[at : at + 2] != ("how", "many"):
             continue
         for start in range(at + 3, min(at + 2 + _FARTHEST, len(flat) - 1)):
             end = start + (flat[start] == "that")
+            if flat[start] == "are" and flat[start + 1] in _KEPT and lexicon().places.match(flat, start + 2):
+                # "How many bunches are hanging in row 4".
+                return (*words[: start + 1], *words[start + 2 :])
             if flat[start : start + 2] == ("there", "are") and lexicon().places.match(flat, start + 2):
                 return (*words[:start], *words[start + 2 :])
             sees = flat[end] in {"you", "we", "i"}
