@@ -70,7 +70,45 @@ def interpret(situation: Situation, trace: Trace | None = None) -> ChatAction:
     if controlled is None and is_foreign(tokens(message), _names(situation)):
         trace.note("answer", "another language")
         return _say(situation, ONLY_ENGLISH)
-    return controlled or _read(message, situation, trace)
+    return controlled or _given_up_for(message, situation, trace) or _read(message, situation, trace)
+
+
+def _given_up_for(message: str, situation: Situation, trace: Trace) -> ChatAction | None:
+    """For "forget it, V" with steps pending: none of them, but V; None if that is not what is said."""
+    words = tokens(message)
+    at = next((i for i, word in enumerate(words) if not word.is_word), 0)
+    head, rest = keys(words[:at]), words[at + 1 :]
+    kept = any(turn.content.startswith("I will remember") for turn in situation.history[-1:])
+    if not situation.queue or head not in _ALL_OFF or kept or keys(rest[:1]) in _ADDING:
+        return None
+    asked = replace(situation, message=plain(rest), queue=(), status="idle")
+    answer = interpret(asked) if rest else None
+    if answer is None or not answer.queue:
+        return None
+    command, reply = CONTROL_REPLIES["clear"]
+    trace.note("control", f"“{plain(words[:at])}” means all that is pending; then “{plain(rest)}”")
+    return answer.model_copy(
+        update={
+            "system_cmd": (SystemCommand(command=command), *answer.system_cmd),
+            "message_response": f"{reply} {answer.message_response}",
+        }
+    )
+
+
+_ALL_OFF = frozenset(
+    tuple(text.split())
+    for text in (
+        "forget it",
+        "forget that",
+        "forget about it",
+        "forget about that",
+        "forget all that",
+        "scrap that",
+        "cancel everything",
+        "drop everything",
+    )
+)
+_ADDING = frozenset({("but",), ("except",), ("only",), ("just",), ("and",)})
 
 
 def _names(situation: Situation) -> frozenset[str]:

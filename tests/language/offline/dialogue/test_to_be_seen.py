@@ -111,3 +111,10 @@ async def test_who_cannot_look_says_so() -> None:
     action = await asked("Is the lid of the kiln shut?", catalogue=(moves,))
     assert not action.queue
     assert "cannot look" in action.message_response
+
+
+async def test_of_a_part_it_is_asked_what_the_part_is() -> None:
+    answer = await asked("is the kiln door shut?")
+    assert [call.input_parameters["inspect"].value for call in answer.queue if call.name == "Inspect"] == [
+        "whether the kiln door is shut"
+    ]
