@@ -113,8 +113,9 @@ async def test_who_cannot_look_says_so() -> None:
     assert "cannot look" in action.message_response
 
 
-async def test_of_a_part_it_is_asked_what_the_part_is() -> None:
-    answer = await asked("is the kiln door shut?")
+@pytest.mark.parametrize("history", [(), ("The glaze is in the kiln", "I will remember that.")])
+async def test_of_a_part_it_is_asked_what_the_part_is(history: tuple[str, ...]) -> None:
+    answer = await asked("is the kiln door shut?", *history)
     assert [call.input_parameters["inspect"].value for call in answer.queue if call.name == "Inspect"] == [
         "whether the kiln door is shut"
     ]
