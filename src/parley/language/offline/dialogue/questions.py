@@ -440,7 +440,7 @@ def _state(rest: Phrase, scene: Scene, words: Phrase) -> Answer:
     if told_so is not None:
         return told_so
     if size:
-        about = size + (size + 1 < len(rest) and scene.is_part(rest[size]))  # "The cabin door".
+        about = scene.with_part(rest, size)
         said = (*rest[:about], Word(words[0].key, words[0].key), *rest[about:])
         return Answer(f"I do not know. Shall I go to {the(plain(bare(rest[:size])))} and have a look?", said)
     fact, _ = find_fact(bare(rest[:-1]) or rest, scene.facts, locations=False)

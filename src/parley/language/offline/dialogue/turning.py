@@ -54,8 +54,7 @@ def _subject(rest: Phrase, scene: Scene) -> int:
     """How many of the first words are what the question is about."""
     for size in range(len(rest) - 1, 0, -1):
         if ground_phrase(rest[:size], scene.objects, strict=True).outcome == "match":
-            # "Is the cabin door shut?": not the cabin is, but its door.
-            return size + (size + 1 < len(rest) and scene.is_part(rest[size]))
+            return scene.with_part(rest, size)
     if rest[0].key in _SOMEBODY and len(rest) > 1:
         return 2 if rest[1].key == "else" and len(rest) > 2 else 1
     placed = _with_place(rest, scene)

@@ -176,6 +176,14 @@ class Scene(Placing):
         called = {singular(one.key) for item in found for one in tokens(item.description)}
         return part not in called
 
+    @staticmethod
+    def with_part(words: Phrase, size: int) -> int:
+        """How many of the first words name a thing and its part, where `size` name the thing.
+
+        "Is the cabin door shut?": not the cabin is, but its door, whatever doors the map knows.
+        """
+        return size + (size + 1 < len(words) and singular(words[size].key) in PARTS)
+
     def _side_by_side(self, phrase: Phrase) -> list[Phrase]:
         """For "the desk the door the box": things named one after the other without any mark."""
         words = bare(phrase)
