@@ -18,7 +18,7 @@ LAYERS: tuple[frozenset[str], ...] = (
     frozenset({"errors", "clock", "messages", "config", "files", "sentences"}),
     frozenset({"transport", "umrf", "memory", "world"}),
     frozenset({"sim"}),
-    frozenset({"language", "robots", "engine", "actions"}),
+    frozenset({"gate", "language", "robots", "engine", "actions"}),
     frozenset({"nodes", "web"}),
     frozenset({"terminal", "system", "demos", "bench", "evaluation", "doctor", "cli"}),
 )

@@ -6,7 +6,7 @@ from typing import Any
 
 from pydantic import BaseModel
 
-from parley.messages import chat, display, failure, incident, map, memory, status
+from parley.messages import audit, chat, display, failure, incident, map, memory, principal, status
 
 MOVE: dict[str, Any] = {
     "Move": {
@@ -21,6 +21,7 @@ MOVE: dict[str, Any] = {
 }
 LOOK: dict[str, Any] = {"Look": {"input_parameters": {}, "output_parameters": {}}}
 
+KIM: dict[str, Any] = {"kind": "person", "name": "Kim", "device": "terminal", "role": "operator", "key": ""}
 POSE = {"x": 1.0, "y": -2.5, "yaw": 3.1}
 MEMORY = {
     "type": "text",
@@ -28,6 +29,8 @@ MEMORY = {
     "info": "the box",
     "scope": "A",
     "source": "operator",
+    "way": "told",
+    "words": "the box is by the door",
 }
 STORED = {
     **MEMORY,
@@ -77,6 +80,18 @@ INCIDENT: dict[str, Any] = {
 }
 
 SAMPLES: dict[type[BaseModel], dict[str, Any]] = {
+    principal.Principal: KIM,
+    audit.AuditEvent: {
+        "effect": "approve",
+        "by": KIM,
+        "robot": "A",
+        "outcome": "done",
+        "words": "yes",
+        "digest": "5b1e",
+        "reason": "It goes there.",
+        "detail": {"labels": ["Go to the box"]},
+        "unix_ms": 5,
+    },
     chat.ChatImage: {"name": "box.jpg", "data": "aGk="},
     chat.ChatInput: {
         "message": "go",
@@ -85,6 +100,7 @@ SAMPLES: dict[type[BaseModel], dict[str, Any]] = {
         "id": "1",
         "reply_to": "q",
         "author": "Kim",
+        "by": KIM,
         "images": [{"name": "box.jpg", "data": "aGk="}],
     },
     chat.ReplyDraft: {"reply_to": "1", "targets": ["A"], "message": "I will"},
@@ -146,7 +162,15 @@ SAMPLES: dict[type[BaseModel], dict[str, Any]] = {
     memory.MemoryEntry: {**STORED, "name": "box"},
     memory.AddToMemory: {
         "box": MEMORY,
-        "door": {"type": "image", "data": "aGk=", "info": "", "scope": "", "source": ""},
+        "door": {
+            "type": "image",
+            "data": "aGk=",
+            "info": "",
+            "scope": "",
+            "source": "",
+            "way": "",
+            "words": "",
+        },
     },
     memory.RemoveMemory: {"box": {}, "door": None},
     memory.GetMemory: {
@@ -221,17 +245,27 @@ SAMPLES: dict[type[BaseModel], dict[str, Any]] = {
         "scan": [[0.5, 0.25]],
         "unix_ms": 1,
     },
-    status.PlanStep: {"action": MOVE, "node": "Move_0", "state": "running"},
+    status.PlanStep: {"action": MOVE, "node": "Move_0", "state": "running", "label": "Go there"},
     status.PlanUpdate: {
         "kind": "update",
         "target": "A",
         "graph_name": "g",
         "state": "paused",
-        "steps": [{"action": MOVE, "node": "Move_0", "state": "paused"}],
+        "steps": [{"action": MOVE, "node": "Move_0", "state": "paused", "label": ""}],
         "revision": 3,
         "policy": "ask_when_risky",
     },
-    status.PlanProposal: {"kind": "proposal", "id": "1", "target": "A", "message": "So?", "steps": [MOVE]},
+    status.PlanProposal: {
+        "kind": "proposal",
+        "id": "1",
+        "target": "A",
+        "message": "So?",
+        "steps": [MOVE],
+        "labels": ["Go there"],
+        "digest": "5b1e",
+        "by": KIM,
+        "why": "It is far.",
+    },
     status.PlanDecision: {
         "id": "1",
         "target": "A",
@@ -239,9 +273,11 @@ SAMPLES: dict[type[BaseModel], dict[str, Any]] = {
         "steps": [MOVE],
         "revision": 3,
         "policy": "ask_first",
+        "digest": "5b1e",
+        "by": KIM,
     },
     status.StepCommand: {"target": "A", "graph_name": "g", "node": "Move_0", "command": "end"},
-    status.StopCommand: {"command": "reset", "targets": ["A"], "id": "1"},
+    status.StopCommand: {"command": "reset", "targets": ["A"], "id": "1", "by": KIM},
     status.StopReport: {"actor": "A", "id": "1", "state": "at_rest"},
     status.SyncNotice: {
         "kind": "ended",

@@ -11,6 +11,7 @@ from typing import Any, Literal
 from pydantic import Field, field_validator, model_serializer, model_validator
 
 from parley.messages.base import ParameterTree, Payload
+from parley.messages.principal import Principal
 
 __all__ = [
     "SYSTEM_COMMANDS",
@@ -59,6 +60,13 @@ class ChatInput(Payload):
     """Ours: who writes, where several people operate."""
     images: tuple[ChatImage, ...] = ()
     """Ours: pictures attached to the message."""
+    by: Principal | None = None
+    """Ours: who says it. None: a person whose name is `author`, as the thesis's page sends it."""
+
+    @property
+    def who(self) -> Principal:
+        """Who says it."""
+        return self.by or Principal(kind="person", name=self.author, role="operator")
 
 
 class ChatFeedback(Payload):
@@ -204,6 +212,8 @@ class ChatAction(Payload):
     """Ours, only for error resolutions: robot time to wait before the correction is carried out."""
     afterwards: tuple[ActionCall, ...] = ()
     """Ours, only for error resolutions: what was ordered besides, for when the rest of the plan is done."""
+    by: Principal | None = None
+    """Ours: on whose account; None: a program that nobody vouches for."""
 
     @model_validator(mode="before")
     @classmethod
@@ -257,4 +267,6 @@ class ChatAction(Payload):
             wire["delay_s"] = self.delay_s
         if self.afterwards:
             wire["afterwards"] = [call.model_dump() for call in self.afterwards]
+        if self.by is not None:
+            wire["by"] = self.by.model_dump()
         return wire

@@ -39,6 +39,10 @@ class MemoryBody(Payload):
     """Ours: the robot it belongs to; empty means everybody's."""
     source: str = ""
     """Ours: who said or saw it, e.g. ``operator`` or a robot's name."""
+    way: Literal["told", "seen", "concluded", ""] = ""
+    """Ours: whether a person told it, a robot saw it, or a language engine concluded it; empty: not known."""
+    words: str = ""
+    """Ours: the person's own words it was taken from; empty where there are none."""
 
 
 class StoredMemory(MemoryBody):

@@ -8,6 +8,7 @@ from pydantic import Field
 
 from parley.messages.base import ParameterTree, Payload
 from parley.messages.chat import ActionCall
+from parley.messages.principal import Principal
 
 __all__ = [
     "ActionInfo",
@@ -113,6 +114,8 @@ class PlanStep(Payload):
     action: ActionCall
     node: str = ""
     """Full name of its node in the graph; empty before the graph exists."""
+    label: str = ""
+    """What it does, in words that our code wrote from action, arguments and map."""
     state: Literal["queued", "running", "finished", "failed", "stopped", "skipped", "paused", "waiting"] = (
         "queued"
     )
@@ -140,6 +143,14 @@ class PlanProposal(Payload):
     target: str
     message: str = ""
     steps: tuple[ActionCall, ...] = ()
+    labels: tuple[str, ...] = ()
+    """What each step does, in words that our code wrote from action, arguments and map."""
+    digest: str = ""
+    """Of robot, steps and what their arguments mean on the map; a yes names it."""
+    by: Principal | None = None
+    """On whose account it is proposed."""
+    why: str = ""
+    """Why a yes is needed though the policy would not ask, in plain words; empty: the policy asks."""
 
 
 class PlanDecision(Payload):
@@ -155,6 +166,10 @@ class PlanDecision(Payload):
     """For an `edit` of the plan in progress: the `PlanUpdate.revision` it was made from; refused if past."""
     policy: Literal["run_at_once", "ask_when_risky", "ask_first", ""] = ""
     """For `policy`; `ask_when_risky` asks when a step's risk is `high`."""
+    digest: str = ""
+    """For `approve`: the `digest` of the proposal as it was shown; a yes to anything else does not count."""
+    by: Principal | None = None
+    """Who decided; None: a program that nobody vouches for."""
 
 
 class StepCommand(Payload):
@@ -177,6 +192,8 @@ class StopCommand(Payload):
     command: Literal["stop", "reset"] = "stop"
     targets: tuple[str, ...] = ()
     id: str = ""
+    by: Principal | None = None
+    """Who stops or releases; a reset counts only from a person."""
 
 
 class StopReport(Payload):

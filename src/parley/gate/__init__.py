@@ -1,0 +1,1 @@
+"""Who may do what: principals, effects, risk, rules, approvals, audit. Every effect passes here."""

@@ -1,0 +1,54 @@
+from __future__ import annotations
+
+import pytest
+
+from parley.gate.table import COLUMNS, TABLE, Column, Effect, column_of, table_text, verdict
+from parley.messages.principal import Principal, person
+
+MOVES_OR_DECIDES = (Effect.RESET, Effect.RESUME, Effect.APPROVE, Effect.REJECT, Effect.ANSWER, Effect.POLICY)
+
+
+def test_every_effect_has_a_verdict_for_everybody() -> None:
+    assert set(TABLE) == {(effect, column) for effect in Effect for column in COLUMNS}
+
+
+@pytest.mark.parametrize("effect", MOVES_OR_DECIDES)
+@pytest.mark.parametrize("column", [c for c in COLUMNS if c not in ("operator", "supervisor")])
+def test_only_people_who_operate_release_resume_decide_and_answer(effect: Effect, column: Column) -> None:
+    assert TABLE[effect, column] == "refuse"
+
+
+@pytest.mark.parametrize("column", COLUMNS)
+def test_everybody_may_stop(column: Column) -> None:
+    assert TABLE[Effect.STOP, column] == TABLE[Effect.PAUSE, column] == "allow"
+
+
+@pytest.mark.parametrize("effect", [e for e in Effect if e not in (Effect.SEE, Effect.STOP, Effect.PAUSE)])
+def test_a_viewer_looks_and_stops_and_no_more(effect: Effect) -> None:
+    assert TABLE[effect, "viewer"] == "refuse"
+
+
+def test_nobody_but_a_person_begins_anything_past_the_policy() -> None:
+    others = [c for c in COLUMNS if c not in ("viewer", "operator", "supervisor")]
+    assert {TABLE[Effect.BEGIN, c] for c in others} == {"policy", "yes", "refuse"}
+
+
+@pytest.mark.parametrize(
+    ("who", "column"),
+    [
+        (None, "program"),
+        (Principal(), "program"),
+        (Principal(kind="program", key="dock"), "keyed program"),
+        (person("Kim"), "operator"),
+        (Principal(kind="person"), "operator"),
+        (person("Kim", role="viewer"), "viewer"),
+        (Principal(kind="engine", name="llm"), "engine"),
+    ],
+)
+def test_whose_column_counts(who: Principal | None, column: Column) -> None:
+    assert column_of(who) == column
+    assert verdict(who, Effect.APPROVE) == TABLE[Effect.APPROVE, column]
+
+
+def test_the_printed_table_has_a_line_for_each_effect() -> None:
+    assert len(table_text().splitlines()) == len(Effect) + 2
