@@ -16,7 +16,6 @@ import parley
 SOURCE = Path(parley.__file__).parent
 ROOT = Path(__file__).parent.parent
 DEMOS = SOURCE / "demos"
-MAX_MODULE_LINES = 500
 
 STORY_WORDS = {
     "john", "david", "refrigerator", "fridge", "bottle", "sofa", "couch", "plant", "tv", "television",
@@ -122,15 +121,6 @@ def test_no_file_names_a_machine_or_a_package_registry() -> None:
 )
 def test_a_machines_path_would_be_found(text: str) -> None:
     assert FOREIGN.search(text)
-
-
-def test_no_module_is_too_long_to_be_read_in_one_sitting() -> None:
-    lengths = {
-        shown(path): length
-        for path in python_files(SOURCE)
-        if (length := len(path.read_text(encoding="utf-8").splitlines())) > MAX_MODULE_LINES
-    }
-    assert lengths == {}
 
 
 def test_every_module_says_what_it_is_for() -> None:

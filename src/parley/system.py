@@ -167,6 +167,7 @@ class System:
             policies=config.approval_of,
             proposals=proposals,
             tell=self._tell_for,
+            objects=self._objects_of,
         )
         await enter(self._speaking(planner))
         incidents = await enter(await IncidentStore.open(config.incidents_file or ":memory:", clock))

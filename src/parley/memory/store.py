@@ -74,8 +74,9 @@ class MemoryStore(OnFile):
         rows = await self._rows(
             f"""
             INSERT INTO memory
-                (name, scope, type, data, info, source, name_key, created_unix_ms, updated_unix_ms)
-            SELECT :name, :scope, :type, :data, :info, :source, :key, coalesce((
+                (name, scope, type, data, info, source, way, words, name_key, created_unix_ms,
+                 updated_unix_ms)
+            SELECT :name, :scope, :type, :data, :info, :source, :way, :words, :key, coalesce((
                 SELECT created_unix_ms FROM memory
                 WHERE name = :name AND scope = :scope AND ended_unix_ms IS NULL
             ), stamp), stamp

@@ -109,6 +109,8 @@ class ActionSpec:
     outputs: Mapping[str, Parameter]
     description: str = ""
     type: str = "sync"
+    label: str = ""
+    """What people read that it does, with ``{parameters}``; ``{place}`` stands for a pose."""
     phrases: tuple[str, ...] = ()
     effects: tuple[str, ...] = ()
     risk: Risk = "low"
@@ -163,6 +165,7 @@ def action(
     *,
     name: str = "",
     description: str = "",
+    label: str = "",
     phrases: tuple[str, ...] = (),
     effects: tuple[str, ...] = (),
     risk: Risk = "low",
@@ -184,9 +187,9 @@ def action(target: Callable[..., Any] | None = None, /, **options: Any) -> Any:
 
     Args:
         target: The function, when used without brackets.
-        **options: `name` and `description` instead of those of the function; `phrases`, `effects`, `risk`,
-            `capabilities`, `examples`, `duration_s`, `timeout_s`, `isolated`, `pausable` (never so for an
-            isolated one), `type` as in `ActionSpec`; `inputs` and `outputs` (flat name ->
+        **options: `name` and `description` instead of those of the function; `label`, `phrases`, `effects`,
+            `risk`, `capabilities`, `examples`, `duration_s`, `timeout_s`, `isolated`, `pausable` (never so
+            for an isolated one), `type` as in `ActionSpec`; `inputs` and `outputs` (flat name ->
             `Parameter` or PVF type) instead of what the signature says; `units` (flat name -> unit).
 
     Raises:
