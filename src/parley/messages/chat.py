@@ -214,6 +214,8 @@ class ChatAction(Payload):
     """Ours, only for error resolutions: what was ordered besides, for when the rest of the plan is done."""
     by: Principal | None = None
     """Ours: on whose account; None: a program that nobody vouches for."""
+    reply_to: str = ""
+    """Ours: `id` of the operator's message that it follows from."""
 
     @model_validator(mode="before")
     @classmethod
@@ -269,4 +271,6 @@ class ChatAction(Payload):
             wire["afterwards"] = [call.model_dump() for call in self.afterwards]
         if self.by is not None:
             wire["by"] = self.by.model_dump()
+        if self.reply_to:
+            wire["reply_to"] = self.reply_to
         return wire

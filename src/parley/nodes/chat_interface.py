@@ -35,6 +35,7 @@ from parley.nodes.base import Mailboxes, Node
 from parley.nodes.chat_memories import Confirmations, Keeping, keeping_order
 from parley.nodes.drafts import Drafts
 from parley.nodes.finishing import Finishing
+from parley.nodes.log_answers import log_answer
 from parley.nodes.plan_check import check_calls, complete_calls
 from parley.nodes.plan_orders import no_robot
 from parley.nodes.plan_steps import LATCHED
@@ -177,7 +178,9 @@ class ChatInterface(Node):
         halts = self._halts.get(target, 0)
 
         async def work() -> None:
-            if not await self._recollections.handles(target, said, ours):
+            if not ours and (answer := await log_answer(self.transport, self._clock, target, said)):
+                self._say((target,), answer, "response", said.id)
+            elif not await self._recollections.handles(target, said, ours):
                 await self._answer(target, said, halts)
 
         return work
@@ -262,7 +265,8 @@ class ChatInterface(Node):
             not reply or control in _HALTING
         ):  # stopping is sent in any case: the plan may be newer than known
             command = SystemCommand(command=control)
-            self.publish(topics.CHAT_ACTION, ChatAction(system_cmd=(command,), targets=(target,)))
+            order = ChatAction(system_cmd=(command,), targets=(target,), reply_to=said.id)
+            self.publish(topics.CHAT_ACTION, order)
         reply = reply or texts.CONTROL_REPLIES[control]
         self._known.conversation(target).operator(said.message)
         self._known.conversation(target).assistant(reply)
@@ -323,7 +327,7 @@ class ChatInterface(Node):
         kept = Keeping(target if own else "", said.author or OPERATOR, situation.memory)
         order, confirmations = self._name_memories(order, kept)
         if order.queue or order.system_cmd:
-            self._order(order, message)
+            self._order(order.model_copy(update={"reply_to": said.id}), message)
         failed = await self._confirmations.confirmed(confirmations)
         reply = failed or understood.message_response or "Done."
         asks_first = not failed and self._known.asks_first(order.targets, order.queue)
