@@ -11,6 +11,8 @@ from parley.sentences import Sentence, listed, sentence, together
 
 __all__ = ["moment", "told", "what_of", "who_of"]
 
+_NOTHING: Final = "–"
+
 
 def who_of(by: Principal | None) -> Sentence:
     """Who it was."""
@@ -38,7 +40,7 @@ def what_of(detail: dict[str, Any]) -> Sentence:
     for key in ("name", "policy", "command", "graph"):
         if isinstance(detail.get(key), str):
             return sentence("{name}", name=detail[key])
-    return sentence("{name}", name="–")
+    return sentence("{name}", name=_NOTHING)
 
 
 def told(event: AuditEvent) -> Sentence:
@@ -66,6 +68,12 @@ def moment(unix_ms: int, now_unix_ms: int, zone: tzinfo | None = None) -> Senten
     return sentence("on {date} at {time}", date=f"{then:%Y-%m-%d}", time=time)
 
 
+def _about(event: AuditEvent) -> str:
+    """The facts, or where there are none the words."""
+    known = what_of(event.detail)
+    return event.words if known == _NOTHING and event.words else known
+
+
 def _more(event: AuditEvent) -> str:
     approved = event.detail.get("approved_by")
     if event.effect == "start" and isinstance(approved, dict):
@@ -84,7 +92,7 @@ def _plain(event: AuditEvent) -> Sentence:
         "who": who_of(event.by),
         "robot": robot,
         "words": event.words,
-        "what": what_of(event.detail),
+        "what": _about(event),
     }
     if template is None:
         return sentence("{who}: {effect}", who=values["who"], effect=event.effect)
