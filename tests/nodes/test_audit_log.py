@@ -92,7 +92,7 @@ async def test_an_order_stands_in_the_log_from_the_words_to_the_end() -> None:
         entries = (await r.log(robot="Ada"))[::-1]
         assert [str(told(entry)) for entry in entries] == [
             "Kim (phone) said “go to the box” to Ada.",
-            "The language engine offline wants this from Ada: GoTo (box).",
+            "The language engine offline wants this from Ada: Go to (box).",
             "Ada waits for a yes: Go to the box.",
             "Lee said yes to Ada: Go to the box.",
             "Ada began: Go to the box. Lee said yes to it.",

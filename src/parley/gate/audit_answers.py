@@ -152,10 +152,10 @@ def _sent(entry: AuditEntry, now: int, asker: str, zone: tzinfo | None) -> Sente
     when = moment(entry.unix_ms, now, zone)
     what = what_of(entry.detail)
     begun = sentence("I began with this {when}: {what}.", when=when, what=what)
-    words, raw = entry.detail.get("asked"), entry.detail.get("asked_by")
+    asked, raw = entry.detail.get("asked"), entry.detail.get("asked_by")
     approved = entry.detail.get("approved_by")
-    if isinstance(words, str) and isinstance(raw, dict):
-        by = Principal.model_validate(raw)
+    if isinstance(asked, str) and isinstance(raw, dict):
+        by, words = Principal.model_validate(raw), asked.rstrip(" .")
         parts = [
             sentence("You told me {when}: “{words}”.", when=when, words=words)
             if _is(by, asker)

@@ -6,6 +6,7 @@ on another topic anyway is read off there, so that no node can forget to write i
 
 from __future__ import annotations
 
+import re
 from collections import OrderedDict
 from collections.abc import Iterable, Sequence
 from typing import Any, Final, Generic, TypeVar
@@ -269,7 +270,8 @@ def _label(step: ActionCall | PlanStep) -> str:
         for parameter in step.input_parameters.values()
         if isinstance(parameter.value, str)
     )
-    return f"{step.name} ({values})" if values else step.name
+    name = re.sub(r"(?<=[a-z0-9])(?=[A-Z])|_+", " ", step.name).capitalize()
+    return f"{name} ({values})" if values else name
 
 
 def _labels_of(proposal: PlanProposal) -> list[str]:
