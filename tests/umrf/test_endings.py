@@ -2,11 +2,14 @@
 
 from __future__ import annotations
 
+import pytest
+
+from parley.errors import ActionFailure, FailureCode
 from parley.umrf.action import RunHandle, action
 from parley.umrf.catalogue import Catalogue
 from parley.umrf.model import Result
 
-from .spec_actions import chain
+from .spec_actions import chain, no_op
 from .watched import Watched
 
 
@@ -21,6 +24,21 @@ async def fail_without_words(ctx: RunHandle) -> None:
     raise Speechless
 
 
+class FailTwice:
+    """Work at the third try."""
+
+    def __init__(self) -> None:
+        self.runs = 0
+
+    async def run(self, ctx: RunHandle) -> None:
+        self.runs += 1
+        if self.runs < 3:
+            raise ActionFailure(FailureCode.BLOCKED, "not yet")
+
+
+fail_twice = action(FailTwice)
+
+
 def lone(name: str) -> dict[str, object]:
     return {"name": name, "instance_id": 0, "type": "sync"}
 
@@ -30,3 +48,27 @@ async def test_an_error_that_cannot_say_why_ends_its_node_all_the_same() -> None
     watched.run.start()
     assert await watched.run.wait() is Result.ON_ERROR
     assert "Speechless" in watched.log("FailWithoutWords_0")[-1]
+
+
+@pytest.mark.parametrize("through", ["itself", "a bypassed node"])
+async def test_a_node_that_failed_is_tried_again_when_its_error_comes_back_to_it(through: str) -> None:
+    other = "FailTwice" if through == "itself" else "NoOp"
+    again = {
+        "name": other,
+        "instance_id": 0,
+        "required": False,
+        "conditions": ["on_error -> run", "on_true -> ignore"],
+    }
+    flaky = lone("FailTwice") | {"parents": [again], "children": [{"name": other, "instance_id": 0}]}
+    back = {"name": "FailTwice", "instance_id": 0}
+    between = lone("NoOp") | {"parents": [back | {"conditions": ["on_true -> ignore"]}], "children": [back]}
+    graph = {
+        "graph_name": "g",
+        "graph_entry": [back],
+        "graph_exit": [back | {"conditions": ["on_error -> ignore"]}],
+        "actions": [flaky] if through == "itself" else [flaky, between],
+    }
+    watched = Watched(graph, catalogue=Catalogue([fail_twice.spec, no_op.spec]))
+    watched.run.start()
+    assert await watched.run.wait() is Result.ON_TRUE
+    assert watched.runs() == ["FailTwice_0"] * 3

@@ -408,8 +408,10 @@ class GraphRun:
                 return
             item = self._flow.nodes[effect.node]
             match effect.kind:
-                case "run" if item.name != source:  # a node that triggers itself counts as running (10.4)
-                    self._run_node(item, cause)
+                case "run" if item.name != source or item.state is NodeState.ERROR:
+                    self._run_node(
+                        item, cause
+                    )  # who triggers itself counts as running (10.4), unless it failed
                 case "stop":
                     self._stop_node(item, cause)
                 case "pause":
