@@ -7,10 +7,10 @@ import pytest
 from parley.errors import ActionFailure, FailureCode
 from parley.umrf.action import RunHandle, action
 from parley.umrf.catalogue import Catalogue
-from parley.umrf.model import Result
+from parley.umrf.model import GraphState, Result
 
-from .spec_actions import chain, no_op
-from .watched import Watched
+from .spec_actions import chain, no_op, node
+from .watched import Watched, until
 
 
 class Speechless(Exception):  # noqa: N818 - what an action may raise
@@ -72,3 +72,22 @@ async def test_a_node_that_failed_is_tried_again_when_its_error_comes_back_to_it
     watched.run.start()
     assert await watched.run.wait() is Result.ON_TRUE
     assert watched.runs() == ["FailTwice_0"] * 3
+
+
+async def test_what_follows_a_node_that_an_edge_paused_waits_for_the_resume_though_the_node_ends() -> None:
+    first, held, last = node("NoOp"), node("Insist", seconds=0.01), node("NoOp", 1)
+    pausing = {"name": "NoOp", "instance_id": 0, "required": False, "conditions": ["on_true -> pause"]}
+    graph = chain("g", [held, last]) | {
+        "graph_entry": [{"name": "NoOp", "instance_id": 0}, {"name": "Insist", "instance_id": 0}]
+    }
+    graph["actions"][0]["parents"] = [pausing]
+    graph["actions"].append(first | {"children": [{"name": "Insist", "instance_id": 0}]})
+    watched = Watched(graph)
+    watched.run.start()
+    await until(lambda: watched.run.state is not GraphState.RUNNING)
+    assert watched.run.state is GraphState.PAUSED
+    assert watched.states("Insist_0") == ["RUNNING", "PAUSE_REQUESTED", "FINISHED"]
+    assert "NoOp_1" not in watched.runs()
+    watched.run.resume()
+    assert await watched.run.wait() is Result.ON_TRUE
+    assert watched.runs()[-1] == "NoOp_1"

@@ -333,13 +333,14 @@ class GraphRun:
         failed: bool = True,
     ) -> None:
         """A node is over; a sub-graph that failed inside leaves its node FINISHED (10.8), so not `failed`."""
+        stood = item.state in _STILL  # it was told to pause and ended all the same: what follows waits (10.3)
         item.outputs = dict(outputs)
         state = NodeState.ERROR if failed and result is Result.ON_ERROR else NodeState.FINISHED
         self._set_node(item, state, cause, result, facts)
         self._hand_over(item, result)
         self._rounds.over(item.name)
         self._next_rounds()
-        self._follow(item.name, result)
+        self._follow(item.name, result, hold=stood)
         self._settle()
 
     def _hand_over(self, item: FlowNode, result: Result) -> None:
@@ -372,9 +373,9 @@ class GraphRun:
 
     # -- what follows ---------------------------------------------------------------------------------------
 
-    def _follow(self, name: str, result: Result) -> None:
+    def _follow(self, name: str, result: Result, *, hold: bool = False) -> None:
         """Propagate the end of a node, or hold it back while a pause is in force."""
-        if self._holding or self.state is GraphState.PAUSED:
+        if hold or self._holding or self.state is GraphState.PAUSED:
             self._later.held.append((name, result))
         elif self.state is GraphState.RUNNING and self._flow.nodes[name].spontaneous:
             # What the last round set off is stopped before this one sets off anything (10.7).
@@ -455,7 +456,7 @@ class GraphRun:
 
     def _settle(self) -> None:
         """Notice that the graph has come to rest: paused, halted or stopped."""
-        if self.state is GraphState.RUNNING and self._holding:
+        if self.state is GraphState.RUNNING and (self._holding or (self._later.held and not self._active())):
             if not any(item.state in _MOVING for item in self._active()):
                 self._set_graph(GraphState.PAUSED, "pause")
         elif self.state not in (GraphState.RUNNING, GraphState.STOPPING) or self._active():
