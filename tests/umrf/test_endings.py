@@ -2,10 +2,16 @@
 
 from __future__ import annotations
 
+import asyncio
+import math
+
 import pytest
 
+from parley.engine.events import event_fields
 from parley.errors import ActionFailure, FailureCode
-from parley.umrf.action import RunHandle, action
+from parley.messages.status import GraphEvent
+from parley.messages.wire import decode, to_string_unchecked
+from parley.umrf.action import Outcome, RunHandle, action
 from parley.umrf.catalogue import Catalogue
 from parley.umrf.model import GraphState, Result
 
@@ -37,6 +43,14 @@ class FailTwice:
 
 
 fail_twice = action(FailTwice)
+
+
+@action
+async def tell_oddly(ctx: RunHandle) -> Outcome:
+    """Tell what JSON has no form for."""
+    ctx.progress(math.nan, "no number")
+    await asyncio.sleep(0)
+    return Outcome(facts={5: "five", "half \ud800": 1})  # type: ignore[dict-item]
 
 
 def lone(name: str) -> dict[str, object]:
@@ -91,3 +105,15 @@ async def test_what_follows_a_node_that_an_edge_paused_waits_for_the_resume_thou
     watched.run.resume()
     assert await watched.run.wait() is Result.ON_TRUE
     assert watched.runs()[-1] == "NoOp_1"
+
+
+async def test_facts_without_a_name_and_progress_that_is_no_number_lose_no_transition() -> None:
+    watched = Watched(chain("g", [lone("TellOddly")]), catalogue=Catalogue([tell_oddly.spec]))
+    watched.run.start()
+    assert await watched.run.wait() is Result.ON_TRUE
+    events = [
+        decode(GraphEvent, to_string_unchecked(event_fields("A", "g", each)).data) for each in watched.told
+    ]
+    assert [event.sequence for event in events] == list(range(len(events)))
+    (end,) = [event for event in events if event.result and event.node]
+    assert set(end.outputs) == {"5", "half ?"}

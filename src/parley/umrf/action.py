@@ -44,6 +44,7 @@ from parley.umrf.signature import (
     resolve_hints,
     strip_optional,
 )
+from parley.umrf.text import clean_text
 
 __all__ = ["Action", "ActionSpec", "Outcome", "RunHandle", "action", "bind_inputs", "outcome_of"]
 
@@ -293,5 +294,5 @@ def outcome_of(spec: ActionSpec, returned: Any) -> Outcome:
 def _flat(values: Mapping[str, Any]) -> dict[str, Any]:
     flat: dict[str, Any] = {}
     for name, value in values.items():
-        flat |= flatten_value(value, name)
+        flat |= flatten_value(value, clean_text(str(name)))
     return flat

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import asyncio
 import inspect
+import math
 import threading
 from collections.abc import Awaitable, Callable, Mapping
 from dataclasses import dataclass, field
@@ -200,7 +201,7 @@ class NodeRun:
             return
         if self._over:
             return
-        self._progress = (fraction, text)
+        self._progress = (_share(fraction), text)
         if self._progress_timer is None:
             self._send_progress()
 
@@ -230,3 +231,12 @@ class NodeRun:
     def result_asked(self) -> bool:
         """See `RunHandle.result_asked`."""
         return self._asked()
+
+
+def _share(told: Any) -> float | None:
+    """What an action says of its progress, as a share from 0 to 1; None if it is no number."""
+    try:
+        share = float(told)
+    except (TypeError, ValueError, OverflowError):
+        return None
+    return None if math.isnan(share) else min(max(share, 0.0), 1.0)
