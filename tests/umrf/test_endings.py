@@ -5,6 +5,7 @@ from __future__ import annotations
 import asyncio
 import math
 
+import numpy
 import pytest
 
 from parley.engine.events import event_fields
@@ -51,6 +52,18 @@ async def tell_oddly(ctx: RunHandle) -> Outcome:
     ctx.progress(math.nan, "no number")
     await asyncio.sleep(0)
     return Outcome(facts={5: "five", "half \ud800": 1})  # type: ignore[dict-item]
+
+
+@action
+async def answer_in_words(ctx: RunHandle) -> Outcome:
+    """Say no, but not as a truth value."""
+    return Outcome("no")  # type: ignore[arg-type]
+
+
+@action
+async def answer_in_bits(ctx: RunHandle) -> Outcome:
+    """Say no as array libraries do."""
+    return Outcome(numpy.bool_(False))  # type: ignore[arg-type]
 
 
 def lone(name: str) -> dict[str, object]:
@@ -117,3 +130,13 @@ async def test_facts_without_a_name_and_progress_that_is_no_number_lose_no_trans
     assert [event.sequence for event in events] == list(range(len(events)))
     (end,) = [event for event in events if event.result and event.node]
     assert set(end.outputs) == {"5", "half ?"}
+
+
+@pytest.mark.parametrize(("name", "result"), [("AnswerInWords", "on_error"), ("AnswerInBits", "on_false")])
+async def test_a_result_that_is_neither_true_nor_false_is_a_failure(name: str, result: str) -> None:
+    watched = Watched(
+        chain("g", [lone(name)]), catalogue=Catalogue([answer_in_words.spec, answer_in_bits.spec])
+    )
+    watched.run.start()
+    await watched.run.wait()
+    assert [told.result for told in watched.told if told.node and told.result] == [result]

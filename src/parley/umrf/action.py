@@ -273,7 +273,10 @@ def outcome_of(spec: ActionSpec, returned: Any) -> Outcome:
     if returned is None or isinstance(returned, bool):
         return Outcome(result=returned is not False)
     if isinstance(returned, Outcome):
-        result, facts = returned.result, _flat(returned.facts)
+        if not isinstance(returned.result, bool) and str(getattr(returned.result, "dtype", "")) != "bool":
+            text = f"{spec.name} returned {returned.result!r} as its result, which is neither true nor false."
+            raise ActionFailure(FailureCode.INTERNAL, text)
+        result, facts = bool(returned.result), _flat(returned.facts)
         flat = _flat(returned.outputs)
     else:
         result, facts, flat = True, {}, flatten_value(returned)
