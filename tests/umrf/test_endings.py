@@ -14,9 +14,10 @@ from parley.messages.status import GraphEvent
 from parley.messages.wire import decode, to_string_unchecked
 from parley.umrf.action import Outcome, RunHandle, action
 from parley.umrf.catalogue import Catalogue
-from parley.umrf.model import GraphState, Result
+from parley.umrf.io import read_graph
+from parley.umrf.model import GraphState, NodeState, Result
 
-from .spec_actions import chain, no_op, node
+from .spec_actions import chain, insist, no_op, node
 from .watched import Watched, until
 
 
@@ -140,3 +141,39 @@ async def test_a_result_that_is_neither_true_nor_false_is_a_failure(name: str, r
     watched.run.start()
     await watched.run.wait()
     assert [told.result for told in watched.told if told.node and told.result] == [result]
+
+
+async def test_a_running_node_is_seen_and_heard_also_after_the_graph_was_modified() -> None:
+    gate = asyncio.Event()
+
+    @action
+    async def talk(ctx: RunHandle) -> None:
+        """Say a line when it is time."""
+        await gate.wait()
+        ctx.log("a line")
+        await asyncio.sleep(60)
+
+    graph = chain("g", [lone("Talk"), node("NoOp")])
+    watched = Watched(graph, catalogue=Catalogue([talk.spec, no_op.spec]))
+    watched.run.start()
+    await asyncio.sleep(0)
+    assert watched.log("Talk_0") == []
+    watched.run.modify(read_graph(chain("g", [lone("Talk"), node("NoOp"), node("NoOp", 1)])))
+    assert watched.log("Talk_0") == []
+    gate.set()
+    await until(lambda: watched.log("Talk_0") == ["a line"])
+    await watched.run.close()
+
+
+async def test_a_sub_graph_stands_still_when_paused_also_after_the_graph_was_modified() -> None:
+    inner = read_graph(chain("Inner", [node("Insist", seconds=0.01), node("NoOp")]))
+    catalogue = Catalogue([insist.spec, no_op.spec], [inner])
+    watched = Watched(chain("g", [lone("Inner"), node("NoOp")]), catalogue=catalogue)
+    watched.run.start()
+    await asyncio.sleep(0)
+    watched.run.modify(read_graph(chain("g", [lone("Inner"), node("NoOp"), node("NoOp", 1)])))
+    watched.run.pause()
+    await until(lambda: watched.run.state is GraphState.PAUSED)
+    assert watched.state("Inner_0") is NodeState.PAUSED
+    watched.run.resume()
+    assert await watched.run.wait() is Result.ON_TRUE

@@ -109,8 +109,7 @@ class GraphRun:
         )
         self._rounds = Rounds()
         self._later = Later()
-        self._holding = False
-        self._stop_failed = False
+        self._holding = self._stop_failed = False
         self._rested = asyncio.Event()
 
     # -- commands -------------------------------------------------------------------------------------------
@@ -187,6 +186,8 @@ class GraphRun:
         """
         changed, flow, past = self.modified(graph, continue_from)
         self._flow = flow
+        for name, run in self._runs.items():
+            run.item = flow.nodes.get(name, run.item)
         self._graph = replace(changed, description=self._graph.description)
         self._later.keep(flow.nodes)
         self._announce.graph(self.state, "modify", self.result)
@@ -280,7 +281,7 @@ class GraphRun:
             item,
             self._inner,
             self.peers,
-            on_state=lambda state: self._inner_changed(item, state),
+            on_state=lambda state: self._inner_changed(self._flow.nodes[item.name], state),
             actor=self.actor,
             graph_name=self.name,
             clock=self._clock,
@@ -467,8 +468,7 @@ class GraphRun:
             else:
                 self._set_graph(GraphState.STOPPED, "stop", Result.ON_STOPPED)
         else:
-            reason = self._flow.waiting_for()
-            if reason:
+            if reason := self._flow.waiting_for():
                 log.warning("graph halted", graph=self.name, reason=reason)
             self._set_graph(GraphState.HALTED, "dry", Result.ON_HALTED, reason)
 
