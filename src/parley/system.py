@@ -19,6 +19,7 @@ from parley.engine.interrupted import Interrupted
 from parley.engine.journal import Journal
 from parley.engine.services import ContextServices
 from parley.errors import GraphRefusedError
+from parley.gate.audit_store import AuditStore
 from parley.language.base import Language
 from parley.language.llm import build_language
 from parley.language.llm.usage import Usage
@@ -27,6 +28,7 @@ from parley.memory.incidents import IncidentStore
 from parley.memory.meanings import Meanings
 from parley.memory.proposals import ProposalStore
 from parley.memory.store import MemoryStore
+from parley.nodes.audit_log import AuditLog
 from parley.nodes.base import Node
 from parley.nodes.camera_feed import CameraFeed
 from parley.nodes.chat_interface import ChatInterface
@@ -148,6 +150,8 @@ class System:
             await enter(self.language)
         self.store = await enter(await MemoryStore.open(config.memory_file or ":memory:", clock))
         journal = self._journal = await enter(await Journal.open(config.journal_file or ":memory:", clock))
+        audit = await enter(await AuditStore.open(config.audit_file or ":memory:", clock))
+        await enter(AuditLog(transport, audit, clock, months=config.audit_months, tell=self._tell_all))
         await enter(self.simulator)
         await enter(MemoryNode(transport, self.store, self.language, meanings=self._meanings(self.store)))
         await enter(

@@ -80,19 +80,43 @@ INCIDENT: dict[str, Any] = {
     "note": "It was late.",
 }
 
+AUDITED: dict[str, Any] = {
+    "effect": "approve",
+    "by": KIM,
+    "robot": "A",
+    "outcome": "done",
+    "words": "yes",
+    "digest": "5b1e",
+    "reason": "It goes there.",
+    "detail": {"labels": ["Go to the box"]},
+    "unix_ms": 5,
+}
+ENTRY: dict[str, Any] = {**AUDITED, "number": 2, "prev": "aa", "hash": "bb"}
+CHAIN: dict[str, Any] = {
+    "entries": 3,
+    "since_unix_ms": 5,
+    "last": "3:cc",
+    "first_broken": 2,
+    "problem": "it was changed",
+}
+
 SAMPLES: dict[type[BaseModel], dict[str, Any]] = {
     principal.Principal: KIM,
-    audit.AuditEvent: {
-        "effect": "approve",
-        "by": KIM,
+    audit.AuditEvent: AUDITED,
+    audit.AuditEntry: ENTRY,
+    audit.GetAudit: {
         "robot": "A",
-        "outcome": "done",
-        "words": "yes",
-        "digest": "5b1e",
-        "reason": "It goes there.",
-        "detail": {"labels": ["Go to the box"]},
-        "unix_ms": 5,
+        "by": "Kim",
+        "effect": "stop",
+        "text": "box",
+        "since_unix_ms": 1,
+        "until_unix_ms": 9,
+        "before": 7,
+        "limit": 10,
+        "verify": True,
     },
+    audit.AuditChain: CHAIN,
+    audit.AuditList: {"entries": [ENTRY], "chain": CHAIN, "problem": "the disk is full"},
     chat.ChatImage: {"name": "box.jpg", "data": "aGk="},
     chat.ChatInput: {
         "message": "go",

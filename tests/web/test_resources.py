@@ -9,6 +9,7 @@ from typing import Any
 import pytest
 
 from parley.errors import FailureCode
+from parley.gate.audit_store import AuditStore
 from parley.language.offline import OfflineLanguage
 from parley.memory.store import MemoryStore
 from parley.messages import topics
@@ -16,6 +17,7 @@ from parley.messages.chat import ActionCall
 from parley.messages.incident import Incident
 from parley.messages.map import MapInfo
 from parley.messages.memory import MemoryEntry
+from parley.messages.principal import person
 from parley.messages.ros import ChatRequest, ChatResponse
 from parley.messages.status import (
     PlanProposal,
@@ -23,9 +25,11 @@ from parley.messages.status import (
     PoseInfo,
     Rejection,
     RejectionProblem,
+    StopCommand,
     StopReport,
 )
 from parley.messages.wire import encode
+from parley.nodes.audit_log import AuditLog
 from parley.nodes.memory import MemoryNode
 from parley.web.config import MODULES
 from parley.web.robot_state import STOP_DEADLINE_S
@@ -247,6 +251,22 @@ async def test_incidents_are_told_live_and_listed() -> None:
         assert (await rig.http.get("/api/incidents?robot=Bob")).json() == []
 
 
+async def test_the_log_is_told_in_sentences_of_a_language_page_by_page() -> None:
+    async with served("Ada") as rig:
+        assert (await rig.http.get("/api/audit")).status_code == 503
+        clock, transport = HandClock(), rig.robots.transport
+        async with await AuditStore.open(":memory:", clock) as store, AuditLog(transport, store, clock):
+            rig.robots.tell(topics.STOP, StopCommand(targets=("Ada",), by=person("Kim", device="phone")))
+            await rig.until(lambda: rig.robots.stops)
+            newest = (await rig.http.get("/api/audit?limit=1&verify=true")).json()
+            assert [line["text"] for line in newest["lines"]] == ["Kim (phone) stopped Ada."]
+            assert (newest["complete"], newest["chain"]["problem"]) == (False, "")
+            path = f"/api/audit?before={newest['lines'][0]['number']}&language=et"
+            older = (await rig.http.get(path)).json()
+            assert [line["text"] for line in older["lines"]] == ["Parley käivitati, logi jätkub."]
+            assert older["complete"]
+
+
 async def test_the_last_picture_of_a_feed_can_be_fetched() -> None:
     async with served("Ada") as rig:
         page = await rig.page()
@@ -294,6 +314,7 @@ async def test_a_module_that_is_switched_off_is_not_there(module: str) -> None:
         "memory": "/api/memory",
         "robots": "/api/robots",
         "incidents": "/api/incidents",
+        "log": "/api/audit",
     }
     async with served("Ada", without=frozenset({module})) as rig:
         assert (await rig.http.get(paths[module])).status_code == 404

@@ -1,6 +1,6 @@
 /** One function per request. Failures are `ApiError`s whose message can be shown to people. */
 import { noteServerDate } from './server-time';
-import type { ActionCall, ChatEntry, Incident, MapInfo, MemoryItem, Policy } from './types';
+import type { ActionCall, ChatEntry, Incident, LogPage, MapInfo, MemoryItem, Policy } from './types';
 
 export class ApiError extends Error {
   constructor(
@@ -137,5 +137,24 @@ export const deleteMemory = (name: string, scope?: string) =>
 
 /** Newest first. */
 export const getIncidents = (robot: string) => request<Incident[]>('GET', `incidents?robot=${part(robot)}`);
+
+export interface LogWish {
+  robot?: string;
+  by?: string;
+  effect?: string;
+  q?: string;
+  /** Only what stands before this entry. */
+  before?: number;
+  limit?: number;
+  verify?: boolean;
+  language?: string;
+}
+
+/** Who did what, newest first. */
+export function getLog(wish: LogWish): Promise<LogPage> {
+  const query = new URLSearchParams();
+  for (const [name, value] of Object.entries(wish)) if (value) query.set(name, String(value));
+  return request<LogPage>('GET', `audit?${query.toString()}`);
+}
 
 export const getMap = (robot: string) => request<MapInfo>('GET', `map/${part(robot)}`);

@@ -223,6 +223,8 @@ class ChatAction(Payload):
     """Ours: why a person has to say yes first whatever the policy, in plain words; empty: the policy says."""
     id: str = ""
     """Ours: whoever gives one hears on `/parley/ruling` what became of it."""
+    reply_to: str = ""
+    """Ours: `id` of the operator's message that it follows from."""
 
     @model_validator(mode="before")
     @classmethod
@@ -279,5 +281,7 @@ class ChatAction(Payload):
         for name, who in (("by", self.by), ("behalf", self.behalf)):
             if who is not None:
                 wire[name] = who.model_dump()
-        wire |= {name: text for name in ("words", "needs_yes", "id") if (text := getattr(self, name))}
+        wire |= {
+            name: text for name in ("words", "needs_yes", "id", "reply_to") if (text := getattr(self, name))
+        }
         return wire

@@ -37,6 +37,7 @@ from parley.nodes.base import Mailboxes, Node
 from parley.nodes.chat_memories import Confirmations, keeping_order
 from parley.nodes.drafts import Drafts
 from parley.nodes.finishing import Finishing
+from parley.nodes.log_answers import log_answer
 from parley.nodes.plan_check import check_calls, complete_calls
 from parley.nodes.plan_orders import no_robot
 from parley.nodes.plan_steps import LATCHED
@@ -184,7 +185,9 @@ class ChatInterface(Node):
         halts = self._halts.get(target, 0)
 
         async def work() -> None:
-            if not await self._recollections.handles(target, said, ours):
+            if not ours and (answer := await log_answer(self.transport, self._clock, target, said)):
+                self._say((target,), answer, "response", said.id)
+            elif not await self._recollections.handles(target, said, ours):
                 await self._answer(target, said, halts)
 
         return work
@@ -276,7 +279,9 @@ class ChatInterface(Node):
             not reply or control in _HALTING
         ):  # stopping is sent in any case: the plan may be newer than known
             command = SystemCommand(command=control)
-            order = ChatAction(system_cmd=(command,), targets=(target,), by=said.who, words=said.message)
+            order = ChatAction(
+                system_cmd=(command,), targets=(target,), by=said.who, words=said.message, reply_to=said.id
+            )
             self.publish(topics.CHAT_ACTION, order)
         reply = reply or texts.CONTROL_REPLIES[control]
         self._known.conversation(target).operator(said.message)
@@ -343,7 +348,7 @@ class ChatInterface(Node):
         self, target: str, said: ChatInput, understood: ChatAction, admitted: Admitted, situation: Situation
     ) -> None:
         """Hand an order on, hear what became of it, and say just that."""
-        order = admitted.order.model_copy(update={"id": uuid.uuid4().hex})
+        order = admitted.order.model_copy(update={"id": uuid.uuid4().hex, "reply_to": said.id})
         wanted = [
             command
             for command in order.system_cmd

@@ -44,6 +44,7 @@ from parley.umrf.signature import (
     resolve_hints,
     strip_optional,
 )
+from parley.umrf.text import clean_text
 
 __all__ = ["Action", "ActionSpec", "Outcome", "RunHandle", "action", "bind_inputs", "outcome_of"]
 
@@ -275,7 +276,10 @@ def outcome_of(spec: ActionSpec, returned: Any) -> Outcome:
     if returned is None or isinstance(returned, bool):
         return Outcome(result=returned is not False)
     if isinstance(returned, Outcome):
-        result, facts = returned.result, _flat(returned.facts)
+        if not isinstance(returned.result, bool) and str(getattr(returned.result, "dtype", "")) != "bool":
+            text = f"{spec.name} returned {returned.result!r} as its result, which is neither true nor false."
+            raise ActionFailure(FailureCode.INTERNAL, text)
+        result, facts = bool(returned.result), _flat(returned.facts)
         flat = _flat(returned.outputs)
     else:
         result, facts, flat = True, {}, flatten_value(returned)
@@ -296,5 +300,5 @@ def outcome_of(spec: ActionSpec, returned: Any) -> Outcome:
 def _flat(values: Mapping[str, Any]) -> dict[str, Any]:
     flat: dict[str, Any] = {}
     for name, value in values.items():
-        flat |= flatten_value(value, name)
+        flat |= flatten_value(value, clean_text(str(name)))
     return flat

@@ -9,9 +9,9 @@ from pydantic import BaseModel, ConfigDict, Field
 
 __all__ = ["MODULES", "Module", "WebConfig"]
 
-Module = Literal["chat", "plan", "display", "map", "memory", "robots", "incidents"]
+Module = Literal["chat", "plan", "display", "map", "memory", "robots", "incidents", "log"]
 
-MODULES: tuple[Module, ...] = ("chat", "plan", "display", "map", "memory", "robots", "incidents")
+MODULES: tuple[Module, ...] = ("chat", "plan", "display", "map", "memory", "robots", "incidents", "log")
 """What can be switched off."""
 
 

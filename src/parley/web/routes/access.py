@@ -7,11 +7,14 @@ from typing import Annotated
 from fastapi import Depends, Request
 from fastapi.params import Depends as Dependency
 
+from parley.gate.table import Effect, verdict
+from parley.messages.principal import person
 from parley.web.backend import Backend
 from parley.web.config import Module
+from parley.web.problems import WebProblem
 from parley.web.sessions import Session
 
-__all__ = ["Author", "Web", "module"]
+__all__ = ["Author", "Web", "may", "module"]
 
 
 def _backend(request: Request) -> Backend:
@@ -28,6 +31,16 @@ def _author(request: Request) -> str:
 
 Web = Annotated[Backend, Depends(_backend)]
 Author = Annotated[str, Depends(_author)]
+
+
+def may(effect: Effect) -> Dependency:
+    """A dependency that refuses whoever may not do this; without roles everybody who is let in may."""
+
+    def check(author: Author) -> None:
+        if verdict(person(author, role="supervisor"), effect) != "allow":
+            raise WebProblem(403, "You may not do that.", "Ask a supervisor.")
+
+    return Dependency(check)
 
 
 def module(name: Module) -> Dependency:
