@@ -191,7 +191,7 @@ class System:
         await enter(self._speaking(chat))
         await enter(self._speaking(Lookout(transport, clock)))
         notices = self._notices = await enter(self._speaking(Notices(transport)))
-        for text in (self.store.notice, *self._early):
+        for text in (self.store.notice, incidents.notice, proposals.notice, *self._early):
             self._tell_all(text, "error")
         await self._open_actions(notices)
         views: Mapping[str, WorldView] = {name: self._view(name) for name in self.robot_names}
