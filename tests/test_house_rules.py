@@ -142,6 +142,26 @@ def test_no_exception_is_swallowed_in_silence() -> None:
     assert swallowed == []
 
 
+OWN_KEYS = {"kind", "name", "language", "table"}
+"""Parameters that take words of our own tables, which are few; what people say is never one of them."""
+
+
+def test_no_cache_grows_without_end() -> None:
+    endless = [
+        f"{shown(path)}:{node.lineno}: {node.name}"
+        for path in python_files(SOURCE)
+        for node in ast.walk(ast.parse(path.read_text(encoding="utf-8")))
+        if isinstance(node, ast.FunctionDef) and is_endless_cache(node)
+    ]
+    assert endless == []
+
+
+def is_endless_cache(function: ast.FunctionDef) -> bool:
+    decorators = {ast.unparse(each).removeprefix("functools.") for each in function.decorator_list}
+    keys = {each.arg for each in (*function.args.args, *function.args.kwonlyargs)}
+    return bool(decorators & {"cache", "lru_cache(None)", "lru_cache(maxsize=None)"}) and not keys <= OWN_KEYS
+
+
 def is_blind(handler: ast.ExceptHandler) -> bool:
     caught = handler.type
     return caught is None or (isinstance(caught, ast.Name) and caught.id in ("Exception", "BaseException"))

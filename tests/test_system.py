@@ -43,9 +43,8 @@ async def test_closing_while_a_question_is_open_leaves_nothing(tmp_path: Path) -
 
 
 async def test_opening_that_fails_closes_what_was_opened(tmp_path: Path) -> None:
-    blocked = tmp_path / "data"
-    blocked.write_text("a file where a folder should be", encoding="utf-8")
-    system = load_demo("nursing-home").system(SystemConfig(data_dir=blocked))
+    (tmp_path / "memory.db").mkdir()
+    system = load_demo("nursing-home").system(SystemConfig(data_dir=tmp_path))
     with pytest.raises(StoreError, match="memory"):
         async with system:
             pass

@@ -24,6 +24,7 @@ from parley.language.base import Language
 from parley.language.llm import build_language
 from parley.language.llm.usage import Usage
 from parley.memory.embedder import configured_embedder
+from parley.memory.folder import held_folder
 from parley.memory.incidents import IncidentStore
 from parley.memory.meanings import Meanings
 from parley.memory.proposals import ProposalStore
@@ -145,6 +146,8 @@ class System:
     async def _open(self) -> None:
         enter = self._stack.enter_async_context
         config, transport, clock = self.config, self.transport, self.clock
+        if config.data_dir is not None:
+            self._stack.enter_context(held_folder(config.data_dir, unix_ms=clock.unix_ms()))
         await enter(transport)
         if isinstance(self.language, AbstractAsyncContextManager):
             await enter(self.language)
@@ -196,7 +199,7 @@ class System:
         await enter(self._speaking(chat))
         await enter(self._speaking(Lookout(transport, clock)))
         notices = self._notices = await enter(self._speaking(Notices(transport)))
-        for text in (self.store.notice, *self._early):
+        for text in (self.store.notice, incidents.notice, proposals.notice, *self._early):
             self._tell_all(text, "error")
         await self._open_actions(notices)
         views: Mapping[str, WorldView] = {name: self._view(name) for name in self.robot_names}

@@ -185,22 +185,43 @@ async def test_memories_are_kept_found_shown_and_forgotten() -> None:
         page = await rig.page()
         picture = base64.b64encode(JPEG).decode()
         note = {"data": "The box is by the door.", "info": "where the box is"}
-        assert (await rig.http.put("/api/memory/box", json=note)).status_code == 200
+        assert (await rig.http.put("/api/memory?name=box", json=note)).status_code == 200
         photo = {"type": "image", "data": picture, "info": "my desk"}
-        assert (await rig.http.put("/api/memory/my desk", json=photo)).status_code == 200
+        assert (await rig.http.put("/api/memory?name=my desk", json=photo)).status_code == 200
         await page.until(lambda: len(page.of("memory")) == 2)
         items = {item["name"]: item for item in (await rig.http.get("/api/memory")).json()}
         assert items["box"]["data"] == "The box is by the door."
         assert (await rig.http.get(items["my desk"]["data"])).content == JPEG
-        assert (await rig.http.get("/api/memory/box")).json()["source"] == "operator"
-        assert (await rig.http.get("/api/memory/box/image")).status_code == 404
+        assert (await rig.http.get("/api/memory/one?name=box")).json()["source"] == "operator"
+        assert (await rig.http.get("/api/memory/image?name=box")).status_code == 404
         found = (await rig.http.get("/api/memory", params={"q": "door"})).json()
         assert [item["name"] for item in found] == ["box"]
-        assert (await rig.http.delete("/api/memory/box")).status_code == 200
-        history = (await rig.http.get("/api/memory/box/history")).json()
+        assert (await rig.http.delete("/api/memory?name=box")).status_code == 200
+        history = (await rig.http.get("/api/memory/history?name=box")).json()
         assert [item["data"] for item in history] == ["The box is by the door."]
-        assert (await rig.http.delete("/api/memory/box")).status_code == 404
-        assert (await rig.http.get("/api/memory/box")).status_code == 404
+        assert (await rig.http.delete("/api/memory?name=box")).status_code == 404
+        assert (await rig.http.get("/api/memory/one?name=box")).status_code == 404
+
+
+NAMES = ("boxes/left", "/", "..", ".", "a?b#c&d=e%2F", "one", "history", "küche 厨房", "+ +", "x" * 200)
+
+
+async def test_memories_of_any_name_can_be_reached() -> None:
+    async with (
+        served("Ada") as rig,
+        await MemoryStore.open(":memory:") as store,
+        MemoryNode(rig.robots.transport, store, OfflineLanguage()),
+    ):
+        photo = {"type": "image", "data": base64.b64encode(JPEG).decode()}
+        for name in NAMES:
+            asked = {"name": name}
+            assert (await rig.http.put("/api/memory", params=asked, json=photo)).status_code == 200
+            item = (await rig.http.get("/api/memory/one", params=asked)).json()
+            assert item["name"] == name
+            assert (await rig.http.get(item["data"])).content == JPEG
+            assert (await rig.http.delete("/api/memory", params=asked)).status_code == 200
+            assert len((await rig.http.get("/api/memory/history", params=asked)).json()) == 1
+        assert (await rig.http.get("/api/memory")).json() == []
 
 
 async def test_a_forgotten_memory_that_is_brought_back_keeps_where_it_came_from() -> None:
@@ -211,14 +232,14 @@ async def test_a_forgotten_memory_that_is_brought_back_keeps_where_it_came_from(
     ):
         seen = MemoryEntry(name="box", data="The box is by the door.", info="the box", source="Ada/Inspect")
         await store.add(seen)
-        assert (await rig.http.delete("/api/memory/box")).status_code == 200
+        assert (await rig.http.delete("/api/memory?name=box")).status_code == 200
         back = {"data": seen.data, "info": seen.info, "again": True}
-        assert (await rig.http.put("/api/memory/box", json=back)).status_code == 200
-        assert (await rig.http.get("/api/memory/box")).json()["source"] == "Ada/Inspect"
-        assert (await rig.http.delete("/api/memory/box")).status_code == 200
+        assert (await rig.http.put("/api/memory?name=box", json=back)).status_code == 200
+        assert (await rig.http.get("/api/memory/one?name=box")).json()["source"] == "Ada/Inspect"
+        assert (await rig.http.delete("/api/memory?name=box")).status_code == 200
         changed = {**back, "data": "The box is gone."}
-        assert (await rig.http.put("/api/memory/box", json=changed)).status_code == 200
-        assert (await rig.http.get("/api/memory/box")).json()["source"] == "operator"
+        assert (await rig.http.put("/api/memory?name=box", json=changed)).status_code == 200
+        assert (await rig.http.get("/api/memory/one?name=box")).json()["source"] == "operator"
 
 
 async def test_what_is_not_running_is_said_in_plain_words() -> None:

@@ -124,16 +124,18 @@ export interface MemoryBody {
   again?: boolean;
 }
 
-const scoped = (scope: string | undefined) => (scope === undefined ? '' : `?scope=${part(scope)}`);
+/** Names stand behind the question mark: no browser sends “..” or “/” as a part of a path. */
+const named = (name: string, scope?: string) =>
+  `?name=${part(name)}${scope === undefined ? '' : `&scope=${part(scope)}`}`;
 
 export const searchMemories = (q: string, scope = '') =>
   request<MemoryItem[]>('GET', `memory?q=${part(q)}&scope=${part(scope)}`);
 export const getMemoryHistory = (name: string, scope: string) =>
-  request<MemoryItem[]>('GET', `memory/${part(name)}/history${scoped(scope)}`);
-export const putMemory = (name: string, body: MemoryBody) => request<unknown>('PUT', `memory/${part(name)}`, body);
+  request<MemoryItem[]>('GET', `memory/history${named(name, scope)}`);
+export const putMemory = (name: string, body: MemoryBody) => request<unknown>('PUT', `memory${named(name)}`, body);
 /** Without a scope it is forgotten everywhere. */
 export const deleteMemory = (name: string, scope?: string) =>
-  request<unknown>('DELETE', `memory/${part(name)}${scoped(scope)}`);
+  request<unknown>('DELETE', `memory${named(name, scope)}`);
 
 /** Newest first. */
 export const getIncidents = (robot: string) => request<Incident[]>('GET', `incidents?robot=${part(robot)}`);

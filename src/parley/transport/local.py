@@ -59,6 +59,13 @@ class _LocalSubscription(Generic[M]):
     def put(self, message: M) -> None:
         if len(self._queue) == self._queue.maxlen:
             self._dropped += 1
+            if self._dropped.bit_count() == 1:  # 1, 2, 4, 8, ...: a flood does not flood the log
+                log.warning(
+                    "messages dropped: more came at once than a subscriber takes",
+                    topic=self._topic.name,
+                    dropped=self._dropped,
+                    depth=self._queue.maxlen,
+                )
         self._queue.append(message)
         self._arrived.set()
 
