@@ -9,7 +9,7 @@ import pytest
 
 from parley.messages import topics
 from parley.messages.chat import ActionCall, ChatAction, ChatFeedback, ChatInput, Flow, FlowIf, SystemCommand
-from tests.nodes.crew import KIM, Crew, crew, decide, drive, find, look, proposals
+from tests.nodes.crew import ENGINE, KIM, Crew, crew, decide, drive, find, look, proposals
 
 
 def press(what: str) -> ActionCall:
@@ -83,7 +83,7 @@ async def test_repair_with_new_steps_waits_for_a_yes_where_everything_does() -> 
         await failed(party)
         party.correct(look("lid"))
         await party.until(lambda: len(proposals(party)) == 2)
-        await party.hears("I wait for your yes")
+        await party.hears("Shall I?")
         await party.settled()
         assert (party.body.did, party.observer.state("A")) == (["look box"], "held")
         decide(party, id=proposals(party)[1]["id"], decision="approve")
@@ -168,6 +168,7 @@ async def test_repair_that_drops_the_plan_runs_its_own_steps() -> None:
             system_cmd=(SystemCommand(command="clear"),),
             targets=("A",),
             success=True,
+            by=ENGINE,
         )
         party.observer.publish(topics.UMRF_CORRECTION, correction)
         await party.until(lambda: party.body.did == ["look box", "find lid", "drive 3"])

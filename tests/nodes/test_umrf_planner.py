@@ -16,7 +16,7 @@ from parley.messages.status import ActorStatus, Rejection, RejectionProblem, Sto
 from parley.nodes.plan_sending import Patience
 from parley.umrf.io import read_graph, write_graph
 from parley.umrf.model import Graph, GraphState, LogMessage, Node, NodeState
-from tests.nodes.crew import Body, Crew, ThesisEngine, ask, crew, decide, drive, find, look, proposals
+from tests.nodes.crew import ENGINE, Body, Crew, ThesisEngine, ask, crew, decide, drive, find, look, proposals
 
 
 def feedback(party: Crew, graph: Graph, actor: str = "A") -> None:
@@ -98,7 +98,7 @@ async def test_two_robots_have_plans_of_their_own() -> None:
 
 async def test_order_for_several_robots_runs_on_each() -> None:
     async with crew("A", "B") as party:
-        order = ChatAction(queue=(look("box"),), targets=("A", "b"))
+        order = ChatAction(queue=(look("box"),), targets=("A", "b"), by=ENGINE)
         party.observer.publish(topics.CHAT_ACTION, order)
         await party.until(lambda: party.bodies["A"].did == party.bodies["B"].did == ["look box"])
 
@@ -195,7 +195,8 @@ async def test_pop_drops_the_step_in_every_spelling(pop: str) -> None:
         party.body.gate("1")
         party.order(look("1"), look("2"), look("3"))
         await party.doing("look 1")
-        text = f'{{"message_response": "", "queue": [], "system_cmd": [{pop}], "targets": ["A"]}}'
+        by = '"by": {"kind": "engine"}'
+        text = f'{{"message_response": "", "queue": [], "system_cmd": [{pop}], "targets": ["A"], {by}}}'
         party.transport.publisher(topics.CHAT_ACTION).publish(String(text))
         await party.until(lambda: len(party.steps()) == 2)
         party.body.gate("1").set()

@@ -9,6 +9,7 @@ from parley.actions.context import ActionContext
 from parley.errors import ActionFailure, FailureCode
 from parley.gate.assent import assent_of, begins_with_no
 from parley.language.control import control_of
+from parley.language.stop_words import calls_to_stop
 from parley.umrf.action import action
 
 __all__ = ["ATTEMPTS", "Answer", "ask_operator"]
@@ -22,7 +23,11 @@ async def _reading(ctx: ActionContext, question: str, reply: str) -> str:
     literal = assent_of(reply, (ctx.actor,))
     if literal is not None:
         return "yes" if literal else "no"
+    if calls_to_stop(reply):
+        return "control"
     kind = (await ctx.language.read_reply(question, reply)).kind
+    if kind in ("yes", "choice", "answer") and "?" in reply:
+        return "aside"
     return "unclear" if kind == "yes" and begins_with_no(reply) else kind
 
 

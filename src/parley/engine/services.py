@@ -15,6 +15,7 @@ from typing import Any, Final, Self
 from PIL import Image
 
 from parley.errors import InvalidMessageError
+from parley.gate.table import Effect, verdict
 from parley.memory.client import recall
 from parley.messages import topics
 from parley.messages.chat import ChatFeedback, ChatInput
@@ -129,6 +130,8 @@ class ContextServices:
             said = decode(ChatInput, message.data)
         except InvalidMessageError:
             return  # the chat interface refuses it and tells the sender
+        if verdict(said.who, Effect.ANSWER) != "allow":
+            return  # whoever says so to people is the chat interface
         names = {name.strip().casefold() for name in said.targets}
         if said.type != "response" or self._actor.casefold() not in names:
             return

@@ -28,7 +28,8 @@ _NO: Final = frozenset({
 })  # fmt: skip
 
 _NEGATION: Final = re.compile(
-    r"\W*(?:no|nope|nah|not|never|don['’]?t|do not|ei|mitte|ära|pole)\b", re.IGNORECASE
+    r"\W*(?:no|nope|nah|not|never|neither|none|nothing|nowhere|don['’]?t|do not|ei|mitte|ära|pole)\b",
+    re.IGNORECASE,
 )
 
 

@@ -25,9 +25,14 @@ _CHANGE: Final = re.compile(
 )
 _FORGETTING: Final = re.compile(
     r"\b(?:forget|unlearn|erase|delete|remove|discard|drop|clear|wipe|scrap|take\s+back|no\s+longer|any\s?more|"
-    r"isn['’]?t|aren['’]?t|wasn['’]?t|not\s+true|wrong|gone|moved|changed|cancel|never\s+mind|lift|undo|"
-    r"don['’]?t\s+(?:remember|keep)|do\s+not\s+(?:remember|keep)|not|no|instead|"
-    r"unusta|kustuta|eemalda|tühista|enam|mitte|ei\s+ole|pole|vale)\b",
+    r"isn['’]?t|aren['’]?t|is\s+not|are\s+not|was\s+wrong|not\s+true|wrong|gone|lift|undo|"
+    r"don['’]?t\s+(?:remember|keep)|do\s+not\s+(?:remember|keep)|need\s+not\s+(?:remember|keep)|"
+    r"unusta|kustuta|eemalda|tühista|enam|ei\s+ole|pole|vale)\b",
+    re.IGNORECASE,
+)
+_KEEPING: Final = re.compile(
+    r"\b(?:don['’]?t|do\s+not|never|not\s+to|ära)\s+(?:\w+\s+)?"
+    r"(?:forget|erase|delete|remove|discard|drop|clear|wipe|unusta|kustuta|eemalda)\b",
     re.IGNORECASE,
 )
 _ALL: Final = re.compile(
@@ -53,7 +58,7 @@ def speaks_of_change(words: str) -> bool:
 
 def speaks_of_forgetting(words: str) -> bool:
     """Whether somebody speaks of forgetting, or of something that holds no longer."""
-    return _FORGETTING.search(words) is not None
+    return _FORGETTING.search(words) is not None and _KEEPING.search(words) is None
 
 
 def speaks_of_all(words: str) -> bool:

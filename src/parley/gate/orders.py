@@ -12,6 +12,7 @@ from collections.abc import Sequence
 from dataclasses import dataclass
 from typing import Any, Final
 
+from parley.gate.assent import begins_with_no
 from parley.gate.evidence import (
     is_about,
     is_said,
@@ -27,7 +28,9 @@ from parley.sentences import Sentence, sentence
 
 __all__ = ["Admitted", "Heard", "admit", "admit_repair", "engine", "is_chosen"]
 
+SAID_NO: Final = sentence("you said no to something")
 NOT_ASKED_FOR: Final = sentence("you did not say so in so many words")
+_REFERRING: Final = re.compile(r"\b(?:it|that|this|those|them|seda|see|selle)\b", re.IGNORECASE)
 MAX_MEMORIES: Final = 20
 """More than this in one answer nobody told."""
 
@@ -126,7 +129,10 @@ def admit_repair(answer: ChatAction, heard: Heard) -> ChatAction:
     """The same for how a failure is to be repaired: `start` there means to try the step again as it was."""
     order = admit(answer, heard).order
     retries = [command for command in answer.system_cmd if command.command == "start"]
-    return order.model_copy(update={"system_cmd": (*order.system_cmd, *retries[:1])})
+    changes: dict[str, object] = {"system_cmd": (*order.system_cmd, *retries[:1])}
+    if begins_with_no(heard.words) and answer.success:
+        changes["needs_yes"] = SAID_NO
+    return order.model_copy(update=changes)
 
 
 def is_chosen(failed: ActionCall, answer: ChatAction, words: str, choices: Sequence[str]) -> bool:
@@ -205,4 +211,5 @@ def _may_forget(name: str, entry: MemoryEntry | None, heard: Heard) -> bool:
     if entry is not None and entry.way == "concluded":
         return True
     texts = [name] if entry is None or entry.type == "image" else [name, entry.info, entry.data]
-    return speaks_of_all(heard.words) or is_about(texts, " ".join([heard.words, *heard.earlier[-2:]]))
+    refers = heard.earlier[-1:] if _REFERRING.search(heard.words) else ()
+    return speaks_of_all(heard.words) or is_about(texts, " ".join([heard.words, *refers]))

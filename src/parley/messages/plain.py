@@ -19,16 +19,18 @@ _UNSEEN: Final = re.compile(
     "]"
 )
 """Not among them: the zero-width joiner and non-joiner, which Indic scripts, Persian and emoji need."""
+_SPEAKER: Final = re.compile(r"\s*\n+\s*(?=[\W_]*\w[\w .'’-]{0,40}?\s*[\W_]*\s*[:>›»|])")
+"""Where a line would begin as if somebody else spoke ("Kim: yes"): it goes on in the line before."""
 _EMOJI_STYLE: Final = "\ufe0f"
 
 
 def visible(text: str) -> str:
-    """`text` with what cannot be seen written out, e.g. ``⟨U+202E⟩``; carriage returns become line feeds.
+    """`text` with what cannot be seen written out, e.g. ``⟨U+202E⟩``, and no line that imitates a speaker.
 
     Unicode Technical Report 36 (section 3) says why: such characters let one text look like another.
     """
     text = text.replace("\r\n", "\n").replace("\r", "\n")
-    return _UNSEEN.sub(lambda found: _written_out(found[0]), text)
+    return _SPEAKER.sub(" / ", _UNSEEN.sub(lambda found: _written_out(found[0]), text))
 
 
 def one_line(text: str) -> str:

@@ -7,7 +7,7 @@ from collections.abc import Sequence
 from typing import Final
 
 from parley.gate.assent import assent_of
-from parley.messages.chat import ChatInput
+from parley.messages.chat import ChatFeedback, ChatInput
 from parley.messages.status import PlanDecision, PlanProposal, PlanUpdate, PoseInfo
 from parley.sentences import Sentence, listed, sentence, together
 
@@ -91,6 +91,7 @@ class Offered:
 
     def __init__(self) -> None:
         self._waiting: dict[str, list[PlanProposal]] = {}
+        self._asked: dict[str, bool] = {}
 
     def on_proposal(self, proposal: PlanProposal) -> None:
         """Steps wait for a yes."""
@@ -107,6 +108,20 @@ class Offered:
         """A plan changed: nothing waits where no plan is."""
         if update.state == "idle":
             self._waiting.pop(update.target, None)
+
+    def on_said(self, feedback: ChatFeedback, asking: str) -> None:
+        """A robot speaks: a yes counts for what it said last, so only if that was the question.
+
+        Args:
+            feedback: What it says.
+            asking: How the question ends that asks for a yes to a plan.
+        """
+        for target in feedback.targets:
+            self._asked[target] = feedback.message.rstrip().endswith(asking)
+
+    def is_asked(self, target: str) -> bool:
+        """Whether the question about what waits is the last thing the robot said."""
+        return self._asked.get(target, True)
 
     def newest(self, target: str) -> PlanProposal | None:
         """What was proposed last of what waits."""

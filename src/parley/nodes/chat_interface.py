@@ -103,7 +103,7 @@ class ChatInterface(Node):
         """See `Node.open`."""
         await self.opened.enter_async_context(self._mailboxes)
         await self.subscribe(topics.ACTOR_STATUS, ActorStatus, self._presence.on_status)
-        await self.subscribe(topics.CHAT_FEEDBACK, ChatFeedback, self._known.on_feedback)
+        await self.subscribe(topics.CHAT_FEEDBACK, ChatFeedback, self._on_said)
         await self.subscribe(topics.MEMORY_EVENT, MemoryEvent, self._confirmations.on_event)
         await self.subscribe(topics.STOP, StopCommand, self._on_emergency)
         await self.subscribe(topics.ERROR_HANDLING, ErrorHandlingMessage, self._known.on_failure)
@@ -150,7 +150,7 @@ class ChatInterface(Node):
         names = self._presence.names()
         decision = self._offered.decided(target, said, names) if question is None else None
         if decision is not None:
-            self.publish(topics.PLAN_DECISION, decision)
+            self._hand_on(target, decision, said)
             return
         if question is None and (self._set_aside(target, said) or self._undoes(target, said)):
             return
@@ -160,6 +160,19 @@ class ChatInterface(Node):
             self._mailboxes.post(target, self._work(target, said, ours))
         elif said.images:
             self._mailboxes.post(target, self._keep_pictures(target, said, question.message))
+
+    def _hand_on(self, target: str, decision: PlanDecision, said: ChatInput) -> None:
+        """Hand a yes or no on, if the question about the plan is what the robot said last; else ask again."""
+        offered = self._offered.newest(target)
+        if decision.decision == "reject" or offered is None or self._offered.is_asked(target):
+            self.publish(topics.PLAN_DECISION, decision)
+        else:
+            text = together(wish_of(offered.labels, offered.why), SHALL_I)
+            self._say((target,), text, "response", said.id)
+
+    def _on_said(self, feedback: ChatFeedback) -> None:
+        self._known.on_feedback(feedback)
+        self._offered.on_said(feedback, self.spoken(SHALL_I))
 
     def _set_aside(self, target: str, said: ChatInput) -> bool:
         """Whether a message is only about an older one that takes long; else tell that it waits behind it."""

@@ -11,6 +11,7 @@ from parley.clock import Clock
 from parley.errors import InvalidMessageError, LanguageError
 from parley.gate.assent import assent_of
 from parley.gate.orders import Heard, admit_repair, engine, is_chosen
+from parley.gate.table import Effect, verdict
 from parley.language.base import ErrorSituation, Language, Turn
 from parley.language.control import Control, control_of
 from parley.memory.client import recall
@@ -163,6 +164,8 @@ class ErrorHandler(Node):
             return
         control = control_of(said.message, self._presence.names())
         if self._questions.is_late(said) and control not in ("stop", "clear", "emergency_stop"):
+            return  # the chat interface says so
+        if control is None and verdict(said.who, Effect.ANSWER) != "allow":
             return  # the chat interface says so
         if control is not None and not (control == "start" and said.type == "response"):
             named = self._presence.named_in(said.message)

@@ -27,6 +27,7 @@ from parley.messages.memory import (
 from parley.messages.ros import ChatRequest, ChatResponse
 from parley.messages.wire import decode, encode
 from parley.nodes.base import Node
+from parley.sentences import sentence
 from parley.transport.base import Transport
 
 __all__ = ["MemoryNode", "read_request"]
@@ -81,6 +82,9 @@ class MemoryNode(Node):
             await self._change(entry.name, entry.scope, "remember", self._add(entry))
 
     async def _add(self, entry: MemoryEntry) -> MemoryEvent:
+        if entry.way not in ("told", "seen") and await self._store.is_told(entry.name):
+            said = sentence("a person told me something else under the name {name}", name=entry.name)
+            return MemoryEvent(kind="failed", name=entry.name, scope=entry.scope, message=said)
         await self._store.add(entry)
         if self._meanings is not None:
             self._meanings.wake()

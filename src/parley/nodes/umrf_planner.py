@@ -122,10 +122,10 @@ class UmrfPlanner(RobotPlans):
         if halting:
             self._send(plan, plan.give_up())
             return
-        known = (same or retries) and not clears  # it was agreed to before it failed
-        ruling = self._rule(plan, order, calls or (SKIPPED,), (), begin=Effect.REPAIR, known=known)
-        if ruling.begins == "now" or known:
-            changes = [command for command in control if command.command != "start"]
+        changes = [command for command in control if command.command != "start"]
+        known = (same or retries) and not changes and not order.needs_yes  # agreed to before it failed
+        ruling = self._rule(plan, order, calls or (SKIPPED,), changes, begin=Effect.REPAIR, known=known)
+        if known or (ruling.begins == "now" and not ruling.refused):
             for command in changes:
                 self._send(plan, self._command(plan, command, order.by))
             if clears and calls:
@@ -133,11 +133,15 @@ class UmrfPlanner(RobotPlans):
             elif not clears:
                 self._send(plan, plan.correct([failed.call] if retries and failed is not None else calls))
         elif ruling.begins == "ask":
-            asked = [command for command in control if command.command != "start"]
+            asked = changes
+            if retries and failed is not None:
+                calls = [failed.call]
             if not calls and not clears and failed is not None:
                 asked = [SystemCommand(command="skip")]
-            self._propose(plan, order, calls, asked, repairs=None if clears or not calls else failed)
-            self._say(plan.target, "I wait for your yes before I do this.", "info")
+            proposal = self._propose(
+                plan, order, calls, asked, repairs=None if clears or not calls else failed
+            )
+            self._say(plan.target, together(wish_of(proposal.labels, proposal.why), SHALL_I), "info")
         else:
             self._send(plan, plan.give_up())
 
@@ -320,7 +324,7 @@ class UmrfPlanner(RobotPlans):
         commands: Sequence[SystemCommand] = (),
         *,
         repairs: Step | None = None,
-    ) -> None:
+    ) -> PlanProposal:
         """Let steps and changes wait for a yes to what they really are."""
         target, pending = plan.target, plan.pending
         commands = [*orders.forgetting(order), *commands]
@@ -347,6 +351,7 @@ class UmrfPlanner(RobotPlans):
         proposal = self._approvals.propose(proposal, self._presence.get(target), repairs=repairs, bound=bound)
         self.publish(topics.PLAN, proposal)
         self._send(plan, [])
+        return proposal
 
     def _labels(self, plan: TargetPlan, calls: Sequence[ActionCall]) -> Labels:
         return labels_of(calls, self._catalogue(plan.target), self._objects(plan.target))
@@ -401,6 +406,11 @@ class UmrfPlanner(RobotPlans):
                 if not order.needs_yes:
                     self._audit(effect, order, ",".join(targets), "refused")
                 continue
+            if order.by is None or order.by.kind == "program":  # whose word it is cannot be known
+                known = {name: x for name, x in command.arguments.items() if name not in ("way", "words")}
+                command = command.model_copy(
+                    update={"arguments": known | {"source": str(order.by or "program")}}
+                )
             match memory_change(command):
                 case AddToMemory() as added:
                     self.publish(topics.ADD_TO_MEMORY, added)

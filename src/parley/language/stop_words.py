@@ -1,0 +1,85 @@
+"""Whether somebody calls a robot to stand still, whatever else they say. Read by code, before anything else.
+
+A word of stopping holds the robot at once (`has_stop_word`); then the whole is read while it stands
+(`calls_to_stop`): "stop right now, you will hit him" is a call, "stop at the box" and "the bus stop" are not.
+In doubt it is one: a robot that stands asks for a word more, a robot that drives on may hurt somebody.
+"""
+
+from __future__ import annotations
+
+import re
+import unicodedata
+from typing import Final
+
+__all__ = ["calls_to_stop", "has_stop_word"]
+
+_WORDS: Final = (
+    r"s+t+o+p+p*|stp+|sto|sotp|stpo|tsop|stpp|stopp?it|h+a+l+t+|w+a+i+t+|f+r+e+e+z+e+|w+h?o+a+h?|brake|"
+    r"careful|emergency|enough|"
+    r"s+e+i+s+|seisa|seiske|p+e+a+t+u+|peatuge|peata|oota|oodake|stopp+i*|pidurda|ettevaatust|hädaolukord|aitab|"
+    r"anhalten|warte|warten|vorsicht|achtung|arr[eê]tez?|attendez|attention|alto|par[ae]|cuidado|espera|"
+    r"fermati|ferma|aspetta|attento|stanna|vänta|pysähdy|seis|odota|varo|стой|стоп|стойте|осторожно|подожди"
+)
+_PHRASES: Final = (
+    r"hold\s+(?:it|on|still|your)|hang\s+on|stand\s+still|stay\s+(?:there|where|put|still)|watch\s+(?:out|it)|"
+    r"look\s+out|heads\s+up|back\s+off|knock\s+it\s+off|(?:don['’]?t|do\s+not)\s+(?:you\s+)?(?:dare\s+)?"
+    r"(?:move|drive|go\s+any|come\s+any)|no\s+further|not\s+(?:another|one)\s+(?:step|inch|centimet\w+)|"
+    r"pea\s+kinni|jää\s+(?:seisma|paigale)|ära\s+(?:liigu|sõida)|paigal|kohe\s+seisma"
+)
+_STOP: Final = re.compile(rf"(?<![\w-])(?:{_WORDS}|{_PHRASES})(?![\w])", re.IGNORECASE)
+
+_THING: Final = (
+    r"(?:bus|tram|train|taxi|coach|pit|rest|full|door|lift|end|next|last|first|second|third|final|every|each|"
+    r"this|that|which|one|a|an|the|any|another|tour|truck|fuel|your|my|our|his|her|their|two|three|four)"
+)
+_AUXILIARY: Final = (
+    r"(?:did|does|do|has|have|had|will|would|why|when|where|who|what|which|how|if|once|until|till|before|after|"
+    r"unless|whether|cannot|can['’]?t|could\s+not|couldn['’]?t|going\s+to|it|he|she|they)"
+)
+_NONE: Final = tuple(
+    re.compile(text, re.IGNORECASE)
+    for text in (
+        # no stopping at all, or only of something else
+        r"\b(?:don['’]?t|do\s+not|never|not|without|no\s+need\s+to|needn['’]?t|non|won['’]?t|"
+        r"shouldn['’]?t|must\s+not|mustn['’]?t|isn['’]?t|ära|mitte)\s+(?:\w+\s+)?(?:stop(?:ping)?|halt|wait|peatu|"
+        r"oota|seisa)\b(?!\s*[!.,;]*\s*(?:stop|halt|wait)\b)",
+        r"\bnon-?stop\b",
+        r"\b(?:bussi|rongi|trammi)?peatus\w*\b",
+        # a thing that is called so
+        rf"\b{_THING}\s+(?:\w+\s+)?(?:stops?|halt|wait|emergency|brake)\b",
+        r"\b(?:stop|emergency|wait|brake|freeze)\s+(?:button|sign|switch|exit|door|light|room|list|time|lever|"
+        r"pedal|frame|kit|number|plan)\b",
+        # told, asked, or for later
+        r"\b(?:tell|told|ask|asked|remind)\s+\w+\s+to\s+(?:stop|halt|wait)\b",
+        rf"\b{_AUXILIARY}\s+(?:\w+\s+)?(?:stop|halt|wait|freeze|brake)\b(?!\s*[!])",
+        r"\b(?:stop|wait|halt)\s+(?:smiling|smoking|talking|asking|laughing|crying|worrying|raining|joking)\b",
+        # an order of where to go and then to stand
+        r"\b(?:stop|halt|wait|peatu|oota|seisa)\s+(?:at|by|in\s+(?:the|front)|near|next\s+to|beside|behind|"
+        r"opposite|under|outside|inside|between|on\s+the|off\s+at|over\s+at|there\s+(?:for|until|till)|"
+        r"until|till|for\s+(?:him|her|them|us|me\s+(?:at|by|in|near|there))|when|once|after)\b(?!\s+once\b)",
+        r"\b(?:and|then|,)\s+(?:stop|halt|wait)\s+(?:and|there|then|for)\b",
+        r"\b(?:peatu|oota|seisa)\s+(?:\w+\s+)?\w*(?:s|l|juures|ees|taga|kõrval|juurde|ääres|äärde)\b(?=[^!]*$)",
+        r"\b(?:careful|enough|freeze|wait)\s+(?:with|of|for|about|the|to)\b",
+        r"\b(?:be|more|very|was|is|are|good|well|fast|big|old|warm|long|far)\s+(?:careful|enough)\b(?!\s*!)",
+        r"\benough\s+\w+\b",
+    )
+)  # fmt: skip
+
+
+def has_stop_word(text: str) -> bool:
+    """Whether a message has a word of stopping in it; every robot it is for then stands while it is read."""
+    return _STOP.search(_plain(text)) is not None
+
+
+def calls_to_stop(text: str) -> bool:
+    """Whether a message with such a word calls to stand still; in doubt it does."""
+    plain = _plain(text)
+    taken = [found.span() for pattern in _NONE for found in pattern.finditer(plain)]
+    return any(
+        not any(start <= found.start() and found.end() <= end for start, end in taken)
+        for found in _STOP.finditer(plain)
+    )
+
+
+def _plain(text: str) -> str:
+    return unicodedata.normalize("NFKC", text).replace("’", "'")
