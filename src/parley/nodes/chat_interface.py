@@ -274,7 +274,8 @@ class ChatInterface(Node):
             self.publish(topics.PLAN_DECISION, yes)
             return
         elif control == "emergency_stop":
-            self.publish(topics.STOP, StopCommand(targets=(target,), id=uuid.uuid4().hex, by=said.who))
+            stop = StopCommand(targets=(target,), id=uuid.uuid4().hex, by=said.who, words=said.message)
+            self.publish(topics.STOP, stop)
         elif (
             not reply or control in _HALTING
         ):  # stopping is sent in any case: the plan may be newer than known
