@@ -9,7 +9,7 @@ from __future__ import annotations
 import asyncio
 import functools
 from collections import deque
-from collections.abc import Callable, Iterable, Mapping
+from collections.abc import Callable, Iterable, Iterator, Mapping
 from dataclasses import replace
 from typing import Any, Final
 
@@ -266,8 +266,12 @@ class GraphRun:
         return dict(self._flow.exit_values)
 
     def _active(self) -> list[FlowNode]:
+        return list(self._each_active())
+
+    def _each_active(self) -> Iterator[FlowNode]:
+        """As `_active`; who asks for any of them looks no further than the first."""
         nodes = self._flow.nodes
-        return [nodes[name] for name in self._runs if name in nodes and nodes[name].active]
+        return (nodes[name] for name in self._runs if name in nodes and nodes[name].active)
 
     def _run_node(self, item: FlowNode, cause: str) -> None:
         """Start a run, unless one is going on: then the trigger is ignored (10.4)."""
@@ -457,10 +461,11 @@ class GraphRun:
 
     def _settle(self) -> None:
         """Notice that the graph has come to rest: paused, halted or stopped."""
-        if self.state is GraphState.RUNNING and (self._holding or (self._later.held and not self._active())):
-            if not any(item.state in _MOVING for item in self._active()):
+        going = next(self._each_active(), None) is not None
+        if self.state is GraphState.RUNNING and (self._holding or (self._later.held and not going)):
+            if not any(item.state in _MOVING for item in self._each_active()):
                 self._set_graph(GraphState.PAUSED, "pause")
-        elif self.state not in (GraphState.RUNNING, GraphState.STOPPING) or self._active():
+        elif self.state not in (GraphState.RUNNING, GraphState.STOPPING) or going:
             return
         elif self.state is GraphState.STOPPING:
             if self._stop_failed:

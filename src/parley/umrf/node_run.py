@@ -112,6 +112,8 @@ class NodeRun:
             returned = await self._limited(work)
         except SystemExit as error:  # would end the loop, and with it every robot of this process
             raise RuntimeError(f"it called exit({error.code})") from error
+        except KeyboardInterrupt as error:  # as well; a person's Ctrl-C is told to the loop, not to an action
+            raise RuntimeError("it raised KeyboardInterrupt") from error
         return Ended.of(outcome_of(item.spec, returned))
 
     def _limited(self, work: Awaitable[Any]) -> Awaitable[Any]:
@@ -199,6 +201,8 @@ class NodeRun:
         task = self.task
         task.cancel()
         await asyncio.wait([task], timeout=ABANDON_S)
+        if not task.done():  # nor may it keep the process from ending, which waits for all tasks it knows
+            asyncio.tasks._unregister_task(task)
         return task.done()
 
     def log(self, text: str) -> None:
