@@ -120,6 +120,10 @@ class StopLine:
         """Whether an emergency stop of that robot is in force."""
         return self._latched.holds(robot)
 
+    def latched_elsewhere(self, robot: str) -> bool:
+        """Whether that holds for a robot that is not tied to this line."""
+        return robot not in self._tied and self.latched(robot)
+
     def held(self, robot: str) -> bool:
         """Whether it stands still while a message is read."""
         return any(not names or robot in names for names in tuple(self._holds.values()))

@@ -244,7 +244,7 @@ class ChatInterface(Node):
     def _on_emergency(self, command: StopCommand) -> None:
         """The stop button: what was asked for before it is dropped, as if it had been said."""
         if command.command == "stop":
-            for target in command.targets or self._presence.names():
+            for target in command.targets or self._presence.ever():
                 self._halt(target)
 
     def _halt(self, target: str) -> None:

@@ -269,7 +269,6 @@ class GraphRun:
         return list(self._each_active())
 
     def _each_active(self) -> Iterator[FlowNode]:
-        """As `_active`; who asks for any of them looks no further than the first."""
         nodes = self._flow.nodes
         return (nodes[name] for name in self._runs if name in nodes and nodes[name].active)
 
