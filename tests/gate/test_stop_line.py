@@ -4,6 +4,9 @@ from __future__ import annotations
 
 import asyncio
 import json
+import signal
+import subprocess
+import sys
 import threading
 from pathlib import Path
 
@@ -172,3 +175,35 @@ def test_a_release_never_undoes_a_later_stop(round_: int) -> None:
     for thread in threads:
         thread.join()
     assert ada.halted, round_
+
+
+def test_a_log_that_cannot_be_written_keeps_no_robot_from_being_halted(
+    monkeypatch: pytest.MonkeyPatch,
+) -> None:
+    def full(*_: object, **__: object) -> None:
+        raise OSError(28, "No space left on device")
+
+    monkeypatch.setattr("parley.gate.notes.log.error", full, raising=False)
+    line = StopLine()
+    Drive(line, "Ada", broken=True)
+    bob = Drive(line, "Bob")
+    line.pull(by=None)
+    assert bob.halted
+
+
+def test_after_kill_9_right_behind_the_report_it_is_latched(tmp_path: Path) -> None:
+    file = tmp_path / "stops.json"
+    script = """
+import os, signal, sys
+from pathlib import Path
+from parley.gate.stop_line import StopLine
+line = StopLine(Path(sys.argv[1]))
+line.attach("Ada", halt=lambda: None, resume=lambda: None, told=lambda _: None)
+if line.pull(["Ada"], by=None, wait_s=10)[0].written:
+    os.kill(os.getpid(), signal.SIGKILL)
+"""
+    ended = subprocess.run([sys.executable, "-c", script, str(file)], check=False, timeout=60)
+    assert ended.returncode == -signal.SIGKILL
+    again = StopLine(file)
+    assert (again.latched("Ada"), again.latched("Bob")) == (True, False)
+    again.close()

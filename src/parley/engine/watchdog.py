@@ -8,16 +8,13 @@ import threading
 from collections.abc import Callable, Sequence
 from typing import Final
 
-import structlog
-
 from parley.clock import Clock
+from parley.gate.notes import note
 from parley.gate.stop_line import StopLine
 from parley.messages.principal import Principal
 from parley.sentences import Sentence, sentence
 
 __all__ = ["BLOCKED_S", "LoopWatchdog"]
-
-log = structlog.get_logger(__name__)
 
 BLOCKED_S: Final = 0.5
 """Wall time without a sign of the loop after which its robots are held."""
@@ -75,12 +72,12 @@ class LoopWatchdog:
         assert self._loop is not None
         action, where = self._culprit()
         self._line.hold(self._robots, id=hold, by=_BY)
-        log.error("loop blocked", action=action, where=where)
+        note("loop blocked", action=action, where=where)
         while not (answered.wait(LOOK_S) or self._closed.is_set()):
             continue
         self._line.go_on(hold)
         blocked_s = self._clock.wall_s() - began_s
-        log.error("loop was blocked", action=action, where=where, seconds=round(blocked_s, 2))
+        note("loop was blocked", action=action, where=where, seconds=round(blocked_s, 2))
         if action and blocked_s > TELL_S and not self._closed.is_set():
             self._loop.call_soon_threadsafe(self._tell, _told(action, blocked_s))
 

@@ -11,11 +11,9 @@ from dataclasses import dataclass
 from pathlib import Path
 from typing import Any, Final
 
-import structlog
+from parley.gate.notes import note
 
 __all__ = ["LatchFile", "Latched"]
-
-log = structlog.get_logger(__name__)
 
 RETRY_S: Final = 2.0
 """Wall time after which is tried again what could not be written."""
@@ -97,7 +95,7 @@ class LatchFile:
         except FileNotFoundError:
             return Latched()
         except (OSError, ValueError) as error:
-            log.error("the stops of the last time cannot be read", file=str(self._path), reason=str(error))
+            note("the stops of the last time cannot be read", file=str(self._path), reason=str(error))
             return Latched(everybody=True)
 
     def save(self, state: Latched) -> Future[str]:
@@ -156,8 +154,8 @@ class LatchFile:
             new.replace(self._path)
             _sync_folder(self._path.parent)
         except OSError as error:
-            log.error("the stop cannot be written down", file=str(self._path), reason=str(error))
             self._empty()
+            note("the stop cannot be written down", file=str(self._path), reason=str(error))
             return str(error)
         return ""
 
@@ -169,7 +167,7 @@ class LatchFile:
                 file.truncate(0)
                 os.fsync(file.fileno())
         except OSError as error:
-            log.error("nor can the old one be emptied", file=str(self._path), reason=str(error))
+            note("nor can the old one be emptied", file=str(self._path), reason=str(error))
 
 
 def _write_through(path: Path, text: str) -> None:

@@ -13,17 +13,14 @@ from dataclasses import dataclass, field
 from pathlib import Path
 from typing import Final, Literal
 
-import structlog
-
 from parley.errors import ActionFailure, Problem
 from parley.gate.latch_file import LatchFile
+from parley.gate.notes import note
 from parley.gate.table import Effect, verdict
 from parley.messages.principal import Principal
 from parley.messages.status import StopCommand
 
 __all__ = ["WRITTEN_WITHIN_S", "StopLine", "StopOutcome"]
-
-log = structlog.get_logger(__name__)
 
 WRITTEN_WITHIN_S: Final = 0.25
 """How long whoever pulls may wait until it is on disk; the robots are halted before that."""
@@ -271,11 +268,11 @@ class StopLine:
                 else:
                     item.resume()
             except ActionFailure as failure:
-                log.error("drive cannot be told", actor=item.robot, reason=failure.message)
+                note("drive cannot be told", actor=item.robot, reason=failure.message)
                 return failure.message
-            except Exception as error:
+            except Exception as error:  # noqa: BLE001 - told to whoever pulls
                 # Whatever is wrong with one robot, the others must be halted; whoever pulled is told.
-                log.exception("drive cannot be told", actor=item.robot)
+                note("drive cannot be told", actor=item.robot, exc_info=True)
                 return f"{type(error).__name__}: {error}"
         return ""
 
@@ -283,7 +280,7 @@ class StopLine:
         try:
             item.told(command)
         except RuntimeError:  # its loop is closed: there is nothing left that could be told
-            log.warning("nobody there to be told of a stop", actor=item.robot, command=command.command)
+            note("nobody there to be told of a stop", actor=item.robot, command=command.command)
 
 
 def _ended_by(held: frozenset[str], released: tuple[str, ...]) -> bool:
