@@ -7,7 +7,7 @@ from collections.abc import Mapping, Sequence
 from contextlib import AbstractAsyncContextManager, AsyncExitStack
 from dataclasses import dataclass
 from types import TracebackType
-from typing import Literal, Self, TypeVar
+from typing import Final, Literal, Self, TypeVar
 
 import structlog
 
@@ -71,6 +71,11 @@ __all__ = ["System", "WorldView"]
 N = TypeVar("N", bound=Node)
 
 log = structlog.get_logger(__name__)
+
+IN_DOUBT: Final = (
+    "I cannot read who was stopped for safety the last time, so all robots count as stopped. Make sure that "
+    "it is safe, then release the stop."
+)
 
 
 @dataclass(frozen=True, slots=True)
@@ -212,7 +217,8 @@ class System:
         await enter(self._speaking(chat))
         await enter(self._speaking(Lookout(transport, clock)))
         notices = self._notices = await enter(self._speaking(Notices(transport)))
-        for text in (self.store.notice, incidents.notice, proposals.notice, *self._early):
+        doubt = IN_DOUBT if self.stop_line.in_doubt else ""
+        for text in (doubt, self.store.notice, incidents.notice, proposals.notice, *self._early):
             self._tell_all(text, "error")
         await self._open_actions(notices)
         views: Mapping[str, WorldView] = {name: self._view(name) for name in self.robot_names}
@@ -221,7 +227,7 @@ class System:
         await self._listen_to_stops()
         watchdog = LoopWatchdog(self.stop_line, self.robot_names, clock, self._tell_all)
         watchdog.open()
-        self._stack.callback(watchdog.close)
+        self._stack.push_async_callback(watchdog.close)
         engines = {name: await self._open_robot(name, views[name]) for name in self.robot_names}
         self._tell_interrupted(journal, planner, notices, engines)
         planner.offer_again()

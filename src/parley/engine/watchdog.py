@@ -44,15 +44,17 @@ class LoopWatchdog:
         self._closed = threading.Event()
         self._loop: asyncio.AbstractEventLoop | None = None
         self._loop_thread = 0
+        self._thread = threading.Thread(target=self._watch, name="loop watchdog", daemon=True)
 
     def open(self) -> None:
         """Begin to watch."""
         self._loop, self._loop_thread = asyncio.get_running_loop(), threading.get_ident()
-        threading.Thread(target=self._watch, name="loop watchdog", daemon=True).start()
+        self._thread.start()
 
-    def close(self) -> None:
-        """Watch no longer. Idempotent."""
+    async def close(self) -> None:
+        """Watch no longer."""
         self._closed.set()
+        await asyncio.to_thread(self._thread.join)
 
     def _watch(self) -> None:
         assert self._loop is not None

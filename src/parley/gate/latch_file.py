@@ -49,21 +49,25 @@ class Latched:
         return Latched() if free else Latched(self.everybody, names)
 
     def to_text(self) -> str:
-        """As it stands in the file."""
+        """What stands in the file."""
         return json.dumps({"stopped": {"everybody": self.everybody, "names": sorted(self.names)}})
 
     @classmethod
     def from_text(cls, text: str) -> Latched:
-        """What a file says; everybody is held by one that cannot be understood."""
+        """What a file says.
+
+        Raises:
+            ValueError: It cannot be understood.
+        """
         try:
             held: Mapping[str, Any] = json.loads(text)["stopped"]
             everybody, names = held["everybody"], held["names"]
-        except (ValueError, KeyError, TypeError, RecursionError):
-            return cls(everybody=True)
+        except (KeyError, TypeError, RecursionError) as error:
+            raise ValueError(f"not a list of stops: {error}") from error
         if type(everybody) is not bool or type(names) is not list:
-            return cls(everybody=True)
+            raise ValueError("`everybody` must be true or false, and `names` a list")
         if not all(isinstance(name, str) for name in names):
-            return cls(everybody=True)
+            raise ValueError("`names` must be text")
         return cls(everybody, frozenset(names))
 
 
@@ -85,6 +89,8 @@ class LatchFile:
         self._waiting: Future[str] = Future()
         self._thread: threading.Thread | None = None
         self._closed = False
+        self.in_doubt = False
+        """Whether `read` found something that cannot be understood."""
 
     def read(self) -> Latched:
         """What an earlier process left; nothing, if there was none."""
@@ -96,6 +102,7 @@ class LatchFile:
             return Latched()
         except (OSError, ValueError) as error:
             note("the stops of the last time cannot be read", file=str(self._path), reason=str(error))
+            self.in_doubt = True
             return Latched(everybody=True)
 
     def save(self, state: Latched) -> Future[str]:

@@ -65,6 +65,8 @@ class StopLine:
     def __init__(self, file: Path | None = None, robots: Iterable[str] = ()) -> None:
         self._file = LatchFile(file)
         self._latched = self._file.read()
+        self.in_doubt = self._file.in_doubt
+        """Whether everybody is latched because nobody knows who was."""
         self._lock = threading.Lock()
         self._known = set(robots)
         self._tied: dict[str, _Tied] = {}

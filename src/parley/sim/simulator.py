@@ -137,7 +137,7 @@ class Simulator:
     async def __aexit__(self, *exc: object) -> None:
         assert self._task is not None and self._drawing is not None
         if self._keeper is not None:
-            self._keeper.close()
+            await self._keeper.close()
         task, self._task = self._task, None
         task.cancel()
         try:
