@@ -15,6 +15,7 @@ from parley.umrf.action import ActionSpec, RunHandle
 from parley.umrf.catalogue import Catalogue
 from parley.umrf.executor import GraphRun
 from parley.umrf.model import GraphState, NodeState, Result
+from parley.umrf.slices import SLICE
 
 
 def fan(width: int, run: Any) -> GraphRun:
@@ -45,6 +46,20 @@ async def test_stopping_four_thousand_actions_is_linear() -> None:
     run.stop()
     assert await run.wait() is Result.ON_STOPPED
     assert time.process_time() - began_s < 0.6, "it took 1.1 s when each end looked at all the others"
+
+
+async def test_stopping_many_lets_others_have_their_turn() -> None:
+    async def wait(handle: RunHandle) -> None:
+        if handle.node != "Work_0":
+            await asyncio.Event().wait()
+
+    run = fan(SLICE + 1, wait)
+    run.start()
+    await until_running(run, SLICE + 1)
+    run.stop()
+    states = [node.state for node in run.snapshot().nodes]
+    assert (states.count(NodeState.STOPPING), states.count(NodeState.RUNNING)) == (SLICE, 1)
+    assert await run.wait() is Result.ON_STOPPED
 
 
 def test_an_action_that_will_not_end_does_not_keep_the_process_from_ending() -> None:

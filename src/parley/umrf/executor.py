@@ -30,6 +30,7 @@ from parley.umrf.reports import failure_lines, stop_timed_out_text
 from parley.umrf.resolve import resolve
 from parley.umrf.rounds import Rounds
 from parley.umrf.saved import Later, SavedRun, load, save_frame, save_node
+from parley.umrf.slices import in_slices
 from parley.umrf.transition import NO_FACTS, Announcer, Observer
 
 __all__ = ["STOP_TIMEOUT_S", "GraphRun"]
@@ -150,16 +151,15 @@ class GraphRun:
         self._go_on(continue_from, past, "resume")
 
     def stop(self) -> None:
-        """End the run (11.2): what runs is told to stop at once, the graph is STOPPED when all of it has.
-
-        A node that takes longer than the time-out ends in ERROR, and so does the graph.
-        """
+        """End the run (11.2): the graph is STOPPED when all that runs has; else after a time-out in ERROR."""
         if self.state in (GraphState.RUNNING, GraphState.PAUSED, GraphState.HALTED, GraphState.INITIALIZED):
             self._holding = self._stop_failed = False
             self._later.clear()
             self._set_graph(GraphState.STOPPING, "stop")
-        for item in self._active():
-            self._stop_node(item, "stop")
+        active = self._active()
+        for item in active:
+            self._runs[item.name].motion.revoke()  # no drive waits for its turn
+        in_slices(active, lambda item: self._stop_node(item, "stop"))
         self._inner.stop()
         self._settle()
 
