@@ -178,7 +178,8 @@ class LatchFile:
 
 
 def _write_through(path: Path, text: str) -> None:
-    with path.open("w", encoding="utf-8") as file:
+    handle = os.open(path, os.O_WRONLY | os.O_CREAT | os.O_TRUNC, 0o600)
+    with os.fdopen(handle, "w", encoding="utf-8") as file:
         file.write(text)
         file.flush()
         os.fsync(file.fileno())
