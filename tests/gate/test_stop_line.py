@@ -40,13 +40,15 @@ class Drive:
 def test_a_pull_halts_all_even_if_one_drive_is_broken_and_says_so() -> None:
     line = StopLine()
     broken, ada = Drive(line, "Bob", broken=True), Drive(line, "Ada")
+    line.hold(["ada"], id="m", by=None)
+    assert (ada.halted, broken.commands) == (True, []), "capitals do not matter"
     outcomes = {item.robot: item for item in line.pull(by=None, id="1", words="stop!!")}
     assert ada.halted
     assert outcomes["Ada"].state == "halted"
     assert (outcomes["Bob"].state, outcomes["Bob"].problem) == ("failed", "no power")
     assert [command.words for command in broken.commands] == ["stop!!"]
     line.pull(by=None, id="1")
-    assert len(ada.commands) == 1, "the same stop over another way tells the owner nothing new"
+    assert len(ada.commands) == 2, "the same stop over another way tells the owner nothing new"
 
 
 def test_only_a_person_releases_and_nothing_but_the_named() -> None:

@@ -147,7 +147,7 @@ class StopLine:
             words: What was said or pressed.
             wait_s: For so long it may wait until it is on disk. On a loop 0, and `written` instead.
         """
-        command = StopCommand(targets=tuple(targets), id=id, by=by, words=words)
+        command = StopCommand(targets=self._meant(targets), id=id, by=by, words=words)
         with self._lock:
             self._latched = self._latched.stopped(command.targets)
             self._saved = self._file.save(self._latched)
@@ -181,7 +181,7 @@ class StopLine:
             by: Who said it.
             words: What is being read.
         """
-        command = StopCommand(command="hold", targets=tuple(targets), id=id, by=by, words=words)
+        command = StopCommand(command="hold", targets=self._meant(targets), id=id, by=by, words=words)
         with self._lock:
             self._holds[id] = frozenset(command.targets)
             tied = self._named(command.targets)
@@ -225,7 +225,7 @@ class StopLine:
                     "reset_refused",
                 ),
             )
-        command = StopCommand(command="reset", targets=tuple(targets), id=id, by=by)
+        command = StopCommand(command="reset", targets=self._meant(targets), id=id, by=by)
         with self._lock:
             self._latched = self._latched.released(command.targets, self._known)
             for name in [name for name, held in self._holds.items() if _ended_by(held, command.targets)]:
@@ -255,6 +255,12 @@ class StopLine:
 
     def _stands(self, robot: str) -> bool:
         return self.latched(robot) or self.held(robot)
+
+    def _meant(self, targets: Iterable[str]) -> tuple[str, ...]:
+        """The names as they are known, whatever their capitals; an unknown one stays as it is."""
+        with self._lock:
+            known = {name.casefold(): name for name in self._known}
+        return tuple(known.get(name.casefold(), name) for name in targets)
 
     def _named(self, targets: Iterable[str]) -> tuple[_Tied, ...]:
         """Those who are tied, of these or of all; the caller holds the lock."""
