@@ -2,11 +2,12 @@
 
 from __future__ import annotations
 
+import asyncio
 from collections.abc import Mapping, Sequence
 from contextlib import AbstractAsyncContextManager, AsyncExitStack
 from dataclasses import dataclass
 from types import TracebackType
-from typing import Literal, Self, TypeVar
+from typing import Final, Literal, Self, TypeVar
 
 import structlog
 
@@ -18,8 +19,11 @@ from parley.engine.engine import ActionEngine
 from parley.engine.interrupted import Interrupted
 from parley.engine.journal import Journal
 from parley.engine.services import ContextServices
-from parley.errors import GraphRefusedError
+from parley.engine.stop_listener import StopListener
+from parley.engine.watchdog import LoopWatchdog
+from parley.errors import GraphRefusedError, Problem
 from parley.gate.audit_store import AuditStore
+from parley.gate.stop_line import StopLine
 from parley.language.base import Language
 from parley.language.llm import build_language
 from parley.language.llm.usage import Usage
@@ -29,6 +33,9 @@ from parley.memory.incidents import IncidentStore
 from parley.memory.meanings import Meanings
 from parley.memory.proposals import ProposalStore
 from parley.memory.store import MemoryStore
+from parley.messages import ros, topics
+from parley.messages.status import Rejection, RejectionProblem
+from parley.messages.wire import to_string
 from parley.nodes.audit_log import AuditLog
 from parley.nodes.base import Node
 from parley.nodes.camera_feed import CameraFeed
@@ -46,10 +53,11 @@ from parley.nodes.plan_steps import Step
 from parley.nodes.repair import left_over_text
 from parley.nodes.umrf_planner import UmrfPlanner
 from parley.robots.base import Robot
+from parley.robots.run_robot import RunRobot
 from parley.robots.simulated import SimulatedRobot
 from parley.sim.simulator import Simulator
 from parley.sim.world_file import WorldFile
-from parley.transport.base import Transport
+from parley.transport.base import Publisher, Transport
 from parley.transport.local import LocalTransport
 from parley.umrf.action import ActionSpec, RunHandle
 from parley.umrf.catalogue import Catalogue
@@ -63,6 +71,11 @@ __all__ = ["System", "WorldView"]
 N = TypeVar("N", bound=Node)
 
 log = structlog.get_logger(__name__)
+
+IN_DOUBT: Final = (
+    "I cannot read who was stopped for safety the last time, so all robots count as stopped. Make sure that "
+    "it is safe, then release the stop."
+)
 
 
 @dataclass(frozen=True, slots=True)
@@ -118,6 +131,8 @@ class System:
         self._problems = installed.problems
         self.catalogue = Catalogue(self._actions)
         self.robots: dict[str, Robot] = {}
+        self.stop_line: StopLine
+        """Stops the robots, from any thread; there once the system is open."""
         self.store: MemoryStore | None = None
         self._journal: Journal | None = None
         self._notices: Notices | None = None
@@ -149,12 +164,15 @@ class System:
         if config.data_dir is not None:
             self._stack.enter_context(held_folder(config.data_dir, unix_ms=clock.unix_ms()))
         await enter(transport)
+        self.stop_line = await asyncio.to_thread(StopLine, config.stop_file, self.robot_names)
+        self._stack.push_async_callback(asyncio.to_thread, self.stop_line.close)
         if isinstance(self.language, AbstractAsyncContextManager):
             await enter(self.language)
         self.store = await enter(await MemoryStore.open(config.memory_file or ":memory:", clock))
         journal = self._journal = await enter(await Journal.open(config.journal_file or ":memory:", clock))
         audit = await enter(await AuditStore.open(config.audit_file or ":memory:", clock))
         await enter(AuditLog(transport, audit, clock, months=config.audit_months, tell=self._tell_all))
+        await self._keep_older_stops(journal)
         await enter(self.simulator)
         await enter(MemoryNode(transport, self.store, self.language, meanings=self._meanings(self.store)))
         await enter(
@@ -199,12 +217,17 @@ class System:
         await enter(self._speaking(chat))
         await enter(self._speaking(Lookout(transport, clock)))
         notices = self._notices = await enter(self._speaking(Notices(transport)))
-        for text in (self.store.notice, incidents.notice, proposals.notice, *self._early):
+        doubt = IN_DOUBT if self.stop_line.in_doubt else ""
+        for text in (doubt, self.store.notice, incidents.notice, proposals.notice, *self._early):
             self._tell_all(text, "error")
         await self._open_actions(notices)
         views: Mapping[str, WorldView] = {name: self._view(name) for name in self.robot_names}
         maps = {name: (view.occupancy, view.objects.objects) for name, view in views.items()}
         await enter(MapService(transport, maps))
+        await self._listen_to_stops()
+        watchdog = LoopWatchdog(self.stop_line, self.robot_names, clock, self._tell_all)
+        watchdog.open()
+        self._stack.push_async_callback(watchdog.close)
         engines = {name: await self._open_robot(name, views[name]) for name in self.robot_names}
         self._tell_interrupted(journal, planner, notices, engines)
         planner.offer_again()
@@ -212,6 +235,28 @@ class System:
         for incident in recovery.left_over:
             if incident.robot in engines and incident.robot not in told:
                 notices.tell(left_over_text(incident), [incident.robot])
+
+    async def _keep_older_stops(self, journal: Journal) -> None:
+        """Take over the stops that an older version kept in the journal."""
+        if journal.latched:
+            self.stop_line.pull(journal.latched, by=None, wait_s=0.0)
+            if await asyncio.wrap_future(self.stop_line.written) == "":
+                await journal.forget_latched()
+
+    async def _listen_to_stops(self) -> None:
+        refusals: Publisher[ros.String] = self.transport.publisher(topics.REJECTION)
+        self._stack.callback(refusals.close)
+
+        def complain(problems: Sequence[Problem]) -> None:
+            told = tuple(
+                RejectionProblem(path=item.path, message=item.message, remedy=item.remedy, code=item.code)
+                for item in problems
+            )
+            refusals.publish(to_string(Rejection(source="stop_line", what=topics.STOP.name, problems=told)))
+
+        listener = StopListener(self.stop_line, self.transport, complain)
+        await listener.open()
+        self._stack.push_async_callback(listener.close)
 
     def _speaking(self, node: N) -> N:
         """Let a node say its own sentences in the language that was chosen."""
@@ -277,7 +322,7 @@ class System:
         def make_context(run: RunHandle) -> ActionContext:
             return ActionContext(
                 run=run,
-                robot=robot,
+                robot=RunRobot(robot, run.motion),
                 world=view,
                 memory=services,
                 display=services,
@@ -294,6 +339,7 @@ class System:
                 make_context=make_context,
                 robot=robot,
                 journal=self._journal,
+                line=self.stop_line,
             )
         )
         enter = self._stack.enter_async_context

@@ -211,13 +211,17 @@ class StepCommand(Payload):
 
 
 class StopCommand(Payload):
-    """`/parley/stop`: emergency stop or its reset; empty `targets` means all."""
+    """`/parley/stop`: emergency stop or its reset, or a short hold; empty `targets` means all."""
 
-    command: Literal["stop", "reset"] = "stop"
+    command: Literal["stop", "reset", "hold", "go_on"] = "stop"
+    """`hold`: the drive stands still while a message is read, until `go_on` with the same `id` (or a reset);
+    it is not latched, and an emergency stop wins over it."""
     targets: tuple[str, ...] = ()
     id: str = ""
     by: Principal | None = None
     """Who stops or releases; a reset counts only from a person."""
+    words: str = ""
+    """What was said or pressed."""
 
 
 class StopReport(Payload):
@@ -225,7 +229,11 @@ class StopReport(Payload):
 
     actor: str
     id: str = ""
-    state: Literal["received", "at_rest", "reset"]
+    state: Literal["received", "at_rest", "moving", "silent", "reset"]
+    """`received`: its drive was told, and that is on disk (or somebody was told that it is not). Then one of
+    three: `at_rest`: it stands, measured; `moving`: it does not stand in time (`at_rest` may still follow);
+    `silent`: it does not answer. Of whom no report comes in time, nobody knows either: it does not answer.
+    `reset`: it may move again."""
 
 
 class RejectionProblem(Payload):

@@ -257,7 +257,7 @@ class ChatInterface(Node):
     def _on_emergency(self, command: StopCommand) -> None:
         """The stop button: what was asked for before it is dropped, as if it had been said."""
         if command.command == "stop":
-            for target in command.targets or self._presence.names():
+            for target in command.targets or self._presence.ever():
                 self._halt(target)
 
     def _halt(self, target: str) -> None:
@@ -287,7 +287,8 @@ class ChatInterface(Node):
             self.publish(topics.PLAN_DECISION, yes)
             return
         elif control == "emergency_stop":
-            self.publish(topics.STOP, StopCommand(targets=(target,), id=uuid.uuid4().hex, by=said.who))
+            stop = StopCommand(targets=(target,), id=uuid.uuid4().hex, by=said.who, words=said.message)
+            self.publish(topics.STOP, stop)
         elif (
             not reply or control in _HALTING
         ):  # stopping is sent in any case: the plan may be newer than known

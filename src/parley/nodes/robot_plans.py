@@ -151,11 +151,12 @@ class RobotPlans(PlanSender):
         if joined:
             self._offer_left(robot)
         plan = self._plans.get(robot)
-        if plan is None or not plan.pending:
+        if plan is None:
             return
         if not joined:
             text = sentence("I have lost contact with {robot}. Its plan is kept.", robot=robot)
-            self._say(robot, text, "error")
+            if plan.pending:
+                self._say(robot, text, "error")
         elif (status := self._presence.get(robot)) is not None:
             self._send(plan, plan.on_return(status.graphs))
 

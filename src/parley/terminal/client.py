@@ -14,6 +14,7 @@ from parley.clock import Clock, WallClock
 from parley.errors import InvalidMessageError, TransportError
 from parley.messages.chat import ChatInput
 from parley.messages.memory import MemoryEntry
+from parley.messages.principal import person
 from parley.messages.status import PlanDecision, StopCommand
 from parley.terminal.commands import Command, compose, help_rows, parse, suggest
 from parley.terminal.console import Console, ConsoleEvents, PlainConsole
@@ -236,10 +237,12 @@ class TerminalClient:
             command="stop" if command == "stop" else "reset",
             targets=() if is_for_all or robot is None else (robot.name,),
             id=uuid.uuid4().hex,
+            by=person(device="terminal"),
+            words=f"/{command}",
         )
         self._link.send(message)
         if command == "stop":
-            self._view.note_own_stop(message.id)
+            self._view.note_own_stop(message.id, message.targets)
             self._note("stop_sent_all" if is_for_all else "stop_sent", robot=self._view.selected)
 
     def _robots(self, _: str) -> None:

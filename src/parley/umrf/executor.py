@@ -9,7 +9,7 @@ from __future__ import annotations
 import asyncio
 import functools
 from collections import deque
-from collections.abc import Callable, Iterable, Mapping
+from collections.abc import Callable, Iterable, Iterator, Mapping
 from dataclasses import replace
 from typing import Any, Final
 
@@ -30,6 +30,7 @@ from parley.umrf.reports import failure_lines, stop_timed_out_text
 from parley.umrf.resolve import resolve
 from parley.umrf.rounds import Rounds
 from parley.umrf.saved import Later, SavedRun, load, save_frame, save_node
+from parley.umrf.slices import in_slices
 from parley.umrf.transition import NO_FACTS, Announcer, Observer
 
 __all__ = ["STOP_TIMEOUT_S", "GraphRun"]
@@ -150,16 +151,15 @@ class GraphRun:
         self._go_on(continue_from, past, "resume")
 
     def stop(self) -> None:
-        """End the run (11.2): what runs is told to stop at once, the graph is STOPPED when all of it has.
-
-        A node that takes longer than the time-out ends in ERROR, and so does the graph.
-        """
+        """End the run (11.2): the graph is STOPPED when all that runs has; else after a time-out in ERROR."""
         if self.state in (GraphState.RUNNING, GraphState.PAUSED, GraphState.HALTED, GraphState.INITIALIZED):
             self._holding = self._stop_failed = False
             self._later.clear()
             self._set_graph(GraphState.STOPPING, "stop")
-        for item in self._active():
-            self._stop_node(item, "stop")
+        active = self._active()
+        for item in active:
+            self._runs[item.name].motion.revoke()  # no drive waits for its turn
+        in_slices(active, lambda item: self._stop_node(item, "stop"))
         self._inner.stop()
         self._settle()
 
@@ -266,8 +266,11 @@ class GraphRun:
         return dict(self._flow.exit_values)
 
     def _active(self) -> list[FlowNode]:
+        return list(self._each_active())
+
+    def _each_active(self) -> Iterator[FlowNode]:
         nodes = self._flow.nodes
-        return [nodes[name] for name in self._runs if name in nodes and nodes[name].active]
+        return (nodes[name] for name in self._runs if name in nodes and nodes[name].active)
 
     def _run_node(self, item: FlowNode, cause: str) -> None:
         """Start a run, unless one is going on: then the trigger is ignored (10.4)."""
@@ -457,10 +460,11 @@ class GraphRun:
 
     def _settle(self) -> None:
         """Notice that the graph has come to rest: paused, halted or stopped."""
-        if self.state is GraphState.RUNNING and (self._holding or (self._later.held and not self._active())):
-            if not any(item.state in _MOVING for item in self._active()):
+        going = next(self._each_active(), None) is not None
+        if self.state is GraphState.RUNNING and (self._holding or (self._later.held and not going)):
+            if not any(item.state in _MOVING for item in self._each_active()):
                 self._set_graph(GraphState.PAUSED, "pause")
-        elif self.state not in (GraphState.RUNNING, GraphState.STOPPING) or self._active():
+        elif self.state not in (GraphState.RUNNING, GraphState.STOPPING) or going:
             return
         elif self.state is GraphState.STOPPING:
             if self._stop_failed:

@@ -14,6 +14,7 @@ from parley.clock import Clock
 from parley.umrf.action import Outcome, RunHandle, bind_inputs, outcome_of
 from parley.umrf.flow import FlowNode
 from parley.umrf.model import Result
+from parley.umrf.motion import Motion
 from parley.umrf.text import clean_text
 from parley.umrf.threads import in_thread
 from parley.umrf.time_limit import PausableTime, within
@@ -66,6 +67,7 @@ class NodeRun:
         asked: Callable[[], bool],
     ) -> None:
         self.actor, self.graph_name, self.node, self.clock = actor, graph_name, item.name, clock
+        self.motion = Motion(item.name)
         self.restart_wanted = False
         self.last_log = ""
         self.item = item
@@ -110,6 +112,8 @@ class NodeRun:
             returned = await self._limited(work)
         except SystemExit as error:  # would end the loop, and with it every robot of this process
             raise RuntimeError(f"it called exit({error.code})") from error
+        except KeyboardInterrupt as error:  # as well; a person's Ctrl-C is told to the loop, not to an action
+            raise RuntimeError("it raised KeyboardInterrupt") from error
         return Ended.of(outcome_of(item.spec, returned))
 
     def _limited(self, work: Awaitable[Any]) -> Awaitable[Any]:
@@ -130,10 +134,12 @@ class NodeRun:
 
     def _expired(self) -> float:
         self._stopping = True
+        self.motion.revoke()
         return THREAD_GRACE_S if self._threaded else 0.0
 
     def _end(self, ended: Callable[[NodeRun], None]) -> None:
         self._over = True
+        self.motion.revoke()  # what it may have left behind must not drive
         for timer in (self._progress_timer, self._stop_timer):
             if timer is not None:
                 timer.cancel()
@@ -157,14 +163,19 @@ class NodeRun:
         return self.item.spec.pausable
 
     def pause(self) -> None:
-        """Ask the action to stand still."""
+        """Ask the action to stand still; its drive does so in any case."""
         self._paused = True
+        self.motion.pause()
         self._going.clear()
         if self._time is not None:
             self._time.pause()
 
     def resume(self) -> None:
         """Let the action go on."""
+        self._let_go()
+        self.motion.resume()
+
+    def _let_go(self) -> None:
         self._paused = False
         self._going.set()
         if self._time is not None:
@@ -173,7 +184,8 @@ class NodeRun:
     def stop(self, timeout_s: float, timed_out: Callable[[], None]) -> None:
         """Ask the action to end; `timed_out` is called if it has not after `timeout_s` of wall time."""
         self._stopping = True
-        self.resume()
+        self.motion.revoke()
+        self._let_go()
         if self._task is not None and not self._threaded:
             self._task.cancel()
         self._stop_timer = self._loop.call_later(timeout_s, timed_out)
@@ -189,6 +201,8 @@ class NodeRun:
         task = self.task
         task.cancel()
         await asyncio.wait([task], timeout=ABANDON_S)
+        if not task.done():  # nor may it keep the process from ending, which waits for all tasks it knows
+            asyncio.tasks._unregister_task(task)
         return task.done()
 
     def log(self, text: str) -> None:
