@@ -277,7 +277,7 @@ SAMPLES: dict[type[BaseModel], dict[str, Any]] = {
         "by": KIM,
     },
     status.StepCommand: {"target": "A", "graph_name": "g", "node": "Move_0", "command": "end"},
-    status.StopCommand: {"command": "reset", "targets": ["A"], "id": "1", "by": KIM},
+    status.StopCommand: {"command": "reset", "targets": ["A"], "id": "1", "by": KIM, "words": "stop!!"},
     status.StopReport: {"actor": "A", "id": "1", "state": "at_rest"},
     status.SyncNotice: {
         "kind": "ended",

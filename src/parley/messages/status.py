@@ -187,13 +187,17 @@ class StepCommand(Payload):
 
 
 class StopCommand(Payload):
-    """`/parley/stop`: emergency stop or its reset; empty `targets` means all."""
+    """`/parley/stop`: emergency stop or its reset, or a short hold; empty `targets` means all."""
 
-    command: Literal["stop", "reset"] = "stop"
+    command: Literal["stop", "reset", "hold", "go_on"] = "stop"
+    """`hold`: the drive stands still while a message is read, until `go_on` with the same `id` (or a reset);
+    it is not latched, and an emergency stop wins over it."""
     targets: tuple[str, ...] = ()
     id: str = ""
     by: Principal | None = None
     """Who stops or releases; a reset counts only from a person."""
+    words: str = ""
+    """What was said or pressed."""
 
 
 class StopReport(Payload):
