@@ -2,15 +2,17 @@
 
 from __future__ import annotations
 
+import asyncio
 import uuid
 from collections.abc import Callable, Sequence
-from contextlib import AsyncExitStack
+from contextlib import AsyncExitStack, suppress
 from typing import Final, Self
 
 import structlog
 
 from parley import __version__
 from parley.clock import Clock, WallClock
+from parley.gate.stop_line import StopLine
 from parley.messages.chat import ChatFeedback, ChatImage, ChatInput
 from parley.messages.map import MapView
 from parley.messages.status import PlanDecision
@@ -26,6 +28,7 @@ from parley.web.pictures import kept_picture
 from parley.web.problems import WebProblem
 from parley.web.sessions import Sessions
 from parley.web.state import WebState
+from parley.web.stopping import Stopper
 from parley.web.store import WebStore
 
 __all__ = ["Backend"]
@@ -46,6 +49,8 @@ class Backend:
         config: The settings.
         pairs: Whether one has to sign in with a pairing code, where there is no password.
         clock: Wall time.
+        stop_line: Of the engines, if they run in this process.
+        at_rest: Whether a robot of this process stands, measured now; may be called from any thread.
     """
 
     state: WebState
@@ -53,10 +58,20 @@ class Backend:
     link: Link
     feeds: Feeds
 
+    stopper: Stopper
+
     def __init__(
-        self, transport: Transport, config: WebConfig, *, pairs: bool = False, clock: Clock | None = None
+        self,
+        transport: Transport,
+        config: WebConfig,
+        *,
+        pairs: bool = False,
+        clock: Clock | None = None,
+        stop_line: StopLine | None = None,
+        at_rest: Callable[[str], bool | None] = lambda _: None,
     ) -> None:
         self.transport, self.config = transport, config
+        self._stop_line, self._at_rest = stop_line, at_rest
         self.clock: Clock = clock or WallClock()
         self.sessions = Sessions(self.clock, config.password if pairs else "", pairs=pairs)
         self.addresses: tuple[str, ...] = ()
@@ -106,6 +121,14 @@ class Backend:
                 on_view=self._on_view,
                 on_joined=self._on_joined,
             )
+        )
+        loop = asyncio.get_running_loop()
+        self.stopper = Stopper(
+            self._stop_line,
+            lambda: self.state.robots.views,
+            lambda command: _in(loop, lambda: self.link.send(command)),
+            self.clock,
+            self._at_rest,
         )
         await self._settle_unsent()
         self.feeds = await enter(
@@ -278,3 +301,8 @@ class Backend:
     def _on_picture(self, key: tuple[str, str], picture: Picture) -> None:
         for listener in self.picture_listeners:
             listener(key, picture)
+
+
+def _in(loop: asyncio.AbstractEventLoop, deed: Callable[[], None]) -> None:
+    with suppress(RuntimeError):  # the loop is closed: nobody is left who could be told
+        loop.call_soon_threadsafe(deed)

@@ -23,9 +23,11 @@ __all__ = [
     "PolicyPut",
     "ProblemDetail",
     "RobotPost",
+    "RobotStop",
     "SessionInfo",
     "SessionPost",
     "StepsPut",
+    "StopAnswer",
     "StopPost",
 ]
 
@@ -125,6 +127,22 @@ class StopPost(WebModel):
     targets: Annotated[tuple[Name, ...], Field(max_length=100)] = ()
     """Empty: all robots."""
     id: Annotated[str, StringConstraints(pattern=r"^[A-Za-z0-9_.-]{0,64}$")] = ""
+
+
+RobotStop = Literal["sent", "stands", "moves", "silent"]
+"""`sent`: nothing is known yet; `stands`: its measured velocity is zero; `moves`: it knows of the stop and
+does not stand (yet); `silent`: it does not answer."""
+
+
+class StopAnswer(WebModel):
+    """What became of an emergency stop."""
+
+    ok: Literal[True] = True
+    id: str
+    robots: dict[str, RobotStop] = Field(default_factory=dict)
+    """Of each robot that was meant."""
+    kept: bool = True
+    """Whether it is in force after a kill of the process, too, as far as the server knows."""
 
 
 class PlanCommandPost(WebModel):

@@ -41,9 +41,10 @@ class WebModel(BaseModel):
 class StopView(WebModel):
     """How far an emergency stop of one robot has come."""
 
-    state: Literal["none", "sent", "received", "at_rest", "overdue"] = "none"
-    """`sent`: published; `received`: the engine told; `at_rest`: its measured velocity is zero;
-    `overdue`: not confirmed within the deadline. Latched in every state but `none`."""
+    state: Literal["none", "sent", "received", "at_rest", "moves", "silent"] = "none"
+    """`sent`: published; `received`: the engine told; `at_rest`: its measured velocity is zero. After the
+    deadline `moves`: it knows and does not stand; `silent`: it does not answer. Latched in every state but
+    `none`."""
     id: str = ""
     sent_unix_ms: int = 0
     at_rest_unix_ms: int = 0

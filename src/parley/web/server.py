@@ -15,6 +15,7 @@ from starlette.types import ASGIApp
 
 from parley.clock import Clock, WallClock
 from parley.errors import ConfigError
+from parley.gate.stop_line import StopLine
 from parley.transport.base import Transport
 from parley.web.addresses import LOCAL_NAMES, lan_addresses
 from parley.web.app import create_app
@@ -24,6 +25,7 @@ from parley.web.config import WebConfig
 from parley.web.front import Front
 from parley.web.guard import Guard
 from parley.web.live import Live
+from parley.web.stop_desk import StopDesk
 from parley.web.tls import fingerprint, made_certificate
 
 __all__ = ["WebServer"]
@@ -38,6 +40,8 @@ class WebServer:
         clock: Wall time.
         port_is_wish: Whether another port will do where the one of `config` is taken.
         around: Put around everything that is served in this loop, e.g. to measure it.
+        stop_line: Of the engines, where they run in this process; stops go this way then.
+        at_rest: Whether a robot of this process stands, measured now; may be called from any thread.
     """
 
     live: Live
@@ -51,11 +55,20 @@ class WebServer:
         clock: Clock | None = None,
         port_is_wish: bool = False,
         around: Callable[[ASGIApp], ASGIApp] = lambda app: app,
+        stop_line: StopLine | None = None,
+        at_rest: Callable[[str], bool | None] = lambda _: None,
     ) -> None:
         self._config, self._clock, self._around = config, clock or WallClock(), around
         self._port_is_wish = port_is_wish
         self.is_open_to_others = config.lan or config.host not in (*LOCAL_NAMES, "")
-        self.backend = Backend(transport, config, pairs=self.is_open_to_others, clock=self._clock)
+        self.backend = Backend(
+            transport,
+            config,
+            pairs=self.is_open_to_others,
+            clock=self._clock,
+            stop_line=stop_line,
+            at_rest=at_rest,
+        )
         self.url = ""
         """Where the page is on this machine."""
         self.fingerprint = ""
@@ -95,7 +108,7 @@ class WebServer:
         self.live = live = await self._stack.enter_async_context(Live(self.backend))
         app = self._around(create_app(self.backend, live))
         guard = Guard(
-            Bridge(app, asyncio.get_running_loop()),
+            StopDesk(Bridge(app, asyncio.get_running_loop()), self.backend.stopper),
             self.backend.sessions,
             self._clock,
             hosts=names,
