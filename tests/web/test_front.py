@@ -4,10 +4,12 @@ from __future__ import annotations
 
 import asyncio
 import json
+import sqlite3
 import time
 from collections.abc import AsyncIterator, Iterator
-from contextlib import ExitStack, asynccontextmanager, contextmanager
+from contextlib import ExitStack, asynccontextmanager, closing, contextmanager
 from dataclasses import dataclass, field
+from pathlib import Path
 from typing import Any
 
 import httpx
@@ -46,7 +48,7 @@ class Drive:
 
 
 @asynccontextmanager
-async def fronted(clock: Clock | None = None) -> AsyncIterator[tuple[Rig, Drive]]:
+async def fronted(clock: Clock | None = None, **settings: Any) -> AsyncIterator[tuple[Rig, Drive]]:
     """A server whose engines are in this process."""
     line = StopLine()
     drive = Drive(line)
@@ -54,7 +56,7 @@ async def fronted(clock: Clock | None = None) -> AsyncIterator[tuple[Rig, Drive]
     async with LocalTransport() as transport:
         robots = Robots(transport)
         await robots.listen()
-        config = WebConfig(port=0)
+        config = WebConfig(port=0, **settings)
         async with (
             WebServer(
                 transport, config, clock=clock, stop_line=line, at_rest=lambda _: drive.rests
@@ -171,3 +173,23 @@ async def test_only_a_person_at_the_page_releases() -> None:
         assert drive.line.latched("Ada")
         assert (await rig.http.post("/api/stop", json={"command": "reset"})).status_code == 200
         assert not drive.line.latched("Ada")
+
+
+async def test_a_message_with_a_stop_word_gets_through_while_the_conversation_cannot_be_kept(
+    tmp_path: Path,
+) -> None:
+    async with fronted(data_dir=tmp_path) as (rig, drive):
+        with closing(sqlite3.connect(tmp_path / "web.db", isolation_level=None)) as other:
+            other.execute("BEGIN EXCLUSIVE")
+            post = {"id": "m1", "text": "stop", "targets": ["Ada"]}
+            assert (await rig.http.post("/api/chat", json=post)).status_code == 200
+            assert drive.line.held("Ada")
+            await rig.heard()
+            assert [said.id for said in rig.robots.inputs] == ["m1"]
+
+
+async def test_a_message_that_is_refused_holds_nobody() -> None:
+    async with fronted(without={"chat"}) as (rig, drive):
+        post = {"id": "m1", "text": "stop", "targets": ["Ada"]}
+        assert (await rig.http.post("/api/chat", json=post)).status_code == 404
+        assert [command.command for command in drive.told] == ["hold", "go_on"]

@@ -60,7 +60,7 @@ class StopDesk:
         elif scope["type"] == "http" and scope["method"] == "POST" and path in (STOP, CHAT):
             messages, body = await _read(receive)
             if path == CHAT:
-                self._hold(scope, body)
+                send = self._hold(scope, body, send)
             answer = await self._stop(scope, body) if path == STOP else None
             if answer is None:
                 await self._app(scope, _again(messages, receive), send)
@@ -81,15 +81,24 @@ class StopDesk:
         await self._written()
         return Response(self._told(stop).model_dump_json(), media_type="application/json")
 
-    def _hold(self, scope: Scope, body: bytes) -> None:
+    def _hold(self, scope: Scope, body: bytes, send: Send) -> Send:
+        """Hold robots if a message has a stop word; who was held goes on where the message is refused."""
         if len(body) > MAX_READ_BYTES:
-            return
+            return send
         try:
             post = ChatPost.model_validate_json(body)
         except ValidationError:
-            return
-        if has_stop_word(post.text):
-            self._stopper.hold(post.targets, by=principal_of(scope), id=post.id, words=post.text)
+            return send
+        if not has_stop_word(post.text):
+            return send
+        self._stopper.hold(post.targets, by=principal_of(scope), id=post.id, words=post.text)
+
+        async def watched(message: Message) -> None:
+            if message["type"] == "http.response.start" and 400 <= message["status"] < 500:
+                self._stopper.go_on(post.id)  # nobody will read it, and whoever said it is told
+            await send(message)
+
+        return watched
 
     async def _line(self, socket: WebSocket) -> None:
         await socket.accept()
