@@ -26,6 +26,8 @@ class QoS:
     """Late subscribers get the last message (ROS: transient local)."""
     depth: int = 10
     """How many messages wait for a slow subscriber; older ones are dropped (ROS: keep last)."""
+    keep_all: bool = False
+    """Nothing is dropped, whatever depth a subscriber asks for (ROS: keep all)."""
 
 
 @dataclass(frozen=True, slots=True)
@@ -48,8 +50,12 @@ class Service(Generic[Req, Res]):
     ros_type: str
 
 
-def _string(name: str, *, latched: bool = False, depth: int = 100) -> Topic[ros.String]:
-    return Topic(name, ros.String, "std_msgs/msg/String", QoS(latched=latched, depth=depth))
+def _string(
+    name: str, *, latched: bool = False, depth: int = 100, keep_all: bool = False
+) -> Topic[ros.String]:
+    return Topic(
+        name, ros.String, "std_msgs/msg/String", QoS(latched=latched, depth=depth, keep_all=keep_all)
+    )
 
 
 CHAT_INPUT = _string("chat_interface_input")
@@ -83,7 +89,7 @@ GRAPH_EVENTS = _string("/parley/graph_events", depth=10_000)
 PLAN = _string("/parley/plan")
 PLAN_DECISION = _string("/parley/plan_decision")
 STEP = _string("/parley/step")
-STOP = _string("/parley/stop")
+STOP = _string("/parley/stop", keep_all=True)
 STOP_REPORT = _string("/parley/stop_report")
 REJECTION = _string("/parley/rejection")
 SYNC = _string("/parley/sync")

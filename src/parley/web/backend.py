@@ -132,6 +132,7 @@ class Backend:
             self._stop_line,
             lambda: self.state.robots.views,
             lambda command: _in(loop, lambda: self.link.send(command)),
+            self.link.on_stop,
             self.clock,
             self._at_rest,
         )
