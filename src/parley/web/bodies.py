@@ -139,7 +139,7 @@ class StopAnswer(WebModel):
 
     ok: Literal[True] = True
     id: str
-    robots: dict[str, RobotStop] = Field(default_factory=dict)
+    robots: dict[str, RobotStop]
     """Of each robot that was meant."""
     kept: bool = True
     """Whether it is in force after a kill of the process, too, as far as the server knows."""

@@ -24,4 +24,4 @@ async def post_stop(post: StopPost, web: Web, by: By) -> StopAnswer:
     refused = web.stopper.reset(post.targets, by=by, id=key)
     if refused:
         raise WebProblem(409, refused[:1].upper() + refused[1:] + ".", "Look at the robots, and try again.")
-    return StopAnswer(id=key)
+    return StopAnswer(id=key, robots={})
