@@ -111,6 +111,8 @@ class RobotBook:
                 self._received.discard(name)
                 stop = StopView(state="sent", id=command.id, sent_unix_ms=unix_ms)
                 self._put(view.model_copy(update={"stop": stop}))
+            elif command.command != "reset":
+                continue
             elif name not in self._received and view.stop.state in ("sent", "overdue"):
                 # Nobody ever took it, so nobody will confirm that it is taken back.
                 self._put(view.model_copy(update={"stop": StopView()}))

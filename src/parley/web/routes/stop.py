@@ -6,6 +6,7 @@ import uuid
 
 from fastapi import APIRouter
 
+from parley.messages.principal import person
 from parley.messages.status import StopCommand
 from parley.web.bodies import Done, StopPost
 from parley.web.routes.access import Web
@@ -19,5 +20,6 @@ router = APIRouter(prefix="/stop", tags=["stop"])
 async def post_stop(post: StopPost, web: Web) -> Done:
     """Send an emergency stop or its reset; what became of it is in each robot's `stop`."""
     named = tuple(web.state.robots.resolve(name) or name for name in post.targets)
-    web.link.send(StopCommand(command=post.command, targets=named, id=post.id or uuid.uuid4().hex))
+    by = person(device="page")
+    web.link.send(StopCommand(command=post.command, targets=named, id=post.id or uuid.uuid4().hex, by=by))
     return Done()
