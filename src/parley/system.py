@@ -20,6 +20,7 @@ from parley.engine.interrupted import Interrupted
 from parley.engine.journal import Journal
 from parley.engine.services import ContextServices
 from parley.engine.stop_listener import StopListener
+from parley.engine.watchdog import LoopWatchdog
 from parley.errors import GraphRefusedError, Problem
 from parley.gate.stop_line import StopLine
 from parley.language.base import Language
@@ -210,6 +211,9 @@ class System:
         maps = {name: (view.occupancy, view.objects.objects) for name, view in views.items()}
         await enter(MapService(transport, maps))
         await self._listen_to_stops()
+        watchdog = LoopWatchdog(self.stop_line, self.robot_names, clock, self._tell_all)
+        watchdog.open()
+        self._stack.callback(watchdog.close)
         engines = {name: await self._open_robot(name, views[name]) for name in self.robot_names}
         self._tell_interrupted(journal, planner, notices, engines)
         planner.offer_again()
