@@ -209,6 +209,11 @@ class SystemConfig(BaseModel, TextFile):
         return self.data_dir / "proposals.db" if self.data_dir is not None else None
 
     @property
+    def stop_file(self) -> Path | None:
+        """Who is held by an emergency stop, None if that is not kept."""
+        return self.data_dir / "stops.json" if self.data_dir is not None else None
+
+    @property
     def journal_file(self) -> Path | None:
         """The journal of what ran, None if it is not kept."""
         return self.data_dir / "journal.db" if self.data_dir is not None else None

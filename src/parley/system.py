@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import asyncio
 from collections.abc import Mapping, Sequence
 from contextlib import AbstractAsyncContextManager, AsyncExitStack
 from dataclasses import dataclass
@@ -17,8 +18,12 @@ from parley.config import SystemConfig
 from parley.engine.engine import ActionEngine
 from parley.engine.interrupted import Interrupted
 from parley.engine.journal import Journal
+from parley.engine.presence import is_at_rest
 from parley.engine.services import ContextServices
-from parley.errors import GraphRefusedError
+from parley.engine.stop_listener import StopListener
+from parley.engine.watchdog import LoopWatchdog
+from parley.errors import GraphRefusedError, Problem
+from parley.gate.stop_line import StopLine
 from parley.language.base import Language
 from parley.language.llm import build_language
 from parley.language.llm.usage import Usage
@@ -27,6 +32,9 @@ from parley.memory.incidents import IncidentStore
 from parley.memory.meanings import Meanings
 from parley.memory.proposals import ProposalStore
 from parley.memory.store import MemoryStore
+from parley.messages import ros, topics
+from parley.messages.status import Rejection, RejectionProblem
+from parley.messages.wire import to_string
 from parley.nodes.base import Node
 from parley.nodes.camera_feed import CameraFeed
 from parley.nodes.chat_interface import ChatInterface
@@ -43,10 +51,11 @@ from parley.nodes.plan_steps import Step
 from parley.nodes.repair import left_over_text
 from parley.nodes.umrf_planner import UmrfPlanner
 from parley.robots.base import Robot
+from parley.robots.run_robot import RunRobot
 from parley.robots.simulated import SimulatedRobot
 from parley.sim.simulator import Simulator
 from parley.sim.world_file import WorldFile
-from parley.transport.base import Transport
+from parley.transport.base import Publisher, Transport
 from parley.transport.local import LocalTransport
 from parley.umrf.action import ActionSpec, RunHandle
 from parley.umrf.catalogue import Catalogue
@@ -115,12 +124,19 @@ class System:
         self._problems = installed.problems
         self.catalogue = Catalogue(self._actions)
         self.robots: dict[str, Robot] = {}
+        self.stop_line: StopLine
+        """Stops the robots, from any thread; there once the system is open."""
         self.store: MemoryStore | None = None
         self._journal: Journal | None = None
         self._notices: Notices | None = None
         self._early: list[str] = []
         self._occupancy = occupancy
         self._stack = AsyncExitStack()
+
+    def at_rest(self, robot: str) -> bool | None:
+        """Whether a robot stands, measured now; None: it is not of this world. From any thread."""
+        known = self.robots.get(robot)
+        return None if known is None else is_at_rest(known)
 
     async def __aenter__(self) -> Self:
         try:
@@ -144,10 +160,13 @@ class System:
         enter = self._stack.enter_async_context
         config, transport, clock = self.config, self.transport, self.clock
         await enter(transport)
+        self.stop_line = await asyncio.to_thread(StopLine, config.stop_file, self.robot_names)
+        self._stack.push_async_callback(asyncio.to_thread, self.stop_line.close)
         if isinstance(self.language, AbstractAsyncContextManager):
             await enter(self.language)
         self.store = await enter(await MemoryStore.open(config.memory_file or ":memory:", clock))
         journal = self._journal = await enter(await Journal.open(config.journal_file or ":memory:", clock))
+        await self._keep_older_stops(journal)
         await enter(self.simulator)
         await enter(MemoryNode(transport, self.store, self.language, meanings=self._meanings(self.store)))
         await enter(
@@ -197,6 +216,10 @@ class System:
         views: Mapping[str, WorldView] = {name: self._view(name) for name in self.robot_names}
         maps = {name: (view.occupancy, view.objects.objects) for name, view in views.items()}
         await enter(MapService(transport, maps))
+        await self._listen_to_stops()
+        watchdog = LoopWatchdog(self.stop_line, self.robot_names, clock, self._tell_all)
+        watchdog.open()
+        self._stack.callback(watchdog.close)
         engines = {name: await self._open_robot(name, views[name]) for name in self.robot_names}
         self._tell_interrupted(journal, planner, notices, engines)
         planner.offer_again()
@@ -204,6 +227,28 @@ class System:
         for incident in recovery.left_over:
             if incident.robot in engines and incident.robot not in told:
                 notices.tell(left_over_text(incident), [incident.robot])
+
+    async def _keep_older_stops(self, journal: Journal) -> None:
+        """Take over the stops that an older version kept in the journal."""
+        if journal.latched:
+            self.stop_line.pull(journal.latched, by=None, wait_s=0.0)
+            if await asyncio.wrap_future(self.stop_line.written) == "":
+                await journal.forget_latched()
+
+    async def _listen_to_stops(self) -> None:
+        refusals: Publisher[ros.String] = self.transport.publisher(topics.REJECTION)
+        self._stack.callback(refusals.close)
+
+        def complain(problems: Sequence[Problem]) -> None:
+            told = tuple(
+                RejectionProblem(path=item.path, message=item.message, remedy=item.remedy, code=item.code)
+                for item in problems
+            )
+            refusals.publish(to_string(Rejection(source="stop_line", what=topics.STOP.name, problems=told)))
+
+        listener = StopListener(self.stop_line, self.transport, complain)
+        await listener.open()
+        self._stack.push_async_callback(listener.close)
 
     def _speaking(self, node: N) -> N:
         """Let a node say its own sentences in the language that was chosen."""
@@ -269,7 +314,7 @@ class System:
         def make_context(run: RunHandle) -> ActionContext:
             return ActionContext(
                 run=run,
-                robot=robot,
+                robot=RunRobot(robot, run.motion),
                 world=view,
                 memory=services,
                 display=services,
@@ -286,6 +331,7 @@ class System:
                 make_context=make_context,
                 robot=robot,
                 journal=self._journal,
+                line=self.stop_line,
             )
         )
         enter = self._stack.enter_async_context

@@ -18,6 +18,7 @@ from parley.robots.base import CameraImage
 from parley.robots.simulated import SimulatedRobot
 from parley.sim.floor_plan import survey
 from parley.sim.simulator import Simulator
+from parley.umrf.motion import Motion
 from parley.world.object_map import ObjectMap
 from parley.world.occupancy import OccupancyMap
 from tests.sim.worlds import two_rooms
@@ -36,6 +37,7 @@ class Run:
     """Every progress that was told."""
     paused: bool = False
     stop_requested: bool = False
+    motion: Motion = field(default_factory=lambda: Motion("Action_0"))
     result_asked: bool = False
 
     def log(self, text: str) -> None:

@@ -13,6 +13,7 @@ import pytest
 from parley.demos.catalogue import load_demo
 from parley.messages import topics
 from parley.messages.chat import ChatFeedback
+from parley.messages.principal import person
 from parley.messages.status import StopCommand
 from tests.demos.house import FULL_SPEED, House, running
 
@@ -106,7 +107,7 @@ class Operator:
         await self.stands_still()
 
     async def release(self) -> None:
-        self.home.observer.publish(topics.STOP, StopCommand(command="reset"))
+        self.home.observer.publish(topics.STOP, StopCommand(command="reset", by=person("Kim")))
         await self.reported("reset")
         self.latched = False
 

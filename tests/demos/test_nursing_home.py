@@ -12,6 +12,7 @@ from parley.config import SystemConfig
 from parley.demos.catalogue import Demo, load_demo
 from parley.demos.runner import play
 from parley.messages import topics
+from parley.messages.principal import person
 from parley.messages.status import StopCommand
 from tests.demos.house import FULL_SPEED, House, running
 
@@ -197,7 +198,7 @@ async def test_emergency_stop_latches_until_it_is_released(demo: Demo) -> None:
             lambda: any(report.state == "at_rest" for report in home.observer.stop_reports), timeout_s=20
         )
         assert "Release the stop first" in (await home.say("carry on")).message
-        home.observer.publish(topics.STOP, StopCommand(command="reset"))
+        home.observer.publish(topics.STOP, StopCommand(command="reset", by=person("Kim")))
         await home.observer.until(
             lambda: any(report.state == "reset" for report in home.observer.stop_reports), timeout_s=20
         )

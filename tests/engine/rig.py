@@ -12,12 +12,15 @@ from parley.clock import WallClock
 from parley.engine.engine import ActionEngine
 from parley.errors import ActionFailure, FailureCode
 from parley.messages import ros, topics
+from parley.messages.principal import Principal, person
 from parley.messages.status import ActorStatus, GraphEvent, Rejection, StopCommand, StopReport
 from parley.messages.wire import decode, to_string
 from parley.robots.base import CameraImage, LaserScan, NavigationControl, Velocity
 from parley.transport.local import LocalTransport
 from parley.world.geometry import Pose2D
 from tests.umrf.spec_actions import CATALOGUE
+
+KIM = person("Kim")
 
 
 class DummyRobot:
@@ -31,12 +34,14 @@ class DummyRobot:
         self.moving = False
         self.told: list[str] = []
         self.broken = False
-        self.hangs = False
+        self.rolls_on = self.silent = False
 
     def pose(self) -> Pose2D:
         return Pose2D(1.0, 2.0, 0.5)
 
     def velocity(self) -> Velocity:
+        if self.silent:
+            raise ActionFailure(FailureCode.HARDWARE, "no wheels are measured")
         return Velocity(0.3 if self.moving else 0.0, 0.0)
 
     def scan(self) -> LaserScan:
@@ -54,15 +59,17 @@ class DummyRobot:
     async def navigate(self, goal: Pose2D, control: NavigationControl, *, timeout_s: float) -> Pose2D:
         raise ActionFailure(FailureCode.NOT_CAPABLE, "no wheels")
 
-    async def stop(self) -> None:
-        self.told.append("stop")
+    def drive(self, velocity: Velocity) -> None:
+        self.told.append(f"drive {velocity.linear_mps:g}")
+
+    def halt(self) -> None:
+        self.told.append("halt")
         if self.broken:
             raise ActionFailure(FailureCode.HARDWARE, "no power")
-        if self.hangs:
-            await asyncio.Event().wait()
-        self.moving = False
+        if not self.rolls_on:
+            self.moving = False
 
-    async def release(self) -> None:
+    def release(self) -> None:
         self.told.append("release")
 
 
@@ -154,8 +161,16 @@ class Rig:
     def stop(self, name: str) -> None:
         self._stop.publish(ros.UmrfGraphStop(name, ("A",)))
 
-    def emergency(self, command: str, targets: Sequence[str] = (), id: str = "1") -> None:
-        payload = StopCommand.model_validate({"command": command, "targets": list(targets), "id": id})
+    def emergency(
+        self,
+        command: str,
+        targets: Sequence[str] = (),
+        id: str = "1",
+        by: Principal | None = KIM,
+    ) -> None:
+        payload = StopCommand.model_validate(
+            {"command": command, "targets": list(targets), "id": id, "by": by}
+        )
         self._emergency.publish(to_string(payload))
 
 

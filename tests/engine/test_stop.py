@@ -3,6 +3,8 @@
 from __future__ import annotations
 
 import asyncio
+from collections.abc import AsyncIterator
+from contextlib import asynccontextmanager
 
 import pytest
 
@@ -10,11 +12,14 @@ from parley.clock import WallClock
 from parley.engine.runs import GraphRuns
 from parley.engine.stop import EmergencyStop
 from parley.errors import Problem
+from parley.gate.stop_line import StopLine
 from parley.messages import ros, topics
+from parley.messages.principal import Principal
 from parley.messages.status import StopReport
 from parley.umrf.action import RunHandle, action
 from parley.umrf.catalogue import Catalogue
 from parley.umrf.io import read_graph
+from parley.umrf.motion import Motions
 from tests.umrf.spec_actions import CATALOGUE, chain, node, planner_chain, wait_for
 
 from .rig import DummyRobot, rigged
@@ -29,7 +34,7 @@ async def test_stop_halts_the_drive_pauses_graphs_and_latches_until_reset() -> N
         rig.emergency("stop")
         await rig.until(lambda: len(rig.reports) == 2)
         assert [item.state for item in rig.reports] == ["received", "at_rest"]
-        assert robot.told == ["stop"]
+        assert robot.told == ["halt"]
         assert rig.graph_states("g") == ["RUNNING", "PAUSED"]
         await rig.until(lambda: rig.statuses[-1].state == "stopped")
 
@@ -44,7 +49,7 @@ async def test_stop_halts_the_drive_pauses_graphs_and_latches_until_reset() -> N
 
         rig.emergency("reset")
         await rig.until(lambda: rig.reports[-1].state == "reset")
-        assert robot.told == ["stop", "release"]
+        assert robot.told == ["halt", "release"]
         assert rig.graph_states("g") == ["RUNNING", "PAUSED"], "a reset alone moves nothing"
         rig.resume("g")
         await rig.until_graph("g", "RUNNING")
@@ -57,17 +62,7 @@ async def test_stop_for_another_robot_is_not_ours() -> None:
         rig.emergency("stop", targets=("A",), id="2")
         await rig.until(lambda: rig.reports)
         assert rig.reports[0].id == "2"
-        assert robot.told == ["stop"]
-
-
-async def test_a_drive_that_hangs_does_not_keep_graphs_from_pausing() -> None:
-    robot = DummyRobot()
-    robot.hangs = True
-    async with rigged(robot) as rig:
-        rig.start(chain("g", [node("WaitFor", 0, seconds=60)]))
-        await rig.until_graph("g", "RUNNING")
-        rig.emergency("stop")
-        await rig.until_graph("g", "PAUSED")
+        assert robot.told == ["halt"]
 
 
 async def test_a_stop_that_fails_is_complained_about() -> None:
@@ -79,23 +74,48 @@ async def test_a_stop_that_fails_is_complained_about() -> None:
         assert rig.rejections[0].problems[0].code == "stop_failed"
 
 
-async def test_a_robot_that_goes_on_moving_is_complained_about() -> None:
-    robot = DummyRobot()
-    robot.hangs = robot.moving = True
-    problems: list[Problem] = []
-    reports: list[StopReport] = []
-    runs = GraphRuns(
-        "A", CATALOGUE, clock=WallClock(), make_context=lambda handle: handle, observer=lambda *_: None
-    )
+@asynccontextmanager
+async def end_of_line(
+    robot: DummyRobot, runs: GraphRuns, reports: list[StopReport], problems: list[Problem]
+) -> AsyncIterator[StopLine]:
+    line, motions = StopLine(), Motions(WallClock(), lambda _: None)
     stop = EmergencyStop(
-        "A", robot, runs, report=reports.append, complain=problems.append, rest_timeout_s=0.01
+        "A", robot, runs, motions, line, report=reports.append, complain=problems.append, rest_timeout_s=0.01
     )
-    await stop.stop("7")
-    while not problems:
-        await WallClock().sleep(0.005)
-    assert problems[0].code == "still_moving"
-    assert [item.state for item in reports] == ["received"]
+    stop.open()
+    yield line
     await stop.close()
+    await runs.close()
+
+
+def graph_runs(catalogue: Catalogue) -> GraphRuns:
+    return GraphRuns(
+        "A", catalogue, clock=WallClock(), make_context=lambda handle: handle, observer=lambda *_: None
+    )
+
+
+async def test_a_robot_that_goes_on_moving_is_complained_about_until_it_stands() -> None:
+    robot, reports, problems = DummyRobot(), list[StopReport](), list[Problem]()
+    robot.rolls_on = robot.moving = True
+    async with end_of_line(robot, graph_runs(CATALOGUE), reports, problems) as line:
+        line.pull(by=None, id="7")
+        while not problems:
+            await WallClock().sleep(0.005)
+        assert problems[0].code == "still_moving"
+        robot.moving = False
+        while len(reports) < 3:
+            await WallClock().sleep(0.005)
+        assert [item.state for item in reports] == ["received", "moving", "at_rest"]
+
+
+async def test_a_robot_that_cannot_say_whether_it_stands_does_not_answer() -> None:
+    robot, reports, problems = DummyRobot(), list[StopReport](), list[Problem]()
+    robot.silent = True
+    async with end_of_line(robot, graph_runs(CATALOGUE), reports, problems) as line:
+        line.pull(by=None, id="7")
+        while not problems:
+            await WallClock().sleep(0.005)
+        assert [item.state for item in reports] == ["received", "silent"]
 
 
 @action(effects=("moves",), pausable=False)
@@ -109,26 +129,42 @@ async def test_an_action_that_moves_and_ignores_the_stop_is_named_while_the_driv
     name: str, told: list[str]
 ) -> None:
     robot, problems = DummyRobot(), list[Problem]()
-    runs = GraphRuns(
-        "A",
-        Catalogue([roll_on.spec, wait_for.spec]),
-        clock=WallClock(),
-        make_context=lambda handle: handle,
-        observer=lambda *_: None,
-    )
+    runs = graph_runs(Catalogue([roll_on.spec, wait_for.spec]))
     raw = {"name": name, "type": "sync"} if name == "RollOn" else node(name, seconds=60.0)
     run = runs.start(read_graph(chain("g", [raw | {"instance_id": 0}])))
-    stop = EmergencyStop(
-        "A", robot, runs, report=lambda _: None, complain=problems.append, rest_timeout_s=0.01
-    )
-    await stop.stop("7")
-    await asyncio.gather(*stop._tasks)
-    assert [problem.code for problem in problems] == told
-    assert all("RollOn_0 goes on" in problem.message for problem in problems)
-    assert robot.told == ["stop"]
-    assert run.holding
-    await stop.close()
-    await runs.close()
+    async with end_of_line(robot, runs, [], problems) as line:
+        line.pull(by=None, id="7")
+        await WallClock().sleep(0.05)
+        assert [problem.code for problem in problems] == told
+        assert all("RollOn_0 goes on" in problem.message for problem in problems)
+        assert robot.told == ["halt"]
+        assert run.holding
+
+
+async def test_only_a_person_releases() -> None:
+    async with rigged(DummyRobot()) as rig:
+        rig.emergency("stop")
+        await rig.until(lambda: len(rig.reports) == 2)
+        for by in (None, Principal(kind="engine", name="model")):
+            rig.emergency("reset", by=by)
+        await rig.until(lambda: len(rig.rejections) == 2)
+        assert {item.problems[0].code for item in rig.rejections} == {"reset_refused"}
+        assert rig.robot is not None
+        assert rig.robot.told == ["halt"]
+
+
+async def test_a_hold_goes_on_by_itself_and_pauses_no_graph() -> None:
+    async with rigged(DummyRobot()) as rig:
+        rig.start(chain("g", [node("WaitFor", 0, seconds=60)]))
+        await rig.until_graph("g", "RUNNING")
+        rig.emergency("hold", id="m1", by=None)
+        rig.emergency("go_on", id="m1", by=None)
+        rig.pause("g")
+        await rig.until_graph("g", "PAUSED")
+        assert rig.robot is not None
+        assert rig.robot.told == ["halt", "release"]
+        assert rig.graph_states("g") == ["RUNNING", "PAUSED"]
+        assert rig.reports == []
 
 
 async def test_a_stop_during_a_reset_wins() -> None:

@@ -8,6 +8,7 @@ from collections.abc import AsyncIterator
 import pytest
 
 from parley.messages import topics
+from parley.messages.principal import person
 from parley.messages.status import StopCommand
 from tests.nodes.crew import Crew, crew, look
 
@@ -16,7 +17,7 @@ async def pressed(party: Crew, command: str) -> None:
     """The stop button, or its release, and that the engine did it."""
     wanted = "received" if command == "stop" else "reset"
     before = len(party.observer.stop_reports)
-    party.observer.publish(topics.STOP, StopCommand.model_validate({"command": command}))
+    party.observer.publish(topics.STOP, StopCommand.model_validate({"command": command, "by": person("Kim")}))
     await party.until(lambda: wanted in [r.state for r in party.observer.stop_reports[before:]])
 
 

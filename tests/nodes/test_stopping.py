@@ -13,6 +13,7 @@ import pytest
 
 from parley.messages import ros, topics
 from parley.messages.chat import ChatAction, ChatFeedback
+from parley.messages.principal import person
 from parley.messages.status import StopCommand
 from tests.engine.rig import DummyRobot
 from tests.nodes.crew import Crew, ask, crew, drive, look
@@ -192,13 +193,13 @@ async def test_emergency_stop_goes_past_the_nodes_latches_and_a_person_must_rese
         await party.until(lambda: [r.state for r in party.observer.stop_reports] == ["received", "at_rest"])
         await party.state("paused")
         assert party.wire.commands() == []
-        assert robot.told == ["stop"]
+        assert robot.told == ["halt"]
         assert await party.body.stands_still()
         assert dropped(party) == []
         party.observer.say("carry on", "A")
         await party.hears("Release the stop first")
         assert await party.body.stands_still()
-        party.observer.publish(topics.STOP, StopCommand(command="reset"))
+        party.observer.publish(topics.STOP, StopCommand(command="reset", by=person("Kim")))
         await party.until(lambda: party.observer.stop_reports[-1].state == "reset")
         assert await party.body.stands_still()
         party.body.far.clear()

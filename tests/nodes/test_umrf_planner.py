@@ -10,6 +10,7 @@ import pytest
 from parley.errors import FailureCode
 from parley.messages import ros, topics
 from parley.messages.chat import ActionCall, ChatAction, Flow, SystemCommand
+from parley.messages.principal import person
 from parley.messages.pvf import Parameter
 from parley.messages.ros import String
 from parley.messages.status import ActorStatus, PlanDecision, Rejection, RejectionProblem, StopCommand
@@ -489,7 +490,7 @@ async def test_order_during_an_emergency_stop_waits_for_release_and_going_on() -
         party.order(look("box"))
         await party.hears("Release the stop first")
         await party.state("paused")
-        party.observer.publish(topics.STOP, StopCommand(command="reset"))
+        party.observer.publish(topics.STOP, StopCommand(command="reset", by=person("Kim")))
         await party.until(lambda: any(r.state == "reset" for r in party.observer.stop_reports))
         await party.settled()
         assert party.body.did == []
@@ -506,7 +507,7 @@ async def test_repair_during_an_emergency_stop_goes_on_after_release() -> None:
         await party.until(lambda: any(r.state == "received" for r in party.observer.stop_reports))
         party.correct(look("lid"))
         await party.hears("Release the stop first")
-        party.observer.publish(topics.STOP, StopCommand(command="reset"))
+        party.observer.publish(topics.STOP, StopCommand(command="reset", by=person("Kim")))
         await party.until(lambda: any(r.state == "reset" for r in party.observer.stop_reports))
         await party.settled()
         assert party.body.did == ["look box"]

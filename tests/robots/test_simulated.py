@@ -169,24 +169,24 @@ async def test_stop_holds_a_drive_until_release_and_then_it_goes_on() -> None:
     async with robot_in() as (robot, simulator):
         drive = asyncio.create_task(robot.navigate(GOAL, control(), timeout_s=60))
         await eventually(lambda: robot.pose().x_m > 1.3)
-        await robot.stop()
+        robot.halt()
         await simulator.clock.sleep(1.0)
         before = robot.pose()
         await simulator.clock.sleep(60.0)
         assert robot.pose().distance_to(before) < 1e-3
         assert not drive.done()
-        await robot.release()
+        robot.release()
         assert is_at(await drive, GOAL)
 
 
 async def test_a_drive_ordered_while_stopped_waits_for_release() -> None:
     async with robot_in() as (robot, simulator):
-        await robot.stop()
+        robot.halt()
         before = robot.pose()
         drive = asyncio.create_task(robot.navigate(GOAL, control(), timeout_s=60))
         await simulator.clock.sleep(5.0)
         assert robot.pose() == before
-        await robot.release()
+        robot.release()
         assert is_at(await drive, GOAL)
 
 
@@ -194,7 +194,7 @@ async def test_while_it_is_stopped_robot_time_need_not_pass() -> None:
     async with robot_in() as (robot, simulator):
         drive = asyncio.create_task(robot.navigate(GOAL, control(), timeout_s=60))
         await eventually(lambda: robot.pose().x_m > 1.3)
-        await robot.stop()
+        robot.halt()
         await simulator.clock.sleep(2.0)
         before_s = simulator.clock.now_s()
         await asyncio.sleep(0.05)

@@ -22,6 +22,7 @@ from parley.clock import WallClock
 from parley.engine.engine import ActionEngine
 from parley.engine.journal import Journal
 from parley.messages import ros, topics
+from parley.messages.principal import person
 from parley.messages.status import GraphEvent, Rejection, StopCommand
 from parley.messages.wire import decode, to_string
 from parley.transport.local import LocalTransport
@@ -184,7 +185,7 @@ class Storm:
     async def _emergency(self, actor: str) -> None:
         self._send(topics.STOP, to_string(StopCommand(targets=(actor,))))
         await asyncio.sleep(0.05)
-        self._send(topics.STOP, to_string(StopCommand(command="reset", targets=(actor,))))
+        self._send(topics.STOP, to_string(StopCommand(command="reset", targets=(actor,), by=person("Kim"))))
 
     async def _restart(self, actor: str) -> None:
         """The engine ends and another begins, as if its process had been started anew."""
@@ -299,7 +300,9 @@ class Storm:
         """Stop what still goes on; who has not come to rest after 15 s is found missing."""
         end_s = time.monotonic() + 15
         for actor in self._open:
-            self._send(topics.STOP, to_string(StopCommand(command="reset", targets=(actor,))))
+            self._send(
+                topics.STOP, to_string(StopCommand(command="reset", targets=(actor,), by=person("Kim")))
+            )
         while (left := self._going_on()) and time.monotonic() < end_s:
             for actor, name in left:
                 self._send(topics.GRAPH_STOP, ros.UmrfGraphStop(name, (actor,)))

@@ -182,7 +182,13 @@ async def _serve(
     settings = WebConfig.model_validate(page)
     async with (
         demo.system(config) as system,
-        WebServer(system.transport, settings, port_is_wish=port_is_wish) as server,
+        WebServer(
+            system.transport,
+            settings,
+            port_is_wish=port_is_wish,
+            stop_line=system.stop_line,
+            at_rest=system.at_rest,
+        ) as server,
     ):
         if system.store is not None and system.store.notice:
             typer.echo(system.store.notice)

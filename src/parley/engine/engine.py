@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import asyncio
 from collections.abc import Callable, Generator, Mapping, Sequence
 from contextlib import AsyncExitStack, nullcontext
 from types import TracebackType
@@ -20,9 +21,11 @@ from parley.engine.journal import Journal
 from parley.engine.presence import Presence
 from parley.engine.runs import GraphRuns
 from parley.engine.stop import EmergencyStop
+from parley.engine.stop_listener import StopListener
 from parley.engine.sync import PEER_TIMEOUT_S
 from parley.engine.together import Together
 from parley.errors import GraphRefusedError, InvalidMessageError, Problem, UnavailableError
+from parley.gate.stop_line import StopLine
 from parley.messages import ros, topics
 from parley.messages.status import (
     ActorStatus,
@@ -42,6 +45,7 @@ from parley.umrf.check import reasons, vouch_steps
 from parley.umrf.executor import STOP_TIMEOUT_S, GraphRun
 from parley.umrf.io import read_steps, write_descriptor, write_graph
 from parley.umrf.model import Graph, Result
+from parley.umrf.motion import Motions
 from parley.umrf.reading import load_object
 from parley.umrf.transition import NO_FACTS, Transition
 
@@ -83,6 +87,7 @@ class ActionEngine:
         heartbeat_s: Wall time between two status messages.
         stop_timeout_s: Wall time a node may take to stop.
         peer_timeout_s: Wall time to wait for the engines of other actors in one graph.
+        line: The line on which it is stopped, whose owner listens to `/parley/stop`; None: one of its own.
     """
 
     def __init__(
@@ -99,12 +104,17 @@ class ActionEngine:
         heartbeat_s: float = 1.0,
         stop_timeout_s: float = STOP_TIMEOUT_S,
         peer_timeout_s: float = PEER_TIMEOUT_S,
+        line: StopLine | None = None,
     ) -> None:
         self.actor = actor
         catalogue = catalogue if robot is None else catalogue.for_robot(robot.capabilities)
         self._transport, self._catalogue, self._clock = transport, catalogue, clock
         self._journal = journal
         self._robot, self._heartbeat_s = robot, heartbeat_s
+        self._own_line = line is None
+        self._line = line or StopLine()
+        self._motions = Motions(clock, self._ignored)
+        self._make_context = make_context
         self._names = {actor, *wake_words}
         self._inbox = Inbox()
         self._stack = AsyncExitStack()
@@ -113,12 +123,14 @@ class ActionEngine:
             actor,
             catalogue,
             clock=clock,
-            make_context=make_context,
+            make_context=self._context_of,
             observer=self._observed,
             stop_timeout_s=stop_timeout_s,
+            latched=lambda: self._line.latched(actor),
         )
         self._feedback = Feedback(actor, clock, lambda message: self._publish(topics.GRAPH_FEEDBACK, message))
         self._presence: Presence | None = None
+        self._loop: asyncio.AbstractEventLoop | None = None
         self._together = Together(
             actor,
             self._names,
@@ -133,9 +145,11 @@ class ActionEngine:
             actor,
             robot,
             self.runs,
+            self._motions,
+            self._line,
             report=lambda report: self._publish_payload(topics.STOP_REPORT, report),
             complain=lambda problem: self._reject(topics.STOP.name, "", [problem]),
-            remember=self._remember_latch,
+            changed=self._stop_changed,
         )
 
     async def __aenter__(self) -> Self:
@@ -151,6 +165,7 @@ class ActionEngine:
 
     async def _open(self, stack: AsyncExitStack) -> None:
         """Open publishers, then what publishes, then what listens; closed in the opposite order."""
+        self._loop = asyncio.get_running_loop()
         stack.callback(self.runs.clear)
         for topic in (
             topics.GRAPH_FEEDBACK,
@@ -175,18 +190,27 @@ class ActionEngine:
         stack.push_async_callback(self._presence.close)
         stack.callback(self._feedback.close)
         stack.push_async_callback(self.runs.close)
+        self._emergency.open()
         stack.push_async_callback(self._emergency.close)
         stack.push_async_callback(self._together.close)
         stack.callback(self._inbox.close)
         await self._serve(stack)
-        if self._journal is not None and self.actor in self._journal.latched:
-            await self._emergency.stop()  # only a person ends a stop, not a restart
         settle_heap()
         await self._listen(stack)
 
-    def _remember_latch(self, latched: bool) -> None:
-        if self._journal is not None:
-            self._journal.record_latch(self.actor, latched)
+    def _context_of(self, run: RunHandle) -> Any:
+        run.motion.join(self._motions)
+        return self._make_context(run)
+
+    def _ignored(self, node: str) -> None:
+        """An action lost its drive; in whichever thread it commands."""
+        if self._loop is not None:
+            self._loop.call_soon_threadsafe(self._emergency.ignored, node)
+
+    def _stop_changed(self, command: StopCommand) -> None:
+        if command.command == "stop":
+            self._together.hold()
+        self._status_changed()
 
     async def _serve(self, stack: AsyncExitStack) -> None:
         own = await self._transport.serve(topics.actor_graph_get(self.actor), self._graph_get)
@@ -204,8 +228,16 @@ class ActionEngine:
             )
             stack.push_async_callback(subscription.close)
 
-        emergency = await self._transport.subscribe(topics.STOP, self._on_emergency)
-        stack.push_async_callback(emergency.close)
+        if self._own_line:
+            names = dict.fromkeys(self._names, self.actor)
+            listener = StopListener(
+                self._line,
+                self._transport,
+                lambda problems: self._reject(topics.STOP.name, "", problems),
+                names,
+            )
+            await listener.open()
+            stack.push_async_callback(listener.close)
         step = await self._transport.subscribe(
             topics.STEP, lambda message: self._payload(topics.STEP, StepCommand, message, self._on_step)
         )
@@ -357,21 +389,6 @@ class ActionEngine:
         if command.target in self._names:
             self.runs.end_node(command.graph_name, command.node)
             self._together.pass_on("end", command.graph_name, (command.target,), node=command.node)
-
-    async def _on_emergency(self, message: ros.String) -> None:
-        try:
-            command = decode(StopCommand, message.data)
-        except InvalidMessageError as error:
-            self._reject(topics.STOP.name, "", [Problem(error.path, error.problem, code="malformed")])
-            return
-        if command.targets and self._names.isdisjoint(command.targets):
-            return
-        if command.command == "stop":
-            await self._emergency.stop(command.id)
-            self._together.hold()
-        else:
-            self._emergency.reset(command.id)
-        self._status_changed()
 
     async def _graph_get(self, request: ros.UmrfGraphGetRequest) -> ros.UmrfGraphGetResponse:
         return ros.UmrfGraphGetResponse(

@@ -26,12 +26,12 @@ from parley.engine.journal_file import (
     VERSION,
     Batch,
     GraphText,
+    forget_latched,
     prepare,
     read_latched,
     read_left,
     settle_all,
     write,
-    write_latched,
 )
 from parley.engine.journal_older import put_aside_other_form
 from parley.errors import StoreError
@@ -61,8 +61,7 @@ class Journal:
         self.interrupted = tuple(interrupted)
         """What was under way when an earlier process was killed, oldest first."""
         self.latched = latched
-        """Actors whose emergency stop nobody had reset when the earlier process ended."""
-        self._latching: set[asyncio.Task[None]] = set()
+        """Actors whose emergency stop an older version kept in here."""
         self._database, self._clock = database, clock
         self._first = self._next = last + 1
         self._ids: weakref.WeakKeyDictionary[GraphRun, int] = weakref.WeakKeyDictionary()
@@ -127,17 +126,13 @@ class Journal:
         if self._writer is None:
             self._writer = asyncio.get_running_loop().create_task(self._write(), name="journal")
 
-    def record_latch(self, actor: str, latched: bool) -> None:
-        """Note that an actor was stopped by an emergency stop, or reset; at once, not with the next batch."""
-        task = asyncio.get_running_loop().create_task(self._write_latch(actor, latched), name="journal latch")
-        self._latching.add(task)
-        task.add_done_callback(self._latching.discard)
+    async def forget_latched(self) -> None:
+        """The stops that an older version kept in here stand in a file of their own now.
 
-    async def _write_latch(self, actor: str, latched: bool) -> None:
-        try:
-            await self._database.run(functools.partial(write_latched, actor=actor, latched=latched))
-        except StoreError as error:
-            log.error("the stop cannot be noted", actor=actor, reason=str(error))
+        Raises:
+            StoreError: The file cannot be written.
+        """
+        await self._database.run(forget_latched)
 
     @contextmanager
     def read_from(self, name: str, text: str) -> Iterator[None]:
@@ -156,8 +151,6 @@ class Journal:
         while self._writer is not None:
             self._hurry.set()
             await asyncio.wait([self._writer])
-        if self._latching:
-            await asyncio.wait(self._latching)
 
     async def close(self) -> None:
         """Write what is left, note that nothing was interrupted, and close the file. Idempotent."""

@@ -31,12 +31,12 @@ __all__ = [
     "VERSION",
     "Batch",
     "GraphText",
+    "forget_latched",
     "prepare",
     "read_latched",
     "read_left",
     "settle_all",
     "write",
-    "write_latched",
 ]
 
 log = structlog.get_logger(__name__)
@@ -71,7 +71,6 @@ _SCHEMA: Final = """
         id INTEGER PRIMARY KEY, run INTEGER NOT NULL, last_sequence INTEGER NOT NULL, rows TEXT NOT NULL
     );
     CREATE INDEX IF NOT EXISTS told_of_run ON told (run, last_sequence);
-    CREATE TABLE IF NOT EXISTS latched (actor TEXT PRIMARY KEY) WITHOUT ROWID;
     CREATE VIEW IF NOT EXISTS transition AS SELECT
         run, json_extract(row.value, '$[0]') AS sequence, json_extract(row.value, '$[1]') AS kind,
         json_extract(row.value, '$[2]') AS state, json_extract(row.value, '$[3]') AS node,
@@ -248,16 +247,15 @@ def read_left(connection: sqlite3.Connection) -> tuple[list[Interrupted], int]:
 
 
 def read_latched(connection: sqlite3.Connection) -> frozenset[str]:
-    """The actors whose emergency stop nobody has reset."""
-    return frozenset(actor for (actor,) in connection.execute("SELECT actor FROM latched"))
+    """Actors whose emergency stop an older version kept in here."""
+    known = connection.execute("SELECT 1 FROM sqlite_master WHERE name = 'latched'").fetchone()
+    found = connection.execute("SELECT actor FROM latched") if known else ()
+    return frozenset(actor for (actor,) in found)
 
 
-def write_latched(connection: sqlite3.Connection, *, actor: str, latched: bool) -> None:
-    """Note that an actor was stopped, or that a person reset it."""
-    if latched:
-        connection.execute("INSERT OR IGNORE INTO latched VALUES (?)", (actor,))
-    else:
-        connection.execute("DELETE FROM latched WHERE actor = ?", (actor,))
+def forget_latched(connection: sqlite3.Connection) -> None:
+    """They stand somewhere else now."""
+    connection.execute("DROP TABLE IF EXISTS latched")
 
 
 def _interrupted(connection: sqlite3.Connection, actor: str, number: int, newest: _Newest) -> Interrupted:

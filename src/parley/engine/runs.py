@@ -49,6 +49,7 @@ class GraphRuns:
         make_context: See `GraphRun`.
         observer: Told every transition of the newest run of each name.
         stop_timeout_s: See `GraphRun`.
+        latched: Whether an emergency stop forbids everything that would run an action.
     """
 
     def __init__(
@@ -60,6 +61,7 @@ class GraphRuns:
         make_context: Callable[[RunHandle], Any],
         observer: RunObserver,
         stop_timeout_s: float = STOP_TIMEOUT_S,
+        latched: Callable[[], bool] = lambda: False,
     ) -> None:
         self.catalogue = catalogue
         """Counts for what is started or modified from now on; may be replaced."""
@@ -69,8 +71,12 @@ class GraphRuns:
         self._runs: dict[str, GraphRun] = {}
         self._replaced: list[GraphRun] = []
         self._inner: set[GraphRun] = set()
-        self.latched = False
-        """Whether an emergency stop forbids everything that would run an action."""
+        self._latched = latched
+
+    @property
+    def latched(self) -> bool:
+        """Whether an emergency stop is in force."""
+        return self._latched()
 
     @property
     def all(self) -> tuple[GraphRun, ...]:

@@ -151,6 +151,7 @@ class LatchFile:
         assert self._path is not None
         new = self._path.with_name(f"{self._path.name}.new")
         try:
+            self._path.parent.mkdir(parents=True, exist_ok=True)
             _write_through(new, state.to_text())
             new.replace(self._path)
             _sync_folder(self._path.parent)

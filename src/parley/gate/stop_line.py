@@ -91,7 +91,7 @@ class StopLine:
         """Tie a robot to the line; it is halted at once if it is latched or held.
 
         Args:
-            robot: Its name; whoever was tied by that name before is no longer.
+            robot: Its name; whoever was tied by that name before is no longer. A latched one is stopped anew.
             halt: Brings its drive to rest and has it refuse every command until `resume`. Thread-safe,
                 returns at once, may be called again; raises `ActionFailure` if the drive cannot be told.
             resume: Lets it take commands again; moves nothing. As `halt`.
@@ -112,6 +112,8 @@ class StopLine:
 
         if self._stands(robot):
             self._tell_drive(tied)
+        if self.latched(robot):
+            self._tell_owner(tied, StopCommand(targets=(robot,)))
         return detach
 
     def latched(self, robot: str) -> bool:

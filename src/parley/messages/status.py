@@ -205,7 +205,11 @@ class StopReport(Payload):
 
     actor: str
     id: str = ""
-    state: Literal["received", "at_rest", "reset"]
+    state: Literal["received", "at_rest", "moving", "silent", "reset"]
+    """`received`: its drive was told, and that is on disk (or somebody was told that it is not). Then one of
+    three: `at_rest`: it stands, measured; `moving`: it does not stand in time (`at_rest` may still follow);
+    `silent`: it does not answer. Of whom no report comes in time, nobody knows either: it does not answer.
+    `reset`: it may move again."""
 
 
 class RejectionProblem(Payload):

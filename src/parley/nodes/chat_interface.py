@@ -257,7 +257,8 @@ class ChatInterface(Node):
         if control == "start" and status is not None and status.state == "stopped":
             reply = LATCHED
         elif control == "emergency_stop":
-            self.publish(topics.STOP, StopCommand(targets=(target,), id=uuid.uuid4().hex))
+            stop = StopCommand(targets=(target,), id=uuid.uuid4().hex, by=said.by, words=said.message)
+            self.publish(topics.STOP, stop)
         elif (
             not reply or control in _HALTING
         ):  # stopping is sent in any case: the plan may be newer than known

@@ -7,14 +7,25 @@ from __future__ import annotations
 
 from collections.abc import Callable
 from dataclasses import dataclass
-from typing import Literal, Protocol
+from typing import Final, Literal, Protocol
 
 import numpy as np
 from numpy.typing import NDArray
 
 from parley.world.geometry import Pose2D
 
-__all__ = ["CameraImage", "Detection", "LaserScan", "NavigationControl", "Robot", "Velocity"]
+__all__ = [
+    "COMMAND_LIFETIME_S",
+    "CameraImage",
+    "Detection",
+    "LaserScan",
+    "NavigationControl",
+    "Robot",
+    "Velocity",
+]
+
+COMMAND_LIFETIME_S: Final = 0.3
+"""For so long a velocity command counts; a robot that gets no further one comes to rest by itself."""
 
 
 @dataclass(frozen=True, slots=True)
@@ -125,14 +136,30 @@ class Robot(Protocol):
         """
         ...
 
-    async def stop(self) -> None:
-        """Stop now and refuse to move until `release`.
+    def drive(self, velocity: Velocity) -> None:
+        """Command a velocity; thread-safe, returns at once.
 
-        To a running `navigate` it is no more than standing still: after `release` it goes on, unless it was
-        cancelled meanwhile.
+        It is a duty of the robot itself, below whatever commands it, that a command expires after
+        `COMMAND_LIFETIME_S`: a blocked loop or a dead process must not leave a robot driving. Where the base
+        does not do that of its own accord, a watchdog beside it does.
         """
         ...
 
-    async def release(self) -> None:
-        """Allow motion again after `stop`."""
+    def halt(self) -> None:
+        """Come to rest now and refuse every command until `release`; thread-safe, returns at once.
+
+        To a running `navigate` it is no more than standing still: after `release` it goes on, unless it was
+        cancelled meanwhile. Halting a robot that is halted is allowed.
+
+        Raises:
+            ActionFailure: `hardware` if the drive cannot be told.
+        """
+        ...
+
+    def release(self) -> None:
+        """Take commands again after `halt`; moves nothing. Thread-safe, returns at once.
+
+        Raises:
+            ActionFailure: `hardware` if the drive cannot be told.
+        """
         ...

@@ -54,7 +54,7 @@ class Vehicle(Protocol):
 
     @property
     def stopped(self) -> bool:
-        """Whether it is held by `Robot.stop`."""
+        """Whether it is held by `Robot.halt`."""
         ...
 
     def pose(self) -> Pose2D:

@@ -41,7 +41,7 @@ class SimulatedRobot:
 
     @property
     def stopped(self) -> bool:
-        """Whether it is held by `stop`."""
+        """Whether it is held by `halt`."""
         return self._simulator.stopped(self.name)
 
     def pose(self) -> Pose2D:
@@ -68,7 +68,7 @@ class SimulatedRobot:
         return max(0.0, 1.0 - self._simulator.clock.now_s() / self._model.endurance_s)
 
     def drive(self, velocity: Velocity) -> None:
-        """Command a velocity; must be repeated to keep moving, and does nothing while stopped."""
+        """See `Robot.drive`; does nothing while halted."""
         self._simulator.command(self.name, velocity.linear_mps, velocity.angular_radps)
 
     async def image(self) -> CameraImage:
@@ -107,10 +107,10 @@ class SimulatedRobot:
         finally:
             self._navigator = None
 
-    async def stop(self) -> None:
-        """See `Robot.stop`."""
+    def halt(self) -> None:
+        """See `Robot.halt`."""
         self._simulator.set_stopped(self.name, True)
 
-    async def release(self) -> None:
+    def release(self) -> None:
         """See `Robot.release`."""
         self._simulator.set_stopped(self.name, False)

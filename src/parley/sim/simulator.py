@@ -1,13 +1,15 @@
 """The embedded simulator: it steps the physics, moves robot time on, and answers what robots can sense.
 
-Everything but drawing happens on the event loop. A batch of steps costs about a tenth of a millisecond, less
-than handing it to a thread and back would; so there is one owner of the state and nothing to lock. Pictures
-cost 200 times that and are drawn in one thread of their own, from a copy.
+Everything but drawing happens on the event loop: a batch of steps costs about a tenth of a millisecond, less
+than handing it to a thread and back would. Pictures cost 200 times that and are drawn in one thread of their
+own, from a copy. While something blocks the loop the world does not stand still with it: a thread steps it on
+at its pace (`keeper`), so that a robot that nobody commands comes to rest. Robot time follows afterwards.
 """
 
 from __future__ import annotations
 
 import asyncio
+import threading
 from collections.abc import Callable, Mapping
 from concurrent.futures import ThreadPoolExecutor
 from dataclasses import dataclass
@@ -23,6 +25,7 @@ from parley.sim.build import STEP_S, build_spec, robot_body, thing_body
 from parley.sim.camera import Frame, RayCaster, Sighting, sightings
 from parley.sim.entries import RobotEntry
 from parley.sim.floor_plan import bounds_m, survey
+from parley.sim.keeper import Keeper
 from parley.sim.lidar import Sweep, sweep
 from parley.sim.robot_model import RobotModel
 from parley.sim.world_file import WorldChanges, WorldFile
@@ -35,8 +38,10 @@ log = structlog.get_logger(__name__)
 
 BATCH_S = 0.05
 """Robot time moves on in steps of this length."""
-COMMAND_LIFETIME_S = 0.5
+COMMAND_LIFETIME_S = 0.3
 """A robot whose velocity command is not repeated for this long (robot time) stops, as a real base does."""
+BRAKING = 5.0
+"""A drive that is halted or not commanded brakes with so many times the force that it accelerates with."""
 
 _STEPS = round(BATCH_S / STEP_S)
 # After robot time moved on, those who waited for it get this many rounds of the loop before it moves again.
@@ -92,6 +97,11 @@ class Simulator:
             raise ValueError("speed must be positive, or None for as fast as possible")
         self._clock, self._speed = clock, speed
         self._task: asyncio.Task[None] | None = None
+        self._lock = threading.RLock()
+        """Held while the model or its data are used: loop and keeper share them."""
+        self._ahead_s = 0.0
+        """How much further than robot time the keeper has stepped the world."""
+        self._keeper: Keeper | None = None
         self._drawing: ThreadPoolExecutor | None = None
         self._artist: RayCaster | None = None
         self._world = world
@@ -118,10 +128,16 @@ class Simulator:
     async def __aenter__(self) -> Self:
         self._drawing = ThreadPoolExecutor(max_workers=1, thread_name_prefix="sim-camera")
         self._task = asyncio.create_task(self._run(), name="simulator")
+        if self._speed is not None:  # at its own pace nobody can say when it is late
+            pace = BATCH_S / self._speed
+            self._keeper = Keeper(self._clock, pace, self._moving, self._step_alone)
+            self._keeper.open()
         return self
 
     async def __aexit__(self, *exc: object) -> None:
         assert self._task is not None and self._drawing is not None
+        if self._keeper is not None:
+            self._keeper.close()
         task, self._task = self._task, None
         task.cancel()
         try:
@@ -141,14 +157,16 @@ class Simulator:
 
     def pose(self, robot: str) -> Pose2D:
         """Where the robot is."""
-        x, y, yaw = self._data.qpos[self._bases[robot].slots]
+        with self._lock:
+            x, y, yaw = self._data.qpos[self._bases[robot].slots]
         return Pose2D(float(x), float(y), wrap_angle(float(yaw)))
 
     def velocity(self, robot: str) -> tuple[float, float]:
         """Measured forward speed (m/s) and turning rate (rad/s, counter-clockwise)."""
         slots = self._bases[robot].slots
-        east, north, turn = self._data.qvel[slots]
-        yaw = self._data.qpos[slots][2]
+        with self._lock:
+            east, north, turn = self._data.qvel[slots]
+            yaw = self._data.qpos[slots][2]
         return float(np.cos(yaw) * east + np.sin(yaw) * north), float(turn)
 
     def command(self, robot: str, linear_mps: float, angular_radps: float) -> None:
@@ -159,15 +177,16 @@ class Simulator:
             float(np.clip(linear_mps, -limits.max_speed_mps, limits.max_speed_mps)),
             float(np.clip(angular_radps, -limits.max_turn_radps, limits.max_turn_radps)),
         )
-        base.commanded_at_s = self._clock.now_s()
-        self._clock.wanted.set()
+        base.commanded_at_s = self._clock.now_s() + self._ahead_s
+        self._wake()
 
     def set_stopped(self, robot: str, stopped: bool) -> None:
         """Hold the robot's drive at zero, whatever is commanded, until it is let go again."""
         base = self._bases[robot]
         base.stopped = stopped
         base.command = (0.0, 0.0)
-        self._clock.wanted.set()
+        if not stopped:
+            self._wake()
 
     def stopped(self, robot: str) -> bool:
         """Whether the robot's drive is held."""
@@ -177,16 +196,17 @@ class Simulator:
         """The lidar's newest sweep; one per moment of robot time."""
         base, now_s = self._bases[robot], self._clock.now_s()
         if base.last_sweep is None or base.last_sweep.stamp_s != now_s:
-            mujoco.mj_kinematics(self._model, self._data)
-            base.last_sweep = sweep(
-                self._model,
-                self._data,
-                base.body_id,
-                self.pose(robot),
-                base.entry.model.lidar,
-                base.rng,
-                now_s,
-            )
+            with self._lock:
+                mujoco.mj_kinematics(self._model, self._data)
+                base.last_sweep = sweep(
+                    self._model,
+                    self._data,
+                    base.body_id,
+                    self.pose(robot),
+                    base.entry.model.lidar,
+                    base.rng,
+                    now_s,
+                )
         return base.last_sweep
 
     def camera_works(self, robot: str) -> bool:
@@ -221,16 +241,17 @@ class Simulator:
         if not isinstance(changes, WorldChanges):
             changes = WorldChanges.parse(changes)
         world = self._world.with_changes(changes)
-        qpos, qvel, ctrl = self._data.qpos.copy(), self._data.qvel.copy(), self._data.ctrl.copy()
-        self._load(world)
-        self._world = world
-        self._data.qpos[:], self._data.qvel[:], self._data.ctrl[:] = qpos, qvel, ctrl
-        for base in self._bases.values():
-            base.body_id = self._body_id(robot_body(base.entry.name))
-            base.last_sweep = None
-            if base.entry.name in changes.move:
-                self._data.qpos[base.slots] = changes.move[base.entry.name]
-                self._data.qvel[base.slots] = 0.0
+        with self._lock:
+            qpos, qvel, ctrl = self._data.qpos.copy(), self._data.qvel.copy(), self._data.ctrl.copy()
+            self._load(world)
+            self._world = world
+            self._data.qpos[:], self._data.qvel[:], self._data.ctrl[:] = qpos, qvel, ctrl
+            for base in self._bases.values():
+                base.body_id = self._body_id(robot_body(base.entry.name))
+                base.last_sweep = None
+                if base.entry.name in changes.move:
+                    self._data.qpos[base.slots] = changes.move[base.entry.name]
+                    self._data.qvel[base.slots] = 0.0
 
     def occupancy(self, robot: str, resolution_m: float = 0.05) -> OccupancyMap:
         """The map that a perfect survey of the world as it is now would give this robot."""
@@ -250,6 +271,7 @@ class Simulator:
     def _load(self, world: WorldFile) -> None:
         self._model = build_spec(world).compile()
         self._data = mujoco.MjData(self._model)
+        self._forces = self._model.actuator_forcerange.copy()
         self._names = {
             self._body_id(thing_body(thing.name)): (thing.name, thing.label or thing.words)
             for thing in world.things
@@ -264,7 +286,8 @@ class Simulator:
     async def _draw(self, work: Callable[[RayCaster, NDArray[np.float64]], Frame]) -> Frame:
         if self._drawing is None:
             raise RuntimeError("the simulator is not open")
-        model, qpos = self._model, self._data.qpos.copy()
+        with self._lock:
+            model, qpos = self._model, self._data.qpos.copy()
 
         def draw() -> Frame:
             if self._artist is None or self._artist.model is not model:
@@ -278,6 +301,8 @@ class Simulator:
         due_s = self._clock.wall_s()
         try:
             while True:
+                if self._catch_up():
+                    due_s = self._clock.wall_s()
                 if not self._wanted():
                     idle = not self._clock.held
                     self._clock.wanted.clear()
@@ -306,17 +331,55 @@ class Simulator:
     def _moving(self) -> bool:
         if any(base.command != (0.0, 0.0) and not base.stopped for base in self._bases.values()):
             return True
-        return bool(np.abs(self._data.qvel).max() > _REST_MPS)
+        with self._lock:
+            return bool(np.abs(self._data.qvel).max() > _REST_MPS)
 
     def _step(self) -> None:
-        now_s = self._clock.now_s()
-        for base in self._bases.values():
-            if now_s - base.commanded_at_s > COMMAND_LIFETIME_S:
-                base.command = (0.0, 0.0)
-            forward, turn = (0.0, 0.0) if base.stopped else base.command
-            self._data.ctrl[base.slots] = forward, 0.0, turn
-        mujoco.mj_step(self._model, self._data, _STEPS)
+        self._step_world(self._clock.now_s())
         self._clock.advance(BATCH_S)
+
+    def _step_world(self, now_s: float) -> None:
+        with self._lock:
+            for base in self._bases.values():
+                # A thread may command or halt meanwhile, so each is looked at once.
+                expired = now_s - base.commanded_at_s >= COMMAND_LIFETIME_S - 1e-9
+                if expired:
+                    base.command = (0.0, 0.0)
+                brakes = expired or base.stopped
+                forward, turn = (0.0, 0.0) if brakes else base.command
+                self._data.ctrl[base.slots] = forward, 0.0, turn
+                self._model.actuator_forcerange[base.slots] = self._forces[base.slots] * (
+                    BRAKING if brakes else 1.0
+                )
+            mujoco.mj_step(self._model, self._data, _STEPS)
+
+    def _step_alone(self) -> None:
+        """Step while the loop is blocked; in the keeper's thread."""
+        with self._lock:
+            self._step_world(self._clock.now_s() + self._ahead_s)
+            self._ahead_s += BATCH_S
+        self._wake()
+
+    def _catch_up(self) -> bool:
+        """Let robot time follow what was stepped while the loop was blocked; whether there was anything."""
+        with self._lock:
+            ahead_s, self._ahead_s = self._ahead_s, 0.0
+            if ahead_s:
+                self._clock.advance(ahead_s)
+        return ahead_s > 0
+
+    def _wake(self) -> None:
+        """Look whether the world has to move; from any thread."""
+        task = self._task
+        if task is None or task.done():
+            return
+        loop = task.get_loop()
+        try:
+            asyncio.get_running_loop()
+        except RuntimeError:  # not the loop's thread
+            loop.call_soon_threadsafe(self._clock.wanted.set)
+        else:
+            self._clock.wanted.set()
 
 
 def _pose(joints: NDArray[np.float64]) -> Pose2D:

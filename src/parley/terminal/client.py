@@ -14,6 +14,7 @@ from parley.clock import Clock, WallClock
 from parley.errors import InvalidMessageError, TransportError
 from parley.messages.chat import ChatInput
 from parley.messages.memory import MemoryEntry
+from parley.messages.principal import person
 from parley.messages.status import PlanDecision, StopCommand
 from parley.terminal.commands import Command, compose, help_rows, parse, suggest
 from parley.terminal.console import Console, ConsoleEvents, PlainConsole
@@ -236,6 +237,8 @@ class TerminalClient:
             command="stop" if command == "stop" else "reset",
             targets=() if is_for_all or robot is None else (robot.name,),
             id=uuid.uuid4().hex,
+            by=person(device="terminal"),
+            words=f"/{command}",
         )
         self._link.send(message)
         if command == "stop":

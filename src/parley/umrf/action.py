@@ -34,6 +34,7 @@ from typing import Any, Generic, Literal, ParamSpec, Protocol, TypeVar, overload
 from parley.clock import Clock
 from parley.errors import ActionFailure, FailureCode
 from parley.messages.pvf import NATIVE_TYPES, SEPARATOR, Parameter, fits_type
+from parley.umrf.motion import Motion
 from parley.umrf.signature import (
     MISSING,
     build_argument,
@@ -61,6 +62,8 @@ class RunHandle(Protocol):
     node: str
     """Full name of the node."""
     clock: Clock
+    motion: Motion
+    """Whether it may move its robot; what drives looks at it."""
 
     def log(self, text: str) -> None:
         """Add a runtime message (at most 10 are kept)."""

@@ -37,6 +37,7 @@ from parley.clock import Clock, WallClock
 from parley.errors import ActionFailure, FailureCode
 from parley.umrf.action import Action, ActionSpec, Outcome, RunHandle, bind_inputs, outcome_of
 from parley.umrf.modules import PRIVATE, import_file
+from parley.umrf.motion import Motion
 from parley.umrf.signature import flatten_value
 from parley.umrf.threads import in_thread
 
@@ -210,6 +211,7 @@ class IsolatedContext:
         self.result_asked = order.result_asked
         """See `RunHandle.result_asked`; as it was when the run began."""
         self.clock: Clock = WallClock()
+        self.motion = Motion(order.node)
         self.run: RunHandle = self
         """Itself, so that ``ctx.run.log`` works here as in other actions."""
         self._connection = connection

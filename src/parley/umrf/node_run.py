@@ -13,6 +13,7 @@ from parley.clock import Clock
 from parley.umrf.action import Outcome, RunHandle, bind_inputs, outcome_of
 from parley.umrf.flow import FlowNode
 from parley.umrf.model import Result
+from parley.umrf.motion import Motion
 from parley.umrf.text import clean_text
 from parley.umrf.threads import in_thread
 from parley.umrf.time_limit import PausableTime, within
@@ -65,6 +66,7 @@ class NodeRun:
         asked: Callable[[], bool],
     ) -> None:
         self.actor, self.graph_name, self.node, self.clock = actor, graph_name, item.name, clock
+        self.motion = Motion(item.name)
         self.restart_wanted = False
         self.last_log = ""
         self._item, self._on_progress, self._asked = item, on_progress, asked
@@ -127,10 +129,12 @@ class NodeRun:
 
     def _expired(self) -> float:
         self._stopping = True
+        self.motion.revoke()
         return THREAD_GRACE_S if self._threaded else 0.0
 
     def _end(self, ended: Callable[[NodeRun], None]) -> None:
         self._over = True
+        self.motion.revoke()  # what it may have left behind must not drive
         for timer in (self._progress_timer, self._stop_timer):
             if timer is not None:
                 timer.cancel()
@@ -154,14 +158,19 @@ class NodeRun:
         return self._item.spec.pausable
 
     def pause(self) -> None:
-        """Ask the action to stand still."""
+        """Ask the action to stand still; its drive does so in any case."""
         self._paused = True
+        self.motion.pause()
         self._going.clear()
         if self._time is not None:
             self._time.pause()
 
     def resume(self) -> None:
         """Let the action go on."""
+        self._let_go()
+        self.motion.resume()
+
+    def _let_go(self) -> None:
         self._paused = False
         self._going.set()
         if self._time is not None:
@@ -170,7 +179,8 @@ class NodeRun:
     def stop(self, timeout_s: float, timed_out: Callable[[], None]) -> None:
         """Ask the action to end; `timed_out` is called if it has not after `timeout_s` of wall time."""
         self._stopping = True
-        self.resume()
+        self.motion.revoke()
+        self._let_go()
         if self._task is not None and not self._threaded:
             self._task.cancel()
         self._stop_timer = self._loop.call_later(timeout_s, timed_out)

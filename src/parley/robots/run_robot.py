@@ -1,0 +1,118 @@
+"""A robot as one run of an action gets it: its drive can be held and taken away."""
+
+from __future__ import annotations
+
+import asyncio
+from dataclasses import replace
+
+from parley.errors import ActionFailure, FailureCode
+from parley.robots.base import CameraImage, LaserScan, NavigationControl, Robot, Velocity
+from parley.umrf.motion import Motion
+from parley.world.geometry import Pose2D
+
+__all__ = ["RunRobot"]
+
+
+class RunRobot:
+    """Implements `Robot` for one run; what has to do with all runs (`halt`, `release`) it refuses.
+
+    Args:
+        robot: The robot.
+        motion: Whether this run may move it.
+    """
+
+    def __init__(self, robot: Robot, motion: Motion) -> None:
+        self._robot, self._motion = robot, motion
+        self.name = robot.name
+
+    @property
+    def capabilities(self) -> frozenset[str]:
+        """See `Robot.capabilities`."""
+        return self._robot.capabilities
+
+    @property
+    def radius_m(self) -> float:
+        """See `Robot.radius_m`."""
+        return self._robot.radius_m
+
+    def pose(self) -> Pose2D:
+        """See `Robot.pose`."""
+        return self._robot.pose()
+
+    def velocity(self) -> Velocity:
+        """See `Robot.velocity`."""
+        return self._robot.velocity()
+
+    def scan(self) -> LaserScan:
+        """See `Robot.scan`."""
+        return self._robot.scan()
+
+    def planned_path(self) -> tuple[tuple[float, float], ...]:
+        """See `Robot.planned_path`."""
+        return self._robot.planned_path()
+
+    def battery(self) -> float | None:
+        """See `Robot.battery`."""
+        return self._robot.battery()
+
+    async def image(self) -> CameraImage:
+        """See `Robot.image`."""
+        return await self._robot.image()
+
+    def drive(self, velocity: Velocity) -> None:
+        """See `Robot.drive`; without permission a motion becomes standing still.
+
+        Raises:
+            ActionFailure: `declined`: the drive was taken away from this run.
+        """
+        if velocity == Velocity() or self._motion.allowed:
+            self._robot.drive(velocity)
+            return
+        self._motion.disobeyed()
+        self._check()
+        self._robot.drive(Velocity())
+
+    async def navigate(self, goal: Pose2D, control: NavigationControl, *, timeout_s: float) -> Pose2D:
+        """See `Robot.navigate`; it stands still while this run may not move, and ends if it never may.
+
+        Raises:
+            ActionFailure: `declined`: the drive was taken away from this run.
+        """
+        self._check()
+        motion, loop = self._motion, asyncio.get_running_loop()
+        held = replace(control, paused=lambda: control.paused() or not motion.allowed)
+        drive = asyncio.ensure_future(self._robot.navigate(goal, held, timeout_s=timeout_s))
+
+        def end() -> None:
+            loop.call_soon_threadsafe(drive.cancel)
+
+        forget = motion.on_revoked(end)
+        try:
+            return await drive
+        except asyncio.CancelledError:
+            task = asyncio.current_task()
+            if task is None or not task.cancelling():  # only the drive was
+                self._check()
+            raise
+        finally:
+            forget()
+
+    def halt(self) -> None:
+        """See `Robot.halt`: standing still is always allowed, holding the robot is not an action's to do.
+
+        Raises:
+            ActionFailure: `not_capable`.
+        """
+        raise ActionFailure(FailureCode.NOT_CAPABLE, "An action cannot hold the robot; it can drive at zero.")
+
+    def release(self) -> None:
+        """See `Robot.release`: no action releases an emergency stop.
+
+        Raises:
+            ActionFailure: `not_capable`.
+        """
+        raise ActionFailure(FailureCode.NOT_CAPABLE, "An action cannot release a stop.")
+
+    def _check(self) -> None:
+        if self._motion.revoked:
+            raise ActionFailure(FailureCode.DECLINED, "I was stopped, so this step may not move me any more.")
