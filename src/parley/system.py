@@ -50,6 +50,7 @@ from parley.nodes.plan_restore import adopted_steps, interruption_text, restored
 from parley.nodes.plan_steps import Step
 from parley.nodes.repair import left_over_text
 from parley.nodes.umrf_planner import UmrfPlanner
+from parley.nodes.unattended import UnattendedPlans
 from parley.robots.base import Robot
 from parley.robots.run_robot import RunRobot
 from parley.robots.simulated import SimulatedRobot
@@ -209,6 +210,8 @@ class System:
         )
         await enter(self._speaking(chat))
         await enter(self._speaking(Lookout(transport, clock)))
+        absent = UnattendedPlans(transport, clock, config.unattended, config.unattended_after_s)
+        await enter(self._speaking(absent))
         notices = self._notices = await enter(self._speaking(Notices(transport)))
         for text in (self.store.notice, *self._early):
             self._tell_all(text, "error")

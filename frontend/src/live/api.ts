@@ -1,8 +1,9 @@
 /** One function per request. Failures are `ApiError`s whose message can be shown to people. */
 import { noteServerDate } from './server-time';
-import type { ActionCall, ChatEntry, Incident, MapInfo, MemoryItem, Policy, StopAnswer } from './types';
+import type { ActionCall, ChatEntry, Incident, MapInfo, MemoryItem, Policy, ServerInfo, StopAnswer } from './types';
 
 export type { StopAnswer };
+export type Unattended = ServerInfo['unattended'];
 
 export class ApiError extends Error {
   constructor(
@@ -69,6 +70,8 @@ export interface OutgoingMessage {
   targets: readonly string[];
   reply_to: string;
   images: readonly { name: string; data: string }[];
+  /** What robots do with it when nobody is connected any more; null: as the system does otherwise. */
+  unattended?: Unattended | null;
 }
 
 export interface ChatPage {

@@ -118,6 +118,7 @@ def demo(
         without=without,
     )
     page |= {"examples": loaded.story.examples, "data_dir": folder, "fresh_robots": True}
+    page |= {"unattended": chosen.unattended, "unattended_after_s": chosen.unattended_after_s}
     page |= language_label(chosen.language)
     asyncio.run(_serve(loaded, chosen, page, port_is_wish=port is None, opens=not no_open))
 

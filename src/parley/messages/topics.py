@@ -98,6 +98,7 @@ REPLY_DRAFT = _string("/parley/reply_draft", depth=1)
 INCIDENT = _string("/parley/incident")
 MAP_VIEW = _string("/parley/map_view", depth=10)
 AUDIT = _string("/parley/audit", depth=10_000)
+ATTENDANCE = _string("/parley/attendance", latched=True)
 
 GET_MEMORY = Service("get_memory", ros.ChatRequest, ros.ChatResponse, "nl_interface_msgs/srv/Chat")
 GET_INCIDENTS = Service(
@@ -113,7 +114,7 @@ ALL_TOPICS: tuple[Topic[Any], ...] = (
     CHAT_INPUT, CHAT_FEEDBACK, CHAT_ACTION, UMRF_CORRECTION, ERROR_HANDLING, ADD_TO_MEMORY, REMOVE_MEMORY,
     DISPLAY_FEED, GRAPH_START, GRAPH_MODIFY, GRAPH_PAUSE, GRAPH_PAUSE_TEMOTO, GRAPH_RESUME, GRAPH_STOP,
     GRAPH_FEEDBACK, ACTOR_STATUS, GRAPH_EVENTS, PLAN, PLAN_DECISION, STEP, STOP, STOP_REPORT, REJECTION, SYNC,
-    MEMORY_EVENT, REPLY_DRAFT, INCIDENT, MAP_VIEW, AUDIT,
+    MEMORY_EVENT, REPLY_DRAFT, INCIDENT, MAP_VIEW, AUDIT, ATTENDANCE,
 )  # fmt: skip
 ALL_SERVICES = (GET_MEMORY, GRAPH_GET, GET_INCIDENTS, GET_MAP, GET_AUDIT)
 

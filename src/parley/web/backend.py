@@ -161,6 +161,8 @@ class Backend:
             modules=config.modules,
             examples=config.examples,
             addresses=self.addresses,
+            unattended=config.unattended,
+            unattended_after_s=config.unattended_after_s,
         )
 
     def snapshot(self) -> Snapshot:
@@ -255,6 +257,7 @@ class Backend:
             images=[ChatImage(name=image.name, data=image.data) for image in post.images],
             image_urls=[f"/api/chat/images/{picture.id}" for picture in pictures],
             author=author,
+            unattended=post.unattended,
             unix_ms=self.clock.unix_ms(),
         )
 

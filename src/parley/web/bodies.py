@@ -6,6 +6,7 @@ from typing import Annotated, Literal, Self
 
 from pydantic import Field, StringConstraints, model_validator
 
+from parley.messages.attendance import Unattended
 from parley.messages.chat import ActionCall
 from parley.web.models import ChatEntry, Policy, WebModel
 
@@ -103,6 +104,8 @@ class ChatPost(WebModel):
     reply_to: Annotated[str, StringConstraints(max_length=200)] = ""
     """Key of the question that is answered, if a certain one is meant."""
     images: Annotated[tuple[ImageUpload, ...], Field(max_length=4)] = ()
+    unattended: Unattended | None = None
+    """What the robots do with it when nobody is connected for a while; null: as they do otherwise."""
 
     @model_validator(mode="after")
     def _says_something(self) -> Self:

@@ -15,6 +15,7 @@ import socketio
 import structlog
 from pydantic import BaseModel, TypeAdapter, ValidationError
 
+from parley.messages.attendance import Attendance
 from parley.messages.map import MapView
 from parley.web.backend import Backend
 from parley.web.bodies import FeedKey, FrameMeta
@@ -32,6 +33,8 @@ IN_FLIGHT: Final = 2
 """Pictures of one feed that a client has not confirmed yet."""
 CONFIRM_WITHIN_S: Final = 2.0
 """Wall time after which a picture counts as confirmed, or lost."""
+ATTENDANCE_S: Final = 5.0
+"""Wall time after which it is told anew how many people are connected."""
 MAX_WATCHED: Final = 64
 MAX_CLIENTS: Final = 200
 """Of those who are known; the oldest gives way."""
@@ -60,6 +63,8 @@ class _Client:
     seq: int
     """Number of the newest change that was sent; -1: nothing yet."""
     seat: Seat
+    who: str
+    """Two pages of one person have the same."""
     wake: asyncio.Event = field(default_factory=asyncio.Event)
     """Changes or views wait."""
     look: asyncio.Event = field(default_factory=asyncio.Event)
@@ -81,6 +86,7 @@ class Live:
         self._clients: dict[str, _Client] = {}
         self._crowd = Crowd(MAX_STRANGERS, MAX_CLIENTS)
         self._leaving: set[asyncio.Task[None]] = set()
+        self._telling: asyncio.Task[None] | None = None
         self._rendering: dict[int, dict[str, Any]] = {}
         self._closed = False
         self.server = socketio.AsyncServer(
@@ -101,6 +107,7 @@ class Live:
         self._backend.state.log.listen(self._wake_all)
         self._backend.view_listeners.append(self._on_view)
         self._backend.picture_listeners.append(self._on_picture)
+        self._telling = asyncio.create_task(self._tell_attendance(), name="web attendance")
         return self
 
     async def __aexit__(self, *exc: object) -> None:
@@ -111,6 +118,8 @@ class Live:
         if self._closed:
             return
         self._closed = True
+        if self._telling is not None:
+            self._telling.cancel()
         for client in list(self._clients.values()):
             await self.server.disconnect(client.sid)
             await self._drop(client)
@@ -130,9 +139,10 @@ class Live:
         is_same_run = isinstance(auth, dict) and auth.get("run") == log_of_changes.run
         is_number = isinstance(since, int) and not isinstance(since, bool)
         seq = since if isinstance(since, int) and is_same_run and is_number and since >= 0 else -1
-        client = self._clients[sid] = _Client(sid, seq, seat)
+        client = self._clients[sid] = _Client(sid, seq, seat, who or sid)
         client.views = dict(self._backend.state.views) if seq >= 0 else {}
         client.wake.set()
+        self._attendance()
         client.tasks = (
             asyncio.create_task(self._guarded(client, self._serve), name=f"web client {sid}"),
             asyncio.create_task(self._guarded(client, self._show), name=f"web pictures {sid}"),
@@ -144,6 +154,15 @@ class Live:
         if client is not None:
             await self._drop(client)
 
+    def _attendance(self) -> None:
+        people = len({client.who for client in self._clients.values()})
+        self._backend.link.send(Attendance(server=self._backend.state.log.run, people=people))
+
+    async def _tell_attendance(self) -> None:
+        while True:
+            self._attendance()
+            await asyncio.sleep(ATTENDANCE_S)
+
     def _let_go(self, sid: str) -> None:
         """It gives way to somebody else."""
         log.warning("a live stream gives way", sid=sid)
@@ -154,6 +173,7 @@ class Live:
     async def _drop(self, client: _Client) -> None:
         self._clients.pop(client.sid, None)
         client.seat.free()
+        self._attendance()
         for key in client.watched:
             self._backend.feeds.unwatch(key)
         client.watched = set()

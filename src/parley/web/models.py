@@ -10,6 +10,7 @@ from typing import Annotated, Any, Literal
 
 from pydantic import BaseModel, ConfigDict, Field
 
+from parley.messages.attendance import Unattended
 from parley.messages.incident import Incident
 from parley.messages.map import MapView
 from parley.messages.status import ActionInfo, PoseInfo
@@ -200,6 +201,9 @@ class ServerInfo(WebModel):
     """Sentences to begin with."""
     addresses: tuple[str, ...] = ()
     """Where else this page can be opened, e.g. from a phone in the same network."""
+    unattended: Unattended = "go_on"
+    """What robots do when nobody is connected for `unattended_after_s`, unless an order says otherwise."""
+    unattended_after_s: float = 30.0
 
 
 class Snapshot(WebModel):
