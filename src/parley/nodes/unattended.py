@@ -27,6 +27,7 @@ _TEXTS: Final[dict[Unattended, str]] = {
     "hold": "Nobody is connected any more, so I wait here. Say “carry on” when I should go on.",
     "go_home": "Nobody is connected any more, so I drop the rest and go back to where I started.",
 }
+_REASON: Final = "go back to where I started"
 
 
 class Absence:
@@ -126,7 +127,8 @@ class UnattendedPlans(Node):
         if choice == "hold":
             self._order(robot, "stop")
         elif choice == "go_home" and home is not None:
-            self._order(robot, "clear", ActionCall(name="NavigateTo", input_parameters=_pose(home)))
+            drive = ActionCall(name="NavigateTo", input_parameters=_pose(home), reason=self.spoken(_REASON))
+            self._order(robot, "clear", drive)
         text = self.spoken(sentence(_TEXTS[choice]))
         self.publish(topics.CHAT_FEEDBACK, ChatFeedback(message=text, targets=(robot,), type="info"))
 
