@@ -8,7 +8,7 @@ PIP := $(BIN)/python -m pip --disable-pip-version-check --no-input
 
 .DEFAULT_GOAL := help
 .DELETE_ON_ERROR:
-.PHONY: help demo page types screenshots test test-page check format bench soak clean
+.PHONY: help demo page types screenshots test test-page check format bench soak lock sbom clean
 
 NPM := frontend/npm
 PAGE := src/parley/web/static/index.html
@@ -64,6 +64,19 @@ soak: $(VENV)/.dev ## The long tests: ten minutes, or PARLEY_SOAK_S seconds, and
 	@$(BIN)/python -m pytest -s -m soak tests/
 	@$(MAKE) --no-print-directory page
 	@PARLEY_KILLS=20 PARLEY_COMMAND="$(abspath $(BIN)/parley)" $(NPM) run --silent e2e -- e2e/connection
+
+# Hashes of the wheels for all platforms, without the address of any registry.
+lock: $(VENV)/.dev ## Renew requirements.lock from constraints.txt
+	@$(PIP) install --quiet -c constraints.txt --group release
+	@$(BIN)/pip-compile --quiet --generate-hashes --strip-extras --allow-unsafe --build-deps-for editable \
+	    --no-header --no-annotate -c constraints.txt -o requirements.lock pyproject.toml
+	@sed -i.old '/^--/d; /^$$/d' requirements.lock && rm requirements.lock.old
+
+sbom: $(VENV)/.dev frontend/node_modules/.installed ## Lists of what is inside (CycloneDX), into build
+	@$(PIP) install --quiet -c constraints.txt --group release
+	@mkdir -p build
+	@$(BIN)/cyclonedx-py requirements requirements.lock --pyproject pyproject.toml -o build/sbom-python.cdx.json
+	@$(NPM) sbom --sbom-format cyclonedx --package-lock-only --omit dev > build/sbom-page.cdx.json
 
 clean: ## Remove everything that was made
 	rm -rf $(VENV) frontend/node_modules src/parley/web/static dist build .mypy_cache .ruff_cache .pytest_cache .hypothesis

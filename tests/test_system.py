@@ -43,9 +43,8 @@ async def test_closing_while_a_question_is_open_leaves_nothing(tmp_path: Path) -
 
 
 async def test_opening_that_fails_closes_what_was_opened(tmp_path: Path) -> None:
-    blocked = tmp_path / "data"
-    blocked.write_text("a file where a folder should be", encoding="utf-8")
-    system = load_demo("nursing-home").system(SystemConfig(data_dir=blocked))
+    (tmp_path / "memory.db").mkdir()
+    system = load_demo("nursing-home").system(SystemConfig(data_dir=tmp_path))
     with pytest.raises(StoreError, match="memory"):
         async with system:
             pass
@@ -74,3 +73,14 @@ async def test_embedding_server_that_is_gone_is_told_once_and_words_still_find(t
             assert "drawer" in reply.message
             assert [said.message for said in home.observer.said].count(GONE) == 1
     assert others() == set()
+
+
+async def test_unreadable_record_of_stops_means_that_everybody_is_stopped_and_is_told(tmp_path: Path) -> None:
+    (tmp_path / "stops.json").write_text("{", encoding="utf-8")
+    config = SystemConfig(speed=None, data_dir=tmp_path)
+    async with running(load_demo("nursing-home").system(config)) as home:
+        await home.observer.until(
+            lambda: any("count as stopped" in item.message for item in home.observer.said)
+        )
+        await home.observer.until(lambda: any(item.state == "at_rest" for item in home.observer.stop_reports))
+        assert all(home.system.stop_line.latched(name) for name in home.system.robot_names)

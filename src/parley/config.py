@@ -126,6 +126,8 @@ class SystemConfig(BaseModel, TextFile):
     """How memories are found by what they mean; None: by their words alone."""
     actions_dir: FilePath | None = None
     """Folder with more actions, watched while the system runs."""
+    audit_months: int | None = Field(default=24, ge=1, le=1200)
+    """How long the log of who did what is kept; None: for good."""
     language: str = Field(default="offline", pattern=r"^(offline|[A-Za-z0-9_.-]+:.+)$")
     """Which language engine understands people: `offline`, `provider:model`, `provider:model@address`."""
     language_fallback: tuple[str, ...] = ("offline",)
@@ -213,6 +215,11 @@ class SystemConfig(BaseModel, TextFile):
     def proposals_file(self) -> Path | None:
         """The plans that wait for a person's yes, None if they are not kept."""
         return self.data_dir / "proposals.db" if self.data_dir is not None else None
+
+    @property
+    def audit_file(self) -> Path | None:
+        """The log of who did what, None if it is not kept."""
+        return self.data_dir / "audit.db" if self.data_dir is not None else None
 
     @property
     def stop_file(self) -> Path | None:

@@ -5,7 +5,7 @@ from __future__ import annotations
 import json
 from abc import abstractmethod
 from pathlib import Path
-from typing import Any, Self, TypeVar
+from typing import Any, Final, Self, TypeVar
 
 import yaml
 from pydantic import BaseModel, ValidationError
@@ -15,6 +15,10 @@ from parley.errors import FileFormatError
 __all__ = ["TextFile", "field_path", "parse_json", "parse_yaml", "read_text", "validated", "validated_yaml"]
 
 M = TypeVar("M", bound=BaseModel)
+
+_MAX_BYTES: Final = 50_000_000
+_MAX_YAML_CHARS: Final = 2_000_000
+"""YAML is read slowly: this takes some 20 s."""
 
 
 class TextFile:
@@ -43,10 +47,14 @@ def read_text(path: Path) -> str:
     """The text of a file.
 
     Raises:
-        FileFormatError: It cannot be read, or is not UTF-8.
+        FileFormatError: It cannot be read, is too long, or is not UTF-8.
     """
     try:
-        return path.read_text(encoding="utf-8")
+        with path.open("rb") as opened:
+            content = opened.read(_MAX_BYTES + 1)
+        if len(content) > _MAX_BYTES:
+            raise FileFormatError(path.name, "", f"is longer than {_MAX_BYTES // 1_000_000} MB")
+        return content.decode("utf-8")
     except OSError as error:
         raise FileFormatError(path.name or str(path), "", f"cannot be read: {error.strerror}") from error
     except UnicodeDecodeError as error:
@@ -63,6 +71,8 @@ def parse_json(text: str, file: str) -> Any:
         return json.loads(text)
     except ValueError as error:
         raise FileFormatError(file, "", f"not valid JSON: {error}") from error
+    except RecursionError:
+        raise FileFormatError(file, "", "not valid JSON: it is nested too deeply") from None
 
 
 def parse_yaml(text: str, file: str) -> Any:
@@ -71,10 +81,15 @@ def parse_yaml(text: str, file: str) -> Any:
     Raises:
         FileFormatError: It is not YAML.
     """
+    if len(text) > _MAX_YAML_CHARS:
+        raise FileFormatError(file, "", f"is longer than {_MAX_YAML_CHARS // 1_000_000} million letters")
     try:
         return yaml.safe_load(text)
-    except yaml.YAMLError as error:
+    except (yaml.YAMLError, ValueError, TypeError, LookupError, AttributeError) as error:
+        # The last ones: the library lets out what a date, a number or a tag that cannot be does to it.
         raise FileFormatError(file, "", f"not valid YAML: {error}") from error
+    except RecursionError:
+        raise FileFormatError(file, "", "not valid YAML: it is nested too deeply") from None
 
 
 def validated(model: type[M], raw: Any, file: str) -> M:

@@ -7,7 +7,7 @@ from collections.abc import Mapping, Sequence
 from contextlib import AbstractAsyncContextManager, AsyncExitStack
 from dataclasses import dataclass
 from types import TracebackType
-from typing import Literal, Self, TypeVar
+from typing import Final, Literal, Self, TypeVar
 
 import structlog
 
@@ -23,11 +23,13 @@ from parley.engine.services import ContextServices
 from parley.engine.stop_listener import StopListener
 from parley.engine.watchdog import LoopWatchdog
 from parley.errors import GraphRefusedError, Problem
+from parley.gate.audit_store import AuditStore
 from parley.gate.stop_line import StopLine
 from parley.language.base import Language
 from parley.language.llm import build_language
 from parley.language.llm.usage import Usage
 from parley.memory.embedder import configured_embedder
+from parley.memory.folder import held_folder
 from parley.memory.incidents import IncidentStore
 from parley.memory.meanings import Meanings
 from parley.memory.proposals import ProposalStore
@@ -35,6 +37,7 @@ from parley.memory.store import MemoryStore
 from parley.messages import ros, topics
 from parley.messages.status import Rejection, RejectionProblem
 from parley.messages.wire import to_string
+from parley.nodes.audit_log import AuditLog
 from parley.nodes.base import Node
 from parley.nodes.camera_feed import CameraFeed
 from parley.nodes.chat_interface import ChatInterface
@@ -70,6 +73,11 @@ __all__ = ["System", "WorldView"]
 N = TypeVar("N", bound=Node)
 
 log = structlog.get_logger(__name__)
+
+IN_DOUBT: Final = (
+    "I cannot read who was stopped for safety the last time, so all robots count as stopped. Make sure that "
+    "it is safe, then release the stop."
+)
 
 
 @dataclass(frozen=True, slots=True)
@@ -160,6 +168,8 @@ class System:
     async def _open(self) -> None:
         enter = self._stack.enter_async_context
         config, transport, clock = self.config, self.transport, self.clock
+        if config.data_dir is not None:
+            self._stack.enter_context(held_folder(config.data_dir, unix_ms=clock.unix_ms()))
         await enter(transport)
         self.stop_line = await asyncio.to_thread(StopLine, config.stop_file, self.robot_names)
         self._stack.push_async_callback(asyncio.to_thread, self.stop_line.close)
@@ -167,6 +177,8 @@ class System:
             await enter(self.language)
         self.store = await enter(await MemoryStore.open(config.memory_file or ":memory:", clock))
         journal = self._journal = await enter(await Journal.open(config.journal_file or ":memory:", clock))
+        audit = await enter(await AuditStore.open(config.audit_file or ":memory:", clock))
+        await enter(AuditLog(transport, audit, clock, months=config.audit_months, tell=self._tell_all))
         await self._keep_older_stops(journal)
         await enter(self.simulator)
         await enter(MemoryNode(transport, self.store, self.language, meanings=self._meanings(self.store)))
@@ -187,6 +199,7 @@ class System:
             policies=config.approval_of,
             proposals=proposals,
             tell=self._tell_for,
+            objects=self._objects_of,
         )
         await enter(self._speaking(planner))
         incidents = await enter(await IncidentStore.open(config.incidents_file or ":memory:", clock))
@@ -213,7 +226,8 @@ class System:
         absent = UnattendedPlans(transport, clock, config.unattended, config.unattended_after_s)
         await enter(self._speaking(absent))
         notices = self._notices = await enter(self._speaking(Notices(transport)))
-        for text in (self.store.notice, *self._early):
+        doubt = IN_DOUBT if self.stop_line.in_doubt else ""
+        for text in (doubt, self.store.notice, incidents.notice, proposals.notice, *self._early):
             self._tell_all(text, "error")
         await self._open_actions(notices)
         views: Mapping[str, WorldView] = {name: self._view(name) for name in self.robot_names}
@@ -222,7 +236,7 @@ class System:
         await self._listen_to_stops()
         watchdog = LoopWatchdog(self.stop_line, self.robot_names, clock, self._tell_all)
         watchdog.open()
-        self._stack.callback(watchdog.close)
+        self._stack.push_async_callback(watchdog.close)
         engines = {name: await self._open_robot(name, views[name]) for name in self.robot_names}
         self._tell_interrupted(journal, planner, notices, engines)
         planner.offer_again()

@@ -19,6 +19,7 @@ from parley.config import SystemConfig
 from parley.demos.catalogue import load_demo
 from parley.messages import topics
 from parley.messages.chat import ActionCall
+from parley.messages.principal import person
 from parley.messages.pvf import Parameter
 from parley.messages.ros import String
 from parley.messages.status import PlanDecision, PlanProposal
@@ -88,7 +89,15 @@ async def offered(home: House) -> PlanProposal:
 def decide(home: House, proposal: PlanProposal, **decision: Any) -> None:
     home.observer.publish(
         topics.PLAN_DECISION,
-        PlanDecision.model_validate({"id": proposal.id, "target": proposal.target, **decision}),
+        PlanDecision.model_validate(
+            {
+                "id": proposal.id,
+                "target": proposal.target,
+                "digest": proposal.digest,
+                "by": person(),
+                **decision,
+            }
+        ),
     )
 
 
@@ -100,7 +109,7 @@ def system(data: Path) -> Any:
 async def test_it_waits_again_and_is_carried_out_after_a_yes(data: Path) -> None:
     async with running(system(data)) as home:
         proposal = await offered(home)
-        assert proposal.message == "I would go to the dining table."
+        assert proposal.labels == ("Find out where “dining table” is", "Go to “dining table”")
         assert [call.name for call in proposal.steps] == ["GetCoordinates", "NavigateTo"]
         (told,) = [said.message for said in home.observer.said if "started anew" in said.message]
         assert "please look at it again" in told
@@ -108,7 +117,7 @@ async def test_it_waits_again_and_is_carried_out_after_a_yes(data: Path) -> None
         decide(home, proposal, decision="approve")
         await home.state("running")
         assert await home.done() == ["finished"] * 2
-        assert "I will go to the dining table." in [said.message for said in home.observer.said]
+        assert any("All right: 1. Find out" in said.message for said in home.observer.said)
         assert home.distance_m("dining_table_1") < 1.2
     assert kept(data) == 0
     async with running(system(data)) as home:

@@ -4,8 +4,8 @@ from __future__ import annotations
 
 import asyncio
 import time
-from collections.abc import Iterator
-from contextlib import contextmanager
+from collections.abc import AsyncIterator
+from contextlib import asynccontextmanager
 
 from parley.clock import WallClock
 from parley.engine.watchdog import BLOCKED_S, TELL_S, LoopWatchdog
@@ -24,18 +24,18 @@ class Drive:
         self.log.append((what, time.monotonic()))
 
 
-@contextmanager
-def watched(told: list[str]) -> Iterator[tuple[Drive, LoopWatchdog]]:
+@asynccontextmanager
+async def watched(told: list[str]) -> AsyncIterator[tuple[Drive, LoopWatchdog]]:
     line = StopLine()
     drive, dog = Drive(line), LoopWatchdog(line, ["Ada"], WallClock(), told.append)
     dog.open()
     yield drive, dog
-    dog.close()
+    await dog.close()
 
 
 async def test_an_action_that_blocks_the_loop_holds_its_robot_and_is_named_afterwards() -> None:
     told = list[str]()
-    with watched(told) as (drive, _):
+    async with watched(told) as (drive, _):
 
         async def work() -> float:
             began_s = time.monotonic()
@@ -54,6 +54,6 @@ async def test_an_action_that_blocks_the_loop_holds_its_robot_and_is_named_after
 
 async def test_a_plain_action_in_its_thread_blocks_nothing() -> None:
     told = list[str]()
-    with watched(told) as (drive, _):
+    async with watched(told) as (drive, _):
         await in_thread("action Grind_0", time.sleep, BLOCKED_S + 0.2)
     assert (drive.log, told) == ([], [])

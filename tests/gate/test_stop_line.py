@@ -4,6 +4,9 @@ from __future__ import annotations
 
 import asyncio
 import json
+import signal
+import subprocess
+import sys
 import threading
 from pathlib import Path
 
@@ -37,13 +40,15 @@ class Drive:
 def test_a_pull_halts_all_even_if_one_drive_is_broken_and_says_so() -> None:
     line = StopLine()
     broken, ada = Drive(line, "Bob", broken=True), Drive(line, "Ada")
+    line.hold(["ada"], id="m", by=None)
+    assert (ada.halted, broken.commands) == (True, []), "capitals do not matter"
     outcomes = {item.robot: item for item in line.pull(by=None, id="1", words="stop!!")}
     assert ada.halted
     assert outcomes["Ada"].state == "halted"
     assert (outcomes["Bob"].state, outcomes["Bob"].problem) == ("failed", "no power")
     assert [command.words for command in broken.commands] == ["stop!!"]
     line.pull(by=None, id="1")
-    assert len(ada.commands) == 1, "the same stop over another way tells the owner nothing new"
+    assert len(ada.commands) == 2, "the same stop over another way tells the owner nothing new"
 
 
 def test_only_a_person_releases_and_nothing_but_the_named() -> None:
@@ -172,3 +177,35 @@ def test_a_release_never_undoes_a_later_stop(round_: int) -> None:
     for thread in threads:
         thread.join()
     assert ada.halted, round_
+
+
+def test_a_log_that_cannot_be_written_keeps_no_robot_from_being_halted(
+    monkeypatch: pytest.MonkeyPatch,
+) -> None:
+    def full(*_: object, **__: object) -> None:
+        raise OSError(28, "No space left on device")
+
+    monkeypatch.setattr("parley.gate.notes.log.error", full, raising=False)
+    line = StopLine()
+    Drive(line, "Ada", broken=True)
+    bob = Drive(line, "Bob")
+    line.pull(by=None)
+    assert bob.halted
+
+
+def test_after_kill_9_right_behind_the_report_it_is_latched(tmp_path: Path) -> None:
+    file = tmp_path / "stops.json"
+    script = """
+import os, signal, sys
+from pathlib import Path
+from parley.gate.stop_line import StopLine
+line = StopLine(Path(sys.argv[1]))
+line.attach("Ada", halt=lambda: None, resume=lambda: None, told=lambda _: None)
+if line.pull(["Ada"], by=None, wait_s=10)[0].written:
+    os.kill(os.getpid(), signal.SIGKILL)
+"""
+    ended = subprocess.run([sys.executable, "-c", script, str(file)], check=False, timeout=60)
+    assert ended.returncode == -signal.SIGKILL
+    again = StopLine(file)
+    assert (again.latched("Ada"), again.latched("Bob")) == (True, False)
+    again.close()

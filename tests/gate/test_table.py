@@ -5,17 +5,23 @@ import pytest
 from parley.gate.table import COLUMNS, TABLE, Column, Effect, column_of, table_text, verdict
 from parley.messages.principal import Principal, person
 
-MOVES_OR_DECIDES = (Effect.RESET, Effect.RESUME, Effect.APPROVE, Effect.REJECT, Effect.ANSWER, Effect.POLICY)
+DECIDES = (Effect.RESET, Effect.APPROVE, Effect.REJECT, Effect.ANSWER, Effect.POLICY)
+OTHERS = [c for c in COLUMNS if c not in ("operator", "supervisor")]
 
 
 def test_every_effect_has_a_verdict_for_everybody() -> None:
     assert set(TABLE) == {(effect, column) for effect in Effect for column in COLUMNS}
 
 
-@pytest.mark.parametrize("effect", MOVES_OR_DECIDES)
-@pytest.mark.parametrize("column", [c for c in COLUMNS if c not in ("operator", "supervisor")])
-def test_only_people_who_operate_release_resume_decide_and_answer(effect: Effect, column: Column) -> None:
+@pytest.mark.parametrize("effect", DECIDES)
+@pytest.mark.parametrize("column", OTHERS)
+def test_only_people_who_operate_release_decide_and_answer(effect: Effect, column: Column) -> None:
     assert TABLE[effect, column] == "refuse"
+
+
+def test_what_a_person_held_only_a_person_lets_go_on() -> None:
+    assert {TABLE[Effect.RESUME, column] for column in OTHERS} == {"own", "refuse"}
+    assert TABLE[Effect.RESUME, "engine"] == "refuse"
 
 
 @pytest.mark.parametrize("column", COLUMNS)
@@ -29,8 +35,7 @@ def test_a_viewer_looks_and_stops_and_no_more(effect: Effect) -> None:
 
 
 def test_nobody_but_a_person_begins_anything_past_the_policy() -> None:
-    others = [c for c in COLUMNS if c not in ("viewer", "operator", "supervisor")]
-    assert {TABLE[Effect.BEGIN, c] for c in others} == {"policy", "yes", "refuse"}
+    assert {TABLE[Effect.BEGIN, column] for column in OTHERS} == {"policy", "refuse"}
 
 
 @pytest.mark.parametrize(

@@ -303,3 +303,11 @@ async def test_refused_text_is_an_error_of_its_own() -> None:
         with pytest.raises(RefusedTextError):
             await Embedder(server.address, "m").embed(["x"])
         assert json.dumps(server.asked) == '[["x"]]'
+
+
+async def test_an_endless_answer_is_cut_short(server: EmbeddingServer) -> None:
+    server.pads = 1_000_000
+    with pytest.raises(LanguageError, match="too long"):
+        await Embedder(server.address, "words").embed(["box"])
+    server.pads = 1000
+    assert len(await Embedder(server.address, "words").embed(["box"])) == 1

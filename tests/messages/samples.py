@@ -57,6 +57,7 @@ ACTION_INFO: dict[str, Any] = {
     "optional": ["way"],
     "outputs": {"arrived": "bool"},
     "description": "Go there.",
+    "label": "Go to {place}",
     "phrases": ["go to {place}"],
     "effects": ["moves"],
     "risk": "high",
@@ -90,19 +91,43 @@ INCIDENT: dict[str, Any] = {
     "note": "It was late.",
 }
 
+AUDITED: dict[str, Any] = {
+    "effect": "approve",
+    "by": KIM,
+    "robot": "A",
+    "outcome": "done",
+    "words": "yes",
+    "digest": "5b1e",
+    "reason": "It goes there.",
+    "detail": {"labels": ["Go to the box"]},
+    "unix_ms": 5,
+}
+ENTRY: dict[str, Any] = {**AUDITED, "number": 2, "prev": "aa", "hash": "bb"}
+CHAIN: dict[str, Any] = {
+    "entries": 3,
+    "since_unix_ms": 5,
+    "last": "3:cc",
+    "first_broken": 2,
+    "problem": "it was changed",
+}
+
 SAMPLES: dict[type[BaseModel], dict[str, Any]] = {
     principal.Principal: KIM,
-    audit.AuditEvent: {
-        "effect": "approve",
-        "by": KIM,
+    audit.AuditEvent: AUDITED,
+    audit.AuditEntry: ENTRY,
+    audit.GetAudit: {
         "robot": "A",
-        "outcome": "done",
-        "words": "yes",
-        "digest": "5b1e",
-        "reason": "It goes there.",
-        "detail": {"labels": ["Go to the box"]},
-        "unix_ms": 5,
+        "by": "Kim",
+        "effect": "stop",
+        "text": "box",
+        "since_unix_ms": 1,
+        "until_unix_ms": 9,
+        "before": 7,
+        "limit": 10,
+        "verify": True,
     },
+    audit.AuditChain: CHAIN,
+    audit.AuditList: {"entries": [ENTRY], "chain": CHAIN, "problem": "the disk is full"},
     chat.ChatImage: {"name": "box.jpg", "data": "aGk="},
     chat.ChatInput: {
         "message": "go",
@@ -267,6 +292,14 @@ SAMPLES: dict[type[BaseModel], dict[str, Any]] = {
         "steps": [{"action": MOVE, "node": "Move_0", "state": "paused", "label": ""}],
         "revision": 3,
         "policy": "ask_when_risky",
+        "held_by": KIM,
+    },
+    status.PlanRuling: {
+        "order": "7",
+        "target": "A",
+        "outcome": "asked",
+        "labels": ["Go there"],
+        "why": "It is far.",
     },
     status.PlanProposal: {
         "kind": "proposal",
@@ -274,7 +307,8 @@ SAMPLES: dict[type[BaseModel], dict[str, Any]] = {
         "target": "A",
         "message": "So?",
         "steps": [MOVE],
-        "labels": ["Go there"],
+        "commands": [{"pop": {"parameters": 1}}],
+        "labels": ["Leave out: look", "Go there"],
         "digest": "5b1e",
         "by": KIM,
         "why": "It is far.",

@@ -20,9 +20,10 @@ from parley.language.scripted import ScriptedLanguage
 from parley.memory.proposals import ProposalStore
 from parley.messages import ros, topics
 from parley.messages.chat import ActionCall, ChatAction, SystemCommand
+from parley.messages.principal import Principal, person
 from parley.messages.pvf import Parameter
 from parley.messages.ros import String
-from parley.messages.status import ActorStatus
+from parley.messages.status import ActorStatus, PlanDecision
 from parley.nodes.base import Node
 from parley.nodes.chat_interface import ChatInterface
 from parley.nodes.error_handler import ErrorHandler
@@ -38,6 +39,8 @@ from parley.umrf.io import read_graph, write_graph
 from parley.umrf.transition import Transition
 
 STEP_S = 0.005
+KIM = person("Kim")
+ENGINE = Principal(kind="engine", name="scripted")
 
 
 @dataclass(frozen=True)
@@ -256,16 +259,28 @@ class Crew:
         await stack.aclose()
         self.observer.publish(topics.ACTOR_STATUS, ActorStatus(actor=name, state="leaving"))
 
-    def order(self, *calls: ActionCall, target: str = "A", commands: Sequence[SystemCommand] = ()) -> None:
-        order = ChatAction(queue=calls, system_cmd=tuple(commands), targets=(target,), message_response="ok")
+    def order(
+        self,
+        *calls: ActionCall,
+        target: str = "A",
+        commands: Sequence[SystemCommand] = (),
+        by: Principal = ENGINE,
+    ) -> None:
+        """What a language engine made of what a person said; `by` somebody else."""
+        order = ChatAction(
+            queue=calls, system_cmd=tuple(commands), targets=(target,), message_response="ok", by=by,
+            behalf=KIM,
+        )  # fmt: skip
         self.observer.publish(topics.CHAT_ACTION, order)
 
     def command(self, command: str, target: str = "A", **arguments: Any) -> None:
         asked = SystemCommand.model_validate({"command": command, "arguments": arguments})
-        self.order(target=target, commands=[asked])
+        self.order(target=target, commands=[asked], by=KIM)
 
-    def correct(self, *calls: ActionCall, target: str = "A", success: bool = True) -> None:
-        correction = ChatAction(queue=calls, targets=(target,), success=success)
+    def correct(
+        self, *calls: ActionCall, target: str = "A", success: bool = True, by: Principal = ENGINE
+    ) -> None:
+        correction = ChatAction(queue=calls, targets=(target,), success=success, by=by)
         self.observer.publish(topics.UMRF_CORRECTION, correction)
 
     async def until(self, condition: Callable[[], Any], within_s: float = 10.0) -> None:
@@ -295,6 +310,18 @@ class Crew:
     async def hears(self, text: str) -> None:
         """Wait until somebody says something with `text` in it."""
         await self.until(lambda: any(text in said for said in self.texts()))
+
+
+def proposals(party: Crew) -> list[dict[str, Any]]:
+    """What was proposed so far."""
+    return [item for item in party.wire.objects(topics.PLAN) if item["kind"] == "proposal"]
+
+
+def decide(party: Crew, **decision: Any) -> None:
+    """Decide as a person who sees what is proposed."""
+    shown = {item["id"]: item["digest"] for item in proposals(party)}
+    said = {"target": "A", "by": KIM, "digest": shown.get(decision.get("id"), ""), **decision}
+    party.observer.publish(topics.PLAN_DECISION, PlanDecision.model_validate(said))
 
 
 @asynccontextmanager

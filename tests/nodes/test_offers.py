@@ -3,26 +3,13 @@
 from __future__ import annotations
 
 from pathlib import Path
-from typing import Any
 
 from parley.clock import WallClock
 from parley.memory.proposals import ProposalStore
 from parley.messages import topics
 from parley.messages.chat import ChatAction, ChatInput
-from parley.messages.status import PlanDecision
 from parley.nodes.plan_steps import Step
-from tests.nodes.crew import Crew, crew, drive, find, look
-
-
-def proposals(party: Crew) -> list[dict[str, Any]]:
-    return [item for item in party.wire.objects(topics.PLAN) if item["kind"] == "proposal"]
-
-
-def decide(party: Crew, identity: str, decision: str) -> None:
-    party.observer.publish(
-        topics.PLAN_DECISION,
-        PlanDecision.model_validate({"id": identity, "target": "A", "decision": decision}),
-    )
+from tests.nodes.crew import crew, decide, drive, find, look, proposals
 
 
 async def left_repair(file: Path) -> str:
@@ -34,7 +21,7 @@ async def left_repair(file: Path) -> str:
         party.body.failures["look box"] = 1
         party.order(look("box"), look("door"))
         await party.until(lambda: proposals(party))
-        decide(party, proposals(party)[0]["id"], "approve")
+        decide(party, id=proposals(party)[0]["id"], decision="approve")
         await party.state("held")
         party.correct(look("lid"))
         await party.until(lambda: len(proposals(party)) == 2)
@@ -50,7 +37,7 @@ async def test_a_repair_waits_again_in_the_place_of_the_step_that_failed(tmp_pat
             await party.hears("a way out of what failed waited for your yes")
             await party.state("held")
             assert [item["id"] for item in proposals(party)] == [identity]
-            decide(party, identity, "approve")
+            decide(party, id=identity, decision="approve")
             await party.state("idle")
             assert party.body.did == ["look lid", "look door"]
         assert await store.waiting() == ()
@@ -79,7 +66,7 @@ async def test_a_robot_that_comes_later_is_offered_it_then(tmp_path: Path) -> No
             assert proposals(party) == []
             await party.engine("A")
             await party.until(lambda: proposals(party))
-            decide(party, proposals(party)[0]["id"], "approve")
+            decide(party, id=proposals(party)[0]["id"], decision="approve")
             await party.until(lambda: party.body.did == ["look box"])
 
 
@@ -92,12 +79,13 @@ async def test_a_robot_asks_before_and_announces_after_the_yes() -> None:
             topics.CHAT_INPUT, ChatInput(message="look at the box", targets=("A",), id="1")
         )
         await party.until(lambda: proposals(party))
-        await party.hears("I would look at the box. Shall I?")
+        await party.hears("This is what I would do: Look: what “box”. Shall I?")
         assert "I will look at the box." not in party.texts()
         assert party.body.did == []
         party.observer.publish(topics.CHAT_INPUT, ChatInput(message="yes", targets=("A",), id="2"))
         await party.until(lambda: party.body.did == ["look box"])
-        await party.hears("I will look at the box.")
+        await party.hears("All right: Look: what “box”.")
+        assert "I will look at the box." not in party.texts()
 
 
 async def test_a_no_in_words_leaves_it() -> None:
@@ -138,8 +126,7 @@ async def test_a_cancelled_order_is_not_called_finished() -> None:
 
 async def test_where_only_risky_things_are_asked_about_the_rest_is_announced() -> None:
     async with crew("A", talking=True) as party:
-        decision = {"target": "A", "decision": "policy", "policy": "ask_when_risky"}
-        party.observer.publish(topics.PLAN_DECISION, PlanDecision.model_validate(decision))
+        decide(party, decision="policy", policy="ask_when_risky")
         await party.until(
             lambda: "A" in party.observer.plans and party.observer.plans["A"].policy == "ask_when_risky"
         )
@@ -148,7 +135,7 @@ async def test_where_only_risky_things_are_asked_about_the_rest_is_announced() -
             party.language.will("interpret", ChatAction(message_response=text, queue=(call,)))
             said = ChatInput(message=f"do it, part {number}", targets=("A",), id=str(number))
             party.observer.publish(topics.CHAT_INPUT, said)
-        await party.hears("I would press it. Shall I?")
+        await party.hears("This is what I would do: Press: what “bell”. Shall I?")
         assert "I will look." in party.texts()
         assert "I will press it." not in party.texts()
         await party.until(lambda: party.body.did == ["look box"])

@@ -562,8 +562,8 @@ def test_leaving_out_the_last_step_says_that_nothing_is_left(plan: TargetPlan, e
 def test_robot_that_is_back_without_its_graph_waits_for_going_on(plan: TargetPlan, engine: Engine) -> None:
     engine.take(list(plan.append([look()])))
     engine.report()
-    assert plan.on_return({"graph_0"}) == []
-    (said,) = plan.on_return(set())
+    assert plan.on_return({"graph_0": "RUNNING"}) == []
+    (said,) = plan.on_return({})
     assert isinstance(said, Say)
     assert plan.update().state == "paused"
     (start,) = plan.start()
@@ -600,3 +600,16 @@ def test_stop_that_overtook_the_continuation_is_sent_again(
     assert plan.pause() == [PauseGraph("graph_0")]
     engine.graph_state = GraphState.RUNNING
     assert engine.report() == [PauseGraph("graph_0")]
+
+
+def test_a_pause_or_a_clear_that_a_robot_did_not_hear_holds_when_it_is_back(
+    plan: TargetPlan, engine: Engine
+) -> None:
+    engine.take(list(plan.append([look("box"), look("door")])))
+    engine.report()
+    assert plan.pause() == [PauseGraph("graph_0")]
+    assert plan.on_return({"graph_0": "RUNNING"}) == [PauseGraph("graph_0")]
+    assert plan.clear() == [StopGraph("graph_0")]
+    assert plan.on_no_end("graph_0") == []
+    assert plan.on_return({"graph_0": "PAUSED"}) == [StopGraph("graph_0")]
+    assert plan.on_return({"graph_0": "STOPPED"}) == []

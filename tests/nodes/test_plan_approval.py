@@ -9,16 +9,7 @@ import pytest
 
 from parley.messages import topics
 from parley.messages.chat import ActionCall, ChatAction, ChatFeedback, ChatInput, Flow, FlowIf, SystemCommand
-from parley.messages.status import PlanDecision
-from tests.nodes.crew import Crew, crew, drive, find, look
-
-
-def decide(party: Crew, **decision: Any) -> None:
-    party.observer.publish(topics.PLAN_DECISION, PlanDecision.model_validate({"target": "A", **decision}))
-
-
-def proposals(party: Crew) -> list[dict[str, Any]]:
-    return [item for item in party.wire.objects(topics.PLAN) if item["kind"] == "proposal"]
+from tests.nodes.crew import KIM, Crew, crew, decide, drive, find, look, proposals
 
 
 def press(what: str) -> ActionCall:
@@ -100,12 +91,15 @@ async def test_repair_with_new_steps_waits_for_a_yes_where_everything_does() -> 
         assert party.body.did == ["look box", "look lid", "look door"]
 
 
-async def test_repair_that_is_agreed_to_in_words_goes_on() -> None:
+async def test_going_on_is_no_yes_to_a_repair_that_waits() -> None:
     async with crew("A", ask_first=["A"]) as party:
         await failed(party)
         party.correct(look("lid"))
         await party.until(lambda: len(proposals(party)) == 2)
         party.command("start")
+        await party.hears("Look: what “lid”. Shall I?")
+        assert party.body.did == ["look box"]
+        decide(party, id=proposals(party)[1]["id"], decision="approve")
         await party.state("idle")
         assert party.body.did == ["look box", "look lid", "look door"]
 
@@ -155,16 +149,10 @@ async def test_trying_the_same_again_and_leaving_out_need_no_yes() -> None:
         assert party.body.did == ["look box", "look box", "look door"]
 
 
-async def test_repair_that_follows_from_a_persons_answer_goes_on_at_once() -> None:
+async def test_repair_that_a_person_chose_goes_on_at_once() -> None:
     async with crew("A", ask_first=["A"]) as party:
         await failed(party)
-        question = ChatFeedback(message="Which one?", targets=("A",), type="request", id="q")
-        party.observer.publish(topics.CHAT_FEEDBACK, question)
-        await party.hears("Which one?")
-        answer = ChatInput(message="the lid", targets=("A",), type="response", reply_to="q")
-        party.observer.publish(topics.CHAT_INPUT, answer)
-        await party.settled()
-        party.correct(look("lid"))
+        party.correct(look("lid"), by=KIM)
         await party.state("idle")
         assert party.body.did == ["look box", "look lid", "look door"]
         assert len(proposals(party)) == 1

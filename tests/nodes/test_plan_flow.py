@@ -13,7 +13,7 @@ from parley.messages.pvf import Parameter
 from parley.messages.status import StepCommand
 from parley.umrf.io import read_graph
 from parley.umrf.model import Response, Result
-from tests.nodes.crew import Body, ThesisEngine, ask, crew, drive, find, look
+from tests.nodes.crew import Body, ThesisEngine, ask, crew, decide, drive, find, look, proposals
 
 
 def check(what: str) -> ActionCall:
@@ -285,7 +285,7 @@ async def test_approved_plan_runs_with_its_conditions() -> None:
         party.body.there = {"box"}
         party.order(*BRANCHES)
         await party.state("awaiting_approval")
-        party.command("start")
+        decide(party, id=proposals(party)[0]["id"], decision="approve")
         await party.until(lambda: party.body.did[-1:] == ["look door"])
         assert party.body.did == ["check box", "look lid", "look label", "look door"]
 

@@ -13,19 +13,11 @@ from parley.messages.chat import ActionCall, ChatAction, Flow, SystemCommand
 from parley.messages.principal import person
 from parley.messages.pvf import Parameter
 from parley.messages.ros import String
-from parley.messages.status import ActorStatus, PlanDecision, Rejection, RejectionProblem, StopCommand
+from parley.messages.status import ActorStatus, Rejection, RejectionProblem, StopCommand
 from parley.nodes.plan_sending import Patience
 from parley.umrf.io import read_graph, write_graph
 from parley.umrf.model import Graph, GraphState, LogMessage, Node, NodeState
-from tests.nodes.crew import Body, Crew, ThesisEngine, ask, crew, drive, find, look
-
-
-def decide(party: Crew, **decision: Any) -> None:
-    party.observer.publish(topics.PLAN_DECISION, PlanDecision.model_validate({"target": "A", **decision}))
-
-
-def proposals(party: Crew) -> list[dict[str, Any]]:
-    return [item for item in party.wire.objects(topics.PLAN) if item["kind"] == "proposal"]
+from tests.nodes.crew import Body, Crew, ThesisEngine, ask, crew, decide, drive, find, look, proposals
 
 
 def feedback(party: Crew, graph: Graph, actor: str = "A") -> None:
@@ -435,11 +427,14 @@ async def test_impossible_edit_leaves_the_plan_waiting() -> None:
         await party.until(lambda: party.body.did == ["look box"])
 
 
-async def test_going_ahead_in_words_approves_and_dropping_rejects() -> None:
+async def test_going_ahead_asks_again_and_dropping_rejects() -> None:
     async with crew("A", ask_first=["A"]) as party:
         party.order(look("box"))
         await party.state("awaiting_approval")
         party.command("start")
+        await party.hears("Look: what “box”. Shall I?")
+        assert party.body.did == []
+        decide(party, id=proposals(party)[0]["id"], decision="approve")
         await party.until(lambda: party.body.did == ["look box"])
         party.order(look("door"))
         await party.state("awaiting_approval")

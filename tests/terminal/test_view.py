@@ -226,6 +226,16 @@ def test_the_operators_own_stop_is_not_told_twice(view: OperatorView) -> None:
     assert view.on_stop_report(StopReport(actor="Ada", id="s1", state="received")) == []
 
 
+def test_who_does_not_answer_a_stop_in_time_is_named_once(view: OperatorView) -> None:
+    view.on_status(ActorStatus(actor="Ada"), now_s=10.0)
+    view.note_own_stop("s1", ["Ada", "Bob"])
+    view.on_stop_report(StopReport(actor="Ada", id="s1", state="received"))
+    assert [line.text for now_s in (10.0, 11.9) for line in view.tick(now_s)] == []
+    assert [line.text for now_s in (12.1, 13.0) for line in view.tick(now_s)] == [
+        "Bob does not answer. Look whether it stands."
+    ]
+
+
 @pytest.mark.parametrize(
     ("what", "code", "message", "shown"),
     [

@@ -8,6 +8,7 @@ from collections.abc import AsyncIterator
 from typing import Any
 
 import pytest
+import structlog
 
 from parley.errors import (
     ParleyError,
@@ -19,6 +20,7 @@ from parley.errors import (
 from parley.messages.ros import ChatRequest, ChatResponse, String
 from parley.messages.topics import QoS, Service, Topic
 from parley.transport.base import Endpoint, Transport
+from parley.transport.local import LocalTransport
 from tests.transport.backends import BACKENDS, Network, until
 
 PLAIN = Topic("contract/plain", String, "std_msgs/msg/String", QoS(depth=100))
@@ -156,6 +158,18 @@ async def test_a_slow_subscriber_loses_the_oldest_messages_and_knows_how_many(
     await until(lambda: len(heard) == kept + 1)
     assert heard == [0, *range(5, kept + 5)]
     assert subscription.dropped == 4
+
+
+async def test_what_is_dropped_is_told_in_the_log_with_a_count() -> None:
+    with structlog.testing.capture_logs() as logged:
+        async with LocalTransport() as transport:
+            subscription = await transport.subscribe(SHALLOW, lambda _: None, depth=1)
+            sender = transport.publisher(SHALLOW)
+            for number in range(10):
+                sender.publish(String(str(number)))
+            assert subscription.dropped == 9
+    told = [line["dropped"] for line in logged if line["log_level"] == "warning"]
+    assert told == [1, 2, 4, 8]
 
 
 async def test_of_a_topic_that_keeps_all_a_slow_subscriber_loses_nothing(network: Network) -> None:

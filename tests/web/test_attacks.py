@@ -32,7 +32,7 @@ async def test_pictures_that_are_damaged_or_claim_to_be_huge_are_refused(data: b
         post = {"id": "m1", "text": "look", "targets": ["Ada"], "images": [{"name": "a.png", "data": text}]}
         assert (await rig.http.post("/api/chat", json=post)).status_code == 422
         put = {"type": "image", "data": text}
-        assert (await rig.http.put("/api/memory/box", json=put)).status_code == 422
+        assert (await rig.http.put("/api/memory?name=box", json=put)).status_code == 422
         await rig.heard()
         assert rig.robots.inputs == []
 
@@ -51,7 +51,7 @@ async def test_a_request_nested_a_hundred_thousand_deep_is_refused() -> None:
         "/api/chat/images/..%2f..%2f..%2fetc%2fpasswd",
         "/api/feeds/..%2f..%2fetc/passwd.jpg",
         "/api/feeds/Ada/..%2f..%2fsecret.jpg",
-        "/api/memory/..%2f..%2fetc%2fpasswd/image",
+        "/api/memory/image?name=..%2f..%2fetc%2fpasswd",
         "/assets/..%5c..%5csecret",
         "/%00",
     ],

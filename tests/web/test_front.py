@@ -193,3 +193,14 @@ async def test_a_message_that_is_refused_holds_nobody() -> None:
         post = {"id": "m1", "text": "stop", "targets": ["Ada"]}
         assert (await rig.http.post("/api/chat", json=post)).status_code == 404
         assert [command.command for command in drive.told] == ["hold", "go_on"]
+
+
+async def test_a_reset_that_is_heard_late_does_not_release_what_was_stopped_since() -> None:
+    async with fronted() as (rig, drive):
+        await rig.http.post("/api/stop", json={"id": "s1"})
+        await rig.http.post("/api/stop", json={"command": "reset", "id": "r1"})
+        await rig.http.post("/api/stop", json={"id": "s2"})
+        await rig.heard()
+        (late,) = [heard for heard in rig.robots.stops if heard.command == "reset"]
+        drive.line.reset(late.targets, by=late.by, id=late.id)
+        assert drive.line.latched("Ada")

@@ -9,6 +9,7 @@ from typing import Any
 import pytest
 
 from parley.errors import FailureCode
+from parley.gate.audit_store import AuditStore
 from parley.language.offline import OfflineLanguage
 from parley.memory.store import MemoryStore
 from parley.messages import topics
@@ -16,6 +17,7 @@ from parley.messages.chat import ActionCall
 from parley.messages.incident import Incident
 from parley.messages.map import MapInfo
 from parley.messages.memory import MemoryEntry
+from parley.messages.principal import person
 from parley.messages.ros import ChatRequest, ChatResponse
 from parley.messages.status import (
     PlanProposal,
@@ -23,9 +25,11 @@ from parley.messages.status import (
     PoseInfo,
     Rejection,
     RejectionProblem,
+    StopCommand,
     StopReport,
 )
 from parley.messages.wire import encode
+from parley.nodes.audit_log import AuditLog
 from parley.nodes.memory import MemoryNode
 from parley.web.config import MODULES
 from parley.web.robot_state import STOP_DEADLINE_S
@@ -181,22 +185,43 @@ async def test_memories_are_kept_found_shown_and_forgotten() -> None:
         page = await rig.page()
         picture = base64.b64encode(JPEG).decode()
         note = {"data": "The box is by the door.", "info": "where the box is"}
-        assert (await rig.http.put("/api/memory/box", json=note)).status_code == 200
+        assert (await rig.http.put("/api/memory?name=box", json=note)).status_code == 200
         photo = {"type": "image", "data": picture, "info": "my desk"}
-        assert (await rig.http.put("/api/memory/my desk", json=photo)).status_code == 200
+        assert (await rig.http.put("/api/memory?name=my desk", json=photo)).status_code == 200
         await page.until(lambda: len(page.of("memory")) == 2)
         items = {item["name"]: item for item in (await rig.http.get("/api/memory")).json()}
         assert items["box"]["data"] == "The box is by the door."
         assert (await rig.http.get(items["my desk"]["data"])).content == JPEG
-        assert (await rig.http.get("/api/memory/box")).json()["source"] == "operator"
-        assert (await rig.http.get("/api/memory/box/image")).status_code == 404
+        assert (await rig.http.get("/api/memory/one?name=box")).json()["source"] == "operator"
+        assert (await rig.http.get("/api/memory/image?name=box")).status_code == 404
         found = (await rig.http.get("/api/memory", params={"q": "door"})).json()
         assert [item["name"] for item in found] == ["box"]
-        assert (await rig.http.delete("/api/memory/box")).status_code == 200
-        history = (await rig.http.get("/api/memory/box/history")).json()
+        assert (await rig.http.delete("/api/memory?name=box")).status_code == 200
+        history = (await rig.http.get("/api/memory/history?name=box")).json()
         assert [item["data"] for item in history] == ["The box is by the door."]
-        assert (await rig.http.delete("/api/memory/box")).status_code == 404
-        assert (await rig.http.get("/api/memory/box")).status_code == 404
+        assert (await rig.http.delete("/api/memory?name=box")).status_code == 404
+        assert (await rig.http.get("/api/memory/one?name=box")).status_code == 404
+
+
+NAMES = ("boxes/left", "/", "..", ".", "a?b#c&d=e%2F", "one", "history", "küche 厨房", "+ +", "x" * 200)
+
+
+async def test_memories_of_any_name_can_be_reached() -> None:
+    async with (
+        served("Ada") as rig,
+        await MemoryStore.open(":memory:") as store,
+        MemoryNode(rig.robots.transport, store, OfflineLanguage()),
+    ):
+        photo = {"type": "image", "data": base64.b64encode(JPEG).decode()}
+        for name in NAMES:
+            asked = {"name": name}
+            assert (await rig.http.put("/api/memory", params=asked, json=photo)).status_code == 200
+            item = (await rig.http.get("/api/memory/one", params=asked)).json()
+            assert item["name"] == name
+            assert (await rig.http.get(item["data"])).content == JPEG
+            assert (await rig.http.delete("/api/memory", params=asked)).status_code == 200
+            assert len((await rig.http.get("/api/memory/history", params=asked)).json()) == 1
+        assert (await rig.http.get("/api/memory")).json() == []
 
 
 async def test_a_forgotten_memory_that_is_brought_back_keeps_where_it_came_from() -> None:
@@ -207,14 +232,14 @@ async def test_a_forgotten_memory_that_is_brought_back_keeps_where_it_came_from(
     ):
         seen = MemoryEntry(name="box", data="The box is by the door.", info="the box", source="Ada/Inspect")
         await store.add(seen)
-        assert (await rig.http.delete("/api/memory/box")).status_code == 200
+        assert (await rig.http.delete("/api/memory?name=box")).status_code == 200
         back = {"data": seen.data, "info": seen.info, "again": True}
-        assert (await rig.http.put("/api/memory/box", json=back)).status_code == 200
-        assert (await rig.http.get("/api/memory/box")).json()["source"] == "Ada/Inspect"
-        assert (await rig.http.delete("/api/memory/box")).status_code == 200
+        assert (await rig.http.put("/api/memory?name=box", json=back)).status_code == 200
+        assert (await rig.http.get("/api/memory/one?name=box")).json()["source"] == "Ada/Inspect"
+        assert (await rig.http.delete("/api/memory?name=box")).status_code == 200
         changed = {**back, "data": "The box is gone."}
-        assert (await rig.http.put("/api/memory/box", json=changed)).status_code == 200
-        assert (await rig.http.get("/api/memory/box")).json()["source"] == "operator"
+        assert (await rig.http.put("/api/memory?name=box", json=changed)).status_code == 200
+        assert (await rig.http.get("/api/memory/one?name=box")).json()["source"] == "operator"
 
 
 async def test_what_is_not_running_is_said_in_plain_words() -> None:
@@ -245,6 +270,22 @@ async def test_incidents_are_told_live_and_listed() -> None:
         await page.until(lambda: page.of("incident"))
         assert [item["id"] for item in (await rig.http.get("/api/incidents?robot=Ada")).json()] == ["i1"]
         assert (await rig.http.get("/api/incidents?robot=Bob")).json() == []
+
+
+async def test_the_log_is_told_in_sentences_of_a_language_page_by_page() -> None:
+    async with served("Ada") as rig:
+        assert (await rig.http.get("/api/audit")).status_code == 503
+        clock, transport = HandClock(), rig.robots.transport
+        async with await AuditStore.open(":memory:", clock) as store, AuditLog(transport, store, clock):
+            rig.robots.tell(topics.STOP, StopCommand(targets=("Ada",), by=person("Kim", device="phone")))
+            await rig.until(lambda: rig.robots.stops)
+            newest = (await rig.http.get("/api/audit?limit=1&verify=true")).json()
+            assert [line["text"] for line in newest["lines"]] == ["Kim (phone) stopped Ada."]
+            assert (newest["complete"], newest["chain"]["problem"]) == (False, "")
+            path = f"/api/audit?before={newest['lines'][0]['number']}&language=et"
+            older = (await rig.http.get(path)).json()
+            assert [line["text"] for line in older["lines"]] == ["Parley käivitati, logi jätkub."]
+            assert older["complete"]
 
 
 async def test_the_last_picture_of_a_feed_can_be_fetched() -> None:
@@ -294,6 +335,7 @@ async def test_a_module_that_is_switched_off_is_not_there(module: str) -> None:
         "memory": "/api/memory",
         "robots": "/api/robots",
         "incidents": "/api/incidents",
+        "log": "/api/audit",
     }
     async with served("Ada", without=frozenset({module})) as rig:
         assert (await rig.http.get(paths[module])).status_code == 404

@@ -3,6 +3,7 @@ import { Link, Route, Switch } from 'wouter';
 
 import { DisplayPanel } from '@/features/display';
 import { IncidentsPage } from '@/features/incidents';
+import { LogPage } from '@/features/log';
 import { MapPanel } from '@/features/map';
 import { MemoryPage } from '@/features/memory';
 import { offered, pathOf, SettingsPage, type Page } from '@/features/menu';
@@ -32,6 +33,7 @@ export function Pages({ layout, ...session }: Props) {
     memory: () => <MemoryPage />,
     robots: () => <RobotsPage />,
     incidents: () => <IncidentsPage />,
+    log: () => <LogPage />,
     settings: () => <SettingsPage {...session} />,
   };
   return (

@@ -1,10 +1,11 @@
 /** Each part of the page in each of its faces. */
 import { DisplayPanel } from '@/features/display';
 import { IncidentsPage } from '@/features/incidents';
+import { LogPage } from '@/features/log';
 import { MapPanel } from '@/features/map';
 import { MemoryPage } from '@/features/memory';
 import { RobotsPage } from '@/features/robots';
-import { incident, mapInfo, mapView, memory, robot } from '@/live/samples';
+import { incident, logPage, mapInfo, mapView, memory, robot } from '@/live/samples';
 import type { ActionInfo, FeedInfo, Snapshot } from '@/live/types';
 
 import type { Answers } from './network';
@@ -57,4 +58,8 @@ export const stories: readonly Story[] = [
   { name: 'Problems, empty', snapshot: { robots }, answers: { incidents: { json: [] } }, part: () => <IncidentsPage />, shows: 'incidents:emptyText' },
   { name: 'Problems, failed', snapshot: { robots }, answers: { incidents: refused }, part: () => <IncidentsPage />, shows: 'incidents:failed' },
   { name: 'Problems', snapshot: { robots }, answers: { incidents: { json: [incident({ id: 'a' }), incident({ id: 'b', ending: 'solved' })] } }, part: () => <IncidentsPage />, shows: 'incidents:ending.solved' },
+  { name: 'Log, loading', snapshot: null, answers: { audit: 'never' }, part: () => <LogPage />, shows: 'common:loading' },
+  { name: 'Log, empty', snapshot: { robots }, answers: { audit: { json: logPage({ lines: [] }) } }, part: () => <LogPage />, shows: 'log:emptyText' },
+  { name: 'Log, failed', snapshot: { robots }, answers: { audit: refused }, part: () => <LogPage />, shows: 'log:failed' },
+  { name: 'Log', snapshot: { robots }, answers: { audit: { json: logPage({ complete: false }) } }, part: () => <LogPage />, shows: 'log:older' },
 ];

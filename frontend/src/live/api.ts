@@ -1,6 +1,16 @@
 /** One function per request. Failures are `ApiError`s whose message can be shown to people. */
 import { noteServerDate } from './server-time';
-import type { ActionCall, ChatEntry, Incident, MapInfo, MemoryItem, Policy, ServerInfo, StopAnswer } from './types';
+import type {
+  ActionCall,
+  ChatEntry,
+  Incident,
+  LogPage,
+  MapInfo,
+  MemoryItem,
+  Policy,
+  ServerInfo,
+  StopAnswer,
+} from './types';
 
 export type { StopAnswer };
 export type Unattended = ServerInfo['unattended'];
@@ -139,18 +149,39 @@ export interface MemoryBody {
   again?: boolean;
 }
 
-const scoped = (scope: string | undefined) => (scope === undefined ? '' : `?scope=${part(scope)}`);
+/** Names stand behind the question mark: no browser sends “..” or “/” as a part of a path. */
+const named = (name: string, scope?: string) =>
+  `?name=${part(name)}${scope === undefined ? '' : `&scope=${part(scope)}`}`;
 
 export const searchMemories = (q: string, scope = '') =>
   request<MemoryItem[]>('GET', `memory?q=${part(q)}&scope=${part(scope)}`);
 export const getMemoryHistory = (name: string, scope: string) =>
-  request<MemoryItem[]>('GET', `memory/${part(name)}/history${scoped(scope)}`);
-export const putMemory = (name: string, body: MemoryBody) => request<unknown>('PUT', `memory/${part(name)}`, body);
+  request<MemoryItem[]>('GET', `memory/history${named(name, scope)}`);
+export const putMemory = (name: string, body: MemoryBody) => request<unknown>('PUT', `memory${named(name)}`, body);
 /** Without a scope it is forgotten everywhere. */
 export const deleteMemory = (name: string, scope?: string) =>
-  request<unknown>('DELETE', `memory/${part(name)}${scoped(scope)}`);
+  request<unknown>('DELETE', `memory${named(name, scope)}`);
 
 /** Newest first. */
 export const getIncidents = (robot: string) => request<Incident[]>('GET', `incidents?robot=${part(robot)}`);
+
+export interface LogWish {
+  robot?: string;
+  by?: string;
+  effect?: string;
+  q?: string;
+  /** Only what stands before this entry. */
+  before?: number;
+  limit?: number;
+  verify?: boolean;
+  language?: string;
+}
+
+/** Who did what, newest first. */
+export function getLog(wish: LogWish): Promise<LogPage> {
+  const query = new URLSearchParams();
+  for (const [name, value] of Object.entries(wish)) if (value) query.set(name, String(value));
+  return request<LogPage>('GET', `audit?${query.toString()}`);
+}
 
 export const getMap = (robot: string) => request<MapInfo>('GET', `map/${part(robot)}`);

@@ -7,6 +7,7 @@ from typing import Final
 
 from parley.actions.context import ActionContext
 from parley.errors import ActionFailure, FailureCode
+from parley.gate.assent import assent_of, begins_with_no
 from parley.language.control import control_of
 from parley.umrf.action import action
 
@@ -16,6 +17,15 @@ ATTEMPTS: Final = 3
 """How often the question is put before not being understood counts as a failure."""
 
 
+async def _reading(ctx: ActionContext, question: str, reply: str) -> str:
+    """How an answer is meant. A literal yes or no is read by code, and no engine turns a no into a yes."""
+    literal = assent_of(reply, (ctx.actor,))
+    if literal is not None:
+        return "yes" if literal else "no"
+    kind = (await ctx.language.read_reply(question, reply)).kind
+    return "unclear" if kind == "yes" and begins_with_no(reply) else kind
+
+
 @dataclass(frozen=True, slots=True)
 class Answer:
     """What the operator said."""
@@ -23,7 +33,13 @@ class Answer:
     answer: str
 
 
-@action(phrases=("ask {question}",), effects=("asks_operator",), risk="none", pausable=False)
+@action(
+    label="Ask you: {question}",
+    phrases=("ask {question}",),
+    effects=("asks_operator",),
+    risk="none",
+    pausable=False,
+)
 async def ask_operator(ctx: ActionContext, question: str) -> Answer:
     """Ask the operator something and wait for the answer.
 
@@ -36,8 +52,7 @@ async def ask_operator(ctx: ActionContext, question: str) -> Answer:
         if ctx.run.paused and control_of(reply) == "start":
             asked = question  # that was for the plan; the question is still open
             continue
-        reading = await ctx.language.read_reply(question, reply)
-        match reading.kind:
+        match await _reading(ctx, question, reply):
             case "yes" | "choice" | "answer":
                 return Answer(reply)
             case "aside":

@@ -30,6 +30,7 @@ class Inspection:
 
 
 @action(
+    label="Look with the camera: {inspect}",
     phrases=("inspect {inspect}", "look at {inspect}", "check {inspect}", "look for {inspect}"),
     effects=("looks",),
     risk="none",

@@ -15,6 +15,7 @@ UNNAMED: Final = "what I saw"
 
 
 @action(
+    label="Keep a picture of what I see: {name}",
     phrases=(
         "keep the picture as {name}",
         "keep this picture as {name}",

@@ -19,6 +19,7 @@ TIMEOUT_S: Final = 600.0
 
 
 @action(
+    label="Go to {place}",
     phrases=("go to {place}", "drive to {place}", "move to {place}", "come to {place}"),
     effects=("moves",),
     capabilities=("drive",),

@@ -18,7 +18,7 @@ from parley.errors import ParleyError
 __all__ = ["command_line", "run"]
 
 _COMMANDS = (
-    "demo", "doctor", "interpret", "eval", "incidents", "transcripts",
+    "demo", "doctor", "interpret", "eval", "incidents", "audit", "transcripts",
     "graph", "actions", "memory", "world", "prompt", "bench", "web",
 )  # fmt: skip
 """Each is a module of this package: with `register` if it is one command, with an `app` if it is several."""

@@ -163,6 +163,26 @@ def language(
     _show_machine(json)
 
 
+@app.command("stop")
+def stop(
+    times: Annotated[int, typer.Option(min=1, help="How often it is stopped in each way.")] = 30,
+    json: JsonOption = False,
+) -> None:
+    """From press, topic or word to the drive and to rest, also with a hung model or a full disk."""
+    from parley.bench.stop import measure_stop
+
+    quiet_logs()
+
+    async def measure() -> None:
+        async for figures in measure_stop(times):
+            facts: dict[str, Any] = {"case": figures.condition, "way": figures.way, "times": times}
+            facts |= _latency("drive_", figures.drive_ms) | _latency("rest_", figures.rest_ms)
+            _show(facts, json)
+
+    asyncio.run(measure())
+    _show_machine(json)
+
+
 @app.command("demo")
 def demo(
     name: Annotated[str, typer.Argument(help="Which demonstration.")] = "nursing-home",

@@ -141,7 +141,8 @@ def write(connection: sqlite3.Connection, *, batch: Batch, first: int) -> None:
         _tidy(connection, batch)
         connection.execute("COMMIT")
     except BaseException:
-        connection.execute("ROLLBACK")
+        if connection.in_transaction:  # a full disk has rolled back by itself; its own words must be heard
+            connection.execute("ROLLBACK")
         raise
 
 

@@ -166,5 +166,6 @@ class ContextServices:
             info=entry.info,
             scope=entry.scope,
             source=entry.source or self._actor,
+            way=entry.way or "seen",
         )
         self._publishers[topics.ADD_TO_MEMORY.name].publish(to_string(AddToMemory({entry.name: body})))

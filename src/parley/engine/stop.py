@@ -63,7 +63,7 @@ class EmergencyStop:
         self._report, self._complain, self._changed = report, complain, changed
         self._rest_timeout_s = rest_timeout_s
         self._tasks: set[asyncio.Task[None]] = set()
-        self._watching: asyncio.Task[None] | None = None
+        self._watching: list[asyncio.Task[None]] = []
         self._drive_problem = ""
         self._detach: Callable[[], None] = lambda: None
 
@@ -121,13 +121,12 @@ class EmergencyStop:
             self._tell(
                 f"The stop failed: {self._drive_problem}", "use the switch on the robot", "stop_failed"
             )
-        self._watching = self._spawn(self._follow(command_id))
-        self._spawn(self._watch_actions())
+        self._watching = [self._spawn(self._follow(command_id)), self._spawn(self._watch_actions())]
 
     def _stop_watching(self) -> None:
-        if self._watching is not None:
-            self._watching.cancel()
-            self._watching = None
+        for task in self._watching:
+            task.cancel()
+        self._watching = []
 
     async def _follow(self, command_id: str) -> None:
         """Say that the stop is in force once it is written down, then what the robot does."""
@@ -169,8 +168,6 @@ class EmergencyStop:
     async def _watch_actions(self) -> None:
         """Say which actions that move the robot do not stand still, although its drive does."""
         await asyncio.sleep(self._rest_timeout_s)
-        if not self._line.latched(self._actor):
-            return
         for run in self._runs.all:
             for node in run.snapshot().nodes:
                 spec = self._runs.catalogue.get(node.name)

@@ -1,16 +1,22 @@
-"""Puts what comes on the topic `/parley/stop` on the stop line: one listener per line."""
+"""Puts what comes on the topic `/parley/stop` on the stop line: one listener per line.
+
+Robots of other processes hear the topic themselves; one that was away when it was stopped is told once it is
+heard again.
+"""
 
 from __future__ import annotations
 
+import uuid
 from collections.abc import Callable, Mapping, Sequence
+from contextlib import AsyncExitStack
 from typing import Final
 
 from parley.errors import InvalidMessageError, Problem
 from parley.gate.stop_line import StopLine
 from parley.messages import ros, topics
-from parley.messages.status import StopCommand
-from parley.messages.wire import decode
-from parley.transport.base import Subscription, Transport
+from parley.messages.status import ActorStatus, StopCommand
+from parley.messages.wire import decode, to_string
+from parley.transport.base import Publisher, Transport
 
 __all__ = ["StopListener"]
 
@@ -37,17 +43,23 @@ class StopListener:
         only: Mapping[str, str] | None = None,
     ) -> None:
         self._line, self._transport, self._complain, self._only = line, transport, complain, only
-        self._subscription: Subscription | None = None
+        self._stack = AsyncExitStack()
+        self._publisher: Publisher[ros.String] | None = None
 
     async def open(self) -> None:
         """Listen from now on."""
-        self._subscription = await self._transport.subscribe(topics.STOP, self._take, depth=DEPTH)
+        subscription = await self._transport.subscribe(topics.STOP, self._take, depth=DEPTH)
+        self._stack.push_async_callback(subscription.close)
+        if self._only is not None:
+            return
+        publisher = self._publisher = self._transport.publisher(topics.STOP)
+        self._stack.callback(publisher.close)
+        heard = await self._transport.subscribe(topics.ACTOR_STATUS, self._on_status)
+        self._stack.push_async_callback(heard.close)
 
     async def close(self) -> None:
         """Listen no longer. Idempotent."""
-        subscription, self._subscription = self._subscription, None
-        if subscription is not None:
-            await subscription.close()
+        await self._stack.aclose()
 
     def _take(self, message: ros.String) -> None:
         try:
@@ -68,6 +80,17 @@ class StopListener:
                 self._line.hold(targets, id=command.id, by=command.by, words=command.words)
             case "go_on":
                 self._line.go_on(command.id)
+
+    def _on_status(self, message: ros.String) -> None:
+        """Stop a robot of another process that was latched while it could not hear it."""
+        try:
+            status = decode(ActorStatus, message.data)
+        except InvalidMessageError:  # the nodes that need it say so
+            return
+        free = status.state not in ("stopped", "leaving")
+        if free and self._publisher is not None and self._line.latched_elsewhere(status.actor):
+            again = StopCommand(targets=(status.actor,), id=uuid.uuid4().hex, words="stopped while away")
+            self._publisher.publish(to_string(again))
 
     def _ours(self, targets: Sequence[str]) -> tuple[str, ...]:
         if self._only is None:

@@ -8,16 +8,13 @@ import threading
 from collections.abc import Callable, Sequence
 from typing import Final
 
-import structlog
-
 from parley.clock import Clock
+from parley.gate.notes import note
 from parley.gate.stop_line import StopLine
 from parley.messages.principal import Principal
 from parley.sentences import Sentence, sentence
 
 __all__ = ["BLOCKED_S", "LoopWatchdog"]
-
-log = structlog.get_logger(__name__)
 
 BLOCKED_S: Final = 0.5
 """Wall time without a sign of the loop after which its robots are held."""
@@ -47,15 +44,17 @@ class LoopWatchdog:
         self._closed = threading.Event()
         self._loop: asyncio.AbstractEventLoop | None = None
         self._loop_thread = 0
+        self._thread = threading.Thread(target=self._watch, name="loop watchdog", daemon=True)
 
     def open(self) -> None:
         """Begin to watch."""
         self._loop, self._loop_thread = asyncio.get_running_loop(), threading.get_ident()
-        threading.Thread(target=self._watch, name="loop watchdog", daemon=True).start()
+        self._thread.start()
 
-    def close(self) -> None:
-        """Watch no longer. Idempotent."""
+    async def close(self) -> None:
+        """Watch no longer."""
         self._closed.set()
+        await asyncio.to_thread(self._thread.join)
 
     def _watch(self) -> None:
         assert self._loop is not None
@@ -75,12 +74,12 @@ class LoopWatchdog:
         assert self._loop is not None
         action, where = self._culprit()
         self._line.hold(self._robots, id=hold, by=_BY)
-        log.error("loop blocked", action=action, where=where)
+        note("loop blocked", action=action, where=where)
         while not (answered.wait(LOOK_S) or self._closed.is_set()):
             continue
         self._line.go_on(hold)
         blocked_s = self._clock.wall_s() - began_s
-        log.error("loop was blocked", action=action, where=where, seconds=round(blocked_s, 2))
+        note("loop was blocked", action=action, where=where, seconds=round(blocked_s, 2))
         if action and blocked_s > TELL_S and not self._closed.is_set():
             self._loop.call_soon_threadsafe(self._tell, _told(action, blocked_s))
 

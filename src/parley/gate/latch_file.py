@@ -11,11 +11,9 @@ from dataclasses import dataclass
 from pathlib import Path
 from typing import Any, Final
 
-import structlog
+from parley.gate.notes import note
 
 __all__ = ["LatchFile", "Latched"]
-
-log = structlog.get_logger(__name__)
 
 RETRY_S: Final = 2.0
 """Wall time after which is tried again what could not be written."""
@@ -51,21 +49,25 @@ class Latched:
         return Latched() if free else Latched(self.everybody, names)
 
     def to_text(self) -> str:
-        """As it stands in the file."""
+        """What stands in the file."""
         return json.dumps({"stopped": {"everybody": self.everybody, "names": sorted(self.names)}})
 
     @classmethod
     def from_text(cls, text: str) -> Latched:
-        """What a file says; everybody is held by one that cannot be understood."""
+        """What a file says.
+
+        Raises:
+            ValueError: It cannot be understood.
+        """
         try:
             held: Mapping[str, Any] = json.loads(text)["stopped"]
             everybody, names = held["everybody"], held["names"]
-        except (ValueError, KeyError, TypeError, RecursionError):
-            return cls(everybody=True)
+        except (KeyError, TypeError, RecursionError) as error:
+            raise ValueError(f"not a list of stops: {error}") from error
         if type(everybody) is not bool or type(names) is not list:
-            return cls(everybody=True)
+            raise ValueError("`everybody` must be true or false, and `names` a list")
         if not all(isinstance(name, str) for name in names):
-            return cls(everybody=True)
+            raise ValueError("`names` must be text")
         return cls(everybody, frozenset(names))
 
 
@@ -87,6 +89,8 @@ class LatchFile:
         self._waiting: Future[str] = Future()
         self._thread: threading.Thread | None = None
         self._closed = False
+        self.in_doubt = False
+        """Whether `read` found something that cannot be understood."""
 
     def read(self) -> Latched:
         """What an earlier process left; nothing, if there was none."""
@@ -97,7 +101,8 @@ class LatchFile:
         except FileNotFoundError:
             return Latched()
         except (OSError, ValueError) as error:
-            log.error("the stops of the last time cannot be read", file=str(self._path), reason=str(error))
+            note("the stops of the last time cannot be read", file=str(self._path), reason=str(error))
+            self.in_doubt = True
             return Latched(everybody=True)
 
     def save(self, state: Latched) -> Future[str]:
@@ -156,8 +161,8 @@ class LatchFile:
             new.replace(self._path)
             _sync_folder(self._path.parent)
         except OSError as error:
-            log.error("the stop cannot be written down", file=str(self._path), reason=str(error))
             self._empty()
+            note("the stop cannot be written down", file=str(self._path), reason=str(error))
             return str(error)
         return ""
 
@@ -169,11 +174,12 @@ class LatchFile:
                 file.truncate(0)
                 os.fsync(file.fileno())
         except OSError as error:
-            log.error("nor can the old one be emptied", file=str(self._path), reason=str(error))
+            note("nor can the old one be emptied", file=str(self._path), reason=str(error))
 
 
 def _write_through(path: Path, text: str) -> None:
-    with path.open("w", encoding="utf-8") as file:
+    handle = os.open(path, os.O_WRONLY | os.O_CREAT | os.O_TRUNC, 0o600)
+    with os.fdopen(handle, "w", encoding="utf-8") as file:
         file.write(text)
         file.flush()
         os.fsync(file.fileno())

@@ -7,23 +7,21 @@ Each robot is tied to it by three functions. `halt` and `resume` are called at o
 from __future__ import annotations
 
 import threading
+from collections import deque
 from collections.abc import Callable, Iterable
 from concurrent.futures import Future
 from dataclasses import dataclass, field
 from pathlib import Path
 from typing import Final, Literal
 
-import structlog
-
 from parley.errors import ActionFailure, Problem
 from parley.gate.latch_file import LatchFile
+from parley.gate.notes import note
 from parley.gate.table import Effect, verdict
 from parley.messages.principal import Principal
 from parley.messages.status import StopCommand
 
 __all__ = ["WRITTEN_WITHIN_S", "StopLine", "StopOutcome"]
-
-log = structlog.get_logger(__name__)
 
 WRITTEN_WITHIN_S: Final = 0.25
 """How long whoever pulls may wait until it is on disk; the robots are halted before that."""
@@ -68,10 +66,14 @@ class StopLine:
     def __init__(self, file: Path | None = None, robots: Iterable[str] = ()) -> None:
         self._file = LatchFile(file)
         self._latched = self._file.read()
+        self.in_doubt = self._file.in_doubt
+        """Whether everybody is latched because nobody knows who was."""
         self._lock = threading.Lock()
         self._known = set(robots)
         self._tied: dict[str, _Tied] = {}
         self._holds: dict[str, frozenset[str]] = {}
+        self._resets: deque[str] = deque(maxlen=100)
+        """Ids of those that took effect: heard again, late, one must not release what was stopped since."""
         self._saved = self._file.save(self._latched)  # so that there is a file which can be emptied later
 
     def close(self) -> None:
@@ -120,6 +122,10 @@ class StopLine:
         """Whether an emergency stop of that robot is in force."""
         return self._latched.holds(robot)
 
+    def latched_elsewhere(self, robot: str) -> bool:
+        """Whether that holds for a robot that is not tied to this line."""
+        return robot not in self._tied and self.latched(robot)
+
     def held(self, robot: str) -> bool:
         """Whether it stands still while a message is read."""
         return any(not names or robot in names for names in tuple(self._holds.values()))
@@ -144,7 +150,7 @@ class StopLine:
             words: What was said or pressed.
             wait_s: For so long it may wait until it is on disk. On a loop 0, and `written` instead.
         """
-        command = StopCommand(targets=tuple(targets), id=id, by=by, words=words)
+        command = StopCommand(targets=self._meant(targets), id=id, by=by, words=words)
         with self._lock:
             self._latched = self._latched.stopped(command.targets)
             self._saved = self._file.save(self._latched)
@@ -178,7 +184,7 @@ class StopLine:
             by: Who said it.
             words: What is being read.
         """
-        command = StopCommand(command="hold", targets=tuple(targets), id=id, by=by, words=words)
+        command = StopCommand(command="hold", targets=self._meant(targets), id=id, by=by, words=words)
         with self._lock:
             self._holds[id] = frozenset(command.targets)
             tied = self._named(command.targets)
@@ -208,7 +214,7 @@ class StopLine:
         Args:
             targets: Robots by name; none: all.
             by: Who releases.
-            id: Names this reset.
+            id: Names this reset; resetting again with the same id does nothing more.
 
         Returns:
             Why it was refused, or which drives could not be told (these stay latched).
@@ -222,8 +228,11 @@ class StopLine:
                     "reset_refused",
                 ),
             )
-        command = StopCommand(command="reset", targets=tuple(targets), id=id, by=by)
+        command = StopCommand(command="reset", targets=self._meant(targets), id=id, by=by)
         with self._lock:
+            if id and id in self._resets:
+                return ()
+            self._resets.append(id)
             self._latched = self._latched.released(command.targets, self._known)
             for name in [name for name, held in self._holds.items() if _ended_by(held, command.targets)]:
                 del self._holds[name]  # whoever reads may have died, and a person says that it may go on
@@ -236,6 +245,7 @@ class StopLine:
                 with self._lock:
                     self._latched = self._latched.stopped([item.robot])
                     self._saved = self._file.save(self._latched)
+                    self._resets.clear()  # trying again is no repetition
                 text = f"the stop of {item.robot} cannot be released: {why}"
                 problems.append(Problem("", text, "try again", "reset_failed"))
                 continue
@@ -253,6 +263,12 @@ class StopLine:
     def _stands(self, robot: str) -> bool:
         return self.latched(robot) or self.held(robot)
 
+    def _meant(self, targets: Iterable[str]) -> tuple[str, ...]:
+        """The names as they are known, whatever their capitals; an unknown one stays as it is."""
+        with self._lock:
+            known = {name.casefold(): name for name in self._known}
+        return tuple(known.get(name.casefold(), name) for name in targets)
+
     def _named(self, targets: Iterable[str]) -> tuple[_Tied, ...]:
         """Those who are tied, of these or of all; the caller holds the lock."""
         names = tuple(targets)
@@ -267,11 +283,11 @@ class StopLine:
                 else:
                     item.resume()
             except ActionFailure as failure:
-                log.error("drive cannot be told", actor=item.robot, reason=failure.message)
+                note("drive cannot be told", actor=item.robot, reason=failure.message)
                 return failure.message
-            except Exception as error:
+            except Exception as error:  # noqa: BLE001 - told to whoever pulls
                 # Whatever is wrong with one robot, the others must be halted; whoever pulled is told.
-                log.exception("drive cannot be told", actor=item.robot)
+                note("drive cannot be told", actor=item.robot, exc_info=True)
                 return f"{type(error).__name__}: {error}"
         return ""
 
@@ -279,7 +295,7 @@ class StopLine:
         try:
             item.told(command)
         except RuntimeError:  # its loop is closed: there is nothing left that could be told
-            log.warning("nobody there to be told of a stop", actor=item.robot, command=command.command)
+            note("nobody there to be told of a stop", actor=item.robot, command=command.command)
 
 
 def _ended_by(held: frozenset[str], released: tuple[str, ...]) -> bool:

@@ -55,8 +55,9 @@ class Effect(StrEnum):
     """Read who did what."""
 
 
-Verdict = Literal["allow", "policy", "yes", "refuse"]
-"""`policy`: as the robot's policy and the rules say; `yes`: after a person's yes, whatever the policy."""
+Verdict = Literal["allow", "policy", "yes", "own", "refuse"]
+"""`policy`: as the robot's policy and the rules say; `yes`: after a person's yes, whatever the policy; `own`:
+only what it held itself, unless a person has held it since."""
 
 Column = Literal[
     "viewer", "operator", "supervisor", "engine", "rule", "schedule", "keyed program", "program", "robot"
@@ -69,23 +70,24 @@ COLUMNS: Final[tuple[Column, ...]] = (
 _A: Final[Verdict] = "allow"
 _P: Final[Verdict] = "policy"
 _Y: Final[Verdict] = "yes"
+_O: Final[Verdict] = "own"
 _R: Final[Verdict] = "refuse"
 
 _ROWS: Final[dict[Effect, tuple[Verdict, ...]]] = {
     #                 viewer op  sup  eng  rule sched keyed prog robot
     Effect.SEE:      (_A,   _A,  _A,  _A,  _A,  _A,  _A,   _A,  _A),
-    Effect.SPEAK:    (_R,   _A,  _A,  _R,  _R,  _R,  _A,   _A,  _R),
+    Effect.SPEAK:    (_R,   _A,  _A,  _R,  _A,  _A,  _A,   _A,  _R),
     Effect.STOP:     (_A,   _A,  _A,  _A,  _A,  _A,  _A,   _A,  _A),
     Effect.PAUSE:    (_A,   _A,  _A,  _A,  _A,  _A,  _A,   _A,  _A),
     Effect.RESET:    (_R,   _A,  _A,  _R,  _R,  _R,  _R,   _R,  _R),
-    Effect.RESUME:   (_R,   _A,  _A,  _R,  _R,  _R,  _R,   _R,  _R),
-    Effect.BEGIN:    (_R,   _A,  _A,  _P,  _P,  _P,  _P,   _Y,  _R),
+    Effect.RESUME:   (_R,   _A,  _A,  _R,  _O,  _O,  _O,   _R,  _R),
+    Effect.BEGIN:    (_R,   _A,  _A,  _P,  _P,  _P,  _P,   _P,  _R),
     Effect.APPROVE:  (_R,   _A,  _A,  _R,  _R,  _R,  _R,   _R,  _R),
     Effect.REJECT:   (_R,   _A,  _A,  _R,  _R,  _R,  _R,   _R,  _R),
     Effect.ANSWER:   (_R,   _A,  _A,  _R,  _R,  _R,  _R,   _R,  _R),
-    Effect.EDIT:     (_R,   _A,  _A,  _P,  _R,  _R,  _P,   _Y,  _R),
-    Effect.CLEAR:    (_R,   _A,  _A,  _P,  _R,  _R,  _P,   _Y,  _R),
-    Effect.REPAIR:   (_R,   _A,  _A,  _P,  _P,  _R,  _P,   _Y,  _R),
+    Effect.EDIT:     (_R,   _A,  _A,  _P,  _R,  _R,  _P,   _P,  _R),
+    Effect.CLEAR:    (_R,   _A,  _A,  _P,  _P,  _R,  _P,   _P,  _R),
+    Effect.REPAIR:   (_R,   _A,  _A,  _P,  _P,  _R,  _P,   _P,  _R),
     Effect.REMEMBER: (_R,   _A,  _A,  _A,  _R,  _R,  _A,   _A,  _A),
     Effect.FORGET:   (_R,   _A,  _A,  _Y,  _R,  _R,  _A,   _R,  _R),
     Effect.RULE:     (_R,   _A,  _A,  _Y,  _R,  _R,  _R,   _R,  _R),

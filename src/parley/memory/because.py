@@ -64,8 +64,10 @@ def reasons(
 
 
 def origin(entry: MemoryEntry, asker: str, robots: Collection[str], robot: str) -> str:
-    """Who said or saw it: "you told me", "Kim told me", "I saw it", "Ada saw it"."""
+    """Who said or saw it: "you told me", "Kim told me", "I saw it", "I concluded it"."""
     who = entry.source.partition("/")[0]
+    if entry.way == "concluded":
+        return "I concluded it myself" if who in ("", robot) else f"{who} concluded it"
     if who in robots or (robot and who == robot):
         return "I saw it" if who == robot else f"{who} saw it"
     showed = "showed me" if entry.type == "image" else "told me"

@@ -21,6 +21,7 @@ from typing import Self, TypeVar
 import structlog
 
 from parley.errors import StoreError
+from parley.memory.salvage import Salvaged, salvage
 
 try:
     import fcntl
@@ -50,6 +51,19 @@ class Database:
         self._connection: sqlite3.Connection | None = connection
         self.put_aside: Path | None = None
         """Where a damaged file went, if there was one."""
+        self.salvaged = Salvaged()
+        """What could be kept of it."""
+
+    @property
+    def notice(self) -> str:
+        """What the operator should know about the file, in plain words; usually empty."""
+        if self.put_aside is None:
+            return ""
+        kept = "A new one was begun, and nothing from before is remembered."
+        if self.salvaged.kept:
+            lost = "the rest is lost" if self.salvaged.gaps else "nothing is known to be lost"
+            kept = f"What could still be read ({self.salvaged.kept} entries) was kept; {lost}."
+        return f"The {self._what} file was damaged. It was put aside as {self.put_aside.name}. {kept}"
 
     @classmethod
     async def open(
@@ -60,7 +74,9 @@ class Database:
         unix_ms: int,
         what: str = "memory",
     ) -> Self:
-        """Open or create a file; a damaged one is put aside as ``<name>.corrupt-<unix_ms>`` first.
+        """Open or create a file; of a damaged one, what can be read is kept (see `notice`).
+
+        The damaged file itself is put aside as ``<name>.corrupt-<unix_ms>`` first.
 
         Args:
             path: The file, or ``:memory:``. Missing folders are made.
@@ -74,14 +90,14 @@ class Database:
         thread = ThreadPoolExecutor(max_workers=1, thread_name_prefix=what)
         loop = asyncio.get_running_loop()
         try:
-            connection, aside = await loop.run_in_executor(thread, _open, path, prepare, unix_ms)
+            connection, aside, salvaged = await loop.run_in_executor(thread, _open, path, prepare, unix_ms)
         except BaseException as error:
             thread.shutdown(wait=False)
             if isinstance(error, sqlite3.Error | OSError):
                 raise StoreError(f"the {what} file {path} cannot be used: {error}") from error
             raise
         database = cls(path, thread, connection, what)
-        database.put_aside = aside
+        database.put_aside, database.salvaged = aside, salvaged
         return database
 
     async def run(self, work: Callable[[sqlite3.Connection], T]) -> T:
@@ -110,17 +126,30 @@ class Database:
 
 def _open(
     path: Path | str, prepare: Callable[[sqlite3.Connection], None], unix_ms: int
-) -> tuple[sqlite3.Connection, Path | None]:
-    """A connection, and where a damaged file went."""
+) -> tuple[sqlite3.Connection, Path | None, Salvaged]:
+    """A connection, where a damaged file went, and what was kept of it."""
     with _alone(path):
         try:
-            return _connect(path, prepare), None
+            return _connect(path, prepare), None, Salvaged()
         except sqlite3.DatabaseError as error:
             if not _is_damage(error):
                 raise
             aside = _put_aside(Path(path), unix_ms)
-            log.error("file damaged", path=str(path), aside=str(aside), problem=str(error))
-            return _connect(path, prepare), aside
+            connection = _connect(path, prepare)
+            try:
+                salvaged = salvage(aside, connection)
+            except BaseException:
+                connection.close()
+                raise
+            log.error(
+                "file damaged",
+                path=str(path),
+                aside=str(aside),
+                problem=str(error),
+                kept=salvaged.kept,
+                gaps=salvaged.gaps,
+            )
+            return connection, aside, salvaged
 
 
 @contextmanager
@@ -167,6 +196,8 @@ def _connect(path: Path | str, prepare: Callable[[sqlite3.Connection], None]) ->
         (verdict,) = connection.execute("PRAGMA quick_check(1)").fetchone()
         if verdict != "ok":
             raise _DamagedError(verdict)
+        for (table,) in connection.execute("SELECT name FROM sqlite_master WHERE sql LIKE '%USING fts5%'"):
+            connection.execute(f"INSERT INTO {table} ({table}) VALUES ('integrity-check')")
     except BaseException:
         connection.close()
         raise

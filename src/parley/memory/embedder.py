@@ -8,7 +8,7 @@ import json
 import os
 import urllib.error
 import urllib.request
-from collections.abc import Sequence
+from collections.abc import Callable, Sequence
 from typing import Any, Final, NoReturn
 
 import numpy as np
@@ -22,7 +22,9 @@ __all__ = ["KEY_VARIABLE", "Embedder", "RefusedTextError", "configured_embedder"
 KEY_VARIABLE: Final = "PARLEY_EMBEDDINGS_KEY"
 """Environment variable with the key."""
 
-_MAX_ANSWER_BYTES: Final = 64 * 1024 * 1024
+_MAX_TEXT_BYTES: Final = 400_000
+"""Of the answer for one text: more than 16,000 numbers."""
+_PIECE_BYTES: Final = 64 * 1024
 _REFUSALS: Final = frozenset({400, 413, 422})
 
 
@@ -69,12 +71,15 @@ class Embedder:
         """
         try:
             async with asyncio.timeout(self._timeout_s):
-                answer = await asyncio.to_thread(self._post, list(texts))
+                # The thread ends by itself, too: a server that drips would else keep one thread per question.
+                now_s = asyncio.get_running_loop().time
+                end_s = now_s() + self._timeout_s
+                answer = await asyncio.to_thread(self._post, list(texts), lambda: now_s() > end_s)
         except TimeoutError as error:
             raise LanguageError("the embedding server did not answer in time") from error
         return _read(answer, len(texts))
 
-    def _post(self, texts: list[str]) -> bytes:
+    def _post(self, texts: list[str], too_late: Callable[[], bool]) -> bytes:
         headers = {"Content-Type": "application/json", "Accept": "application/json"}
         if self._key:
             headers["Authorization"] = f"Bearer {self._key}"
@@ -82,15 +87,23 @@ class Embedder:
         request = urllib.request.Request(self._url, data=body, headers=headers, method="POST")
         try:
             with self._opener.open(request, timeout=self._timeout_s) as response:
-                content: bytes = response.read(_MAX_ANSWER_BYTES + 1)
+                return _content(response, _MAX_TEXT_BYTES * (len(texts) + 1), too_late)
         except urllib.error.HTTPError as error:
             with error:
                 _refused(error.code)
         except (OSError, http.client.HTTPException) as error:
             raise LanguageError(f"the embedding server cannot be reached: {type(error).__name__}") from error
-        if len(content) > _MAX_ANSWER_BYTES:
+
+
+def _content(response: http.client.HTTPResponse, limit: int, too_late: Callable[[], bool]) -> bytes:
+    content = bytearray()
+    while piece := response.read1(_PIECE_BYTES):
+        content += piece
+        if len(content) > limit:
             raise LanguageError("the embedding server's answer is too long")
-        return content
+        if too_late():
+            raise TimeoutError
+    return bytes(content)
 
 
 def configured_embedder(settings: EmbeddingSettings) -> Embedder:

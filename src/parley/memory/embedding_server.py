@@ -34,6 +34,8 @@ class EmbeddingServer:
         self.alike, self.key = dict(alike or {}), key
         self.status = 200
         """What the next requests are answered with."""
+        self.pads = 0
+        """So many spaces are sent before each answer."""
         self.refuses = ""
         """Requests with a text that holds this are answered with status 400."""
         self.asked: list[list[str]] = []
@@ -90,7 +92,7 @@ def _handler(server: EmbeddingServer) -> type[BaseHTTPRequestHandler]:
             length = min(int(self.headers.get("Content-Length") or 0), _MAX_BODY_BYTES)
             body = self.rfile.read(length)
             status, answer = server.answer(self.path, self.headers.get("Authorization") or "", body)
-            content = json.dumps(answer).encode()
+            content = b" " * server.pads + json.dumps(answer).encode()
             self.send_response(status)
             self.send_header("Content-Type", "application/json")
             self.send_header("Content-Length", str(len(content)))

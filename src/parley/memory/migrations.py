@@ -160,12 +160,19 @@ def keep_vectors(db: sqlite3.Connection) -> None:
     )
 
 
+def say_how_known(db: sqlite3.Connection) -> None:
+    """Whether a memory was told, seen or concluded, and the words it was taken from."""
+    db.execute("ALTER TABLE memory ADD COLUMN way TEXT NOT NULL DEFAULT ''")
+    db.execute("ALTER TABLE memory ADD COLUMN words TEXT NOT NULL DEFAULT ''")
+
+
 MIGRATIONS: tuple[Callable[[sqlite3.Connection], None], ...] = (
     create_memory,
     bound_history,
     record_use,
     order_by_time,
     keep_vectors,
+    say_how_known,
 )
 """In order. Their names are recorded in the file: do not rename, do not edit, append."""
 

@@ -19,6 +19,11 @@ class OnFile:
     def __init__(self, database: Database) -> None:
         self._database = database
 
+    @property
+    def notice(self) -> str:
+        """What people should know about the file, in plain words; usually empty."""
+        return self._database.notice
+
     async def __aenter__(self) -> Self:
         return self
 
@@ -47,7 +52,7 @@ class RecordStore(OnFile):
     async def open(cls, path: Path | str, clock: Clock) -> Self:
         """Open or create the file; use as ``async with await RecordStore.open(...)``.
 
-        A damaged file is put aside and a new one begun.
+        Of a damaged file what can be read is kept; see `notice`.
 
         Args:
             path: The file, or ``:memory:`` for records that end with the process.

@@ -24,8 +24,6 @@ class KeptProposal(BaseModel):
     model_config = ConfigDict(frozen=True)
 
     proposal: PlanProposal
-    agreed: str = ""
-    """What the robot says when it begins."""
     repairs: str = ""
     """Name of the action that failed, in whose place it would be done; empty if it is no repair."""
     unix_ms: int = 0

@@ -11,7 +11,7 @@ __all__ = ["COLUMNS", "COLUMNS_WITHOUT_PICTURES", "read_entry"]
 
 COLUMNS: Final = (
     "name, scope, type, data, info, source, created_unix_ms, updated_unix_ms, ended_unix_ms, used_unix_ms,"
-    " used_count"
+    " used_count, way, words"
 )
 """What `read_entry` wants selected, in this order."""
 

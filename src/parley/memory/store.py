@@ -40,7 +40,7 @@ class MemoryStore(OnFile):
     async def open(cls, path: Path | str, clock: Clock | None = None) -> Self:
         """Open or create the memory file; use as ``async with await MemoryStore.open(...)``.
 
-        A damaged file is put aside and a new one begun; `notice` then says so.
+        A damaged file is put aside and what can be read of it kept; `notice` then says so.
 
         Args:
             path: The file, or ``:memory:`` for a memory that ends with the process.
@@ -54,16 +54,6 @@ class MemoryStore(OnFile):
         database = await Database.open(path, prepare=lambda db: migrate(db, unix_ms=now), unix_ms=now)
         return cls(database, clock)
 
-    @property
-    def notice(self) -> str:
-        """What the operator should know about the file, in plain words; usually empty."""
-        if self._database.put_aside is None:
-            return ""
-        return (
-            f"The memory file was damaged. It was put aside as {self._database.put_aside.name}; "
-            "a new one was begun, and nothing from before is remembered."
-        )
-
     async def add(self, entry: MemoryEntry) -> MemoryEntry:
         """Remember `entry`; a memory of the same name and scope is replaced and goes to the history.
 
@@ -74,8 +64,9 @@ class MemoryStore(OnFile):
         rows = await self._rows(
             f"""
             INSERT INTO memory
-                (name, scope, type, data, info, source, name_key, created_unix_ms, updated_unix_ms)
-            SELECT :name, :scope, :type, :data, :info, :source, :key, coalesce((
+                (name, scope, type, data, info, source, way, words, name_key, created_unix_ms,
+                 updated_unix_ms)
+            SELECT :name, :scope, :type, :data, :info, :source, :way, :words, :key, coalesce((
                 SELECT created_unix_ms FROM memory
                 WHERE name = :name AND scope = :scope AND ended_unix_ms IS NULL
             ), stamp), stamp

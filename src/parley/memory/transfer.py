@@ -142,17 +142,18 @@ def _insert(db: sqlite3.Connection, entry: MemoryEntry, now: int, *, ended: int 
     db.execute(
         """
         INSERT INTO memory (name, scope, type, data, info, source, name_key, created_unix_ms,
-            updated_unix_ms, ended_unix_ms, used_unix_ms, used_count)
-        VALUES (?, ?, ?, ?, ?, ?, ?, ?, ?, ?, ?, ?)
+            updated_unix_ms, ended_unix_ms, used_unix_ms, used_count, way, words)
+        VALUES (?, ?, ?, ?, ?, ?, ?, ?, ?, ?, ?, ?, ?, ?)
         """,
         (
             entry.name, entry.scope, entry.type, entry.data, entry.info, entry.source, name_key(entry.name),
             min(entry.created_unix_ms or updated, updated), updated,
             None if ended is None else min(ended, now), entry.used_unix_ms, entry.used_count,
+            entry.way, entry.words,
         ),
     )  # fmt: skip
 
 
 def _has_half_character(entry: MemoryEntry) -> bool:
-    text = f"{entry.name}{entry.scope}{entry.data}{entry.info}{entry.source}"
+    text = f"{entry.name}{entry.scope}{entry.data}{entry.info}{entry.source}{entry.words}"
     return not text.isascii() and any("\ud800" <= char <= "\udfff" for char in text)

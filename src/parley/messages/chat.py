@@ -12,6 +12,7 @@ from pydantic import Field, field_validator, model_serializer, model_validator
 
 from parley.messages.attendance import Unattended
 from parley.messages.base import ParameterTree, Payload
+from parley.messages.plain import LineText, ShownText
 from parley.messages.principal import Principal
 
 __all__ = [
@@ -75,14 +76,14 @@ class ChatInput(Payload):
 class ChatFeedback(Payload):
     """`chat_interface_feedback`: what an operator is told or asked."""
 
-    message: str
+    message: ShownText
     targets: tuple[str, ...] = ()
     """Robots it comes from."""
     type: Literal["response", "request", "info", "error"] = "response"
     """`request` asks and awaits an answer."""
     sources: tuple[str, ...] = ()
     """Ours: names of the memories that were used."""
-    choices: tuple[str, ...] = ()
+    choices: tuple[LineText, ...] = ()
     """Ours: answers that can be tapped."""
     id: str = ""
     """Ours: identifies a question."""
@@ -101,7 +102,7 @@ class ReplyDraft(Payload):
     reply_to: str
     """`id` of the operator's message that is answered."""
     targets: tuple[str, ...] = ()
-    message: str = ""
+    message: ShownText = ""
 
 
 class FlowIf(Payload):
@@ -126,8 +127,8 @@ class ActionCall(Payload):
     name: str = Field(min_length=1)
     input_parameters: ParameterTree = Field(default_factory=dict)
     output_parameters: ParameterTree = Field(default_factory=dict)
-    reason: str = ""
-    """Ours: why this step, in words for the operator."""
+    reason: LineText = ""
+    """Ours: why this step, in the language engine's words."""
     flow: Flow | None = None
 
     @model_serializer
@@ -214,9 +215,19 @@ class ChatAction(Payload):
     delay_s: float = Field(default=0.0, ge=0.0, le=3600.0)
     """Ours, only for error resolutions: robot time to wait before the correction is carried out."""
     afterwards: tuple[ActionCall, ...] = ()
-    """Ours, only for error resolutions: what was ordered besides, for when the rest of the plan is done."""
+    """Ours, only for error resolutions: what was ordered besides, for when the rest is done."""
     by: Principal | None = None
-    """Ours: on whose account; None: a program that nobody vouches for."""
+    """Ours: who wants it; None: a program that nobody vouches for. A model's word is overwritten."""
+    behalf: Principal | None = None
+    """Ours: the person in answer to whom a language engine wants it."""
+    words: str = ""
+    """Ours: what that person said."""
+    needs_yes: str = ""
+    """Ours: why a person has to say yes first whatever the policy, in plain words; empty: the policy says."""
+    id: str = ""
+    """Ours: whoever gives one hears on `/parley/ruling` what became of it."""
+    reply_to: str = ""
+    """Ours: `id` of the operator's message that it follows from."""
 
     @model_validator(mode="before")
     @classmethod
@@ -270,6 +281,10 @@ class ChatAction(Payload):
             wire["delay_s"] = self.delay_s
         if self.afterwards:
             wire["afterwards"] = [call.model_dump() for call in self.afterwards]
-        if self.by is not None:
-            wire["by"] = self.by.model_dump()
+        for name, who in (("by", self.by), ("behalf", self.behalf)):
+            if who is not None:
+                wire[name] = who.model_dump()
+        wire |= {
+            name: text for name in ("words", "needs_yes", "id", "reply_to") if (text := getattr(self, name))
+        }
         return wire

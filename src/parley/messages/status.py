@@ -7,7 +7,8 @@ from typing import Any, Literal
 from pydantic import Field
 
 from parley.messages.base import ParameterTree, Payload
-from parley.messages.chat import ActionCall
+from parley.messages.chat import ActionCall, SystemCommand
+from parley.messages.plain import LineText, ShownText
 from parley.messages.principal import Principal
 
 __all__ = [
@@ -16,6 +17,7 @@ __all__ = [
     "GraphEvent",
     "PlanDecision",
     "PlanProposal",
+    "PlanRuling",
     "PlanStep",
     "PlanUpdate",
     "PoseInfo",
@@ -46,6 +48,8 @@ class ActionInfo(Payload):
     """Inputs that may be left without a value."""
     outputs: dict[str, str] = Field(default_factory=dict)
     description: str = ""
+    label: LineText = ""
+    """What people read that it does; ``{parameter}`` stands for a value, ``{place}`` for a pose."""
     phrases: tuple[str, ...] = ()
     """How people ask for it; ``{parameter}`` stands for a value."""
     effects: tuple[str, ...] = ()
@@ -114,7 +118,7 @@ class PlanStep(Payload):
     action: ActionCall
     node: str = ""
     """Full name of its node in the graph; empty before the graph exists."""
-    label: str = ""
+    label: LineText = ""
     """What it does, in words that our code wrote from action, arguments and map."""
     state: Literal["queued", "running", "finished", "failed", "stopped", "skipped", "paused", "waiting"] = (
         "queued"
@@ -133,6 +137,8 @@ class PlanUpdate(Payload):
     """Counts the changes of this robot's plan; an edit says which one it was made from."""
     policy: Literal["run_at_once", "ask_when_risky", "ask_first"] = "run_at_once"
     """Whether new steps of this robot wait for a person's yes."""
+    held_by: Principal | None = None
+    """Who told the robot to stand still; None: nobody."""
 
 
 class PlanProposal(Payload):
@@ -141,16 +147,34 @@ class PlanProposal(Payload):
     kind: Literal["proposal"] = "proposal"
     id: str
     target: str
-    message: str = ""
+    message: ShownText = ""
+    """What a language engine says about it; its words, not ours."""
     steps: tuple[ActionCall, ...] = ()
-    labels: tuple[str, ...] = ()
-    """What each step does, in words that our code wrote from action, arguments and map."""
+    commands: tuple[SystemCommand, ...] = ()
+    """What a yes changes before the steps begin, e.g. a step that is left out."""
+    labels: tuple[LineText, ...] = ()
+    """What each command and then each step does, in words that our code wrote from action, arguments and map.
+    """
     digest: str = ""
     """Of robot, steps and what their arguments mean on the map; a yes names it."""
     by: Principal | None = None
     """On whose account it is proposed."""
     why: str = ""
     """Why a yes is needed though the policy would not ask, in plain words; empty: the policy asks."""
+
+
+class PlanRuling(Payload):
+    """`/parley/ruling`: what the planner did with a Chat Action that has an id, for one robot."""
+
+    order: str
+    """`id` of the Chat Action."""
+    target: str
+    outcome: Literal["done", "asked", "refused"] = "done"
+    """`asked`: all of it, or what is left of it, waits for a yes."""
+    labels: tuple[str, ...] = ()
+    """What would be done, in words that our code wrote."""
+    why: str = ""
+    """Why it is asked or refused, in plain words."""
 
 
 class PlanDecision(Payload):

@@ -88,6 +88,7 @@ ACTOR_STATUS = _string("/parley/actor_status")
 GRAPH_EVENTS = _string("/parley/graph_events", depth=10_000)
 PLAN = _string("/parley/plan")
 PLAN_DECISION = _string("/parley/plan_decision")
+RULING = _string("/parley/ruling", depth=1000)
 STEP = _string("/parley/step")
 STOP = _string("/parley/stop", keep_all=True)
 STOP_REPORT = _string("/parley/stop_report")
@@ -114,7 +115,7 @@ ALL_TOPICS: tuple[Topic[Any], ...] = (
     CHAT_INPUT, CHAT_FEEDBACK, CHAT_ACTION, UMRF_CORRECTION, ERROR_HANDLING, ADD_TO_MEMORY, REMOVE_MEMORY,
     DISPLAY_FEED, GRAPH_START, GRAPH_MODIFY, GRAPH_PAUSE, GRAPH_PAUSE_TEMOTO, GRAPH_RESUME, GRAPH_STOP,
     GRAPH_FEEDBACK, ACTOR_STATUS, GRAPH_EVENTS, PLAN, PLAN_DECISION, STEP, STOP, STOP_REPORT, REJECTION, SYNC,
-    MEMORY_EVENT, REPLY_DRAFT, INCIDENT, MAP_VIEW, AUDIT, ATTENDANCE,
+    MEMORY_EVENT, REPLY_DRAFT, INCIDENT, MAP_VIEW, AUDIT, RULING, ATTENDANCE,
 )  # fmt: skip
 ALL_SERVICES = (GET_MEMORY, GRAPH_GET, GET_INCIDENTS, GET_MAP, GET_AUDIT)
 

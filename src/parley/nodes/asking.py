@@ -3,16 +3,15 @@
 from __future__ import annotations
 
 import math
-import re
-import unicodedata
 from collections.abc import Sequence
 from typing import Final
 
-from parley.messages.chat import ActionCall
+from parley.gate.assent import assent_of
+from parley.messages.chat import ChatInput
 from parley.messages.status import PlanDecision, PlanProposal, PlanUpdate, PoseInfo
-from parley.sentences import sentence, together
+from parley.sentences import Sentence, listed, sentence, together
 
-__all__ = ["CHANGED", "REFUSED", "SHALL_I", "Offered", "as_wish", "assent_of", "offered_again", "past_offer"]
+__all__ = ["CHANGED", "REFUSED", "SHALL_I", "Offered", "begun", "offered_again", "past_offer", "wish_of"]
 
 SHALL_I: Final = sentence("Shall I?")
 REFUSED: Final = "All right, I will not do it."
@@ -30,23 +29,34 @@ _REPAIR_LEFT: Final = sentence(
 _MOVED_M: Final = 0.5
 """Farther from where it was, a robot counts as being somewhere else."""
 
-_AT_ONCE: Final = "remember|forget|keep|note|not|never|leave|drop|stop|wait|pause|skip|no longer"
-"""What follows "I will" where it is done without waiting for a yes, or is not done."""
-_ANNOUNCED: Final = re.compile(rf"\b(?:I will|I'll|I’ll|I am going to|I'm going to)\b(?! (?:{_AT_ONCE})\b)")
 
-
-def as_wish(message: str, calls: Sequence[ActionCall]) -> str:
-    """What the robot would do, made of what it says it will do.
+def wish_of(labels: Sequence[str], why: str = "") -> str:
+    """What the robot would do, made of what it will really do.
 
     Args:
-        message: The words of the language engine, which does not know that a person is asked first.
-        calls: The steps. Where the words announce nothing in a way that can be told here, these are named.
+        labels: One per step, written by our code.
+        why: Why it is asked though the policy would not ask; may be empty.
     """
-    wish, count = _ANNOUNCED.subn("I would", message)
-    if count:
-        return wish.strip()
-    steps = "; ".join(dict.fromkeys(call.reason or call.name for call in calls))
-    return sentence("This is what I would do: {steps}.", steps=steps.rstrip("."))
+    if len(labels) == 1:
+        wish = sentence("This is what I would do: {steps}.", steps=_ended(labels[0]))
+    else:
+        steps = listed(
+            [sentence("{number}. {step}", number=n, step=_ended(x)) for n, x in enumerate(labels, 1)]
+        )
+        wish = sentence("This is what I would do: {steps}.", steps=steps)
+    return together(sentence("I ask first: {why}.", why=why), wish) if why else wish
+
+
+def begun(labels: Sequence[str]) -> str:
+    """What a yes starts, said when it was given."""
+    if len(labels) == 1:
+        return sentence("All right: {steps}.", steps=_ended(labels[0]))
+    steps = listed([sentence("{number}. {step}", number=n, step=_ended(x)) for n, x in enumerate(labels, 1)])
+    return sentence("All right: {steps}.", steps=steps)
+
+
+def _ended(label: str) -> str:
+    return label.rstrip(".") if not isinstance(label, Sentence) else label
 
 
 def offered_again(wish: str, before: PoseInfo | None, now: PoseInfo | None, *, repairs: bool) -> str:
@@ -72,38 +82,6 @@ def past_offer(wish: str) -> str:
     )
 
 
-_YES: Final = frozenset({
-    "yes", "yes please", "yes do", "yes do it", "yes do that", "yes go ahead", "yeah", "yep", "yup", "ok",
-    "okay", "sure", "of course", "agreed", "fine", "alright", "all right", "do it", "do that", "do so",
-    "please do", "go for it", "you may", "approved", "sounds good", "that is fine", "jah", "jaa", "jah palun",
-    "olgu", "sobib", "tee nii", "tee ära",
-})  # fmt: skip
-_NO: Final = frozenset({
-    "no", "nope", "no thanks", "no thank you", "no do not", "do not", "do not do it", "do not do that",
-    "please do not", "rather not", "better not", "never mind", "leave it", "no leave it", "rejected", "ei",
-    "ei aitäh", "ära tee", "ei ära tee", "pole vaja",
-})  # fmt: skip
-
-
-def assent_of(text: str, names: Sequence[str] = ()) -> bool | None:
-    """Whether a whole utterance is a yes (True) or a no (False); None for everything else.
-
-    Args:
-        text: What the operator said.
-        names: Names of robots, which may be called before or after.
-    """
-    if "?" in text:
-        return None
-    low = re.sub(r"\bdon['’]?t\b", "do not", unicodedata.normalize("NFC", text).casefold())
-    words = [word for word in re.split(r"\W+", low.replace("that's", "that is")) if word]
-    called = {part for name in names for part in name.casefold().split()}
-    said = " ".join(word for word in words if word not in called)
-    bare = said.removeprefix("please ").removesuffix(" please").removesuffix(" thanks")
-    if said in _YES or bare in _YES:
-        return True
-    return False if said in _NO or bare in _NO else None
-
-
 def _apart_m(one: PoseInfo, other: PoseInfo) -> float:
     return math.hypot(one.x - other.x, one.y - other.y)
 
@@ -112,31 +90,39 @@ class Offered:
     """Which proposals of each robot wait, so that a yes or a no that is said can be handed on."""
 
     def __init__(self) -> None:
-        self._waiting: dict[str, list[str]] = {}
-        self._states: dict[str, str] = {}
+        self._waiting: dict[str, list[PlanProposal]] = {}
 
     def on_proposal(self, proposal: PlanProposal) -> None:
         """Steps wait for a yes."""
         waiting = self._waiting.setdefault(proposal.target, [])
-        if proposal.id not in waiting:
-            waiting.append(proposal.id)
+        if all(other.id != proposal.id for other in waiting):
+            waiting.append(proposal)
 
     def on_decision(self, decision: PlanDecision) -> None:
         """Somebody decided."""
         waiting = self._waiting.get(decision.target, [])
-        if decision.id in waiting:
-            waiting.remove(decision.id)
+        waiting[:] = [proposal for proposal in waiting if proposal.id != decision.id]
 
     def on_update(self, update: PlanUpdate) -> None:
-        """A plan changed: nothing waits where no plan is, nor where a robot was told to begin."""
-        was, self._states[update.target] = self._states.get(update.target, "idle"), update.state
-        if update.state == "idle" or (was == "awaiting_approval" != update.state):
+        """A plan changed: nothing waits where no plan is."""
+        if update.state == "idle":
             self._waiting.pop(update.target, None)
 
-    def decided(self, target: str, said: str, names: Sequence[str]) -> PlanDecision | None:
-        """What `said` decides about what was proposed last; None if it decides nothing."""
+    def newest(self, target: str) -> PlanProposal | None:
+        """What was proposed last of what waits."""
         waiting = self._waiting.get(target)
-        assent = assent_of(said, names) if waiting else None
-        if not waiting or assent is None:
+        return waiting[-1] if waiting else None
+
+    def decided(self, target: str, said: ChatInput, names: Sequence[str]) -> PlanDecision | None:
+        """What a message decides about what was proposed last; None if it decides nothing."""
+        newest = self.newest(target)
+        assent = assent_of(said.message, names) if newest is not None else None
+        if newest is None or assent is None:
             return None
-        return PlanDecision(id=waiting[-1], target=target, decision="approve" if assent else "reject")
+        return PlanDecision(
+            id=newest.id,
+            target=target,
+            decision="approve" if assent else "reject",
+            digest=newest.digest,
+            by=said.who,
+        )

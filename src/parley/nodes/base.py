@@ -130,6 +130,11 @@ class Node:
         """Publish a JSON payload."""
         self.send(topic, to_string(payload))
 
+    def announce(self, topic: Topic[M]) -> None:
+        """Open the sending end of a topic before there is anything to say, for those who look who speaks."""
+        if topic.name not in self._publishers:
+            self._publishers[topic.name] = self.transport.publisher(topic)
+
     def send(self, topic: Topic[M], message: M) -> None:
         """Publish a message as it is. The sending end is opened at its first use.
 
@@ -138,10 +143,8 @@ class Node:
         if self._closed:
             self.log.debug("not sent: the node is closed", topic=topic.name)
             return
-        publisher = self._publishers.get(topic.name)
-        if publisher is None:
-            publisher = self._publishers[topic.name] = self.transport.publisher(topic)
-        publisher.publish(message)
+        self.announce(topic)
+        self._publishers[topic.name].publish(message)
 
     def spoken(self, text: str) -> str:
         """One of our own sentences as it is said to operators."""

@@ -5,42 +5,46 @@ Stop words and their kin are recognised in code before any language engine is as
 
 from __future__ import annotations
 
-import asyncio
 import uuid
 from collections.abc import Awaitable, Callable, Sequence
+from dataclasses import replace
 from typing import ClassVar, Final
 
 from parley.clock import Clock
 from parley.errors import LanguageError
-from parley.language.base import Language
+from parley.gate.orders import Admitted, Heard, admit
+from parley.gate.table import Effect, verdict
+from parley.language.base import Language, Situation
 from parley.language.control import Control, control_of
-from parley.memory.because import OPERATOR
 from parley.memory.sayings import for_oneself
 from parley.messages import topics
 from parley.messages.chat import ChatAction, ChatFeedback, ChatInput, SystemCommand
 from parley.messages.failure import ErrorHandlingMessage
-from parley.messages.memory import AddToMemory, MemoryBody, MemoryEntry, MemoryEvent
+from parley.messages.memory import AddToMemory, MemoryBody, MemoryEntry, MemoryEvent, RemoveMemory
 from parley.messages.status import (
     ActorStatus,
     PlanDecision,
     PlanProposal,
+    PlanRuling,
     PlanUpdate,
     Rejection,
     RejectionProblem,
     StopCommand,
 )
 from parley.nodes import chat_texts as texts
-from parley.nodes.asking import SHALL_I, Offered, as_wish
+from parley.nodes.asking import SHALL_I, Offered, wish_of
 from parley.nodes.base import Mailboxes, Node
-from parley.nodes.chat_memories import Confirmations, Keeping, keeping_order
+from parley.nodes.chat_memories import Confirmations, keeping_order
 from parley.nodes.drafts import Drafts
 from parley.nodes.finishing import Finishing
+from parley.nodes.log_answers import log_answer
 from parley.nodes.plan_check import check_calls, complete_calls
 from parley.nodes.plan_orders import no_robot
 from parley.nodes.plan_steps import LATCHED
 from parley.nodes.presence import Presence, linked_to
 from parley.nodes.questions import SeenIds
 from parley.nodes.recollections import Recollections
+from parley.nodes.rulings import Rulings
 from parley.nodes.situations import Situations
 from parley.nodes.thinking import PATIENCE_S, DroppedError, Thinking
 from parley.sentences import together
@@ -90,7 +94,7 @@ class ChatInterface(Node):
         self._mailboxes: Mailboxes[str] = Mailboxes(self._on_defect)
         self._offered, self._finishing = Offered(), Finishing(clock.now_s)
         self._seen_ids = SeenIds()
-        self._confirmations = Confirmations()
+        self._confirmations, self._rulings = Confirmations(), Rulings(transport)
         self._recollections = Recollections(self, clock, self._remember, self._presence.names)
         self._halts: dict[str, int] = {}
         """How often each robot was told to stop: what was asked for before that is dropped."""
@@ -105,6 +109,7 @@ class ChatInterface(Node):
         await self.subscribe(topics.ERROR_HANDLING, ErrorHandlingMessage, self._known.on_failure)
         await self.subscribe_plans(self._on_plan)
         await self.subscribe(topics.PLAN_DECISION, PlanDecision, self._on_decision)
+        await self.subscribe(topics.RULING, PlanRuling, self._rulings.on_ruling)
         await self.subscribe(topics.CHAT_INPUT, ChatInput, self._on_input)
         self.spawn(self._presence.watch(), name="presence")
 
@@ -117,6 +122,9 @@ class ChatInterface(Node):
             self._say(said.targets, problem, "error", said.id)
             return
         control = control_of(said.message, self._presence.names())
+        if control not in _HALTING and verdict(said.who, Effect.SPEAK) != "allow":
+            self._say(said.targets, texts.ONLY_LOOKS, "error", said.id)
+            return
         if control not in _HALTING and self._questions.is_late(said):
             self._say(said.targets, texts.settled(said.message), "response", said.id)
             return
@@ -140,11 +148,11 @@ class ChatInterface(Node):
     def _hear(self, target: str, said: ChatInput, question: ChatFeedback | None) -> None:
         """Have something understood, unless it answers `question` or is about what waits or takes long."""
         names = self._presence.names()
-        decision = self._offered.decided(target, said.message, names) if question is None else None
+        decision = self._offered.decided(target, said, names) if question is None else None
         if decision is not None:
             self.publish(topics.PLAN_DECISION, decision)
             return
-        if question is None and self._set_aside(target, said):
+        if question is None and (self._set_aside(target, said) or self._undoes(target, said)):
             return
         about = said.reply_to or (question.id if question else "")
         ours = about if said.type == "response" and self._recollections.asked(about) else ""
@@ -177,7 +185,9 @@ class ChatInterface(Node):
         halts = self._halts.get(target, 0)
 
         async def work() -> None:
-            if not await self._recollections.handles(target, said, ours):
+            if not ours and (answer := await log_answer(self.transport, self._clock, target, said)):
+                self._say((target,), answer, "response", said.id)
+            elif not await self._recollections.handles(target, said, ours):
                 await self._answer(target, said, halts)
 
         return work
@@ -234,7 +244,7 @@ class ChatInterface(Node):
     def _on_emergency(self, command: StopCommand) -> None:
         """The stop button: what was asked for before it is dropped, as if it had been said."""
         if command.command == "stop":
-            for target in command.targets or self._presence.names():
+            for target in command.targets or self._presence.ever():
                 self._halt(target)
 
     def _halt(self, target: str) -> None:
@@ -254,16 +264,26 @@ class ChatInterface(Node):
         if state == "idle" and status is not None and status.state == "paused":
             nothing = False  # its engine holds a graph that is no plan of ours
         reply = texts.nothing_to_do(control, said.message) if nothing else ""
+        offered = self._offered.newest(target)
         if control == "start" and status is not None and status.state == "stopped":
             reply = LATCHED
+        elif control == "start" and state in ("awaiting_approval", "held") and offered is not None:
+            yes = PlanDecision(
+                id=offered.id, target=target, decision="approve", digest=offered.digest, by=said.who
+            )
+            self.publish(topics.PLAN_DECISION, yes)
+            return
         elif control == "emergency_stop":
-            stop = StopCommand(targets=(target,), id=uuid.uuid4().hex, by=said.by, words=said.message)
+            stop = StopCommand(targets=(target,), id=uuid.uuid4().hex, by=said.who, words=said.message)
             self.publish(topics.STOP, stop)
         elif (
             not reply or control in _HALTING
         ):  # stopping is sent in any case: the plan may be newer than known
             command = SystemCommand(command=control)
-            self.publish(topics.CHAT_ACTION, ChatAction(system_cmd=(command,), targets=(target,)))
+            order = ChatAction(
+                system_cmd=(command,), targets=(target,), by=said.who, words=said.message, reply_to=said.id
+            )
+            self.publish(topics.CHAT_ACTION, order)
         reply = reply or texts.CONTROL_REPLIES[control]
         self._known.conversation(target).operator(said.message)
         self._known.conversation(target).assistant(reply)
@@ -312,47 +332,118 @@ class ChatInterface(Node):
         if halts != self._halts.get(target, 0) and (understood.queue or understood.system_cmd):
             self._say((target,), texts.left(message), "response", said.id)
             return
-        order = self._trusted(target, understood)
+        admitted = admit(understood, self._heard(target, said, situation, own=bool(own)))
+        order = self._trusted(target, admitted.order)
         if order is None:
             text = "I worked out a plan that I cannot carry out, so I did nothing. Please say it another way."
             self._say((target,), text, "error", said.id)
             return
         order = self._own_share(order, target, said)
         if not order.targets:
-            self._say((target,), texts.that_is_for(understood.targets), "response", said.id)
+            text = admitted.refused[0] if admitted.refused else texts.that_is_for(understood.targets)
+            self._say((target,), text, "response", said.id)
             return
-        kept = Keeping(target if own else "", said.author or OPERATOR, situation.memory)
-        order, confirmations = self._name_memories(order, kept)
+        await self._carry_out(target, said, understood, replace(admitted, order=order), situation)
+
+    async def _carry_out(
+        self, target: str, said: ChatInput, understood: ChatAction, admitted: Admitted, situation: Situation
+    ) -> None:
+        """Hand an order on, hear what became of it, and say just that."""
+        order = admitted.order.model_copy(update={"id": uuid.uuid4().hex, "reply_to": said.id})
+        wanted = [
+            command
+            for command in order.system_cmd
+            if command.command == "add_memory" or (command.command == "remove_memory" and not order.needs_yes)
+        ]
+        confirmations = [self._confirmations.wait_for(str(c.arguments["name"])) for c in wanted]
+        self._rulings.expect(order)
         if order.queue or order.system_cmd:
-            self._order(order, message)
+            self._order(order, said.message)
         failed = await self._confirmations.confirmed(confirmations)
+        rulings = await self._rulings.about(order)
+        asked = next((ruling for ruling in rulings if ruling.outcome == "asked"), None)
         reply = failed or understood.message_response or "Done."
-        asks_first = not failed and self._known.asks_first(order.targets, order.queue)
-        if asks_first:
-            reply = as_wish(reply, order.queue)
+        if not failed:
+            reply = self._honest(target, reply, order, admitted, rulings)
         if not failed and self._waits_behind_a_question(target, order):
             reply = together(reply, texts.AFTERWARDS)
         conversation = self._known.conversation(target)
-        conversation.operator(message)
+        conversation.operator(said.message)
         conversation.assistant(reply)
         told = {str(command.arguments.get("name")) for command in order.system_cmd}
-        sources = tuple(name for name in understood.sources if name not in told)
+        known = {entry.name for entry in situation.memory}
+        sources = tuple(name for name in understood.sources if name in known and name not in told)
         why = "" if failed else self._recollections.why(target, said, sources, situation.memory)
-        reply = together(reply, why, SHALL_I if asks_first else "")
-        asks = bool(understood.choices) and not understood.queue
+        reply = together(reply, why, SHALL_I if asked is not None and not failed else "")
+        asks = bool(understood.choices) and not understood.queue and asked is None
         if not order.queue:
-            self._finishing.on_answer(target, message, asks_back=asks)
+            self._finishing.on_answer(target, said.message, asks_back=asks)
         self.publish(
             topics.CHAT_FEEDBACK,
             ChatFeedback(
                 message=self.spoken(reply),
                 targets=(target,),
                 type="error" if failed else "response",
-                sources=understood.sources,
+                sources=tuple(name for name in understood.sources if name in known | told),
                 choices=understood.choices if asks else (),
                 reply_to=said.id,
             ),
         )
+        for command in order.system_cmd if not failed else ():
+            if command.arguments.get("name") in admitted.concluded:
+                self._show_concluded(target, command)
+
+    def _honest(
+        self,
+        target: str,
+        reply: str,
+        order: ChatAction,
+        admitted: Admitted,
+        rulings: Sequence[PlanRuling],
+    ) -> str:
+        """The engine's reply where what it says was done; else what was done instead, in our words."""
+        asked = next((ruling for ruling in rulings if ruling.outcome == "asked"), None)
+        if asked is not None:
+            return wish_of(asked.labels, asked.why)
+        if rulings and all(ruling.outcome == "refused" for ruling in rulings):
+            return together(texts.NOT_DONE, *admitted.refused)
+        if admitted.resumes and not order.queue:
+            return texts.SAY_CARRY_ON if self._known.state(target) != "idle" else texts.NOTHING_TO_RESUME
+        return together(reply, *admitted.refused)
+
+    def _heard(self, target: str, said: ChatInput, situation: Situation, *, own: bool) -> Heard:
+        return Heard(
+            words=said.message,
+            by=said.who,
+            robot=target,
+            named=tuple(name for name in self._presence.named_in(said.message) if name != target),
+            engine=self._language.label,
+            own=own,
+            known=situation.memory,
+            earlier=tuple(turn.content for turn in situation.history if turn.role == "operator"),
+        )
+
+    def _show_concluded(self, target: str, command: SystemCommand) -> None:
+        """What an engine adds by itself is shown, and undone by a tap."""
+        name, data = str(command.arguments["name"]), str(command.arguments.get("data", ""))
+        if command.arguments.get("type") == "image":
+            data = name
+        feedback = ChatFeedback(
+            message=self.spoken(texts.concluded(data)),
+            targets=(target,),
+            type="info",
+            choices=(self.spoken(texts.undo(name)),),
+        )
+        self.publish(topics.CHAT_FEEDBACK, feedback)
+
+    def _undoes(self, target: str, said: ChatInput) -> bool:
+        """Whether a message is a tap on what undoes a memory; it is done then."""
+        name = texts.undone(said.message)
+        if not name or verdict(said.who, Effect.FORGET) != "allow":
+            return False
+        self.publish(topics.REMOVE_MEMORY, RemoveMemory({name: {}}))
+        self._say((target,), texts.forgotten(name), "response", said.id)
+        return True
 
     def _order(self, order: ChatAction, words: str) -> None:
         for name in order.targets if order.queue else ():
@@ -388,25 +479,10 @@ class ChatInterface(Node):
 
     # -- memory ----------------------------------------------------------------------------------------
 
-    def _name_memories(
-        self, order: ChatAction, kept: Keeping
-    ) -> tuple[ChatAction, list[asyncio.Future[MemoryEvent]]]:
-        """Give each new memory a name, so that its confirmation can be recognised, a scope and a source."""
-        waits: list[asyncio.Future[MemoryEvent]] = []
-        commands: list[SystemCommand] = []
-        for command in order.system_cmd:
-            if command.command in ("add_memory", "remove_memory"):
-                name = str(command.arguments.get("name") or f"memory_{uuid.uuid4().hex[:12]}")
-                arguments = {**kept.of(command.command, name), **command.arguments, "name": name}
-                command = SystemCommand(command=command.command, arguments=arguments)
-                waits.append(self._confirmations.wait_for(name))
-            commands.append(command)
-        return order.model_copy(update={"system_cmd": tuple(commands)}), waits
-
     async def _remember(self, entry: MemoryEntry) -> str:
         """Store a memory; the plain reason if it is not durable in time."""
         wait = self._confirmations.wait_for(entry.name)
-        body = MemoryBody.model_validate(entry.model_dump())
+        body = MemoryBody.model_validate(entry.model_dump() | {"way": "told"})
         self.publish(topics.ADD_TO_MEMORY, AddToMemory({entry.name: body}))
         return await self._confirmations.confirmed([wait])
 

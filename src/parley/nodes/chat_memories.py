@@ -4,39 +4,21 @@ from __future__ import annotations
 
 import asyncio
 from collections.abc import Sequence
-from dataclasses import dataclass
 from typing import Final
 
 from parley.language.base import Situation, Turn
 from parley.memory.sayings import keeping_action
 from parley.messages.chat import ActionCall, ChatAction
-from parley.messages.memory import MemoryEntry, MemoryEvent
+from parley.messages.memory import MemoryEvent
 from parley.sentences import sentence
 
-__all__ = ["Confirmations", "Keeping", "keeping_order", "memory_query"]
+__all__ = ["Confirmations", "keeping_order", "memory_query"]
 
 _WITHIN_S: Final = 5.0
 """Wall time in which the memory must have confirmed what the reply promises."""
 _RECALLED_TURNS: Final = 6
 """How many turns back what is asked or meant may lie ("bring it to him")."""
 _RECALLED_CHARS: Final = 300
-
-
-@dataclass(frozen=True, slots=True)
-class Keeping:
-    """For whom and on whose word memories are kept."""
-
-    own: str
-    """The robot that was asked to remember for itself; empty for everybody."""
-    source: str
-    known: Sequence[MemoryEntry]
-
-    def of(self, command: str, name: str) -> dict[str, str]:
-        """Arguments beside name and data: what replaces or forgets a robot's own memory concerns that one."""
-        scope = next((entry.scope for entry in self.known if entry.name == name), None)
-        if command == "remove_memory":
-            return {} if scope is None else {"scope": scope}
-        return {"scope": self.own or scope or "", "source": self.source}
 
 
 class Confirmations:

@@ -14,7 +14,13 @@ __all__ = [
     "CONTROL_REPLIES",
     "MAX_CHARS",
     "NEVER_MIND",
+    "NOTHING_TO_RESUME",
+    "NOT_DONE",
+    "ONLY_LOOKS",
+    "SAY_CARRY_ON",
+    "concluded",
     "dropped",
+    "forgotten",
     "is_never_mind",
     "left",
     "not_there",
@@ -23,6 +29,8 @@ __all__ = [
     "settled",
     "still_thinking",
     "that_is_for",
+    "undo",
+    "undone",
     "unreadable",
     "which_robot",
 ]
@@ -57,6 +65,36 @@ NEVER_MIND: Final = "never mind"
 _NEVER_MIND: Final = re.compile(
     r"(?:please )?(?:never ?mind(?: it| that| this)?|(?:forget|drop) (?:it|that|this))(?: please)?"
 )
+
+
+ONLY_LOOKS: Final = "You may look and stop, but not give orders here."
+NOT_DONE: Final = sentence("I have not done that.")
+SAY_CARRY_ON: Final = "I go on when you say “carry on”."
+NOTHING_TO_RESUME: Final = "There is nothing left to go on with."
+_UNDO: Final = re.compile(r"(?:forget|unusta)\s+“(.+)”\W*", re.IGNORECASE)
+
+
+def concluded(data: str) -> str:
+    """That a language engine keeps something that nobody said in these words."""
+    return sentence(
+        "I noted for myself, though you did not say it in these words: “{data}”", data=_short(data)
+    )
+
+
+def undo(name: str) -> str:
+    """What is tapped to undo that."""
+    return sentence("Forget “{name}”", name=name)
+
+
+def undone(message: str) -> str:
+    """The memory that somebody tapped to forget; empty if it was no such tap."""
+    found = _UNDO.fullmatch(message.strip())
+    return found[1] if found else ""
+
+
+def forgotten(name: str) -> str:
+    """That a memory was undone."""
+    return sentence("I have forgotten “{name}”.", name=name)
 
 
 def still_thinking(message: str, newer: str = "") -> str:

@@ -9,6 +9,8 @@ from typing import ClassVar, Literal
 
 from parley.clock import Clock
 from parley.errors import InvalidMessageError, LanguageError
+from parley.gate.assent import assent_of
+from parley.gate.orders import Heard, admit_repair, engine, is_chosen
 from parley.language.base import ErrorSituation, Language, Turn
 from parley.language.control import Control, control_of
 from parley.memory.client import recall
@@ -29,6 +31,7 @@ from parley.messages.status import ActorStatus, PlanProposal, PlanUpdate, StopCo
 from parley.messages.wire import decode, encode
 from parley.nodes.base import Mailboxes, Node
 from parley.nodes.incident_log import IncidentLog
+from parley.nodes.plan_orders import WAITING
 from parley.nodes.presence import Presence
 from parley.nodes.questions import OpenQuestions, SeenIds
 from parley.nodes.repair import (
@@ -183,7 +186,7 @@ class ErrorHandler(Node):
                 repair.question_id = ""
                 self._mailboxes.post(
                     target,
-                    lambda r=repair: self._attempt(r, said.message, said.images),  # type: ignore[misc]
+                    lambda r=repair: self._attempt(r, said),  # type: ignore[misc]
                 )
         if not answered and self._which.needed(said, self._questions.robots()):
             self._ask_which(said)
@@ -261,16 +264,21 @@ class ErrorHandler(Node):
 
     # -- repairing -------------------------------------------------------------------------------------
 
-    async def _attempt(self, repair: Repair, reply: str | None, images: Sequence[ChatImage] = ()) -> None:
+    async def _attempt(self, repair: Repair, answer: ChatInput | None) -> None:
         if not self._is_current(repair):
             return  # settled otherwise in the meantime
-        said = reply or ("(a picture)" if images else "")
-        if reply is not None:
+        reply = answer.message if answer is not None else None
+        said = reply or ("(a picture)" if answer is not None and answer.images else "")
+        if answer is not None:
             repair.note_answered(said)
             self._record(repair)
-        resolution = await self._resolve(repair, reply, images)
+            if assent_of(answer.message, self._presence.names()) is False:
+                self._decline(repair)
+                return
+        resolution = await self._resolve(repair, reply, answer.images if answer is not None else ())
         if not self._is_current(repair):
             return
+        resolution = self._admitted(repair, resolution, answer)
         if reply is not None:
             repair.note_turn(Turn("operator", said))
         if resolution.success and reply is None and self._is_used_up(repair, resolution):
@@ -283,6 +291,25 @@ class ErrorHandler(Node):
             self._give_up(repair)
         else:
             self._ask(repair, resolution)
+
+    def _admitted(self, repair: Repair, resolution: ChatAction, answer: ChatInput | None) -> ChatAction:
+        """The answer of the engine as far as it may go on, and on whose account."""
+        name, target = self._language.label, repair.failure.target
+        words = answer.message if answer is not None else ""
+        heard = Heard(words, answer.who if answer is not None else engine(name), target, engine=name)
+        order = admit_repair(resolution.model_copy(update={"targets": (target,)}), heard)
+        choices = repair.question.choices if repair.question is not None else ()
+        if answer is not None and is_chosen(repair.failure.action_called, resolution, words, choices):
+            return order.model_copy(update={"by": answer.who, "needs_yes": ""})
+        return order
+
+    def _decline(self, repair: Repair) -> None:
+        """A literal no: nothing is tried, whatever an engine would make of it."""
+        target = repair.failure.target
+        del self._repairs[target]
+        self._end(repair, "held")
+        self._hold(target)
+        self._say(target, WAITING, "info")
 
     def _is_current(self, repair: Repair) -> bool:
         return self._repairs.get(repair.failure.target) is repair
@@ -309,7 +336,9 @@ class ErrorHandler(Node):
     ) -> ErrorSituation:
         failure = repair.failure
         status = self._presence.get(failure.target)
-        memory = await recall(self.transport, memory_query(failure, reply), scope=failure.target)
+        found = await recall(self.transport, memory_query(failure, reply), scope=failure.target)
+        # What a robot is to do about a failure counts only if a person said so.
+        memory = [entry for entry in found if entry.way != "concluded"]
         objects = self._objects(failure.target)
         known = failed_situation(failure, memory=memory, objects=objects, status=status)
         return replace(
@@ -353,8 +382,7 @@ class ErrorHandler(Node):
     def _keep_for_later(self, repair: Repair, resolution: ChatAction) -> None:
         """The planner keeps an order while the robot is held, and appends it to the plan afterwards."""
         if resolution.afterwards:
-            order = ChatAction(queue=resolution.afterwards, targets=(repair.failure.target,))
-            self.publish(topics.CHAT_ACTION, order)
+            self.publish(topics.CHAT_ACTION, _order_of(resolution, resolution.afterwards, repair))
 
     def _watch(self, repair: Repair, correction: Sequence[ActionCall]) -> None:
         """See whether the correction helps (none: the step as it was)."""
@@ -367,8 +395,8 @@ class ErrorHandler(Node):
         repair.note_turn(Turn("assistant", resolution.message_response))
         later = (*resolution.queue, *resolution.afterwards)
         if later or resolution.system_cmd:
-            order = ChatAction(queue=later, system_cmd=resolution.system_cmd, targets=(target,))
-            self.publish(topics.CHAT_ACTION, order)
+            order = _order_of(resolution, later, repair)
+            self.publish(topics.CHAT_ACTION, order.model_copy(update={"system_cmd": resolution.system_cmd}))
         self._say(target, resolution.message_response, "response", sources=resolution.sources)
         self._put(repair, question)
 
@@ -410,7 +438,10 @@ class ErrorHandler(Node):
     def _hold(self, target: str) -> None:
         """No repair any more: the plan waits, and the next order goes on."""
         stop = SystemCommand(command="stop", arguments={})
-        self.publish(topics.UMRF_CORRECTION, ChatAction(system_cmd=(stop,), targets=(target,), success=False))
+        self.publish(
+            topics.UMRF_CORRECTION,
+            ChatAction(system_cmd=(stop,), targets=(target,), success=False, by=engine(self._language.label)),
+        )
 
     # -- helpers ---------------------------------------------------------------------------------------
 
@@ -445,6 +476,18 @@ class ErrorHandler(Node):
         repair = self._repairs.get(target)
         if repair is not None:
             self._give_up(repair)
+
+
+def _order_of(resolution: ChatAction, calls: Sequence[ActionCall], repair: Repair) -> ChatAction:
+    """What is ordered besides a repair, on the same account."""
+    return ChatAction(
+        queue=tuple(calls),
+        targets=(repair.failure.target,),
+        by=resolution.by,
+        behalf=resolution.behalf,
+        words=resolution.words,
+        needs_yes=resolution.needs_yes,
+    )
 
 
 def _question_id(incident: Incident) -> str:

@@ -106,9 +106,6 @@ class Finishing:
             return text
         if was in ("idle", "awaiting_approval"):
             job.began_s = self._now_s()
-            if was == "awaiting_approval":  # "go ahead" is a yes to all that waits
-                job.words += [words for words in job.offered.values() if words]
-                job.offered.clear()
         if job.asked and (update.graph_name != job.graph_name or len(update.steps) > job.steps):
             job.words = [*([] if job.instead else job.words), job.asked]
             job.failed = [] if job.instead else job.failed

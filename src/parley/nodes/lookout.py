@@ -18,6 +18,7 @@ from parley.memory.client import ask_memory
 from parley.messages import topics
 from parley.messages.chat import ChatAction, ChatFeedback, ChatInput, CommandName, SystemCommand
 from parley.messages.memory import AddToMemory, GetMemory, MemoryEntry, MemoryEvent
+from parley.messages.principal import Principal
 from parley.messages.status import GraphEvent, PlanProposal, PlanUpdate
 from parley.nodes.base import Node
 from parley.nodes.plan_steps import OPEN_STATES
@@ -86,7 +87,7 @@ class Lookout(Node):
             self.log.warning("rules not read", error=str(error))
             return
         for entry in entries:
-            rule = read_sighting_rule(entry.data) if "/" not in entry.source else None
+            rule = read_sighting_rule(entry.data) if _is_told(entry) else None
             if rule is not None:
                 self._rules[entry.name, entry.scope] = (rule, entry)
 
@@ -122,14 +123,16 @@ class Lookout(Node):
             return
         then = sentence("")
         if rule.has("cancel"):
-            self._command(robot, "clear")
+            self._command(robot, "clear", entry)
             then = sentence("So I drop the rest of the plan.")
         elif rule.has("stop"):
             then = sentence(_STOPPED if has_more else _WAITING)
-            self._command(robot, "stop")
+            self._command(robot, "stop", entry)
         elif rule.delay_s and has_more:
-            self._command(robot, "stop")
-            self._waits[robot] = self.spawn(self._go_on_later(robot, rule.delay_s), name=f"waiting {robot}")
+            self._command(robot, "stop", entry)
+            self._waits[robot] = self.spawn(
+                self._go_on_later(robot, rule.delay_s, entry), name=f"waiting {robot}"
+            )
             then = sentence("So I wait, and then go on.")
         elif orders:
             then = sentence("I do so now.")
@@ -140,12 +143,13 @@ class Lookout(Node):
             ChatFeedback(message=told, targets=(robot,), type="info", sources=(entry.name,)),
         )
         for words in orders:
-            self.publish(topics.CHAT_INPUT, ChatInput(message=words, targets=(robot,), id=uuid.uuid4().hex))
+            order = ChatInput(message=words, targets=(robot,), id=uuid.uuid4().hex, by=_rule_of(entry))
+            self.publish(topics.CHAT_INPUT, order)
 
-    async def _go_on_later(self, robot: str, delay_s: float) -> None:
+    async def _go_on_later(self, robot: str, delay_s: float, entry: MemoryEntry) -> None:
         await self._clock.sleep(delay_s)
         self._waits.pop(robot, None)
-        self._command(robot, "start")
+        self._command(robot, "start", entry)
 
     def _on_input(self, said: ChatInput) -> None:
         """Whoever says something while a robot waits by a rule decides what follows."""
@@ -163,9 +167,20 @@ class Lookout(Node):
         steps = plan.steps if plan is not None else ()
         return any(step.state in OPEN_STATES and (not ended or step.node != ended) for step in steps)
 
-    def _command(self, robot: str, command: CommandName) -> None:
-        order = ChatAction(system_cmd=(SystemCommand(command=command),), targets=(robot,))
+    def _command(self, robot: str, command: CommandName, entry: MemoryEntry) -> None:
+        commands = (SystemCommand(command=command),)
+        order = ChatAction(system_cmd=commands, targets=(robot,), by=_rule_of(entry), words=entry.data)
         self.publish(topics.CHAT_ACTION, order)
+
+
+def _is_told(entry: MemoryEntry) -> bool:
+    """Whether a person said it; what a robot saw or a language engine concluded is never a rule."""
+    return entry.way in ("told", "") and "/" not in entry.source
+
+
+def _rule_of(entry: MemoryEntry) -> Principal:
+    """The standing rule behind what is done, and whose it is."""
+    return Principal(kind="rule", name=entry.source)
 
 
 def _reports(event: GraphEvent) -> list[str]:

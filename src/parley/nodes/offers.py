@@ -8,11 +8,10 @@ from types import MappingProxyType
 
 from parley.clock import Clock
 from parley.memory.proposals import KeptProposal
-from parley.messages.chat import ActionCall
 from parley.messages.status import ActorStatus, PlanProposal
-from parley.nodes.asking import as_wish, offered_again, past_offer
+from parley.nodes.asking import offered_again, past_offer, wish_of
 from parley.nodes.plan import TargetPlan
-from parley.nodes.plan_approval import Approvals, Policy
+from parley.nodes.plan_approval import Approvals, Bound, Policy
 from parley.nodes.plan_check import check_calls
 from parley.nodes.plan_steps import Step
 from parley.nodes.proposal_log import ProposalLog
@@ -42,35 +41,30 @@ class Offers(Approvals):
 
     def propose(
         self,
-        target: str,
-        message: str,
-        calls: Sequence[ActionCall],
+        proposal: PlanProposal,
         status: ActorStatus | None,
         *,
         repairs: Step | None = None,
-        announced: bool = False,
+        bound: Sequence[Bound] = (),
     ) -> PlanProposal:
-        """Let steps wait for a yes.
+        """Let steps and changes wait for a yes.
 
         Args:
-            target: The robot.
-            message: What it will do, in its words.
-            calls: The steps.
-            status: Its last heartbeat.
+            proposal: Without an id.
+            status: The robot's last heartbeat.
             repairs: The failed step in whose place they would be done.
-            announced: Whether it has said `message`; otherwise it does when it begins.
+            bound: The changes, each with the step it is about.
         """
-        wish = as_wish(message, calls)
-        proposal = PlanProposal(id=uuid.uuid4().hex, target=target, message=wish, steps=tuple(calls))
-        kept = KeptProposal(
-            proposal=proposal,
-            agreed="" if announced else message,
-            repairs=repairs.call.name if repairs is not None else "",
-            unix_ms=self._clock.unix_ms(),
-            place=status.pose if status is not None else None,
+        proposal = proposal.model_copy(update={"id": uuid.uuid4().hex})
+        self.put(proposal, repairs, bound)
+        self._log.keep(
+            KeptProposal(
+                proposal=proposal,
+                repairs=repairs.call.name if repairs is not None else "",
+                unix_ms=self._clock.unix_ms(),
+                place=status.pose if status is not None else None,
+            )
         )
-        self.put(proposal, kept.agreed, repairs)
-        self._log.keep(kept)
         return proposal
 
     def take_left(self, plan: TargetPlan, status: ActorStatus) -> list[tuple[PlanProposal | None, str]]:
@@ -88,11 +82,13 @@ class Offers(Approvals):
             proposal = left.proposal
             failed = plan.fail_again(left.repairs) if left.repairs else None
             steps = plan.correction(proposal.steps) if failed is not None else proposal.steps
-            if check_calls(steps, status.catalogue) or (left.repairs and failed is None):
+            wish = wish_of(proposal.labels)
+            stale = bool(proposal.commands)  # what they change is not known any more
+            if stale or check_calls(steps, status.catalogue) or (left.repairs and failed is None):
                 self._log.drop(proposal.id)
-                found.append((None, past_offer(proposal.message)))
+                found.append((None, past_offer(wish)))
                 continue
-            self.put(proposal, left.agreed, failed)
-            text = offered_again(proposal.message, left.place, status.pose, repairs=failed is not None)
+            self.put(proposal, failed)
+            text = offered_again(wish, left.place, status.pose, repairs=failed is not None)
             found.append((proposal, text))
         return found

@@ -4,27 +4,20 @@ from __future__ import annotations
 
 from collections.abc import Callable, Mapping, Sequence
 from types import MappingProxyType
-from typing import Literal
 
-from parley.messages.chat import ActionCall
+from parley.gate.cards import labels_of
+from parley.gate.ruling import Policy
+from parley.messages.chat import SystemCommand
+from parley.messages.principal import Principal
 from parley.messages.status import ActionInfo, PlanProposal, PlanUpdate
 from parley.nodes.plan import TargetPlan
 from parley.nodes.plan_steps import Step
+from parley.world.object_map import MapObject
 
-__all__ = ["Approvals", "PlanBoard", "Policy", "waits_for_yes"]
+__all__ = ["Approvals", "Bound", "PlanBoard", "Policy"]
 
-Policy = Literal["run_at_once", "ask_when_risky", "ask_first"]
-
-
-def waits_for_yes(policy: Policy, calls: Sequence[ActionCall], catalogue: Sequence[ActionInfo]) -> bool:
-    """Whether actions wait for a yes under a policy; what nobody knows the risk of is not risky."""
-    match policy:
-        case "ask_first":
-            return bool(calls)
-        case "ask_when_risky":
-            risky = {info.name for info in catalogue if info.risk == "high"}
-            return any(call.name in risky for call in calls)
-    return False
+Bound = tuple[SystemCommand, Step | None]
+"""A command that waits for a yes, and the step it is about, however the plan moves on meanwhile."""
 
 
 class Approvals:
@@ -44,8 +37,8 @@ class Approvals:
     ) -> None:
         self._default, self._policies, self._on_drop = default, dict(policies), on_drop
         self._waiting: dict[str, PlanProposal] = {}
-        self._agreed: dict[str, str] = {}
         self._repairs: dict[str, Step] = {}
+        self._bound: dict[str, tuple[Bound, ...]] = {}
 
     def policy(self, target: str) -> Policy:
         """The policy of a robot."""
@@ -55,19 +48,17 @@ class Approvals:
         """Take another policy for a robot; what waits already goes on waiting."""
         self._policies[target] = policy
 
-    def asks(self, target: str, calls: Sequence[ActionCall], catalogue: Sequence[ActionInfo]) -> bool:
-        """Whether these actions of a robot wait for a yes."""
-        return waits_for_yes(self.policy(target), calls, catalogue)
-
-    def put(self, proposal: PlanProposal, agreed: str = "", repairs: Step | None = None) -> None:
+    def put(self, proposal: PlanProposal, repairs: Step | None = None, bound: Sequence[Bound] = ()) -> None:
         """Let a proposal wait.
 
         Args:
             proposal: What is proposed.
-            agreed: What the robot says when it begins.
             repairs: The failed step in whose place it would be done, if it is a repair.
+            bound: Its commands, each with the step it is about.
         """
-        self._waiting[proposal.id], self._agreed[proposal.id] = proposal, agreed
+        self._waiting[proposal.id] = proposal
+        if bound:
+            self._bound[proposal.id] = tuple(bound)
         if repairs is not None:
             self._repairs[proposal.id] = repairs
 
@@ -75,19 +66,13 @@ class Approvals:
         """The proposal of that id, if it waits."""
         return self._waiting.get(identity)
 
-    def agreed(self, identity: str) -> str:
-        """What the robot says when it begins with the proposal of that id."""
-        return self._agreed.get(identity, "")
+    def bound(self, identity: str) -> tuple[Bound, ...]:
+        """What a yes to the proposal of that id changes before its steps begin."""
+        return self._bound.get(identity, ())
 
     def repairs(self, identity: str) -> bool:
         """Whether the proposal takes the place of a step that failed."""
         return identity in self._repairs
-
-    def repair(self, target: str) -> PlanProposal | None:
-        """The repair of a robot that waits, if one does."""
-        return next(
-            (p for key, p in self._waiting.items() if p.target == target and key in self._repairs), None
-        )
 
     def of(self, target: str) -> list[PlanProposal]:
         """What waits of a robot, oldest first."""
@@ -102,8 +87,8 @@ class Approvals:
         """Forget a proposal."""
         if self._waiting.pop(identity, None) is not None:
             self._on_drop(identity)
-        self._agreed.pop(identity, None)
         self._repairs.pop(identity, None)
+        self._bound.pop(identity, None)
 
     def drop_settled(self, plan: TargetPlan) -> None:
         """Forget repairs of what was repaired or left out otherwise."""
@@ -114,19 +99,33 @@ class Approvals:
 
 
 class PlanBoard:
-    """What was last published of each plan: counts its changes and knows which edits come too late."""
+    """What was last published of each plan: counts its changes and knows which edits come too late.
 
-    def __init__(self) -> None:
+    Args:
+        catalogue: What a robot can do, by its name.
+        objects: What its map knows.
+    """
+
+    def __init__(
+        self,
+        catalogue: Callable[[str], Sequence[ActionInfo]] = lambda _: (),
+        objects: Callable[[str], Sequence[MapObject]] = lambda _: (),
+    ) -> None:
+        self._catalogue, self._objects = catalogue, objects
         self._shown: dict[str, PlanUpdate] = {}
         self._free: dict[str, tuple[Step, ...]] = {}
         self._free_since: dict[str, int] = {}
 
-    def show(self, plan: TargetPlan, approvals: Approvals) -> PlanUpdate | None:
+    def show(
+        self, plan: TargetPlan, approvals: Approvals, held_by: Principal | None = None
+    ) -> PlanUpdate | None:
         """The plan as it is to be published, or None if that would say nothing new."""
         before = self._shown.get(plan.target)
         revision = before.revision if before is not None else 0
-        changes: dict[str, object] = {"policy": approvals.policy(plan.target), "revision": revision}
-        update = plan.update()
+        changes: dict[str, object] = {
+            "policy": approvals.policy(plan.target), "revision": revision, "held_by": held_by,
+        }  # fmt: skip
+        update = self._labelled(plan.update(), before)
         if approvals.of(plan.target) and update.state == "idle":
             changes["state"] = "awaiting_approval"
         update = update.model_copy(update=changes)
@@ -139,6 +138,19 @@ class PlanBoard:
             self._free[plan.target] = free
             self._free_since[plan.target] = update.revision
         return update
+
+    def _labelled(self, update: PlanUpdate, before: PlanUpdate | None) -> PlanUpdate:
+        """With what each step does in our words; worked out anew only where the steps are others."""
+        calls = [step.action for step in update.steps]
+        if before is not None and calls == [step.action for step in before.steps]:
+            labels: Sequence[str] = [step.label for step in before.steps]
+        else:
+            target = update.target
+            labels = labels_of(calls, self._catalogue(target), self._objects(target))
+        steps = zip(update.steps, labels, strict=True)
+        return update.model_copy(
+            update={"steps": tuple(step.model_copy(update={"label": str(text)}) for step, text in steps)}
+        )
 
     @property
     def shown(self) -> tuple[PlanUpdate, ...]:

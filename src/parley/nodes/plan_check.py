@@ -36,6 +36,7 @@ def spec_of(info: ActionInfo) -> ActionSpec:
         },
         outputs={name: Parameter(kind) for name, kind in info.outputs.items()},
         description=info.description,
+        label=info.label,
         phrases=info.phrases,
         effects=info.effects,
         risk=info.risk,

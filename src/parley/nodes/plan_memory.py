@@ -27,6 +27,8 @@ def memory_change(command: SystemCommand) -> AddToMemory | RemoveMemory | Proble
         data=arguments["data"],
         info=str(arguments.get("info") or arguments["data"]),
         scope=str(arguments.get("scope") or ""),
-        source=str(arguments.get("source") or "operator"),
+        source=str(arguments.get("source") or ""),
+        way=arguments["way"] if arguments.get("way") in ("told", "seen", "concluded") else "",
+        words=str(arguments.get("words") or ""),
     )
     return AddToMemory({str(arguments.get("name") or f"memory_{uuid.uuid4().hex[:12]}"): body})

@@ -138,11 +138,18 @@ class ReportedPlan(PlanCore):
         self._pause_wanted = bool(self.pending)
         return [Say(LATCHED if command == "resume" else KEPT_LATCHED, "error")]
 
-    def on_return(self, graphs: Collection[str]) -> list[Effect]:
-        """The robot is back after its contact was lost, with these graphs."""
-        if not self.graph_name or self.graph_name in graphs or self.run == "starting":
-            return []
-        return self._on_gone(go_on=False)
+    def on_return(self, graphs: Mapping[str, str]) -> list[Effect]:
+        """The robot is back after its contact was lost, with these graphs and their states.
+
+        What was said while it was away it did not hear: it is told again to stop or to stand still.
+        """
+        going = {name for name, state in graphs.items() if state in (GraphState.RUNNING, GraphState.PAUSED)}
+        given_up = [StopGraph(name) for name in (self._stopping, self._abandoned) if name in going]
+        if not self.graph_name or self.run == "starting":
+            return [*given_up]
+        if self.graph_name in graphs:
+            return [*given_up, *([PauseGraph(self.graph_name)] if self._pause_wanted else ())]
+        return [*given_up, *self._on_gone(go_on=False)]
 
     def on_no_answer(self, graph_name: str) -> list[Effect]:
         """Nothing was heard since the start of `graph_name`: the robot may be away."""
@@ -170,7 +177,7 @@ class ReportedPlan(PlanCore):
         """A stopped graph did not report its end in time: go on without it."""
         if graph_name != self._stopping:
             return []
-        self._stopping, self.run = "", "none"
+        self._abandoned, self._stopping, self.run = graph_name, "", "none"
         return self._push()
 
     # -- inside ----------------------------------------------------------------------------------------

@@ -102,6 +102,10 @@ class Presence:
         """Everybody who is there or configured, sorted."""
         return tuple(sorted({*self._seen, *self._known}))
 
+    def ever(self) -> tuple[str, ...]:
+        """`names`, and who left: a stop of all means them, too."""
+        return tuple(sorted({*self.names(), *self._left}))
+
     def resolve(self, name: str) -> str | None:
         """The robot that `name` means, whatever its capitals; None if there never was one.
 

@@ -166,7 +166,13 @@ class Recollections:
                 name = f"{name} {number}"
             info = said.message.strip()[:200] or name
             entry = MemoryEntry(
-                name=name, type="image", data=picture, info=info, source=said.author or OPERATOR
+                name=name,
+                type="image",
+                data=picture,
+                info=info,
+                source=said.author or OPERATOR,
+                way="told",
+                words=said.message,
             )
             if problem := await self._remember(entry):
                 self._tell(said.targets or (target,), problem, said, "error")

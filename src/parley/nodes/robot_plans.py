@@ -14,6 +14,7 @@ from parley.errors import Problem
 from parley.memory.proposals import ProposalStore
 from parley.messages import topics
 from parley.messages.chat import ChatAction
+from parley.messages.principal import Principal
 from parley.messages.status import ActionInfo, ActorStatus
 from parley.nodes import plan_orders as orders
 from parley.nodes.left_graphs import LeftGraphs
@@ -28,6 +29,7 @@ from parley.nodes.proposal_log import ProposalLog
 from parley.nodes.questions import OpenQuestions
 from parley.sentences import sentence
 from parley.transport.base import Transport
+from parley.world.object_map import MapObject
 
 __all__ = ["RobotPlans"]
 
@@ -44,6 +46,7 @@ class RobotPlans(PlanSender):
         patience: How long an engine is waited for.
         proposals: Keeps what waits for a yes over restarts; None keeps it only while this process lives.
         tell: Gets a robot and what it has to say by itself; None says it at once, to whoever listens.
+        objects: The things a robot's map knows, by the robot's name.
     """
 
     def __init__(
@@ -57,18 +60,21 @@ class RobotPlans(PlanSender):
         patience: Patience | None = None,
         proposals: ProposalStore | None = None,
         tell: Callable[[str, str], None] | None = None,
+        objects: Callable[[str], Sequence[MapObject]] = lambda _: (),
     ) -> None:
         super().__init__(transport, patience or Patience())
         self._presence = Presence(clock, tuple(known_robots), self._on_presence, linked=linked_to(transport))
         self._plans: dict[str, TargetPlan] = {}
         self._proposals, self._offers_again = ProposalLog(proposals), False
         self._tell = tell or (lambda robot, text: self._say(robot, text, "info"))
-        self._approvals, self._board = Offers(self._proposals, clock, approval, policies), PlanBoard()
+        self._objects = objects
+        self._approvals = Offers(self._proposals, clock, approval, policies)
+        self._board = PlanBoard(self._catalogue, objects)
+        self._held_by: dict[str, Principal] = {}
+        """Who told each robot to stand still, until it goes on."""
         self._listeners = 0
         """How many listen to the plans."""
         self._questions, self._left = OpenQuestions(), LeftGraphs()
-        self._answered: set[str] = set()
-        """Robots of which a person answered a question since their step failed."""
 
     async def open(self) -> None:
         """See `Node.open`."""
@@ -145,11 +151,12 @@ class RobotPlans(PlanSender):
         if joined:
             self._offer_left(robot)
         plan = self._plans.get(robot)
-        if plan is None or not plan.pending:
+        if plan is None:
             return
         if not joined:
             text = sentence("I have lost contact with {robot}. Its plan is kept.", robot=robot)
-            self._say(robot, text, "error")
+            if plan.pending:
+                self._say(robot, text, "error")
         elif (status := self._presence.get(robot)) is not None:
             self._send(plan, plan.on_return(status.graphs))
 
@@ -187,9 +194,7 @@ class RobotPlans(PlanSender):
 
     def _send(self, plan: TargetPlan, effects: Sequence[Effect]) -> None:
         super()._send(plan, effects)
-        if not plan.held:
-            self._answered.discard(plan.target)
         self._approvals.drop_settled(plan)
-        update = self._board.show(plan, self._approvals)
+        update = self._board.show(plan, self._approvals, self._held_by.get(plan.target))
         if update is not None:
             self.publish(topics.PLAN, update)

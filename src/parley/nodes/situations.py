@@ -8,13 +8,12 @@ from typing import Final, Literal
 from parley.language.base import Situation
 from parley.memory.client import recall, recall_newest
 from parley.memory.sayings import asks_for_all
-from parley.messages.chat import ActionCall, ChatFeedback, ChatInput
+from parley.messages.chat import ChatFeedback, ChatInput
 from parley.messages.failure import ErrorHandlingMessage
 from parley.messages.memory import MemoryEntry
 from parley.messages.status import PlanUpdate
 from parley.nodes.chat_memories import memory_query
 from parley.nodes.conversation import Conversation
-from parley.nodes.plan_approval import waits_for_yes
 from parley.nodes.plan_flow import pending_calls
 from parley.nodes.presence import Presence
 from parley.nodes.questions import LastAsked, OpenQuestions
@@ -80,15 +79,6 @@ class Situations:
     def may_have_to_ask(self, target: str) -> bool:
         """Whether some steps of a robot wait for a person's yes."""
         return target in self.plans and self.plans[target].policy != "run_at_once"
-
-    def asks_first(self, targets: Sequence[str], queue: Sequence[ActionCall]) -> bool:
-        """Whether a person is asked before a robot begins with it: then it only says what it would do."""
-        for name in targets:
-            plan, status = self.plans.get(name), self._presence.get(name)
-            catalogue = status.catalogue if status is not None else ()
-            if plan is not None and waits_for_yes(plan.policy, queue, catalogue):
-                return True
-        return False
 
     def waits_for_answer(self, target: str) -> bool:
         """Whether a robot stands with a failed step and has asked what to do."""

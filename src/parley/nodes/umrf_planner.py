@@ -6,26 +6,46 @@ It only wires: what a robot's plan becomes is decided in `parley.nodes.plan`.
 from __future__ import annotations
 
 from collections.abc import Sequence
-from typing import ClassVar, Literal
+from typing import ClassVar, Final, Literal
 
 from parley.errors import GraphRefusedError, Problem
+from parley.gate.cards import Labels, command_label, digest_of, labels_of
+from parley.gate.ruling import EFFECT_OF, Policy, Ruling, is_risky, rule
+from parley.gate.table import Effect, verdict
 from parley.messages import ros, topics
+from parley.messages.audit import AuditEvent
 from parley.messages.chat import ActionCall, ChatAction, ChatFeedback, ChatInput, SystemCommand
 from parley.messages.memory import AddToMemory, RemoveMemory
-from parley.messages.status import GraphEvent, PlanDecision, Rejection
+from parley.messages.principal import Principal, person
+from parley.messages.status import (
+    GraphEvent,
+    PlanDecision,
+    PlanProposal,
+    PlanRuling,
+    Rejection,
+    StopCommand,
+)
 from parley.nodes import plan_orders as orders
-from parley.nodes.asking import CHANGED, REFUSED
+from parley.nodes.asking import CHANGED, REFUSED, SHALL_I, begun, wish_of
 from parley.nodes.plan import TargetPlan
-from parley.nodes.plan_approval import Policy
+from parley.nodes.plan_approval import Bound
 from parley.nodes.plan_check import check_calls, complete_calls
-from parley.nodes.plan_effects import Effect
+from parley.nodes.plan_effects import Effect as PlanEffect
+from parley.nodes.plan_effects import Say
 from parley.nodes.plan_flow import listed, rebased
 from parley.nodes.plan_memory import memory_change
 from parley.nodes.plan_steps import Step
 from parley.nodes.robot_plans import RobotPlans
+from parley.sentences import together
 from parley.umrf.io import read_graph
 
 __all__ = ["UmrfPlanner"]
+
+DECIDES: Final = {
+    "approve": Effect.APPROVE, "reject": Effect.REJECT, "edit": Effect.EDIT, "policy": Effect.POLICY,
+}  # fmt: skip
+SKIPPED: Final = ActionCall(name="(left out)")
+"""Stands for leaving a failed step out and going on, which is a change of the plan like any other."""
 
 
 class UmrfPlanner(RobotPlans):
@@ -36,9 +56,11 @@ class UmrfPlanner(RobotPlans):
     async def open(self) -> None:
         """See `Node.open`."""
         await super().open()
+        self.announce(topics.RULING)
         await self.subscribe(topics.CHAT_ACTION, ChatAction, self._on_chat_action)
         await self.subscribe(topics.UMRF_CORRECTION, ChatAction, self._on_correction)
         await self.subscribe(topics.PLAN_DECISION, PlanDecision, self._on_decision)
+        await self.subscribe(topics.STOP, StopCommand, self._on_emergency)
         await self.subscribe(topics.REJECTION, Rejection, self._on_rejection)
         await self.subscribe(topics.GRAPH_EVENTS, GraphEvent, self._on_event)
         await self.subscribe_raw(topics.GRAPH_FEEDBACK, self._on_feedback, depth=100)
@@ -49,103 +71,219 @@ class UmrfPlanner(RobotPlans):
 
     def _on_chat_action(self, order: ChatAction) -> None:
         targets = self._targets(order, "chat_action")
-        self._remember(order.system_cmd, targets)
+        self._remember(order, targets)
         for target in targets:
             plan = self._plan(target)
             calls = self._accept(plan, order.queue)
-            commands = orders.in_order(order.system_cmd)
+            commands = orders.in_order(orders.of_plans(order))
             if calls is None:  # nothing of such an order is done, but stopping is never refused
-                commands = [item for item in commands if item.command in ("stop", "pause")]
-            for command in commands:
-                self._send(plan, self._command(plan, command))
-            if calls and self._approvals.asks(target, calls, self._catalogue(target)):
-                self._propose(plan, order.message_response, calls)
-            elif calls:
+                commands = [item for item in commands if EFFECT_OF[item.command] is Effect.PAUSE]
+            ruling = self._rule(plan, order, calls or (), commands)
+            for command in ruling.do:
+                self._send(plan, self._command(plan, command, order.by))
+            if ruling.ask or ruling.begins == "ask":
+                self._propose(plan, order, calls or (), ruling.ask)
+            elif calls and ruling.begins == "now":
                 self._append(plan, calls)
+            self._tell_ruling(plan, order, ruling, refused=calls is None)
 
     def _on_correction(self, order: ChatAction) -> None:
         targets = self._targets(order, "umrf_correction")
-        self._remember(order.system_cmd, targets)
+        self._remember(order, targets)
         for target in targets:
             plan = self._plan(target)
             if order.success is False:
-                self._send(plan, plan.give_up())
+                self._hold(plan, order)
                 continue
-            control = [c for c in order.system_cmd if c.command not in ("add_memory", "remove_memory")]
+            control = orders.in_order(orders.of_plans(order))
             clears = any(command.command == "clear" for command in control)
             calls = self._accept(plan, order.queue, correcting=not clears)
             if calls is None:
                 self._send(plan, plan.give_up())
-                continue
-            for command in orders.in_order(control):
-                self._send(plan, self._command(plan, command))
-            if clears:
-                self._take_anew(plan, order.message_response, calls)
-            elif calls or not control:
-                self._correct(plan, order.message_response, calls)
+            elif plan.failed is not None or clears:
+                self._correct(plan, order, calls, control)
 
-    def _take_anew(self, plan: TargetPlan, message: str, calls: list[ActionCall]) -> None:
-        """A repair that dropped the plan brings another one."""
-        if self._asks_for_repair(plan, calls):
-            self._propose(plan, message, calls, announced=True)
-        elif calls:
-            self._send(plan, plan.append(calls))
+    def _hold(self, plan: TargetPlan, order: ChatAction) -> None:
+        """Repair ended without success; what was ordered besides stands still or is given up."""
+        self._send(plan, plan.give_up())
 
-    def _correct(self, plan: TargetPlan, message: str, calls: list[ActionCall]) -> None:
-        """Repair, unless new steps that nobody asked for wait for a yes first; it is held till then."""
-        failed = plan.failed
-        new = failed is not None and [call for call in calls if not orders.is_same(call, failed.call)]
-        if new and not plan.given_up and self._asks_for_repair(plan, calls):
-            self._propose(plan, message, calls, failed, announced=True)
+    def _correct(
+        self,
+        plan: TargetPlan,
+        order: ChatAction,
+        calls: list[ActionCall],
+        control: Sequence[SystemCommand],
+    ) -> None:
+        """Repair, unless what nobody said yes to waits for it first; the robot is held till then."""
+        failed, clears = plan.failed, any(command.command == "clear" for command in control)
+        same = failed is not None and [*map(orders.bare, calls)] == [orders.bare(failed.call)]
+        retries = any(command.command == "start" for command in control) and not calls
+        halting = [c for c in control if EFFECT_OF[c.command] is Effect.PAUSE]
+        if halting:
+            self._send(plan, plan.give_up())
+            return
+        known = (same or retries) and not clears  # it was agreed to before it failed
+        ruling = self._rule(plan, order, calls or (SKIPPED,), (), begin=Effect.REPAIR, known=known)
+        if ruling.begins == "now" or known:
+            changes = [command for command in control if command.command != "start"]
+            for command in changes:
+                self._send(plan, self._command(plan, command, order.by))
+            if clears and calls:
+                self._send(plan, plan.append(calls))
+            elif not clears:
+                self._send(plan, plan.correct([failed.call] if retries and failed is not None else calls))
+        elif ruling.begins == "ask":
+            asked = [command for command in control if command.command != "start"]
+            if not calls and not clears and failed is not None:
+                asked = [SystemCommand(command="skip")]
+            self._propose(plan, order, calls, asked, repairs=None if clears or not calls else failed)
             self._say(plan.target, "I wait for your yes before I do this.", "info")
         else:
-            self._send(plan, plan.correct(calls))
+            self._send(plan, plan.give_up())
 
-    def _asks_for_repair(self, plan: TargetPlan, calls: Sequence[ActionCall]) -> bool:
-        """Whoever answered the question about a failure has said yes to what follows from the answer."""
-        answered = plan.target in self._answered
-        return not answered and self._approvals.asks(plan.target, calls, self._catalogue(plan.target))
+    def _rule(
+        self,
+        plan: TargetPlan,
+        order: ChatAction,
+        calls: Sequence[ActionCall],
+        commands: Sequence[SystemCommand],
+        *,
+        begin: Effect = Effect.BEGIN,
+        known: bool = False,
+    ) -> Ruling:
+        target = plan.target
+        catalogue = self._catalogue(target)
+        return rule(
+            order.by,
+            self._approvals.policy(target),
+            () if known else calls,
+            commands,
+            needs_yes=bool(order.needs_yes),
+            risky=any(call is not SKIPPED and is_risky(call, catalogue) for call in calls),
+            held_by=self._held_by.get(target),
+            begin=begin,
+        )
+
+    def _tell_ruling(self, plan: TargetPlan, order: ChatAction, ruling: Ruling, *, refused: bool) -> None:
+        """Say what became of an order, to whoever sent it and to the log."""
+        outcome: Literal["done", "asked", "refused"] = "done"
+        if ruling.ask or ruling.begins == "ask":
+            outcome = "asked"
+        elif refused or ruling.refused or ruling.begins == "refuse":
+            outcome = "refused"
+        waiting = self._approvals.of(plan.target)
+        labels = waiting[-1].labels if outcome == "asked" and waiting else ()
+        why = waiting[-1].why if outcome == "asked" and waiting else ""
+        if order.id:
+            self.publish(
+                topics.RULING,
+                PlanRuling(order=order.id, target=plan.target, outcome=outcome, labels=labels, why=why),
+            )
+        for command in ruling.refused:
+            self._audit(EFFECT_OF[command.command], order, plan.target, "refused")
+        if order.queue and ruling.begins != "now":
+            self._audit(Effect.BEGIN, order, plan.target, "asked" if outcome == "asked" else "refused")
+
+    def _audit(
+        self, effect: Effect, order: ChatAction, target: str, outcome: Literal["asked", "refused"]
+    ) -> None:
+        self.publish(
+            topics.AUDIT,
+            AuditEvent(effect=effect, by=order.by, robot=target, outcome=outcome, words=order.words),
+        )
 
     # -- decisions -------------------------------------------------------------------------------------
 
     def _on_decision(self, decision: PlanDecision) -> None:
         target = self._presence.resolve(decision.target) or decision.target
-        if decision.decision == "policy":
+        if verdict(decision.by, DECIDES[decision.decision]) != "allow":
+            problem = Problem("by", "only a person decides that", "let a person say it", "not_a_person")
+            self._refuse(topics.PLAN_DECISION.name, target, [problem])
+            self.publish(
+                topics.AUDIT,
+                AuditEvent(
+                    effect=DECIDES[decision.decision], by=decision.by, robot=target, outcome="refused"
+                ),
+            )
+        elif decision.decision == "policy":
             self._set_policy(target, decision.policy)
         elif decision.decision == "edit" and not decision.id:
             self._edit(target, decision)
         else:
-            self._decide(decision)
+            self._decide(target, decision)
 
-    def _decide(self, decision: PlanDecision) -> None:
+    def _decide(self, target: str, decision: PlanDecision) -> None:
         proposal = self._approvals.get(decision.id)
-        if proposal is None:
+        if proposal is None or proposal.target != target:
             self._say(decision.target, "That plan is no longer waiting for an answer.", "error")
             return
         plan, repairs = self._plan(proposal.target), self._approvals.repairs(decision.id)
         if decision.decision == "reject":
             self._approvals.drop(decision.id)
             self._send(plan, plan.give_up() if repairs else [])
-            self._say(plan.target, orders.WAITING if repairs else REFUSED, "info")
+            self._say(plan.target, orders.WAITING if plan.held else REFUSED, "info")
             return
+        shown = decision.digest or (proposal.digest if decision.decision == "edit" else "")
+        if shown != proposal.digest or self._digest(proposal) != proposal.digest:
+            self._show_again(plan, proposal)
+            return
+        edited = decision.decision == "edit"
         calls: list[ActionCall] | None = list(proposal.steps)
-        if decision.decision == "edit":
+        if edited:
             calls, problems = rebased(decision.steps, proposal.steps)
             if problems:
                 self._refuse_plan(plan, problems, decided=True)
                 return
-        edited = decision.decision == "edit"
         calls = self._accept(plan, calls or (), correcting=repairs, decided=edited)
         if calls is None:
             return  # it goes on waiting, for a better edit
-        agreed = CHANGED if edited else self._approvals.agreed(decision.id)
+        bound = self._approvals.bound(decision.id)
         self._approvals.drop(decision.id)
-        if agreed:
-            self._say(plan.target, agreed, "info")
+        self._say(plan.target, CHANGED if edited else begun(proposal.labels), "info")
+        self._held_by.pop(plan.target, None)
+        for command, step in bound:
+            self._change(plan, command, step, decision)
         if repairs:
             self._send(plan, orders.take_repair(plan, calls))
-        else:
+        elif calls:
             self._append(plan, calls)
+            if plan.update().state == "paused":  # whoever says yes to steps wants them done
+                self._send(plan, plan.start())
+        else:
+            self._send(plan, [])
+
+    def _digest(self, proposal: PlanProposal) -> str:
+        return digest_of(proposal.target, proposal.steps, proposal.commands, self._objects(proposal.target))
+
+    def _show_again(self, plan: TargetPlan, proposal: PlanProposal) -> None:
+        """Something else was agreed to than what waits, or it would mean something else by now."""
+        self._approvals.drop(proposal.id)
+        renewed = proposal.model_copy(
+            update={"digest": self._digest(proposal), "labels": self._labels(plan, proposal.steps)}
+        )
+        if proposal.commands:
+            self._say(plan.target, orders.PLAN_CHANGED, "error")
+            self._send(plan, [])
+            return
+        shown = self._approvals.propose(renewed, self._presence.get(plan.target))
+        self.publish(topics.PLAN, shown)
+        self._send(plan, [])
+        self._say(plan.target, together(orders.NOT_AS_SHOWN, wish_of(shown.labels), SHALL_I), "info")
+
+    def _change(
+        self, plan: TargetPlan, command: SystemCommand, step: Step | None, decision: PlanDecision
+    ) -> None:
+        """Do what a person said yes to, to the step that was meant."""
+        if change := memory_change(command):
+            self._remember(ChatAction(system_cmd=(command,), by=decision.by), [plan.target])
+            assert not isinstance(change, Problem)
+        elif command.command in ("pop", "skip"):
+            if step in plan.pending:
+                self._send(plan, plan.pop(plan.pending.index(step)))
+            else:
+                self._say(plan.target, orders.STEP_OVER, "info")
+        else:
+            self._send(plan, self._command(plan, command, decision.by))
 
     def _edit(self, target: str, decision: PlanDecision) -> None:
         """Put other steps in the place of all that have not begun; whoever edits has said yes to them."""
@@ -177,18 +315,41 @@ class UmrfPlanner(RobotPlans):
     def _propose(
         self,
         plan: TargetPlan,
-        message: str,
+        order: ChatAction,
         calls: Sequence[ActionCall],
-        repairs: Step | None = None,
+        commands: Sequence[SystemCommand] = (),
         *,
-        announced: bool = False,
+        repairs: Step | None = None,
     ) -> None:
-        status = self._presence.get(plan.target)
-        proposal = self._approvals.propose(
-            plan.target, message, calls, status, repairs=repairs, announced=announced
+        """Let steps and changes wait for a yes to what they really are."""
+        target, pending = plan.target, plan.pending
+        commands = [*orders.forgetting(order), *commands]
+        bound: list[Bound] = []
+        for command in commands:
+            index = command.pop_index if command.command == "pop" else None
+            known = index is not None and 0 <= index < len(pending)
+            step = pending[index] if known and index is not None else None
+            bound.append((command, plan.current if command.command == "skip" else step))
+        about = self._labels(plan, [step.call for _, step in bound if step is not None])
+        texts = iter(about)
+        changes = [command_label(command, next(texts) if step is not None else "") for command, step in bound]
+        proposal = PlanProposal(
+            id="new",
+            target=target,
+            message=order.message_response,
+            steps=tuple(calls),
+            commands=tuple(commands),
+            labels=tuple(map(self.spoken, (*changes, *self._labels(plan, calls)))),
+            digest=digest_of(target, calls, commands, self._objects(target)),
+            by=order.by,
+            why=order.needs_yes,
         )
+        proposal = self._approvals.propose(proposal, self._presence.get(target), repairs=repairs, bound=bound)
         self.publish(topics.PLAN, proposal)
         self._send(plan, [])
+
+    def _labels(self, plan: TargetPlan, calls: Sequence[ActionCall]) -> Labels:
+        return labels_of(calls, self._catalogue(plan.target), self._objects(plan.target))
 
     def _append(self, plan: TargetPlan, calls: Sequence[ActionCall]) -> None:
         still = plan.update().state == "paused"
@@ -196,28 +357,27 @@ class UmrfPlanner(RobotPlans):
         if calls and still and plan.update().state == "paused":
             self._say(plan.target, "I am still standing still. Say “carry on” when I should go on.", "info")
 
-    def _approve(self, plan: TargetPlan) -> list[Effect]:
-        """The operator said to go ahead, and nothing else can be meant than what waits for approval."""
-        repair = self._approvals.repair(plan.target)
-        if repair is not None:
-            self._approvals.drop(repair.id)
-            return orders.take_repair(plan, repair.steps)
-        effects: list[Effect] = []
-        for proposal in [] if plan.pending else self._approvals.of(plan.target):
-            self._approvals.drop(proposal.id)
-            effects += plan.append(proposal.steps)
-        return effects
-
-    def _command(self, plan: TargetPlan, command: SystemCommand) -> list[Effect]:
+    def _command(self, plan: TargetPlan, command: SystemCommand, by: Principal | None) -> list[PlanEffect]:
         match command.command:
             case "stop" | "pause":
-                return [*self._left.pause(plan.target), *plan.pause()]
+                left = self._left.pause(plan.target)
+                if plan.pending or left:
+                    self._hold_for(plan, by)
+                return [*left, *plan.pause()]
             case "start":
                 left = [] if plan.pending else self._left.go_on(plan.target)
-                return self._approve(plan) or left or plan.start()
+                waiting = self._approvals.of(plan.target)
+                repairs = any(self._approvals.repairs(proposal.id) for proposal in waiting)
+                if waiting and (
+                    repairs or not plan.pending
+                ):  # a yes is bound to what was shown, going on is not
+                    return [Say(together(wish_of(waiting[-1].labels), SHALL_I))]
+                self._held_by.pop(plan.target, None)
+                return left or plan.start()
             case "clear":
                 for proposal in self._approvals.of(plan.target):
                     self._approvals.drop(proposal.id)
+                self._held_by.pop(plan.target, None)
                 return [*self._left.stop(plan.target), *plan.clear()]
             case "skip":
                 return plan.skip()
@@ -225,8 +385,22 @@ class UmrfPlanner(RobotPlans):
                 return plan.pop(command.pop_index)
         return []  # memories are everybody's, see _remember
 
-    def _remember(self, commands: Sequence[SystemCommand], targets: Sequence[str]) -> None:
-        for command in commands:
+    def _hold_for(self, plan: TargetPlan, by: Principal | None) -> None:
+        """Remember who told a robot to stand still; a person's word counts before anybody else's."""
+        before = self._held_by.get(plan.target)
+        if before is None or not before.is_person:
+            self._held_by[plan.target] = by or Principal()
+
+    def _remember(self, order: ChatAction, targets: Sequence[str]) -> None:
+        for command in orders.of_memory(order):
+            effect = EFFECT_OF[command.command]
+            found = verdict(order.by, effect)
+            if found == "yes" and order.behalf is not None and not order.needs_yes:
+                found = "allow"  # the person's own words ask for it
+            if found != "allow":
+                if not order.needs_yes:
+                    self._audit(effect, order, ",".join(targets), "refused")
+                continue
             match memory_change(command):
                 case AddToMemory() as added:
                     self.publish(topics.ADD_TO_MEMORY, added)
@@ -270,6 +444,14 @@ class UmrfPlanner(RobotPlans):
 
     # -- reports ---------------------------------------------------------------------------------------
 
+    def _on_emergency(self, command: StopCommand) -> None:
+        """Whoever stops a robot holds its plan: only a person lets it go on after the reset."""
+        for name in command.targets or tuple(self._plans) if command.command == "stop" else ():
+            plan = self._plan(self._presence.resolve(name) or name)
+            if plan.pending:
+                self._hold_for(plan, command.by or person())
+                self._send(plan, [])
+
     def _on_feedback(self, feedback: ros.UmrfGraphFeedback) -> None:
         plan = self._plans.get(feedback.actor)
         if plan is None:
@@ -303,9 +485,6 @@ class UmrfPlanner(RobotPlans):
         self._questions.on_input(said)
         for target in answered:
             self._note_question(target)
-            plan = self._plans.get(target)
-            if plan is not None and plan.held:
-                self._answered.add(target)
 
     def _note_question(self, target: str) -> None:
         plan = self._plans.get(target)

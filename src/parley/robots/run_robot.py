@@ -86,6 +86,10 @@ class RunRobot:
         def end() -> None:
             loop.call_soon_threadsafe(drive.cancel)
 
+        def stand() -> None:
+            self._robot.drive(Velocity())  # at once, not when the drive looks next
+
+        motion.on_paused.append(stand)
         forget = motion.on_revoked(end)
         try:
             return await drive
@@ -95,6 +99,7 @@ class RunRobot:
                 self._check()
             raise
         finally:
+            motion.on_paused.remove(stand)
             forget()
 
     def halt(self) -> None:

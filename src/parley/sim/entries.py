@@ -20,7 +20,7 @@ from pydantic import (
 from parley.files import validated
 from parley.sim.robot_model import PRESETS, RobotModel
 from parley.sim.solids import Shape, Solid
-from parley.world.geometry import Pose2D
+from parley.world.geometry import Extent, Metres, Pose2D
 
 __all__ = [
     "Colour",
@@ -53,10 +53,10 @@ def _preset(value: Any) -> Any:
 Colour = Annotated[str, AfterValidator(_check_colour)]
 """A CSS colour name or ``#rrggbb``."""
 Name = Annotated[str, Field(min_length=1, max_length=80)]
-Point = tuple[float, float]
-PoseTuple = tuple[float, float, float]
+Point = tuple[Metres, Metres]
+PoseTuple = tuple[Metres, Metres, float]
 """x_m, y_m, yaw_rad."""
-Positive = Annotated[float, Field(gt=0)]
+Positive = Annotated[Extent, Field(gt=0)]
 
 
 class Entry(BaseModel):
@@ -68,7 +68,7 @@ class Entry(BaseModel):
 class Doorway(Entry):
     """A gap in a wall."""
 
-    at_m: float = Field(ge=0)
+    at_m: Extent
     """Distance of its middle from the wall's start."""
     width_m: Positive = 0.9
 
@@ -111,7 +111,7 @@ class Part(Entry):
     shape: Shape = "box"
     size_m: tuple[Positive, Positive, Positive]
     """Full extents along its own x, y and z (a cylinder: diameter, diameter, height)."""
-    at_m: tuple[float, float, float] = (0.0, 0.0, 0.0)
+    at_m: tuple[Metres, Metres, Metres] = (0.0, 0.0, 0.0)
     """Where the middle of its underside is, in the thing's frame."""
     yaw_rad: float = 0.0
     colour: Colour = "gray"
@@ -137,7 +137,7 @@ class Thing(Entry):
     """What a detector calls it when it sees it; default: the description."""
     pose: PoseTuple
     """In the map frame, or in the frame of the thing that it stands in (`inside`)."""
-    z_m: float = Field(default=0.0, ge=0)
+    z_m: Extent = 0.0
     """Height of its underside above the floor."""
     inside: Name | None = None
     """The thing it stands in or on; it moves and disappears with that."""

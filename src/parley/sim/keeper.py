@@ -32,15 +32,17 @@ class Keeper:
         self._clock, self._pace_s, self._moving, self._step = clock, pace_s, moving, step
         self._closed, self._answered = threading.Event(), threading.Event()
         self._loop: asyncio.AbstractEventLoop | None = None
+        self._thread = threading.Thread(target=self._watch, name="simulator keeper", daemon=True)
 
     def open(self) -> None:
         """Begin; on the loop that is watched."""
         self._loop = asyncio.get_running_loop()
-        threading.Thread(target=self._watch, name="simulator keeper", daemon=True).start()
+        self._thread.start()
 
-    def close(self) -> None:
-        """End. Idempotent."""
+    async def close(self) -> None:
+        """End."""
         self._closed.set()
+        await asyncio.to_thread(self._thread.join)
 
     def _watch(self) -> None:
         assert self._loop is not None

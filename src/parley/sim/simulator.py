@@ -137,7 +137,7 @@ class Simulator:
     async def __aexit__(self, *exc: object) -> None:
         assert self._task is not None and self._drawing is not None
         if self._keeper is not None:
-            self._keeper.close()
+            await self._keeper.close()
         task, self._task = self._task, None
         task.cancel()
         try:
@@ -179,6 +179,11 @@ class Simulator:
         )
         base.commanded_at_s = self._clock.now_s() + self._ahead_s
         self._wake()
+
+    def commanded(self, robot: str) -> tuple[float, float]:
+        """At which speed (m/s) and turning rate (rad/s) the robot's drive is told to move now."""
+        base = self._bases[robot]
+        return (0.0, 0.0) if base.stopped else base.command
 
     def set_stopped(self, robot: str, stopped: bool) -> None:
         """Hold the robot's drive at zero, whatever is commanded, until it is let go again."""

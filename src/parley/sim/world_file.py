@@ -22,7 +22,7 @@ from __future__ import annotations
 
 import math
 from collections.abc import Mapping
-from typing import Any, Self
+from typing import Any, Final, Self
 
 from pydantic import Field
 
@@ -33,6 +33,10 @@ from parley.world.geometry import Pose2D
 from parley.world.object_map import MapObject, ObjectMap
 
 __all__ = ["RobotEntry", "Thing", "WorldChanges", "WorldFile"]
+
+
+_MAX_AREA_M2: Final = 100_000
+_MAX_INSIDE: Final = 50
 
 
 class WorldFile(Entry, TextFile):
@@ -175,7 +179,26 @@ class WorldFile(Entry, TextFile):
         self._check_unique(file)
         self._check_walls(file)
         self._check_holders(file)
+        self._check_extent(file)
         return self
+
+    def _check_extent(self, file: str) -> None:
+        """The map of a world is drawn in cells."""
+        solids = [(f"walls[{at}]", each) for at, wall in enumerate(self.walls) for each in wall.solids()]
+        for at, thing in enumerate(self.things):
+            solids += [(f"things[{at}]", each) for each in thing.solids(self.base_of(thing))]
+        x_min = y_min = math.inf
+        x_max = y_max = -math.inf
+        for field, solid in solids:
+            low_x, low_y, high_x, high_y = solid.extent_m()
+            x_min, y_min, x_max, y_max = (
+                min(x_min, low_x),
+                min(y_min, low_y),
+                max(x_max, high_x),
+                max(y_max, high_y),
+            )
+            if (x_max - x_min) * (y_max - y_min) > _MAX_AREA_M2:
+                raise FileFormatError(file, field, f"the world is larger than {_MAX_AREA_M2:,} square metres")
 
     def _check_unique(self, file: str) -> None:
         seen: set[str] = set()
@@ -200,6 +223,9 @@ class WorldFile(Entry, TextFile):
         for index, thing in enumerate(self.things):
             chain = [thing.name]
             while (holder := holders[chain[-1]]) is not None:
+                if len(chain) > _MAX_INSIDE:
+                    problem = f"stands inside more than {_MAX_INSIDE} other things"
+                    raise FileFormatError(file, f"things[{index}].inside", problem)
                 if holder not in holders or holder in chain:
                     problem = "contains itself" if holder in chain else "is not a thing of this world"
                     raise FileFormatError(file, f"things[{index}].inside", f"{holder!r} {problem}")

@@ -242,7 +242,7 @@ class TerminalClient:
         )
         self._link.send(message)
         if command == "stop":
-            self._view.note_own_stop(message.id)
+            self._view.note_own_stop(message.id, message.targets)
             self._note("stop_sent_all" if is_for_all else "stop_sent", robot=self._view.selected)
 
     def _robots(self, _: str) -> None:

@@ -28,6 +28,8 @@ _KINDS: dict[str, LineKind] = {"response": "said", "info": "said", "request": "a
 
 _DRAFT_CHARS = 70
 
+ANSWERS_WITHIN_S = 2.0
+"""Wall time in which a robot that is told to stop says that it was."""
 LOST_AFTER_S = 5.0
 """Wall time without a heartbeat after which a robot counts as out of contact."""
 
@@ -103,6 +105,8 @@ class OperatorView:
         self.replies = 0
         """Counts what robots said, so that a reader of prepared lines can wait for an answer."""
         self._own_stops: set[str] = set()
+        self._silent_s: dict[str, float | None] = {}
+        """Robots that have not answered a stop -> since when, in wall time."""
 
     @property
     def here(self) -> list[RobotView]:
@@ -121,9 +125,10 @@ class OperatorView:
             self.selected = found.name
         return found
 
-    def note_own_stop(self, stop_id: str) -> None:
-        """Remember a stop command of this operator, who was told about it already."""
+    def note_own_stop(self, stop_id: str, targets: Sequence[str] = ()) -> None:
+        """Remember a stop command of this operator, who was told about it already; no targets means all."""
         self._own_stops.add(stop_id)
+        self._silent_s |= dict.fromkeys(targets or [robot.name for robot in self.here])
 
     def on_feedback(self, feedback: ChatFeedback) -> list[Line]:
         """A robot speaks."""
@@ -195,11 +200,18 @@ class OperatorView:
             if not robot.is_lost and now_s - robot.seen_s > LOST_AFTER_S:
                 robot.is_lost = True
                 lines.append(Line("problem", self.texts("lost", robot=robot.name)))
+        for name, since_s in list(self._silent_s.items()):
+            if since_s is None:
+                self._silent_s[name] = now_s
+            elif now_s - since_s > ANSWERS_WITHIN_S:
+                del self._silent_s[name]
+                lines.append(Line("problem", self.texts("stop_silent", robot=name)))
         return lines
 
     def on_stop_report(self, report: StopReport) -> list[Line]:
         """A robot says what became of an emergency stop."""
         robot = self._robot(report.actor)
+        self._silent_s.pop(report.actor, None)
         if report.state != "reset":
             robot.state = "stopped"
         elif robot.state == "stopped":

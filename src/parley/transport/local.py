@@ -50,8 +50,6 @@ class _LocalSubscription(Generic[M]):
         self._queue: deque[M] = deque(maxlen=None if topic.qos.keep_all else depth)
         self._arrived = asyncio.Event()
         self._dropped = 0
-        self._is_dropping = False
-        """Since the queue was empty last."""
         self._task: asyncio.Task[None] | None = asyncio.create_task(self._run(), name=f"sub {topic.name}")
 
     @property
@@ -60,10 +58,14 @@ class _LocalSubscription(Generic[M]):
 
     def put(self, message: M) -> None:
         if len(self._queue) == self._queue.maxlen:
-            if not self._is_dropping:
-                self._is_dropping = True
-                log.warning("messages are dropped", topic=self._topic.name, depth=self._queue.maxlen)
             self._dropped += 1
+            if self._dropped.bit_count() == 1:  # 1, 2, 4, 8, ...: a flood does not flood the log
+                log.warning(
+                    "messages dropped: more came at once than a subscriber takes",
+                    topic=self._topic.name,
+                    dropped=self._dropped,
+                    depth=self._queue.maxlen,
+                )
         self._queue.append(message)
         self._arrived.set()
 
@@ -73,9 +75,6 @@ class _LocalSubscription(Generic[M]):
             self._arrived.clear()
             while self._queue:
                 await self._handle(self._queue.popleft())
-            if self._is_dropping:
-                self._is_dropping = False
-                log.warning("no messages are dropped any more", topic=self._topic.name, dropped=self._dropped)
 
     async def _handle(self, message: M) -> None:
         try:

@@ -45,6 +45,7 @@ from parley.umrf.signature import (
     resolve_hints,
     strip_optional,
 )
+from parley.umrf.text import clean_text
 
 __all__ = ["Action", "ActionSpec", "Outcome", "RunHandle", "action", "bind_inputs", "outcome_of"]
 
@@ -112,6 +113,8 @@ class ActionSpec:
     outputs: Mapping[str, Parameter]
     description: str = ""
     type: str = "sync"
+    label: str = ""
+    """What people read that it does, with ``{parameters}``; ``{place}`` stands for a pose."""
     phrases: tuple[str, ...] = ()
     effects: tuple[str, ...] = ()
     risk: Risk = "low"
@@ -166,6 +169,7 @@ def action(
     *,
     name: str = "",
     description: str = "",
+    label: str = "",
     phrases: tuple[str, ...] = (),
     effects: tuple[str, ...] = (),
     risk: Risk = "low",
@@ -187,9 +191,9 @@ def action(target: Callable[..., Any] | None = None, /, **options: Any) -> Any:
 
     Args:
         target: The function, when used without brackets.
-        **options: `name` and `description` instead of those of the function; `phrases`, `effects`, `risk`,
-            `capabilities`, `examples`, `duration_s`, `timeout_s`, `isolated`, `pausable` (never so for an
-            isolated one), `type` as in `ActionSpec`; `inputs` and `outputs` (flat name ->
+        **options: `name` and `description` instead of those of the function; `label`, `phrases`, `effects`,
+            `risk`, `capabilities`, `examples`, `duration_s`, `timeout_s`, `isolated`, `pausable` (never so
+            for an isolated one), `type` as in `ActionSpec`; `inputs` and `outputs` (flat name ->
             `Parameter` or PVF type) instead of what the signature says; `units` (flat name -> unit).
 
     Raises:
@@ -275,7 +279,10 @@ def outcome_of(spec: ActionSpec, returned: Any) -> Outcome:
     if returned is None or isinstance(returned, bool):
         return Outcome(result=returned is not False)
     if isinstance(returned, Outcome):
-        result, facts = returned.result, _flat(returned.facts)
+        if not isinstance(returned.result, bool) and str(getattr(returned.result, "dtype", "")) != "bool":
+            text = f"{spec.name} returned {returned.result!r} as its result, which is neither true nor false."
+            raise ActionFailure(FailureCode.INTERNAL, text)
+        result, facts = bool(returned.result), _flat(returned.facts)
         flat = _flat(returned.outputs)
     else:
         result, facts, flat = True, {}, flatten_value(returned)
@@ -296,5 +303,5 @@ def outcome_of(spec: ActionSpec, returned: Any) -> Outcome:
 def _flat(values: Mapping[str, Any]) -> dict[str, Any]:
     flat: dict[str, Any] = {}
     for name, value in values.items():
-        flat |= flatten_value(value, name)
+        flat |= flatten_value(value, clean_text(str(name)))
     return flat

@@ -177,6 +177,7 @@ def _info(spec: ActionSpec) -> ActionInfo:
         optional=tuple(name for name, item in spec.inputs.items() if not item.required or item.has_data),
         outputs={name: parameter.type for name, parameter in spec.outputs.items()},
         description=spec.description,
+        label=spec.label,
         phrases=spec.phrases,
         effects=spec.effects,
         risk=spec.risk,

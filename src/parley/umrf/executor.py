@@ -9,7 +9,7 @@ from __future__ import annotations
 import asyncio
 import functools
 from collections import deque
-from collections.abc import Callable, Iterable, Mapping
+from collections.abc import Callable, Iterable, Iterator, Mapping
 from dataclasses import replace
 from typing import Any, Final
 
@@ -30,6 +30,7 @@ from parley.umrf.reports import failure_lines, stop_timed_out_text
 from parley.umrf.resolve import resolve
 from parley.umrf.rounds import Rounds
 from parley.umrf.saved import Later, SavedRun, load, save_frame, save_node
+from parley.umrf.slices import in_slices
 from parley.umrf.transition import NO_FACTS, Announcer, Observer
 
 __all__ = ["STOP_TIMEOUT_S", "GraphRun"]
@@ -109,8 +110,7 @@ class GraphRun:
         )
         self._rounds = Rounds()
         self._later = Later()
-        self._holding = False
-        self._stop_failed = False
+        self._holding = self._stop_failed = False
         self._rested = asyncio.Event()
 
     # -- commands -------------------------------------------------------------------------------------------
@@ -151,16 +151,15 @@ class GraphRun:
         self._go_on(continue_from, past, "resume")
 
     def stop(self) -> None:
-        """End the run (11.2): what runs is told to stop at once, the graph is STOPPED when all of it has.
-
-        A node that takes longer than the time-out ends in ERROR, and so does the graph.
-        """
+        """End the run (11.2): the graph is STOPPED when all that runs has; else after a time-out in ERROR."""
         if self.state in (GraphState.RUNNING, GraphState.PAUSED, GraphState.HALTED, GraphState.INITIALIZED):
             self._holding = self._stop_failed = False
             self._later.clear()
             self._set_graph(GraphState.STOPPING, "stop")
-        for item in self._active():
-            self._stop_node(item, "stop")
+        active = self._active()
+        for item in active:
+            self._runs[item.name].motion.revoke()  # no drive waits for its turn
+        in_slices(active, lambda item: self._stop_node(item, "stop"))
         self._inner.stop()
         self._settle()
 
@@ -187,6 +186,8 @@ class GraphRun:
         """
         changed, flow, past = self.modified(graph, continue_from)
         self._flow = flow
+        for name, run in self._runs.items():
+            run.item = flow.nodes.get(name, run.item)
         self._graph = replace(changed, description=self._graph.description)
         self._later.keep(flow.nodes)
         self._announce.graph(self.state, "modify", self.result)
@@ -265,8 +266,11 @@ class GraphRun:
         return dict(self._flow.exit_values)
 
     def _active(self) -> list[FlowNode]:
+        return list(self._each_active())
+
+    def _each_active(self) -> Iterator[FlowNode]:
         nodes = self._flow.nodes
-        return [nodes[name] for name in self._runs if name in nodes and nodes[name].active]
+        return (nodes[name] for name in self._runs if name in nodes and nodes[name].active)
 
     def _run_node(self, item: FlowNode, cause: str) -> None:
         """Start a run, unless one is going on: then the trigger is ignored (10.4)."""
@@ -280,7 +284,7 @@ class GraphRun:
             item,
             self._inner,
             self.peers,
-            on_state=lambda state: self._inner_changed(item, state),
+            on_state=lambda state: self._inner_changed(self._flow.nodes[item.name], state),
             actor=self.actor,
             graph_name=self.name,
             clock=self._clock,
@@ -333,13 +337,14 @@ class GraphRun:
         failed: bool = True,
     ) -> None:
         """A node is over; a sub-graph that failed inside leaves its node FINISHED (10.8), so not `failed`."""
+        stood = item.state in _STILL  # it was told to pause and ended all the same: what follows waits (10.3)
         item.outputs = dict(outputs)
         state = NodeState.ERROR if failed and result is Result.ON_ERROR else NodeState.FINISHED
         self._set_node(item, state, cause, result, facts)
         self._hand_over(item, result)
         self._rounds.over(item.name)
         self._next_rounds()
-        self._follow(item.name, result)
+        self._follow(item.name, result, hold=stood)
         self._settle()
 
     def _hand_over(self, item: FlowNode, result: Result) -> None:
@@ -372,9 +377,9 @@ class GraphRun:
 
     # -- what follows ---------------------------------------------------------------------------------------
 
-    def _follow(self, name: str, result: Result) -> None:
+    def _follow(self, name: str, result: Result, *, hold: bool = False) -> None:
         """Propagate the end of a node, or hold it back while a pause is in force."""
-        if self._holding or self.state is GraphState.PAUSED:
+        if hold or self._holding or self.state is GraphState.PAUSED:
             self._later.held.append((name, result))
         elif self.state is GraphState.RUNNING and self._flow.nodes[name].spontaneous:
             # What the last round set off is stopped before this one sets off anything (10.7).
@@ -408,8 +413,10 @@ class GraphRun:
                 return
             item = self._flow.nodes[effect.node]
             match effect.kind:
-                case "run" if item.name != source:  # a node that triggers itself counts as running (10.4)
-                    self._run_node(item, cause)
+                case "run" if item.name != source or item.state is NodeState.ERROR:
+                    self._run_node(
+                        item, cause
+                    )  # who triggers itself counts as running (10.4), unless it failed
                 case "stop":
                     self._stop_node(item, cause)
                 case "pause":
@@ -453,10 +460,11 @@ class GraphRun:
 
     def _settle(self) -> None:
         """Notice that the graph has come to rest: paused, halted or stopped."""
-        if self.state is GraphState.RUNNING and self._holding:
-            if not any(item.state in _MOVING for item in self._active()):
+        going = next(self._each_active(), None) is not None
+        if self.state is GraphState.RUNNING and (self._holding or (self._later.held and not going)):
+            if not any(item.state in _MOVING for item in self._each_active()):
                 self._set_graph(GraphState.PAUSED, "pause")
-        elif self.state not in (GraphState.RUNNING, GraphState.STOPPING) or self._active():
+        elif self.state not in (GraphState.RUNNING, GraphState.STOPPING) or going:
             return
         elif self.state is GraphState.STOPPING:
             if self._stop_failed:
@@ -464,8 +472,7 @@ class GraphRun:
             else:
                 self._set_graph(GraphState.STOPPED, "stop", Result.ON_STOPPED)
         else:
-            reason = self._flow.waiting_for()
-            if reason:
+            if reason := self._flow.waiting_for():
                 log.warning("graph halted", graph=self.name, reason=reason)
             self._set_graph(GraphState.HALTED, "dry", Result.ON_HALTED, reason)
 

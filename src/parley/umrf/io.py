@@ -111,7 +111,9 @@ def _read_extras(raw: Any) -> dict[str, Any]:
             extras[key] = tuple(value)
         elif key in _TIMES and isinstance(value, int | float) and value > 0:
             extras[key] = float(value)
-        elif key == "risk" and value in ("none", "low", "high"):
+        elif (key == "label" and isinstance(value, str)) or (
+            key == "risk" and value in ("none", "low", "high")
+        ):
             extras[key] = value
     return extras
 
@@ -307,6 +309,8 @@ def write_descriptor(spec: ActionSpec) -> str:
     extras = {key: getattr(spec, key) for key in (*_TEXTS, *_TIMES) if getattr(spec, key)}
     if spec.risk != "low":
         extras["risk"] = spec.risk
+    if spec.label:
+        extras["label"] = spec.label
     if extras:
         written[EXTRAS] = extras
     return dump(written)

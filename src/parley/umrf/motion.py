@@ -61,6 +61,8 @@ class Motion:
         self._lock = threading.Lock()
         self._paused = self._revoked = False
         self._on_revoked: list[Callable[[], None]] = []
+        self.on_paused: list[Callable[[], None]] = []
+        """Called at each pause, in any thread, so that nobody needs to look for one."""
 
     def join(self, motions: Motions) -> None:
         """Belong to a robot, whose stops count from now on."""
@@ -83,6 +85,8 @@ class Motion:
     def pause(self) -> None:
         """Not now."""
         self._paused = True
+        for tell in tuple(self.on_paused):
+            tell()
 
     def resume(self) -> None:
         """Go on, as far as no emergency stop came that the graphs do not know of yet."""

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import asyncio
 import inspect
+import math
 import threading
 from collections.abc import Awaitable, Callable, Mapping
 from dataclasses import dataclass, field
@@ -69,7 +70,9 @@ class NodeRun:
         self.motion = Motion(item.name)
         self.restart_wanted = False
         self.last_log = ""
-        self._item, self._on_progress, self._asked = item, on_progress, asked
+        self.item = item
+        """The node; another object once the graph is modified."""
+        self._on_progress, self._asked = on_progress, asked
         self._values = dict(item.values)
         self._loop = asyncio.get_running_loop()
         self._thread = threading.get_ident()
@@ -84,19 +87,19 @@ class NodeRun:
 
     def begin(self, make_context: Callable[[RunHandle], Any], ended: Callable[[NodeRun], None]) -> None:
         """Start; `ended` is called on the loop once it is over, however it ends."""
-        work = self._next_round if self._item.spontaneous else self._call
+        work = self._next_round if self.item.spontaneous else self._call
         self._task = asyncio.create_task(work(make_context), name=f"{self.graph_name}/{self.node}")
         self._task.add_done_callback(lambda _: self._end(ended))
 
     async def _next_round(self, make_context: Callable[[RunHandle], Any]) -> Ended:
-        early_s = self._item.began_s + ROUND_S - self.clock.now_s()
+        early_s = self.item.began_s + ROUND_S - self.clock.now_s()
         if early_s > 0:
             await self.clock.sleep(early_s)
-        self._item.began_s = self.clock.now_s()
+        self.item.began_s = self.clock.now_s()
         return await self._call(make_context)
 
     async def _call(self, make_context: Callable[[RunHandle], Any]) -> Ended:
-        item = self._item
+        item = self.item
         run = item.runner.get()
         arguments = bind_inputs(item.spec, self._values)
         context = make_context(self)
@@ -109,11 +112,13 @@ class NodeRun:
             returned = await self._limited(work)
         except SystemExit as error:  # would end the loop, and with it every robot of this process
             raise RuntimeError(f"it called exit({error.code})") from error
+        except KeyboardInterrupt as error:  # as well; a person's Ctrl-C is told to the loop, not to an action
+            raise RuntimeError("it raised KeyboardInterrupt") from error
         return Ended.of(outcome_of(item.spec, returned))
 
     def _limited(self, work: Awaitable[Any]) -> Awaitable[Any]:
         """`work`, within the action's time-out if it has one."""
-        spec = self._item.spec
+        spec = self.item.spec
         if spec.timeout_s is None:
             return work
         self._time = PausableTime(self.clock)
@@ -155,7 +160,7 @@ class NodeRun:
     @property
     def stands_still(self) -> bool:
         """Whether it honours a pause at once; otherwise it is let finish."""
-        return self._item.spec.pausable
+        return self.item.spec.pausable
 
     def pause(self) -> None:
         """Ask the action to stand still; its drive does so in any case."""
@@ -196,12 +201,14 @@ class NodeRun:
         task = self.task
         task.cancel()
         await asyncio.wait([task], timeout=ABANDON_S)
+        if not task.done():  # nor may it keep the process from ending, which waits for all tasks it knows
+            asyncio.tasks._unregister_task(task)
         return task.done()
 
     def log(self, text: str) -> None:
         """See `RunHandle.log`."""
         self.last_log = clean_text(text)
-        self._item.note(self.last_log, self.clock.unix_ms())
+        self.item.note(self.last_log, self.clock.unix_ms())
 
     def progress(self, fraction: float | None, text: str = "") -> None:
         """See `RunHandle.progress`; what comes too soon waits, and the newest of it is sent."""
@@ -210,7 +217,7 @@ class NodeRun:
             return
         if self._over:
             return
-        self._progress = (fraction, text)
+        self._progress = (_share(fraction), text)
         if self._progress_timer is None:
             self._send_progress()
 
@@ -240,3 +247,12 @@ class NodeRun:
     def result_asked(self) -> bool:
         """See `RunHandle.result_asked`."""
         return self._asked()
+
+
+def _share(told: Any) -> float | None:
+    """What an action says of its progress, as a share from 0 to 1; None if it is no number."""
+    try:
+        share = float(told)
+    except (TypeError, ValueError, OverflowError):
+        return None
+    return None if math.isnan(share) else min(max(share, 0.0), 1.0)

@@ -171,12 +171,12 @@ class RemoteRun(NodeRun):
         self._peers = peers
 
     async def _call(self, make_context: Callable[[RunHandle], Any]) -> Ended:
-        end = await self._peers.end_of(self.graph_name, self._item.node)
+        end = await self._peers.end_of(self.graph_name, self.item.node)
         if end.result is Result.ON_ERROR:
             report = FailureReport.parse(end.message)
             code = report.code if end.message else FailureCode.INTERNAL
             raise ActionFailure(
-                code, report.message or f"{self._item.node.actor} failed at {self.node}.", report.details
+                code, report.message or f"{self.item.node.actor} failed at {self.node}.", report.details
             )
         return Ended(end.result, {name: item.value for name, item in end.outputs.items() if item.has_data})
 

@@ -35,11 +35,20 @@ def failure_text(action: str, error: BaseException) -> str:
         try:
             return FailureReport.of(error).to_text()
         except ValueError:  # its details are not what JSON can hold; the code and the sentence still count
-            return FailureReport(message=clean_text(str(error.message)), code=error.code).to_text()
+            return FailureReport(message=_text_of(error.message), code=error.code).to_text()
     if isinstance(error, asyncio.CancelledError):
         return FailureReport(message=f"{action} was cancelled from inside.").to_text()
-    text = f"{action} failed: {type(error).__name__}: {error}".rstrip(": ")
+    text = f"{action} failed: {type(error).__name__}: {_text_of(error)}".rstrip(": ")
     return FailureReport(message=clean_text(text), code=FailureCode.INTERNAL).to_text()
+
+
+def _text_of(told: object) -> str:
+    """What an action raised, in its own words; it may fail at saying so, too."""
+    try:
+        return clean_text(str(told))
+    except Exception as error:
+        log.exception("an error cannot say why", kind=type(told).__name__)
+        return f"({type(error).__name__} while saying why)"
 
 
 def stop_timed_out_text(action: str, timeout_s: float) -> str:

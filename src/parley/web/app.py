@@ -24,6 +24,7 @@ from parley.web.routes import (
     feeds,
     health,
     incidents,
+    log,
     map,
     memory,
     plans,
@@ -35,7 +36,9 @@ from parley.web.routes import (
 
 __all__ = ["create_api", "create_app", "openapi_text"]
 
-_RESOURCES = (health, session, snapshot, chat, stop, plans, robots, memory, incidents, map, feeds)
+_RESOURCES = (
+    health, session, snapshot, chat, stop, plans, robots, memory, incidents, log, map, feeds,
+)  # fmt: skip
 
 
 def create_api() -> FastAPI:

@@ -132,7 +132,6 @@ class Backend:
             self._stop_line,
             lambda: self.state.robots.views,
             lambda command: _in(loop, lambda: self.link.send(command)),
-            self.link.on_stop,
             self.clock,
             self._at_rest,
         )

@@ -11,9 +11,9 @@ from parley.messages.attendance import Unattended
 
 __all__ = ["MODULES", "Module", "WebConfig"]
 
-Module = Literal["chat", "plan", "display", "map", "memory", "robots", "incidents"]
+Module = Literal["chat", "plan", "display", "map", "memory", "robots", "incidents", "log"]
 
-MODULES: tuple[Module, ...] = ("chat", "plan", "display", "map", "memory", "robots", "incidents")
+MODULES: tuple[Module, ...] = ("chat", "plan", "display", "map", "memory", "robots", "incidents", "log")
 """What can be switched off."""
 
 

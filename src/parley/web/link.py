@@ -116,7 +116,7 @@ class Link:
         await self._listen(topics.GRAPH_EVENTS, _reader(GraphEvent), state.on_event)
         feedback = await self.transport.subscribe(topics.GRAPH_FEEDBACK, self._on_feedback, depth=1000)
         self._stack.push_async_callback(feedback.close)
-        await self._listen(topics.STOP, _reader(StopCommand), self.on_stop)
+        await self._listen(topics.STOP, _reader(StopCommand), self._on_stop)
         await self._listen(
             topics.STOP_REPORT,
             _reader(StopReport),
@@ -236,8 +236,7 @@ class Link:
             echo.set_result(None)
         self._state.chat.on_input(said, unix_ms=self._clock.unix_ms())
 
-    def on_stop(self, command: StopCommand) -> None:
-        """Somebody stopped robots, or released them."""
+    def _on_stop(self, command: StopCommand) -> None:
         self._state.robots.on_stop(command, now_s=self._clock.wall_s(), unix_ms=self._clock.unix_ms())
 
     def _on_memory(self, event: MemoryEvent) -> None:

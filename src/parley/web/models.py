@@ -11,6 +11,7 @@ from typing import Annotated, Any, Literal
 from pydantic import BaseModel, ConfigDict, Field
 
 from parley.messages.attendance import Unattended
+from parley.messages.audit import AuditChain
 from parley.messages.incident import Incident
 from parley.messages.map import MapView
 from parley.messages.status import ActionInfo, PoseInfo
@@ -196,7 +197,7 @@ class ServerInfo(WebModel):
     offline_language: bool
     """Whether it works without a model, which the page says plainly."""
     modules: dict[str, bool] = Field(default_factory=dict)
-    """chat, plan, display, map, memory, robots, incidents: what is switched on."""
+    """chat, plan, display, map, memory, robots, incidents, log: what is switched on."""
     examples: tuple[str, ...] = ()
     """Sentences to begin with."""
     addresses: tuple[str, ...] = ()
@@ -224,6 +225,30 @@ class Snapshot(WebModel):
     feeds: tuple[FeedInfo, ...] = ()
     incidents: tuple[Incident, ...] = ()
     views: tuple[MapView, ...] = ()
+
+
+class LogLine(WebModel):
+    """One entry of the log of who did what."""
+
+    number: int
+    unix_ms: int
+    effect: str
+    outcome: str
+    robot: str = ""
+    text: str
+    """What happened, in one sentence."""
+
+
+class LogPage(WebModel):
+    """Some of the log, newest first."""
+
+    lines: tuple[LogLine, ...] = ()
+    complete: bool = True
+    """Whether nothing older fits."""
+    chain: AuditChain | None = None
+    """What checking found, if it was asked for."""
+    problem: str = ""
+    """Why some of it is not written yet."""
 
 
 class RobotChange(WebModel):

@@ -41,7 +41,6 @@ class Stopper:
         line: Of the engines in this process, if there are any; else the topic has to do.
         robots: Gives what is known of each robot.
         send: Publishes a command, sooner or later; may be called from any thread.
-        note: Told of a reset that took effect, in the thread that asked for it.
         clock: Wall time.
         at_rest: Whether a robot stands, measured now; None: that is not known here.
     """
@@ -51,11 +50,10 @@ class Stopper:
         line: StopLine | None,
         robots: Callable[[], Mapping[str, RobotView]],
         send: Callable[[StopCommand], None],
-        note: Callable[[StopCommand], None],
         clock: Clock,
         at_rest: Callable[[str], bool | None] = lambda _: None,
     ) -> None:
-        self._line, self._robots, self._send, self._note = line, robots, send, note
+        self._line, self._robots, self._send = line, robots, send
         self._clock, self._at_rest = clock, at_rest
         self._held: OrderedDict[str, None] = OrderedDict()
         self._lock = threading.Lock()
@@ -77,13 +75,10 @@ class Stopper:
         """Permit motion again; why not, if it is refused."""
         named = self._named(targets)
         command = StopCommand(command="reset", targets=named, id=id, by=by)
-        if self._line is None:
-            self._send(command)
-            return ""
-        problems = self._line.reset(named, by=by, id=id)
-        if not problems:
-            self._note(command)  # not sent: late, it would release what was stopped meanwhile
-        return "; ".join(problem.message for problem in problems)
+        if self._line is not None and (problems := self._line.reset(named, by=by, id=id)):
+            return "; ".join(problem.message for problem in problems)
+        self._send(command)
+        return ""
 
     def hold(self, targets: Iterable[str], *, by: Principal | None, id: str, words: str) -> None:
         """Let robots stand while a message is read; sent again it holds nobody a second time."""

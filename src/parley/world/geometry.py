@@ -4,8 +4,16 @@ from __future__ import annotations
 
 import math
 from dataclasses import dataclass
+from typing import Annotated
 
-__all__ = ["Pose2D", "wrap_angle"]
+from pydantic import Field
+
+__all__ = ["Extent", "Metres", "Pose2D", "wrap_angle"]
+
+Metres = Annotated[float, Field(ge=-1e6, le=1e6, allow_inf_nan=False)]
+"""A length or place in a file: what lies a thousand kilometres off is a mistake."""
+Extent = Annotated[float, Field(ge=0, le=1e6, allow_inf_nan=False)]
+"""The same, never below nothing."""
 
 
 @dataclass(frozen=True, slots=True)

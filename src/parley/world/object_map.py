@@ -20,6 +20,7 @@ from pydantic import BaseModel, ConfigDict, Field
 
 from parley.errors import FileFormatError
 from parley.files import TextFile, parse_json, validated
+from parley.world.geometry import Extent, Metres
 
 __all__ = ["MapObject", "ObjectMap"]
 
@@ -43,29 +44,29 @@ class MapObject:
 
 
 class _Coordinates(BaseModel):
-    model_config = ConfigDict(extra="ignore")
-    x: float
-    y: float
+    model_config = ConfigDict(extra="ignore", allow_inf_nan=False)
+    x: Metres
+    y: Metres
 
 
 class _Dimensions(BaseModel):
-    model_config = ConfigDict(extra="ignore")
-    height: float = Field(ge=0)
-    width: float = Field(ge=0)
+    model_config = ConfigDict(extra="ignore", allow_inf_nan=False)
+    height: Extent
+    width: Extent
 
 
 class _Item(BaseModel):
-    model_config = ConfigDict(extra="ignore")
+    model_config = ConfigDict(extra="ignore", allow_inf_nan=False)
     id: str = Field(min_length=1, coerce_numbers_to_str=True)
     description: str = Field(min_length=1)
     coordinates: _Coordinates
     dimensions: _Dimensions
     aliases: list[str] = Field(default_factory=list)
-    front: float | None = Field(default=None, allow_inf_nan=False)
+    front: float | None = Field(default=None)
 
 
 class _File(BaseModel):
-    model_config = ConfigDict(extra="ignore")
+    model_config = ConfigDict(extra="ignore", allow_inf_nan=False)
     classes: list[str]
     items: dict[str, list[_Item]]
 

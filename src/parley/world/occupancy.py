@@ -7,9 +7,11 @@ nav_msgs/OccupancyGrid; pictures have their first row at the highest y, so readi
 from __future__ import annotations
 
 import math
+import struct
+import zlib
 from dataclasses import dataclass
 from pathlib import Path
-from typing import Literal
+from typing import Final, Literal
 
 import numpy as np
 import yaml
@@ -19,20 +21,25 @@ from pydantic import BaseModel, ConfigDict, Field
 
 from parley.errors import FileFormatError
 from parley.files import parse_yaml, read_text, validated
+from parley.world.geometry import Metres
 
-__all__ = ["FREE", "OCCUPIED", "UNKNOWN", "OccupancyMap"]
+__all__ = ["FREE", "MAX_CELLS", "OCCUPIED", "UNKNOWN", "OccupancyMap"]
 
 FREE, OCCUPIED, UNKNOWN = 0, 100, -1
 """The values of a cell, those of nav_msgs/OccupancyGrid."""
+
+MAX_CELLS: Final = 50_000_000
+"""Of one map: 350 m square in cells of 5 cm."""
+_FORMATS: Final = ("PPM", "PNG", "BMP", "JPEG", "TIFF", "GIF")
 
 _FREE_PIXEL, _OCCUPIED_PIXEL, _UNKNOWN_PIXEL = 254, 0, 205
 
 
 class _Header(BaseModel):
-    model_config = ConfigDict(extra="ignore")
+    model_config = ConfigDict(extra="ignore", allow_inf_nan=False)
     image: str = Field(min_length=1)
-    resolution: float = Field(gt=0, allow_inf_nan=False)
-    origin: tuple[float, float, float]
+    resolution: float = Field(ge=0.001, le=100)
+    origin: tuple[Metres, Metres, float]
     negate: Literal[0, 1] = 0
     occupied_thresh: float = Field(default=0.65, ge=0, le=1)
     free_thresh: float = Field(default=0.196, ge=0, le=1)
@@ -148,6 +155,8 @@ class OccupancyMap:
         header = _read_header(path)
         if header.origin[2] != 0.0:
             raise FileFormatError(path.name, "origin[2]", "turned maps are not supported: yaw must be 0")
+        if header.free_thresh > header.occupied_thresh:
+            raise FileFormatError(path.name, "free_thresh", "must not be above occupied_thresh")
         pixels = _read_pixels(path, header)
         return cls(
             _to_cells(pixels, header), header.resolution, header.origin[0], header.origin[1], path.stem
@@ -159,26 +168,34 @@ def _read_header(path: Path) -> _Header:
 
 
 def _read_pixels(path: Path, header: _Header) -> NDArray[np.uint8]:
+    def refused(problem: str) -> FileFormatError:
+        return FileFormatError(path.name, "image", f"{header.image!r} {problem}")
+
+    picture = path.parent / header.image
     try:
-        with Image.open(path.parent / header.image) as image:
+        if not picture.is_file():
+            raise refused("is no file")
+        with Image.open(picture, formats=_FORMATS) as image:
             if image.mode not in {"1", "L", "LA", "P", "RGB", "RGBA"}:
                 raise FileFormatError(header.image, "", f"must have 8 bits a pixel, not mode {image.mode}")
+            if image.width * image.height > MAX_CELLS:
+                raise refused(f"has more than {MAX_CELLS // 1_000_000} million pixels")
             return np.asarray(image.convert("L"))
     except UnidentifiedImageError as error:
-        raise FileFormatError(
-            path.name, "image", f"{header.image} is not a picture that can be read"
-        ) from error
-    except OSError as error:
-        raise FileFormatError(path.name, "image", f"{header.image} cannot be read: {error}") from error
+        raise refused("is not a picture that can be read") from error
+    except (Image.DecompressionBombError, Image.DecompressionBombWarning) as error:
+        raise refused(f"has more than {MAX_CELLS // 1_000_000} million pixels") from error
+    except (OSError, SyntaxError, ValueError, OverflowError, struct.error, zlib.error) as error:
+        raise refused(f"cannot be read: {error}") from error
 
 
 def _to_cells(pixels: NDArray[np.uint8], header: _Header) -> NDArray[np.int8]:
-    pixels = pixels[::-1]
+    grey = np.arange(256)
     if header.mode == "raw":
-        shade = np.where(pixels <= 100, pixels / 100.0, np.nan)
+        shade = np.where(grey <= 100, grey / 100.0, np.nan)
     else:
-        shade = (pixels if header.negate else 255 - pixels) / 255.0
-    cells = np.full(pixels.shape, UNKNOWN, dtype=np.int8)
-    cells[shade < header.free_thresh] = FREE
-    cells[shade > header.occupied_thresh] = OCCUPIED
-    return cells
+        shade = (grey if header.negate else 255 - grey) / 255.0
+    meaning = np.full(256, UNKNOWN, dtype=np.int8)
+    meaning[shade < header.free_thresh] = FREE
+    meaning[shade > header.occupied_thresh] = OCCUPIED
+    return np.asarray(meaning[pixels[::-1]])

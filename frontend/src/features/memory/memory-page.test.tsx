@@ -17,7 +17,7 @@ beforeEach(() => {
   asked.length = 0;
   const items = [memory({ name: 'box_place' }), memory({ name: 'door', scope: 'Ada', data: 'The door is open.' })];
   const before = [memory({ name: 'box_place', data: 'The box is in the hall.' })];
-  vi.stubGlobal('fetch', network({ memory: { json: items }, 'memory/box_place/history': { json: before } }, asked));
+  vi.stubGlobal('fetch', network({ memory: { json: items }, 'memory/history?name=box_place&scope=': { json: before } }, asked));
   useLive.getState().takeSnapshot(snapshot({ robots: [robot({ name: 'Ada' })] }));
 });
 
@@ -31,12 +31,12 @@ describe('the memory page', () => {
   it('forgets for one robot only what only it knew, and brings it back', async () => {
     const user = await show();
     await user.click(screen.getByRole('button', { name: 'Forget “Door”' }));
-    await vi.waitFor(() => expect(changes()).toMatchObject([{ method: 'DELETE', path: 'memory/door?scope=Ada' }]));
+    await vi.waitFor(() => expect(changes()).toMatchObject([{ method: 'DELETE', path: 'memory?name=door&scope=Ada' }]));
     act(() => useToasts.getState().toasts[0]?.action?.run());
     await vi.waitFor(() =>
       expect(changes()[1]).toMatchObject({
         method: 'PUT',
-        path: 'memory/door',
+        path: 'memory?name=door',
         body: { data: 'The door is open.', scope: 'Ada' },
       }),
     );
@@ -49,7 +49,7 @@ describe('the memory page', () => {
     await user.clear(box);
     await user.type(box, 'The box is gone.');
     await user.click(screen.getByRole('button', { name: 'Save' }));
-    await vi.waitFor(() => expect(changes()).toMatchObject([{ path: 'memory/box_place', body: { data: 'The box is gone.' } }]));
+    await vi.waitFor(() => expect(changes()).toMatchObject([{ path: 'memory?name=box_place', body: { data: 'The box is gone.' } }]));
   });
 
   it('adds something without asking for a name', async () => {
@@ -57,7 +57,7 @@ describe('the memory page', () => {
     await user.click(screen.getByRole('button', { name: 'Add' }));
     await user.type(screen.getByRole('textbox', { name: 'What should be remembered?' }), 'Kim likes tea.');
     await user.click(screen.getByRole('button', { name: 'Save' }));
-    await vi.waitFor(() => expect(changes()).toMatchObject([{ path: 'memory/kim_likes_tea', body: { data: 'Kim likes tea.', scope: '' } }]));
+    await vi.waitFor(() => expect(changes()).toMatchObject([{ path: 'memory?name=kim_likes_tea', body: { data: 'Kim likes tea.', scope: '' } }]));
   });
 
   it('shows what was there before, to be used again', async () => {
@@ -65,7 +65,7 @@ describe('the memory page', () => {
     await user.click(screen.getByRole('button', { name: 'What “Box place” was before' }));
     await screen.findByText('The box is in the hall.');
     await user.click(screen.getByRole('button', { name: 'Use this again' }));
-    await vi.waitFor(() => expect(changes()).toMatchObject([{ path: 'memory/box_place', body: { data: 'The box is in the hall.' } }]));
+    await vi.waitFor(() => expect(changes()).toMatchObject([{ path: 'memory?name=box_place', body: { data: 'The box is in the hall.' } }]));
   });
 
   it('asks again when memories change elsewhere', async () => {

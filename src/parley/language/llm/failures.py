@@ -18,6 +18,7 @@ from pydantic_ai.exceptions import (
 )
 
 from parley.errors import LanguageError
+from parley.language.llm.bounded import AnswerTooLongError
 
 __all__ = ["DeclinedError", "ModelFailedError", "UnusableError", "sorted_failure"]
 
@@ -62,6 +63,9 @@ def sorted_failure(error: Exception, text: str) -> LanguageError:
         error: What was raised.
         text: Its text, without secrets.
     """
+    if (too_long := _too_long(error)) is not None:
+        told = text if str(too_long) in text else f"{text}: {too_long}"
+        return UnusableError(told, plain="My language service gave an answer that is too long.")
     if isinstance(error, ContentFilterError):
         return DeclinedError(text, plain="My language service declined to answer that.")
     if isinstance(error, OutputTokenLimitExceeded):
@@ -71,6 +75,13 @@ def sorted_failure(error: Exception, text: str) -> LanguageError:
     if isinstance(error, UnexpectedModelBehavior | AgentRunError):
         return UnusableError(text, plain="My language service gave no answer that I can use.")
     return ModelFailedError(text, plain="My language service gave no answer that I can read.")
+
+
+def _too_long(error: BaseException | None) -> AnswerTooLongError | None:
+    """What lies behind the errors of the libraries, if it is that."""
+    while error is not None and not isinstance(error, AnswerTooLongError):
+        error = error.__cause__ or error.__context__
+    return error
 
 
 def _failed(error: ModelAPIError, text: str) -> ModelFailedError:

@@ -4,18 +4,23 @@ from __future__ import annotations
 
 import os
 import warnings
+from collections.abc import Callable
 from dataclasses import dataclass
 from pathlib import Path
 from typing import Any, Final
 
+import structlog
 from pydantic_ai.exceptions import UserError
 from pydantic_ai.models import Model, infer_model
 from pydantic_ai.providers import Provider, infer_provider_class
 
 from parley.errors import ConfigError
 from parley.files import read_text
+from parley.language.llm.bounded import BoundedModel, bounded_client
 
 __all__ = ["ModelSpec", "make_model", "read_key"]
+
+log = structlog.get_logger(__name__)
 
 LOCAL_SERVERS: Final = {
     "ollama": "http://localhost:11434/v1",
@@ -92,7 +97,9 @@ def make_model(spec: ModelSpec, key: str) -> Model[Any]:
                 # A key from the environment goes to nobody but the provider it is named after.
                 named = os.environ.get("OPENAI_API_KEY", "") if spec.provider == "openai" else ""
                 return _compatible(spec, key or named or _NO_KEY)
-            return infer_model(spec.name, lambda provider: _provider(provider, spec, key))
+            given: list[Any] = []
+            model = infer_model(spec.name, lambda name: _provider(name, spec, key, given))
+            return BoundedModel(model, given[0]) if given else model
     except ImportError as error:
         raise ConfigError(
             f"{spec.provider} models need a library: pip install '{_library(spec.provider)}'"
@@ -108,18 +115,28 @@ def _library(provider: str) -> str:
     return f"parley-hri[{provider}]" if provider in _OWN_EXTRAS else f"pydantic-ai-slim[{provider}]"
 
 
-def _provider(name: str, spec: ModelSpec, key: str) -> Provider[Any]:
+def _provider(name: str, spec: ModelSpec, key: str, clients: list[Any]) -> Provider[Any]:
+    """The provider of that name; the client that it was given is added to `clients`."""
+    kind: Callable[..., Provider[Any]] = infer_provider_class(name)
     given: dict[str, Any] = {}
     if key:
         given["api_key"] = key
     if spec.base_url:
         given["base_url"] = spec.base_url
-    return infer_provider_class(name)(**given)
+    client = bounded_client(kind)
+    if client is None:
+        log.warning("answers of this provider are not limited in length", provider=name)
+        return kind(**given)
+    clients.append(client)
+    return kind(**given, http_client=client)
 
 
 def _compatible(spec: ModelSpec, key: str) -> Model[Any]:
     from pydantic_ai.models.openai import OpenAIChatModel
     from pydantic_ai.providers.openai_compatible import OpenAICompatibleProvider
 
-    provider = OpenAICompatibleProvider(spec.provider, base_url=spec.base_url, api_key=key)
-    return OpenAIChatModel(spec.model, provider=provider)
+    client = bounded_client(OpenAICompatibleProvider)
+    provider = OpenAICompatibleProvider(
+        spec.provider, base_url=spec.base_url, api_key=key, http_client=client
+    )
+    return BoundedModel(OpenAIChatModel(spec.model, provider=provider), client)

@@ -7,6 +7,7 @@ from __future__ import annotations
 
 import asyncio
 import contextlib
+import gzip
 import json
 from collections import deque
 from collections.abc import AsyncIterator, Mapping
@@ -30,7 +31,8 @@ class Say:
     answer: Mapping[str, Any] | None = None
     text: str | None = None
     refusal: str | None = None
-    body: str | None = None
+    body: str | bytes | None = None
+    """Bytes are sent as they are, e.g. packed ones."""
     status: int = 200
     headers: Mapping[str, str] = field(default_factory=dict)
     content_type: str = "application/json"
@@ -75,6 +77,8 @@ class ScriptedServer:
     def __init__(self) -> None:
         self.requests: list[Request] = []
         """All that were made, in order."""
+        self.packs = False
+        """Whether answers in one piece are sent gzipped."""
         self._script: deque[Say] = deque()
         self._default: Say | None = None
         self._server: asyncio.Server | None = None
@@ -148,12 +152,15 @@ class ScriptedServer:
             writer.transport.abort()
             return False
         if say.body is not None:
-            await _send(writer, say.status, say.content_type, say.headers, say.body.encode())
+            body = say.body.encode() if isinstance(say.body, str) else say.body
+            await _send(writer, say.status, say.content_type, say.headers, body)
             return True
         if request.body.get("stream"):
             return await _send_stream(writer, _events(say, request), say)
-        text = json.dumps(_completion(say, request))
-        await _send(writer, say.status, say.content_type, say.headers, text.encode())
+        raw, headers = json.dumps(_completion(say, request)).encode(), dict(say.headers)
+        if self.packs:
+            raw, headers["Content-Encoding"] = gzip.compress(raw), "gzip"
+        await _send(writer, say.status, say.content_type, headers, raw)
         return True
 
 

@@ -8,12 +8,14 @@ from fastapi import Depends, Request
 from fastapi.params import Depends as Dependency
 from starlette.types import Scope
 
+from parley.gate.table import Effect, verdict
 from parley.messages.principal import Principal, person
 from parley.web.backend import Backend
 from parley.web.config import Module
+from parley.web.problems import WebProblem
 from parley.web.sessions import Session
 
-__all__ = ["Author", "By", "Web", "module", "principal_of"]
+__all__ = ["Author", "By", "Web", "may", "module", "principal_of"]
 
 
 def _backend(request: Request) -> Backend:
@@ -42,6 +44,16 @@ By = Annotated[Principal, Depends(_by)]
 """On whose account."""
 Web = Annotated[Backend, Depends(_backend)]
 Author = Annotated[str, Depends(_author)]
+
+
+def may(effect: Effect) -> Dependency:
+    """A dependency that refuses whoever may not do this; without roles everybody who is let in may."""
+
+    def check(author: Author) -> None:
+        if verdict(person(author, role="supervisor"), effect) != "allow":
+            raise WebProblem(403, "You may not do that.", "Ask a supervisor.")
+
+    return Dependency(check)
 
 
 def module(name: Module) -> Dependency:

@@ -3,9 +3,9 @@
 from __future__ import annotations
 
 from typing import Annotated, Final
-from urllib.parse import quote
+from urllib.parse import urlencode
 
-from fastapi import APIRouter, Path, Query
+from fastapi import APIRouter, Query
 from starlette.responses import Response
 
 from parley.messages import topics
@@ -31,7 +31,8 @@ router = APIRouter(prefix="/memory", tags=["memory"], dependencies=[module("memo
 MAX_ITEMS: Final = 1000
 MAX_FOUND: Final = 50
 
-Name = Annotated[str, Path(min_length=1, max_length=200)]
+Name = Annotated[str, Query(min_length=1, max_length=200)]
+"""Not in the path: "boxes/left", ".." and "?" are names as well."""
 Scope = Annotated[str, Query(max_length=100)]
 
 
@@ -52,13 +53,13 @@ async def get_memories(
     return [_item(entry) for entry in found[-MAX_ITEMS:]]
 
 
-@router.get("/{name}")
+@router.get("/one")
 async def get_memory(name: Name, web: Web, scope: Scope = "") -> MemoryItem:
     """One memory by its name."""
     return _item(await _get(web, name, scope, pictures=False))
 
 
-@router.get("/{name}/history")
+@router.get("/history")
 async def get_memory_history(name: Name, web: Web, scope: Scope = "") -> list[MemoryItem]:
     """The versions of a memory that were replaced or forgotten, oldest first; pictures are left out."""
     request = GetMemory(request=name, kind="history", scope=scope, pictures=False)
@@ -66,7 +67,7 @@ async def get_memory_history(name: Name, web: Web, scope: Scope = "") -> list[Me
 
 
 @router.get(
-    "/{name}/image",
+    "/image",
     response_class=Response,
     responses={200: {"content": {"image/jpeg": {}, "image/png": {}}}},
 )
@@ -79,7 +80,7 @@ async def get_memory_image(name: Name, web: Web, scope: Scope = "") -> Response:
     return Response(data, media_type=media_type)
 
 
-@router.put("/{name}")
+@router.put("")
 async def put_memory(name: Name, put: MemoryPut, web: Web, author: Author) -> Done:
     """Remember something under a name; what stood there before goes to the history."""
     if put.type == "image":
@@ -95,7 +96,7 @@ async def put_memory(name: Name, put: MemoryPut, web: Web, author: Author) -> Do
     return Done()
 
 
-@router.delete("/{name}")
+@router.delete("")
 async def delete_memory(
     name: Name, web: Web, scope: Annotated[str | None, Query(max_length=100)] = None
 ) -> Done:
@@ -138,12 +139,12 @@ async def _change(web: Backend, message: AddToMemory | RemoveMemory) -> None:
 
 def _item(entry: MemoryEntry) -> MemoryItem:
     is_image = entry.type == "image"
-    query = f"?scope={quote(entry.scope, safe='')}" if entry.scope else ""
+    query = urlencode({"name": entry.name} | ({"scope": entry.scope} if entry.scope else {}))
     return MemoryItem(
         name=entry.name,
         scope=entry.scope,
         type=entry.type,
-        data=f"/api/memory/{quote(entry.name, safe='')}/image{query}" if is_image else entry.data,
+        data=f"/api/memory/image?{query}" if is_image else entry.data,
         info=entry.info,
         source=entry.source,
         created_unix_ms=entry.created_unix_ms,

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Mapping
 from dataclasses import dataclass
-from functools import cache
+from functools import cache, lru_cache
 from typing import Any
 
 from parley.language.offline.words.lexicon import PhraseTable, lexicon
@@ -100,7 +100,7 @@ def _verbs() -> frozenset[str]:
     return known | frozenset(listed - closed - small().prepositions - small().adverbs - {"not"})
 
 
-@cache
+@lru_cache(maxsize=8192)
 def base(word: str) -> str:
     """The base form of a verb; the word itself if it is none that is known."""
     return lemma(word, _verbs())

@@ -323,7 +323,7 @@ def _has_another_meaning(word: str) -> bool:
     return bool(verb_class(word)) and not _is_small(word) and not known
 
 
-@cache
+@lru_cache(maxsize=8192)
 def _is_small(word: str) -> bool:
     return word in _small_words()
 

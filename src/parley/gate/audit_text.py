@@ -1,0 +1,168 @@
+"""Entries of the audit log as sentences that people read."""
+
+from __future__ import annotations
+
+from datetime import datetime, tzinfo
+from typing import Any, Final
+
+from parley.messages.audit import AuditEvent
+from parley.messages.principal import Principal
+from parley.sentences import Sentence, listed, sentence, together
+
+__all__ = ["moment", "told", "what_of", "who_of"]
+
+_NOTHING: Final = "–"
+
+
+def who_of(by: Principal | None) -> Sentence:
+    """Who it was."""
+    if by is None or (by.kind == "program" and not by.key):
+        return sentence("A program that nobody vouches for")
+    if by.kind == "person":
+        named = sentence("{name}", name=by.name) if by.name else sentence("Somebody")
+        return sentence("{who} ({device})", who=named, device=by.device) if by.device else named
+    if by.kind == "robot":
+        return sentence("{name}", name=by.name)
+    if by.kind == "engine":
+        return sentence("The language engine {name}", name=by.name)
+    if by.kind == "rule":
+        return sentence("A rule of {name}", name=by.name) if by.name else sentence("A rule")
+    if by.kind == "schedule":
+        return sentence("A schedule")
+    return sentence("The program {name}", name=by.key or by.name)
+
+
+def what_of(detail: dict[str, Any]) -> Sentence:
+    """What it was about: the steps, a memory, a policy."""
+    steps = detail.get("labels")
+    if isinstance(steps, list) and steps:
+        return listed([str(step) for step in steps])
+    for key in ("name", "policy", "command", "graph"):
+        if isinstance(detail.get(key), str):
+            return sentence("{name}", name=detail[key])
+    return sentence("{name}", name=_NOTHING)
+
+
+def told(event: AuditEvent) -> Sentence:
+    """What happened, in one sentence."""
+    if event.outcome == "refused" and event.by is None:  # whose it was is not known
+        about = event.robot or sentence("all robots")
+        return sentence("Refused ({robot}): {reason}", robot=about, reason=event.reason or event.effect)
+    if event.outcome == "refused":
+        refused = sentence("Refused: {what}.", what=_plain(event))
+        return together(refused, event.reason)
+    if event.outcome == "failed" and event.effect not in ("end", "gap"):
+        return together(sentence("Did not work: {what}.", what=_plain(event)), event.reason)
+    return together(sentence("{what}.", what=_plain(event)), _more(event))
+
+
+def moment(unix_ms: int, now_unix_ms: int, zone: tzinfo | None = None) -> Sentence:
+    """By clock and day."""
+    then, now = _local(unix_ms, zone), _local(now_unix_ms, zone)
+    time = f"{then:%H:%M}"
+    days = (now.date() - then.date()).days
+    if days <= 0:
+        return sentence("at {time}", time=time)
+    if days == 1:
+        return sentence("yesterday at {time}", time=time)
+    return sentence("on {date} at {time}", date=f"{then:%Y-%m-%d}", time=time)
+
+
+def _about(event: AuditEvent) -> str:
+    """The facts, or where there are none the words."""
+    known = what_of(event.detail)
+    return event.words if known == _NOTHING and event.words else known
+
+
+def _more(event: AuditEvent) -> str:
+    approved = event.detail.get("approved_by")
+    if event.effect == "start" and isinstance(approved, dict):
+        return sentence("{who} said yes to it.", who=who_of(Principal.model_validate(approved)))
+    return event.reason
+
+
+def _plain(event: AuditEvent) -> Sentence:
+    """Without its end, and whatever became of it."""
+    special = _special(event)
+    if special is not None:
+        return special
+    template = _TEMPLATES.get(event.effect)
+    robot = event.robot or sentence("all robots")
+    values: dict[str, object] = {
+        "who": who_of(event.by),
+        "robot": robot,
+        "words": event.words,
+        "what": _about(event),
+    }
+    if template is None:
+        return sentence("{who}: {effect}", who=values["who"], effect=event.effect)
+    needed = {name: value for name, value in values.items() if f"{{{name}}}" in template}
+    return Sentence.of(template, needed)
+
+
+def _special(event: AuditEvent) -> Sentence | None:
+    """What is said another way than its effect alone would say."""
+    detail, robot = event.detail, event.robot
+    if event.by is not None and event.by.kind == "robot" and "state" in detail:
+        match detail["state"]:
+            case "received":
+                return sentence("{robot} knows of the stop", robot=robot)
+            case "at_rest":
+                return sentence("{robot} stands still", robot=robot)
+            case "reset":
+                return sentence("{robot} may move again", robot=robot)
+    if event.effect == "begin" and "proposal" in detail:
+        return sentence("{robot} waits for a yes: {what}", robot=robot, what=what_of(detail))
+    if event.effect == "end":
+        return _ended(event)
+    if event.effect == "gap" and "dropped" in detail:
+        return sentence("{count} entries could not be written", count=detail["dropped"])
+    if event.effect in ("remember", "forget") and event.by is None and "command" not in detail:
+        remembered = sentence("Remembered: {what}", what=what_of(detail))
+        return (
+            remembered if event.effect == "remember" else sentence("Forgotten: {what}", what=what_of(detail))
+        )
+    return None
+
+
+def _ended(event: AuditEvent) -> Sentence:
+    what = what_of(event.detail)
+    if event.outcome == "failed":
+        return sentence("{robot} did not get it done: {what}", robot=event.robot, what=what)
+    if event.detail.get("state") == "STOPPED":
+        return sentence("{robot} was ended before it was done: {what}", robot=event.robot, what=what)
+    return sentence("{robot} has finished: {what}", robot=event.robot, what=what)
+
+
+def _local(unix_ms: int, zone: tzinfo | None) -> datetime:
+    return datetime.fromtimestamp(unix_ms / 1000, zone).astimezone(zone)
+
+
+_TEMPLATES: Final = {
+    "speak": "{who} said “{words}” to {robot}",
+    "answer": "{who} answered “{words}” to {robot}",
+    "stop": "{who} stopped {robot}",
+    "reset": "{who} released the stop of {robot}",
+    "pause": "{who} held {robot}",
+    "resume": "{who} let {robot} go on",
+    "begin": "{who} wants this from {robot}: {what}",
+    "approve": "{who} said yes to {robot}: {what}",
+    "reject": "{who} said no to {robot}: {what}",
+    "edit": "{who} changed the plan of {robot}: {what}",
+    "clear": "{who} gave up the plan of {robot}",
+    "repair": "{who} found another way for {robot}: {what}",
+    "remember": "{who} wants this remembered: {what}",
+    "forget": "{who} wants this forgotten: {what}",
+    "rule": "{who} changed a rule: {what}",
+    "policy": "{who} chose when {robot} asks first: {what}",
+    "setting": "{who} changed a setting: {what}",
+    "people": "{who} changed who may do what: {what}",
+    "audit": "{who} looked at this log",
+    "sign_in": "{who} signed in",
+    "sign_out": "{who} signed out",
+    "start": "{robot} began: {what}",
+    "open": "Parley was started, the log goes on",
+    "close": "Parley was ended",
+    "gap": "Some entries are not there",
+    "prune": "Old entries were removed",
+}

@@ -1,0 +1,196 @@
+"""What a step does, in words that code wrote from action, arguments and map; and what a yes is bound to.
+
+A language engine's own words about a step (`reason`) are never used here: people decide by what is written
+here, so it must say what will be done.
+"""
+
+from __future__ import annotations
+
+import hashlib
+import json
+import math
+import re
+from collections.abc import Mapping, Sequence
+from typing import Any, Final
+
+from parley.messages.chat import ActionCall, SystemCommand
+from parley.messages.plain import one_line
+from parley.messages.status import ActionInfo
+from parley.sentences import Sentence, sentence
+from parley.world.object_map import MapObject
+
+__all__ = ["Labels", "command_label", "digest_of", "labels_of"]
+
+Labels = tuple[Sentence, ...]
+
+_HOLE: Final = re.compile(r"\{([^{}]*)\}")
+_WORD_STARTS: Final = re.compile(r"(?<=[a-z0-9])(?=[A-Z])|[_\s]+")
+_POSE: Final = "pose::"
+_X, _Y = f"{_POSE}position::x", f"{_POSE}position::y"
+_NEAR_M: Final = 2.0
+_QUOTED_CHARS: Final = 2000
+"""More than anybody reads; up to there nothing of what will be done is left out."""
+
+
+def labels_of(
+    calls: Sequence[ActionCall],
+    catalogue: Sequence[ActionInfo],
+    objects: Sequence[MapObject] = (),
+    before: Sequence[ActionCall] = (),
+) -> Labels:
+    """One line per step.
+
+    Args:
+        calls: The steps in order.
+        catalogue: What the robot can do.
+        objects: What the robot's map knows, to name places.
+        before: Steps that come first and may hand something on.
+    """
+    infos = {info.name: info for info in catalogue}
+    given = [*before, *calls]
+    labels: list[Sentence] = []
+    for index, call in enumerate(calls, len(before)):
+        label = _label(call, infos.get(call.name), _place(given, index, infos, objects))
+        labels.append(_conditional(call, label))
+    return tuple(labels)
+
+
+def command_label(command: SystemCommand, step: str = "") -> Sentence:
+    """What a command of a language engine would change, for the question about it.
+
+    Args:
+        command: `clear`, `skip`, `pop`, `start`, `add_memory`, `remove_memory`.
+        step: The label of the step it is about, if it is about one.
+    """
+    name = str(command.arguments.get("name") or command.arguments.get("parameters") or "")
+    match command.command:
+        case "clear":
+            return sentence("Give up the plan as it is")
+        case "skip" | "pop":
+            return sentence("Leave out: {step}", step=step) if step else sentence("Leave out a step")
+        case "remove_memory":
+            return sentence("Forget “{name}”", name=_quoted(name))
+        case "add_memory":
+            return sentence("Remember “{data}”", data=_quoted(str(command.arguments.get("data", ""))))
+        case "start":
+            return sentence("Go on")
+    return sentence("Stand still")
+
+
+def digest_of(
+    robot: str,
+    calls: Sequence[ActionCall],
+    commands: Sequence[SystemCommand] = (),
+    objects: Sequence[MapObject] = (),
+) -> str:
+    """What a yes is bound to: robot, steps with all arguments, changes, and where named things stand now.
+
+    A language engine's words about a step do not count; where a thing is on the map does, so that a yes to
+    the box by the door is no yes to the box that was carried to the stairs.
+    """
+    steps = [_bare(call) for call in calls]
+    text = json.dumps(steps, ensure_ascii=False)
+    places = sorted(
+        (item.id, round(item.x_m, 2), round(item.y_m, 2))
+        for item in objects
+        if item.id in text or (item.description and item.description.casefold() in text.casefold())
+    )
+    whole = [robot, steps, [command.model_dump() for command in commands], places]
+    canonical = json.dumps(whole, sort_keys=True, separators=(",", ":"), ensure_ascii=True)
+    return hashlib.sha256(canonical.encode()).hexdigest()
+
+
+def _bare(call: ActionCall) -> Mapping[str, Any]:
+    dumped: dict[str, Any] = call.model_copy(update={"reason": ""}).model_dump()
+    return dumped
+
+
+def _label(call: ActionCall, info: ActionInfo | None, place: str) -> Sentence:
+    arguments = {name: _said(item.value) for name, item in call.input_parameters.items() if item.has_data}
+    offered = (info.label, *info.phrases) if info is not None else ()
+    phrase = next((text for text in offered if text and _fits(text, arguments, place)), "")
+    named = set(_HOLE.findall(phrase))
+    if not named <= set(arguments):  # a hole that is no argument stands for the pose
+        named |= {name for name in arguments if name.startswith(_POSE)}
+    if phrase:
+        phrase = phrase[:1].upper() + phrase[1:]
+        fills = {hole: f"“{arguments.get(hole, place)}”" for hole in _HOLE.findall(phrase)}
+        what = Sentence.of(phrase, dict(fills))
+    else:
+        words = _in_words(call.name)
+        what = sentence("{what}", what=words[:1].upper() + words[1:])
+    rest = {name: value for name, value in arguments.items() if name not in named}
+    if not rest:
+        return what
+    told = ", ".join(f"{_in_words(name.rpartition('::')[2])} “{value}”" for name, value in rest.items())
+    return sentence("{what}: {arguments}", what=what, arguments=told)
+
+
+def _fits(phrase: str, arguments: Mapping[str, str], place: str) -> bool:
+    """Whether every hole of a phrase is an argument, but for one that a place fills."""
+    foreign = [hole for hole in _HOLE.findall(phrase) if hole not in arguments]
+    return not foreign or (len(foreign) == 1 and bool(place))
+
+
+def _conditional(call: ActionCall, label: Sentence) -> Sentence:
+    flow = call.flow
+    if flow is None:
+        return label
+    if flow.repeat is not None and flow.repeat > 1:
+        label = sentence("{what}, {count} times", what=label, count=flow.repeat)
+    if flow.if_ is not None:
+        number = flow.if_.step + 1
+        if flow.if_.result:
+            return sentence("If step {number} says yes: {what}", number=number, what=label)
+        return sentence("If step {number} says no: {what}", number=number, what=label)
+    if flow.together_with is not None:
+        return sentence(
+            "At the same time as step {number}: {what}", number=flow.together_with + 1, what=label
+        )
+    return label
+
+
+def _place(
+    calls: Sequence[ActionCall], index: int, infos: Mapping[str, ActionInfo], objects: Sequence[MapObject]
+) -> str:
+    """The place a pose among the arguments means: by the map, or by what the step before looked up."""
+    call = calls[index]
+    x, y = call.input_parameters.get(_X), call.input_parameters.get(_Y)
+    if x is None and y is None:
+        return ""
+    if x is not None and y is not None and x.has_data and y.has_data:
+        return _by_map(x.value, y.value, objects)
+    for giver in reversed(calls[:index]):
+        if _X in giver.output_parameters or _X in (infos[giver.name].outputs if giver.name in infos else {}):
+            texts = [p.value for p in giver.input_parameters.values() if p.type == "string" and p.has_data]
+            return _quoted(str(texts[0])) if texts else ""
+    return ""
+
+
+def _by_map(x: Any, y: Any, objects: Sequence[MapObject]) -> str:
+    try:
+        x_m, y_m = float(x), float(y)
+    except (TypeError, ValueError):
+        return _quoted(f"{x}, {y}")
+    point = f"x {x_m:.1f} m, y {y_m:.1f} m"
+    distances = [
+        (math.hypot(item.x_m - x_m, item.y_m - y_m), item.description or item.id) for item in objects
+    ]
+    distance_m, name = min(distances, default=(math.inf, ""))
+    return f"{one_line(name)} ({point})" if distance_m <= _NEAR_M else point
+
+
+def _in_words(name: str) -> str:
+    return " ".join(part.lower() for part in _WORD_STARTS.split(one_line(name)) if part)
+
+
+def _said(value: object) -> str:
+    if isinstance(value, float):
+        return f"{value:g}"
+    return _quoted(", ".join(map(str, value)) if isinstance(value, list | tuple) else str(value))
+
+
+def _quoted(text: str) -> str:
+    """Somebody's text between our quotation marks: its own cannot end them."""
+    plain = one_line(text).replace("“", "‘").replace("”", "’")
+    return plain if len(plain) <= _QUOTED_CHARS else f"{plain[:_QUOTED_CHARS]} …"

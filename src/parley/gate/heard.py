@@ -1,0 +1,280 @@
+"""What crosses the topics, as events for the audit log. Pure; one object per log.
+
+Whoever refuses something, lets somebody in or changes a setting tells of it on `/parley/audit`; all that is
+on another topic anyway is read off there, so that no node can forget to write it down.
+"""
+
+from __future__ import annotations
+
+import re
+from collections import OrderedDict
+from collections.abc import Iterable, Sequence
+from typing import Any, Final, Generic, TypeVar
+
+from parley.gate.ruling import EFFECT_OF
+from parley.gate.table import Effect, verdict
+from parley.messages.audit import AuditEvent
+from parley.messages.chat import ActionCall, ChatAction, ChatInput
+from parley.messages.memory import AddToMemory, MemoryEvent
+from parley.messages.principal import Principal
+from parley.messages.status import (
+    GraphEvent,
+    PlanDecision,
+    PlanProposal,
+    PlanStep,
+    PlanUpdate,
+    Rejection,
+    StopCommand,
+    StopReport,
+)
+
+__all__ = ["Heard"]
+
+T = TypeVar("T")
+
+_KEPT: Final = 500
+_REFUSED: Final = {
+    "chat_interface_input": Effect.SPEAK, "chat_action": Effect.BEGIN, "umrf_correction": Effect.REPAIR,
+    "umrf_graph_start": Effect.BEGIN, "umrf_graph_modify": Effect.EDIT, "umrf_graph_pause": Effect.PAUSE,
+    "umrf_graph_resume": Effect.RESUME, "umrf_graph_stop": Effect.CLEAR,
+    "/parley/plan_decision": Effect.APPROVE,
+    "/parley/stop": Effect.STOP, "add_to_memory": Effect.REMEMBER, "remove_memory": Effect.FORGET,
+}  # fmt: skip
+_ENDS: Final = {"FINISHED": "done", "STOPPED": "done", "ERROR": "failed"}
+
+
+class _Last(Generic[T]):
+    """The newest few of something, by key."""
+
+    def __init__(self) -> None:
+        self._items: OrderedDict[str, T] = OrderedDict()
+
+    def __setitem__(self, key: str, value: T) -> None:
+        self._items[key] = value
+        self._items.move_to_end(key)
+        while len(self._items) > _KEPT:
+            self._items.popitem(last=False)
+
+    def get(self, key: str) -> T | None:
+        return self._items.get(key)
+
+    def pop(self, key: str) -> T | None:
+        return self._items.pop(key, None)
+
+
+class Heard:
+    """Makes events of messages, and remembers as much as is needed to say on whose account they come."""
+
+    def __init__(self) -> None:
+        self.robots: set[str] = set()
+        """Robots that were heard of."""
+        self._said: _Last[ChatInput] = _Last()
+        self._proposals: _Last[PlanProposal] = _Last()
+        self._orders: _Last[dict[str, Any]] = _Last()
+        """What made each robot's newest plan, as facts of an event."""
+        self._plans: _Last[PlanUpdate] = _Last()
+        self._running: _Last[dict[str, Any]] = _Last()
+        self._memories: _Last[tuple[Principal | None, str]] = _Last()
+
+    def on_input(self, said: ChatInput) -> list[AuditEvent]:
+        """Words of a person; what is passed on by those who asked is no new message."""
+        identity = said.id.removesuffix("~aside")
+        if identity and self._said.get(identity) is not None:
+            return []
+        self._said[identity] = said
+        detail: dict[str, Any] = {"id": said.id} if said.id else {}
+        if said.images:
+            detail["pictures"] = len(said.images)
+        effect = Effect.ANSWER if said.type == "response" else Effect.SPEAK
+        targets = said.targets or (tuple(self.robots) if len(self.robots) == 1 else ("",))
+        return [
+            AuditEvent(effect=effect, by=said.who, robot=robot, words=said.message, detail=detail)
+            for robot in dict.fromkeys(targets)
+        ]
+
+    def on_action(self, order: ChatAction, effect: Effect = Effect.BEGIN) -> list[AuditEvent]:
+        """What was understood, or was ordered by a press."""
+        said = self._said.get(order.reply_to) if order.reply_to else None
+        asked: dict[str, Any] = {}
+        if said is not None:
+            asked = {"asked_by": said.who.model_dump(), "asked": said.message}
+        events = [
+            AuditEvent(effect=EFFECT_OF[command.command], by=order.by, robot=robot, outcome="asked",
+                       detail={"command": command.command, **_named(command.arguments), **asked})
+            for robot in order.targets or ("",)
+            for command in order.system_cmd
+        ]  # fmt: skip
+        for robot in order.targets if order.queue else ():
+            detail = {"labels": labels(order.queue), **asked}
+            self._orders[robot] = {"by": order.by, "detail": asked, "labels": detail["labels"]}
+            events.append(AuditEvent(effect=effect, by=order.by, robot=robot, outcome="asked", detail=detail))
+        return events
+
+    def on_plan(self, told: PlanUpdate | PlanProposal) -> list[AuditEvent]:
+        """A plan that waits for a yes; of a plan as it stands only the words are kept."""
+        if isinstance(told, PlanUpdate):
+            self.robots.add(told.target)
+            self._plans[told.target] = told
+            return []
+        if self._proposals.get(told.id) is not None:
+            return []
+        self._proposals[told.id] = told
+        return [
+            AuditEvent(
+                effect=Effect.BEGIN, by=told.by, robot=told.target, outcome="asked", digest=told.digest,
+                reason=told.why,
+                detail={"proposal": told.id, "labels": _labels_of(told), **self._asked(told.target)},
+            )
+        ]  # fmt: skip
+
+    def on_decision(self, decision: PlanDecision) -> list[AuditEvent]:
+        """A yes, a no, another plan, another policy."""
+        effect = Effect(decision.decision)
+        proposal = self._proposals.get(decision.id) if decision.id else None
+        detail: dict[str, Any] = {"proposal": decision.id} if decision.id else {}
+        if decision.policy:
+            detail["policy"] = decision.policy
+        shown = labels(decision.steps) if decision.steps else _labels_of(proposal) if proposal else []
+        if shown:
+            detail["labels"] = shown
+        allowed = verdict(decision.by, effect) == "allow"
+        if allowed and effect in (Effect.APPROVE, Effect.EDIT):
+            order = self._orders.get(decision.target) or {"by": decision.by, "detail": {}}
+            approved = {"approved_by": decision.by.model_dump()} if decision.by else {}
+            facts = {**order["detail"], **approved}
+            self._orders[decision.target] = {
+                **order,
+                "detail": facts,
+                "labels": shown,
+                "digest": decision.digest,
+            }
+        return [
+            AuditEvent(
+                effect=effect, by=decision.by, robot=decision.target, digest=decision.digest, detail=detail,
+                outcome="done" if allowed else "asked",
+            )
+        ]  # fmt: skip
+
+    def on_graph(self, event: GraphEvent) -> list[AuditEvent]:
+        """A robot begins and ends what it was told to do."""
+        self.robots.add(event.actor)
+        key = f"{event.actor}\n{event.graph_name}"
+        if event.kind == "node":
+            if event.result == "on_error" and event.message and (facts := self._running.get(key)):
+                facts["reason"] = event.message
+            return []
+        if event.kind == "graph" and event.state == "RUNNING" and self._running.get(key) is None:
+            return [self._began(event, key)]
+        if event.kind == "graph" and event.state in _ENDS and (facts := self._running.pop(key)):
+            return [self._ended(event, facts)]
+        return []
+
+    def _began(self, event: GraphEvent, key: str) -> AuditEvent:
+        order = self._orders.get(event.actor) or {"by": None, "detail": {}}
+        plan = self._plans.get(event.actor)
+        told = labels(plan.steps) if plan and plan.graph_name == event.graph_name else order.get("labels", [])
+        detail = {"graph": event.graph_name, "labels": told, **order["detail"]}
+        self._running[key] = {"by": order["by"], "detail": detail, "digest": order.get("digest", "")}
+        return AuditEvent(
+            effect="start", by=order["by"], robot=event.actor, detail=detail, digest=order.get("digest", ""),
+            unix_ms=event.unix_ms,
+        )  # fmt: skip
+
+    def _ended(self, event: GraphEvent, facts: dict[str, Any]) -> AuditEvent:
+        plan = self._plans.get(event.actor)
+        detail = {**facts["detail"], "state": event.state}
+        if plan and plan.graph_name == event.graph_name and plan.steps:
+            detail["labels"] = labels(plan.steps)
+        failed = event.state == "ERROR" or event.result == "on_error"
+        return AuditEvent.model_validate(
+            {"effect": "end", "by": facts["by"], "robot": event.actor, "detail": detail,
+             "digest": facts["digest"], "outcome": "failed" if failed else "done", "unix_ms": event.unix_ms,
+             "reason": facts.get("reason", "") if failed else ""}
+        )  # fmt: skip
+
+    def on_stop(self, command: StopCommand) -> list[AuditEvent]:
+        """An emergency stop, or its release."""
+        effect = Effect.STOP if command.command == "stop" else Effect.RESET
+        outcome = "done" if verdict(command.by, effect) == "allow" else "asked"
+        return [
+            AuditEvent.model_validate(
+                {"effect": effect, "by": command.by, "robot": robot, "outcome": outcome,
+                 "detail": {"id": command.id}}
+            )
+            for robot in command.targets or ("",)
+        ]  # fmt: skip
+
+    def on_report(self, report: StopReport) -> list[AuditEvent]:
+        """What became of a stop."""
+        self.robots.add(report.actor)
+        effect = Effect.RESET if report.state == "reset" else Effect.STOP
+        by = Principal(kind="robot", name=report.actor)
+        detail = {"id": report.id, "state": report.state}
+        return [AuditEvent(effect=effect, by=by, robot=report.actor, detail=detail)]
+
+    def on_add(self, added: AddToMemory) -> list[AuditEvent]:
+        """Nothing yet: it counts when it is durable, and is then put down to whoever it came from."""
+        for entry in added.entries():
+            kind = {"told": "person", "seen": "robot", "concluded": "engine"}.get(entry.way)
+            by = Principal.model_validate({"kind": kind, "name": entry.source}) if kind else None
+            text = entry.words or (entry.data if entry.type == "text" else entry.info)
+            self._memories[f"{entry.scope}\n{entry.name}"] = (by, text)
+        return []
+
+    def on_memory(self, event: MemoryEvent) -> list[AuditEvent]:
+        """What is remembered or forgotten for good."""
+        by, text = self._memories.get(f"{event.scope}\n{event.name}") or (None, "")
+        if event.kind == "removed":
+            by = None
+        return [
+            AuditEvent(
+                effect=Effect.FORGET if event.kind == "removed" else Effect.REMEMBER,
+                by=by,
+                robot=event.scope,
+                outcome="failed" if event.kind == "failed" else "done",
+                words=text,
+                reason=event.message,
+                detail={"name": event.name},
+            )
+        ]
+
+    def on_rejection(self, told: Rejection) -> list[AuditEvent]:
+        """What was refused, and why."""
+        effect: str = _REFUSED.get(told.what, told.what[:50])
+        detail: dict[str, Any] = {
+            "what": told.what, "codes": [problem.code for problem in told.problems], "from": told.source,
+        }  # fmt: skip
+        if told.graph_name:
+            detail["graph"] = told.graph_name
+        reason = " ".join(problem.message for problem in told.problems)
+        return [AuditEvent(effect=effect, robot=told.target, outcome="refused", reason=reason, detail=detail)]
+
+    def _asked(self, robot: str) -> dict[str, Any]:
+        order = self._orders.get(robot)
+        return dict(order["detail"]) if order else {}
+
+
+def labels(steps: Sequence[ActionCall] | Sequence[PlanStep]) -> list[str]:
+    """What each step does, in words."""
+    return [_label(step) for step in steps]
+
+
+def _label(step: ActionCall | PlanStep) -> str:
+    if isinstance(step, PlanStep):
+        return step.label or _label(step.action)
+    values = ", ".join(
+        str(parameter.value)
+        for parameter in step.input_parameters.values()
+        if isinstance(parameter.value, str)
+    )
+    name = re.sub(r"(?<=[a-z0-9])(?=[A-Z])|_+", " ", step.name).capitalize()
+    return f"{name} ({values})" if values else name
+
+
+def _labels_of(proposal: PlanProposal) -> list[str]:
+    return list(proposal.labels) or labels(proposal.steps)
+
+
+def _named(arguments: dict[str, Any]) -> dict[str, Any]:
+    kept: Iterable[str] = ("name", "data", "parameters", "index")
+    return {key: arguments[key] for key in kept if isinstance(arguments.get(key), str | int | float)}

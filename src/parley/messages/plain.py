@@ -1,0 +1,44 @@
+"""Text that people are shown: nothing in it is invisible, or turns the direction of reading."""
+
+from __future__ import annotations
+
+import re
+from typing import Annotated, Final
+
+from pydantic import AfterValidator
+
+__all__ = ["LineText", "ShownText", "one_line", "visible"]
+
+_UNSEEN: Final = re.compile(
+    "["
+    "\x00-\x08\x0b-\x1f\x7f-\x9f"  # control characters but tab and line feed
+    "\u00ad\u034f\u061c\u115f\u1160\u17b4\u17b5\u180e"  # soft hyphen, joiners, fillers
+    "\u200b\u200e\u200f\u2028-\u202e\u2060-\u206f"  # zero width, separators of lines, bidirectional marks
+    "\u3164\ufe00-\ufe0f\ufeff\uffa0\ufff9-\ufffb"
+    "\U0001d173-\U0001d17a\U000e0000-\U000e0fff"
+    "]"
+)
+"""Not among them: the zero-width joiner and non-joiner, which Indic scripts, Persian and emoji need."""
+_EMOJI_STYLE: Final = "\ufe0f"
+
+
+def visible(text: str) -> str:
+    """`text` with what cannot be seen written out, e.g. ``⟨U+202E⟩``; carriage returns become line feeds.
+
+    Unicode Technical Report 36 (section 3) says why: such characters let one text look like another.
+    """
+    text = text.replace("\r\n", "\n").replace("\r", "\n")
+    return _UNSEEN.sub(lambda found: _written_out(found[0]), text)
+
+
+def one_line(text: str) -> str:
+    """`visible` for what has one line of its own: labels, names, choices; no line in it can be made up."""
+    return " ".join(visible(text).split())
+
+
+def _written_out(character: str) -> str:
+    return "" if character == _EMOJI_STYLE else f"⟨U+{ord(character):04X}⟩"
+
+
+ShownText = Annotated[str, AfterValidator(visible)]
+LineText = Annotated[str, AfterValidator(one_line)]

@@ -1,0 +1,39 @@
+"""What is a literal yes or no, and what is neither."""
+
+from __future__ import annotations
+
+import pytest
+
+from parley.gate.assent import assent_of, begins_with_no
+
+
+@pytest.mark.parametrize("said", ["yes", "Yes, please!", "OK", "do it", "yes, Ada", "Jah", "please do"])
+def test_a_yes_is_a_yes(said: str) -> None:
+    assert assent_of(said, ["Ada"]) is True
+
+
+@pytest.mark.parametrize(
+    "said",
+    ["no", "No, thanks.", "don't", "please don't do it", "Ei", "not yet", "No, wait!", "NO NO NO", "ära tee"],
+)
+def test_a_no_is_a_no(said: str) -> None:
+    assert assent_of(said, ["Ada"]) is False
+
+
+@pytest.mark.parametrize("said", ["yes?", "yes, but go to the chair first", "no, the other one", "", "Ada"])
+def test_everything_else_is_neither(said: str) -> None:
+    assert assent_of(said, ["Ada"]) is None
+
+
+@pytest.mark.parametrize(
+    ("said", "negated"),
+    [
+        ("no, the other one", True),
+        ("Not that one", True),
+        ("ei, teine", True),
+        ("now", False),
+        ("nobody", False),
+    ],
+)
+def test_whatever_begins_with_a_no_is_no_yes(said: str, negated: bool) -> None:
+    assert begins_with_no(said) is negated
