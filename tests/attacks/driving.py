@@ -114,7 +114,7 @@ class System:
         """Reset, and forget the plan."""
         assert self.http.post("/api/stop", json={"command": "reset"}).status_code == 200
         self.until(lambda: self.robot()["state"] != "stopped")
-        self.http.post(f"/api/plans/{ROBOT}/command", json={"command": "clear"})
+        self.say("cancel everything")
         self.until(lambda: self.robot()["state"] == "idle")
 
     def press(self) -> float:
