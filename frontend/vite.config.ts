@@ -41,7 +41,7 @@ export default defineConfig({
   },
   server: {
     proxy: {
-      '/api': { target: server, changeOrigin: true },
+      '/api': { target: server, changeOrigin: true, ws: true },
       '/socket.io': { target: server, changeOrigin: true, ws: true },
     },
   },

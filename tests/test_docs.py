@@ -10,6 +10,7 @@ from typing import Any
 import pytest
 from pydantic import BaseModel
 
+from parley.messages.attendance import Attendance
 from parley.messages.audit import AuditEvent
 from parley.messages.chat import SYSTEM_COMMANDS, ChatAction, ChatFeedback, ChatInput, ReplyDraft
 from parley.messages.display import DisplayFeed
@@ -57,6 +58,7 @@ PAYLOADS: dict[str, tuple[type[BaseModel], ...]] = {
     "/parley/incident": (Incident,),
     "/parley/map_view": (MapView,),
     "/parley/audit": (AuditEvent,),
+    "/parley/attendance": (Attendance,),
 }
 
 

@@ -5,7 +5,7 @@ import { setTimeout as pause } from 'node:timers/promises';
 import type { Page } from 'playwright-core';
 import { afterAll, beforeAll, describe, expect, it } from 'vitest';
 
-import { hasBrowser, PATIENCE_MS, say, sizes, startStage, type Stage } from './stage';
+import { hasBrowser, PATIENCE_MS, robotNamed, say, sizes, startStage, type Stage } from './stage';
 
 /** `make soak` asks for more. */
 const KILLS = Number(process.env.PARLEY_KILLS ?? 3);
@@ -54,6 +54,34 @@ describe.skipIf(!hasBrowser)('a page whose server goes away', () => {
     await page.getByText(/^Not sent/).waitFor({ state: 'detached' });
     await page.getByText(/I can /).first().waitFor();
     expect((await log()).filter((message) => message === 'what can you do?')).toHaveLength(1);
+  });
+
+  it('stops on the line that is kept open where no request gets through any more', async () => {
+    const page = await stage.open(sizes.tablet);
+    await page.getByRole('textbox', { name: 'Write to David' }).waitFor();
+    await page.route('**/api/stop', (route) => route.abort());
+    await page.getByRole('button', { name: 'Stop', exact: true }).tap();
+    await page.getByText('Stands still (measured)').waitFor();
+    await page.unroute('**/api/stop');
+    await page.getByRole('button', { name: 'Release…' }).tap();
+    await page.getByRole('button', { name: 'Yes, it is safe' }).tap();
+    await page.getByText('David is stopped').waitFor({ state: 'detached' });
+  });
+
+  it('says at once that a stop cannot be sent, and does not send it when the server is back later', async () => {
+    const page = await stage.open(sizes.tablet);
+    await page.getByRole('textbox', { name: 'Write to David' }).waitFor();
+    await stage.system.kill();
+    await page.getByText(/The connection is lost since/).waitFor();
+    await page.getByRole('button', { name: 'Stop', exact: true }).tap();
+    await page.getByText(/^Not connected: the stop has not got through!/).waitFor({ timeout: 1000 });
+    await page.getByText(/is not sent any more/).waitFor();
+    await stage.system.start();
+    await page.getByText(/The connection is lost since/).waitFor({ state: 'detached' });
+    await expect.poll(async () => (await robotNamed(stage))?.state, { timeout: PATIENCE_MS }).toBe('idle');
+    await page.getByText(/is not sent any more/).waitFor(); // until somebody has read it
+    await page.getByRole('button', { name: 'Close', exact: true }).tap();
+    await page.getByText(/is not sent any more/).waitFor({ state: 'detached' });
   });
 
   it('keeps the map that was seen last, with its age, and renews it', async () => {

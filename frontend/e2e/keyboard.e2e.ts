@@ -61,7 +61,7 @@ describe.skipIf(!hasBrowser)('an operator without a mouse', () => {
     await page.keyboard.press('Escape');
     await page.keyboard.press('Escape');
     await page.getByText('David is stopped and stays so until you release it.').waitFor();
-    await page.locator('li[data-reached="true"]', { hasText: 'Standing still' }).waitFor();
+    await page.getByText('Stands still (measured)').waitFor();
     await tabTo(page, /^Release/);
     await page.keyboard.press('Enter');
     await page.getByRole('alertdialog').waitFor();

@@ -123,8 +123,7 @@ describe.skipIf(!hasBrowser)('an operator with a plan', () => {
     await say(page, 'Go to the refrigerator.');
     await untilItMoved(stage, from);
     await page.getByRole('button', { name: 'Stop', exact: true }).tap();
-    await page.locator('li[data-reached="true"]', { hasText: 'Sent' }).waitFor();
-    await page.locator('li[data-reached="true"]', { hasText: 'Standing still' }).waitFor();
+    await page.getByText('Stands still (measured)').waitFor();
     const stood = await robotNamed(stage);
     await page.getByRole('button', { name: 'Release…' }).tap();
     await page.getByRole('button', { name: 'Yes, it is safe' }).tap();

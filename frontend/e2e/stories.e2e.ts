@@ -37,7 +37,7 @@ describe.skipIf(!hasBrowser)('an operator', () => {
     await page.keyboard.press('Escape');
     await page.keyboard.press('Escape');
     await page.getByText('David is stopped and stays so until you release it.').waitFor();
-    await page.locator('li[data-reached="true"]', { hasText: 'Standing still' }).waitFor();
+    await page.getByText('Stands still (measured)').waitFor();
 
     const other = await stage.open(sizes.phone);
     await other.getByText('David is stopped and stays so until you release it.').waitFor();

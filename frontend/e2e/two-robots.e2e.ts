@@ -122,8 +122,7 @@ describe.skipIf(!hasBrowser)('people with two robots', () => {
     await untilItMoved(stage, from);
     await page.getByRole('button', { name: 'Which robots to stop' }).click();
     await page.getByRole('menuitem', { name: 'Stop only Ruth' }).click();
-    await page.locator('li[data-reached="true"]', { hasText: 'Sent' }).waitFor();
-    await page.locator('li[data-reached="true"]', { hasText: 'Standing still' }).waitFor();
+    await page.getByText('Stands still (measured)').waitFor();
     await page.getByText('Ruth is stopped and stays so until you release it.').waitFor();
     expect((await robotNamed(stage, 'Ruth'))?.state).toBe('stopped');
     expect((await robotNamed(stage, 'David'))?.state).not.toBe('stopped');

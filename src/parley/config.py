@@ -8,6 +8,7 @@ from typing import Annotated, Any, Literal, Self
 from pydantic import AfterValidator, BaseModel, ConfigDict, Field, ValidationInfo
 
 from parley.files import TextFile, read_text, validated_yaml
+from parley.messages.attendance import Unattended
 from parley.sentences import SpokenLanguage
 
 __all__ = [
@@ -135,6 +136,11 @@ class SystemConfig(BaseModel, TextFile):
     """How language models are asked."""
     approval: ApprovalPolicy = "run_at_once"
     """Whether plans wait for a person's yes: none, those with a step of high risk, all."""
+    unattended: Unattended = "go_on"
+    """What robots do with their plans when nobody is connected, unless an order says otherwise: `go_on`,
+    `hold` (wait for a person), `go_home` (drive to where they stood when the system started)."""
+    unattended_after_s: float = Field(default=30.0, gt=0)
+    """Wall time for which nobody must be connected for that."""
     approval_of: dict[str, ApprovalPolicy] = Field(default_factory=dict)
     """Robots for which that is otherwise, by name."""
     speed: float | None = Field(default=1.0, gt=0)

@@ -18,6 +18,7 @@ from parley.config import SystemConfig
 from parley.engine.engine import ActionEngine
 from parley.engine.interrupted import Interrupted
 from parley.engine.journal import Journal
+from parley.engine.presence import is_at_rest
 from parley.engine.services import ContextServices
 from parley.engine.stop_listener import StopListener
 from parley.engine.watchdog import LoopWatchdog
@@ -52,6 +53,7 @@ from parley.nodes.plan_restore import adopted_steps, interruption_text, restored
 from parley.nodes.plan_steps import Step
 from parley.nodes.repair import left_over_text
 from parley.nodes.umrf_planner import UmrfPlanner
+from parley.nodes.unattended import UnattendedPlans
 from parley.robots.base import Robot
 from parley.robots.run_robot import RunRobot
 from parley.robots.simulated import SimulatedRobot
@@ -140,6 +142,11 @@ class System:
         self._occupancy = occupancy
         self._stack = AsyncExitStack()
 
+    def at_rest(self, robot: str) -> bool | None:
+        """Whether a robot stands, measured now; None: it is not of this world. From any thread."""
+        known = self.robots.get(robot)
+        return None if known is None else is_at_rest(known)
+
     async def __aenter__(self) -> Self:
         try:
             await self._open()
@@ -216,6 +223,8 @@ class System:
         )
         await enter(self._speaking(chat))
         await enter(self._speaking(Lookout(transport, clock)))
+        absent = UnattendedPlans(transport, clock, config.unattended, config.unattended_after_s)
+        await enter(self._speaking(absent))
         notices = self._notices = await enter(self._speaking(Notices(transport)))
         doubt = IN_DOUBT if self.stop_line.in_doubt else ""
         for text in (doubt, self.store.notice, incidents.notice, proposals.notice, *self._early):

@@ -6,7 +6,18 @@ from typing import Any
 
 from pydantic import BaseModel
 
-from parley.messages import audit, chat, display, failure, incident, map, memory, principal, status
+from parley.messages import (
+    attendance,
+    audit,
+    chat,
+    display,
+    failure,
+    incident,
+    map,
+    memory,
+    principal,
+    status,
+)
 
 MOVE: dict[str, Any] = {
     "Move": {
@@ -127,6 +138,7 @@ SAMPLES: dict[type[BaseModel], dict[str, Any]] = {
         "author": "Kim",
         "by": KIM,
         "images": [{"name": "box.jpg", "data": "aGk="}],
+        "unattended": "hold",
     },
     chat.ReplyDraft: {"reply_to": "1", "targets": ["A"], "message": "I will"},
     chat.ChatFeedback: {
@@ -211,6 +223,7 @@ SAMPLES: dict[type[BaseModel], dict[str, Any]] = {
     memory.MemoryEvent: {"kind": "failed", "name": "box", "scope": "A", "message": "The disk is full."},
     status.PoseInfo: POSE,
     status.ActionInfo: ACTION_INFO,
+    attendance.Attendance: {"server": "8c1f", "people": 2},
     status.ActorStatus: {
         "actor": "A",
         "state": "running",

@@ -12,7 +12,19 @@ from hypothesis import strategies as st
 from pydantic import BaseModel
 
 from parley.errors import InvalidMessageError
-from parley.messages import audit, base, chat, display, failure, incident, map, memory, principal, status
+from parley.messages import (
+    attendance,
+    audit,
+    base,
+    chat,
+    display,
+    failure,
+    incident,
+    map,
+    memory,
+    principal,
+    status,
+)
 from parley.messages.chat import ChatAction, ChatFeedback, ChatInput
 from parley.messages.display import DisplayFeed
 from parley.messages.memory import AddToMemory, MemoryEntry, RemoveMemory
@@ -24,7 +36,7 @@ every_payload = pytest.mark.parametrize("kind", SAMPLES, ids=lambda kind: str(ki
 
 
 def payload_types() -> set[type[BaseModel]]:
-    modules = (audit, chat, display, failure, incident, map, memory, principal, status)
+    modules = (attendance, audit, chat, display, failure, incident, map, memory, principal, status)
     exported = [getattr(module, name) for module in modules for name in module.__all__]
     return {item for item in exported if inspect.isclass(item) and issubclass(item, BaseModel)}
 

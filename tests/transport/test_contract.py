@@ -25,6 +25,7 @@ from tests.transport.backends import BACKENDS, Network, until
 
 PLAIN = Topic("contract/plain", String, "std_msgs/msg/String", QoS(depth=100))
 SHALLOW = Topic("contract/shallow", String, "std_msgs/msg/String", QoS(depth=3))
+KEPT = Topic("contract/kept", String, "std_msgs/msg/String", QoS(depth=3, keep_all=True))
 LATCHED = Topic("contract/latched", String, "std_msgs/msg/String", QoS(latched=True, depth=1))
 ECHO = Service("contract/echo", ChatRequest, ChatResponse, "nl_interface_msgs/srv/Chat")
 
@@ -169,6 +170,25 @@ async def test_what_is_dropped_is_told_in_the_log_with_a_count() -> None:
             assert subscription.dropped == 9
     told = [line["dropped"] for line in logged if line["log_level"] == "warning"]
     assert told == [1, 2, 4, 8]
+
+
+async def test_of_a_topic_that_keeps_all_a_slow_subscriber_loses_nothing(network: Network) -> None:
+    heard: list[int] = []
+    gate = asyncio.Event()
+
+    async def slow(message: String) -> None:
+        heard.append(int(message.data))
+        await gate.wait()
+
+    subscription = await network.there.subscribe(KEPT, slow, depth=2)
+    sender = network.here.publisher(KEPT)
+    for number in range(1000):
+        sender.publish(String(str(number)))
+    await until(lambda: heard)
+    gate.set()
+    await until(lambda: len(heard) == 1000)
+    assert heard == list(range(1000))
+    assert subscription.dropped == 0
 
 
 async def test_publishing_returns_at_once_and_a_hung_subscriber_delays_no_other(network: Network) -> None:

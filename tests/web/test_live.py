@@ -16,7 +16,7 @@ from parley.nodes.umrf_planner import UmrfPlanner
 from parley.umrf.io import write_graph
 from parley.umrf.model import Graph, GraphState, Node
 from parley.web.config import WebConfig
-from parley.web.live import CONFIRM_WITHIN_S
+from parley.web.live import CONFIRM_WITHIN_S, MAX_STRANGERS
 from parley.web.server import WebServer
 from tests.web.rig import JPEG, HandClock, Page, served
 
@@ -247,3 +247,16 @@ async def stalled_client(url: str) -> tuple[asyncio.StreamReader, asyncio.Stream
     writer.write(bytes([0x81, 0x80 | len(text)]) + mask + text)
     await writer.drain()
     return reader, writer
+
+
+async def test_a_page_that_was_opened_stays_however_many_strangers_listen() -> None:
+    async with served("Ada") as rig:
+        await rig.http.get("/")
+        cookie = "; ".join(f"{name}={value}" for name, value in rig.http.cookies.items())
+        page = await rig.page(headers={"Cookie": cookie})
+        first = await rig.page()
+        for _ in range(MAX_STRANGERS // 2):
+            await rig.page()
+        await first.io.wait()
+        rig.robots.appear("Bob")
+        await until_it_knows(page, 2)

@@ -73,14 +73,14 @@ async def test_a_stop_without_targets_is_for_all() -> None:
         assert rig.robots.stops[0].targets == ()
 
 
-async def test_a_stop_that_nobody_confirms_is_overdue() -> None:
+async def test_a_robot_of_which_nothing_is_heard_after_a_stop_does_not_answer() -> None:
     clock = HandClock()
     async with served("Ada", clock=clock) as rig:
         page = await rig.page()
         await rig.http.post("/api/stop", json={"targets": ["Ada"]})
         await page.until(lambda: stop_of(page) == "sent")
         clock.ahead_s = STOP_DEADLINE_S + 0.1
-        await page.until(lambda: stop_of(page) == "overdue")
+        await page.until(lambda: stop_of(page) == "silent")
 
 
 async def test_a_robot_added_by_name_stays_until_it_is_taken_off(tmp_path: Path) -> None:

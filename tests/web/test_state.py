@@ -105,13 +105,13 @@ def test_a_silent_robot_is_lost_and_comes_back() -> None:
     assert len(changes) == 3
 
 
-def test_no_robot_is_lost_for_the_time_in_which_the_server_heard_nothing_but_its_stop_is_overdue() -> None:
+def test_no_robot_is_lost_for_the_time_in_which_the_server_heard_nothing_but_its_stop_is_late() -> None:
     book, _ = robots()
     beat(book)
     stop(book)
     late_s = max(LOST_AFTER_S, STOP_DEADLINE_S) + 1.0
     book.tick(now_s=late_s + 0.25, late_s=late_s)
-    assert (connection(book), stop_state(book)) == ("here", "overdue")
+    assert (connection(book), stop_state(book)) == ("here", "silent")
     book.tick(now_s=late_s + LOST_AFTER_S + 0.1)
     assert connection(book) == "lost"
 
@@ -145,7 +145,7 @@ def stop(book: RobotBook, command: str = "stop", now_s: float = 0.0) -> None:
     book.on_stop(pressed, now_s=now_s, unix_ms=1)
 
 
-def test_a_stop_is_overdue_until_the_robot_stands() -> None:
+def test_a_robot_that_knows_of_the_stop_counts_as_moving_until_it_stands() -> None:
     book, _ = robots()
     beat(book)
     stop(book)
@@ -153,7 +153,7 @@ def test_a_stop_is_overdue_until_the_robot_stands() -> None:
     book.tick(now_s=STOP_DEADLINE_S)
     assert stop_state(book) == "received"
     book.tick(now_s=STOP_DEADLINE_S + 0.1)
-    assert stop_state(book) == "overdue"
+    assert stop_state(book) == "moves"
     book.on_stop_report(StopReport(actor="Ada", id="s", state="at_rest"), unix_ms=9)
     assert (stop_state(book), book.views["Ada"].stop.at_rest_unix_ms) == ("at_rest", 9)
 

@@ -5,6 +5,7 @@ import { Router } from 'wouter';
 
 import { SignIn } from '@/features/session';
 import { connect } from '@/live/connection';
+import { keepStopLine } from '@/live/stop-line';
 import { applyLook, usePrefs } from '@/state/prefs';
 import { useHashPath } from '@/ui/use-hash';
 
@@ -22,6 +23,7 @@ export function App() {
     if (i18next.language !== language) void i18next.changeLanguage(language);
   }, [theme, planColours, language]);
   useEffect(() => (session.state === 'open' ? connect() : undefined), [session.state]);
+  useEffect(() => (session.state === 'open' ? keepStopLine() : undefined), [session.state]);
   return (
     <I18nProvider locale={localeOf[language]}>
       <Router hook={useHashPath}>

@@ -1,6 +1,19 @@
 /** One function per request. Failures are `ApiError`s whose message can be shown to people. */
 import { noteServerDate } from './server-time';
-import type { ActionCall, ChatEntry, Incident, LogPage, MapInfo, MemoryItem, Policy } from './types';
+import type {
+  ActionCall,
+  ChatEntry,
+  Incident,
+  LogPage,
+  MapInfo,
+  MemoryItem,
+  Policy,
+  ServerInfo,
+  StopAnswer,
+} from './types';
+
+export type { StopAnswer };
+export type Unattended = ServerInfo['unattended'];
 
 export class ApiError extends Error {
   constructor(
@@ -34,7 +47,12 @@ async function failure(response: Response): Promise<ApiError> {
  * Ask the server.
  * @throws ApiError It refused, or was not reached within the time limit.
  */
-export async function request<T>(method: string, path: string, body?: unknown): Promise<T> {
+export async function request<T>(
+  method: string,
+  path: string,
+  body?: unknown,
+  timeoutMs = TIMEOUT_MS,
+): Promise<T> {
   let response: Response;
   try {
     response = await fetch(`/api/${path}`, {
@@ -42,7 +60,7 @@ export async function request<T>(method: string, path: string, body?: unknown): 
       headers: body === undefined ? {} : { 'Content-Type': 'application/json' },
       body: body === undefined ? null : JSON.stringify(body),
       credentials: 'same-origin',
-      signal: AbortSignal.timeout(TIMEOUT_MS),
+      signal: AbortSignal.timeout(timeoutMs),
     });
   } catch {
     throw new ApiError(0, '');
@@ -62,6 +80,8 @@ export interface OutgoingMessage {
   targets: readonly string[];
   reply_to: string;
   images: readonly { name: string; data: string }[];
+  /** What robots do with it when nobody is connected any more; null: as the system does otherwise. */
+  unattended?: Unattended | null;
 }
 
 export interface ChatPage {
@@ -98,8 +118,13 @@ export function getChat(options: { before?: number; limit?: number; q?: string; 
   return request<ChatPage>('GET', `chat?${query.toString()}`);
 }
 
-export const sendStop = (command: 'stop' | 'reset', targets: readonly string[], id: string) =>
-  request<unknown>('POST', 'stop', { command, targets, id });
+/** A stop is tried again soon, so it is not waited for as long as other answers. */
+const STOP_TIMEOUT_MS = 1500;
+
+export const sendStop = (targets: readonly string[], id: string) =>
+  request<StopAnswer>('POST', 'stop', { command: 'stop', targets, id }, STOP_TIMEOUT_MS);
+export const sendReset = (targets: readonly string[], id: string) =>
+  request<unknown>('POST', 'stop', { command: 'reset', targets, id });
 
 export const commandPlan = (robot: string, command: PlanCommand, index?: number) =>
   request<unknown>('POST', `plans/${part(robot)}/command`, index === undefined ? { command } : { command, index });

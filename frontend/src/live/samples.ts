@@ -91,6 +91,8 @@ const info: ServerInfo = {
   modules: {},
   examples: ['Go to the door.', 'What do you see?', 'What can you do?'],
   addresses: [],
+  unattended: 'go_on',
+  unattended_after_s: 30,
 };
 
 export const snapshot = (part: Partial<Snapshot> = {}): Snapshot => ({

@@ -7,6 +7,7 @@ export type Snapshot = Schemas['Snapshot'];
 export type ServerInfo = Schemas['ServerInfo'];
 export type RobotView = Schemas['RobotView'];
 export type StopView = Schemas['StopView'];
+export type StopAnswer = Schemas['StopAnswer'];
 export type ChatEntry = Schemas['ChatEntry'];
 export type PlanView = Schemas['PlanView'];
 export type ProposalView = Schemas['ProposalView'];

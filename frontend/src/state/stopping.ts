@@ -1,46 +1,139 @@
-/** Stopping: pressed here, confirmed by the robots. A stop that does not get through is tried again, and said so. */
+/**
+ * Stopping: pressed here, sent on the line and as a request at once, confirmed by the robots.
+ *
+ * A stop that does not get through is tried again for a few seconds, and said so. After that it is not sent any more:
+ * nobody expects robots to stop for what was pressed a while ago.
+ */
 import { create } from 'zustand';
 
-import { ApiError, sendStop } from '@/live/api';
+import { ApiError, sendReset, sendStop, type StopAnswer } from '@/live/api';
+import { hearStopLine, stopOnLine } from '@/live/stop-line';
+import { useLive } from '@/live/store';
 import type { RobotView } from '@/live/types';
 
+/** What is known of one robot after a stop; `stands` and `moves` are measured. */
+export type Fate = StopAnswer['robots'][string];
+
+interface Press {
+  id: string;
+  targets: readonly string[];
+  sinceMs: number;
+  /** `late`: not taken yet; `dropped`: it never was, and is not sent any more. */
+  state: 'sending' | 'late' | 'dropped';
+}
+
 interface Stopping {
-  /** A stop of this page that the server has not taken yet. */
-  pending: { id: string; targets: readonly string[]; failed: boolean } | null;
+  /** A stop of this page that the server has not taken. */
+  pending: Press | null;
+  /** What became of the newest one, as it was told with the answer. */
+  answer: StopAnswer | null;
   /** @param targets Names of robots; empty: all. */
   stop: (targets: readonly string[]) => Promise<void>;
   /** @throws ApiError The server refused, or was not reached. */
   reset: (targets: readonly string[]) => Promise<void>;
+  /** Take note of a stop that was not sent. */
+  dismiss: () => void;
 }
 
-const RETRY_MS = 700;
-const ATTEMPTS = 60;
+const RETRY_MS = 500;
+/** A stop that the server did not take for so long is said to be late. */
+const LATE_MS = 700;
+/** One that was pressed longer ago is not sent any more. */
+export const FRESH_MS = 5000;
+/** Pressed again within this time, it is the same stop. */
+const DOUBLE_MS = 1000;
+/** After this time the live stream alone says how the robots fare. */
+const TOLD_MS = 12_000;
 
 const pause = (ms: number) => new Promise((resolve) => setTimeout(resolve, ms));
 
-export const useStopping = create<Stopping>()((set, get) => ({
-  pending: null,
-  stop: async (targets) => {
-    const id = crypto.randomUUID();
-    set({ pending: { id, targets, failed: false } });
-    for (let attempt = 0; attempt < ATTEMPTS && get().pending?.id === id; attempt += 1) {
-      try {
-        await sendStop('stop', targets, id);
-        if (get().pending?.id === id) set({ pending: null });
-        return;
-      } catch (error) {
-        if (!(error instanceof ApiError)) throw error;
-        if (get().pending?.id === id) set({ pending: { id, targets, failed: true } });
-        await pause(RETRY_MS);
-      }
-    }
-  },
-  reset: async (targets) => {
-    await sendStop('reset', targets, crypto.randomUUID());
-    set({ pending: null });
-  },
-}));
+export const useStopping = create<Stopping>()((set, get) => {
+  const waits = (id: string) => get().pending?.id === id && get().pending?.state !== 'dropped';
+  /** Does nothing for one that was taken meanwhile. */
+  const mark = (id: string, state: Press['state']) => {
+    const { pending } = get();
+    if (pending?.id === id) set({ pending: { ...pending, state } });
+  };
+  let forget: ReturnType<typeof setTimeout> | undefined;
+  const take = (answer: StopAnswer) => {
+    set({ answer, pending: get().pending?.id === answer.id ? null : get().pending });
+    clearTimeout(forget);
+    forget = setTimeout(() => set({ answer: null }), TOLD_MS);
+  };
+  hearStopLine(take, () => {
+    const { pending } = get();
+    if (pending && waits(pending.id)) stopOnLine(pending.targets, pending.id);
+  });
 
-/** Robots that an emergency stop holds. */
-export const stoppedRobots = (robots: Readonly<Record<string, RobotView>>): RobotView[] =>
-  Object.values(robots).filter((robot) => robot.stop.state !== 'none' || robot.state === 'stopped');
+  return {
+    pending: null,
+    answer: null,
+    stop: async (targets) => {
+      const now = Date.now();
+      if (isAgain(get().pending, targets, now)) return;
+      const id = crypto.randomUUID();
+      const mayReach = stopOnLine(targets, id) || useLive.getState().connection === 'connected';
+      set({ pending: { id, targets, sinceMs: now, state: mayReach ? 'sending' : 'late' } });
+      setTimeout(() => waits(id) && mark(id, 'late'), LATE_MS);
+      while (waits(id) && Date.now() - now < FRESH_MS) {
+        try {
+          take(await sendStop(targets, id));
+        } catch (error) {
+          if (!(error instanceof ApiError)) throw error;
+          mark(id, 'late');
+          await pause(RETRY_MS);
+        }
+      }
+      mark(id, 'dropped');
+    },
+    reset: async (targets) => {
+      await sendReset(targets, crypto.randomUUID());
+      set({ pending: null, answer: null });
+    },
+    dismiss: () => set({ pending: null }),
+  };
+});
+
+const isAgain = (before: Press | null, targets: readonly string[], now: number) =>
+  before !== null &&
+  before.state !== 'dropped' &&
+  now - before.sinceMs < DOUBLE_MS &&
+  before.targets.join('\n') === targets.join('\n');
+
+/** One robot that is stopped, and what is known of it. */
+export interface StoppedRobot {
+  name: string;
+  fate: Fate;
+  stop: RobotView['stop'];
+}
+
+const NO_STOP: RobotView['stop'] = { state: 'none', id: '', sent_unix_ms: 0, at_rest_unix_ms: 0 };
+const FATES: Record<RobotView['stop']['state'], Fate> = {
+  none: 'sent',
+  sent: 'sent',
+  received: 'sent',
+  at_rest: 'stands',
+  moves: 'moves',
+  silent: 'silent',
+};
+
+/** Robots that an emergency stop holds: what the live stream tells, and sooner what the stop itself was answered. */
+export function stoppedRobots(
+  robots: Readonly<Record<string, RobotView>>,
+  answer: StopAnswer | null = null,
+): StoppedRobot[] {
+  const names = new Set([
+    ...Object.values(robots)
+      .filter((robot) => robot.stop.state !== 'none' || robot.state === 'stopped')
+      .map((robot) => robot.name),
+    ...Object.keys(answer?.robots ?? {}),
+  ]);
+  return [...names].map((name) => {
+    const robot = robots[name];
+    const stop = robot?.stop ?? NO_STOP;
+    const live = robot?.state === 'stopped' && stop.state === 'none' && robot.at_rest === true ? 'stands' : FATES[stop.state];
+    const told = answer?.robots[name];
+    const isNewer = told !== undefined && live === 'sent';
+    return { name, fate: isNewer ? told : live, stop };
+  });
+}

@@ -118,6 +118,7 @@ def demo(
         without=without,
     )
     page |= {"examples": loaded.story.examples, "data_dir": folder, "fresh_robots": True}
+    page |= {"unattended": chosen.unattended, "unattended_after_s": chosen.unattended_after_s}
     page |= language_label(chosen.language)
     asyncio.run(_serve(loaded, chosen, page, port_is_wish=port is None, opens=not no_open))
 
@@ -182,7 +183,13 @@ async def _serve(
     settings = WebConfig.model_validate(page)
     async with (
         demo.system(config) as system,
-        WebServer(system.transport, settings, port_is_wish=port_is_wish) as server,
+        WebServer(
+            system.transport,
+            settings,
+            port_is_wish=port_is_wish,
+            stop_line=system.stop_line,
+            at_rest=system.at_rest,
+        ) as server,
     ):
         if system.store is not None and system.store.notice:
             typer.echo(system.store.notice)

@@ -7,6 +7,7 @@ Each robot is tied to it by three functions. `halt` and `resume` are called at o
 from __future__ import annotations
 
 import threading
+from collections import deque
 from collections.abc import Callable, Iterable
 from concurrent.futures import Future
 from dataclasses import dataclass, field
@@ -71,6 +72,8 @@ class StopLine:
         self._known = set(robots)
         self._tied: dict[str, _Tied] = {}
         self._holds: dict[str, frozenset[str]] = {}
+        self._resets: deque[str] = deque(maxlen=100)
+        """Ids of those that took effect: heard again, late, one must not release what was stopped since."""
         self._saved = self._file.save(self._latched)  # so that there is a file which can be emptied later
 
     def close(self) -> None:
@@ -211,7 +214,7 @@ class StopLine:
         Args:
             targets: Robots by name; none: all.
             by: Who releases.
-            id: Names this reset.
+            id: Names this reset; resetting again with the same id does nothing more.
 
         Returns:
             Why it was refused, or which drives could not be told (these stay latched).
@@ -227,6 +230,9 @@ class StopLine:
             )
         command = StopCommand(command="reset", targets=self._meant(targets), id=id, by=by)
         with self._lock:
+            if id and id in self._resets:
+                return ()
+            self._resets.append(id)
             self._latched = self._latched.released(command.targets, self._known)
             for name in [name for name, held in self._holds.items() if _ended_by(held, command.targets)]:
                 del self._holds[name]  # whoever reads may have died, and a person says that it may go on
@@ -239,6 +245,7 @@ class StopLine:
                 with self._lock:
                     self._latched = self._latched.stopped([item.robot])
                     self._saved = self._file.save(self._latched)
+                    self._resets.clear()  # trying again is no repetition
                 text = f"the stop of {item.robot} cannot be released: {why}"
                 problems.append(Problem("", text, "try again", "reset_failed"))
                 continue

@@ -10,6 +10,7 @@ from typing import Any, Literal
 
 from pydantic import Field, field_validator, model_serializer, model_validator
 
+from parley.messages.attendance import Unattended
 from parley.messages.base import ParameterTree, Payload
 from parley.messages.plain import LineText, ShownText
 from parley.messages.principal import Principal
@@ -63,6 +64,8 @@ class ChatInput(Payload):
     """Ours: pictures attached to the message."""
     by: Principal | None = None
     """Ours: who says it. None: a person whose name is `author`, as the thesis's page sends it."""
+    unattended: Unattended | None = None
+    """Ours: what the robots do with this when nobody is connected for a while; None: as they do otherwise."""
 
     @property
     def who(self) -> Principal:

@@ -26,6 +26,8 @@ class QoS:
     """Late subscribers get the last message (ROS: transient local)."""
     depth: int = 10
     """How many messages wait for a slow subscriber; older ones are dropped (ROS: keep last)."""
+    keep_all: bool = False
+    """Nothing is dropped, whatever depth a subscriber asks for (ROS: keep all)."""
 
 
 @dataclass(frozen=True, slots=True)
@@ -48,8 +50,12 @@ class Service(Generic[Req, Res]):
     ros_type: str
 
 
-def _string(name: str, *, latched: bool = False, depth: int = 100) -> Topic[ros.String]:
-    return Topic(name, ros.String, "std_msgs/msg/String", QoS(latched=latched, depth=depth))
+def _string(
+    name: str, *, latched: bool = False, depth: int = 100, keep_all: bool = False
+) -> Topic[ros.String]:
+    return Topic(
+        name, ros.String, "std_msgs/msg/String", QoS(latched=latched, depth=depth, keep_all=keep_all)
+    )
 
 
 CHAT_INPUT = _string("chat_interface_input")
@@ -84,7 +90,7 @@ PLAN = _string("/parley/plan")
 PLAN_DECISION = _string("/parley/plan_decision")
 RULING = _string("/parley/ruling", depth=1000)
 STEP = _string("/parley/step")
-STOP = _string("/parley/stop")
+STOP = _string("/parley/stop", keep_all=True)
 STOP_REPORT = _string("/parley/stop_report")
 REJECTION = _string("/parley/rejection")
 SYNC = _string("/parley/sync")
@@ -93,6 +99,7 @@ REPLY_DRAFT = _string("/parley/reply_draft", depth=1)
 INCIDENT = _string("/parley/incident")
 MAP_VIEW = _string("/parley/map_view", depth=10)
 AUDIT = _string("/parley/audit", depth=10_000)
+ATTENDANCE = _string("/parley/attendance", latched=True)
 
 GET_MEMORY = Service("get_memory", ros.ChatRequest, ros.ChatResponse, "nl_interface_msgs/srv/Chat")
 GET_INCIDENTS = Service(
@@ -108,7 +115,7 @@ ALL_TOPICS: tuple[Topic[Any], ...] = (
     CHAT_INPUT, CHAT_FEEDBACK, CHAT_ACTION, UMRF_CORRECTION, ERROR_HANDLING, ADD_TO_MEMORY, REMOVE_MEMORY,
     DISPLAY_FEED, GRAPH_START, GRAPH_MODIFY, GRAPH_PAUSE, GRAPH_PAUSE_TEMOTO, GRAPH_RESUME, GRAPH_STOP,
     GRAPH_FEEDBACK, ACTOR_STATUS, GRAPH_EVENTS, PLAN, PLAN_DECISION, STEP, STOP, STOP_REPORT, REJECTION, SYNC,
-    MEMORY_EVENT, REPLY_DRAFT, INCIDENT, MAP_VIEW, AUDIT, RULING,
+    MEMORY_EVENT, REPLY_DRAFT, INCIDENT, MAP_VIEW, AUDIT, RULING, ATTENDANCE,
 )  # fmt: skip
 ALL_SERVICES = (GET_MEMORY, GRAPH_GET, GET_INCIDENTS, GET_MAP, GET_AUDIT)
 

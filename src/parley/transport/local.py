@@ -47,7 +47,7 @@ class _LocalSubscription(Generic[M]):
 
     def __init__(self, transport: LocalTransport, topic: Topic[M], handler: Handler[M], depth: int) -> None:
         self._transport, self._topic, self._handler = transport, topic, handler
-        self._queue: deque[M] = deque(maxlen=depth)
+        self._queue: deque[M] = deque(maxlen=None if topic.qos.keep_all else depth)
         self._arrived = asyncio.Event()
         self._dropped = 0
         self._task: asyncio.Task[None] | None = asyncio.create_task(self._run(), name=f"sub {topic.name}")

@@ -1,10 +1,9 @@
-"""The ASGI app: REST, the live stream and the page behind one guard."""
+"""The ASGI app behind the guard: REST, the live stream and the page."""
 
 from __future__ import annotations
 
 import json
 import re
-from collections.abc import Iterable
 from typing import Any
 
 import socketio
@@ -17,7 +16,6 @@ from starlette.types import ASGIApp
 from parley import __version__
 from parley.web.backend import Backend
 from parley.web.bodies import FeedKey, FrameMeta
-from parley.web.guard import Guard
 from parley.web.live import Live
 from parley.web.pages import Pages, built_pages
 from parley.web.problems import RESPONSES, install
@@ -63,17 +61,12 @@ def create_api() -> FastAPI:
     return api
 
 
-def create_app(
-    backend: Backend, live: Live, *, hosts: Iterable[str], origins: Iterable[str] = (), https: bool = False
-) -> ASGIApp:
-    """Everything that one server answers.
+def create_app(backend: Backend, live: Live) -> ASGIApp:
+    """Everything that one server answers to those whom the guard lets in.
 
     Args:
         backend: Open.
         live: Open.
-        hosts: Names under which this server is reached.
-        origins: Other origins whose pages may talk to it.
-        https: Whether it is served so.
     """
     api = create_api()
     api.state.backend = backend
@@ -83,8 +76,7 @@ def create_app(
         return await pages.answer(request)
 
     api.add_route("/{path:path}", page, methods=["GET"], include_in_schema=False)
-    inner = socketio.ASGIApp(live.server, other_asgi_app=api)
-    return Guard(inner, backend.sessions, backend.clock, hosts=hosts, origins=origins, https=https)
+    return socketio.ASGIApp(live.server, other_asgi_app=api)  # type: ignore[no-any-return]
 
 
 def _with_open_actions(schema: dict[str, Any]) -> dict[str, Any]:

@@ -2,20 +2,26 @@
 
 from __future__ import annotations
 
+import asyncio
 import uuid
 from collections.abc import Callable, Sequence
-from contextlib import AsyncExitStack
+from contextlib import AsyncExitStack, suppress
 from typing import Final, Self
 
 import structlog
 
 from parley import __version__
 from parley.clock import Clock, WallClock
+from parley.errors import StoreError
+from parley.gate.stop_line import StopLine
+from parley.language.control import has_stop_word
 from parley.messages.chat import ChatFeedback, ChatImage, ChatInput
 from parley.messages.map import MapView
+from parley.messages.principal import person
 from parley.messages.status import PlanDecision
 from parley.transport.base import Transport
 from parley.web.bodies import ChatPost
+from parley.web.chat_state import Composed
 from parley.web.config import Module, WebConfig
 from parley.web.feed_state import Picture
 from parley.web.feeds import Feeds
@@ -26,7 +32,8 @@ from parley.web.pictures import kept_picture
 from parley.web.problems import WebProblem
 from parley.web.sessions import Sessions
 from parley.web.state import WebState
-from parley.web.store import WebStore
+from parley.web.stopping import Stopper
+from parley.web.store import KeptPicture, WebStore
 
 __all__ = ["Backend"]
 
@@ -46,6 +53,8 @@ class Backend:
         config: The settings.
         pairs: Whether one has to sign in with a pairing code, where there is no password.
         clock: Wall time.
+        stop_line: Of the engines, if they run in this process.
+        at_rest: Whether a robot of this process stands, measured now; may be called from any thread.
     """
 
     state: WebState
@@ -53,10 +62,20 @@ class Backend:
     link: Link
     feeds: Feeds
 
+    stopper: Stopper
+
     def __init__(
-        self, transport: Transport, config: WebConfig, *, pairs: bool = False, clock: Clock | None = None
+        self,
+        transport: Transport,
+        config: WebConfig,
+        *,
+        pairs: bool = False,
+        clock: Clock | None = None,
+        stop_line: StopLine | None = None,
+        at_rest: Callable[[str], bool | None] = lambda _: None,
     ) -> None:
         self.transport, self.config = transport, config
+        self._stop_line, self._at_rest = stop_line, at_rest
         self.clock: Clock = clock or WallClock()
         self.sessions = Sessions(self.clock, config.password if pairs else "", pairs=pairs)
         self.addresses: tuple[str, ...] = ()
@@ -64,6 +83,7 @@ class Backend:
         self.view_listeners: list[Callable[[MapView], None]] = []
         self.picture_listeners: list[Callable[[tuple[str, str], Picture], None]] = []
         self._sending: set[str] = set()
+        self._keeping: set[asyncio.Task[None]] = set()
         self._policies: dict[str, str] = {}
         self._keeper: Keeper
         self._stack = AsyncExitStack()
@@ -107,6 +127,14 @@ class Backend:
                 on_joined=self._on_joined,
             )
         )
+        loop = asyncio.get_running_loop()
+        self.stopper = Stopper(
+            self._stop_line,
+            lambda: self.state.robots.views,
+            lambda command: _in(loop, lambda: self.link.send(command)),
+            self.clock,
+            self._at_rest,
+        )
         await self._settle_unsent()
         self.feeds = await enter(
             Feeds(self.transport, self.state.feeds, lambda: list(self.state.robots.views), self._on_picture)
@@ -132,6 +160,8 @@ class Backend:
             modules=config.modules,
             examples=config.examples,
             addresses=self.addresses,
+            unattended=config.unattended,
+            unattended_after_s=config.unattended_after_s,
         )
 
     def snapshot(self) -> Snapshot:
@@ -164,7 +194,7 @@ class Backend:
 
         Raises:
             WebProblem: A picture cannot be read, the question is settled, or it is being sent right now.
-            StoreError: It cannot be kept; then it is not sent either.
+            StoreError: It cannot be kept; then it is not sent either, unless there is a stop word in it.
         """
         if post.id in self._sending:
             raise WebProblem(409, "This message is just being sent.", "Wait a moment.", path="id")
@@ -175,26 +205,60 @@ class Backend:
             self._sending.discard(post.id)
 
     async def _say(self, post: ChatPost, author: str) -> ChatEntry:
+        if has_stop_word(post.text):
+            return await self._say_at_once(post, author)
         known = await self.store.entry(post.id)
         if known is not None:
             return await self._say_again(post, known)
         self._check_reply(post)
-        targets = tuple(dict.fromkeys(self.state.robots.resolve(name) or name for name in post.targets))
         pictures = [kept_picture(f"{post.id}.{number}", image) for number, image in enumerate(post.images)]
-        composed = self.state.chat.compose(
-            post.id,
-            post.text,
-            targets,
-            reply_to=post.reply_to,
-            images=[ChatImage(name=image.name, data=image.data) for image in post.images],
-            image_urls=[f"/api/chat/images/{picture.id}" for picture in pictures],
-            author=author,
-            unix_ms=self.clock.unix_ms(),
-        )
+        composed = self._composed(post, author, pictures)
         await self.store.keep([composed.entry], pictures, composed.messages)
         self.state.chat.said(composed)
         await self._send(composed.entry, composed.messages)
         return composed.entry
+
+    async def _say_at_once(self, post: ChatPost, author: str) -> ChatEntry:
+        """Hold the robots and send words that may stop them before anything else; no disk is waited for."""
+        known = self.state.chat.entries.get(post.id)
+        if known is not None:
+            return known
+        self.stopper.hold(post.targets, by=person(author, device="page"), id=post.id, words=post.text)
+        try:
+            self._check_reply(post)
+            pictures = [kept_picture(f"{post.id}.{index}", image) for index, image in enumerate(post.images)]
+        except WebProblem:
+            post, pictures = post.model_copy(update={"reply_to": "", "images": ()}), []
+        composed = self._composed(post, author, pictures)
+        for message in composed.messages:
+            self.link.send(message)
+        self.state.chat.said(composed)
+        keeping = asyncio.create_task(self._keep_later(composed.entry, pictures), name="web keeping")
+        self._keeping.add(keeping)
+        keeping.add_done_callback(self._keeping.discard)
+        return composed.entry
+
+    async def _keep_later(self, entry: ChatEntry, pictures: Sequence[KeptPicture]) -> None:
+        try:
+            await self.store.keep([entry], pictures)
+        except StoreError as error:
+            log.error("message not stored", id=entry.id, problem=str(error))
+            text = "I got that, but it cannot be kept: it will be missing here after the next start."
+            told = ChatFeedback(message=text, targets=entry.targets, type="error", reply_to=entry.id)
+            self.state.chat.on_feedback(told, unix_ms=self.clock.unix_ms())
+
+    def _composed(self, post: ChatPost, author: str, pictures: Sequence[KeptPicture]) -> Composed:
+        return self.state.chat.compose(
+            post.id,
+            post.text,
+            tuple(dict.fromkeys(self.state.robots.resolve(name) or name for name in post.targets)),
+            reply_to=post.reply_to,
+            images=[ChatImage(name=image.name, data=image.data) for image in post.images],
+            image_urls=[f"/api/chat/images/{picture.id}" for picture in pictures],
+            author=author,
+            unattended=post.unattended,
+            unix_ms=self.clock.unix_ms(),
+        )
 
     async def _say_again(self, post: ChatPost, known: ChatEntry) -> ChatEntry:
         """A message that was posted before: it goes out, as it was, only if it may not have gone yet."""
@@ -278,3 +342,8 @@ class Backend:
     def _on_picture(self, key: tuple[str, str], picture: Picture) -> None:
         for listener in self.picture_listeners:
             listener(key, picture)
+
+
+def _in(loop: asyncio.AbstractEventLoop, deed: Callable[[], None]) -> None:
+    with suppress(RuntimeError):  # the loop is closed: nobody is left who could be told
+        loop.call_soon_threadsafe(deed)

@@ -6,6 +6,7 @@ from typing import Annotated, Literal, Self
 
 from pydantic import Field, StringConstraints, model_validator
 
+from parley.messages.attendance import Unattended
 from parley.messages.chat import ActionCall
 from parley.web.models import ChatEntry, Policy, WebModel
 
@@ -23,9 +24,11 @@ __all__ = [
     "PolicyPut",
     "ProblemDetail",
     "RobotPost",
+    "RobotStop",
     "SessionInfo",
     "SessionPost",
     "StepsPut",
+    "StopAnswer",
     "StopPost",
 ]
 
@@ -101,6 +104,8 @@ class ChatPost(WebModel):
     reply_to: Annotated[str, StringConstraints(max_length=200)] = ""
     """Key of the question that is answered, if a certain one is meant."""
     images: Annotated[tuple[ImageUpload, ...], Field(max_length=4)] = ()
+    unattended: Unattended | None = None
+    """What the robots do with it when nobody is connected for a while; null: as they do otherwise."""
 
     @model_validator(mode="after")
     def _says_something(self) -> Self:
@@ -125,6 +130,22 @@ class StopPost(WebModel):
     targets: Annotated[tuple[Name, ...], Field(max_length=100)] = ()
     """Empty: all robots."""
     id: Annotated[str, StringConstraints(pattern=r"^[A-Za-z0-9_.-]{0,64}$")] = ""
+
+
+RobotStop = Literal["sent", "stands", "moves", "silent"]
+"""`sent`: nothing is known yet; `stands`: its measured velocity is zero; `moves`: it knows of the stop and
+does not stand (yet); `silent`: it does not answer."""
+
+
+class StopAnswer(WebModel):
+    """What became of an emergency stop."""
+
+    ok: Literal[True] = True
+    id: str
+    robots: dict[str, RobotStop]
+    """Of each robot that was meant."""
+    kept: bool = True
+    """Whether it is in force after a kill of the process, too, as far as the server knows."""
 
 
 class PlanCommandPost(WebModel):

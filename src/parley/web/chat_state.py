@@ -7,6 +7,7 @@ from dataclasses import dataclass
 from typing import Final
 
 from parley.language.control import control_of
+from parley.messages.attendance import Unattended
 from parley.messages.chat import ChatFeedback, ChatImage, ChatInput, ReplyDraft
 from parley.web.models import ChatEntry
 
@@ -61,6 +62,7 @@ class ChatBook:
         images: Sequence[ChatImage] = (),
         image_urls: Sequence[str] = (),
         author: str = "",
+        unattended: Unattended | None = None,
         unix_ms: int,
     ) -> Composed:
         """What an operator's message becomes; nothing is changed yet, see `said`.
@@ -76,6 +78,7 @@ class ChatBook:
             images: Attached pictures.
             image_urls: Where the page finds them.
             author: The person's name.
+            unattended: What becomes of it when nobody is connected.
             unix_ms: Now.
         """
         asked = {target: self._question_of(target, reply_to) for target in targets}
@@ -94,6 +97,7 @@ class ChatBook:
                 reply_to=self._asked_as.get(question, ""),
                 author=author,
                 images=tuple(images),
+                unattended=unattended,
             )
             for number, (question, group) in enumerate(groups)
         )

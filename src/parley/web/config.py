@@ -7,6 +7,8 @@ from typing import Literal
 
 from pydantic import BaseModel, ConfigDict, Field
 
+from parley.messages.attendance import Unattended
+
 __all__ = ["MODULES", "Module", "WebConfig"]
 
 Module = Literal["chat", "plan", "display", "map", "memory", "robots", "incidents", "log"]
@@ -41,6 +43,9 @@ class WebConfig(BaseModel):
     language: str = "built in, works without a model"
     """The language engine in words for people."""
     offline_language: bool = True
+    unattended: Unattended = "go_on"
+    """What the robots do when nobody is connected; see `parley.config.SystemConfig`."""
+    unattended_after_s: float = 30.0
     data_dir: Path | None = None
     """Where the conversation and a made certificate are kept; None: only while the server runs."""
     static_dir: Path | None = None

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import asyncio
 import base64
+import hmac
 import secrets
 from collections.abc import Iterable, MutableMapping
 from http.cookies import CookieError, SimpleCookie
@@ -14,6 +15,7 @@ from starlette.types import ASGIApp, Message, Receive, Scope, Send
 
 from parley.clock import Clock
 from parley.web.limits import Rate
+from parley.web.patience import seat_of
 from parley.web.problems import WebProblem, problem_response
 from parley.web.sessions import Session, Sessions, cookie_name
 
@@ -24,7 +26,8 @@ MAX_BODY_BYTES: Final = 64 * 1024
 MAX_UPLOAD_BYTES: Final = 20 * 1024 * 1024
 """For the addresses that take pictures."""
 MAX_UPLOADS: Final = 8
-"""Large bodies that are held at once; more wait their turn."""
+"""Large bodies that are held at once, of those who are known and of strangers; more wait their turn."""
+VISIT: Final = "parley_visit"
 BODY_WITHIN_S: Final = 30.0
 """Wall time in which a body must have come."""
 _TOO_LARGE: Final = "That is more than this server takes."
@@ -32,6 +35,8 @@ _SMALLER: Final = "Use smaller or fewer pictures."
 _UPLOADS: Final = ("/api/chat", "/api/memory")
 _OPEN: Final = frozenset({"/api/session", "/api/health"})
 _LIVE: Final = "/socket.io"
+_STOP: Final = "/api/stop"
+_SOCKETS: Final = (_LIVE, "/api/stop/line")
 
 _HEADERS: Final = (
     (b"x-content-type-options", b"nosniff"),
@@ -70,7 +75,8 @@ class Guard:
         self._hosts = {host.casefold() for host in hosts}
         self._origins = {origin.rstrip("/").casefold() for origin in origins}
         self._https = https
-        self._uploads = asyncio.Semaphore(MAX_UPLOADS)
+        self._visits = Visits()
+        self._uploads = {known: asyncio.Semaphore(MAX_UPLOADS) for known in (True, False)}
         self._changes = Rate(per_s=20, burst=60)
         self._reads = Rate(per_s=100, burst=400)
 
@@ -85,14 +91,20 @@ class Guard:
         sealed = self._seal(send, scope, nonce)
         try:
             session = self._admit(scope, headers)
+            who = self._who(session, headers)
+            if who:
+                seat_of(scope).known(who)
+            self._check_rate(scope, who)
         except WebProblem as problem:
             await _refuse(problem, scope, receive, sealed)
             return
-        scope["state"]["session"] = session
+        scope["state"]["session"], scope["state"]["who"] = session, who
+        if not who and not self._sessions.required and _opens_page(scope):
+            sealed = _with_cookie(sealed, self._visits.new(), https=self._https)
         if scope["type"] != "http" or scope["method"] in SAFE_METHODS:
             await self._app(scope, receive, sealed)
         elif scope["path"].startswith(_UPLOADS) and _is_large(headers):
-            async with self._uploads:
+            async with self._uploads[bool(who)]:
                 await self._take(scope, receive, sealed)
         else:
             await self._take(scope, receive, sealed)
@@ -114,7 +126,7 @@ class Guard:
         """
         self._check_host(headers)
         path, method = scope["path"], scope.get("method", "GET")
-        is_live = path == _LIVE or path.startswith(_LIVE + "/")
+        is_live = path.startswith(_SOCKETS)
         if is_live or method not in SAFE_METHODS:
             self._check_origin(headers)
         self._check_size(path, headers)
@@ -122,8 +134,14 @@ class Guard:
         is_inside = is_live or (path.startswith("/api/") and path not in _OPEN)
         if is_inside and self._sessions.required and session is None:
             raise WebProblem(401, "You are not signed in.", "Sign in first.")
-        self._check_rate(scope, path, method, session)
         return session
+
+    def _who(self, session: Session | None, headers: MutableMapping[str, str]) -> str:
+        """Known by a session, or, where nobody has to sign in, by having opened the page; else empty."""
+        if session is not None:
+            return session.digest
+        visit = "" if self._sessions.required else _cookie(headers.get("cookie", ""), VISIT)
+        return visit if self._visits.holds(visit) else ""
 
     def _check_host(self, headers: MutableMapping[str, str]) -> None:
         host = urlsplit(f"//{headers.get('host', '')}")
@@ -150,14 +168,12 @@ class Guard:
         if not length.isdecimal() or int(length) > _limit(path):
             raise WebProblem(413, _TOO_LARGE, _SMALLER)
 
-    def _check_rate(self, scope: Scope, path: str, method: str, session: Session | None) -> None:
-        """Stopping is never slowed down; everything else has its measure, for each who signed in."""
-        if path == "/api/stop":
+    def _check_rate(self, scope: Scope, who: str) -> None:
+        """Stopping is never slowed down; everything else has its measure, for each who is known."""
+        if scope["path"].startswith(_STOP):
             return
-        # Where nobody has to sign in, sessions are to be had for nothing and tell nobody apart.
-        known = session.digest if session is not None and self._sessions.required else ""
-        who = known or str((scope.get("client") or ("", 0))[0])
-        rate = self._reads if method in SAFE_METHODS else self._changes
+        who = who or str((scope.get("client") or ("", 0))[0])
+        rate = self._reads if scope.get("method", "GET") in SAFE_METHODS else self._changes
         wait_s = rate.take(who, self._clock.wall_s())
         if wait_s > 0:
             raise WebProblem(
@@ -188,6 +204,43 @@ class Guard:
             await send(message)
 
         return sealed
+
+
+class Visits:
+    """Cookies of pages that were opened where nobody has to sign in; they only tell pages from strangers."""
+
+    def __init__(self) -> None:
+        self._key = secrets.token_bytes(32)
+
+    def new(self) -> str:
+        """Of another page."""
+        name = secrets.token_hex(8)
+        return f"{name}.{self._seal(name)}"
+
+    def holds(self, visit: str) -> bool:
+        """Whether it is one of ours, of this run."""
+        name, _, sealed = visit.partition(".")
+        return hmac.compare_digest(self._seal(name).encode(), sealed.encode())
+
+    def _seal(self, name: str) -> str:
+        return hmac.new(self._key, name.encode(), "sha256").hexdigest()[:32]
+
+
+def _opens_page(scope: Scope) -> bool:
+    """Pages begin with an address of no data; when they connect anew they ask first who is signed in."""
+    is_page = not scope["path"].startswith(("/api/", _LIVE, "/assets/")) or scope["path"] == "/api/session"
+    return is_page and scope.get("method") == "GET"
+
+
+def _with_cookie(send: Send, visit: str, *, https: bool) -> Send:
+    cookie = f"{VISIT}={visit}; Path=/; HttpOnly; SameSite=Strict" + ("; Secure" if https else "")
+
+    async def sending(message: Message) -> None:
+        if message["type"] == "http.response.start":
+            message = {**message, "headers": [*message["headers"], (b"set-cookie", cookie.encode())]}
+        await send(message)
+
+    return sending
 
 
 def _is_large(headers: MutableMapping[str, str]) -> bool:

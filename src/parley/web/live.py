@@ -15,9 +15,11 @@ import socketio
 import structlog
 from pydantic import BaseModel, TypeAdapter, ValidationError
 
+from parley.messages.attendance import Attendance
 from parley.messages.map import MapView
 from parley.web.backend import Backend
 from parley.web.bodies import FeedKey, FrameMeta
+from parley.web.crowd import Crowd, Seat
 from parley.web.feed_state import Picture
 from parley.web.models import Change
 
@@ -31,8 +33,13 @@ IN_FLIGHT: Final = 2
 """Pictures of one feed that a client has not confirmed yet."""
 CONFIRM_WITHIN_S: Final = 2.0
 """Wall time after which a picture counts as confirmed, or lost."""
+ATTENDANCE_S: Final = 5.0
+"""Wall time after which it is told anew how many people are connected."""
 MAX_WATCHED: Final = 64
 MAX_CLIENTS: Final = 200
+"""Of those who are known; the oldest gives way."""
+MAX_STRANGERS: Final = 50
+"""The same of those who are not."""
 MAX_RENDERED: Final = 1000
 """Changes that are held ready in the form in which they travel."""
 MAX_MESSAGE_BYTES: Final = 64 * 1024
@@ -55,6 +62,9 @@ class _Client:
     sid: str
     seq: int
     """Number of the newest change that was sent; -1: nothing yet."""
+    seat: Seat
+    who: str
+    """Two pages of one person have the same."""
     wake: asyncio.Event = field(default_factory=asyncio.Event)
     """Changes or views wait."""
     look: asyncio.Event = field(default_factory=asyncio.Event)
@@ -74,6 +84,9 @@ class Live:
     def __init__(self, backend: Backend) -> None:
         self._backend = backend
         self._clients: dict[str, _Client] = {}
+        self._crowd = Crowd(MAX_STRANGERS, MAX_CLIENTS)
+        self._leaving: set[asyncio.Task[None]] = set()
+        self._telling: asyncio.Task[None] | None = None
         self._rendering: dict[int, dict[str, Any]] = {}
         self._closed = False
         self.server = socketio.AsyncServer(
@@ -94,6 +107,7 @@ class Live:
         self._backend.state.log.listen(self._wake_all)
         self._backend.view_listeners.append(self._on_view)
         self._backend.picture_listeners.append(self._on_picture)
+        self._telling = asyncio.create_task(self._tell_attendance(), name="web attendance")
         return self
 
     async def __aexit__(self, *exc: object) -> None:
@@ -104,6 +118,8 @@ class Live:
         if self._closed:
             return
         self._closed = True
+        if self._telling is not None:
+            self._telling.cancel()
         for client in list(self._clients.values()):
             await self.server.disconnect(client.sid)
             await self._drop(client)
@@ -112,16 +128,21 @@ class Live:
     # -- clients ---------------------------------------------------------------------------------------
 
     async def _on_connect(self, sid: str, environ: dict[str, Any], auth: object = None) -> bool:
-        if self._closed or len(self._clients) >= MAX_CLIENTS:
+        if self._closed:
             return False
+        scope = environ["asgi.scope"]
+        seat = self._crowd.sit(str((scope.get("client") or ("",))[0]), lambda: self._let_go(sid))
+        if who := scope["state"]["who"]:
+            seat.known(who)
         log_of_changes = self._backend.state.log
         since = auth.get("since") if isinstance(auth, dict) else None
         is_same_run = isinstance(auth, dict) and auth.get("run") == log_of_changes.run
         is_number = isinstance(since, int) and not isinstance(since, bool)
         seq = since if isinstance(since, int) and is_same_run and is_number and since >= 0 else -1
-        client = self._clients[sid] = _Client(sid, seq)
+        client = self._clients[sid] = _Client(sid, seq, seat, who or sid)
         client.views = dict(self._backend.state.views) if seq >= 0 else {}
         client.wake.set()
+        self._attendance()
         client.tasks = (
             asyncio.create_task(self._guarded(client, self._serve), name=f"web client {sid}"),
             asyncio.create_task(self._guarded(client, self._show), name=f"web pictures {sid}"),
@@ -133,8 +154,26 @@ class Live:
         if client is not None:
             await self._drop(client)
 
+    def _attendance(self) -> None:
+        people = len({client.who for client in self._clients.values()})
+        self._backend.link.send(Attendance(server=self._backend.state.log.run, people=people))
+
+    async def _tell_attendance(self) -> None:
+        while True:
+            self._attendance()
+            await asyncio.sleep(ATTENDANCE_S)
+
+    def _let_go(self, sid: str) -> None:
+        """It gives way to somebody else."""
+        log.warning("a live stream gives way", sid=sid)
+        task = asyncio.create_task(self.server.disconnect(sid), name=f"web goodbye {sid}")
+        self._leaving.add(task)
+        task.add_done_callback(self._leaving.discard)
+
     async def _drop(self, client: _Client) -> None:
         self._clients.pop(client.sid, None)
+        client.seat.free()
+        self._attendance()
         for key in client.watched:
             self._backend.feeds.unwatch(key)
         client.watched = set()

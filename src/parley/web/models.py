@@ -10,6 +10,7 @@ from typing import Annotated, Any, Literal
 
 from pydantic import BaseModel, ConfigDict, Field
 
+from parley.messages.attendance import Unattended
 from parley.messages.audit import AuditChain
 from parley.messages.incident import Incident
 from parley.messages.map import MapView
@@ -42,9 +43,10 @@ class WebModel(BaseModel):
 class StopView(WebModel):
     """How far an emergency stop of one robot has come."""
 
-    state: Literal["none", "sent", "received", "at_rest", "overdue"] = "none"
-    """`sent`: published; `received`: the engine told; `at_rest`: its measured velocity is zero;
-    `overdue`: not confirmed within the deadline. Latched in every state but `none`."""
+    state: Literal["none", "sent", "received", "at_rest", "moves", "silent"] = "none"
+    """`sent`: published; `received`: the engine told; `at_rest`: its measured velocity is zero. After the
+    deadline `moves`: it knows and does not stand; `silent`: it does not answer. Latched in every state but
+    `none`."""
     id: str = ""
     sent_unix_ms: int = 0
     at_rest_unix_ms: int = 0
@@ -200,6 +202,9 @@ class ServerInfo(WebModel):
     """Sentences to begin with."""
     addresses: tuple[str, ...] = ()
     """Where else this page can be opened, e.g. from a phone in the same network."""
+    unattended: Unattended = "go_on"
+    """What robots do when nobody is connected for `unattended_after_s`, unless an order says otherwise."""
+    unattended_after_s: float = 30.0
 
 
 class Snapshot(WebModel):

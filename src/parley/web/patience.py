@@ -1,4 +1,4 @@
-"""Whoever sends a request too slowly is hung up on, so that a few idle connections cannot keep others out."""
+"""Connections that have a seat each; whoever sends a request too slowly is hung up on."""
 
 from __future__ import annotations
 
@@ -8,8 +8,22 @@ from typing import Any
 import h11
 import uvicorn
 from uvicorn.protocols.http.h11_impl import H11Protocol
+from uvicorn.protocols.websockets.websockets_sansio_impl import WebSocketsSansIOProtocol
+from uvicorn.server import ServerState
 
-__all__ = ["PatientConfig"]
+from parley.web.crowd import Seat
+
+__all__ = ["SEAT", "PatientConfig", "seat_of"]
+
+SEAT = "seat"
+"""Under this name the state of each request has the `Seat` of its connection."""
+
+
+def seat_of(scope: Any) -> Seat:
+    """The seat of the connection of a request."""
+    seat = scope["state"][SEAT]
+    assert isinstance(seat, Seat)
+    return seat
 
 
 class PatientConfig(uvicorn.Config):
@@ -23,8 +37,12 @@ class PatientConfig(uvicorn.Config):
 
     def __init__(self, *settings: Any, head_within_s: float, body_idle_s: float, **more: Any) -> None:
         super().__init__(*settings, **more)
-        self.http = _PatientProtocol
+        self.http, self.ws = _PatientProtocol, _SeatedSocket
         self.head_within_s, self.body_idle_s = head_within_s, body_idle_s
+
+    def connection(self, state: ServerState, seat: Seat) -> asyncio.Protocol:
+        """The protocol of a new connection."""
+        return _PatientProtocol(self, state, {SEAT: seat})
 
 
 class _PatientProtocol(H11Protocol):
@@ -37,6 +55,7 @@ class _PatientProtocol(H11Protocol):
 
     def connection_made(self, transport: asyncio.Transport) -> None:  # type: ignore[override]
         super().connection_made(transport)
+        self.app_state[SEAT].leave = transport.abort
         self._expect()
 
     def data_received(self, data: bytes) -> None:
@@ -45,6 +64,7 @@ class _PatientProtocol(H11Protocol):
 
     def connection_lost(self, exc: Exception | None) -> None:
         self._expect_nothing()
+        self.app_state[SEAT].free()
         super().connection_lost(exc)
 
     def handle_websocket_upgrade(self, event: h11.Request) -> None:
@@ -77,3 +97,11 @@ class _PatientProtocol(H11Protocol):
         if self._deadline is not None:
             self._deadline.cancel()
             self._deadline = None
+
+
+class _SeatedSocket(WebSocketsSansIOProtocol):
+    """A WebSocket on the seat of the connection that it was."""
+
+    def connection_lost(self, exc: Exception | None) -> None:
+        self.app_state[SEAT].free()
+        super().connection_lost(exc)

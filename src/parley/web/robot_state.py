@@ -14,6 +14,8 @@ LOST_AFTER_S: Final = 5.0
 """Wall time without a heartbeat after which a robot counts as out of contact."""
 STOP_DEADLINE_S: Final = 3.0
 """Wall time from an emergency stop within which the robot must have confirmed that it stands."""
+_AFTER: Final = {"sent": "silent", "received": "moves"}
+"""What a stop that is not confirmed becomes after the deadline."""
 
 
 class RobotBook:
@@ -103,7 +105,9 @@ class RobotBook:
             self._put(view.model_copy(update={"policy": update.policy}))
 
     def on_stop(self, command: StopCommand, *, now_s: float, unix_ms: int) -> None:
-        """Somebody pressed stop, or reset it."""
+        """Somebody pressed stop, or reset it; holding for a moment is none of the two."""
+        if command.command not in ("stop", "reset"):
+            return
         for name in self._meant(command.targets):
             view = self.views[name]
             if command.command == "stop":
@@ -111,9 +115,7 @@ class RobotBook:
                 self._received.discard(name)
                 stop = StopView(state="sent", id=command.id, sent_unix_ms=unix_ms)
                 self._put(view.model_copy(update={"stop": stop}))
-            elif command.command != "reset":
-                continue
-            elif name not in self._received and view.stop.state in ("sent", "overdue"):
+            elif name not in self._received and view.stop.state in ("sent", "silent"):
                 # Nobody ever took it, so nobody will confirm that it is taken back.
                 self._put(view.model_copy(update={"stop": StopView()}))
 
@@ -133,6 +135,8 @@ class RobotBook:
                 stop = stop.model_copy(update={"state": "at_rest", "at_rest_unix_ms": unix_ms})
             elif stop.state in ("none", "sent"):
                 stop = stop.model_copy(update={"state": "received"})
+            elif stop.state == "silent":
+                stop = stop.model_copy(update={"state": "moves"})
         self._put(view.model_copy(update={"stop": stop}))
 
     def tick(self, *, now_s: float, late_s: float = 0.0) -> None:
@@ -148,9 +152,9 @@ class RobotBook:
                 self._seen_s[name] = min(now_s, self._seen_s[name] + max(0.0, late_s))
             if view.connection == "here" and now_s - self._seen_s.get(name, now_s) > LOST_AFTER_S:
                 view = view.model_copy(update={"connection": "lost"})
-            waits = view.stop.state in ("sent", "received")
-            if waits and now_s - self._stop_s.get(name, now_s) > STOP_DEADLINE_S:
-                view = view.model_copy(update={"stop": view.stop.model_copy(update={"state": "overdue"})})
+            if now_s - self._stop_s.get(name, now_s) > STOP_DEADLINE_S and view.stop.state in _AFTER:
+                late = {"state": _AFTER[view.stop.state]}
+                view = view.model_copy(update={"stop": view.stop.model_copy(update=late)})
             self._put(view)
 
     def _meant(self, targets: Iterable[str]) -> list[str]:

@@ -3,44 +3,45 @@
 from __future__ import annotations
 
 import asyncio
-import contextlib
 import errno
 import socket
 import tempfile
-from collections.abc import Callable, Iterator
+from collections.abc import Callable
 from contextlib import AsyncExitStack
 from pathlib import Path
-from typing import Final, Self
+from typing import Self
 
-import uvicorn
 from starlette.types import ASGIApp
 
 from parley.clock import Clock, WallClock
 from parley.errors import ConfigError
+from parley.gate.stop_line import StopLine
 from parley.transport.base import Transport
 from parley.web.addresses import LOCAL_NAMES, lan_addresses
 from parley.web.app import create_app
 from parley.web.backend import Backend
+from parley.web.bridge import Bridge
 from parley.web.config import WebConfig
-from parley.web.live import MAX_MESSAGE_BYTES, Live
-from parley.web.patience import PatientConfig
+from parley.web.front import Front
+from parley.web.guard import Guard
+from parley.web.live import Live
+from parley.web.stop_desk import StopDesk
 from parley.web.tls import fingerprint, made_certificate
 
 __all__ = ["WebServer"]
 
-END_WITHIN_S: Final = 1
-"""Wall time that open connections are given when the server ends."""
-
 
 class WebServer:
-    """One server in the loop it is opened in. Use as ``async with``.
+    """One server: its front in a thread, the rest in the loop it is opened in. Use as ``async with``.
 
     Args:
         transport: Opened by the caller.
         config: The settings.
         clock: Wall time.
         port_is_wish: Whether another port will do where the one of `config` is taken.
-        around: Put around everything that is served, e.g. to measure it.
+        around: Put around everything that is served in this loop, e.g. to measure it.
+        stop_line: Of the engines, where they run in this process; stops go this way then.
+        at_rest: Whether a robot of this process stands, measured now; may be called from any thread.
     """
 
     live: Live
@@ -54,11 +55,20 @@ class WebServer:
         clock: Clock | None = None,
         port_is_wish: bool = False,
         around: Callable[[ASGIApp], ASGIApp] = lambda app: app,
+        stop_line: StopLine | None = None,
+        at_rest: Callable[[str], bool | None] = lambda _: None,
     ) -> None:
         self._config, self._clock, self._around = config, clock or WallClock(), around
         self._port_is_wish = port_is_wish
         self.is_open_to_others = config.lan or config.host not in (*LOCAL_NAMES, "")
-        self.backend = Backend(transport, config, pairs=self.is_open_to_others, clock=self._clock)
+        self.backend = Backend(
+            transport,
+            config,
+            pairs=self.is_open_to_others,
+            clock=self._clock,
+            stop_line=stop_line,
+            at_rest=at_rest,
+        )
         self.url = ""
         """Where the page is on this machine."""
         self.fingerprint = ""
@@ -96,35 +106,19 @@ class WebServer:
         self.backend.addresses = tuple(f"{scheme}://{name}:{port}/" for name in others)
         await self._stack.enter_async_context(self.backend)
         self.live = live = await self._stack.enter_async_context(Live(self.backend))
-        app = create_app(self.backend, live, hosts=names, origins=config.origins, https=files is not None)
-        server = _Server(
-            PatientConfig(
-                self._around(app),
-                log_config=None,
-                access_log=False,
-                server_header=False,
-                proxy_headers=False,
-                lifespan="off",
-                ws="websockets-sansio",
-                ws_max_size=MAX_MESSAGE_BYTES,
-                ws_per_message_deflate=False,  # it cost more than all the rest; pictures are packed already
-                limit_concurrency=1000,
-                timeout_keep_alive=15,
-                head_within_s=config.head_within_s,
-                body_idle_s=config.body_idle_s,
-                timeout_graceful_shutdown=END_WITHIN_S,
-                ssl_certfile=files[0] if files else None,
-                ssl_keyfile=files[1] if files else None,
-            )
+        app = self._around(create_app(self.backend, live))
+        guard = Guard(
+            StopDesk(Bridge(app, asyncio.get_running_loop()), self.backend.stopper),
+            self.backend.sessions,
+            self._clock,
+            hosts=names,
+            origins=config.origins,
+            https=files is not None,
         )
-        task = asyncio.create_task(server.serve(sockets=[listening]), name="web server")
-        self._stack.push_async_callback(_end, server, task, live)
-        ready = asyncio.create_task(server.ready.wait())
-        await asyncio.wait([ready, task], return_when=asyncio.FIRST_COMPLETED)
-        if not server.started:
-            ready.cancel()
-            await task
-            raise ConfigError(f"the page cannot be served at {self.url}")
+        front = Front(guard, listening, config, files)
+        self._stack.push_async_callback(front.close)
+        await front.open()
+        self._stack.push_async_callback(live.close)
 
     async def _certificate(self, names: list[str]) -> tuple[Path, Path]:
         config = self._config
@@ -141,33 +135,6 @@ class WebServer:
         files = await asyncio.to_thread(made_certificate, folder, names, self._clock.unix_ms())
         self.fingerprint = fingerprint(files[0])
         return files
-
-
-class _Server(uvicorn.Server):
-    """Leaves the signals to whoever runs the loop, and says when it serves."""
-
-    def __init__(self, config: uvicorn.Config) -> None:
-        super().__init__(config)
-        self.ready = asyncio.Event()
-
-    async def startup(self, sockets: list[socket.socket] | None = None) -> None:
-        await super().startup(sockets)
-        self.ready.set()
-
-    @contextlib.contextmanager
-    def capture_signals(self) -> Iterator[None]:
-        yield
-
-
-async def _end(server: _Server, task: asyncio.Task[None], live: Live) -> None:
-    """Say goodbye to clients, then close; what hangs is cut off."""
-    await live.close()
-    server.should_exit = True
-    _, late = await asyncio.wait([task], timeout=END_WITHIN_S + 0.5)
-    if late:
-        server.force_exit = True
-        task.cancel()
-    await asyncio.gather(task, return_exceptions=True)
 
 
 def _listen(host: str, port: int, *, other_port_will_do: bool) -> socket.socket:

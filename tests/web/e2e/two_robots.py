@@ -45,7 +45,10 @@ async def main(data: Path, port: int, speed: float) -> None:
     story = demo.story.model_copy(update={"robots": SECOND})
     config = SystemConfig(speed=speed, data_dir=data)
     page = WebConfig(port=port, data_dir=data, examples=story.examples, fresh_robots=True)
-    async with demo.system_for(story, config) as system, WebServer(system.transport, page) as server:
+    async with (
+        demo.system_for(story, config) as system,
+        WebServer(system.transport, page, stop_line=system.stop_line, at_rest=system.at_rest) as server,
+    ):
         asyncio.get_running_loop().add_reader(sys.stdin.fileno(), listen, system.transport)
         await serve_until_interrupted(server, opens=False)
 

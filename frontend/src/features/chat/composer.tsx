@@ -12,6 +12,7 @@ import css from './composer.module.css';
 import { useOutbox } from './outbox';
 import { readPhoto } from '@/ui/photo';
 import type { Answering } from './questions';
+import { UnattendedChoice, useUnattended } from './unattended';
 
 interface Props {
   chosen: readonly string[];
@@ -28,6 +29,7 @@ export function Composer({ chosen, answering, lastSaid, input }: Props) {
   const draft = useDrafts((state) => state.drafts[key] ?? emptyDraft);
   const setDraft = useDrafts((state) => state.set);
   const send = useOutbox((outbox) => outbox.send);
+  const unattended = useUnattended((state) => state.choice);
   const nobody = chosen.length === 0;
   const ready = !nobody && (draft.text.trim() !== '' || draft.photo !== null);
 
@@ -37,7 +39,8 @@ export function Composer({ chosen, answering, lastSaid, input }: Props) {
   const submit = () => {
     if (!ready) return;
     const images = draft.photo ? [draft.photo] : [];
-    void send({ text: draft.text.trim(), targets: chosen, reply_to: answering.question?.id ?? '', images });
+    const reply_to = answering.question?.id ?? '';
+    void send({ text: draft.text.trim(), targets: chosen, reply_to, images, unattended: reply_to ? null : unattended });
     setDraft(key, emptyDraft);
     input.current?.focus();
   };
@@ -90,6 +93,7 @@ export function Composer({ chosen, answering, lastSaid, input }: Props) {
         />
         <Button tone="main" icon="send" iconOnly aria-label={t('send')} type="submit" isDisabled={!ready} />
       </div>
+      {draft.text.trim() !== '' && answering.question === null && <UnattendedChoice />}
     </form>
   );
 }

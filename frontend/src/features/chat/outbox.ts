@@ -28,10 +28,10 @@ const outbox: StateCreator<Outbox> = (set, get) => {
   const change = (id: string, part: Partial<Outgoing>) =>
     set((now) => ({ messages: now.messages.map((one) => (one.id === id ? { ...one, ...part } : one)) }));
 
-  const deliver = async ({ id, text, targets, reply_to, images }: OutgoingMessage) => {
+  const deliver = async ({ id, text, targets, reply_to, images, unattended = null }: OutgoingMessage) => {
     change(id, { state: 'sending', reason: '' });
     try {
-      await sendMessage({ id, text, targets, reply_to, images });
+      await sendMessage({ id, text, targets, reply_to, images, unattended });
       change(id, { state: 'sent' });
     } catch (error) {
       change(id, { state: 'failed', reason: explain(error) });

@@ -1,11 +1,11 @@
-import { render, screen, waitFor } from '@testing-library/react';
+import { act, fireEvent, render, screen, waitFor } from '@testing-library/react';
 import userEvent from '@testing-library/user-event';
-import { beforeEach, describe, expect, it, vi } from 'vitest';
+import { afterEach, beforeEach, describe, expect, it, vi } from 'vitest';
 
 import { robot, snapshot } from '@/live/samples';
 import { useLive } from '@/live/store';
-import type { StopView } from '@/live/types';
-import { useStopping } from '@/state/stopping';
+import type { StopAnswer, StopView } from '@/live/types';
+import { FRESH_MS, useStopping } from '@/state/stopping';
 import { StopButton } from '@/ui/stop-button';
 
 import { StopBanner } from './stop-banner';
@@ -13,15 +13,23 @@ import { StopBanner } from './stop-banner';
 const sent: { command: string; targets: string[]; id: string }[] = [];
 let reachable: boolean[] = [];
 
+let robots: StopAnswer['robots'] = {};
+
 beforeEach(() => {
   sent.length = 0;
   reachable = [];
-  useStopping.setState({ pending: null });
+  robots = {};
+  useStopping.setState({ pending: null, answer: null });
+  useLive.setState({ connection: 'connected' });
   vi.stubGlobal('fetch', (_path: string, options: RequestInit) => {
-    sent.push(JSON.parse(String(options.body)) as (typeof sent)[number]);
-    return (reachable.shift() ?? true) ? Promise.resolve(new Response('{}')) : Promise.reject(new TypeError('no network'));
+    const body = JSON.parse(String(options.body)) as (typeof sent)[number];
+    sent.push(body);
+    const answer = JSON.stringify({ ok: true, kept: true, id: body.id, robots } satisfies StopAnswer);
+    return (reachable.shift() ?? true) ? Promise.resolve(new Response(answer)) : Promise.reject(new TypeError('no network'));
   });
 });
+
+afterEach(() => vi.useRealTimers());
 
 const stop = (state: StopView['state']): StopView => ({ state, id: 's', sent_unix_ms: 1000, at_rest_unix_ms: 0 });
 
@@ -51,32 +59,64 @@ describe('stopping', () => {
     expect(sent).toMatchObject([{ command: 'stop', targets: ['Bob'] }]);
   });
 
+  it('takes two clicks in a row for one stop', async () => {
+    reachable = [false, false];
+    const user = show('none');
+    await user.dblClick(screen.getByRole('button', { name: 'Stop' }));
+    expect(new Set(sent.map((post) => post.id)).size).toBe(1);
+  });
+
   it('tries the same stop again until it gets through, and says so', async () => {
     reachable = [false];
     const user = show('none');
     await user.click(screen.getByRole('button', { name: 'Stop' }));
-    await screen.findByText(/has not got through yet/);
+    await screen.findByText(/has not got through!/);
     await waitFor(() => expect(sent).toHaveLength(2), { timeout: 3000 });
     expect(sent[1]).toEqual(sent[0]);
-    await waitFor(() => expect(screen.queryByText(/has not got through yet/)).toBeNull());
+    await waitFor(() => expect(screen.queryByText(/has not got through!/)).toBeNull());
   });
 
-  it('tells sent, received and standing still apart', () => {
-    show('received');
-    const reached = screen.getAllByRole('listitem').filter((item) => item.dataset.reached === 'true');
-    expect(reached.map((item) => item.textContent?.replace(/\d.*/, ''))).toEqual(['Sent', 'Ada knows']);
+  it('says at once that there is no connection, and does not send a stop that was pressed a while ago', async () => {
+    vi.useFakeTimers();
+    useLive.setState({ connection: 'lost' });
+    reachable = Array<boolean>(30).fill(false);
+    show('none');
+    fireEvent.click(screen.getByRole('button', { name: 'Stop' }));
+    screen.getByText(/^Not connected:/);
+    await act(() => vi.advanceTimersByTimeAsync(FRESH_MS + 1000));
+    screen.getByText(/is not sent any more/);
+    const tried = sent.length;
+    await act(() => vi.advanceTimersByTimeAsync(60_000));
+    expect(sent).toHaveLength(tried);
+    fireEvent.click(screen.getByRole('button', { name: 'Close' }));
+    expect(screen.queryByText(/is not sent any more/)).toBeNull();
   });
 
-  it('warns when standing still was not confirmed', () => {
-    show('overdue');
-    expect(screen.getByText(/Not confirmed/)).toBeTruthy();
+  it('says of each robot what the stop was answered, before the live stream does', async () => {
+    robots = { Ada: 'stands', Bob: 'moves' };
+    const user = show('none', 'none');
+    await user.click(screen.getByRole('button', { name: 'Stop all' }));
+    await screen.findByText('Stands still (measured)');
+    screen.getByText(/^Bob does not stand still!/);
+  });
+
+  it.each([
+    ['sent', /not known yet/],
+    ['received', /not known yet/],
+    ['at_rest', /measured/],
+    ['moves', /^Ada does not stand still!/],
+    ['silent', /^Ada does not answer!/],
+  ] as const)('tells %s in plain words', (state, words) => {
+    show(state);
+    screen.getByText(words);
   });
 
   it('tells of many in one line, and of each when wanted', async () => {
-    const user = show('at_rest', 'overdue', 'received');
+    const user = show('at_rest', 'silent', 'moves');
     screen.getByText(/^3 robots are stopped/);
     screen.getByText('Standing still: 1 of 3');
-    screen.getByText(/^Not confirmed: Bob!/);
+    screen.getByText(/^No answer: Bob!/);
+    screen.getByText(/^Not standing still: Cleo!/);
     expect(screen.queryByText(/^Ada is stopped/)).toBeNull();
     await user.click(screen.getByRole('button', { name: 'Each of them' }));
     expect(screen.getAllByText(/ is stopped and stays so/)).toHaveLength(3);

@@ -2,8 +2,7 @@ import { useState } from 'react';
 import { useTranslation } from 'react-i18next';
 
 import { useWorld } from '@/live/store';
-import type { RobotView } from '@/live/types';
-import { stoppedRobots, useStopping } from '@/state/stopping';
+import { type StoppedRobot, stoppedRobots, useStopping } from '@/state/stopping';
 import { Button } from '@/ui/button';
 import { Icon } from '@/ui/icon';
 import { clockTime, nameList } from '@/ui/words';
@@ -16,17 +15,13 @@ const SINGLY = 2;
 
 /** What became of a stop, robot by robot, and the way out of it. */
 export function StopBanner() {
-  const { t } = useTranslation(['stop', 'common']);
   const robots = useWorld((world) => world.robots);
-  const pending = useStopping((state) => state.pending);
-  const stopped = stoppedRobots(robots);
+  const answer = useStopping((state) => state.answer);
+  const stopped = stoppedRobots(robots, answer);
   return (
     <div className={css.banners} role="status" aria-live="assertive">
-      {pending && (
-        <p className={css.pending} data-failed={pending.failed}>
-          {pending.failed ? t('notSent') : t('sending')}
-        </p>
-      )}
+      <Pending />
+      {answer?.kept === false && <NotKept />}
       {stopped.length > SINGLY ? (
         <Many robots={stopped} />
       ) : (
@@ -36,12 +31,35 @@ export function StopBanner() {
   );
 }
 
+/** A stop of this page that the server has not taken. */
+function Pending() {
+  const { t } = useTranslation(['stop', 'common']);
+  const pending = useStopping((state) => state.pending);
+  const dismiss = useStopping((state) => state.dismiss);
+  if (!pending) return null;
+  return (
+    <p className={css.pending} data-failed={pending.state !== 'sending'}>
+      <span>{t(pending.state)}</span>
+      {pending.state === 'dropped' && <Button onPress={dismiss}>{t('common:close')}</Button>}
+    </p>
+  );
+}
+
+function NotKept() {
+  const { t } = useTranslation('stop');
+  return (
+    <p className={css.pending} data-failed>
+      {t('notKept')}
+    </p>
+  );
+}
+
 /** Many stopped robots in one banner, and each when wanted. */
-function Many({ robots }: { robots: readonly RobotView[] }) {
+function Many({ robots }: { robots: readonly StoppedRobot[] }) {
   const { t, i18n } = useTranslation('stop');
   const [each, setEach] = useState(false);
-  const resting = robots.filter((robot) => robot.stop.state === 'at_rest').length;
-  const doubtful = robots.filter((robot) => robot.stop.state === 'overdue').map((robot) => robot.name);
+  const names = (fate: StoppedRobot['fate']) => robots.filter((robot) => robot.fate === fate).map((robot) => robot.name);
+  const doubtful = DOUBTFUL.map((fate) => [fate, names(fate)] as const).filter(([, named]) => named.length > 0);
   return (
     <>
       <div className={css.banner} data-overdue={doubtful.length > 0}>
@@ -49,10 +67,12 @@ function Many({ robots }: { robots: readonly RobotView[] }) {
           <Icon name="octagon" />
           <strong>{t('bannerMany', { count: robots.length })}</strong>
         </p>
-        {doubtful.length > 0 && (
-          <p className={css.overdue}>{t('overdueMany', { names: nameList(doubtful, i18n.language) })}</p>
-        )}
-        <p className={css.resting}>{t('resting', { resting, all: robots.length })}</p>
+        {doubtful.map(([fate, named]) => (
+          <p key={fate} className={css.overdue}>
+            {t(`${fate}Many`, { names: nameList(named, i18n.language) })}
+          </p>
+        ))}
+        <p className={css.resting}>{t('resting', { resting: names('stands').length, all: robots.length })}</p>
         <div className={css.deeds}>
           <Button icon={each ? 'up' : 'down'} aria-expanded={each} onPress={() => setEach(!each)}>
             {t('each')}
@@ -71,32 +91,30 @@ function Many({ robots }: { robots: readonly RobotView[] }) {
   );
 }
 
-const ORDER = ['sent', 'received', 'at_rest'] as const;
+const DOUBTFUL = ['moves', 'silent'] as const;
 
-function Stopped({ robot }: { robot: RobotView }) {
+/** One of three things is said of each: it stands, it does not, it does not answer; before that, that it was told. */
+function Stopped({ robot: { name, fate, stop } }: { robot: StoppedRobot }) {
   const { t, i18n } = useTranslation('stop');
-  const { state, sent_unix_ms: sentMs, at_rest_unix_ms: restMs } = robot.stop;
-  const reached = ORDER.findIndex((one) => one === state);
-  const times = { sent: sentMs, received: 0, at_rest: restMs };
+  const isDoubtful = fate === 'moves' || fate === 'silent';
   return (
-    <div className={css.banner} data-overdue={state === 'overdue'}>
+    <div className={css.banner} data-overdue={isDoubtful}>
       <p className={css.text}>
         <Icon name="octagon" />
-        <strong>{t('banner', { name: robot.name })}</strong>
+        <strong>{t('banner', { name })}</strong>
       </p>
-      {state === 'overdue' && <p className={css.overdue}>{t('overdue')}</p>}
-      {reached >= 0 && (
-        <ul className={css.progress}>
-          {ORDER.map((one, index) => (
-            <li key={one} data-reached={index <= reached}>
-              <Icon name={index <= reached ? 'check' : 'dots'} size={16} />
-              {t(one, { name: robot.name })}
-              {index <= reached && times[one] > 0 && <span>{clockTime(times[one], i18n.language, true)}</span>}
-            </li>
-          ))}
-        </ul>
+      {isDoubtful ? (
+        <p className={css.overdue}>{t(fate, { name })}</p>
+      ) : (
+        <p className={css.fate} data-stands={fate === 'stands'}>
+          <Icon name={fate === 'stands' ? 'check' : 'dots'} size={16} />
+          {t(fate)}
+          {fate === 'stands' && stop.at_rest_unix_ms > 0 && (
+            <span>{clockTime(stop.at_rest_unix_ms, i18n.language, true)}</span>
+          )}
+        </p>
       )}
-      <Release names={[robot.name]} label={t('reset')} />
+      <Release names={[name]} label={t('reset')} />
     </div>
   );
 }

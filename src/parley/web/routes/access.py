@@ -6,15 +6,16 @@ from typing import Annotated
 
 from fastapi import Depends, Request
 from fastapi.params import Depends as Dependency
+from starlette.types import Scope
 
 from parley.gate.table import Effect, verdict
-from parley.messages.principal import person
+from parley.messages.principal import Principal, person
 from parley.web.backend import Backend
 from parley.web.config import Module
 from parley.web.problems import WebProblem
 from parley.web.sessions import Session
 
-__all__ = ["Author", "Web", "may", "module"]
+__all__ = ["Author", "By", "Web", "may", "module", "principal_of"]
 
 
 def _backend(request: Request) -> Backend:
@@ -29,6 +30,18 @@ def _author(request: Request) -> str:
     return session.name if isinstance(session, Session) else ""
 
 
+def principal_of(scope: Scope) -> Principal:
+    """On whose account a request is made: a person at a page."""
+    session = scope.get("state", {}).get("session")
+    return person(session.name if isinstance(session, Session) else "", device="page")
+
+
+def _by(request: Request) -> Principal:
+    return principal_of(request.scope)
+
+
+By = Annotated[Principal, Depends(_by)]
+"""On whose account."""
 Web = Annotated[Backend, Depends(_backend)]
 Author = Annotated[str, Depends(_author)]
 

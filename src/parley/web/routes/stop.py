@@ -1,4 +1,4 @@
-"""The emergency stop, which nothing else delays."""
+"""The emergency stop and its reset. Stops are answered by the `StopDesk` before they come here."""
 
 from __future__ import annotations
 
@@ -6,10 +6,9 @@ import uuid
 
 from fastapi import APIRouter
 
-from parley.messages.principal import person
-from parley.messages.status import StopCommand
-from parley.web.bodies import Done, StopPost
-from parley.web.routes.access import Web
+from parley.web.bodies import StopAnswer, StopPost
+from parley.web.problems import WebProblem
+from parley.web.routes.access import By, Web
 
 __all__ = ["router"]
 
@@ -17,9 +16,12 @@ router = APIRouter(prefix="/stop", tags=["stop"])
 
 
 @router.post("")
-async def post_stop(post: StopPost, web: Web) -> Done:
+async def post_stop(post: StopPost, web: Web, by: By) -> StopAnswer:
     """Send an emergency stop or its reset; what became of it is in each robot's `stop`."""
-    named = tuple(web.state.robots.resolve(name) or name for name in post.targets)
-    by = person(device="page")
-    web.link.send(StopCommand(command=post.command, targets=named, id=post.id or uuid.uuid4().hex, by=by))
-    return Done()
+    key = post.id or uuid.uuid4().hex
+    if post.command == "stop":
+        return StopAnswer(id=key, robots=web.stopper.states(web.stopper.stop(post.targets, by=by, id=key)))
+    refused = web.stopper.reset(post.targets, by=by, id=key)
+    if refused:
+        raise WebProblem(409, refused[:1].upper() + refused[1:] + ".", "Look at the robots, and try again.")
+    return StopAnswer(id=key, robots={})

@@ -1,0 +1,206 @@
+"""The stop while nothing else works: its thread, its line, messages with a stop word."""
+
+from __future__ import annotations
+
+import asyncio
+import json
+import sqlite3
+import time
+from collections.abc import AsyncIterator, Iterator
+from contextlib import ExitStack, asynccontextmanager, closing, contextmanager
+from dataclasses import dataclass, field
+from pathlib import Path
+from typing import Any
+
+import httpx
+from websockets.sync.client import ClientConnection, connect
+from websockets.typing import Origin
+
+from parley.clock import Clock
+from parley.gate.stop_line import StopLine
+from parley.messages.status import StopCommand
+from parley.transport.local import LocalTransport
+from parley.web.config import WebConfig
+from parley.web.robot_state import STOP_DEADLINE_S
+from parley.web.server import WebServer
+from tests.web.rig import HandClock, Rig, Robots
+
+BLOCKED_S = 1.5
+"""For so long the loop of the product does nothing; a stop that had to wait for it would be as late."""
+
+
+@dataclass
+class Drive:
+    """A robot on the line, told in whatever thread."""
+
+    line: StopLine
+    halted_s: list[float] = field(default_factory=list)
+    told: list[StopCommand] = field(default_factory=list)
+    rests: bool = True
+
+    def tie(self, name: str) -> None:
+        self.line.attach(
+            name,
+            halt=lambda: self.halted_s.append(time.monotonic()),
+            resume=lambda: None,
+            told=self.told.append,
+        )
+
+
+@asynccontextmanager
+async def fronted(clock: Clock | None = None, **settings: Any) -> AsyncIterator[tuple[Rig, Drive]]:
+    """A server whose engines are in this process."""
+    line = StopLine()
+    drive = Drive(line)
+    drive.tie("Ada")
+    async with LocalTransport() as transport:
+        robots = Robots(transport)
+        await robots.listen()
+        config = WebConfig(port=0, **settings)
+        async with (
+            WebServer(
+                transport, config, clock=clock, stop_line=line, at_rest=lambda _: drive.rests
+            ) as server,
+            httpx.AsyncClient(base_url=server.url, timeout=20) as http,
+        ):
+            rig = Rig(server, robots, http)
+            robots.appear("Ada")
+            await rig.until(lambda: "Ada" in server.backend.state.robots.views)
+            yield rig, drive
+    line.close()
+
+
+@contextmanager
+def lined(url: str) -> Iterator[ClientConnection]:
+    """A page's line, open."""
+    with connect(url.replace("http", "ws") + "api/stop/line", origin=Origin(url.rstrip("/"))) as line:
+        assert line.recv(timeout=10) == "{}"
+        yield line
+
+
+def answer_on(line: ClientConnection) -> dict[str, Any]:
+    """What it says next, besides signs of life."""
+    while (text := line.recv(timeout=10)) == "{}":
+        pass
+    return dict(json.loads(text))
+
+
+async def while_blocked(deed: Any) -> tuple[Any, float]:
+    """What a deed of another thread gives while the loop is held up; and when it began to be."""
+    outcome = asyncio.create_task(asyncio.to_thread(deed))
+    await asyncio.sleep(0)
+    began_s = time.monotonic()
+    time.sleep(BLOCKED_S)  # noqa: ASYNC251 - this is what is tried
+    return await outcome, began_s
+
+
+async def test_a_stop_gets_through_on_both_ways_while_the_loop_is_blocked() -> None:
+    async with fronted() as (rig, drive):
+        stack = ExitStack()
+        line = await asyncio.to_thread(stack.enter_context, lined(rig.url))
+
+        def press() -> tuple[dict[str, Any], dict[str, Any], float]:
+            time.sleep(0.05)
+            line.send(json.dumps({"id": "s1", "targets": ["ada"]}))
+            first = answer_on(line)
+            with httpx.Client(base_url=rig.url) as http:
+                second = http.post("/api/stop", json={"id": "s1", "targets": ["Ada"]}).json()
+            return first, second, time.monotonic()
+
+        (first, second, answered_s), began_s = await while_blocked(press)
+        assert first["robots"] == second["robots"] == {"Ada": "stands"}
+        assert answered_s - began_s < BLOCKED_S
+        assert min(drive.halted_s) - began_s < BLOCKED_S
+        assert [command.id for command in drive.told] == ["s1"]
+        assert drive.line.latched("Ada")
+        await rig.heard()
+        assert {stop.id for stop in rig.robots.stops} == {"s1"}
+        await asyncio.to_thread(stack.close)
+
+
+async def test_the_line_tells_when_a_robot_stands_and_of_one_that_does_not_answer() -> None:
+    clock = HandClock()
+    async with fronted(clock) as (rig, drive):
+        drive.rests = False
+
+        def press() -> list[dict[str, str]]:
+            with lined(rig.url) as line:
+                line.send(json.dumps({"id": "s1", "targets": ["Ada", "Bob"]}))
+                states = [answer_on(line)["robots"]]
+                drive.rests = True
+                states.append(answer_on(line)["robots"])
+                clock.ahead_s = STOP_DEADLINE_S + 0.1
+                return [*states, answer_on(line)["robots"]]
+
+        assert await asyncio.to_thread(press) == [
+            {"Ada": "moves", "Bob": "sent"},
+            {"Ada": "stands", "Bob": "sent"},
+            {"Ada": "stands", "Bob": "silent"},
+        ]
+
+
+async def test_a_message_with_a_stop_word_holds_before_anybody_reads_it() -> None:
+    async with fronted() as (rig, drive):
+
+        def say() -> int:
+            time.sleep(0.05)
+            with httpx.Client(base_url=rig.url, timeout=20) as http:
+                post = {"id": "m1", "text": "Stop!! you are on my foot", "targets": ["Ada"]}
+                return http.post("/api/chat", json=post).status_code
+
+        status, began_s = await while_blocked(say)
+        assert status == 200
+        assert drive.halted_s[0] - began_s < BLOCKED_S
+        assert [(c.command, c.id, c.words) for c in drive.told] == [
+            ("hold", "m1", "Stop!! you are on my foot")
+        ]
+        await rig.heard()
+        assert [said.id for said in rig.robots.inputs] == ["m1"]
+
+
+async def test_a_message_that_is_sent_again_does_not_hold_a_second_time() -> None:
+    async with fronted() as (rig, drive):
+        post = {"id": "m1", "text": "wait", "targets": ["Ada"]}
+        await rig.http.post("/api/chat", json=post)
+        drive.line.go_on("m1")
+        await rig.http.post("/api/chat", json=post)
+        assert not drive.line.held("Ada")
+
+
+async def test_only_a_person_at_the_page_releases() -> None:
+    async with fronted() as (rig, drive):
+        await rig.http.post("/api/stop", json={"id": "s1"})
+        assert drive.line.latched("Ada")
+        assert (await rig.http.post("/api/stop", json={"command": "reset"})).status_code == 200
+        assert not drive.line.latched("Ada")
+
+
+async def test_a_message_with_a_stop_word_gets_through_while_the_conversation_cannot_be_kept(
+    tmp_path: Path,
+) -> None:
+    async with fronted(data_dir=tmp_path) as (rig, drive):
+        with closing(sqlite3.connect(tmp_path / "web.db", isolation_level=None)) as other:
+            other.execute("BEGIN EXCLUSIVE")
+            post = {"id": "m1", "text": "stop", "targets": ["Ada"]}
+            assert (await rig.http.post("/api/chat", json=post)).status_code == 200
+            assert drive.line.held("Ada")
+            await rig.heard()
+            assert [said.id for said in rig.robots.inputs] == ["m1"]
+
+
+async def test_a_message_that_is_refused_holds_nobody() -> None:
+    async with fronted(without={"chat"}) as (rig, drive):
+        post = {"id": "m1", "text": "stop", "targets": ["Ada"]}
+        assert (await rig.http.post("/api/chat", json=post)).status_code == 404
+        assert [command.command for command in drive.told] == ["hold", "go_on"]
+
+
+async def test_a_reset_that_is_heard_late_does_not_release_what_was_stopped_since() -> None:
+    async with fronted() as (rig, drive):
+        await rig.http.post("/api/stop", json={"id": "s1"})
+        await rig.http.post("/api/stop", json={"command": "reset", "id": "r1"})
+        await rig.http.post("/api/stop", json={"id": "s2"})
+        await rig.heard()
+        (late,) = [heard for heard in rig.robots.stops if heard.command == "reset"]
+        drive.line.reset(late.targets, by=late.by, id=late.id)
+        assert drive.line.latched("Ada")
