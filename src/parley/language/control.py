@@ -16,7 +16,7 @@ from rapidfuzz.distance import OSA
 from parley.language.control_grammar import among_talk, composed
 from parley.language.word_lists import load_data
 
-__all__ = ["Control", "control_of", "has_stop_word"]
+__all__ = ["Control", "control_of"]
 
 Control = Literal["stop", "start", "skip", "clear", "emergency_stop"]
 """What the chat interface does at once; the names are those of the system commands, but for the last."""
@@ -50,17 +50,6 @@ def control_of(text: str, names: tuple[str, ...] = ()) -> Control | None:
     if len(plain) < len(words) and _look_up(plain) == "stop":
         return "stop"
     return _look_up(words) or _look_up(plain) or _in_full(text, words, called)
-
-
-_STOP_WORDS = frozenset({
-    "stop", "stopp", "halt", "wait", "freeze", "whoa", "woah", "careful", "pause", "hold", "seis", "seisa",
-    "peatu", "peata", "oota", "ettevaatust", "pea",
-})  # fmt: skip
-
-
-def has_stop_word(text: str) -> bool:
-    """Whether there is a word in it for which a robot stands still before anybody reads the rest."""
-    return not _STOP_WORDS.isdisjoint(_words(text))
 
 
 _EVERYBODY = {"everyone", "everybody", "robots"}

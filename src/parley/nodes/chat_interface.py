@@ -16,6 +16,7 @@ from parley.gate.orders import Admitted, Heard, admit
 from parley.gate.table import Effect, verdict
 from parley.language.base import Language, Situation
 from parley.language.control import Control, control_of
+from parley.language.stop_words import calls_to_stop
 from parley.memory.sayings import for_oneself
 from parley.messages import topics
 from parley.messages.chat import ChatAction, ChatFeedback, ChatInput, SystemCommand
@@ -37,6 +38,7 @@ from parley.nodes.base import Mailboxes, Node
 from parley.nodes.chat_memories import Confirmations, keeping_order
 from parley.nodes.drafts import Drafts
 from parley.nodes.finishing import Finishing
+from parley.nodes.holds import Holds
 from parley.nodes.log_answers import log_answer
 from parley.nodes.plan_check import check_calls, complete_calls
 from parley.nodes.plan_orders import no_robot
@@ -94,6 +96,7 @@ class ChatInterface(Node):
         self._mailboxes: Mailboxes[str] = Mailboxes(self._on_defect)
         self._offered, self._finishing = Offered(), Finishing(clock.now_s)
         self._seen_ids = SeenIds()
+        self._holds = Holds(lambda command: self.publish(topics.STOP, command))
         self._confirmations, self._rulings = Confirmations(), Rulings(transport)
         self._recollections = Recollections(self, clock, self._remember, self._presence.names)
         self._halts: dict[str, int] = {}
@@ -116,6 +119,15 @@ class ChatInterface(Node):
     # -- from the wire ---------------------------------------------------------------------------------
 
     def _on_input(self, said: ChatInput) -> None:
+        """Hear a message; where a word of stopping is in it, its robots stand while it is read."""
+        targets = tuple(self._presence.resolve(name) or name for name in said.targets)
+        held = self._holds.begin(said, targets)
+        try:
+            self._read(said)
+        finally:
+            self._holds.end(held)
+
+    def _read(self, said: ChatInput) -> None:
         if not self._seen_ids.is_new(said.id):
             return
         if problem := texts.unreadable(said.message, bare=bool(said.images)):
@@ -134,9 +146,12 @@ class ChatInterface(Node):
         targets = self._addressed(said)
         if control is not None:
             targets = self._presence.named_in(said.message) or targets
+        calls = calls_to_stop(said.message)
         for target in targets:
             question = self._questions.first(target) if said.type == "response" else None
-            if control is not None and not self._answers(target, question, control):
+            if calls and control not in _HALTING and self._known.moves(target, self._presence.get(target)):
+                self._control(target, "stop", said)
+            elif control is not None and not self._answers(target, question, control):
                 self._control(target, control, said)
             elif not self._presence.is_there(target):
                 text = texts.not_there(target)
@@ -246,6 +261,7 @@ class ChatInterface(Node):
             return
         self._known.plans[told.target] = told
         self._offered.on_update(told)
+        self._holds.on_update(told)
         status = self._presence.get(told.target)
         if done := self._finishing.on_update(told, status.catalogue if status else ()):
             self._say((told.target,), done, "info")
@@ -270,6 +286,8 @@ class ChatInterface(Node):
         """Act at once, ahead of anything that is still being understood."""
         if control in _HALTING:
             self._halt(target)
+            if control == "stop" and self._known.moves(target, self._presence.get(target)):
+                self._holds.keep(target, said)
         self._finishing.on_answer(target, said.message, asks_back=False)
         state, status = self._known.state(target), self._presence.get(target)
         # A plan that waits for approval has no step yet: only approving or dropping it does anything.

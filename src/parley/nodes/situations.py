@@ -11,7 +11,7 @@ from parley.memory.sayings import asks_for_all
 from parley.messages.chat import ChatFeedback, ChatInput
 from parley.messages.failure import ErrorHandlingMessage
 from parley.messages.memory import MemoryEntry
-from parley.messages.status import PlanUpdate
+from parley.messages.status import ActorStatus, PlanUpdate
 from parley.nodes.chat_memories import memory_query
 from parley.nodes.conversation import Conversation
 from parley.nodes.plan_flow import pending_calls
@@ -75,6 +75,15 @@ class Situations:
         """A robot's plan's state."""
         plan = self.plans.get(target)
         return plan.state if plan is not None else "idle"
+
+    def moves(self, target: str, status: ActorStatus | None) -> bool:
+        """Whether a robot is under way, or may be: a step that moves it runs, or it does not stand."""
+        plan = self.plans.get(target)
+        if plan is None or plan.state != "running":
+            return status is not None and status.state == "running" and status.at_rest is False
+        moving = {info.name for info in status.catalogue if "moves" in info.effects} if status else set()
+        runs = [step.action.name for step in plan.steps if step.state in ("running", "paused")]
+        return status is None or status.at_rest is False or bool(moving & set(runs))
 
     def may_have_to_ask(self, target: str) -> bool:
         """Whether some steps of a robot wait for a person's yes."""

@@ -1,0 +1,66 @@
+"""Robots that stand still for a word of stopping: while it is read, and on if it was a call to stop.
+
+Whoever takes a message in may hold the robots before it gets here (the page's server does); the same id holds
+nobody a second time. What was a call keeps a robot's drive still below its actions until a person lets it go
+on, so that an action that knows no pause does not drive on either.
+"""
+
+from __future__ import annotations
+
+import uuid
+from collections.abc import Callable
+
+from parley.language.stop_words import has_stop_word
+from parley.messages.chat import ChatInput
+from parley.messages.status import PlanUpdate, StopCommand
+
+__all__ = ["Holds"]
+
+
+class Holds:
+    """Of one chat interface.
+
+    Args:
+        send: Publishes a command on `/parley/stop`.
+    """
+
+    def __init__(self, send: Callable[[StopCommand], None]) -> None:
+        self._send = send
+        self._kept: dict[str, tuple[str, bool]] = {}
+        """By robot: the id of its hold, and whether its plan was seen to be held since."""
+
+    def begin(self, said: ChatInput, targets: tuple[str, ...]) -> str:
+        """Let robots stand while a message is read, if there is a word of stopping in it; its id, or none."""
+        if not has_stop_word(said.message):
+            return ""
+        identity = said.id.partition("~")[0] or uuid.uuid4().hex
+        self._send(StopCommand(command="hold", targets=targets, id=identity, by=said.who, words=said.message))
+        return identity
+
+    def end(self, identity: str) -> None:
+        """The message is read."""
+        if identity:
+            self._send(StopCommand(command="go_on", id=identity))
+
+    def keep(self, target: str, said: ChatInput) -> None:
+        """It was a call to stop: the robot stands until somebody lets it go on."""
+        self._release(target)
+        identity = f"{said.id or uuid.uuid4().hex}/{target}"
+        self._kept[target] = (identity, False)
+        self._send(
+            StopCommand(command="hold", targets=(target,), id=identity, by=said.who, words=said.message)
+        )
+
+    def on_update(self, update: PlanUpdate) -> None:
+        """A plan changed: nobody holds it any more, or there is none."""
+        identity, seen = self._kept.get(update.target, ("", False))
+        if not identity:
+            return
+        if update.held_by is not None:
+            self._kept[update.target] = (identity, True)
+        elif seen or update.state in ("idle", "awaiting_approval"):
+            self._release(update.target)
+
+    def _release(self, target: str) -> None:
+        identity, _ = self._kept.pop(target, ("", False))
+        self.end(identity)
