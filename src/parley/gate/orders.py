@@ -30,6 +30,11 @@ __all__ = ["Admitted", "Heard", "admit", "admit_repair", "engine", "is_chosen"]
 
 SAID_NO: Final = sentence("you said no to something")
 NOT_ASKED_FOR: Final = sentence("you did not say so in so many words")
+_DECIDING: Final = re.compile(
+    r"\b(?:approve|reset|release|stop|resume|carry\s+on|go\s+ahead|policy|vabasta|jätka|kinnita)\b",
+    re.IGNORECASE,
+)
+"""What a person says with their own words or by a press of ours; no engine offers it to be tapped."""
 _REFERRING: Final = re.compile(r"\b(?:it|that|this|those|them|seda|see|selle)\b", re.IGNORECASE)
 MAX_MEMORIES: Final = 20
 """More than this in one answer nobody told."""
@@ -120,6 +125,7 @@ def admit(answer: ChatAction, heard: Heard) -> Admitted:
             "behalf": heard.by,
             "words": heard.words,
             "needs_yes": needs_yes,
+            "choices": tuple(choice for choice in answer.choices if not _DECIDING.search(choice)),
         }
     )
     return Admitted(order, tuple(refused), tuple(concluded), resumes)

@@ -79,13 +79,17 @@ class MemoryStore(OnFile):
         )
         return read_entry(rows[0])
 
-    async def is_told(self, name: str) -> bool:
-        """Whether a person told what holds under this name, or one that differs only in how it is written."""
+    async def is_known(self, name: str, ways: Sequence[str]) -> bool:
+        """Whether something holds under this name, or one that differs only in how it is written.
+
+        Args:
+            name: Of a memory.
+            ways: How it must be known, see `MemoryBody.way`.
+        """
         rows = await self._rows(
-            "SELECT 1 FROM memory WHERE name_key = :key AND way = 'told' AND ended_unix_ms IS NULL LIMIT 1",
-            {"key": name_key(name)},
+            "SELECT way FROM memory WHERE name_key = :key AND ended_unix_ms IS NULL", {"key": name_key(name)}
         )
-        return bool(rows)
+        return any(way in ways for (way,) in rows)
 
     async def remove(self, name: str, scope: str | None = "") -> bool:
         """Forget the memory `name` of `scope` (None: of every scope); the history keeps it.

@@ -5,7 +5,7 @@ from __future__ import annotations
 import asyncio
 import json
 from collections.abc import Awaitable, Sequence
-from typing import ClassVar
+from typing import ClassVar, Final
 
 from parley.errors import InvalidMessageError, LanguageError, StoreError
 from parley.language.base import Language
@@ -31,6 +31,10 @@ from parley.sentences import sentence
 from parley.transport.base import Transport
 
 __all__ = ["MemoryNode", "read_request"]
+
+
+_ABOVE: Final[dict[str, tuple[str, ...]]] = {"concluded": ("told", "seen", ""), "": ("told",)}
+"""What a memory never replaces, by how it is known: a conclusion nothing, a program's word no person's."""
 
 
 class MemoryNode(Node):
@@ -82,8 +86,9 @@ class MemoryNode(Node):
             await self._change(entry.name, entry.scope, "remember", self._add(entry))
 
     async def _add(self, entry: MemoryEntry) -> MemoryEvent:
-        if entry.way not in ("told", "seen") and await self._store.is_told(entry.name):
-            said = sentence("a person told me something else under the name {name}", name=entry.name)
+        above = _ABOVE.get(entry.way, ())
+        if above and await self._store.is_known(entry.name, above):
+            said = sentence("something else was told or seen under the name {name}", name=entry.name)
             return MemoryEvent(kind="failed", name=entry.name, scope=entry.scope, message=said)
         await self._store.add(entry)
         if self._meanings is not None:
