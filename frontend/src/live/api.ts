@@ -79,6 +79,8 @@ export type PlanCommand = 'pause' | 'resume' | 'skip' | 'clear' | 'pop';
 
 export interface Decision {
   id: string;
+  /** Of what was shown. */
+  digest: string;
   decision: 'approve' | 'reject' | 'edit';
   steps?: readonly ActionCall[];
 }

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import asyncio
 import uuid
 from collections.abc import Callable, Sequence
 from contextlib import AsyncExitStack
@@ -13,6 +14,7 @@ from parley import __version__
 from parley.clock import Clock, WallClock
 from parley.messages.chat import ChatFeedback, ChatImage, ChatInput
 from parley.messages.map import MapView
+from parley.messages.principal import Principal, person
 from parley.messages.status import PlanDecision
 from parley.transport.base import Transport
 from parley.web.bodies import ChatPost
@@ -22,6 +24,7 @@ from parley.web.feeds import Feeds
 from parley.web.keeper import Keeper
 from parley.web.link import Link
 from parley.web.models import ChatEntry, Policy, RobotView, ServerInfo, Snapshot
+from parley.web.people.store import FILE, PeopleStore
 from parley.web.pictures import kept_picture
 from parley.web.problems import WebProblem
 from parley.web.sessions import Sessions
@@ -58,13 +61,15 @@ class Backend:
     ) -> None:
         self.transport, self.config = transport, config
         self.clock: Clock = clock or WallClock()
-        self.sessions = Sessions(self.clock, config.password if pairs else "", pairs=pairs)
+        self.sessions = Sessions(self.clock, config.password, pairs=pairs, pair_as=config.pair_as)
         self.addresses: tuple[str, ...] = ()
         """Where the page can be opened; set by the server."""
         self.view_listeners: list[Callable[[MapView], None]] = []
         self.picture_listeners: list[Callable[[tuple[str, str], Picture], None]] = []
         self._sending: set[str] = set()
         self._policies: dict[str, str] = {}
+        self._policy_by: dict[str, str] = {}
+        """Who chose it, by robot, as JSON."""
         self._keeper: Keeper
         self._stack = AsyncExitStack()
 
@@ -83,7 +88,8 @@ class Backend:
         enter = self._stack.enter_async_context
         folder = self.config.data_dir
         self.store = await enter(await WebStore.open(folder / "web.db" if folder else ":memory:", self.clock))
-        await self.sessions.restore(self.store)
+        people = await enter(await PeopleStore.open(folder / FILE if folder else ":memory:", self.clock))
+        await self.sessions.restore(people)
         entries, complete = await self.store.page(limit=RECENT)
         if self.config.fresh_robots:
             entries = await self._close_questions(entries)
@@ -98,6 +104,7 @@ class Backend:
         for name in await self.store.settings("robot"):
             self.state.robots.add(name)
         self._policies = await self.store.settings("policy")
+        self._policy_by = await self.store.settings("policy_by")
         self.link = await enter(
             Link(
                 self.transport,
@@ -107,6 +114,10 @@ class Backend:
                 on_joined=self._on_joined,
             )
         )
+        self.sessions.tell = self.link.send
+        await self.sessions.refresh()
+        watch = asyncio.create_task(self.sessions.watch(), name="web people")
+        self._stack.push_async_callback(_cancel, watch)
         await self._settle_unsent()
         self.feeds = await enter(
             Feeds(self.transport, self.state.feeds, lambda: list(self.state.robots.views), self._on_picture)
@@ -159,7 +170,7 @@ class Backend:
             raise WebProblem(404, f"There is no robot called {name}.", f"The robots are: {names}.")
         return self.state.robots.views[known]
 
-    async def say(self, post: ChatPost, author: str) -> ChatEntry:
+    async def say(self, post: ChatPost, by: Principal) -> ChatEntry:
         """Keep an operator's message and send it, once however often it is posted.
 
         Raises:
@@ -170,11 +181,11 @@ class Backend:
             raise WebProblem(409, "This message is just being sent.", "Wait a moment.", path="id")
         self._sending.add(post.id)
         try:
-            return await self._say(post, author)
+            return await self._say(post, by)
         finally:
             self._sending.discard(post.id)
 
-    async def _say(self, post: ChatPost, author: str) -> ChatEntry:
+    async def _say(self, post: ChatPost, by: Principal) -> ChatEntry:
         known = await self.store.entry(post.id)
         if known is not None:
             return await self._say_again(post, known)
@@ -188,7 +199,7 @@ class Backend:
             reply_to=post.reply_to,
             images=[ChatImage(name=image.name, data=image.data) for image in post.images],
             image_urls=[f"/api/chat/images/{picture.id}" for picture in pictures],
-            author=author,
+            by=by,
             unix_ms=self.clock.unix_ms(),
         )
         await self.store.keep([composed.entry], pictures, composed.messages)
@@ -257,19 +268,25 @@ class Backend:
         await self.store.unset("robot", view.name)
         self.state.remove_robot(view.name)
 
-    async def set_policy(self, robot: str, policy: Policy) -> None:
+    async def set_policy(self, robot: str, policy: Policy, by: Principal) -> None:
         """Decide whether new steps of a robot wait for a yes, also after a restart."""
         await self.store.set("policy", robot, policy)
-        self._policies[robot] = policy
-        self.link.send(PlanDecision(target=robot, decision="policy", policy=policy))
+        await self.store.set("policy_by", robot, by.model_dump_json())
+        self._policies[robot], self._policy_by[robot] = policy, by.model_dump_json()
+        self._tell_policy(robot)
 
     # -- what comes in ---------------------------------------------------------------------------------
 
     def _on_joined(self, robot: str) -> None:
-        policy = self._policies.get(robot)
-        if policy is not None:
-            decision = {"target": robot, "decision": "policy", "policy": policy}
-            self.link.send(PlanDecision.model_validate(decision))
+        if robot in self._policies:
+            self._tell_policy(robot)
+
+    def _tell_policy(self, robot: str) -> None:
+        """What somebody chose counts in their name, whenever the robot is told."""
+        known = self._policy_by.get(robot)
+        by = Principal.model_validate_json(known) if known else person(device="page")
+        decision = {"target": robot, "decision": "policy", "policy": self._policies[robot], "by": by}
+        self.link.send(PlanDecision.model_validate(decision))
 
     def _on_view(self, view: MapView) -> None:
         for listener in self.view_listeners:
@@ -278,3 +295,8 @@ class Backend:
     def _on_picture(self, key: tuple[str, str], picture: Picture) -> None:
         for listener in self.picture_listeners:
             listener(key, picture)
+
+
+async def _cancel(task: asyncio.Task[None]) -> None:
+    task.cancel()
+    await asyncio.gather(task, return_exceptions=True)

@@ -8,6 +8,7 @@ from typing import Final
 
 from parley.language.control import control_of
 from parley.messages.chat import ChatFeedback, ChatImage, ChatInput, ReplyDraft
+from parley.messages.principal import Principal
 from parley.web.models import ChatEntry
 
 __all__ = ["KEPT_ENTRIES", "ChatBook", "Composed"]
@@ -60,7 +61,7 @@ class ChatBook:
         reply_to: str = "",
         images: Sequence[ChatImage] = (),
         image_urls: Sequence[str] = (),
-        author: str = "",
+        by: Principal,
         unix_ms: int,
     ) -> Composed:
         """What an operator's message becomes; nothing is changed yet, see `said`.
@@ -75,7 +76,7 @@ class ChatBook:
             reply_to: Key of the question that is meant, where a robot asked several.
             images: Attached pictures.
             image_urls: Where the page finds them.
-            author: The person's name.
+            by: Who says it.
             unix_ms: Now.
         """
         asked = {target: self._question_of(target, reply_to) for target in targets}
@@ -92,7 +93,8 @@ class ChatBook:
                 type="response" if question else "request",
                 id=key if number == 0 else f"{key}~{number}",
                 reply_to=self._asked_as.get(question, ""),
-                author=author,
+                author=by.name,
+                by=by,
                 images=tuple(images),
             )
             for number, (question, group) in enumerate(groups)
@@ -102,7 +104,7 @@ class ChatBook:
             seq=self.next_seq,
             unix_ms=unix_ms,
             who="operator",
-            author=author,
+            author=by.name,
             targets=tuple(targets),
             type="response" if answered and not ordered else "request",
             message=text,
@@ -138,7 +140,7 @@ class ChatBook:
                 seq=self._take_seq(),
                 unix_ms=unix_ms,
                 who="operator",
-                author=said.author,
+                author=said.who.name,
                 targets=said.targets,
                 type=said.type,
                 message=said.message,

@@ -14,8 +14,9 @@ from starlette.types import ASGIApp, Message, Receive, Scope, Send
 
 from parley.clock import Clock
 from parley.web.limits import Rate
+from parley.web.people.records import Device
 from parley.web.problems import WebProblem, problem_response
-from parley.web.sessions import Session, Sessions, cookie_name
+from parley.web.sessions import Sessions, cookie_name
 
 __all__ = ["Guard"]
 
@@ -30,7 +31,9 @@ BODY_WITHIN_S: Final = 30.0
 _TOO_LARGE: Final = "That is more than this server takes."
 _SMALLER: Final = "Use smaller or fewer pictures."
 _UPLOADS: Final = ("/api/chat", "/api/memory")
-_OPEN: Final = frozenset({"/api/session", "/api/health"})
+_OPEN: Final = frozenset(
+    {"/api/session", "/api/session/passkey", "/api/session/passkey/options", "/api/health"}
+)
 _LIVE: Final = "/socket.io"
 
 _HEADERS: Final = (
@@ -106,7 +109,7 @@ class Guard:
             return
         await self._app(scope, receive, send)
 
-    def _admit(self, scope: Scope, headers: MutableMapping[str, str]) -> Session | None:
+    def _admit(self, scope: Scope, headers: MutableMapping[str, str]) -> Device | None:
         """Check a request from the outside to the inside.
 
         Raises:
@@ -150,7 +153,7 @@ class Guard:
         if not length.isdecimal() or int(length) > _limit(path):
             raise WebProblem(413, _TOO_LARGE, _SMALLER)
 
-    def _check_rate(self, scope: Scope, path: str, method: str, session: Session | None) -> None:
+    def _check_rate(self, scope: Scope, path: str, method: str, session: Device | None) -> None:
         """Stopping is never slowed down; everything else has its measure, for each who signed in."""
         if path == "/api/stop":
             return

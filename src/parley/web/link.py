@@ -13,6 +13,7 @@ from pydantic import BaseModel
 from parley.clock import Clock
 from parley.errors import GraphRefusedError, InvalidMessageError, TransportError, UnavailableError
 from parley.messages import topics
+from parley.messages.audit import AuditEvent
 from parley.messages.chat import ChatAction, ChatFeedback, ChatInput, ReplyDraft
 from parley.messages.incident import GetIncidents, Incident, IncidentList
 from parley.messages.map import MapView
@@ -51,6 +52,7 @@ _SENT: Final[dict[type[BaseModel], Topic[String]]] = {
     StopCommand: topics.STOP,
     AddToMemory: topics.ADD_TO_MEMORY,
     RemoveMemory: topics.REMOVE_MEMORY,
+    AuditEvent: topics.AUDIT,
 }
 
 
@@ -129,7 +131,14 @@ class Link:
             self._stack.push_async_callback(_cancel, task)
 
     def send(
-        self, message: ChatInput | ChatAction | PlanDecision | StopCommand | AddToMemory | RemoveMemory
+        self,
+        message: ChatInput
+        | ChatAction
+        | PlanDecision
+        | StopCommand
+        | AddToMemory
+        | RemoveMemory
+        | AuditEvent,
     ) -> None:
         """Publish what an operator said or decided on the topic of its kind."""
         self._publishers[type(message)].publish(to_string(message))

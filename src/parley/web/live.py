@@ -15,11 +15,14 @@ import socketio
 import structlog
 from pydantic import BaseModel, TypeAdapter, ValidationError
 
+from parley.gate.table import Effect, verdict
 from parley.messages.map import MapView
+from parley.messages.principal import Principal
 from parley.web.backend import Backend
 from parley.web.bodies import FeedKey, FrameMeta
 from parley.web.feed_state import Picture
 from parley.web.models import Change
+from parley.web.people.records import Gadget
 
 __all__ = ["Live"]
 
@@ -66,6 +69,10 @@ class _Client:
     in_flight: dict[Key, list[float]] = field(default_factory=dict)
     """When the pictures went that were not confirmed yet."""
     tasks: tuple[asyncio.Task[None], ...] = ()
+    session: str = ""
+    """Digest of the session it came with; empty where nobody has to sign in."""
+    may: Principal | None = None
+    """Who it is now."""
 
 
 class Live:
@@ -76,6 +83,7 @@ class Live:
         self._clients: dict[str, _Client] = {}
         self._rendering: dict[int, dict[str, Any]] = {}
         self._closed = False
+        self._leaving: set[asyncio.Task[None]] = set()
         self.server = socketio.AsyncServer(
             serializer=_Packet,
             async_mode="asgi",
@@ -86,14 +94,17 @@ class Live:
             ping_timeout=10,
             http_compression=False,
         )
+        self.effects: dict[str, Effect] = {}
+        """What each event that clients send does; whoever may not do that is not heard."""
         self.server.on("connect", self._on_connect)
         self.server.on("disconnect", self._on_disconnect)
-        self.server.on("watch", self._on_watch)
+        self._on("watch", Effect.SEE, self._on_watch)
 
     async def __aenter__(self) -> Live:
         self._backend.state.log.listen(self._wake_all)
         self._backend.view_listeners.append(self._on_view)
         self._backend.picture_listeners.append(self._on_picture)
+        self._backend.sessions.listeners.append(self._check_clients)
         return self
 
     async def __aexit__(self, *exc: object) -> None:
@@ -119,7 +130,12 @@ class Live:
         is_same_run = isinstance(auth, dict) and auth.get("run") == log_of_changes.run
         is_number = isinstance(since, int) and not isinstance(since, bool)
         seq = since if isinstance(since, int) and is_same_run and is_number and since >= 0 else -1
-        client = self._clients[sid] = _Client(sid, seq)
+        session = environ["asgi.scope"].get("state", {}).get("session")
+        client = self._clients[sid] = _Client(sid, seq, session=session.digest if session else "")
+        client.may = self._principal(client)
+        if client.may is None:
+            del self._clients[sid]
+            return False
         client.views = dict(self._backend.state.views) if seq >= 0 else {}
         client.wake.set()
         client.tasks = (
@@ -127,6 +143,44 @@ class Live:
             asyncio.create_task(self._guarded(client, self._show), name=f"web pictures {sid}"),
         )
         return True
+
+    # -- who they are ----------------------------------------------------------------------------------
+
+    def _on(self, event: str, effect: Effect, handle: Callable[..., Awaitable[Any]]) -> None:
+        """Hear an event of clients who may do what it does."""
+        self.effects[event] = effect
+
+        async def check(sid: str, *data: Any) -> Any:
+            client = self._clients.get(sid)
+            if client is None or verdict(client.may, effect) != "allow" or client.may is None:
+                return None
+            return await handle(sid, *data)
+
+        self.server.on(event, check)
+
+    def _principal(self, client: _Client) -> Principal | None:
+        sessions = self._backend.sessions
+        device = sessions.holding(client.session) if client.session else None
+        if client.session and device is None:
+            return None
+        return sessions.principal(device, Gadget())
+
+    def _check_clients(self) -> None:
+        """Who came and who may do what has changed: some are out, and some are something else."""
+        for client in list(self._clients.values()):
+            before, client.may = client.may, self._principal(client)
+            if client.may is None:
+                task = asyncio.create_task(self._send_away(client), name=f"web goodbye {client.sid}")
+                self._leaving.add(task)
+                task.add_done_callback(self._leaving.discard)
+            elif client.may != before:
+                task = asyncio.create_task(self._emit(client, "session", {}), name=f"web role {client.sid}")
+                self._leaving.add(task)
+                task.add_done_callback(self._leaving.discard)
+
+    async def _send_away(self, client: _Client) -> None:
+        await self._drop(client)
+        await self.server.disconnect(client.sid)
 
     async def _on_disconnect(self, sid: str, *reason: object) -> None:
         client = self._clients.get(sid)

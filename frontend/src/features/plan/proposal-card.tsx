@@ -16,9 +16,9 @@ export function ProposalCard({ proposal }: { proposal: ProposalView }) {
   const { t } = useTranslation('plan');
   const [editing, setEditing] = useState(false);
   const [busy, setBusy] = useState(false);
-  const decide = async (decision: Omit<Decision, 'id'>) => {
+  const decide = async (decision: Omit<Decision, 'id' | 'digest'>) => {
     setBusy(true);
-    await attempt(() => decidePlan(proposal.robot, { id: proposal.id, ...decision }));
+    await attempt(() => decidePlan(proposal.robot, { id: proposal.id, digest: proposal.digest ?? '', ...decision }));
     setBusy(false);
   };
   const title = t('proposalTitle', { robot: proposal.robot });
