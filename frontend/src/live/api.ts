@@ -1,6 +1,6 @@
 /** One function per request. Failures are `ApiError`s whose message can be shown to people. */
 import { noteServerDate } from './server-time';
-import type { ActionCall, ChatEntry, Incident, MapInfo, MemoryItem, Policy } from './types';
+import type { ActionCall, ChatEntry, Incident, MapInfo, MemoryItem, Policy, SessionInfo } from './types';
 
 export class ApiError extends Error {
   constructor(
@@ -69,12 +69,6 @@ export interface ChatPage {
   complete: boolean;
 }
 
-export interface Session {
-  /** Whether this server asks for a password or code. */
-  required: boolean;
-  authenticated: boolean;
-}
-
 export type PlanCommand = 'pause' | 'resume' | 'skip' | 'clear' | 'pop';
 
 export interface Decision {
@@ -85,9 +79,9 @@ export interface Decision {
   steps?: readonly ActionCall[];
 }
 
-export const getSession = () => request<Session>('GET', 'session');
+export const getSession = () => request<SessionInfo>('GET', 'session');
 export const openSession = (secret: string, name: string) =>
-  request<unknown>('POST', 'session', { secret, name });
+  request<SessionInfo>('POST', 'session', { secret, name });
 export const closeSession = () => request<unknown>('DELETE', 'session');
 
 export const sendMessage = (message: OutgoingMessage) => request<ChatEntry>('POST', 'chat', message);

@@ -25,3 +25,10 @@ export function useRequest<T>(key: string, ask: (key: string) => Promise<T>): Lo
   }, [key]);
   return result.key === key ? result.loaded : { state: 'loading' };
 }
+
+/** What was there before stays until what was asked for comes. */
+export function useKept<T>(loaded: Loaded<T>): Loaded<T> {
+  const [kept, setKept] = useState(loaded);
+  if (loaded.state !== 'loading' && kept !== loaded) setKept(loaded);
+  return loaded.state === 'loading' ? kept : loaded;
+}

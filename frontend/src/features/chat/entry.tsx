@@ -42,7 +42,7 @@ export const Entry = memo(function Entry({ entry, showName, offers, onChoose, on
       {offers && (
         <div className={css.choices} role="group" aria-label={t('choices')}>
           {entry.choices.map((choice) => (
-            <Button key={choice} onPress={() => onChoose(entry, choice)}>
+            <Button needs="speak" key={choice} onPress={() => onChoose(entry, choice)}>
               {choice}
             </Button>
           ))}

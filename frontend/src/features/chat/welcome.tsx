@@ -36,7 +36,7 @@ export function Welcome({ chosen, onSay }: Props) {
       <ul className={css.examples}>
         {examples.slice(0, SHOWN).map((example) => (
           <li key={example}>
-            <Button onPress={() => onSay(example)}>{example}</Button>
+            <Button needs="speak" onPress={() => onSay(example)}>{example}</Button>
           </li>
         ))}
       </ul>

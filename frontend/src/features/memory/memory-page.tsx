@@ -10,7 +10,7 @@ import { Choice } from '@/ui/choice';
 import { Empty, Panel } from '@/ui/panel';
 import { TextField } from '@/ui/text-field';
 import { useHashValue } from '@/ui/use-hash';
-import { useRequest, type Loaded } from '@/ui/use-request';
+import { useKept, useRequest } from '@/ui/use-request';
 
 import { MemoryCard } from './memory-card';
 import { MemoryEditor, type Editing } from './memory-editor';
@@ -34,7 +34,7 @@ export function MemoryPage() {
   );
   const scopes = [{ id: EVERYTHING, label: t('everything') }, ...names.map((name) => ({ id: name, label: t('knownTo', { name }) }))];
   const add = (
-    <Button tone="quiet" icon="plus" onPress={() => setEditing({ item: null })}>
+    <Button needs="remember" tone="quiet" icon="plus" onPress={() => setEditing({ item: null })}>
       {t('add')}
     </Button>
   );
@@ -84,11 +84,4 @@ function Found({ items, searched, onEdit }: FoundProps) {
       {items.length > drawn && <Button onPress={() => setDrawn(drawn + DRAWN_AT_ONCE)}>{t('more')}</Button>}
     </>
   );
-}
-
-/** What was there before stays until what was asked for comes. */
-function useKept<T>(loaded: Loaded<T>): Loaded<T> {
-  const [kept, setKept] = useState(loaded);
-  if (loaded.state !== 'loading' && kept !== loaded) setKept(loaded);
-  return loaded.state === 'loading' ? kept : loaded;
 }
