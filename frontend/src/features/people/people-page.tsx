@@ -156,7 +156,7 @@ function Pairing() {
     <div className={css.form}>
       <h4>{t('pair')}</h4>
       <p>{t('pairText')}</p>
-      <Choice label={t('role')} value={role} options={roles} onChange={setRole} />
+      <Choice label={t('deviceRole')} value={role} options={roles} onChange={setRole} />
       <Button onPress={() => void attempt(async () => setMade(await makeCode(role)))}>{t('makeCode')}</Button>
       <p role="status">{made && <strong className={css.code}>{t('code', { code: made.code })}</strong>}</p>
     </div>
