@@ -40,6 +40,8 @@ ONLY_IN = {
     "typer": {"cli.py", "cli/"},
     "pydantic_ai": {"language/llm/"},
     "openai": {"language/llm/"},
+    "argon2": {"web/people/"},
+    "webauthn": {"web/people/"},
 }
 """Third parties that one place hides from the rest."""
 

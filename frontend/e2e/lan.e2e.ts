@@ -36,7 +36,7 @@ describe.skipIf(!hasBrowser)('a visitor from another device', () => {
     await page.getByText('Mari').first().waitFor();
     await expect.poll(code).not.toBe(first);
     await page.goto(`${stage.system.address}#/settings`);
-    await page.getByRole('button', { name: 'Sign out' }).tap();
+    await page.getByRole('button', { name: 'Sign out', exact: true }).tap();
     await page.getByRole('heading', { name: 'Sign in' }).waitFor();
   });
 

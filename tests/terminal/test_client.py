@@ -17,6 +17,7 @@ from rich.console import Console as RichConsole
 from parley.messages import topics
 from parley.messages.chat import ChatInput
 from parley.messages.memory import MemoryReply, StoredMemory
+from parley.messages.principal import person
 from parley.messages.ros import ChatRequest, ChatResponse
 from parley.messages.status import PlanProposal
 from parley.messages.wire import encode
@@ -137,11 +138,17 @@ async def test_words_before_any_robot_is_there_are_not_lost_in_silence() -> None
 
 async def test_a_proposed_plan_is_approved() -> None:
     async with opened() as session:
-        session.robots.tell(topics.PLAN, PlanProposal(id="p1", target="Ada", steps=(call("Go", "go there"),)))
+        steps = (call("Go", "go there"), call("Look", "look there"))
+        proposal = PlanProposal(id="p1", target="Ada", steps=steps, labels=("drive to the box",), digest="d1")
+        session.robots.tell(topics.PLAN, proposal)
+        await session.shows("1. drive to the box\n")
+        await session.shows("2. look there\n")
         await session.shows("Answer yes or no.")
         session.type("yes")
         await until(lambda: session.robots.decisions)
-        assert (session.robots.decisions[0].id, session.robots.decisions[0].decision) == ("p1", "approve")
+        (decision,) = session.robots.decisions
+        assert (decision.id, decision.decision, decision.digest) == ("p1", "approve", "d1")
+        assert decision.by == person(device="terminal")
         assert session.robots.inputs == []
 
 

@@ -15,6 +15,7 @@ from pydantic import BaseModel
 
 from parley.clock import Clock, WallClock
 from parley.messages import topics
+from parley.messages.audit import AuditEvent
 from parley.messages.chat import ChatAction, ChatFeedback, ChatInput
 from parley.messages.ros import CompressedImage, Header, String, Time
 from parley.messages.status import ActorStatus, PlanDecision, StopCommand
@@ -60,6 +61,7 @@ class Robots:
         self.orders: list[ChatAction] = []
         self.decisions: list[PlanDecision] = []
         self.stops: list[StopCommand] = []
+        self.audited: list[AuditEvent] = []
 
     async def listen(self) -> None:
         """Hear what operators send."""
@@ -67,6 +69,7 @@ class Robots:
         await self._collect(topics.CHAT_ACTION, ChatAction, self.orders)
         await self._collect(topics.PLAN_DECISION, PlanDecision, self.decisions)
         await self._collect(topics.STOP, StopCommand, self.stops)
+        await self._collect(topics.AUDIT, AuditEvent, self.audited)
 
     async def _collect(self, topic: Topic[String], kind: type[P], into: list[P]) -> None:
         await self.transport.subscribe(topic, lambda message: into.append(decode(kind, message.data)))

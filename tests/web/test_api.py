@@ -47,7 +47,11 @@ def url() -> Iterator[str]:
     loop.close()
 
 
-schema = schemathesis.openapi.from_dict(create_api().openapi())
+schema = schemathesis.openapi.from_dict(create_api().openapi()).exclude(
+    # The first account would end this visit for all that follows; tests/web/test_people.py makes accounts.
+    path="/api/people",
+    method="POST",
+)
 
 
 @schema.parametrize()

@@ -142,7 +142,14 @@ def test_a_password_file_that_is_missing_or_too_short_is_named(tmp_path: Path) -
     for file, word in ((tmp_path / "none", "cannot be read"), (short, "shorter")):
         with pytest.raises(ConfigError, match=word):
             page_settings(
-                port=None, lan=True, password_file=file, certificate=None, key=None, origins=(), without=""
+                port=None,
+                lan=True,
+                password_file=file,
+                pair_as="operator",
+                certificate=None,
+                key=None,
+                origins=(),
+                without="",
             )
 
 

@@ -11,11 +11,15 @@ import pytest
 from parley.clock import WallClock
 from parley.messages.chat import ChatInput
 from parley.web.models import ChatEntry
+from parley.web.people.codes import CODE_S, TRIES, Codes
+from parley.web.people.records import Gadget
+from parley.web.people.store import PeopleStore
 from parley.web.problems import WebProblem
-from parley.web.sessions import CODE_S, SESSION_S, Sessions
+from parley.web.sessions import SESSION_S, Sessions, Visitor
 from parley.web.store import WebStore
 from tests.web.rig import HandClock, Rig, served
 
+SOMEBODY = Visitor(Gadget(address="192.0.2.1"))
 PASSWORD = "correct horse battery"
 
 
@@ -64,7 +68,7 @@ async def test_a_pairing_code_lets_one_device_in_and_the_next_one_is_told() -> N
     async with served(lan=True) as rig:
         told: list[str] = []
         first = rig.server.pairing_code
-        rig.server.backend.sessions.on_code = told.append
+        rig.server.backend.sessions.codes.on_new = told.append
         answers = await asyncio.gather(*[sign_in(rig, first) for _ in range(3)])
         assert sorted(answer.status_code for answer in answers) == [200, 401, 401]
         assert told == [rig.server.pairing_code] != [first]
@@ -74,27 +78,27 @@ async def test_a_pairing_code_lets_one_device_in_and_the_next_one_is_told() -> N
 async def test_a_code_that_nobody_used_gives_way_to_another_after_an_hour() -> None:
     clock = HandClock()
     sessions = Sessions(clock, pairs=True)
-    async with await WebStore.open(":memory:", clock) as store:
+    async with await PeopleStore.open(":memory:", clock) as store:
         await sessions.restore(store)
         old = sessions.code
         clock.ahead_s = CODE_S - 10
         assert sessions.code == old
         clock.ahead_s = CODE_S + 10
         with pytest.raises(WebProblem):
-            await sessions.open(old, "", "a")
-        assert await sessions.open(sessions.code, "", "a")
+            await sessions.sign_in(old, "", SOMEBODY)
+        assert await sessions.sign_in(sessions.code, "", SOMEBODY)
 
 
 async def test_a_session_ends_by_itself() -> None:
     clock = HandClock()
     sessions = Sessions(clock)
-    async with await WebStore.open(":memory:", clock) as store:
+    async with await PeopleStore.open(":memory:", clock) as store:
         await sessions.restore(store)
-        token = await sessions.open("", "Kim", "a")
+        token = await sessions.sign_in("", "Kim", SOMEBODY)
         assert sessions.get(token)
         clock.ahead_s = SESSION_S + 1
         assert sessions.get(token) is None
-        assert await store.sessions(clock.unix_ms()) == []
+        assert (await store.roll()).devices == {}
 
 
 async def test_a_cookie_that_somebody_planted_is_not_taken_over() -> None:
@@ -114,7 +118,7 @@ async def test_nothing_that_is_kept_can_be_used_to_sign_in(tmp_path: Path) -> No
     async with served(lan=True, password=PASSWORD, data_dir=tmp_path) as rig:
         await sign_in(rig)
         token = dict(rig.http.cookies)["__Host-parley_session"]
-        kept = {file: file.read_bytes() for file in [tmp_path / "web.db", tmp_path / "web.db-wal"]}
+        kept = {file: file.read_bytes() for file in [tmp_path / "people.db", tmp_path / "people.db-wal"]}
         for file, content in kept.items():
             assert token.encode() not in content
             assert PASSWORD.encode() not in content
@@ -143,3 +147,33 @@ async def test_a_message_of_long_ago_that_may_not_have_gone_out_is_told_of_and_n
             ("robot", "error"),
         ]
         assert "go home" in entries[1]["message"]
+
+
+def test_after_many_wrong_tries_a_code_gives_way_to_another_whoever_tried() -> None:
+    told: list[str] = []
+    codes = Codes("viewer")
+    codes.on_new = told.append
+    first = codes.shown(0.0)
+    for _ in range(TRIES - 1):
+        assert codes.take("2222-2222", 0.0, is_shown=True) is None
+    assert codes.shown(0.0) == first
+    assert codes.take("2222-2222", 0.0, is_shown=True) is None
+    assert codes.take(first, 0.0, is_shown=True) is None
+    assert told[-1] == codes.shown(0.0) != first
+    assert codes.take(told[-1], 0.0, is_shown=True) == "viewer"
+
+
+async def test_a_stranger_who_guesses_locks_nobody_else_out() -> None:
+    sessions = Sessions(HandClock(), pairs=True)
+    async with await PeopleStore.open(":memory:", HandClock()) as store:
+        await sessions.restore(store)
+        for place in ("192.0.2.9", "2001:db8::1"):
+            stranger = Visitor(Gadget(address=place))
+            for _ in range(5):
+                with pytest.raises(WebProblem, match="not right"):
+                    await sessions.sign_in("2222-2222", "", stranger)
+            with pytest.raises(WebProblem, match="too many"):
+                await sessions.sign_in(sessions.code, "", stranger)
+        with pytest.raises(WebProblem, match="too many"):
+            await sessions.sign_in(sessions.code, "", Visitor(Gadget(address="2001:db8::ffff")))
+        assert await sessions.sign_in(sessions.code, "", SOMEBODY)

@@ -7,6 +7,7 @@ from typing import Any
 import pytest
 
 from parley.messages.chat import ActionCall, ChatFeedback, ChatInput, ReplyDraft
+from parley.messages.principal import person
 from parley.messages.pvf import Parameter
 from parley.messages.status import (
     ActorStatus,
@@ -35,6 +36,9 @@ class Ids:
 
 
 # -- changes -------------------------------------------------------------------------------------------
+
+
+KIM = person("Kim")
 
 
 def robot_change(name: str) -> RobotChange:
@@ -204,7 +208,7 @@ def test_a_question_is_closed_by_the_robot_or_answered_by_an_operator() -> None:
     for key in ("q1", "q2"):
         book.on_feedback(said(key, type="request", id=key), unix_ms=1)
     book.on_feedback(said("never mind", type="info", closes="q1"), unix_ms=2)
-    book.said(book.compose("m", "yes", ["ada"], unix_ms=3))
+    book.said(book.compose("m", "yes", ["ada"], by=KIM, unix_ms=3))
     assert [book.entries[key].question for key in ("q1", "q2")] == ["closed", "answered"]
     assert book.entries["q2"].answer_id == "m"
 
@@ -230,14 +234,14 @@ def test_of_several_questions_the_one_that_is_named_is_answered() -> None:
     book, _ = chat()
     for key in ("q1", "q2"):
         book.on_feedback(said(key, type="request", id=key), unix_ms=1)
-    composed = book.compose("m", "yes", ["Ada"], reply_to="q2", unix_ms=2)
+    composed = book.compose("m", "yes", ["Ada"], reply_to="q2", by=KIM, unix_ms=2)
     assert [message.reply_to for message in composed.messages] == ["q2"]
 
 
 def test_the_echo_of_an_own_message_and_of_its_parts_is_no_news() -> None:
     book, entries = chat()
     book.on_feedback(said("Which?", type="request", id="q1"), unix_ms=1)
-    composed = book.compose("m", "red", ["Ada", "Bob"], unix_ms=2)
+    composed = book.compose("m", "red", ["Ada", "Bob"], by=KIM, unix_ms=2)
     book.said(composed)
     count = len(entries)
     for message in composed.messages:
@@ -249,7 +253,7 @@ def test_the_echo_of_an_own_message_and_of_its_parts_is_no_news() -> None:
 def test_a_reply_to_a_part_is_a_reply_to_the_whole_message() -> None:
     book, entries = chat()
     book.on_feedback(said("Which?", type="request", id="q1"), unix_ms=1)
-    book.said(book.compose("m", "red", ["Ada", "Bob"], unix_ms=2))
+    book.said(book.compose("m", "red", ["Ada", "Bob"], by=KIM, unix_ms=2))
     book.on_feedback(said("Red it is.", reply_to="m~1"), unix_ms=3)
     assert entries[-1].reply_to == "m"
 
@@ -284,7 +288,7 @@ def test_a_restarted_robot_awaits_nothing() -> None:
     book.on_feedback(said("Which?", type="request", id="q1"), unix_ms=1)
     book.on_restart("Ada")
     assert book.entries["q1"].question == "closed"
-    assert book.compose("m", "red", ["Ada"], unix_ms=2).messages[0].type == "request"
+    assert book.compose("m", "red", ["Ada"], by=KIM, unix_ms=2).messages[0].type == "request"
 
 
 def test_a_long_conversation_is_cut_but_open_questions_stay() -> None:
@@ -473,16 +477,17 @@ def test_each_failed_attempt_doubles_the_wait_and_a_success_forgives() -> None:
     attempts = Attempts(free=2, longest_s=60)
     waits = []
     for _ in range(8):
-        attempts.failed("a", 0.0)
-        waits.append(attempts.wait_s("a", 0.0))
+        attempts.failed("a", "kim", 0.0)
+        waits.append(attempts.wait_s("a", "kim", 0.0))
     assert waits == [0, 2, 4, 8, 16, 32, 60, 60]
-    assert attempts.wait_s("b", 0.0) == 0
-    attempts.succeeded("a")
-    assert attempts.wait_s("a", 0.0) == 0
+    assert attempts.wait_s("b", "kim", 0.0) == 0
+    attempts.succeeded("a", "kim")
+    assert attempts.wait_s("a", "kim", 0.0) == 0
 
 
-def test_attempts_from_everywhere_count_together() -> None:
-    attempts = Attempts(free=5, free_in_all=10)
-    for number in range(10):
-        attempts.failed(f"a{number}", 0.0)
-    assert attempts.wait_s("another", 0.0) > 0
+def test_who_tries_one_account_after_the_other_waits_too() -> None:
+    attempts = Attempts(free=2)
+    for number in range(8):
+        attempts.failed("a", f"account {number}", 0.0)
+    assert attempts.wait_s("a", "kim", 0.0) > 0
+    assert attempts.wait_s("b", "kim", 0.0) == 0

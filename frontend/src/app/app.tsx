@@ -22,15 +22,16 @@ export function App() {
     applyLook({ theme, planColours, language });
     if (i18next.language !== language) void i18next.changeLanguage(language);
   }, [theme, planColours, language]);
-  useEffect(() => (session.state === 'open' ? connect() : undefined), [session.state]);
-  useEffect(() => (session.state === 'open' ? keepStopLine() : undefined), [session.state]);
+  const { state, refresh } = session;
+  useEffect(() => (state === 'open' ? connect(refresh) : undefined), [state, refresh]);
+  useEffect(() => (state === 'open' ? keepStopLine() : undefined), [state]);
   return (
     <I18nProvider locale={localeOf[language]}>
       <Router hook={useHashPath}>
         {session.state === 'locked' ? (
           <SignIn onSignedIn={session.refresh} />
         ) : (
-          <Shell canSignOut={session.required} onSignedOut={session.refresh} />
+          <Shell canSignOut={session.required} onSessionChanged={session.refresh} />
         )}
       </Router>
     </I18nProvider>

@@ -7,9 +7,11 @@ import { LogPage } from '@/features/log';
 import { MapPanel } from '@/features/map';
 import { MemoryPage } from '@/features/memory';
 import { offered, pathOf, SettingsPage, type Page } from '@/features/menu';
+import { MyAccountSection, PeoplePage } from '@/features/people';
 import { PlanPanel } from '@/features/plan';
 import { RobotsPage } from '@/features/robots';
 import { useWorld } from '@/live/store';
+import { useMayAll } from '@/state/me';
 import { Empty } from '@/ui/panel';
 import type { Layout } from '@/ui/use-media';
 
@@ -18,13 +20,14 @@ import { Workspace } from './workspace';
 interface Props {
   layout: Layout;
   canSignOut: boolean;
-  onSignedOut: () => void;
+  onSessionChanged: () => void;
 }
 
 /** The table of pages. Parts that this server has switched off have none. */
 export function Pages({ layout, ...session }: Props) {
   const { t } = useTranslation('menu');
   const info = useWorld((world) => world.info);
+  const may = useMayAll();
   const page: Record<Page, () => React.ReactNode> = {
     chat: () => <Workspace layout={layout} />,
     plan: () => <PlanPanel />,
@@ -34,11 +37,14 @@ export function Pages({ layout, ...session }: Props) {
     robots: () => <RobotsPage />,
     incidents: () => <IncidentsPage />,
     log: () => <LogPage />,
-    settings: () => <SettingsPage {...session} />,
+    people: () => <PeoplePage onChanged={session.onSessionChanged} />,
+    settings: () => (
+      <SettingsPage>{session.canSignOut && <MyAccountSection onSignedOut={session.onSessionChanged} />}</SettingsPage>
+    ),
   };
   return (
     <Switch>
-      {offered(info).map((name) => (
+      {offered(info, may).map((name) => (
         <Route key={name} path={pathOf(name)}>
           {page[name]}
         </Route>

@@ -1,6 +1,7 @@
 import { useTranslation } from 'react-i18next';
 
 import { ConnectionBanner, Sidebar, TopBar } from '@/features/menu';
+import { OpenNote, RoleNote } from '@/features/people';
 import { AddRobot } from '@/features/robots';
 import { StopBanner } from '@/features/stop';
 import { useOverlays } from '@/state/overlays';
@@ -22,7 +23,7 @@ import { useRobotShortcuts } from './use-robot-shortcuts';
 
 interface Props {
   canSignOut: boolean;
-  onSignedOut: () => void;
+  onSessionChanged: () => void;
 }
 
 /** What stands around every page: menu, stop button, banners, notes. */
@@ -58,6 +59,8 @@ export function Shell(props: Props) {
         )}
         <StopBanner />
         <ConnectionBanner />
+        <OpenNote />
+        <RoleNote />
         <main id="content" className={css.content} tabIndex={-1}>
           <Boundary {...words}>
             <Pages {...props} layout={layout} />

@@ -5,6 +5,7 @@ import { offered, pathOf } from '@/features/menu';
 import { commandPlan } from '@/live/api';
 import { useWorld } from '@/live/store';
 import { attempt } from '@/state/do';
+import { useMayAll } from '@/state/me';
 import { useOverlays } from '@/state/overlays';
 import { usePrefs, type Theme } from '@/state/prefs';
 import { useRobotNames, useSelectionStore } from '@/state/selection';
@@ -21,6 +22,7 @@ const themes: readonly Theme[] = ['system', 'light', 'dark', 'contrast'];
 /** What can be done now, most urgent first. */
 export function useCommands(): Command[] {
   const { t } = useTranslation(['menu', 'stop', 'chat']);
+  const may = useMayAll();
   const [, go] = useLocation();
   const names = useRobotNames();
   const info = useWorld((world) => world.info);
@@ -31,18 +33,18 @@ export function useCommands(): Command[] {
   const perRobot = names.flatMap((name) => [
     { id: `talk ${name}`, label: t('talkTo', { name }), run: () => only(name) },
     { id: `pause ${name}`, label: t('pauseRobot', { name }), run: () => void attempt(() => commandPlan(name, 'pause')) },
-    { id: `resume ${name}`, label: t('resumeRobot', { name }), run: () => void attempt(() => commandPlan(name, 'resume')) },
+    ...(may('resume') ? [{ id: `resume ${name}`, label: t('resumeRobot', { name }), run: () => void attempt(() => commandPlan(name, 'resume')) }] : []),
     ...(names.length > 1 ? [{ id: `stop ${name}`, label: t('stop:stopOnly', { name }), run: () => void stop([name]) }] : []),
   ]);
   return [
     { id: 'stop', label: t('stop:stopAll'), run: () => void stop([]) },
     ...perRobot,
-    ...offered(info).map((page) => ({
+    ...offered(info, may).map((page) => ({
       id: `go ${page}`,
       label: t('goTo', { page: t(page) }),
       run: () => go(pathOf(page)),
     })),
-    { id: 'add', label: t('chat:addRobot'), run: () => open('addRobot') },
+    ...(may('setting') ? [{ id: 'add', label: t('chat:addRobot'), run: () => open('addRobot') }] : []),
     ...themes.map((theme) => ({
       id: `theme ${theme}`,
       label: t('useTheme', { theme: t(`themes.${theme}`) }),

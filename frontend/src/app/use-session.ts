@@ -2,6 +2,7 @@ import { useCallback, useEffect, useState } from 'react';
 
 import { ApiError, getSession } from '@/live/api';
 import { useLive } from '@/live/store';
+import { useMe } from '@/state/me';
 
 interface SessionState {
   state: 'asking' | 'locked' | 'open';
@@ -19,8 +20,11 @@ export function useSession(): SessionState {
     let current = true;
     let timer: ReturnType<typeof setTimeout>;
     getSession().then(
-      ({ required, authenticated }) => {
-        if (current) setSession({ state: authenticated || !required ? 'open' : 'locked', required });
+      (info) => {
+        const { required, authenticated } = info;
+        if (!current) return;
+        useMe.getState().take(info);
+        setSession({ state: authenticated || !required ? 'open' : 'locked', required });
       },
       (error: unknown) => {
         if (!current) return;

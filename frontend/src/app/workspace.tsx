@@ -7,6 +7,7 @@ import { MapPanel } from '@/features/map';
 import { offered } from '@/features/menu';
 import { PlanPanel, PlanStrip } from '@/features/plan';
 import { useWorld } from '@/live/store';
+import { useMayAll } from '@/state/me';
 import { Boundary } from '@/ui/boundary';
 import { Button } from '@/ui/button';
 import type { Layout } from '@/ui/use-media';
@@ -15,7 +16,7 @@ import css from './workspace.module.css';
 
 /** Chat, plan, pictures and map side by side, as far as there is room. */
 export function Workspace({ layout }: { layout: Layout }) {
-  const pages = offered(useWorld((world) => world.info));
+  const pages = offered(useWorld((world) => world.info), useMayAll());
   if (layout === 'phone') return <Narrow hasPlan={pages.includes('plan')} hasDisplay={pages.includes('display')} />;
   return (
     <div className={css.grid} data-layout={layout}>

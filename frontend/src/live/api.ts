@@ -9,6 +9,7 @@ import type {
   MemoryItem,
   Policy,
   ServerInfo,
+  SessionInfo,
   StopAnswer,
 } from './types';
 
@@ -89,23 +90,19 @@ export interface ChatPage {
   complete: boolean;
 }
 
-export interface Session {
-  /** Whether this server asks for a password or code. */
-  required: boolean;
-  authenticated: boolean;
-}
-
 export type PlanCommand = 'pause' | 'resume' | 'skip' | 'clear' | 'pop';
 
 export interface Decision {
   id: string;
+  /** Of what was shown. */
+  digest: string;
   decision: 'approve' | 'reject' | 'edit';
   steps?: readonly ActionCall[];
 }
 
-export const getSession = () => request<Session>('GET', 'session');
+export const getSession = () => request<SessionInfo>('GET', 'session');
 export const openSession = (secret: string, name: string) =>
-  request<unknown>('POST', 'session', { secret, name });
+  request<SessionInfo>('POST', 'session', { secret, name });
 export const closeSession = () => request<unknown>('DELETE', 'session');
 
 export const sendMessage = (message: OutgoingMessage) => request<ChatEntry>('POST', 'chat', message);

@@ -23,8 +23,12 @@ const newest = new Map<string, { picture: ArrayBuffer; meta: FrameMeta }>();
 
 const keyOf = (feed: { robot: string; name: string }) => `${feed.robot}\n${feed.name}`;
 
-/** Connect, and stay connected. @returns How to hang up. */
-export function connect(): () => void {
+/**
+ * Connect, and stay connected.
+ * @param onDoubt Called when it may have changed who this visitor is, or whether they are let in.
+ * @returns How to hang up.
+ */
+export function connect(onDoubt: () => void): () => void {
   const live = () => useLive.getState();
   const opened = io({
     path: '/socket.io',
@@ -47,16 +51,21 @@ export function connect(): () => void {
   });
   opened.on('disconnect', (reason) => {
     live().setConnection('lost', Date.now());
-    if (reason === 'io server disconnect') knockLater();
+    if (reason === 'io server disconnect') {
+      onDoubt();
+      knockLater();
+    }
   });
   opened.on('connect_error', () => {
     if (live().connection !== 'lost') live().setConnection('lost', Date.now());
+    onDoubt();
     if (!opened.active) knockLater();
   });
   opened.on('snapshot', (snapshot: Snapshot) => live().takeSnapshot(snapshot));
   opened.on('changes', (changes: Change[]) => live().takeChanges(changes));
   opened.on('view', (view: MapView) => live().takeView(view));
   opened.on('frame', onFrame);
+  opened.on('session', onDoubt);
   document.addEventListener('visibilitychange', sendWatched);
   return () => {
     document.removeEventListener('visibilitychange', sendWatched);

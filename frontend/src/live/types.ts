@@ -23,6 +23,14 @@ export type MapInfo = Schemas['MapInfo'];
 export type MapThing = Schemas['MapThing'];
 export type ActionInfo = Schemas['ActionInfo'];
 
+export type SessionInfo = Schemas['SessionInfo'];
+export type MyAccount = Schemas['MyAccount'];
+export type PeopleInfo = Schemas['PeopleInfo'];
+export type PersonInfo = Schemas['PersonInfo'];
+export type DeviceInfo = Schemas['DeviceInfo'];
+export type CodeInfo = Schemas['CodeInfo'];
+export type Role = PersonInfo['role'];
+
 export type Policy = RobotView['policy'];
 export type StepState = StepView['state'];
 export type ActionCall = NonNullable<StepView['call']>;

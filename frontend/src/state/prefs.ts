@@ -15,6 +15,8 @@ interface Prefs {
   debug: boolean;
   /** Whether the first steps were seen. */
   welcomed: boolean;
+  /** Whether it was read that nobody has to sign in here. */
+  openNoted: boolean;
   set: (change: Partial<Omit<Prefs, 'set'>>) => void;
 }
 
@@ -28,6 +30,7 @@ export const usePrefs = create<Prefs>()(
       planColours: 'standard',
       debug: false,
       welcomed: false,
+      openNoted: false,
       set,
     }),
     { name: 'parley.prefs', version: 1, storage: createJSONStorage(() => localStorage) },

@@ -1,5 +1,7 @@
 import { Button as AriaButton, type ButtonProps } from 'react-aria-components';
 
+import { useMe, type Effect } from '@/state/me';
+
 import css from './button.module.css';
 import { Icon, type IconName } from './icon';
 
@@ -9,10 +11,17 @@ interface Props extends Omit<ButtonProps, 'children' | 'className'> {
   children?: React.ReactNode;
   /** Only the sign is shown; `aria-label` says what it does. */
   iconOnly?: boolean;
+  /** Whoever may not do this does not see the button. */
+  needs?: Effect;
 }
 
 /** A button that is large enough for a thumb. */
-export function Button({ tone = 'plain', icon, children, iconOnly = false, ...rest }: Props) {
+export function Button({ needs, ...rest }: Props) {
+  const session = useMe((me) => me.session);
+  return needs && session && !session.may.includes(needs) ? null : <Shown {...rest} />;
+}
+
+function Shown({ tone = 'plain', icon, children, iconOnly = false, ...rest }: Omit<Props, 'needs'>) {
   return (
     <AriaButton {...rest} className={[css.button, css[tone], iconOnly ? css.iconOnly : ''].join(' ')}>
       {icon && <Icon name={icon} />}

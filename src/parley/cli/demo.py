@@ -56,8 +56,11 @@ def demo(
         bool, typer.Option("--lan", help="Let phones in this network in: HTTPS, with a code to sign in.")
     ] = False,
     password_file: Annotated[
-        Path | None, typer.Option(help="File with a password to sign in with, instead of a code.")
+        Path | None, typer.Option(help="File with a password to sign in with, here too.")
     ] = None,
+    pair_as: Annotated[
+        str, typer.Option(help="What a code lets a device be: viewer, operator or supervisor.")
+    ] = "operator",
     cert: Annotated[
         Path | None, typer.Option(help="Certificate for HTTPS (PEM), instead of a made one.")
     ] = None,
@@ -112,6 +115,7 @@ def demo(
         port=port,
         lan=lan,
         password_file=password_file,
+        pair_as=pair_as,
         certificate=cert,
         key=key,
         origins=origin or (),

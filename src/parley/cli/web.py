@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import asyncio
 import gc
+import shlex
 import signal
 import sys
 from collections.abc import Sequence
@@ -13,6 +14,7 @@ from typing import TYPE_CHECKING, Any, Final
 import typer
 
 from parley.errors import ConfigError
+from parley.messages.principal import ROLES, Role
 
 if TYPE_CHECKING:
     from parley.web.server import WebServer
@@ -42,6 +44,7 @@ def page_settings(
     port: int | None,
     lan: bool,
     password_file: Path | None,
+    pair_as: str,
     certificate: Path | None,
     key: Path | None,
     origins: Sequence[str],
@@ -63,6 +66,7 @@ def page_settings(
         "port": PORT if port is None else port,
         "lan": lan,
         "password": _password(password_file),
+        "pair_as": _role(pair_as),
         "certificate": certificate,
         "key": key,
         "origins": tuple(origins),
@@ -94,6 +98,13 @@ def _password(file: Path | None) -> str:
     return password
 
 
+def _role(text: str) -> Role:
+    found = next((role for role in ROLES if role == text), None)
+    if found is None:
+        raise ConfigError(f"--pair-as: there is no role {text!r}; there are: {', '.join(ROLES)}")
+    return found
+
+
 async def serve_until_interrupted(server: WebServer, *, opens: bool) -> None:
     """Say where the page is, open it, and wait for Ctrl-C.
 
@@ -107,9 +118,18 @@ async def serve_until_interrupted(server: WebServer, *, opens: bool) -> None:
         typer.echo(f"From other devices: {address}")
     if server.fingerprint:
         typer.echo(f"Browsers warn once, because this machine made its own certificate: {server.fingerprint}")
+    way = server.backend.sessions.way
+    if way == "account":
+        typer.echo("People sign in with their accounts.")
+    elif way == "password":
+        typer.echo("Everybody signs in with the password of --password-file, and may do everything then.")
+    elif way == "open":
+        folder = server.backend.config.data_dir
+        how = f"parley people add NAME --data {shlex.quote(str(folder))}" if folder else "its page “People”"
+        typer.echo(f"Everybody at this computer may do everything. To make accounts: {how}")
     if code:
         _show_code(server, code)
-        server.backend.sessions.on_code = lambda new: _show_code(server, new)
+        server.backend.sessions.codes.on_new = lambda new: _show_code(server, new)
     elif server.backend.addresses:
         _show_qr(server.backend.addresses[0])
     elif not server.backend.config.lan:

@@ -73,6 +73,7 @@ class Database:
         prepare: Callable[[sqlite3.Connection], None],
         unix_ms: int,
         what: str = "memory",
+        renews_damaged: bool = True,
     ) -> Self:
         """Open or create a file; of a damaged one, what can be read is kept (see `notice`).
 
@@ -83,6 +84,7 @@ class Database:
             prepare: Brings the file to the form that is wanted.
             unix_ms: Now, for the name of a damaged file.
             what: What is in the file, for messages.
+            renews_damaged: False leaves a damaged file as it is, which is an error then.
 
         Raises:
             StoreError: The file cannot be created, read or written.
@@ -90,7 +92,9 @@ class Database:
         thread = ThreadPoolExecutor(max_workers=1, thread_name_prefix=what)
         loop = asyncio.get_running_loop()
         try:
-            connection, aside, salvaged = await loop.run_in_executor(thread, _open, path, prepare, unix_ms)
+            connection, aside, salvaged = await loop.run_in_executor(
+                thread, _open, path, prepare, unix_ms, renews_damaged
+            )
         except BaseException as error:
             thread.shutdown(wait=False)
             if isinstance(error, sqlite3.Error | OSError):
@@ -125,14 +129,14 @@ class Database:
 
 
 def _open(
-    path: Path | str, prepare: Callable[[sqlite3.Connection], None], unix_ms: int
+    path: Path | str, prepare: Callable[[sqlite3.Connection], None], unix_ms: int, renews_damaged: bool
 ) -> tuple[sqlite3.Connection, Path | None, Salvaged]:
     """A connection, where a damaged file went, and what was kept of it."""
     with _alone(path):
         try:
             return _connect(path, prepare), None, Salvaged()
         except sqlite3.DatabaseError as error:
-            if not _is_damage(error):
+            if not (renews_damaged and _is_damage(error)):
                 raise
             aside = _put_aside(Path(path), unix_ms)
             connection = _connect(path, prepare)

@@ -68,7 +68,10 @@ def compose(robot: RobotView, text: str, texts: Texts, message_id: str) -> ChatI
     if isinstance(last, PlanProposal) and (decision := _decision(text, texts)):
         robot.pending.remove(last)
         return PlanDecision(
-            id=last.id, target=robot.name, decision="approve" if decision == "yes" else "reject"
+            id=last.id,
+            target=robot.name,
+            decision="approve" if decision == "yes" else "reject",
+            digest=last.digest,
         )
     question = robot.question
     message = chosen(text, question.choices if question is not None else robot.offered)

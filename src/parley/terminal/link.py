@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import contextlib
 from collections.abc import Callable, Sequence
-from typing import Self, TypeVar
+from typing import Final, Self, TypeVar
 
 import structlog
 from pydantic import BaseModel
@@ -14,6 +14,7 @@ from parley.errors import InvalidMessageError
 from parley.messages import topics
 from parley.messages.chat import ChatFeedback, ChatInput, ReplyDraft
 from parley.messages.memory import RETURN_ALL, GetMemory, MemoryEntry, MemoryReply
+from parley.messages.principal import person
 from parley.messages.ros import ChatRequest, String
 from parley.messages.status import (
     ActorStatus,
@@ -35,6 +36,8 @@ log = structlog.get_logger(__name__)
 
 P = TypeVar("P", bound=BaseModel)
 
+OPERATOR: Final = person(device="terminal")
+"""Whoever sits at the terminal."""
 _MEMORY_TIMEOUT_S = 10.0
 
 
@@ -80,8 +83,9 @@ class Link:
         await self._stack.aclose()
 
     def send(self, message: ChatInput | PlanDecision | StopCommand) -> None:
-        """Publish what the operator said or decided on the topic of its kind."""
-        self._publishers[type(message)].publish(to_string(message))
+        """Publish what the operator said or decided on the topic of its kind, as theirs."""
+        theirs = message.model_copy(update={"by": OPERATOR})
+        self._publishers[type(message)].publish(to_string(theirs))
 
     async def memories(self) -> list[MemoryEntry]:
         """Everything that is remembered, oldest first.

@@ -277,7 +277,8 @@ class OperatorView:
         robot.pending = [item for item in robot.pending if not isinstance(item, PlanProposal)]
         robot.pending.append(proposal)
         heading = Line("heading", self.texts("proposal_of", robot=robot.name))
-        rows = [Line("step", f"{number}. {label(call)}") for number, call in enumerate(proposal.steps, 1)]
+        labels = [*proposal.labels, *map(label, proposal.steps[len(proposal.labels) :])]
+        rows = [Line("step", f"{number}. {text}") for number, text in enumerate(labels, 1)]
         return [heading, *rows, Line("asked", self.texts("yes_or_no"))]
 
     def _plan(self, robot: RobotView, steps: Sequence[PlanStep]) -> list[Line]:

@@ -26,7 +26,9 @@ from parley.web.routes import (
     incidents,
     log,
     map,
+    me,
     memory,
+    people,
     plans,
     robots,
     session,
@@ -37,7 +39,7 @@ from parley.web.routes import (
 __all__ = ["create_api", "create_app", "openapi_text"]
 
 _RESOURCES = (
-    health, session, snapshot, chat, stop, plans, robots, memory, incidents, log, map, feeds,
+    health, session, me, people, snapshot, chat, stop, plans, robots, memory, incidents, log, map, feeds,
 )  # fmt: skip
 
 

@@ -17,7 +17,7 @@ from parley.gate.stop_line import StopLine
 from parley.language.stop_words import has_stop_word
 from parley.messages.chat import ChatFeedback, ChatImage, ChatInput
 from parley.messages.map import MapView
-from parley.messages.principal import person
+from parley.messages.principal import Principal, person
 from parley.messages.status import PlanDecision
 from parley.transport.base import Transport
 from parley.web.bodies import ChatPost
@@ -28,6 +28,7 @@ from parley.web.feeds import Feeds
 from parley.web.keeper import Keeper
 from parley.web.link import Link
 from parley.web.models import ChatEntry, Policy, RobotView, ServerInfo, Snapshot
+from parley.web.people.store import FILE, PeopleStore
 from parley.web.pictures import kept_picture
 from parley.web.problems import WebProblem
 from parley.web.sessions import Sessions
@@ -77,7 +78,7 @@ class Backend:
         self.transport, self.config = transport, config
         self._stop_line, self._at_rest = stop_line, at_rest
         self.clock: Clock = clock or WallClock()
-        self.sessions = Sessions(self.clock, config.password if pairs else "", pairs=pairs)
+        self.sessions = Sessions(self.clock, config.password, pairs=pairs, pair_as=config.pair_as)
         self.addresses: tuple[str, ...] = ()
         """Where the page can be opened; set by the server."""
         self.view_listeners: list[Callable[[MapView], None]] = []
@@ -85,6 +86,8 @@ class Backend:
         self._sending: set[str] = set()
         self._keeping: set[asyncio.Task[None]] = set()
         self._policies: dict[str, str] = {}
+        self._policy_by: dict[str, str] = {}
+        """Who chose it, by robot, as JSON."""
         self._keeper: Keeper
         self._stack = AsyncExitStack()
 
@@ -103,7 +106,8 @@ class Backend:
         enter = self._stack.enter_async_context
         folder = self.config.data_dir
         self.store = await enter(await WebStore.open(folder / "web.db" if folder else ":memory:", self.clock))
-        await self.sessions.restore(self.store)
+        people = await enter(await PeopleStore.open(folder / FILE if folder else ":memory:", self.clock))
+        await self.sessions.restore(people)
         entries, complete = await self.store.page(limit=RECENT)
         if self.config.fresh_robots:
             entries = await self._close_questions(entries)
@@ -118,6 +122,7 @@ class Backend:
         for name in await self.store.settings("robot"):
             self.state.robots.add(name)
         self._policies = await self.store.settings("policy")
+        self._policy_by = await self.store.settings("policy_by")
         self.link = await enter(
             Link(
                 self.transport,
@@ -135,6 +140,10 @@ class Backend:
             self.clock,
             self._at_rest,
         )
+        self.sessions.tell = self.link.send
+        await self.sessions.refresh()
+        watch = asyncio.create_task(self.sessions.watch(), name="web people")
+        self._stack.push_async_callback(_cancel, watch)
         await self._settle_unsent()
         self.feeds = await enter(
             Feeds(self.transport, self.state.feeds, lambda: list(self.state.robots.views), self._on_picture)
@@ -189,7 +198,7 @@ class Backend:
             raise WebProblem(404, f"There is no robot called {name}.", f"The robots are: {names}.")
         return self.state.robots.views[known]
 
-    async def say(self, post: ChatPost, author: str) -> ChatEntry:
+    async def say(self, post: ChatPost, by: Principal) -> ChatEntry:
         """Keep an operator's message and send it, once however often it is posted.
 
         Raises:
@@ -200,36 +209,36 @@ class Backend:
             raise WebProblem(409, "This message is just being sent.", "Wait a moment.", path="id")
         self._sending.add(post.id)
         try:
-            return await self._say(post, author)
+            return await self._say(post, by)
         finally:
             self._sending.discard(post.id)
 
-    async def _say(self, post: ChatPost, author: str) -> ChatEntry:
+    async def _say(self, post: ChatPost, by: Principal) -> ChatEntry:
         if has_stop_word(post.text):
-            return await self._say_at_once(post, author)
+            return await self._say_at_once(post, by)
         known = await self.store.entry(post.id)
         if known is not None:
             return await self._say_again(post, known)
         self._check_reply(post)
         pictures = [kept_picture(f"{post.id}.{number}", image) for number, image in enumerate(post.images)]
-        composed = self._composed(post, author, pictures)
+        composed = self._composed(post, by, pictures)
         await self.store.keep([composed.entry], pictures, composed.messages)
         self.state.chat.said(composed)
         await self._send(composed.entry, composed.messages)
         return composed.entry
 
-    async def _say_at_once(self, post: ChatPost, author: str) -> ChatEntry:
+    async def _say_at_once(self, post: ChatPost, by: Principal) -> ChatEntry:
         """Hold the robots and send words that may stop them before anything else; no disk is waited for."""
         known = self.state.chat.entries.get(post.id)
         if known is not None:
             return known
-        self.stopper.hold(post.targets, by=person(author, device="page"), id=post.id, words=post.text)
+        self.stopper.hold(post.targets, by=by, id=post.id, words=post.text)
         try:
             self._check_reply(post)
             pictures = [kept_picture(f"{post.id}.{index}", image) for index, image in enumerate(post.images)]
         except WebProblem:
             post, pictures = post.model_copy(update={"reply_to": "", "images": ()}), []
-        composed = self._composed(post, author, pictures)
+        composed = self._composed(post, by, pictures)
         for message in composed.messages:
             self.link.send(message)
         self.state.chat.said(composed)
@@ -247,7 +256,7 @@ class Backend:
             told = ChatFeedback(message=text, targets=entry.targets, type="error", reply_to=entry.id)
             self.state.chat.on_feedback(told, unix_ms=self.clock.unix_ms())
 
-    def _composed(self, post: ChatPost, author: str, pictures: Sequence[KeptPicture]) -> Composed:
+    def _composed(self, post: ChatPost, by: Principal, pictures: Sequence[KeptPicture]) -> Composed:
         return self.state.chat.compose(
             post.id,
             post.text,
@@ -255,7 +264,7 @@ class Backend:
             reply_to=post.reply_to,
             images=[ChatImage(name=image.name, data=image.data) for image in post.images],
             image_urls=[f"/api/chat/images/{picture.id}" for picture in pictures],
-            author=author,
+            by=by,
             unattended=post.unattended,
             unix_ms=self.clock.unix_ms(),
         )
@@ -321,19 +330,25 @@ class Backend:
         await self.store.unset("robot", view.name)
         self.state.remove_robot(view.name)
 
-    async def set_policy(self, robot: str, policy: Policy) -> None:
+    async def set_policy(self, robot: str, policy: Policy, by: Principal) -> None:
         """Decide whether new steps of a robot wait for a yes, also after a restart."""
         await self.store.set("policy", robot, policy)
-        self._policies[robot] = policy
-        self.link.send(PlanDecision(target=robot, decision="policy", policy=policy))
+        await self.store.set("policy_by", robot, by.model_dump_json())
+        self._policies[robot], self._policy_by[robot] = policy, by.model_dump_json()
+        self._tell_policy(robot)
 
     # -- what comes in ---------------------------------------------------------------------------------
 
     def _on_joined(self, robot: str) -> None:
-        policy = self._policies.get(robot)
-        if policy is not None:
-            decision = {"target": robot, "decision": "policy", "policy": policy}
-            self.link.send(PlanDecision.model_validate(decision))
+        if robot in self._policies:
+            self._tell_policy(robot)
+
+    def _tell_policy(self, robot: str) -> None:
+        """What somebody chose counts in their name, whenever the robot is told."""
+        known = self._policy_by.get(robot)
+        by = Principal.model_validate_json(known) if known else person(device="page")
+        decision = {"target": robot, "decision": "policy", "policy": self._policies[robot], "by": by}
+        self.link.send(PlanDecision.model_validate(decision))
 
     def _on_view(self, view: MapView) -> None:
         for listener in self.view_listeners:
@@ -347,3 +362,8 @@ class Backend:
 def _in(loop: asyncio.AbstractEventLoop, deed: Callable[[], None]) -> None:
     with suppress(RuntimeError):  # the loop is closed: nobody is left who could be told
         loop.call_soon_threadsafe(deed)
+
+
+async def _cancel(task: asyncio.Task[None]) -> None:
+    task.cancel()
+    await asyncio.gather(task, return_exceptions=True)

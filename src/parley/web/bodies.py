@@ -2,24 +2,39 @@
 
 from __future__ import annotations
 
-from typing import Annotated, Literal, Self
+from typing import Annotated, Any, Literal, Self
 
 from pydantic import Field, StringConstraints, model_validator
 
 from parley.messages.attendance import Unattended
 from parley.messages.chat import ActionCall
+from parley.messages.principal import Role
 from parley.web.models import ChatEntry, Policy, WebModel
+from parley.web.people.records import Way
 
 __all__ = [
     "ChatPage",
     "ChatPost",
+    "CodeInfo",
+    "CodePost",
+    "CredentialPost",
     "DecisionPost",
+    "DeviceInfo",
     "Done",
     "FeedKey",
     "FrameMeta",
     "Health",
     "ImageUpload",
     "MemoryPut",
+    "MyAccount",
+    "MyPasskey",
+    "MyPassword",
+    "PasskeyPost",
+    "PasskeyQuestion",
+    "PeopleInfo",
+    "PersonInfo",
+    "PersonPost",
+    "PersonPut",
     "PlanCommandPost",
     "PolicyPut",
     "ProblemDetail",
@@ -33,6 +48,7 @@ __all__ = [
 ]
 
 Name = Annotated[str, StringConstraints(min_length=1, max_length=100, strip_whitespace=True)]
+Secret = Annotated[str, StringConstraints(max_length=200)]
 Key = Annotated[str, StringConstraints(pattern=r"^[A-Za-z0-9_.-]{1,64}$")]
 
 MAX_IMAGE_CHARS = 4_000_000
@@ -69,10 +85,10 @@ class ProblemDetail(WebModel):
 class SessionPost(WebModel):
     """Sign in."""
 
-    secret: Annotated[str, StringConstraints(max_length=200)] = ""
+    secret: Secret = ""
     """Password or pairing code; empty where none is asked for."""
     name: Annotated[str, StringConstraints(max_length=60, strip_whitespace=True)] = ""
-    """How the person wants to be called."""
+    """Of the account; where there are none, how the person wants to be called."""
 
 
 class SessionInfo(WebModel):
@@ -81,8 +97,137 @@ class SessionInfo(WebModel):
     required: bool
     """Whether one has to sign in here."""
     authenticated: bool
-    """Whether this visitor may use everything."""
+    """Whether this visitor is let in."""
+    way: Way
+    """How one comes in: `account` (name and password, or a passkey), `password`, `code`, or `open`."""
     name: str = ""
+    role: Role | Literal[""] = ""
+    may: tuple[str, ...] = ()
+    """Effects that this visitor is allowed, e.g. `speak`."""
+    passkeys: bool = False
+    """Whether browsers have passkeys at this address."""
+
+
+class PasskeyQuestion(WebModel):
+    """What the browser is to be asked."""
+
+    id: str
+    """To be sent back with the answer."""
+    options: dict[str, Any]
+    """As `PublicKeyCredential.parseCreationOptionsFromJSON` and its kin take them."""
+
+
+class CredentialPost(WebModel):
+    """What the browser answered."""
+
+    id: Annotated[str, StringConstraints(max_length=100)]
+    credential: dict[str, Any]
+    """`PublicKeyCredential.toJSON()`."""
+
+
+class PasskeyPost(CredentialPost):
+    """A new passkey."""
+
+    name: Annotated[str, StringConstraints(min_length=1, max_length=60, strip_whitespace=True)]
+    """How to tell it from others."""
+
+
+class DeviceInfo(WebModel):
+    """A browser in which somebody is signed in."""
+
+    id: str
+    name: str
+    role: Role
+    paired: bool
+    """Let in by a code, without an account."""
+    kind: Literal["phone", "tablet", "computer", "program"]
+    browser: str = ""
+    address: str = ""
+    here: bool = False
+    """It is the one that asks."""
+    created_unix_ms: int = 0
+    seen_unix_ms: int = 0
+
+
+class MyPasskey(WebModel):
+    """A passkey of one's own."""
+
+    id: str
+    name: str
+    created_unix_ms: int = 0
+    seen_unix_ms: int = 0
+    """0: not used yet."""
+
+
+class MyAccount(WebModel):
+    """What there is of oneself."""
+
+    account: bool
+    """Whether one has an account."""
+    devices: tuple[DeviceInfo, ...] = ()
+    passkeys: tuple[MyPasskey, ...] = ()
+
+
+class MyPassword(WebModel):
+    """Change one's own password."""
+
+    old: Secret
+    new: Secret
+
+
+class PersonInfo(WebModel):
+    """Somebody with an account."""
+
+    name: str
+    role: Role
+    disabled: bool
+    created_unix_ms: int
+    seen_unix_ms: int
+    """When they signed in last; 0: not yet."""
+    passkeys: int = 0
+
+
+class PeopleInfo(WebModel):
+    """Everybody who may come in."""
+
+    people: tuple[PersonInfo, ...] = ()
+    devices: tuple[DeviceInfo, ...] = ()
+
+
+class PersonPost(WebModel):
+    """Make an account."""
+
+    name: Annotated[str, StringConstraints(min_length=1, max_length=60, strip_whitespace=True)]
+    role: Role = "operator"
+    """The first account is a supervisor's whatever is said here."""
+    password: Secret
+
+
+class PersonPut(WebModel):
+    """Change one thing of an account."""
+
+    role: Role | None = None
+    password: Secret | None = None
+    disabled: bool | None = None
+
+    @model_validator(mode="after")
+    def _changes_one(self) -> Self:
+        if sum(each is not None for each in (self.role, self.password, self.disabled)) != 1:
+            raise ValueError("say one of role, password, disabled")
+        return self
+
+
+class CodePost(WebModel):
+    """Make a pairing code."""
+
+    role: Role = "operator"
+
+
+class CodeInfo(WebModel):
+    """A pairing code, for one device and one hour."""
+
+    code: str
+    role: Role
 
 
 class ImageUpload(WebModel):
@@ -164,6 +309,8 @@ class DecisionPost(WebModel):
     decision: Literal["approve", "reject", "edit"]
     steps: Annotated[tuple[ActionCall, ...], Field(max_length=200)] = ()
     """For `edit`: the steps to run instead, in Chat Action form."""
+    digest: Annotated[str, StringConstraints(max_length=200)] = ""
+    """For `approve`: `ProposalView.digest` as it was shown."""
 
 
 class PolicyPut(WebModel):

@@ -9,6 +9,7 @@ from typing import Final
 from parley.language.control import control_of
 from parley.messages.attendance import Unattended
 from parley.messages.chat import ChatFeedback, ChatImage, ChatInput, ReplyDraft
+from parley.messages.principal import Principal
 from parley.web.models import ChatEntry
 
 __all__ = ["KEPT_ENTRIES", "ChatBook", "Composed"]
@@ -61,7 +62,7 @@ class ChatBook:
         reply_to: str = "",
         images: Sequence[ChatImage] = (),
         image_urls: Sequence[str] = (),
-        author: str = "",
+        by: Principal,
         unattended: Unattended | None = None,
         unix_ms: int,
     ) -> Composed:
@@ -77,7 +78,7 @@ class ChatBook:
             reply_to: Key of the question that is meant, where a robot asked several.
             images: Attached pictures.
             image_urls: Where the page finds them.
-            author: The person's name.
+            by: Who says it.
             unattended: What becomes of it when nobody is connected.
             unix_ms: Now.
         """
@@ -95,7 +96,8 @@ class ChatBook:
                 type="response" if question else "request",
                 id=key if number == 0 else f"{key}~{number}",
                 reply_to=self._asked_as.get(question, ""),
-                author=author,
+                author=by.name,
+                by=by,
                 images=tuple(images),
                 unattended=unattended,
             )
@@ -106,7 +108,7 @@ class ChatBook:
             seq=self.next_seq,
             unix_ms=unix_ms,
             who="operator",
-            author=author,
+            author=by.name,
             targets=tuple(targets),
             type="response" if answered and not ordered else "request",
             message=text,
@@ -142,7 +144,7 @@ class ChatBook:
                 seq=self._take_seq(),
                 unix_ms=unix_ms,
                 who="operator",
-                author=said.author,
+                author=said.who.name,
                 targets=said.targets,
                 type=said.type,
                 message=said.message,

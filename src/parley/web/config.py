@@ -8,6 +8,7 @@ from typing import Literal
 from pydantic import BaseModel, ConfigDict, Field
 
 from parley.messages.attendance import Unattended
+from parley.messages.principal import Role
 
 __all__ = ["MODULES", "Module", "WebConfig"]
 
@@ -29,7 +30,9 @@ class WebConfig(BaseModel):
     lan: bool = False
     """Open to other devices: with HTTPS, and only for those who sign in."""
     password: str = Field(default="", repr=False)
-    """What one signs in with; empty, where signing in is required: a pairing code is made."""
+    """What all sign in with while there are no accounts; empty, where that is needed: a code is made."""
+    pair_as: Role = "operator"
+    """What the pairing code that is shown makes of a device."""
     certificate: Path | None = None
     """PEM file; None, where HTTPS is needed: one is made."""
     key: Path | None = None

@@ -16,8 +16,9 @@ from starlette.types import ASGIApp, Message, Receive, Scope, Send
 from parley.clock import Clock
 from parley.web.limits import Rate
 from parley.web.patience import seat_of
+from parley.web.people.records import Device
 from parley.web.problems import WebProblem, problem_response
-from parley.web.sessions import Session, Sessions, cookie_name
+from parley.web.sessions import Sessions, cookie_name
 
 __all__ = ["Guard"]
 
@@ -33,7 +34,9 @@ BODY_WITHIN_S: Final = 30.0
 _TOO_LARGE: Final = "That is more than this server takes."
 _SMALLER: Final = "Use smaller or fewer pictures."
 _UPLOADS: Final = ("/api/chat", "/api/memory")
-_OPEN: Final = frozenset({"/api/session", "/api/health"})
+_OPEN: Final = frozenset(
+    {"/api/session", "/api/session/passkey", "/api/session/passkey/options", "/api/health"}
+)
 _LIVE: Final = "/socket.io"
 _STOP: Final = "/api/stop"
 _SOCKETS: Final = (_LIVE, "/api/stop/line")
@@ -118,7 +121,7 @@ class Guard:
             return
         await self._app(scope, receive, send)
 
-    def _admit(self, scope: Scope, headers: MutableMapping[str, str]) -> Session | None:
+    def _admit(self, scope: Scope, headers: MutableMapping[str, str]) -> Device | None:
         """Check a request from the outside to the inside.
 
         Raises:
@@ -136,7 +139,7 @@ class Guard:
             raise WebProblem(401, "You are not signed in.", "Sign in first.")
         return session
 
-    def _who(self, session: Session | None, headers: MutableMapping[str, str]) -> str:
+    def _who(self, session: Device | None, headers: MutableMapping[str, str]) -> str:
         """Known by a session, or, where nobody has to sign in, by having opened the page; else empty."""
         if session is not None:
             return session.digest

@@ -14,6 +14,7 @@ from parley.clock import Clock
 from parley.errors import GraphRefusedError, InvalidMessageError, TransportError, UnavailableError
 from parley.messages import topics
 from parley.messages.attendance import Attendance
+from parley.messages.audit import AuditEvent
 from parley.messages.chat import ChatAction, ChatFeedback, ChatInput, ReplyDraft
 from parley.messages.incident import GetIncidents, Incident, IncidentList
 from parley.messages.map import MapView
@@ -53,6 +54,7 @@ _SENT: Final[dict[type[BaseModel], Topic[String]]] = {
     StopCommand: topics.STOP,
     AddToMemory: topics.ADD_TO_MEMORY,
     RemoveMemory: topics.REMOVE_MEMORY,
+    AuditEvent: topics.AUDIT,
 }
 
 
@@ -138,7 +140,8 @@ class Link:
         | StopCommand
         | AddToMemory
         | RemoveMemory
-        | Attendance,
+        | Attendance
+        | AuditEvent,
     ) -> None:
         """Publish what an operator said or decided on the topic of its kind."""
         self._publishers[type(message)].publish(to_string(message))

@@ -15,13 +15,16 @@ import socketio
 import structlog
 from pydantic import BaseModel, TypeAdapter, ValidationError
 
+from parley.gate.table import Effect, verdict
 from parley.messages.attendance import Attendance
 from parley.messages.map import MapView
+from parley.messages.principal import Principal
 from parley.web.backend import Backend
 from parley.web.bodies import FeedKey, FrameMeta
 from parley.web.crowd import Crowd, Seat
 from parley.web.feed_state import Picture
 from parley.web.models import Change
+from parley.web.people.records import Gadget
 
 __all__ = ["Live"]
 
@@ -76,6 +79,10 @@ class _Client:
     in_flight: dict[Key, list[float]] = field(default_factory=dict)
     """When the pictures went that were not confirmed yet."""
     tasks: tuple[asyncio.Task[None], ...] = ()
+    session: str = ""
+    """Digest of the session it came with; empty where nobody has to sign in."""
+    may: Principal | None = None
+    """Who it is now."""
 
 
 class Live:
@@ -99,15 +106,18 @@ class Live:
             ping_timeout=10,
             http_compression=False,
         )
+        self.effects: dict[str, Effect] = {}
+        """What each event that clients send does; whoever may not do that is not heard."""
         self.server.on("connect", self._on_connect)
         self.server.on("disconnect", self._on_disconnect)
-        self.server.on("watch", self._on_watch)
+        self._on("watch", Effect.SEE, self._on_watch)
 
     async def __aenter__(self) -> Live:
         self._backend.state.log.listen(self._wake_all)
         self._backend.view_listeners.append(self._on_view)
         self._backend.picture_listeners.append(self._on_picture)
         self._telling = asyncio.create_task(self._tell_attendance(), name="web attendance")
+        self._backend.sessions.listeners.append(self._check_clients)
         return self
 
     async def __aexit__(self, *exc: object) -> None:
@@ -139,7 +149,12 @@ class Live:
         is_same_run = isinstance(auth, dict) and auth.get("run") == log_of_changes.run
         is_number = isinstance(since, int) and not isinstance(since, bool)
         seq = since if isinstance(since, int) and is_same_run and is_number and since >= 0 else -1
-        client = self._clients[sid] = _Client(sid, seq, seat, who or sid)
+        session = scope["state"].get("session")
+        client = _Client(sid, seq, seat, who or sid, session=session.digest if session else "")
+        client.may = self._principal(client)
+        if client.may is None:
+            return False
+        self._clients[sid] = client
         client.views = dict(self._backend.state.views) if seq >= 0 else {}
         client.wake.set()
         self._attendance()
@@ -148,6 +163,44 @@ class Live:
             asyncio.create_task(self._guarded(client, self._show), name=f"web pictures {sid}"),
         )
         return True
+
+    # -- who they are ----------------------------------------------------------------------------------
+
+    def _on(self, event: str, effect: Effect, handle: Callable[..., Awaitable[Any]]) -> None:
+        """Hear an event of clients who may do what it does."""
+        self.effects[event] = effect
+
+        async def check(sid: str, *data: Any) -> Any:
+            client = self._clients.get(sid)
+            if client is None or verdict(client.may, effect) != "allow" or client.may is None:
+                return None
+            return await handle(sid, *data)
+
+        self.server.on(event, check)
+
+    def _principal(self, client: _Client) -> Principal | None:
+        sessions = self._backend.sessions
+        device = sessions.holding(client.session) if client.session else None
+        if client.session and device is None:
+            return None
+        return sessions.principal(device, Gadget())
+
+    def _check_clients(self) -> None:
+        """Who came and who may do what has changed: some are out, and some are something else."""
+        for client in list(self._clients.values()):
+            before, client.may = client.may, self._principal(client)
+            if client.may is None:
+                task = asyncio.create_task(self._send_away(client), name=f"web goodbye {client.sid}")
+                self._leaving.add(task)
+                task.add_done_callback(self._leaving.discard)
+            elif client.may != before:
+                task = asyncio.create_task(self._emit(client, "session", {}), name=f"web role {client.sid}")
+                self._leaving.add(task)
+                task.add_done_callback(self._leaving.discard)
+
+    async def _send_away(self, client: _Client) -> None:
+        await self._drop(client)
+        await self.server.disconnect(client.sid)
 
     async def _on_disconnect(self, sid: str, *reason: object) -> None:
         client = self._clients.get(sid)

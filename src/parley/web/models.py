@@ -14,6 +14,7 @@ from parley.messages.attendance import Unattended
 from parley.messages.audit import AuditChain
 from parley.messages.incident import Incident
 from parley.messages.map import MapView
+from parley.messages.principal import Principal
 from parley.messages.status import ActionInfo, PoseInfo
 
 __all__ = [
@@ -117,7 +118,7 @@ class StepView(WebModel):
     action: str
     """Name of the action."""
     label: str
-    """For people, e.g. the reason, else the action's name in words."""
+    """For people: what it does, else the reason, else the action's name in words."""
     reason: str = ""
     state: Literal[
         "queued", "running", "finished", "failed", "stopped", "skipped", "paused", "stopping", "waiting"
@@ -157,6 +158,13 @@ class ProposalView(WebModel):
     robot: str
     message: str = ""
     steps: tuple[StepView, ...] = ()
+    """Their `label`s are written by our code, not by whoever proposes."""
+    digest: str = ""
+    """Of what is shown; a yes names it."""
+    by: Principal | None = None
+    """On whose account it is proposed."""
+    why: str = ""
+    """Why a yes is needed though the policy would not ask; empty: the policy asks."""
 
 
 class FeedInfo(WebModel):

@@ -74,10 +74,25 @@ class PlanBook:
     def on_proposal(self, proposal: PlanProposal) -> None:
         """Steps wait for a yes."""
         steps = tuple(
-            self._step(proposal.target, f"step-{number}", call, "queued", NodeTold())
+            self._step(
+                proposal.target,
+                f"step-{number}",
+                call,
+                "queued",
+                NodeTold(),
+                "".join(proposal.labels[number : number + 1]),
+            )
             for number, call in enumerate(proposal.steps)
         )
-        view = ProposalView(id=proposal.id, robot=proposal.target, message=proposal.message, steps=steps)
+        view = ProposalView(
+            id=proposal.id,
+            robot=proposal.target,
+            message=proposal.message,
+            steps=steps,
+            digest=proposal.digest,
+            by=proposal.by,
+            why=proposal.why,
+        )
         if self.proposals.get(proposal.id) == view:
             return
         self.proposals[proposal.id] = view
@@ -188,7 +203,9 @@ class PlanBook:
     def _planned(self, update: PlanUpdate, number: int, told: NodeTold | None) -> StepView:
         step = update.steps[number]
         key = step.node or f"step-{number}"
-        return self._step(update.target, key, step.action, _state(step.state, told), told or NodeTold())
+        return self._step(
+            update.target, key, step.action, _state(step.state, told), told or NodeTold(), step.label
+        )
 
     def _show_graph(self, robot: str, name: str, graph: GraphTold) -> None:
         steps = tuple(
@@ -205,12 +222,14 @@ class PlanBook:
             for key in over[:-OVER_KEPT]:
                 self._drop(*key)
 
-    def _step(self, robot: str, key: str, call: ActionCall, state: StepState, node: NodeTold) -> StepView:
+    def _step(
+        self, robot: str, key: str, call: ActionCall, state: StepState, node: NodeTold, label: str = ""
+    ) -> StepView:
         is_over = state in OVER
         return StepView(
             id=key,
             action=call.name,
-            label=_label(call),
+            label=label or _label(call),
             reason=call.reason,
             state=state,
             inputs=parameter_views(call.input_parameters),

@@ -20,6 +20,7 @@ from parley.errors import (
     UnavailableError,
 )
 from parley.web.bodies import ProblemDetail
+from parley.web.people.store import PeopleError
 
 __all__ = ["RESPONSES", "WebProblem", "install", "problem_response"]
 
@@ -38,7 +39,7 @@ RESPONSES: Final[dict[int | str, dict[str, Any]]] = {
 _TITLES: Final[dict[int, str]] = {
     400: "That could not be read",
     401: "Please sign in",
-    403: "That is not allowed from here",
+    403: "That is not allowed",
     404: "There is no such thing",
     405: "That cannot be done here",
     409: "That does not fit any more",
@@ -97,6 +98,8 @@ def translate(error: ParleyError) -> WebProblem:
     match error:
         case WebProblem():
             return error
+        case PeopleError():
+            return WebProblem(409, str(error))
         case UnavailableError():
             return WebProblem(
                 503, "The part of the system that knows this is not running.", "Try again later."

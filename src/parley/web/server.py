@@ -25,6 +25,7 @@ from parley.web.config import WebConfig
 from parley.web.front import Front
 from parley.web.guard import Guard
 from parley.web.live import Live
+from parley.web.routes.access import principal_of
 from parley.web.stop_desk import StopDesk
 from parley.web.tls import fingerprint, made_certificate
 
@@ -108,7 +109,11 @@ class WebServer:
         self.live = live = await self._stack.enter_async_context(Live(self.backend))
         app = self._around(create_app(self.backend, live))
         guard = Guard(
-            StopDesk(Bridge(app, asyncio.get_running_loop()), self.backend.stopper),
+            StopDesk(
+                Bridge(app, asyncio.get_running_loop()),
+                self.backend.stopper,
+                lambda scope: principal_of(self.backend.sessions, scope),
+            ),
             self.backend.sessions,
             self._clock,
             hosts=names,

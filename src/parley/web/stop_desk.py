@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import asyncio
 import uuid
+from collections.abc import Callable
 from typing import Final
 
 import structlog
@@ -15,7 +16,6 @@ from starlette.websockets import WebSocket, WebSocketDisconnect
 from parley.language.stop_words import has_stop_word
 from parley.messages.principal import Principal
 from parley.web.bodies import ChatPost, StopAnswer, StopPost
-from parley.web.routes.access import principal_of
 from parley.web.stopping import Stop, Stopper
 
 __all__ = ["LINE", "StopDesk"]
@@ -47,10 +47,13 @@ class StopDesk:
     Args:
         app: Answers everything else.
         stopper: Carries out.
+        principal: On whose account a request or socket is.
     """
 
-    def __init__(self, app: ASGIApp, stopper: Stopper) -> None:
-        self._app, self._stopper = app, stopper
+    def __init__(
+        self, app: ASGIApp, stopper: Stopper, principal: Callable[[Scope], Principal | None]
+    ) -> None:
+        self._app, self._stopper, self._principal = app, stopper, principal
 
     async def __call__(self, scope: Scope, receive: Receive, send: Send) -> None:
         """Answer one request or socket."""
@@ -77,7 +80,7 @@ class StopDesk:
             return None  # whoever answers it says what is wrong with it
         if post.command != "stop":
             return None
-        stop = self._begun(post, principal_of(scope))
+        stop = self._begun(post, self._principal(scope))
         await self._written()
         return Response(self._told(stop).model_dump_json(), media_type="application/json")
 
@@ -91,7 +94,7 @@ class StopDesk:
             return send
         if not has_stop_word(post.text):
             return send
-        self._stopper.hold(post.targets, by=principal_of(scope), id=post.id, words=post.text)
+        self._stopper.hold(post.targets, by=self._principal(scope), id=post.id, words=post.text)
 
         async def watched(message: Message) -> None:
             if message["type"] == "http.response.start" and 400 <= message["status"] < 500:
@@ -113,7 +116,7 @@ class StopDesk:
                     log.warning("unreadable stop", reason=str(error))
                     continue
                 if post.command == "stop":
-                    stop = self._begun(post, principal_of(socket.scope))
+                    stop = self._begun(post, self._principal(socket.scope))
                     if watching is not None:
                         watching.cancel()
                     watching = asyncio.create_task(self._watch(socket, stop))

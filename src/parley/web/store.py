@@ -1,4 +1,4 @@
-"""What the page's server keeps over restarts: conversation, pictures, robots, policies, who is signed in.
+"""What the page's server keeps over restarts: conversation, pictures, robots, policies.
 
 What `keep` returned for survives `kill -9`.
 """
@@ -177,28 +177,6 @@ class WebStore:
         )
         return dict(rows)
 
-    async def sessions(self, unix_ms: int) -> list[tuple[str, str, int]]:
-        """Digest, name and end of each session that has not ended; the others are dropped."""
-
-        def work(db: sqlite3.Connection) -> list[tuple[str, str, int]]:
-            db.execute("DELETE FROM session WHERE ends_unix_ms <= ?", (unix_ms,))
-            return db.execute("SELECT digest, name, ends_unix_ms FROM session ORDER BY rowid").fetchall()
-
-        return await self._database.run(work)
-
-    async def keep_session(self, digest: str, name: str, ends_unix_ms: int, *, instead_of: str) -> None:
-        """Keep a session, in the place of another one if that is kept."""
-
-        def work(db: sqlite3.Connection) -> None:
-            db.execute("INSERT INTO session VALUES (?, ?, ?)", (digest, name, ends_unix_ms))
-            db.execute("DELETE FROM session WHERE digest = ?", (instead_of,))
-
-        await self._database.run(work)
-
-    async def drop_session(self, digest: str) -> None:
-        """Forget a session."""
-        await self._database.run(lambda db: db.execute("DELETE FROM session WHERE digest = ?", (digest,)))
-
     async def set(self, kind: str, name: str, value: str) -> None:
         """Keep a setting."""
         await self._database.run(
@@ -237,6 +215,10 @@ _FORMS: Final = (
     CREATE TABLE session (
         digest TEXT PRIMARY KEY, name TEXT NOT NULL, ends_unix_ms INTEGER NOT NULL
     ) STRICT;
+    """,
+    """
+    DROP TABLE session;
+    DELETE FROM setting WHERE kind = 'door';
     """,
 )
 """What each version adds to the one before."""

@@ -14,6 +14,7 @@ import { useIsLow } from '@/ui/use-media';
 import { useShortcut } from '@/ui/use-shortcut';
 
 import css from './chat-panel.module.css';
+import { useMay } from '@/state/me';
 import { Composer } from './composer';
 import { History } from './history';
 import { useOutbox } from './outbox';
@@ -24,6 +25,7 @@ import { Welcome } from './welcome';
 
 /** Talking to robots. */
 export function ChatPanel() {
+  const maySpeak = useMay('speak');
   const { t } = useTranslation('chat');
   const chat = useWorld((world) => world.chat);
   const chosen = useSelection();
@@ -91,7 +93,7 @@ export function ChatPanel() {
         onEdit={edit}
         empty={<Welcome chosen={chosen} onSay={say} />}
       />
-      <Composer chosen={chosen} answering={answer} lastSaid={lastSaid} input={input} />
+      {maySpeak && <Composer chosen={chosen} answering={answer} lastSaid={lastSaid} input={input} />}
     </Panel>
   );
 }

@@ -3,6 +3,7 @@ import { useTranslation } from 'react-i18next';
 
 import type { ChatEntry } from '@/live/types';
 import { usePrefs } from '@/state/prefs';
+import { useMay } from '@/state/me';
 import { Button } from '@/ui/button';
 import { Icon } from '@/ui/icon';
 import { clockTime, inWords, nameList } from '@/ui/words';
@@ -21,6 +22,7 @@ interface Props {
 
 /** One thing said. */
 export const Entry = memo(function Entry({ entry, showName, offers, onChoose, onEdit }: Props) {
+  const maySpeak = useMay('speak');
   const { t } = useTranslation('chat');
   const debug = usePrefs((prefs) => prefs.debug);
   const mine = entry.who === 'operator';
@@ -42,14 +44,14 @@ export const Entry = memo(function Entry({ entry, showName, offers, onChoose, on
       {offers && (
         <div className={css.choices} role="group" aria-label={t('choices')}>
           {entry.choices.map((choice) => (
-            <Button key={choice} onPress={() => onChoose(entry, choice)}>
+            <Button needs="speak" key={choice} onPress={() => onChoose(entry, choice)}>
               {choice}
             </Button>
           ))}
         </div>
       )}
       {entry.sources.length > 0 && <Sources names={entry.sources} />}
-      {mine && entry.message && (
+      {mine && maySpeak && entry.message && (
         <button type="button" className={css.edit} aria-label={t('edit')} title={t('edit')} onClick={() => onEdit(entry.message)}>
           <Icon name="edit" size={16} />
         </button>

@@ -65,7 +65,7 @@ export function RobotTabs({ questions, tools = null }: { questions: Questions; t
   const [several, setSeveral] = useState(false);
   return (
     <div className={css.row}>
-      <Button tone="quiet" icon="plus" iconOnly aria-label={t('addRobot')} onPress={() => open('addRobot')} />
+      <Button needs="setting" tone="quiet" icon="plus" iconOnly aria-label={t('addRobot')} onPress={() => open('addRobot')} />
       <div className={css.tabs} role="group" aria-label={t('robots')}>
         {names.map((name) => (
           <Tab

@@ -1,6 +1,7 @@
 import { useTranslation } from 'react-i18next';
 
 import { useLive, useWorld } from '@/live/store';
+import { useMay } from '@/state/me';
 import { Button } from '@/ui/button';
 import { Empty } from '@/ui/panel';
 import { nameList } from '@/ui/words';
@@ -21,6 +22,7 @@ export function Welcome({ chosen, onSay }: Props) {
   const examples = useWorld((world) => world.info?.examples ?? NO_EXAMPLES);
   const foreign = useWorld((world) => world.info?.offline_language ?? false) && !i18n.language.startsWith('en');
   const known = useLive((live) => live.world.run !== '');
+  const maySpeak = useMay('speak');
   if (!known) return <Empty title={t('common:loading')} />;
   if (chosen.length === 0) {
     return (
@@ -29,6 +31,7 @@ export function Welcome({ chosen, onSay }: Props) {
       </Empty>
     );
   }
+  if (!maySpeak) return <Empty title={t('emptyViewer')} />;
   return (
     <Empty title={t('emptyTitle', { name: nameList(chosen, i18n.language) })}>
       <p>{t('emptyText')}</p>

@@ -26,10 +26,10 @@ export function PlaceBar({ marked, onClear }: Props) {
               ? sentence(marked.description || marked.kind)
               : t('place', { x: marked.x.toFixed(1), y: marked.y.toFixed(1) })}
           </p>
-          <Button tone="main" icon="chat" onPress={() => say('go', marked)}>
+          <Button needs="speak" tone="main" icon="chat" onPress={() => say('go', marked)}>
             {t('goThere')}
           </Button>
-          <Button onPress={() => say('mention', marked)}>{t('mention')}</Button>
+          <Button needs="speak" onPress={() => say('mention', marked)}>{t('mention')}</Button>
           <Button tone="quiet" icon="close" iconOnly aria-label={t('unmark')} onPress={onClear} />
         </>
       ) : (

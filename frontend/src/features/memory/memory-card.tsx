@@ -46,8 +46,8 @@ export function MemoryCard({ item, onEdit }: Props) {
       </div>
       <div className={css.deeds}>
         <Button tone="quiet" icon="clock" iconOnly aria-label={t('earlier', { name })} aria-expanded={history} onPress={() => setHistory(!history)} />
-        {item.type === 'text' && <Button tone="quiet" icon="edit" iconOnly aria-label={t('correct', { name })} onPress={onEdit} />}
-        <Button tone="quiet" icon="trash" iconOnly aria-label={t('forget', { name })} onPress={() => void onForget()} />
+        {item.type === 'text' && <Button needs="remember" tone="quiet" icon="edit" iconOnly aria-label={t('correct', { name })} onPress={onEdit} />}
+        <Button needs="forget" tone="quiet" icon="trash" iconOnly aria-label={t('forget', { name })} onPress={() => void onForget()} />
       </div>
       {history && <MemoryHistory item={item} />}
     </li>

@@ -32,6 +32,7 @@ export function MemoryHistory({ item }: { item: MemoryItem }) {
           <p>{version.type === 'text' ? version.data : t('pictureThen')}</p>
           {version.type === 'text' && (
             <Button
+              needs="remember"
               tone="quiet"
               icon="undo"
               onPress={() => void attempt(() => putMemory(item.name, { data: version.data, info: version.info, scope: item.scope }))}

@@ -34,7 +34,7 @@ export function MemoryPage() {
   );
   const scopes = [{ id: EVERYTHING, label: t('everything') }, ...names.map((name) => ({ id: name, label: t('knownTo', { name }) }))];
   const add = (
-    <Button tone="quiet" icon="plus" onPress={() => setEditing({ item: null })}>
+    <Button needs="remember" tone="quiet" icon="plus" onPress={() => setEditing({ item: null })}>
       {t('add')}
     </Button>
   );

@@ -2,6 +2,7 @@ import { useTranslation } from 'react-i18next';
 import { Link, useLocation } from 'wouter';
 
 import { useWorld } from '@/live/store';
+import { useMayAll } from '@/state/me';
 import { Icon } from '@/ui/icon';
 
 import css from './menu.module.css';
@@ -11,11 +12,12 @@ import { offered, pathOf } from './pages';
 export function NavLinks({ onGo }: { onGo?: () => void }) {
   const { t } = useTranslation('menu');
   const info = useWorld((world) => world.info);
+  const may = useMayAll();
   const [location] = useLocation();
   return (
     <nav aria-label={t('pages')}>
       <ul className={css.links}>
-        {offered(info).map((page) => (
+        {offered(info, may).map((page) => (
           <li key={page}>
             <Link
               href={pathOf(page)}

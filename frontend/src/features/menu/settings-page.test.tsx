@@ -9,7 +9,7 @@ import { SettingsPage } from './settings-page';
 const show = (addresses: string[]) => {
   const plain = snapshot();
   useLive.getState().takeSnapshot({ ...plain, info: { ...plain.info, addresses } });
-  render(<SettingsPage canSignOut={false} onSignedOut={() => undefined} />);
+  render(<SettingsPage />);
 };
 
 describe('opening the page on another device', () => {

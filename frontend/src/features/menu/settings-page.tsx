@@ -1,10 +1,7 @@
 import { useTranslation } from 'react-i18next';
 
-import { closeSession } from '@/live/api';
 import { useWorld } from '@/live/store';
-import { attempt } from '@/state/do';
 import { usePrefs, type Language, type PlanColours, type Theme } from '@/state/prefs';
-import { Button } from '@/ui/button';
 import { Choice } from '@/ui/choice';
 import { Panel } from '@/ui/panel';
 
@@ -20,9 +17,9 @@ const languages: readonly { id: Language; label: string }[] = [
 ];
 const NO_ADDRESSES: readonly string[] = [];
 
-/** Choices of this person, and what there is to know of the system. */
-export function SettingsPage({ canSignOut, onSignedOut }: { canSignOut: boolean; onSignedOut: () => void }) {
-  const { t } = useTranslation(['menu', 'session']);
+/** Choices of this person, and what there is to know of the system. @param children What stands below. */
+export function SettingsPage({ children }: { children?: React.ReactNode }) {
+  const { t } = useTranslation('menu');
   const prefs = usePrefs();
   return (
     <Panel title={t('settings')}>
@@ -42,11 +39,7 @@ export function SettingsPage({ canSignOut, onSignedOut }: { canSignOut: boolean;
         />
         <About />
         <InstallHint />
-        {canSignOut && (
-          <Button onPress={() => void attempt(closeSession).then((done) => done && onSignedOut())}>
-            {t('session:signOut')}
-          </Button>
-        )}
+        {children}
       </div>
     </Panel>
   );

@@ -28,7 +28,7 @@ export function PlanControls({ plan, onEdit }: Props) {
   return (
     <div className={css.controls}>
       {standing ? (
-        <Button tone="main" icon="play" onPress={() => order('resume')}>
+        <Button needs="resume" tone="main" icon="play" onPress={() => order('resume')}>
           {t('resume')}
         </Button>
       ) : (
@@ -36,15 +36,15 @@ export function PlanControls({ plan, onEdit }: Props) {
           {t('pause')}
         </Button>
       )}
-      <Button icon="skip" onPress={() => order('skip')}>
+      <Button needs="edit" icon="skip" onPress={() => order('skip')}>
         {t('skip')}
       </Button>
       {onEdit && (
-        <Button icon="edit" onPress={onEdit}>
+        <Button needs="edit" icon="edit" onPress={onEdit}>
           {t('change')}
         </Button>
       )}
-      <Button icon="trash" onPress={() => setClearing(true)}>
+      <Button needs="clear" icon="trash" onPress={() => setClearing(true)}>
         {t('clear')}
       </Button>
       <Dialog

@@ -127,12 +127,12 @@ describe('the plan', () => {
   it('lets a person say yes or no to steps that wait for it', async () => {
     const user = show({ steps: [], state: 'awaiting_approval' });
     act(() => {
-      const proposal = { id: 'p1', robot: 'Ada', message: 'I would go.', steps: [step({ id: 's' })] };
+      const proposal = { id: 'p1', robot: 'Ada', message: 'I would go.', steps: [step({ id: 's' })], digest: 'd1', why: '' };
       useLive.getState().takeChanges([{ kind: 'proposal', seq: 1, proposal }]);
     });
     await user.click(screen.getByRole('button', { name: 'Yes, begin' }));
     expect(sent).toEqual([
-      { method: 'POST', path: '/api/plans/Ada/decision', body: { id: 'p1', decision: 'approve' } },
+      { method: 'POST', path: '/api/plans/Ada/decision', body: { id: 'p1', digest: 'd1', decision: 'approve' } },
     ]);
   });
 });

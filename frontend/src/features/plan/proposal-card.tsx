@@ -16,9 +16,9 @@ export function ProposalCard({ proposal }: { proposal: ProposalView }) {
   const { t } = useTranslation('plan');
   const [editing, setEditing] = useState(false);
   const [busy, setBusy] = useState(false);
-  const decide = async (decision: Omit<Decision, 'id'>) => {
+  const decide = async (decision: Omit<Decision, 'id' | 'digest'>) => {
     setBusy(true);
-    await attempt(() => decidePlan(proposal.robot, { id: proposal.id, ...decision }));
+    await attempt(() => decidePlan(proposal.robot, { id: proposal.id, digest: proposal.digest, ...decision }));
     setBusy(false);
   };
   const title = t('proposalTitle', { robot: proposal.robot });
@@ -37,13 +37,13 @@ export function ProposalCard({ proposal }: { proposal: ProposalView }) {
       ) : (
         <>
           <div className={css.buttons}>
-            <Button tone="main" icon="check" isDisabled={busy} onPress={() => void decide({ decision: 'approve' })}>
+            <Button needs="approve" tone="main" icon="check" isDisabled={busy} onPress={() => void decide({ decision: 'approve' })}>
               {t('approve')}
             </Button>
-            <Button icon="edit" isDisabled={busy} onPress={() => setEditing(true)}>
+            <Button needs="approve" icon="edit" isDisabled={busy} onPress={() => setEditing(true)}>
               {t('change')}
             </Button>
-            <Button icon="cross" isDisabled={busy} onPress={() => void decide({ decision: 'reject' })}>
+            <Button needs="approve" icon="cross" isDisabled={busy} onPress={() => void decide({ decision: 'reject' })}>
               {t('reject')}
             </Button>
           </div>

@@ -47,7 +47,7 @@ function Ability({ action, robot }: { action: ActionInfo; robot: string }) {
         <p className={css.phrases}>
           <span>{t('say')}</span>
           {phrases.map((phrase) => (
-            <Button key={phrase} onPress={() => say(phrase)}>
+            <Button needs="speak" key={phrase} onPress={() => say(phrase)}>
               {phrase}
             </Button>
           ))}

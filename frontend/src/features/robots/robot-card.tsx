@@ -37,7 +37,7 @@ export function RobotCard({ robot }: { robot: RobotView }) {
           {t('talk', { name: robot.name })}
         </Button>
         {!here && (
-          <Button icon="trash" onPress={() => void attempt(() => removeRobot(robot.name))}>
+          <Button needs="setting" icon="trash" onPress={() => void attempt(() => removeRobot(robot.name))}>
             {t('remove', { name: robot.name })}
           </Button>
         )}

@@ -16,7 +16,7 @@ export function RobotsPage() {
   const open = useOverlays((state) => state.set);
   const sorted = Object.values(robots).sort((a, b) => a.name.localeCompare(b.name));
   const add = (
-    <Button tone="quiet" icon="plus" onPress={() => open('addRobot')}>
+    <Button needs="setting" tone="quiet" icon="plus" onPress={() => open('addRobot')}>
       {t('add')}
     </Button>
   );

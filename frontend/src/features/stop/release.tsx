@@ -17,7 +17,7 @@ export function Release({ names, label }: { names: readonly string[]; label: str
   const title = several ? t('resetTitleMany', { count: names.length }) : t('resetTitle', { name });
   return (
     <>
-      <Button onPress={() => setAsking(true)}>{label}</Button>
+      <Button needs="reset" onPress={() => setAsking(true)}>{label}</Button>
       <Dialog role="alertdialog" title={title} isOpen={asking} onClose={() => setAsking(false)}>
         <p>{several ? t('resetTextMany', { names: name }) : t('resetText', { name })}</p>
         <DialogButtons>

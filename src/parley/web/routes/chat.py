@@ -7,17 +7,18 @@ from typing import Annotated
 from fastapi import APIRouter, Path, Query
 from starlette.responses import Response
 
+from parley.gate.table import Effect
 from parley.web.bodies import ChatPage, ChatPost
 from parley.web.models import ChatEntry
 from parley.web.problems import WebProblem
-from parley.web.routes.access import Author, Web, module
+from parley.web.routes.access import Web, Who, may, module
 
 __all__ = ["router"]
 
 router = APIRouter(prefix="/chat", tags=["chat"], dependencies=[module("chat")])
 
 
-@router.get("")
+@router.get("", dependencies=[may(Effect.SEE)])
 async def get_chat(
     web: Web,
     before: Annotated[int | None, Query(ge=0, le=2**53)] = None,
@@ -30,16 +31,17 @@ async def get_chat(
     return ChatPage(entries=tuple(entries), complete=complete)
 
 
-@router.post("")
-async def post_chat(post: ChatPost, web: Web, author: Author) -> ChatEntry:
+@router.post("", dependencies=[may(Effect.SPEAK)])
+async def post_chat(post: ChatPost, web: Web, who: Who) -> ChatEntry:
     """Say something to robots; it is kept durably before it is sent and answered here."""
-    return await web.say(post, author)
+    return await web.say(post, who.by)
 
 
 @router.get(
     "/images/{key}",
     response_class=Response,
     responses={200: {"content": {"image/jpeg": {}, "image/png": {}}}},
+    dependencies=[may(Effect.SEE)],
 )
 async def get_image(key: Annotated[str, Path(max_length=100)], web: Web) -> Response:
     """A picture that was attached to a message."""

@@ -7,13 +7,14 @@ from typing import Annotated, Final
 from fastapi import APIRouter, Path
 from starlette.responses import Response
 
+from parley.gate.table import Effect
 from parley.web.models import FeedInfo
 from parley.web.problems import WebProblem
-from parley.web.routes.access import Web, module
+from parley.web.routes.access import Web, may, module
 
 __all__ = ["router"]
 
-router = APIRouter(prefix="/feeds", tags=["feeds"], dependencies=[module("display")])
+router = APIRouter(prefix="/feeds", tags=["feeds"], dependencies=[module("display"), may(Effect.SEE)])
 
 PICTURE_WITHIN_S: Final = 3.0
 """Wall time to wait for a camera that nobody watched until now."""

@@ -7,13 +7,16 @@ from typing import Annotated
 from fastapi import APIRouter, Query
 
 from parley.errors import UnavailableError
+from parley.gate.table import Effect
 from parley.messages import topics
 from parley.messages.incident import GetIncidents, Incident, IncidentList
-from parley.web.routes.access import Web, module
+from parley.web.routes.access import Web, may, module
 
 __all__ = ["router"]
 
-router = APIRouter(prefix="/incidents", tags=["incidents"], dependencies=[module("incidents")])
+router = APIRouter(
+    prefix="/incidents", tags=["incidents"], dependencies=[module("incidents"), may(Effect.SEE)]
+)
 
 
 @router.get("")

@@ -6,13 +6,14 @@ from typing import Annotated
 
 from fastapi import APIRouter, Path
 
+from parley.gate.table import Effect
 from parley.messages import topics
 from parley.messages.map import GetMap, MapInfo
-from parley.web.routes.access import Web, module
+from parley.web.routes.access import Web, may, module
 
 __all__ = ["router"]
 
-router = APIRouter(prefix="/map", tags=["map"], dependencies=[module("map")])
+router = APIRouter(prefix="/map", tags=["map"], dependencies=[module("map"), may(Effect.SEE)])
 
 
 @router.get("/{robot}")

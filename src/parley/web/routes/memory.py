@@ -8,6 +8,7 @@ from urllib.parse import urlencode
 from fastapi import APIRouter, Query
 from starlette.responses import Response
 
+from parley.gate.table import Effect
 from parley.messages import topics
 from parley.messages.memory import (
     AddToMemory,
@@ -22,7 +23,7 @@ from parley.web.bodies import Done, MemoryPut
 from parley.web.models import MemoryItem
 from parley.web.pictures import checked_image, read_image
 from parley.web.problems import WebProblem
-from parley.web.routes.access import Author, Web, module
+from parley.web.routes.access import Web, Who, may, module
 
 __all__ = ["router"]
 
@@ -36,7 +37,7 @@ Name = Annotated[str, Query(min_length=1, max_length=200)]
 Scope = Annotated[str, Query(max_length=100)]
 
 
-@router.get("")
+@router.get("", dependencies=[may(Effect.SEE)])
 async def get_memories(
     web: Web, q: Annotated[str, Query(max_length=500)] = "", scope: Scope = ""
 ) -> list[MemoryItem]:
@@ -53,13 +54,13 @@ async def get_memories(
     return [_item(entry) for entry in found[-MAX_ITEMS:]]
 
 
-@router.get("/one")
+@router.get("/one", dependencies=[may(Effect.SEE)])
 async def get_memory(name: Name, web: Web, scope: Scope = "") -> MemoryItem:
     """One memory by its name."""
     return _item(await _get(web, name, scope, pictures=False))
 
 
-@router.get("/history")
+@router.get("/history", dependencies=[may(Effect.SEE)])
 async def get_memory_history(name: Name, web: Web, scope: Scope = "") -> list[MemoryItem]:
     """The versions of a memory that were replaced or forgotten, oldest first; pictures are left out."""
     request = GetMemory(request=name, kind="history", scope=scope, pictures=False)
@@ -70,6 +71,7 @@ async def get_memory_history(name: Name, web: Web, scope: Scope = "") -> list[Me
     "/image",
     response_class=Response,
     responses={200: {"content": {"image/jpeg": {}, "image/png": {}}}},
+    dependencies=[may(Effect.SEE)],
 )
 async def get_memory_image(name: Name, web: Web, scope: Scope = "") -> Response:
     """The picture of a memory."""
@@ -80,8 +82,8 @@ async def get_memory_image(name: Name, web: Web, scope: Scope = "") -> Response:
     return Response(data, media_type=media_type)
 
 
-@router.put("")
-async def put_memory(name: Name, put: MemoryPut, web: Web, author: Author) -> Done:
+@router.put("", dependencies=[may(Effect.REMEMBER)])
+async def put_memory(name: Name, put: MemoryPut, web: Web, who: Who) -> Done:
     """Remember something under a name; what stood there before goes to the history."""
     if put.type == "image":
         checked_image(put.data)
@@ -90,13 +92,14 @@ async def put_memory(name: Name, put: MemoryPut, web: Web, author: Author) -> Do
         data=put.data,
         info=put.info or (put.data[:200] if put.type == "text" else name),
         scope=put.scope,
-        source=(put.again and await _former_source(web, name, put)) or author or "operator",
+        source=(put.again and await _former_source(web, name, put)) or who.by.name or "operator",
+        way="told",
     )
     await _change(web, AddToMemory({name: body}))
     return Done()
 
 
-@router.delete("")
+@router.delete("", dependencies=[may(Effect.FORGET)])
 async def delete_memory(
     name: Name, web: Web, scope: Annotated[str | None, Query(max_length=100)] = None
 ) -> Done:

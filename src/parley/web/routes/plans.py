@@ -6,12 +6,13 @@ from typing import Annotated, Any, Final
 
 from fastapi import APIRouter, Path
 
+from parley.gate.table import Effect
 from parley.messages.chat import ChatAction, CommandName, SystemCommand
 from parley.messages.status import PlanDecision
 from parley.web.bodies import DecisionPost, Done, PlanCommandPost, PolicyPut, StepsPut
 from parley.web.models import PlanView
 from parley.web.problems import WebProblem
-from parley.web.routes.access import Web, module
+from parley.web.routes.access import Web, Who, may, module
 
 __all__ = ["router"]
 
@@ -26,47 +27,75 @@ _COMMANDS: Final[dict[str, CommandName]] = {
     "clear": "clear",
     "pop": "pop",
 }
+_EFFECTS: Final[dict[str, Effect]] = {
+    "pause": Effect.PAUSE,
+    "resume": Effect.RESUME,
+    "skip": Effect.EDIT,
+    "clear": Effect.CLEAR,
+    "pop": Effect.EDIT,
+}
+_DECIDES: Final[dict[str, Effect]] = {
+    "approve": Effect.APPROVE,
+    "reject": Effect.REJECT,
+    "edit": Effect.APPROVE,
+}
+"""Whoever changes what waits and lets it begin says yes to it."""
 
 
-@router.get("/{robot}")
+@router.get("/{robot}", dependencies=[may(Effect.SEE)])
 async def get_plans(robot: Robot, web: Web) -> list[PlanView]:
     """The plan of a robot and its other graphs."""
     name = web.robot(robot).name
     return [view for (owner, _), view in web.state.plans.views.items() if owner == name]
 
 
-@router.post("/{robot}/command")
-async def post_command(robot: Robot, post: PlanCommandPost, web: Web) -> Done:
+@router.post("/{robot}/command", dependencies=[may(*_EFFECTS.values())])
+async def post_command(robot: Robot, post: PlanCommandPost, web: Web, who: Who) -> Done:
     """Pause, go on, skip the step in progress, drop one step or everything."""
+    who.need(_EFFECTS[post.command])
     name = web.robot(robot).name
     if post.command == "pop" and post.index is None:
         raise WebProblem(422, "It is not said which step.", "Say which step to drop.", path="index")
     arguments: dict[str, Any] = {"parameters": post.index} if post.command == "pop" else {}
     command = SystemCommand(command=_COMMANDS[post.command], arguments=arguments)
-    web.link.send(ChatAction(system_cmd=(command,), targets=(name,)))
+    web.link.send(ChatAction(system_cmd=(command,), targets=(name,), by=who.by))
     return Done()
 
 
-@router.post("/{robot}/decision")
-async def post_decision(robot: Robot, post: DecisionPost, web: Web) -> Done:
+@router.post("/{robot}/decision", dependencies=[may(*_DECIDES.values())])
+async def post_decision(robot: Robot, post: DecisionPost, web: Web, who: Who) -> Done:
     """Approve, reject or edit the steps that wait for a yes."""
+    who.need(_DECIDES[post.decision])
     name = web.robot(robot).name
     proposal = web.state.plans.proposals.get(post.id)
     if proposal is None or proposal.robot != name or post.id in web.state.plans.decided:
         raise WebProblem(409, "This plan is no longer waiting for an answer.", path="id")
-    web.link.send(PlanDecision(id=post.id, target=name, decision=post.decision, steps=post.steps))
+    if post.decision == "approve" and post.digest != proposal.digest:
+        raise WebProblem(
+            409, "This is not the plan that waits for a yes.", "Look at it and decide again.", path="digest"
+        )
+    web.link.send(
+        PlanDecision(
+            id=post.id,
+            target=name,
+            decision=post.decision,
+            steps=post.steps,
+            digest=post.digest,
+            by=who.by,
+        )
+    )
     return Done()
 
 
-@router.put("/{robot}/policy")
-async def put_policy(robot: Robot, put: PolicyPut, web: Web) -> Done:
+@router.put("/{robot}/policy", dependencies=[may(Effect.POLICY)])
+async def put_policy(robot: Robot, put: PolicyPut, web: Web, who: Who) -> Done:
     """Decide whether new steps of the robot wait for a yes."""
-    await web.set_policy(web.robot(robot).name, put.policy)
+    await web.set_policy(web.robot(robot).name, put.policy, who.by)
     return Done()
 
 
-@router.put("/{robot}/steps")
-async def put_steps(robot: Robot, put: StepsPut, web: Web) -> Done:
+@router.put("/{robot}/steps", dependencies=[may(Effect.EDIT)])
+async def put_steps(robot: Robot, put: StepsPut, web: Web, who: Who) -> Done:
     """Replace all steps that have not begun; the plan shows whether that was taken."""
     name = web.robot(robot).name
     plan = next((v for v in web.state.plans.views.values() if v.robot == name and v.kind == "plan"), None)
@@ -76,5 +105,7 @@ async def put_steps(robot: Robot, put: StepsPut, web: Web) -> Done:
         raise WebProblem(
             409, "The plan has changed meanwhile.", "Look at it and change it again.", path="revision"
         )
-    web.link.send(PlanDecision(target=name, decision="edit", steps=put.steps, revision=put.revision))
+    web.link.send(
+        PlanDecision(target=name, decision="edit", steps=put.steps, revision=put.revision, by=who.by)
+    )
     return Done()

@@ -6,13 +6,14 @@ from typing import Annotated
 
 from fastapi import APIRouter, Query
 
+from parley.gate.table import Effect
 from parley.web.models import Change, Snapshot
 from parley.web.problems import WebProblem
-from parley.web.routes.access import Web
+from parley.web.routes.access import Web, may
 
 __all__ = ["router"]
 
-router = APIRouter(tags=["live"])
+router = APIRouter(tags=["live"], dependencies=[may(Effect.SEE)])
 
 
 @router.get("/snapshot")

@@ -6,19 +6,21 @@ import uuid
 
 from fastapi import APIRouter
 
+from parley.gate.table import Effect
 from parley.web.bodies import StopAnswer, StopPost
 from parley.web.problems import WebProblem
-from parley.web.routes.access import By, Web
+from parley.web.routes.access import Web, Who, may
 
 __all__ = ["router"]
 
 router = APIRouter(prefix="/stop", tags=["stop"])
 
 
-@router.post("")
-async def post_stop(post: StopPost, web: Web, by: By) -> StopAnswer:
+@router.post("", dependencies=[may(Effect.STOP, Effect.RESET)])
+async def post_stop(post: StopPost, web: Web, who: Who) -> StopAnswer:
     """Send an emergency stop or its reset; what became of it is in each robot's `stop`."""
-    key = post.id or uuid.uuid4().hex
+    who.need(Effect.STOP if post.command == "stop" else Effect.RESET)
+    key, by = post.id or uuid.uuid4().hex, who.by
     if post.command == "stop":
         return StopAnswer(id=key, robots=web.stopper.states(web.stopper.stop(post.targets, by=by, id=key)))
     refused = web.stopper.reset(post.targets, by=by, id=key)

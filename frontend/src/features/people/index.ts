@@ -1,0 +1,3 @@
+export { MyAccountSection } from './my-account';
+export { OpenNote, RoleNote } from './notes';
+export { PeoplePage } from './people-page';
