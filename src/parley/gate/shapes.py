@@ -50,11 +50,6 @@ class Shape:
         """Signed distance of one point from the border: negative inside."""
         return float(self.distance_m(np.array([[x_m, y_m]]))[0])
 
-    def entered_by(self, points: Floats, margin_m: float) -> int | None:
-        """Index of the first of the points that lies inside or nearer than `margin_m`; None if none does."""
-        hits = np.flatnonzero(self.distance_m(points) < margin_m) if len(points) else ()
-        return int(hits[0]) if len(hits) else None
-
 
 def dense(points: Sequence[Point], step_m: float = 0.05) -> Floats:
     """The way along points, with points in between so that none is farther than `step_m` from the next."""

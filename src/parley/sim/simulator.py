@@ -29,7 +29,7 @@ from parley.sim.world_file import WorldChanges, WorldFile
 from parley.world.geometry import Pose2D, wrap_angle
 from parley.world.occupancy import OccupancyMap
 
-__all__ = ["BATCH_S", "Photograph", "Simulator"]
+__all__ = ["BATCH_S", "Guard", "Photograph", "Simulator"]
 
 log = structlog.get_logger(__name__)
 
@@ -44,6 +44,10 @@ _ROUNDS = 10
 # So far behind its pace it makes up for lost time (a held clock, a busy machine); what is more is let go.
 _MAX_LAG_S = 0.5
 _REST_MPS = 1e-3
+
+
+Guard = Callable[[Pose2D, tuple[float, float], tuple[float, float]], tuple[float, float]]
+"""What may become of a command: gets the pose, the measured and the commanded speed and turning rate."""
 
 
 @dataclass(frozen=True, slots=True, eq=False)
@@ -67,6 +71,7 @@ class _Base:
     command: tuple[float, float] = (0.0, 0.0)
     commanded_at_s: float = 0.0
     stopped: bool = False
+    guard: Guard | None = None
     last_sweep: Sweep | None = None
 
     @property
@@ -168,6 +173,10 @@ class Simulator:
         base.stopped = stopped
         base.command = (0.0, 0.0)
         self._clock.wanted.set()
+
+    def set_guard(self, robot: str, guard: Guard) -> None:
+        """Let `guard` have the last word on every command, at each step of the world, whoever commands."""
+        self._bases[robot].guard = guard
 
     def stopped(self, robot: str) -> bool:
         """Whether the robot's drive is held."""
@@ -313,10 +322,16 @@ class Simulator:
         for base in self._bases.values():
             if now_s - base.commanded_at_s > COMMAND_LIFETIME_S:
                 base.command = (0.0, 0.0)
-            forward, turn = (0.0, 0.0) if base.stopped else base.command
+            forward, turn = (0.0, 0.0) if base.stopped else self._guarded(base)
             self._data.ctrl[base.slots] = forward, 0.0, turn
         mujoco.mj_step(self._model, self._data, _STEPS)
         self._clock.advance(BATCH_S)
+
+    def _guarded(self, base: _Base) -> tuple[float, float]:
+        if base.guard is None or base.command == (0.0, 0.0):
+            return base.command
+        name = base.entry.name
+        return base.guard(self.pose(name), self.velocity(name), base.command)
 
 
 def _pose(joints: NDArray[np.float64]) -> Pose2D:
