@@ -18,7 +18,7 @@ export type Incident = Schemas['Incident'];
 export type MapView = Schemas['MapView'];
 export type MapInfo = Schemas['MapInfo'];
 export type MapThing = Schemas['MapThing'];
-export type ActionInfo = Schemas['ActionInfo'];
+export type AbilityView = Schemas['AbilityView'];
 
 export type Policy = RobotView['policy'];
 export type StepState = StepView['state'];

@@ -23,7 +23,7 @@ class Answer:
     answer: str
 
 
-@action(phrases=("ask {question}",), effects=("asks_operator",), risk="none", pausable=False)
+@action(phrases=("ask {question}",), effects=("asks_operator",), pausable=False)
 async def ask_operator(ctx: ActionContext, question: str) -> Answer:
     """Ask the operator something and wait for the answer.
 

@@ -32,7 +32,6 @@ class Inspection:
 @action(
     phrases=("inspect {inspect}", "look at {inspect}", "check {inspect}", "look for {inspect}"),
     effects=("looks",),
-    risk="none",
     capabilities=("camera",),
     pausable=False,
 )

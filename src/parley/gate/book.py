@@ -8,6 +8,7 @@ from datetime import datetime
 from typing import Any
 
 from parley.clock import Clock
+from parley.errors import ActionFailure, FailureCode
 from parley.gate.hours import holds_at, wall_clock, zone_of
 from parley.gate.judge import (
     DriveVerdict,
@@ -144,6 +145,15 @@ class RuleBook:
             self._rules, step, robot=robot, facts=self.facts(robot), by=by or self.account(robot), here=None,
             now=now or self.now(),
         )  # fmt: skip
+
+    def admit(self, robot: str, action: ActionInfo, inputs: Mapping[str, Any]) -> None:
+        """Let an action begin; what engines ask.
+
+        Raises:
+            ActionFailure: `forbidden`, with the rule in its details.
+        """
+        for finding in self.judge_action(robot, action, inputs).forbidden:
+            raise ActionFailure(FailureCode.FORBIDDEN, finding.sentence, {"rule": finding.rule})
 
     def drive_limits(self, robot: str, x: float, y: float, now: datetime | None = None) -> DriveVerdict:
         """Whether a robot's middle may be at a place, and how fast it may be there."""

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Callable, Iterable, Iterator, Sequence
-from dataclasses import dataclass, field
+from dataclasses import dataclass, field, replace
 from datetime import datetime, timedelta
 from itertools import pairwise
 from typing import Final, NamedTuple
@@ -289,12 +289,28 @@ def judge_step(
     judged = judge_plan(
         rules, [step], robot=robot, facts=facts, by=by, here=here, now=now, path=lambda _, goal: (goal,)
     )
-    whole = ("too_many_steps", "too_far", "too_long", "zone_on_way")
+    of_actions = ("zone_entered", "action_forbidden")
     return Judgement(
-        tuple(item for item in judged.forbidden if item.code not in whole),
-        tuple(item for item in judged.ask if item.code not in whole),
+        tuple(_brief(rules, item, step, robot) for item in judged.forbidden if item.code in of_actions),
+        tuple(item for item in judged.ask if item.step >= 0),
         judged.risky,
     )
+
+
+def _brief(rules: RuleSet, finding: Finding, step: PlannedStep, robot: str) -> Finding:
+    """The same without the number of a step: it is about the one that is about to begin."""
+    rule = rules.get(finding.rule)
+    if rule is None:
+        return finding
+    hours = hours_text(rule.when)
+    if finding.code == "zone_entered":
+        text = sentence(
+            "{robot} must not go into {zone}{hours}.", robot=robot, zone=zone_text(rule), hours=hours
+        )
+    else:
+        action = action_text(step.call.name)
+        text = sentence("{robot} must not do “{action}”{hours}.", robot=robot, action=action, hours=hours)
+    return replace(finding, sentence=text)
 
 
 def _concerns(rule: Rule, action: str, info: ActionInfo | None) -> bool:

@@ -48,8 +48,10 @@ def risk_class(effects: Iterable[str], risk: str = "") -> RiskClass:
 
     Args:
         effects: What is declared.
-        risk: The older declaration: `none` counts for an action without effects, the rest says nothing here.
+        risk: The older declaration: `high` is the strictest class, `none` counts where no effects are told.
     """
+    if risk == "high":
+        return RiskClass.FINAL
     found = [EFFECTS.get(effect, RiskClass.UNKNOWN) for effect in effects]
     if not found:
         return RiskClass.LOOKS if risk == "none" else RiskClass.UNKNOWN
@@ -63,6 +65,4 @@ def risk_of(info: ActionInfo | None) -> RiskClass:
 
 def always_asks(info: ActionInfo | None) -> bool:
     """Whether `ask_when_risky` asks about it wherever and however far it goes."""
-    if info is not None and info.risk == "high":
-        return True
     return risk_of(info) not in (RiskClass.LOOKS, RiskClass.MOVES)
