@@ -5,6 +5,7 @@ from __future__ import annotations
 from collections.abc import Mapping, Sequence
 from contextlib import AbstractAsyncContextManager, AsyncExitStack
 from dataclasses import dataclass
+from functools import partial
 from types import TracebackType
 from typing import Literal, Self, TypeVar
 
@@ -19,6 +20,10 @@ from parley.engine.interrupted import Interrupted
 from parley.engine.journal import Journal
 from parley.engine.services import ContextServices
 from parley.errors import GraphRefusedError
+from parley.gate.book import RuleBook
+from parley.gate.fence import Fence
+from parley.gate.judge import RobotFacts
+from parley.gate.rules import RuleKeeper
 from parley.language.base import Language
 from parley.language.llm import build_language
 from parley.language.llm.usage import Usage
@@ -41,6 +46,7 @@ from parley.nodes.plan_check import plan_problems
 from parley.nodes.plan_restore import adopted_steps, interruption_text, restored_steps
 from parley.nodes.plan_steps import Step
 from parley.nodes.repair import left_over_text
+from parley.nodes.rules import MapOf, RuleNode
 from parley.nodes.umrf_planner import UmrfPlanner
 from parley.robots.base import Robot
 from parley.robots.simulated import SimulatedRobot
@@ -110,6 +116,8 @@ class System:
         )
         self.simulator = Simulator(world, clock=self.clock, speed=config.speed, seed=config.seed)
         self.objects = objects or world.object_map()
+        self.rules = RuleBook(self.clock)
+        """What robots may do."""
         installed = installed_actions()
         self._actions = (*actions, *installed.specs)
         self._problems = installed.problems
@@ -146,6 +154,7 @@ class System:
         await enter(transport)
         if isinstance(self.language, AbstractAsyncContextManager):
             await enter(self.language)
+        keeper = RuleKeeper(self.rules, config.rules_path)
         self.store = await enter(await MemoryStore.open(config.memory_file or ":memory:", clock))
         journal = self._journal = await enter(await Journal.open(config.journal_file or ":memory:", clock))
         await enter(self.simulator)
@@ -197,6 +206,8 @@ class System:
         views: Mapping[str, WorldView] = {name: self._view(name) for name in self.robot_names}
         maps = {name: (view.occupancy, view.objects.objects) for name, view in views.items()}
         await enter(MapService(transport, maps))
+        floors = {name: MapOf(view.occupancy, view.objects.objects) for name, view in views.items()}
+        await enter(RuleNode(transport, keeper, self.rules, clock, ground=self.language.ground, maps=floors))
         engines = {name: await self._open_robot(name, views[name]) for name in self.robot_names}
         self._tell_interrupted(journal, planner, notices, engines)
         planner.offer_again()
@@ -262,7 +273,10 @@ class System:
             await self._stack.enter_async_context(live)
 
     async def _open_robot(self, name: str, view: WorldView) -> ActionEngine:
-        robot = SimulatedRobot(self.simulator, name, view.occupancy)
+        model = self.simulator.model(name)
+        self.rules.know(name, RobotFacts(view.occupancy.name, model.radius_m, model.max_speed_mps))
+        fence = Fence(self.rules, name, braking_mps2=model.max_acceleration_mps2)
+        robot = SimulatedRobot(self.simulator, name, view.occupancy, fence)
         self.robots[name] = robot
         services = await self._stack.enter_async_context(ContextServices(name, self.transport))
 
@@ -284,6 +298,7 @@ class System:
                 catalogue=self.catalogue,
                 clock=self.clock,
                 make_context=make_context,
+                admit=partial(self.rules.admit, name),
                 robot=robot,
                 journal=self._journal,
             )

@@ -179,6 +179,15 @@ class RuleBook:
             if holds_for(rule, robot, facts, by) and holds_at(rule.when, now)
         )
 
+    def closed_to(self, robot: str, by: Principal | None, now: datetime | None = None) -> tuple[Rule, ...]:
+        """The zones that a robot must keep out of now on somebody's account."""
+        now, facts = now or self.now(), self.facts(robot)
+        return tuple(
+            rule
+            for rule in self._rules.rules
+            if rule.kind == "keep_out" and holds_for(rule, robot, facts, by) and holds_at(rule.when, now)
+        )
+
     def shape(self, rule: Rule) -> Shape:
         """The shape of one of its zones."""
         return self._shapes[rule.id]

@@ -108,11 +108,11 @@ class Resolver:
         if not locates:
             return None
         for value in values.values():
-            if isinstance(value, str) and (found := await self._find(value, here)) is not None:
+            if isinstance(value, str) and (found := await self.find(value, here)) is not None:
                 return found
         return None
 
-    async def _find(self, words: str, here: Pose2D | None) -> Place | None:
+    async def find(self, words: str, here: Pose2D | None) -> Place | None:
         """Where the robot would stand for what is described; the thing itself if no such spot is known."""
         try:
             grounding = await self._ground(words, self._objects, here)

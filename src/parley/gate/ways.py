@@ -2,19 +2,22 @@
 
 from __future__ import annotations
 
+import asyncio
 from collections.abc import Iterable, Sequence
 
 import numpy as np
 from numpy.typing import NDArray
 
-from parley.gate.judge import WayPlanner
+from parley.gate.book import RuleBook
+from parley.gate.judge import Judgement, PlannedStep, WayPlanner
 from parley.gate.shapes import Shape
+from parley.messages.principal import Principal
 from parley.messages.rules import Point
 from parley.world.geometry import Pose2D
 from parley.world.occupancy import OCCUPIED, OccupancyMap
 from parley.world.planning import NoPathError, plan_path
 
-__all__ = ["way_planner", "with_walls"]
+__all__ = ["judge_with_ways", "way_planner", "with_walls"]
 
 _EPS_M = 0.02
 _MARGIN_M = 0.04
@@ -79,3 +82,22 @@ def way_planner(occupancy: OccupancyMap, zones: Sequence[Shape], *, radius_m: fl
         return None
 
     return plan
+
+
+async def judge_with_ways(
+    book: RuleBook,
+    robot: str,
+    steps: Sequence[PlannedStep],
+    occupancy: OccupancyMap,
+    *,
+    by: Principal | None,
+    pose: Pose2D | None,
+    people: Sequence[Point] = (),
+) -> Judgement:
+    """What the rules say about a plan; its ways are planned beside the loop, around what is closed now."""
+    zones = [book.shape(rule) for rule in book.closed_to(robot, by)]
+    path = way_planner(occupancy, zones, radius_m=book.facts(robot).radius_m)
+    now = book.now()
+    return await asyncio.to_thread(
+        lambda: book.judge_plan(robot=robot, steps=steps, by=by, pose=pose, now=now, path=path, people=people)
+    )

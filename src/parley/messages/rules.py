@@ -158,7 +158,9 @@ class Rule(_Part):
         needs_speed = self.kind in ("slow", "speed")
         if needs_speed and self.max_speed_mps is None:
             raise ValueError(f"{self.kind} needs max_speed_mps")
-        given = {name for name in self.model_fields_set if getattr(self, name) not in (None, (), "")}
+        given = {
+            name for name, field in type(self).model_fields.items() if getattr(self, name) != field.default
+        }
         limits = {"max_distance_m", "max_steps", "max_expected_s"}
         if self.kind == "plan" and not given & limits:
             raise ValueError("plan needs one of max_distance_m, max_steps, max_expected_s")
