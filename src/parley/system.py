@@ -23,6 +23,7 @@ from parley.errors import GraphRefusedError
 from parley.gate.book import RuleBook
 from parley.gate.fence import Fence
 from parley.gate.judge import RobotFacts
+from parley.gate.rule_talk import RuleTalk
 from parley.gate.rules import RuleKeeper
 from parley.language.base import Language
 from parley.language.llm import build_language
@@ -196,6 +197,7 @@ class System:
             objects=self._objects_of,
             history_exchanges=config.history_exchanges,
             language_timeout_s=config.language_timeout_s,
+            rules=RuleTalk(self.rules, keeper),
         )
         await enter(self._speaking(chat))
         await enter(self._speaking(Lookout(transport, clock)))

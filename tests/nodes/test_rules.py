@@ -19,6 +19,7 @@ from parley.messages import topics
 from parley.messages.principal import Principal, person
 from parley.messages.ros import ChatRequest
 from parley.messages.rule_requests import RuleRequest, RulesAnswer
+from parley.messages.rules import Hours
 from parley.messages.wire import decode, encode
 from parley.robots.base import Velocity
 from parley.robots.simulated import SimulatedRobot
@@ -44,6 +45,10 @@ class Crew(House):
     """A robot in two rooms, how far east it ever was, and the rules."""
 
     farthest_m = 0.0
+
+    @property
+    def held(self) -> list[str]:
+        return [rule.id for rule in self.system.rules.rules.rules]
 
     async def watch(self) -> None:
         while True:
@@ -101,7 +106,7 @@ async def test_who_may_not_change_rules_changes_none(by: Principal | None) -> No
     async with crew() as it:
         await it.ask("put", rule=EAST)
         for change in ({"what": "put", "rule": EAST | {"id": "other"}}, {"what": "drop", "id": "east"}):
-            assert (await it.ask(**change, by=by)).problem  # type: ignore[arg-type]
+            assert (await it.ask(**change, by=by)).problem
         assert [view.rule.id for view in (await it.ask("list", by=by)).rules] == ["east"]
 
 
@@ -121,3 +126,36 @@ async def test_rules_are_told_in_words_and_kept_over_a_restart(tmp_path: Path) -
     with pytest.raises(FileFormatError, match="line 2"):
         async with crew(config):
             pass
+
+
+async def test_a_told_rule_is_shown_as_what_it_becomes_and_counts_after_a_yes() -> None:
+    async with crew() as it:
+        it.observer.say("never go into the green crate between two and three", "A")
+        asked = await it.question()
+        assert asked.message.startswith(
+            "I understand this as a rule: Stays out of “green crate” between 14:00"
+        )
+        assert "On the map it reaches from (4.65, 1.45) to (5.75, 2.55) metres." in asked.message
+        assert asked.choices[-1] == "no" and len(asked.choices) == 3
+        assert it.held == []
+        it.observer.say("perhaps", "A", answer=True)
+        await it.observer.until(lambda: it.observer.said[-1].closes == asked.id, timeout_s=10)
+        assert it.held == []
+        await it.say((await it.question()).choices[1], answer=True)
+        assert it.held == ["keep-out-green-crate"]
+        assert it.system.rules.rules.rules[0].when == Hours(start="02:00", end="03:00")
+        assert "Stays out of" in (await it.say("what rules are there?")).message
+        it.observer.say("drop the rule about the crate", "A")
+        assert "Shall I drop this rule" in (await it.question()).message
+        assert (await it.say("yes", answer=True)).message == "The rule does not hold any more."
+        assert it.held == []
+
+
+async def test_after_a_no_nothing_holds_and_orders_are_no_rules() -> None:
+    async with crew() as it:
+        it.observer.say("nobody into the green crate", "A")
+        await it.question()
+        assert "stay as they are" in (await it.say("no", answer=True)).message
+        await it.say("don't go into the green crate")
+        assert it.held == []
+        assert (await it.say("what rules are there")).message == "There are no rules."
