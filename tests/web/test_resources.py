@@ -293,6 +293,7 @@ async def test_a_module_that_is_switched_off_is_not_there(module: str) -> None:
         "map": "/api/map/Ada",
         "memory": "/api/memory",
         "robots": "/api/robots",
+        "rules": "/api/rules",
         "incidents": "/api/incidents",
     }
     async with served("Ada", without=frozenset({module})) as rig:

@@ -30,6 +30,7 @@ from parley.web.routes import (
     memory,
     plans,
     robots,
+    rules,
     session,
     snapshot,
     stop,
@@ -37,7 +38,7 @@ from parley.web.routes import (
 
 __all__ = ["create_api", "create_app", "openapi_text"]
 
-_RESOURCES = (health, session, snapshot, chat, stop, plans, robots, memory, incidents, map, feeds)
+_RESOURCES = (health, session, snapshot, chat, stop, plans, robots, memory, rules, incidents, map, feeds)
 
 
 def create_api() -> FastAPI:

@@ -9,9 +9,11 @@ from pydantic import BaseModel, ConfigDict, Field
 
 __all__ = ["MODULES", "Module", "WebConfig"]
 
-Module = Literal["chat", "plan", "display", "map", "memory", "robots", "incidents"]
+Module = Literal["chat", "plan", "display", "map", "memory", "robots", "rules", "incidents"]
 
-MODULES: tuple[Module, ...] = ("chat", "plan", "display", "map", "memory", "robots", "incidents")
+MODULES: tuple[Module, ...] = (
+    "chat", "plan", "display", "map", "memory", "robots", "rules", "incidents",
+)  # fmt: skip
 """What can be switched off."""
 
 
