@@ -8,6 +8,7 @@ import { MemoryPage } from '@/features/memory';
 import { offered, pathOf, SettingsPage, type Page } from '@/features/menu';
 import { PlanPanel } from '@/features/plan';
 import { RobotsPage } from '@/features/robots';
+import { RulesPage } from '@/features/rules';
 import { useWorld } from '@/live/store';
 import { Empty } from '@/ui/panel';
 import type { Layout } from '@/ui/use-media';
@@ -31,6 +32,7 @@ export function Pages({ layout, ...session }: Props) {
     map: () => <MapPanel />,
     memory: () => <MemoryPage />,
     robots: () => <RobotsPage />,
+    rules: () => <RulesPage />,
     incidents: () => <IncidentsPage />,
     settings: () => <SettingsPage {...session} />,
   };

@@ -6,6 +6,7 @@ const paths = {
   map: 'M9 4 3 6.5V20l6-2.5 6 2.5 6-2.5V4l-6 2.5zM9 4v13.5M15 6.5V20',
   memory: 'M6 3h9l4 4v14H6zM15 3v4h4M9 12h7M9 16h7',
   robots: 'M5 9h14v10H5zM12 9V5M12 5h.01M9 13v2M15 13v2M2 13v3M22 13v3',
+  rules: 'M5 4v16M5 5h12l-2.5 4L17 13H5',
   incidents: 'M12 4 2.5 20h19zM12 10v4M12 17h.01',
   settings: 'M4 7h10M18 7h2M4 17h2M10 17h10M16 5v4M8 15v4',
   menu: 'M4 7h16M4 12h16M4 17h16',

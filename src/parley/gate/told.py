@@ -66,6 +66,7 @@ _NEVER: Final = re.compile(
     r"|(?P<whom>[\w ]+?) (?:is|are) (?:not|never) allowed to"
     r"|(?P<kes>[\w ]+?) ei tohi(?: kunagi)?)\s+(?P<rest>.+)$"
 )
+_UNASKED: Final = re.compile(r" without (?:asking|my permission|permission)(?: \w+)*$")
 _INTO: Final = re.compile(
     r"^(?:(?:go|goes|drive|drives|come|comes|move|moves|be|sõita|sõida|minna|mine|minema|tulla)\s+)?"
     r"(?:in|into|inside|to|through|near|enter|enters)\s+(?P<place>.+)$"
@@ -190,6 +191,9 @@ def _slowed(said: str, world: _World) -> dict[str, Any] | NotUnderstood | None:
 
 def _forbidden(said: str, world: _World) -> dict[str, Any] | NotUnderstood | None:
     """For "nobody into the ward", "Ada must not open doors"."""
+    if asking := _UNASKED.search(said):
+        subject, _, wish = said[: asking.start()].partition("never ")
+        return _asked(f"always ask before {wish}", world) if wish and not subject.strip() else None
     found = _NEVER.match(said)
     if found is None:
         return None

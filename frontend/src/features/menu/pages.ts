@@ -1,7 +1,7 @@
 /** The pages one can go to, in order. */
 import type { ServerInfo } from '@/live/types';
 
-export const pages = ['chat', 'plan', 'display', 'map', 'memory', 'robots', 'incidents', 'settings'] as const;
+export const pages = ['chat', 'plan', 'display', 'map', 'memory', 'robots', 'rules', 'incidents', 'settings'] as const;
 
 export type Page = (typeof pages)[number];
 

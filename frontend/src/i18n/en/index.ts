@@ -7,5 +7,6 @@ export { default as memory } from './memory.json';
 export { default as menu } from './menu.json';
 export { default as plan } from './plan.json';
 export { default as robots } from './robots.json';
+export { default as rules } from './rules.json';
 export { default as session } from './session.json';
 export { default as stop } from './stop.json';
