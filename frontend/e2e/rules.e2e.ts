@@ -74,7 +74,7 @@ describe.skipIf(!hasBrowser)('rules', () => {
     await page.getByRole('button', { name: 'yes', exact: true }).click();
     await page.getByText('The rule holds from now on').first().waitFor();
     await page.goto(`${stage.system.address}#/rules`);
-    await page.getByText('Told by').first().waitFor();
+    await page.getByText('Told: “never drive').first().waitFor();
     await page.screenshot({ path: `${PICTURES}/phone.png`, fullPage: true });
     expect(await barriers(page)).toEqual([]);
   });

@@ -100,7 +100,7 @@ function RuleCard({ view: { rule, text, holds_now: holds }, onChange, onDropped 
         <p>
           {text} {holds === false && <span className={css.rests}>{t('rests')}</span>}
         </p>
-        {rule.words && <p className={css.quiet}>{t('said', { by: rule.by, words: rule.words })}</p>}
+        {rule.words && <p className={css.quiet}>{t(rule.by ? 'said' : 'told', { by: rule.by, words: rule.words })}</p>}
         {!rule.words && rule.by && <p className={css.quiet}>{t('madeBy', { by: rule.by })}</p>}
       </div>
       <div className={css.deeds}>
