@@ -4,7 +4,7 @@ import { afterAll, beforeAll, describe, expect, it } from 'vitest';
 
 import { CHROMIUM, hasBrowser, sizes, startStage, type Stage } from './stage';
 
-const PAGES = ['', 'plan', 'display', 'map', 'memory', 'robots', 'incidents', 'log', 'settings'];
+const PAGES = ['', 'plan', 'display', 'map', 'memory', 'robots', 'rules', 'incidents', 'log', 'settings'];
 const LONG = 'Donaudampfschifffahrtsgesellschaftskapitänsmützenverwahrstelle';
 /** Twice what browsers begin with. */
 const LARGE = '--blink-settings=defaultFontSize=32';

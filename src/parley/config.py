@@ -124,6 +124,8 @@ class SystemConfig(BaseModel, TextFile):
     """Another file for the memories than `memory.db` in `data_dir`."""
     embeddings: EmbeddingSettings | None = None
     """How memories are found by what they mean; None: by their words alone."""
+    rules_file: FilePath | None = None
+    """What robots may do; None: `rules.yaml` in `data_dir`, or, without that, only while the system runs."""
     actions_dir: FilePath | None = None
     """Folder with more actions, watched while the system runs."""
     audit_months: int | None = Field(default=24, ge=1, le=1200)
@@ -205,6 +207,13 @@ class SystemConfig(BaseModel, TextFile):
         if self.memory is not None:
             return self.memory
         return self.data_dir / "memory.db" if self.data_dir is not None else None
+
+    @property
+    def rules_path(self) -> Path | None:
+        """Where rules are kept, None if they are not."""
+        if self.rules_file is not None:
+            return self.rules_file
+        return self.data_dir / "rules.yaml" if self.data_dir is not None else None
 
     @property
     def incidents_file(self) -> Path | None:

@@ -173,6 +173,8 @@ class FailureCode(StrEnum):
     """The operator said no."""
     NOT_UNDERSTOOD = "not_understood"
     """The operator's answers could not be understood, as often as asking was allowed."""
+    FORBIDDEN = "forbidden"
+    """A rule of the people here forbids it; no other way is tried without a person."""
     HARDWARE = "hardware"
     """A device of the robot failed."""
     INTERNAL = "internal"

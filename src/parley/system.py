@@ -6,6 +6,7 @@ import asyncio
 from collections.abc import Mapping, Sequence
 from contextlib import AbstractAsyncContextManager, AsyncExitStack
 from dataclasses import dataclass
+from functools import partial
 from types import TracebackType
 from typing import Final, Literal, Self, TypeVar
 
@@ -24,6 +25,11 @@ from parley.engine.stop_listener import StopListener
 from parley.engine.watchdog import LoopWatchdog
 from parley.errors import GraphRefusedError, Problem
 from parley.gate.audit_store import AuditStore
+from parley.gate.book import RuleBook
+from parley.gate.fence import Fence
+from parley.gate.judge import RobotFacts
+from parley.gate.rule_talk import RuleTalk
+from parley.gate.rules import RuleKeeper
 from parley.gate.stop_line import StopLine
 from parley.language.base import Language
 from parley.language.llm import build_language
@@ -52,6 +58,7 @@ from parley.nodes.plan_check import plan_problems
 from parley.nodes.plan_restore import adopted_steps, interruption_text, restored_steps
 from parley.nodes.plan_steps import Step
 from parley.nodes.repair import left_over_text
+from parley.nodes.rules import MapOf, RuleNode
 from parley.nodes.umrf_planner import UmrfPlanner
 from parley.nodes.unattended import UnattendedPlans
 from parley.robots.base import Robot
@@ -128,6 +135,8 @@ class System:
         )
         self.simulator = Simulator(world, clock=self.clock, speed=config.speed, seed=config.seed)
         self.objects = objects or world.object_map()
+        self.rules = RuleBook(self.clock)
+        """What robots may do."""
         installed = installed_actions()
         self._actions = (*actions, *installed.specs)
         self._problems = installed.problems
@@ -175,6 +184,7 @@ class System:
         self._stack.push_async_callback(asyncio.to_thread, self.stop_line.close)
         if isinstance(self.language, AbstractAsyncContextManager):
             await enter(self.language)
+        keeper = RuleKeeper(self.rules, config.rules_path)
         self.store = await enter(await MemoryStore.open(config.memory_file or ":memory:", clock))
         journal = self._journal = await enter(await Journal.open(config.journal_file or ":memory:", clock))
         audit = await enter(await AuditStore.open(config.audit_file or ":memory:", clock))
@@ -220,6 +230,7 @@ class System:
             objects=self._objects_of,
             history_exchanges=config.history_exchanges,
             language_timeout_s=config.language_timeout_s,
+            rules=RuleTalk(self.rules, keeper),
         )
         await enter(self._speaking(chat))
         await enter(self._speaking(Lookout(transport, clock)))
@@ -237,6 +248,8 @@ class System:
         watchdog = LoopWatchdog(self.stop_line, self.robot_names, clock, self._tell_all)
         watchdog.open()
         self._stack.push_async_callback(watchdog.close)
+        floors = {name: MapOf(view.occupancy, view.objects.objects) for name, view in views.items()}
+        await enter(RuleNode(transport, keeper, self.rules, clock, ground=self.language.ground, maps=floors))
         engines = {name: await self._open_robot(name, views[name]) for name in self.robot_names}
         self._tell_interrupted(journal, planner, notices, engines)
         planner.offer_again()
@@ -324,7 +337,10 @@ class System:
             await self._stack.enter_async_context(live)
 
     async def _open_robot(self, name: str, view: WorldView) -> ActionEngine:
-        robot = SimulatedRobot(self.simulator, name, view.occupancy)
+        model = self.simulator.model(name)
+        self.rules.know(name, RobotFacts(view.occupancy.name, model.radius_m, model.max_speed_mps))
+        fence = Fence(self.rules, name, braking_mps2=model.max_acceleration_mps2)
+        robot = SimulatedRobot(self.simulator, name, view.occupancy, fence)
         self.robots[name] = robot
         services = await self._stack.enter_async_context(ContextServices(name, self.transport))
 
@@ -346,6 +362,7 @@ class System:
                 catalogue=self.catalogue,
                 clock=self.clock,
                 make_context=make_context,
+                admit=partial(self.rules.admit, name),
                 robot=robot,
                 journal=self._journal,
                 line=self.stop_line,

@@ -334,6 +334,7 @@ async def test_a_module_that_is_switched_off_is_not_there(module: str) -> None:
         "map": "/api/map/Ada",
         "memory": "/api/memory",
         "robots": "/api/robots",
+        "rules": "/api/rules",
         "incidents": "/api/incidents",
         "log": "/api/audit",
     }

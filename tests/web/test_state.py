@@ -9,6 +9,7 @@ import pytest
 from parley.messages.chat import ActionCall, ChatFeedback, ChatInput, ReplyDraft
 from parley.messages.principal import person
 from parley.messages.pvf import Parameter
+from parley.messages.rules import RiskClass
 from parley.messages.status import (
     ActorStatus,
     GraphEvent,
@@ -306,7 +307,7 @@ def test_a_long_conversation_is_cut_but_open_questions_stay() -> None:
 
 def plans() -> tuple[PlanBook, list[Change]]:
     changes: list[Change] = []
-    return PlanBook(changes.append, lambda _robot, _action: "high"), changes
+    return PlanBook(changes.append, lambda _robot, _action: RiskClass.HANDLES), changes
 
 
 def step(name: str, state: str = "queued", node: str = "", **inputs: str) -> dict[str, Any]:
@@ -337,7 +338,7 @@ def test_a_step_shows_what_the_planner_and_the_engine_know_of_it() -> None:
     book.on_event(event("MoveTo_0", "RUNNING", unix_ms=5))
     book.on_event(event("MoveTo_0", progress=0.5, progress_text="2 m left"))
     (shown,) = plan_of(book).steps
-    assert (shown.label, shown.risk, shown.started_unix_ms) == ("move to: the door", "high", 5)
+    assert (shown.label, shown.risk, shown.started_unix_ms) == ("move to: the door", "handles_things", 5)
     assert (shown.progress, shown.progress_text) == (0.5, "2 m left")
     book.on_event(event("MoveTo_0", "ERROR", unix_ms=9, message='{"message": "The way is blocked."}'))
     book.on_update(update(step("MoveTo", "failed", "MoveTo_0", place="the door"), state="held"))
@@ -450,16 +451,18 @@ def test_a_proposal_told_again_is_no_news() -> None:
 
 def test_how_much_care_a_step_needs_is_said_when_it_becomes_known() -> None:
     changes: list[Any] = []
-    risks: dict[str, Any] = {}
-    book = PlanBook(changes.append, lambda _robot, action: risks.get(action, "low"))
+    risks: dict[str, RiskClass] = {}
+    book = PlanBook(changes.append, lambda _robot, action: risks.get(action, RiskClass.MOVES))
     book.on_proposal(PlanProposal(id="p1", target="Ada", steps=(ActionCall(name="Press"),)))
     book.on_update(update(step("Press", "running", "Press_0")))
-    risks["Press"] = "high"
+    risks["Press"] = RiskClass.HANDLES
     book.on_catalogue("Bob")
-    assert [item.risk for item in (*book.proposals["p1"].steps, *plan_of(book).steps)] == ["low", "low"]
+    assert [item.risk for item in (*book.proposals["p1"].steps, *plan_of(book).steps)] == ["moves", "moves"]
     count = len(changes)
     book.on_catalogue("Ada")
-    assert [item.risk for item in (*book.proposals["p1"].steps, *plan_of(book).steps)] == ["high", "high"]
+    assert [item.risk for item in (*book.proposals["p1"].steps, *plan_of(book).steps)] == [
+        "handles_things", "handles_things",
+    ]  # fmt: skip
     assert [change.kind for change in changes[count:]] == ["plan", "proposal"]
     book.on_catalogue("Ada")
     assert len(changes) == count + 2, "the same again is no news"

@@ -10,6 +10,7 @@ import { offered, pathOf, SettingsPage, type Page } from '@/features/menu';
 import { MyAccountSection, PeoplePage } from '@/features/people';
 import { PlanPanel } from '@/features/plan';
 import { RobotsPage } from '@/features/robots';
+import { RulesPage } from '@/features/rules';
 import { useWorld } from '@/live/store';
 import { useMayAll } from '@/state/me';
 import { Empty } from '@/ui/panel';
@@ -35,6 +36,7 @@ export function Pages({ layout, ...session }: Props) {
     map: () => <MapPanel />,
     memory: () => <MemoryPage />,
     robots: () => <RobotsPage />,
+    rules: () => <RulesPage />,
     incidents: () => <IncidentsPage />,
     log: () => <LogPage />,
     people: () => <PeoplePage onChanged={session.onSessionChanged} />,

@@ -6,7 +6,7 @@ import { MapPanel } from '@/features/map';
 import { MemoryPage } from '@/features/memory';
 import { RobotsPage } from '@/features/robots';
 import { incident, logPage, mapInfo, mapView, memory, robot } from '@/live/samples';
-import type { ActionInfo, FeedInfo, Snapshot } from '@/live/types';
+import type { AbilityView, FeedInfo, Snapshot } from '@/live/types';
 
 import type { Answers } from './network';
 
@@ -23,15 +23,17 @@ export interface Story {
 
 const robots = [robot({ name: 'Ada', pose: { x: 1, y: 2, yaw: 1 } }), robot({ name: 'Bob', connection: 'lost', last_seen_unix_ms: 1 })];
 const feed = (name: string, continuous: boolean): FeedInfo => ({ robot: 'Ada', name, continuous, width: 320, height: 240, last_unix_ms: 0 });
-const going: ActionInfo = {
+const going: AbilityView = {
   name: 'GoTo',
   description: 'Drive to a place.',
+  label: '',
   phrases: ['go to {place}'],
   inputs: { place: 'string' },
   outputs: {},
   optional: [],
   effects: ['moves'],
   risk: 'high',
+  kind: 'moves',
   capabilities: [],
   examples: [],
   duration_s: null,

@@ -8,6 +8,9 @@ import type {
   MapInfo,
   MemoryItem,
   Policy,
+  Rule,
+  RulesAnswer,
+  RuleVerdict,
   ServerInfo,
   SessionInfo,
   StopAnswer,
@@ -131,6 +134,13 @@ export const putPolicy = (robot: string, policy: Policy) =>
   request<unknown>('PUT', `plans/${part(robot)}/policy`, { policy });
 export const putSteps = (robot: string, steps: readonly ActionCall[], revision: number) =>
   request<unknown>('PUT', `plans/${part(robot)}/steps`, { steps, revision });
+
+export const getRules = (language: string) => request<RulesAnswer>('GET', `rules?language=${part(language)}`);
+export const putRule = (rule: Rule, language: string) =>
+  request<RulesAnswer>('PUT', `rules/${part(rule.id)}?language=${part(language)}`, rule);
+export const dropRule = (id: string) => request<RulesAnswer>('DELETE', `rules/${part(id)}`);
+export const tryRules = (robot: string, words: readonly string[], language: string) =>
+  request<RuleVerdict>('POST', 'rules/try', { robot, words, language });
 
 export const addRobot = (name: string) => request<unknown>('POST', 'robots', { name });
 export const removeRobot = (name: string) => request<unknown>('DELETE', `robots/${part(name)}`);

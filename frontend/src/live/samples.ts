@@ -67,7 +67,7 @@ export const step = (part: Partial<StepView> & { id: string }): StepView => ({
   progress: null,
   progress_text: '',
   message: '',
-  risk: 'low',
+  risk: 'moves',
   call: { GoTo: { input_parameters: {}, output_parameters: {} } },
   started_unix_ms: 0,
   ended_unix_ms: 0,

@@ -7,6 +7,7 @@ const paths = {
   memory: 'M6 3h9l4 4v14H6zM15 3v4h4M9 12h7M9 16h7',
   robots: 'M5 9h14v10H5zM12 9V5M12 5h.01M9 13v2M15 13v2M2 13v3M22 13v3',
   people: 'M9 11a3.5 3.5 0 1 0 0-7 3.5 3.5 0 0 0 0 7zM2.5 20c0-4 3-6 6.5-6s6.5 2 6.5 6M16 4.5a3.5 3.5 0 0 1 0 6.5M18 14.5c2.3.8 3.5 2.7 3.5 5.5',
+  rules: 'M5 4v16M5 5h12l-2.5 4L17 13H5',
   incidents: 'M12 4 2.5 20h19zM12 10v4M12 17h.01',
   log: 'M6 3h12v18H6zM9 8h6M9 12h6M9 16h3',
   settings: 'M4 7h10M18 7h2M4 17h2M10 17h10M16 5v4M8 15v4',

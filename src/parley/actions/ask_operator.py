@@ -42,7 +42,6 @@ class Answer:
     label="Ask you: {question}",
     phrases=("ask {question}",),
     effects=("asks_operator",),
-    risk="none",
     pausable=False,
 )
 async def ask_operator(ctx: ActionContext, question: str) -> Answer:

@@ -24,7 +24,7 @@ class Coordinates:
     """In the map frame, facing the object."""
 
 
-@action(label="Find out where {target} is", effects=("locates",), risk="none", pausable=False)
+@action(label="Find out where {target} is", effects=("locates",), pausable=False)
 async def get_coordinates(ctx: ActionContext, target: str) -> Coordinates:
     """Find where to stand to be at a thing or place that is described in words.
 

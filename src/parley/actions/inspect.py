@@ -33,7 +33,6 @@ class Inspection:
     label="Look with the camera: {inspect}",
     phrases=("inspect {inspect}", "look at {inspect}", "check {inspect}", "look for {inspect}"),
     effects=("looks",),
-    risk="none",
     capabilities=("camera",),
     pausable=False,
 )

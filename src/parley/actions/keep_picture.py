@@ -27,7 +27,6 @@ UNNAMED: Final = "what I saw"
         "remember this view",
     ),
     effects=("remembers",),
-    risk="none",
     capabilities=("camera",),
     pausable=False,
 )

@@ -28,6 +28,7 @@ from parley.errors import GraphRefusedError, InvalidMessageError, Problem, Unava
 from parley.gate.stop_line import StopLine
 from parley.messages import ros, topics
 from parley.messages.status import (
+    ActionInfo,
     ActorStatus,
     Rejection,
     RejectionProblem,
@@ -40,12 +41,13 @@ from parley.messages.wire import decode, to_string, to_string_unchecked
 from parley.robots.base import Robot
 from parley.transport.base import Publisher, Transport
 from parley.umrf.action import RunHandle
-from parley.umrf.catalogue import Catalogue
+from parley.umrf.catalogue import Catalogue, info_of
 from parley.umrf.check import reasons, vouch_steps
 from parley.umrf.executor import STOP_TIMEOUT_S, GraphRun
 from parley.umrf.io import read_steps, write_descriptor, write_graph
 from parley.umrf.model import Graph, Result
 from parley.umrf.motion import Motions
+from parley.umrf.node_run import NodeRun
 from parley.umrf.reading import load_object
 from parley.umrf.transition import NO_FACTS, Transition
 
@@ -61,6 +63,8 @@ M = TypeVar(
     ros.UmrfGraphResume,
     ros.UmrfGraphStop,
 )
+
+Admit = Callable[[ActionInfo, Mapping[str, Any]], None]
 
 P = TypeVar("P", bound=BaseModel)
 Raw = Mapping[str, Any]
@@ -81,6 +85,8 @@ class ActionEngine:
         catalogue: What the actor can do.
         clock: Robot time for actions, wall time for stopping and reporting.
         make_context: Builds what an action gets as its first argument.
+        admit: Asked before each action begins, with what it is and its inputs by flat name; if it raises an
+            `ActionFailure`, the action does nothing and fails so.
         robot: What the emergency stop stops; an actor may have none.
         wake_words: Other names it listens to.
         journal: Where everything that runs is written down; opened and closed by its owner.
@@ -98,6 +104,7 @@ class ActionEngine:
         catalogue: Catalogue,
         clock: Clock,
         make_context: Callable[[RunHandle], Any],
+        admit: Admit | None = None,
         robot: Robot | None = None,
         wake_words: Sequence[str] = (),
         journal: Journal | None = None,
@@ -123,7 +130,7 @@ class ActionEngine:
             actor,
             catalogue,
             clock=clock,
-            make_context=self._context_of,
+            make_context=self._context_of if admit is None else _admitted(admit, self._context_of),
             observer=self._observed,
             stop_timeout_s=stop_timeout_s,
             latched=lambda: self._line.latched(actor),
@@ -436,3 +443,14 @@ class ActionEngine:
         publisher = self._publishers.get(topic.name)
         if publisher is not None:
             publisher.publish(message)
+
+
+def _admitted(admit: Admit, make_context: Callable[[RunHandle], Any]) -> Callable[[RunHandle], Any]:
+    """Ask before an action gets what it needs to do anything."""
+
+    def make(run: RunHandle) -> Any:
+        if isinstance(run, NodeRun):
+            admit(info_of(run.spec), run.values)
+        return make_context(run)
+
+    return make

@@ -54,7 +54,8 @@ class ActionInfo(Payload):
     """How people ask for it; ``{parameter}`` stands for a value."""
     effects: tuple[str, ...] = ()
     """What holds afterwards, from a small open vocabulary: `moves`, `looks`, `asks_operator`, ..."""
-    risk: Literal["none", "low", "high"] = "low"
+    risk: Literal["none", "low", "high", ""] = ""
+    """What was declared before effects told it; only `parley.gate.risk` reads it."""
     capabilities: tuple[str, ...] = ()
     """What the robot must have, e.g. `drive`, `camera`."""
     examples: tuple[str, ...] = ()

@@ -107,6 +107,7 @@ GET_INCIDENTS = Service(
 )
 GET_AUDIT = Service("/parley/get_audit", ros.ChatRequest, ros.ChatResponse, "nl_interface_msgs/srv/Chat")
 GET_MAP = Service("/parley/get_map", ros.ChatRequest, ros.ChatResponse, "nl_interface_msgs/srv/Chat")
+RULES = Service("/parley/rules", ros.ChatRequest, ros.ChatResponse, "nl_interface_msgs/srv/Chat")
 GRAPH_GET = Service(
     "umrf_graph_get", ros.UmrfGraphGetRequest, ros.UmrfGraphGetResponse, "temoto_msgs/srv/UmrfGraphGet"
 )
@@ -117,7 +118,7 @@ ALL_TOPICS: tuple[Topic[Any], ...] = (
     GRAPH_FEEDBACK, ACTOR_STATUS, GRAPH_EVENTS, PLAN, PLAN_DECISION, STEP, STOP, STOP_REPORT, REJECTION, SYNC,
     MEMORY_EVENT, REPLY_DRAFT, INCIDENT, MAP_VIEW, AUDIT, RULING, ATTENDANCE,
 )  # fmt: skip
-ALL_SERVICES = (GET_MEMORY, GRAPH_GET, GET_INCIDENTS, GET_MAP, GET_AUDIT)
+ALL_SERVICES = (GET_MEMORY, GRAPH_GET, GET_INCIDENTS, GET_MAP, GET_AUDIT, RULES)
 
 
 def display_topic(target: str, name: str) -> Topic[ros.CompressedImage]:

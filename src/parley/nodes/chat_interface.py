@@ -13,6 +13,7 @@ from typing import ClassVar, Final
 from parley.clock import Clock
 from parley.errors import LanguageError
 from parley.gate.orders import Admitted, Heard, admit
+from parley.gate.rule_talk import RuleTalk
 from parley.gate.table import Effect, verdict
 from parley.language.base import Language, Situation
 from parley.language.control import Control, control_of
@@ -71,6 +72,7 @@ class ChatInterface(Node):
         history_exchanges: How many exchanges are remembered as context.
         known_robots: Robots that send no heartbeat of ours.
         patience_s: Wall time after which the operator is told that an answer takes long.
+        rules: Hears what people say about rules before any language engine does.
     """
 
     name: ClassVar[str] = "chat_interface"
@@ -86,8 +88,10 @@ class ChatInterface(Node):
         history_exchanges: int = 10,
         known_robots: Sequence[str] = (),
         patience_s: float = PATIENCE_S,
+        rules: RuleTalk | None = None,
     ) -> None:
         super().__init__(transport)
+        self._rules = rules
         self._language, self._clock = language, clock
         self._thinking = Thinking(language_timeout_s, patience_s)
         self._presence = Presence(clock, tuple(known_robots), linked=linked_to(transport))
@@ -170,7 +174,8 @@ class ChatInterface(Node):
         if question is None and (self._set_aside(target, said) or self._undoes(target, said)):
             return
         about = said.reply_to or (question.id if question else "")
-        ours = about if said.type == "response" and self._recollections.asked(about) else ""
+        known = self._recollections.asked(about) or (self._rules is not None and self._rules.asked(about))
+        ours = about if said.type == "response" and known else ""
         if question is None or ours:
             self._mailboxes.post(target, self._work(target, said, ours))
         elif said.images:
@@ -213,12 +218,31 @@ class ChatInterface(Node):
         halts = self._halts.get(target, 0)
 
         async def work() -> None:
+            if await self._about_rules(target, said, ours):
+                return
             if not ours and (answer := await log_answer(self.transport, self._clock, target, said)):
                 self._say((target,), answer, "response", said.id)
             elif not await self._recollections.handles(target, said, ours):
                 await self._answer(target, said, halts)
 
         return work
+
+    async def _about_rules(self, target: str, said: ChatInput, ours: str) -> bool:
+        """Whether a message was about rules; what becomes one is decided by code and a person's yes."""
+        status = self._presence.get(target)
+        reply = self._rules and await self._rules.reply(
+            said.message, said.who, robot=target, robots=self._presence.names(),
+            places=self._known.objects(target), catalogue=status.catalogue if status else (), answers=ours,
+        )  # fmt: skip
+        if not reply:
+            return False
+        feedback = ChatFeedback(
+            message=self.spoken(reply.text), targets=(target,), type="request" if reply.id else "response",
+            choices=tuple(map(self.spoken, reply.choices)), id=reply.id, closes=reply.closes,
+            reply_to=said.id,
+        )  # fmt: skip
+        self.publish(topics.CHAT_FEEDBACK, feedback)
+        return True
 
     def _keep_pictures(self, target: str, said: ChatInput, question: str) -> Callable[[], Awaitable[None]]:
         """Of an answer with pictures: whoever asked gets the words."""

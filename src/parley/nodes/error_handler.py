@@ -8,7 +8,7 @@ from dataclasses import replace
 from typing import ClassVar, Literal
 
 from parley.clock import Clock
-from parley.errors import InvalidMessageError, LanguageError
+from parley.errors import FailureCode, InvalidMessageError, LanguageError
 from parley.gate.assent import assent_of
 from parley.gate.orders import Heard, admit_repair, engine, is_chosen
 from parley.gate.table import Effect, verdict
@@ -327,6 +327,8 @@ class ErrorHandler(Node):
     ) -> ChatAction:
         """Ask the language engine; when it cannot answer, fall back to the failure's own sentence."""
         target = repair.failure.target
+        if reply is None and repair.failure.code is FailureCode.FORBIDDEN:
+            return _plain_question(repair.failure)  # what people forbade is not worked around alone
         try:
             async with self._thinking.about(target, lambda: self._say(target, _THINKING, "info")):
                 return await self._language.resolve(await self._situation(repair, reply, images))

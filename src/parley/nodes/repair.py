@@ -48,6 +48,7 @@ _CODE_WORDS: Final[dict[FailureCode, str]] = {
     FailureCode.ATTENTION: "see, find, notice, problem, danger",
     FailureCode.DECLINED: "say no, refuse",
     FailureCode.NOT_UNDERSTOOD: "not understand",
+    FailureCode.FORBIDDEN: "not allowed, forbidden, must not",
     FailureCode.HARDWARE: "broken, does not work, fails",
     FailureCode.INTERNAL: "error, goes wrong, fails",
 }

@@ -50,7 +50,7 @@ class Situations:
         objects: Callable[[str], Sequence[MapObject]],
         history_exchanges: int,
     ) -> None:
-        self._transport, self._presence, self._objects = transport, presence, objects
+        self._transport, self._presence, self.objects = transport, presence, objects
         self._history_exchanges = history_exchanges
         self.plans: dict[str, PlanUpdate] = {}
         self.questions = OpenQuestions()
@@ -112,7 +112,7 @@ class Situations:
         if sees_pictures:
             known = await remembered_pictures(self._transport, memory, target)
             pictures += tuple(each for each in known if each.jpeg not in [sent.jpeg for sent in pictures])
-        objects, failure = tuple(self._objects(target)), self._failures.get(target)
+        objects, failure = tuple(self.objects(target)), self._failures.get(target)
         status, plan, asked = (
             self._presence.get(target),
             self.plans.get(target),

@@ -14,6 +14,7 @@ import structlog
 
 from parley.clock import Clock
 from parley.errors import ActionFailure, FailureCode
+from parley.gate.fence import Fence
 from parley.robots.base import LaserScan, NavigationControl, Velocity
 from parley.robots.dynamic_window import DriveLimits, choose_velocity
 from parley.robots.obstacles import ObservedObstacles, scan_points
@@ -85,8 +86,10 @@ class Navigator:
         clock: Clock,
         control: NavigationControl,
         timeout_s: float,
+        fence: Fence | None = None,
     ) -> None:
         """Nothing moves until `drive_to`; the time in which the robot is held does not count as time-out."""
+        self._fence = fence
         self._vehicle, self._map, self._clock, self._control = vehicle, occupancy, clock, control
         self._limits, self._timeout_s = limits, timeout_s
         self._seen = ObservedObstacles(occupancy)
@@ -127,15 +130,13 @@ class Navigator:
         """Plan around what was seen; without a way, stand and look again for a while before giving up."""
         waited_s = 0.0
         while True:
+            if self._fence is not None and (said := self._fence.why_closed(goal)):
+                raise ActionFailure(FailureCode.FORBIDDEN, said, {"goal": _xy(goal.x_m, goal.y_m)})
             try:
                 return await self._plan(goal)
             except NoPathError as error:
                 if error.at is None:
-                    raise ActionFailure(
-                        FailureCode.UNREACHABLE,
-                        f"I know no way to ({goal.x_m:.1f}, {goal.y_m:.1f}) on my map.",
-                        {"goal": _xy(goal.x_m, goal.y_m)},
-                    ) from error
+                    raise await self._no_way(goal) from error
                 if waited_s >= _LOOK_AGAIN_S:
                     raise self._blocked(*error.at) from error
             self._vehicle.drive(Velocity())
@@ -146,16 +147,28 @@ class Navigator:
     async def _plan(self, goal: Pose2D) -> Path:
         radius_m = self._vehicle.radius_m + _PLAN_MARGIN_M
         start, seen = self._vehicle.pose(), self._seen.points_m
+        grid = self._fence.walls(self._map, start) if self._fence is not None else self._map
         with self._clock.hold():
-            return await asyncio.to_thread(
-                plan_path, self._map, start, goal, radius_m=radius_m, obstacles=seen
-            )
+            return await asyncio.to_thread(plan_path, grid, start, goal, radius_m=radius_m, obstacles=seen)
+
+    async def _no_way(self, goal: Pose2D) -> ActionFailure:
+        """Why the map has no way: because of the rules, or without them too."""
+        at = {"goal": _xy(goal.x_m, goal.y_m)}
+        if self._fence is not None:
+            start, radius_m = self._vehicle.pose(), self._vehicle.radius_m + _PLAN_MARGIN_M
+            with self._clock.hold():
+                said = await asyncio.to_thread(self._fence.why_no_way, self._map, start, goal, radius_m)
+            if said:
+                return ActionFailure(FailureCode.FORBIDDEN, said, at)
+        text = f"I know no way to ({goal.x_m:.1f}, {goal.y_m:.1f}) on my map."
+        return ActionFailure(FailureCode.UNREACHABLE, text, at)
 
     async def _follow(self, path: Path) -> bool:
         """Follow a path to its end; False as soon as a new path should be made."""
         self._path, self._index = path, 0
         began_s = told_s = self._driven_s
         seen_before = len(self._seen)
+        fenced = self._fence.closed_now if self._fence is not None else ()
         end_x, end_y = (float(value) for value in path.points_m[-1])
         while True:
             pose, scan = self._vehicle.pose(), self._vehicle.scan()
@@ -170,6 +183,8 @@ class Navigator:
                 self._control.on_progress(path.remaining_m(index))
             self._vehicle.drive(self._steer(path, index, pose, scan))
             held = await self._pass_time()
+            if self._fence is not None and self._fence.closed_now != fenced:
+                return False
             news = len(self._seen) != seen_before
             if held or (self._driven_s - began_s >= _REPLAN_S and (news or self._strayed(path, index))):
                 return False

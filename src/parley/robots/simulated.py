@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from parley.errors import ActionFailure, FailureCode
+from parley.gate.fence import Fence
 from parley.robots.base import CameraImage, Detection, LaserScan, NavigationControl, Velocity
 from parley.robots.dynamic_window import DriveLimits
 from parley.robots.navigator import Navigator
@@ -16,18 +17,24 @@ __all__ = ["SimulatedRobot"]
 class SimulatedRobot:
     """Drives one robot of a `Simulator`; implements `parley.robots.base.Robot`."""
 
-    def __init__(self, simulator: Simulator, name: str, occupancy: OccupancyMap) -> None:
+    def __init__(
+        self, simulator: Simulator, name: str, occupancy: OccupancyMap, fence: Fence | None = None
+    ) -> None:
         """Take hold of a robot.
 
         Args:
             simulator: The world it is in.
             name: Its name in the world file.
             occupancy: The map it plans on.
+            fence: Where it must not go and how fast it may be, whoever commands it.
         """
         self.name = name
         self._simulator, self._map = simulator, occupancy
         self._model = simulator.model(name)
         self._navigator: Navigator | None = None
+        self._fence = fence
+        if fence is not None:
+            simulator.set_guard(name, fence.limit)
 
     @property
     def capabilities(self) -> frozenset[str]:
@@ -101,7 +108,9 @@ class SimulatedRobot:
             model.max_turn_acceleration_radps2,
             Navigator.keep_out_m(model.radius_m),
         )
-        self._navigator = Navigator(self, limits, self._map, self._simulator.clock, control, timeout_s)
+        self._navigator = Navigator(
+            self, limits, self._map, self._simulator.clock, control, timeout_s, self._fence
+        )
         try:
             return await self._navigator.drive_to(goal)
         finally:

@@ -32,7 +32,7 @@ from parley.sim.world_file import WorldChanges, WorldFile
 from parley.world.geometry import Pose2D, wrap_angle
 from parley.world.occupancy import OccupancyMap
 
-__all__ = ["BATCH_S", "Photograph", "Simulator"]
+__all__ = ["BATCH_S", "Guard", "Photograph", "Simulator"]
 
 log = structlog.get_logger(__name__)
 
@@ -49,6 +49,10 @@ _ROUNDS = 10
 # So far behind its pace it makes up for lost time (a held clock, a busy machine); what is more is let go.
 _MAX_LAG_S = 0.5
 _REST_MPS = 1e-3
+
+
+Guard = Callable[[Pose2D, tuple[float, float], tuple[float, float]], tuple[float, float]]
+"""What may become of a command: gets the pose, the measured and the commanded speed and turning rate."""
 
 
 @dataclass(frozen=True, slots=True, eq=False)
@@ -72,6 +76,7 @@ class _Base:
     command: tuple[float, float] = (0.0, 0.0)
     commanded_at_s: float = 0.0
     stopped: bool = False
+    guard: Guard | None = None
     last_sweep: Sweep | None = None
 
     @property
@@ -192,6 +197,10 @@ class Simulator:
         base.command = (0.0, 0.0)
         if not stopped:
             self._wake()
+
+    def set_guard(self, robot: str, guard: Guard) -> None:
+        """Let `guard` have the last word on every command, at each step of the world, whoever commands."""
+        self._bases[robot].guard = guard
 
     def stopped(self, robot: str) -> bool:
         """Whether the robot's drive is held."""
@@ -351,7 +360,7 @@ class Simulator:
                 if expired:
                     base.command = (0.0, 0.0)
                 brakes = expired or base.stopped
-                forward, turn = (0.0, 0.0) if brakes else base.command
+                forward, turn = (0.0, 0.0) if brakes else self._guarded(base)
                 self._data.ctrl[base.slots] = forward, 0.0, turn
                 self._model.actuator_forcerange[base.slots] = self._forces[base.slots] * (
                     BRAKING if brakes else 1.0
@@ -385,6 +394,12 @@ class Simulator:
             loop.call_soon_threadsafe(self._clock.wanted.set)
         else:
             self._clock.wanted.set()
+
+    def _guarded(self, base: _Base) -> tuple[float, float]:
+        if base.guard is None or base.command == (0.0, 0.0):
+            return base.command
+        name = base.entry.name
+        return base.guard(self.pose(name), self.velocity(name), base.command)
 
 
 def _pose(joints: NDArray[np.float64]) -> Pose2D:

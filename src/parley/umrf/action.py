@@ -2,7 +2,7 @@
 
 ::
 
-    @action(phrases=("wave at {target}",), effects=("moves",), risk="low")
+    @action(phrases=("wave at {target}",), effects=("moves",))
     async def wave_at(ctx: ActionContext, target: str) -> Waved:
         '''Wave at somebody (google style; an ``Args`` section describes the parameters).'''
 
@@ -52,7 +52,8 @@ __all__ = ["Action", "ActionSpec", "Outcome", "RunHandle", "action", "bind_input
 P = ParamSpec("P")
 R = TypeVar("R")
 
-Risk = Literal["none", "low", "high"]
+Risk = Literal["none", "low", "high", ""]
+"""What authors said before effects told it; empty: nothing. See `parley.gate.risk`."""
 
 
 class RunHandle(Protocol):
@@ -117,7 +118,7 @@ class ActionSpec:
     """What people read that it does, with ``{parameters}``; ``{place}`` stands for a pose."""
     phrases: tuple[str, ...] = ()
     effects: tuple[str, ...] = ()
-    risk: Risk = "low"
+    risk: Risk = ""
     capabilities: tuple[str, ...] = ()
     """What the robot must have; without it the action is refused before anything runs."""
     examples: tuple[str, ...] = ()
@@ -172,7 +173,7 @@ def action(
     label: str = "",
     phrases: tuple[str, ...] = (),
     effects: tuple[str, ...] = (),
-    risk: Risk = "low",
+    risk: Risk = "",
     capabilities: tuple[str, ...] = (),
     examples: tuple[str, ...] = (),
     duration_s: float | None = None,

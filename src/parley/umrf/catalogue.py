@@ -123,7 +123,7 @@ class Catalogue:
         """What others are told about the actions, in the order they were given, then about the graphs."""
         if not self._told:
             graphs = (spec for name in self._graphs if (spec := self._graph_spec(name)) is not None)
-            self._told.append(tuple(_info(spec) for spec in (*self, *graphs)))
+            self._told.append(tuple(info_of(spec) for spec in (*self, *graphs)))
         return self._told[0]
 
     def suggestions(self, name: str) -> list[str]:
@@ -170,7 +170,8 @@ def _read(file: Path) -> list[ActionSpec]:
         return []
 
 
-def _info(spec: ActionSpec) -> ActionInfo:
+def info_of(spec: ActionSpec) -> ActionInfo:
+    """What language and people need to know about an action."""
     return ActionInfo(
         name=spec.name,
         inputs={name: parameter.type for name, parameter in spec.inputs.items()},

@@ -307,7 +307,7 @@ def write_descriptor(spec: ActionSpec) -> str:
         if parameters:
             written[key] = _parameters(parameters, with_required=True)
     extras = {key: getattr(spec, key) for key in (*_TEXTS, *_TIMES) if getattr(spec, key)}
-    if spec.risk != "low":
+    if spec.risk:
         extras["risk"] = spec.risk
     if spec.label:
         extras["label"] = spec.label

@@ -11,7 +11,7 @@ from dataclasses import dataclass, field
 from typing import Any, Final
 
 from parley.clock import Clock
-from parley.umrf.action import Outcome, RunHandle, bind_inputs, outcome_of
+from parley.umrf.action import ActionSpec, Outcome, RunHandle, bind_inputs, outcome_of
 from parley.umrf.flow import FlowNode
 from parley.umrf.model import Result
 from parley.umrf.motion import Motion
@@ -151,6 +151,16 @@ class NodeRun:
         if self.task.cancelled():
             return asyncio.CancelledError()
         return self.task.exception() or self.task.result()
+
+    @property
+    def spec(self) -> ActionSpec:
+        """What runs."""
+        return self.item.spec
+
+    @property
+    def values(self) -> Mapping[str, Any]:
+        """Its inputs by flat name, as they were when it began."""
+        return self._values
 
     @property
     def inner_name(self) -> str:

@@ -31,6 +31,7 @@ from parley.web.routes import (
     people,
     plans,
     robots,
+    rules,
     session,
     snapshot,
     stop,
@@ -39,7 +40,8 @@ from parley.web.routes import (
 __all__ = ["create_api", "create_app", "openapi_text"]
 
 _RESOURCES = (
-    health, session, me, people, snapshot, chat, stop, plans, robots, memory, incidents, log, map, feeds,
+    health, session, me, people, snapshot, chat, stop, plans, robots, memory, rules, incidents, log, map,
+    feeds,
 )  # fmt: skip
 
 

@@ -40,6 +40,7 @@ __all__ = [
     "ProblemDetail",
     "RobotPost",
     "RobotStop",
+    "RuleTryPost",
     "SessionInfo",
     "SessionPost",
     "StepsPut",
@@ -266,6 +267,17 @@ class ChatPage(WebModel):
     """Oldest first."""
     complete: bool
     """Whether nothing older is left."""
+
+
+class RuleTryPost(WebModel):
+    """A plan to be judged, not driven: steps, then a point, then places in words."""
+
+    robot: Name
+    steps: Annotated[tuple[ActionCall, ...], Field(max_length=200)] = ()
+    goal: tuple[float, float] | None = None
+    """x, y on the map, metres."""
+    words: Annotated[tuple[Annotated[str, StringConstraints(max_length=300)], ...], Field(max_length=20)] = ()
+    language: Literal["en", "et"] = "en"
 
 
 class StopPost(WebModel):

@@ -12,9 +12,11 @@ from parley.messages.principal import Role
 
 __all__ = ["MODULES", "Module", "WebConfig"]
 
-Module = Literal["chat", "plan", "display", "map", "memory", "robots", "incidents", "log"]
+Module = Literal["chat", "plan", "display", "map", "memory", "robots", "rules", "incidents", "log"]
 
-MODULES: tuple[Module, ...] = ("chat", "plan", "display", "map", "memory", "robots", "incidents", "log")
+MODULES: tuple[Module, ...] = (
+    "chat", "plan", "display", "map", "memory", "robots", "rules", "incidents", "log",
+)  # fmt: skip
 """What can be switched off."""
 
 

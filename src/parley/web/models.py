@@ -10,14 +10,17 @@ from typing import Annotated, Any, Literal
 
 from pydantic import BaseModel, ConfigDict, Field
 
+from parley.gate.risk import risk_of
 from parley.messages.attendance import Unattended
 from parley.messages.audit import AuditChain
 from parley.messages.incident import Incident
 from parley.messages.map import MapView
 from parley.messages.principal import Principal
+from parley.messages.rules import RiskClass
 from parley.messages.status import ActionInfo, PoseInfo
 
 __all__ = [
+    "AbilityView",
     "Change",
     "ChatEntry",
     "FeedInfo",
@@ -53,6 +56,18 @@ class StopView(WebModel):
     at_rest_unix_ms: int = 0
 
 
+class AbilityView(ActionInfo):
+    """One action that a robot can do."""
+
+    kind: RiskClass = RiskClass.UNKNOWN
+    """By what it does to the world."""
+
+    @staticmethod
+    def of(info: ActionInfo) -> AbilityView:
+        """What the robot says of it, and its kind."""
+        return AbilityView.model_construct(**dict(info), kind=risk_of(info))
+
+
 class RobotView(WebModel):
     """One robot. Key: `name`."""
 
@@ -70,7 +85,7 @@ class RobotView(WebModel):
     stop: StopView = StopView()
     graphs: dict[str, str] = Field(default_factory=dict)
     """Graph name -> graph state."""
-    catalogue: tuple[ActionInfo, ...] = ()
+    catalogue: tuple[AbilityView, ...] = ()
 
 
 class ChatEntry(WebModel):
@@ -130,7 +145,8 @@ class StepView(WebModel):
     progress_text: str = ""
     message: str = ""
     """Why it failed, in plain words."""
-    risk: Literal["none", "low", "high"] = "low"
+    risk: RiskClass = RiskClass.UNKNOWN
+    """What kind of step it is, by what it does to the world."""
     call: dict[str, Any] = Field(default_factory=dict)
     """The step in Chat Action form, for edits."""
     started_unix_ms: int = 0

@@ -8,6 +8,7 @@ from collections.abc import Callable, Sequence
 from typing import Final, Literal
 
 from parley.messages.chat import ActionCall
+from parley.messages.rules import RiskClass
 from parley.messages.status import GraphEvent, PlanDecision, PlanProposal, PlanUpdate, Rejection
 from parley.umrf.model import Graph
 from parley.web.models import (
@@ -24,7 +25,6 @@ from parley.web.node_state import OVER, GraphTold, NodeTold, StepState, paramete
 
 __all__ = ["PlanBook"]
 
-Risk = Literal["none", "low", "high"]
 PAST_KEPT: Final = 500
 OVER_KEPT: Final = 3
 """How many other graphs of a robot stay listed after they ended."""
@@ -40,7 +40,7 @@ class PlanBook:
         risk_of: The risk of an action of a robot, by robot and action.
     """
 
-    def __init__(self, emit: Callable[[Change], None], risk_of: Callable[[str, str], Risk]) -> None:
+    def __init__(self, emit: Callable[[Change], None], risk_of: Callable[[str, str], RiskClass]) -> None:
         self._emit, self._risk_of = emit, risk_of
         self.views: dict[tuple[str, str], PlanView] = {}
         self.proposals: dict[str, ProposalView] = {}

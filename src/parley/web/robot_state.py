@@ -6,7 +6,7 @@ from collections.abc import Callable, Iterable
 from typing import Final
 
 from parley.messages.status import ActorStatus, PlanUpdate, StopCommand, StopReport
-from parley.web.models import Change, Policy, RobotChange, RobotGone, RobotView, StopView
+from parley.web.models import AbilityView, Change, Policy, RobotChange, RobotGone, RobotView, StopView
 
 __all__ = ["LOST_AFTER_S", "STOP_DEADLINE_S", "RobotBook"]
 
@@ -90,7 +90,7 @@ class RobotBook:
                     "battery": status.battery,
                     "map_name": status.map_name,
                     "graphs": status.graphs,
-                    "catalogue": status.catalogue,
+                    "catalogue": tuple(map(AbilityView.of, status.catalogue)),
                     "stop": self._stop_after(view.stop, status, restarted=restarted, unix_ms=unix_ms),
                 }
             )

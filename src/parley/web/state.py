@@ -3,11 +3,11 @@
 from __future__ import annotations
 
 from collections.abc import Callable, Iterable
-from typing import Literal
 
 from parley.messages.incident import Incident
 from parley.messages.map import MapView
 from parley.messages.memory import MemoryEvent
+from parley.messages.rules import RiskClass
 from parley.messages.status import GraphEvent, PlanProposal, PlanUpdate, Rejection
 from parley.web.changes import ChangeLog
 from parley.web.chat_state import ChatBook
@@ -107,11 +107,11 @@ class WebState:
         self.views.pop(name, None)
         self.robots.remove(name)
 
-    def risk_of(self, robot: str, action: str) -> Literal["none", "low", "high"]:
-        """The risk of an action as the robot's catalogue says."""
+    def risk_of(self, robot: str, action: str) -> RiskClass:
+        """What an action does to the world as the robot's catalogue says."""
         view = self.robots.views.get(robot)
         found = next((item for item in view.catalogue if item.name == action), None) if view else None
-        return found.risk if found is not None else "low"
+        return found.kind if found is not None else RiskClass.UNKNOWN
 
     def snapshot(self, info: ServerInfo) -> Snapshot:
         """Everything as it stands."""

@@ -1,6 +1,7 @@
 import { memo } from 'react';
 
-import type { MapInfo, MapThing, MapView } from '@/live/types';
+import type { MapInfo, MapThing, MapView, Rule } from '@/live/types';
+import { cornersOf, outline } from '@/ui/corners';
 
 import css from './map.module.css';
 import { labelOf, roomForLabels, toScreen, type Place, type Size, type Viewport } from './viewport';
@@ -22,6 +23,8 @@ interface Props {
   /** What is picked out. */
   marked: Place | MapThing | null;
   showScan: boolean;
+  /** Rules that hold for a part of the map. */
+  zones: readonly Rule[];
 }
 
 const ROBOT_M = 0.18;
@@ -29,7 +32,7 @@ const ROBOT_LEAST_PX = 11;
 const LABEL_BELOW_PX = 20;
 
 /** The map as a picture; whoever cannot see it has the list. */
-export const MapDrawing = memo(function MapDrawing({ map, view, size, rovers, marked, showScan }: Props) {
+export const MapDrawing = memo(function MapDrawing({ map, view, size, rovers, marked, showScan, zones }: Props) {
   const { x: left, y: top } = toScreen(view, size, { x: 0, y: 0 });
   const { origin, resolution } = map;
   const turned = ((origin.yaw ?? 0) * 180) / Math.PI;
@@ -55,6 +58,9 @@ export const MapDrawing = memo(function MapDrawing({ map, view, size, rovers, ma
             width={thing.width}
             height={thing.height}
           />
+        ))}
+        {zones.map((zone) => (
+          <polygon key={zone.id} className={css.zone} data-kind={zone.kind} points={outline(cornersOf(zone)).join(' ')} />
         ))}
         {rovers.map((rover) => (
           <Way key={rover.name} rover={rover} showScan={showScan} />

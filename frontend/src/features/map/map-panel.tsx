@@ -1,13 +1,16 @@
 import { useMemo, useState } from 'react';
 import { useTranslation } from 'react-i18next';
 
+import { getRules } from '@/live/api';
 import { useWorld } from '@/live/store';
-import type { MapInfo, MapThing } from '@/live/types';
+import type { MapInfo, MapThing, Rule } from '@/live/types';
 import { useRobotNames, useSelection } from '@/state/selection';
 import { Button } from '@/ui/button';
 import { Choice } from '@/ui/choice';
 import { Empty, Panel } from '@/ui/panel';
+import { useMap, type Shown } from '@/ui/use-map';
 import { useNow } from '@/ui/use-now';
+import { useRequest } from '@/ui/use-request';
 import { ago } from '@/ui/words';
 
 import type { Rover } from './map-drawing';
@@ -15,7 +18,6 @@ import { MapList } from './map-list';
 import { MapStage } from './map-stage';
 import css from './map.module.css';
 import { PlaceBar } from './place-bar';
-import { useMap, type Shown } from './use-map';
 import type { Place } from './viewport';
 
 const AGE_STEP_MS = 1000;
@@ -91,14 +93,28 @@ interface ReadyProps {
 function Ready({ map, mapName, robot, listed, children }: ReadyProps) {
   const [marked, setMarked] = useState<Place | MapThing | null>(null);
   const rovers = useRovers(mapName, robot);
+  const zones = useZones(mapName);
   return (
     <div className={css.layout}>
       {children}
-      <MapStage map={map} rovers={rovers} marked={marked} onMark={setMarked} />
+      <MapStage map={map} rovers={rovers} zones={zones} marked={marked} onMark={setMarked} />
       {listed && <MapList map={map} rovers={rovers} onMark={setMarked} />}
       <PlaceBar marked={marked} onClear={() => setMarked(null)} />
     </div>
   );
+}
+
+const NO_RULES: readonly Rule[] = [];
+
+/** The rules that hold for a part of this map; none where nobody keeps rules. */
+function useZones(mapName: string): readonly Rule[] {
+  const { i18n } = useTranslation();
+  const known = useWorld((world) => world.info?.modules?.rules ?? false);
+  const found = useRequest(known ? `zones\n${mapName}` : '', () => getRules(i18n.language));
+  return useMemo(() => {
+    const rules = found.state === 'ready' ? (found.value.rules ?? []).map((view) => view.rule) : NO_RULES;
+    return rules.filter((rule) => (rule.rectangle ?? rule.polygon) && (!rule.map || rule.map === mapName));
+  }, [found, mapName]);
 }
 
 /** The robots that share a map, the chosen one last, so that it is drawn over the others. */

@@ -2,7 +2,7 @@ import { useMemo, useState } from 'react';
 import { ToggleButton } from 'react-aria-components';
 import { useTranslation } from 'react-i18next';
 
-import type { MapInfo, MapThing } from '@/live/types';
+import type { MapInfo, MapThing, Rule } from '@/live/types';
 import { Button } from '@/ui/button';
 import { Icon, type IconName } from '@/ui/icon';
 
@@ -14,6 +14,7 @@ import { thingAt, type Place } from './viewport';
 interface Props {
   map: MapInfo;
   rovers: readonly Rover[];
+  zones: readonly Rule[];
   marked: Place | MapThing | null;
   onMark: (marked: Place | MapThing) => void;
 }
@@ -22,7 +23,7 @@ const ZOOM_STEP = 1.4;
 const FINGER_PX = 14;
 
 /** The map to look at, move, zoom and point at. */
-export function MapStage({ map, rovers, marked, onMark }: Props) {
+export function MapStage({ map, rovers, zones, marked, onMark }: Props) {
   const { t } = useTranslation('map');
   const [follow, setFollow] = useState(false);
   const [showScan, setShowScan] = useState(false);
@@ -48,7 +49,7 @@ export function MapStage({ map, rovers, marked, onMark }: Props) {
         tabIndex={0}
         {...handlers}
       >
-        <MapDrawing map={map} view={view} size={size} rovers={rovers} marked={marked} showScan={showScan} />
+        <MapDrawing map={map} view={view} size={size} rovers={rovers} marked={marked} showScan={showScan} zones={zones} />
         <span className={css.cross}>
           <Icon name="target" size={28} />
         </span>

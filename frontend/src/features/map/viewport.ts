@@ -1,15 +1,12 @@
 /** What part of a map is on the screen. Plain functions; metres in the map, pixels on the screen. */
 import type { MapInfo, MapThing } from '@/live/types';
+import { bounds, type Place } from '@/ui/map-bounds';
+
+export { bounds, type Place };
 
 export interface Size {
   width: number;
   height: number;
-}
-
-export interface Place {
-  /** Map frame, metres. */
-  x: number;
-  y: number;
 }
 
 export interface Viewport {
@@ -21,25 +18,6 @@ export interface Viewport {
 
 const MARGIN_PX = 12;
 const MAX_SCALE = 400;
-
-/** Corners of the map's picture in the map frame. */
-export function bounds(map: MapInfo): { from: Place; to: Place } {
-  const wide = map.width * map.resolution;
-  const high = map.height * map.resolution;
-  const yaw = map.origin.yaw ?? 0;
-  const corners = [
-    [0, 0],
-    [wide, 0],
-    [0, high],
-    [wide, high],
-  ].map(([x = 0, y = 0]) => ({
-    x: map.origin.x + x * Math.cos(yaw) - y * Math.sin(yaw),
-    y: map.origin.y + x * Math.sin(yaw) + y * Math.cos(yaw),
-  }));
-  const xs = corners.map((corner) => corner.x);
-  const ys = corners.map((corner) => corner.y);
-  return { from: { x: Math.min(...xs), y: Math.min(...ys) }, to: { x: Math.max(...xs), y: Math.max(...ys) } };
-}
 
 /** The whole map, as large as there is room for. */
 export function fit(map: MapInfo, size: Size): Viewport {

@@ -3,7 +3,7 @@ import type { ServerInfo } from '@/live/types';
 import type { Effect } from '@/state/me';
 
 export const pages = [
-  'chat', 'plan', 'display', 'map', 'memory', 'robots', 'incidents', 'log', 'people', 'settings',
+  'chat', 'plan', 'display', 'map', 'memory', 'robots', 'rules', 'incidents', 'log', 'people', 'settings',
 ] as const;
 
 export type Page = (typeof pages)[number];

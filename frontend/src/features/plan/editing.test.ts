@@ -43,7 +43,7 @@ describe('changing a plan', () => {
 
   it('makes a new step with names in levels', () => {
     const made = newStep(
-      { name: 'GoTo', inputs: { 'pose::position::x': 'number' }, outputs: {}, optional: [], description: '', phrases: [], effects: [], risk: 'low', capabilities: [], examples: [], duration_s: null, timeout_s: null },
+      { name: 'GoTo', inputs: { 'pose::position::x': 'number' }, outputs: {}, optional: [], description: '', label: '', phrases: [], effects: [], risk: 'low', kind: 'moves', capabilities: [], examples: [], duration_s: null, timeout_s: null },
       'n1',
     );
     expect(made.call).toEqual({

@@ -1,5 +1,5 @@
 /** A plan while it is being changed. Plain functions. */
-import type { ActionCall, ActionInfo, ParameterView, StepView } from '@/live/types';
+import type { ActionCall, AbilityView, ParameterView, StepView } from '@/live/types';
 import { inWords } from '@/ui/words';
 
 import { emptyTree, withInput } from './parameters';
@@ -20,7 +20,7 @@ export function toDraft(step: StepView): DraftStep {
 }
 
 /** A new step, its inputs still empty. */
-export function newStep(action: ActionInfo, id: string): DraftStep {
+export function newStep(action: AbilityView, id: string): DraftStep {
   const inputs = Object.entries(action.inputs ?? {}).map(([name, type]) => ({ name, type, value: null }));
   return {
     id,

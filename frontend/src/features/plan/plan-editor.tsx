@@ -3,7 +3,7 @@ import { GridList, useDragAndDrop, type Key } from 'react-aria-components';
 import { useTranslation } from 'react-i18next';
 
 import { useWorld } from '@/live/store';
-import type { ActionCall, ActionInfo } from '@/live/types';
+import type { ActionCall, AbilityView } from '@/live/types';
 import { Button } from '@/ui/button';
 import { Choice } from '@/ui/choice';
 import { inWords } from '@/ui/words';
@@ -26,7 +26,7 @@ interface Removed {
   index: number;
 }
 
-const NO_ACTIONS: readonly ActionInfo[] = [];
+const NO_ACTIONS: readonly AbilityView[] = [];
 
 /** Steps to be put in order, changed, removed and added. */
 export function PlanEditor({ robot, steps: initial, saveLabel, onSave, onCancel }: Props) {

@@ -69,7 +69,7 @@ describe('the plan', () => {
   });
 
   it('says in the words of the robot what a step is, rather than its name', async () => {
-    const action = { name: 'GoTo', description: 'Drive to a place.', inputs: {}, outputs: {}, phrases: [], optional: [], effects: [], risk: 'low' as const, capabilities: [], examples: [], duration_s: null, timeout_s: null };
+    const action = { name: 'GoTo', description: 'Drive to a place.', inputs: {}, outputs: {}, phrases: [], optional: [], effects: [], risk: 'low' as const, kind: 'moves' as const, capabilities: [], examples: [], duration_s: null, timeout_s: null };
     useLive.getState().takeSnapshot(snapshot({ robots: [robot({ name: 'Ada', catalogue: [action] })], plans: [plan({ robot: 'Ada', steps })] }));
     render(<PlanPanel />);
     await userEvent.setup().click(screen.getAllByRole('button', { name: 'Show details' })[0] as HTMLElement);

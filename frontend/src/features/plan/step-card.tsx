@@ -3,6 +3,7 @@ import { useTranslation } from 'react-i18next';
 
 import type { StepState, StepView } from '@/live/types';
 import { Icon, type IconName } from '@/ui/icon';
+import { needsCare } from '@/ui/risk';
 import { inWords, sentence } from '@/ui/words';
 
 import { Details } from './details';
@@ -48,7 +49,7 @@ export function StepCard({ step, number, changed, onRemove = null }: Props) {
           <p className={css.state}>
             <span>{t(`step.${step.state}`)}</span>
             {changed && <span className={css.badge}>{t('changed')}</span>}
-            {step.risk === 'high' && <span className={css.badge}>{t('risky')}</span>}
+            {needsCare(step.risk) && <span className={css.badge}>{t('risky')}</span>}
             <Took step={step} />
           </p>
           <button type="button" className={css.more} aria-expanded={open} onClick={() => setOpen(!open)}>

@@ -1,9 +1,10 @@
 import { useTranslation } from 'react-i18next';
 
-import type { ActionInfo, RobotView } from '@/live/types';
+import type { AbilityView, RobotView } from '@/live/types';
 import { draftKey, useDrafts } from '@/state/drafts';
 import { useSelectionStore } from '@/state/selection';
 import { Button } from '@/ui/button';
+import { needsCare } from '@/ui/risk';
 import { goTo } from '@/ui/use-hash';
 import { inWords, sentence } from '@/ui/words';
 
@@ -27,8 +28,8 @@ export function Abilities({ robot }: { robot: RobotView }) {
   );
 }
 
-function Ability({ action, robot }: { action: ActionInfo; robot: string }) {
-  const { t } = useTranslation('robots');
+function Ability({ action, robot }: { action: AbilityView; robot: string }) {
+  const { t } = useTranslation(['robots', 'plan']);
   const add = useDrafts((state) => state.add);
   const only = useSelectionStore((state) => state.only);
   const phrases = action.phrases.slice(0, PHRASES_SHOWN).map((phrase) => sentence(phrase.replaceAll(/\{\w+\}/g, '…')));
@@ -41,7 +42,7 @@ function Ability({ action, robot }: { action: ActionInfo; robot: string }) {
     <li>
       <p>
         <strong>{action.description || inWords(action.name)}</strong>
-        {action.risk === 'high' && <span className={css.care}>{t('care')}</span>}
+        <span className={needsCare(action.kind) ? css.care : css.kind}>{t(`plan:cares.${action.kind}`)}</span>
       </p>
       {phrases.length > 0 && (
         <p className={css.phrases}>

@@ -5,20 +5,22 @@ import { beforeEach, describe, expect, it, vi } from 'vitest';
 import { network, type Asked } from '@/gallery/network';
 import { plan, robot, snapshot } from '@/live/samples';
 import { useLive } from '@/live/store';
-import type { ActionInfo } from '@/live/types';
+import type { AbilityView } from '@/live/types';
 import { useDrafts } from '@/state/drafts';
 
 import { RobotsPage } from './robots-page';
 
-const looking: ActionInfo = {
+const looking: AbilityView = {
   name: 'LookAt',
   description: 'Look at something.',
+  label: '',
   phrases: ['look at {thing}'],
   inputs: {},
   outputs: {},
   optional: [],
   effects: [],
   risk: 'none',
+  kind: 'looks_and_speaks',
   capabilities: [],
   examples: [],
   duration_s: null,

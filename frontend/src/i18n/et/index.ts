@@ -9,5 +9,6 @@ export { default as menu } from './menu.json';
 export { default as people } from './people.json';
 export { default as plan } from './plan.json';
 export { default as robots } from './robots.json';
+export { default as rules } from './rules.json';
 export { default as session } from './session.json';
 export { default as stop } from './stop.json';

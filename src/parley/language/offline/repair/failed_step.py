@@ -61,6 +61,7 @@ _ASKING: dict[FailureCode, tuple[str, str]] = {
         "I could not understand the answer.",
         "Is it done, or should I go on without it?",
     ),
+    FailureCode.FORBIDDEN: ("A rule forbids this step.", "Should I go on without it?"),
     FailureCode.HARDWARE: ("A part of me does not work.", "Please have a look at me. Should I try again?"),
     FailureCode.INTERNAL: ("Something went wrong inside me.", "Should I try again?"),
     FailureCode.ATTENTION: ("I found something that you should decide about.", "Should I go on?"),

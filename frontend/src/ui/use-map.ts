@@ -4,7 +4,8 @@ import { useEffect } from 'react';
 import { getMap } from '@/live/api';
 import { useLive } from '@/live/store';
 import type { MapInfo } from '@/live/types';
-import { useRequest } from '@/ui/use-request';
+
+import { useRequest } from './use-request';
 
 /** `sinceUnixMs`: since when the map may have changed unseen; 0: it is as it is now. */
 export type Shown =

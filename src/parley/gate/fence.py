@@ -1,0 +1,166 @@
+"""What keeps a drive out of zones and within speed limits while it moves, below every action.
+
+A drive asks `limit` before each command takes effect; whoever plans ways asks `walls`. Both look at the rules
+as they are at that moment.
+"""
+
+from __future__ import annotations
+
+import math
+from typing import Final
+
+import numpy as np
+from numpy.typing import NDArray
+
+from parley.gate.book import RuleBook
+from parley.gate.ways import with_walls
+from parley.gate.wording import hours_text, zone_text
+from parley.messages.rules import Rule
+from parley.sentences import sentence
+from parley.world.geometry import Pose2D
+from parley.world.occupancy import OccupancyMap
+from parley.world.planning import NoPathError, plan_path
+
+__all__ = ["Fence"]
+
+_REACTION_S: Final = 0.12
+"""Until a command has become motion, and until the next one may."""
+_MARGIN_M: Final = 0.02
+_TURN_OUT_M: Final = 0.08
+_SAMPLES: Final = 8
+_SHARES: Final = (1.0, 0.75, 0.5, 0.25, 0.1)
+_STILL_MPS: Final = 1e-3
+_TOLERANCE_M: Final = 1e-9
+"""Of the arithmetic; more would let a robot creep in, step by step."""
+
+
+class Fence:
+    """The fence of one robot.
+
+    Args:
+        book: The rules.
+        robot: Whose.
+        braking_mps2: How fast it can slow down.
+    """
+
+    def __init__(self, book: RuleBook, robot: str, *, braking_mps2: float) -> None:
+        self._book, self._robot, self._braking = book, robot, braking_mps2
+        self._inside: dict[tuple[str, int], float] = {}
+
+    @property
+    def closed_now(self) -> tuple[tuple[str, int], ...]:
+        """What the robot must keep out of now; changes when the rules or the hours do."""
+        return tuple((rule.id, self._book.revision) for rule in self._closed())
+
+    def _closed(self) -> list[Rule]:
+        return [rule for rule in self._book.active(self._robot) if _closes(rule)]
+
+    def walls(self, occupancy: OccupancyMap, start: Pose2D) -> OccupancyMap:
+        """The map with what the robot must keep out of drawn in; from inside, it may find its way out."""
+        shapes = [self._book.shape(rule) for rule in self._closed()]
+        return with_walls(occupancy, shapes, (start.x_m, start.y_m), self._radius_m)
+
+    @property
+    def _radius_m(self) -> float:
+        return self._book.facts(self._robot).radius_m
+
+    def why_closed(self, goal: Pose2D) -> str:
+        """Which rule keeps the robot out of a place, in words; empty if it may be there."""
+        for rule in self._closed():
+            if self._book.shape(rule).distance_to(goal.x_m, goal.y_m) < self._radius_m:
+                return sentence(
+                    "I must not go into {zone}{hours}.", zone=zone_text(rule), hours=hours_text(rule.when)
+                )
+        return ""
+
+    def why_no_way(self, occupancy: OccupancyMap, start: Pose2D, goal: Pose2D, radius_m: float) -> str:
+        """Which rule leaves no way to a goal, in words; empty if there is none without the rules either."""
+        try:
+            way = plan_path(occupancy, start, goal, radius_m=radius_m).points_m
+        except NoPathError:
+            return ""
+        for rule in self._closed():
+            if (self._book.shape(rule).distance_m(way) < radius_m).any():
+                return sentence(
+                    "The only way there leads through {zone}, where I must not go{hours}.",
+                    zone=zone_text(rule),
+                    hours=hours_text(rule.when),
+                )
+        return ""
+
+    def limit(
+        self, pose: Pose2D, measured: tuple[float, float], command: tuple[float, float]
+    ) -> tuple[float, float]:
+        """What of a command may take effect.
+
+        Args:
+            pose: Where the robot is.
+            measured: Its speed (m/s, forward) and turning rate (rad/s) as they are.
+            command: Those that are commanded.
+
+        Returns:
+            The same, slower, or turning on the spot: a round robot always may.
+        """
+        speed, turn = command
+        rules = [
+            rule for rule in self._book.active(self._robot) if rule.kind in ("keep_out", "slow", "speed")
+        ]
+        if not rules or abs(speed) < _STILL_MPS:
+            return command
+        speed = math.copysign(min(abs(speed), self._fastest(rules, pose, measured, command)), speed)
+        closed = [(self._book.shape(rule), self._nearest_m(rule, pose)) for rule in rules if _closes(rule)]
+        for share in _SHARES:
+            points = self._points_ahead(pose, measured, (share * speed, turn))
+            if all((shape.distance_m(points) >= keep_m).all() for shape, keep_m in closed):
+                return share * speed, turn
+        return 0.0, turn
+
+    def _fastest(
+        self, rules: list[Rule], pose: Pose2D, measured: tuple[float, float], command: tuple[float, float]
+    ) -> float:
+        """The least of the speeds allowed where it is and where it will be before it could stand."""
+        points = self._points_ahead(pose, measured, command)
+        fastest = math.inf
+        for rule in rules:
+            if rule.max_speed_mps is None:
+                continue
+            near = rule.kind == "speed" or (
+                (self._book.shape(rule).distance_m(points) < self._radius_m + _MARGIN_M).any()
+            )
+            if near:
+                fastest = min(fastest, rule.max_speed_mps)
+        return fastest
+
+    def _points_ahead(
+        self, pose: Pose2D, measured: tuple[float, float], command: tuple[float, float]
+    ) -> NDArray[np.float64]:
+        """Where the robot may be until it stands, if it is told to stop after this; shape (n, 2)."""
+        speed, turn = command
+        now = measured[0] if measured[0] * speed > 0 else 0.0
+        fastest = max(abs(speed), abs(now))
+        reach = fastest * _REACTION_S + fastest**2 / (2.0 * self._braking)
+        along = np.linspace(0.0, reach, _SAMPLES + 1)
+        bends = np.array([0.0, turn / fastest, measured[1] / fastest])
+        half = bends[:, None] * along / 2.0
+        chord = along * np.sinc(half / math.pi) * math.copysign(1.0, speed)
+        heading = pose.yaw_rad + half * math.copysign(1.0, speed)
+        x, y = pose.x_m + chord * np.cos(heading), pose.y_m + chord * np.sin(heading)
+        return np.stack([x.ravel(), y.ravel()], axis=1)
+
+    def _nearest_m(self, rule: Rule, pose: Pose2D) -> float:
+        """How near its middle may come to a zone's border, negative inside.
+
+        Who stands inside already may leave: never deeper than it was by more than it takes to turn out, and
+        the farther out it is, the less.
+        """
+        key, now_m = (rule.id, self._book.revision), self._book.shape(rule).distance_to(pose.x_m, pose.y_m)
+        if now_m >= self._radius_m:
+            self._inside.pop(key, None)
+            return min(self._radius_m + _MARGIN_M, now_m) - _TOLERANCE_M
+        deepest = max(self._inside.get(key, -math.inf), now_m - self._radius_m - _TURN_OUT_M)
+        self._inside[key] = deepest
+        return deepest
+
+
+def _closes(rule: Rule) -> bool:
+    return rule.kind == "keep_out"

@@ -1,0 +1,236 @@
+"""Talking about rules: told, asked about, dropped; each change counts after a person's yes."""
+
+from __future__ import annotations
+
+import re
+import uuid
+from collections.abc import Sequence
+from dataclasses import dataclass, replace
+from typing import Final
+
+from parley.errors import ConfigError
+from parley.gate.book import RuleBook
+from parley.gate.rules import RuleKeeper
+from parley.gate.table import Effect, verdict
+from parley.gate.told import DraftRule, NotUnderstood, told_rule
+from parley.gate.wording import rule_text
+from parley.messages.principal import Principal
+from parley.messages.rules import Rule
+from parley.messages.status import ActionInfo
+from parley.sentences import in_language, sentence, together
+from parley.world.object_map import MapObject
+
+__all__ = ["RuleConfirmations", "RuleReply", "RuleTalk"]
+
+_KEPT: Final = 100
+_YES: Final = frozenset({"yes", "y", "ok", "okay", "sure", "yes please", "jah", "ja", "jaa", "olgu"})
+_NO: Final = frozenset({"no", "n", "nope", "no thanks", "never mind", "ei", "ära"})
+_LIST: Final = re.compile(
+    r"^(?:what|which)(?: are the| are your)? rules(?: are there| hold| do you have| are in force)?$"
+    r"|^(?:list|show|tell)(?: me)?(?: all)?(?: the| your)? rules$"
+    r"|^(?:mis|millised) reeglid(?: on| kehtivad| sul on)?$"
+)
+_DROP: Final = re.compile(
+    r"^(?:please )?(?:drop|delete|remove|forget|lift|cancel) the rules?"
+    r"(?: (?:about|on|for|that) (?P<about>.+))?$"
+    r"|^(?:palun )?(?:kustuta|tühista|unusta) reegel(?: (?P<kohta>.+?)(?: kohta)?)?$"
+)
+
+
+@dataclass(frozen=True, slots=True)
+class RuleReply:
+    """What is said to the person."""
+
+    text: str
+    id: str = ""
+    """Of a question; empty: nothing is asked."""
+    choices: tuple[str, ...] = ()
+    closes: str = ""
+    """The question that is settled by it."""
+
+
+@dataclass(frozen=True, slots=True)
+class _Pending:
+    """A change that waits for a yes: what each choice would put in force, None to drop `drops`."""
+
+    choices: tuple[tuple[str, Rule], ...]
+    drops: bool = False
+
+
+class RuleConfirmations:
+    """Changes of rules that wait for a person's yes, by the question about them."""
+
+    def __init__(self) -> None:
+        self._waiting: dict[str, _Pending] = {}
+
+    def asked(self, question: str) -> bool:
+        """Whether this question is one of ours."""
+        return question in self._waiting
+
+    def put(self, text: str, rules: Sequence[Rule], *, drops: bool = False) -> RuleReply:
+        """Ask about a change; the first of `rules` is meant by a plain yes if it is the only one."""
+        labels = [sentence("yes") if len(rules) == 1 else rule_text(rule) for rule in rules]
+        return self._asked(text, _Pending(tuple(zip(labels, rules, strict=True)), drops))
+
+    def again(self, question: str) -> RuleReply:
+        """Ask once more what was not answered clearly."""
+        text = sentence("Please answer with one of the choices, or with no.")
+        return replace(self._asked(text, self._waiting.pop(question)), closes=question)
+
+    def _asked(self, text: str, pending: _Pending) -> RuleReply:
+        question = uuid.uuid4().hex
+        self._waiting[question] = pending
+        while len(self._waiting) > _KEPT:
+            del self._waiting[next(iter(self._waiting))]
+        return RuleReply(text, question, (*(label for label, _ in pending.choices), sentence("no")))
+
+    def answered(self, question: str, text: str) -> tuple[Rule | None, bool] | None:
+        """The rule that was said yes to (None after a no), and whether it is to be dropped; None: unclear."""
+        pending, said = self._waiting.get(question), _plain(text)
+        if pending is None:
+            return None
+        chosen = next((rule for label, rule in pending.choices if said in _forms(label)), None)
+        if chosen is None and said.isdigit() and 0 < int(said) <= len(pending.choices):
+            chosen = pending.choices[int(said) - 1][1]
+        if chosen is None and said in _YES and len(pending.choices) == 1:
+            chosen = pending.choices[0][1]
+        if chosen is None and said not in _NO:
+            return None
+        del self._waiting[question]
+        return chosen, pending.drops
+
+
+def _plain(text: str) -> str:
+    return re.sub(r"\s+", " ", text).casefold().strip(" .!")
+
+
+def _forms(label: str) -> set[str]:
+    return {_plain(in_language(label, language)) for language in ("en", "et")}
+
+
+class RuleTalk:
+    """What the chat asks about rules before any language engine sees a message.
+
+    Args:
+        book: The rules in force.
+        keeper: Where they are kept.
+    """
+
+    def __init__(self, book: RuleBook, keeper: RuleKeeper) -> None:
+        self._book, self._keeper = book, keeper
+        self._confirmations = RuleConfirmations()
+
+    def asked(self, question: str) -> bool:
+        """Whether this question is one of ours."""
+        return self._confirmations.asked(question)
+
+    async def reply(
+        self,
+        text: str,
+        by: Principal,
+        *,
+        robot: str,
+        robots: Sequence[str],
+        places: Sequence[MapObject],
+        catalogue: Sequence[ActionInfo],
+        answers: str = "",
+    ) -> RuleReply | None:
+        """What to say to a message that is about rules; None for every other message.
+
+        Args:
+            text: What was said.
+            by: Who says it.
+            robot: Who is spoken to.
+            robots: All robots.
+            places: What is on the map.
+            catalogue: What the robot can do.
+            answers: The question that it answers, if it does.
+        """
+        if answers and self.asked(answers):
+            return await self._answer(answers, text, by)
+        said = _plain(text).rstrip("?")
+        if _LIST.match(said):
+            return RuleReply(self._listed())
+        if found := _DROP.match(said):
+            return self._drop(found["about"] or found["kohta"] or "", by)
+        told = told_rule(
+            text, places=places, catalogue=catalogue, robots=robots, robot=robot, zones=self._book.rules.rules
+        )
+        if told is None:
+            return None
+        if not _may(by):
+            return RuleReply(sentence("You may not change rules."))
+        if isinstance(told, NotUnderstood):
+            return RuleReply(told.sentence)
+        return self._proposed(told)
+
+    def _proposed(self, told: DraftRule) -> RuleReply:
+        shown = together(
+            sentence("I understand this as a rule: {rule}", rule=rule_text(told.rule)),
+            _area_text(told.rule),
+            sentence("Shall it hold from now on?"),
+        )
+        return self._confirmations.put(shown, (told.rule, *told.others))
+
+    def _listed(self) -> str:
+        rules = self._book.rules.rules
+        if not rules:
+            return sentence("There are no rules.")
+        return together(*(rule_text(rule) for rule in rules))
+
+    def _drop(self, about: str, by: Principal) -> RuleReply:
+        if not _may(by):
+            return RuleReply(sentence("You may not change rules."))
+        words = {word for word in re.findall(r"\w+", about) if word not in ("the", "a", "an")}
+        fitting = [rule for rule in self._book.rules.rules if words <= _words(rule)]
+        if not fitting:
+            return RuleReply(sentence("There is no such rule."))
+        if len(fitting) > 1:
+            return self._confirmations.put(sentence("Which rule shall be dropped?"), fitting, drops=True)
+        text = sentence("Shall I drop this rule: {rule}", rule=rule_text(fitting[0]))
+        return self._confirmations.put(text, fitting, drops=True)
+
+    async def _answer(self, question: str, text: str, by: Principal) -> RuleReply:
+        if not _may(by):
+            return RuleReply(sentence("You may not change rules."))
+        answered = self._confirmations.answered(question, text)
+        if answered is None:
+            return self._confirmations.again(question)
+        rule, drops = answered
+        if rule is None:
+            return RuleReply(sentence("All right, the rules stay as they are."), closes=question)
+        try:
+            if drops:
+                await self._keeper.drop(rule.id)
+                return RuleReply(sentence("The rule does not hold any more."), closes=question)
+            await self._keeper.put(rule.model_copy(update={"by": by.name}))
+        except ConfigError as error:
+            said = sentence("I could not keep that: {reason}.", reason=str(error))
+            return RuleReply(said, closes=question)
+        return RuleReply(
+            sentence("The rule holds from now on: {rule}", rule=rule_text(rule)), closes=question
+        )
+
+
+def _may(by: Principal) -> bool:
+    return by.is_person and verdict(by, Effect.RULE) == "allow"
+
+
+def _words(rule: Rule) -> set[str]:
+    """By which words people may call a rule."""
+    texts = (rule.name, rule.words, rule.id, *rule.robots, *rule.actions, rule_text(rule))
+    return {word.casefold() for text in texts for word in re.findall(r"[^\W_]+", text)}
+
+
+def _area_text(rule: Rule) -> str:
+    """Where a zone lies on the map, for a person who has no map before them."""
+    if not rule.corners:
+        return ""
+    xs, ys = [x for x, _ in rule.corners], [y for _, y in rule.corners]
+    return sentence(
+        "On the map it reaches from ({west}, {south}) to ({east}, {north}) metres.",
+        west=f"{min(xs):g}",
+        south=f"{min(ys):g}",
+        east=f"{max(xs):g}",
+        north=f"{max(ys):g}",
+    )

@@ -1,0 +1,75 @@
+"""`/parley/rules`: what the page and the terminal ask whoever keeps the rules."""
+
+from __future__ import annotations
+
+from typing import Literal
+
+from parley.messages.base import Payload
+from parley.messages.chat import ActionCall
+from parley.messages.principal import Principal
+from parley.messages.rules import Point, Rule
+
+__all__ = ["RuleFinding", "RuleRequest", "RuleVerdict", "RuleView", "RulesAnswer"]
+
+
+class RuleRequest(Payload):
+    """Request of `/parley/rules`."""
+
+    what: Literal["list", "put", "drop", "try"] = "list"
+    rule: Rule | None = None
+    """For `put`."""
+    id: str = ""
+    """For `drop`."""
+    robot: str = ""
+    """For `try`."""
+    words: tuple[str, ...] = ()
+    """For `try`: places in people's words, one after the other; `steps` and `goal` come before them."""
+    steps: tuple[ActionCall, ...] = ()
+    """For `try`: a plan."""
+    goal: Point | None = None
+    """For `try`: a point to drive to."""
+    language: Literal["en", "et"] = "en"
+    """Of what is told in words."""
+    by: Principal | None = None
+    """Who changes rules; `try` counts for them."""
+
+
+class RuleView(Payload):
+    """One rule, in words too."""
+
+    rule: Rule
+    text: str
+    holds_now: bool = True
+
+
+class RuleFinding(Payload):
+    """What one rule says about a plan."""
+
+    step: int
+    rule: str = ""
+    code: str
+    text: str
+
+
+class RuleVerdict(Payload):
+    """What all rules say about a plan that was tried and not driven."""
+
+    forbidden: tuple[RuleFinding, ...] = ()
+    ask: tuple[RuleFinding, ...] = ()
+    risky: tuple[RuleFinding, ...] = ()
+    length_m: float = 0.0
+    expected_s: float = 0.0
+    way: tuple[Point, ...] = ()
+    unknown: tuple[str, ...] = ()
+    """Words with which no single place is meant."""
+
+
+class RulesAnswer(Payload):
+    """Response of `/parley/rules`."""
+
+    rules: tuple[RuleView, ...] = ()
+    verdict: RuleVerdict | None = None
+    problem: str = ""
+    """Why nothing was done, in plain words; empty if it was."""
+    file: str = ""
+    """Name of the file in which they are kept; empty if they hold only while the system runs."""

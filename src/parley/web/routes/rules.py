@@ -1,0 +1,77 @@
+"""Rules: which there are, changing them, and trying a plan against them without driving."""
+
+from __future__ import annotations
+
+from typing import Annotated, Literal
+
+from fastapi import APIRouter, Path
+
+from parley.errors import UnavailableError
+from parley.gate.table import Effect
+from parley.messages import topics
+from parley.messages.rule_requests import RuleRequest, RulesAnswer, RuleVerdict
+from parley.messages.rules import Rule
+from parley.web.backend import Backend
+from parley.web.bodies import RuleTryPost
+from parley.web.problems import WebProblem
+from parley.web.routes.access import Web, Who, may, module
+
+__all__ = ["router"]
+
+router = APIRouter(prefix="/rules", tags=["rules"], dependencies=[module("rules")])
+
+RuleId = Annotated[str, Path(max_length=64)]
+Language = Literal["en", "et"]
+
+
+async def _ask(web: Backend, request: RuleRequest) -> RulesAnswer:
+    """Ask whoever keeps the rules.
+
+    Raises:
+        WebProblem: They refuse, or are not there.
+    """
+    try:
+        answer = await web.link.ask(topics.RULES, request, RulesAnswer)
+    except UnavailableError as error:
+        raise WebProblem(503, "Nobody keeps rules here.", "Start a system that does.") from error
+    if answer.problem:
+        raise WebProblem(409, answer.problem)
+    return answer
+
+
+@router.get("", dependencies=[may(Effect.SEE)])
+async def get_rules(web: Web, language: Language = "en") -> RulesAnswer:
+    """All rules, each in words."""
+    return await _ask(web, RuleRequest(language=language))
+
+
+@router.put("/{rule_id}", dependencies=[may(Effect.RULE)])
+async def put_rule(rule_id: RuleId, rule: Rule, web: Web, who: Who, language: Language = "en") -> RulesAnswer:
+    """Add a rule or replace the one of that id."""
+    if rule.id != rule_id:
+        raise WebProblem(422, "The rule has another id than the address says.", path="id")
+    return await _ask(web, RuleRequest(what="put", rule=rule, by=who.by, language=language))
+
+
+@router.delete("/{rule_id}", dependencies=[may(Effect.RULE)])
+async def delete_rule(rule_id: RuleId, web: Web, who: Who, language: Language = "en") -> RulesAnswer:
+    """Drop a rule."""
+    return await _ask(web, RuleRequest(what="drop", id=rule_id, by=who.by, language=language))
+
+
+@router.post("/try", dependencies=[may(Effect.SEE)])
+async def try_rules(post: RuleTryPost, web: Web, who: Who) -> RuleVerdict:
+    """What the rules say about a plan on this person's account; nothing moves."""
+    name = web.robot(post.robot).name
+    request = RuleRequest(
+        what="try",
+        robot=name,
+        steps=post.steps,
+        goal=post.goal,
+        words=post.words,
+        language=post.language,
+        by=who.by,
+    )
+    answer = await _ask(web, request)
+    assert answer.verdict is not None
+    return answer.verdict

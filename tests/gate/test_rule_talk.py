@@ -1,0 +1,81 @@
+"""Who may tell rules: people by their own words, and nobody else."""
+
+from __future__ import annotations
+
+import pytest
+
+from parley.clock import SimClock
+from parley.gate.book import RuleBook
+from parley.gate.rule_talk import RuleReply, RuleTalk
+from parley.gate.rules import RuleKeeper
+from parley.messages.principal import Principal, person
+from parley.messages.rules import Rule
+
+KIM = person("Kim")
+
+
+class Talk:
+    def __init__(self) -> None:
+        self.book = RuleBook(SimClock())
+        self.keeper = RuleKeeper(self.book)
+        self._talk = RuleTalk(self.book, self.keeper)
+
+    async def say(self, text: str, by: Principal = KIM, answers: str = "") -> RuleReply | None:
+        return await self._talk.reply(
+            text, by, robot="Ada", robots=("Ada",), places=(), catalogue=(), answers=answers
+        )
+
+    @property
+    def held(self) -> list[str]:
+        return [rule.id for rule in self.book.rules.rules]
+
+
+@pytest.mark.parametrize(
+    "by",
+    [Principal(), Principal(kind="engine", name="m"), Principal(kind="rule"), person("Bo", role="viewer")],
+)
+async def test_a_rule_of_anybody_else_never_holds(by: Principal) -> None:
+    talk = Talk()
+    refused = await talk.say("nobody may drive at night", by)
+    assert refused is not None and (refused.id, refused.text) == ("", "You may not change rules.")
+    asked = await talk.say("nobody may drive at night")
+    assert asked is not None and asked.id
+    for answer in ("yes", "1", asked.choices[0]):
+        await talk.say(answer, by, asked.id)
+        assert talk.held == []
+    await talk.say("yes", answers=asked.id)
+    assert talk.held == ["action"]
+    await talk.say("drop the rule", by)
+    assert talk.held == ["action"]
+
+
+@pytest.mark.parametrize(
+    ("answer", "held"), [("Jah!", ["action"]), ("ei", []), ("1", ["action"]), ("No.", [])]
+)
+async def test_yes_and_no_in_both_languages(answer: str, held: list[str]) -> None:
+    talk = Talk()
+    asked = await talk.say("keegi ei tohi sõita öösel")
+    assert asked is not None
+    done = await talk.say(answer, answers=asked.id)
+    assert done is not None and done.closes == asked.id
+    assert talk.held == held
+    assert await talk.say("yes", answers=asked.id) is None, "a question is answered once"
+    assert talk.held == held
+
+
+async def test_of_several_rules_the_one_that_is_chosen_is_dropped() -> None:
+    talk = Talk()
+    for name in ("north ward", "south ward"):
+        await talk.keeper.put(
+            Rule(id=name.replace(" ", "-"), kind="keep_out", name=name, rectangle=(0, 0, 1, 1))
+        )
+    which = await talk.say("drop the rule about the ward")
+    assert which is not None and len(which.choices) == 3
+    await talk.say(which.choices[1], answers=which.id)
+    assert talk.held == ["north-ward"]
+    one = await talk.say("kustuta reegel north ward kohta")
+    assert one is not None
+    await talk.say("jah", answers=one.id)
+    assert talk.held == []
+    nothing = await talk.say("drop the rule about the cellar")
+    assert nothing is not None and nothing.text == "There is no such rule."

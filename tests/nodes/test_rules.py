@@ -1,0 +1,161 @@
+"""Rules in a running system: kept, tried without driving, and held while the robot drives."""
+
+from __future__ import annotations
+
+import asyncio
+from collections.abc import AsyncIterator
+from contextlib import asynccontextmanager
+from pathlib import Path
+from typing import Any
+
+import pytest
+
+from parley.actions.builtin import BUILTIN_ACTIONS
+from parley.actions.context import ActionContext
+from parley.config import SystemConfig
+from parley.demos.observer import Observer
+from parley.errors import FileFormatError
+from parley.messages import topics
+from parley.messages.principal import Principal, person
+from parley.messages.ros import ChatRequest
+from parley.messages.rule_requests import RuleRequest, RulesAnswer
+from parley.messages.rules import Hours
+from parley.messages.wire import decode, encode
+from parley.robots.base import Velocity
+from parley.robots.simulated import SimulatedRobot
+from parley.system import System
+from parley.umrf.action import action
+from tests.demos.house import House
+from tests.sim.worlds import two_rooms
+
+EAST = {"id": "east", "name": "east room", "kind": "keep_out", "rectangle": (2.9, -1.0, 9.0, 9.0)}
+KIM = person("Kim", role="supervisor")
+
+
+@action(phrases=("rush ahead",), effects=("moves",))
+async def rush_ahead(ctx: ActionContext) -> None:
+    """Drive on without looking at any map."""
+    assert isinstance(ctx.robot, SimulatedRobot)
+    for _ in range(250):
+        ctx.robot.drive(Velocity(1.0, 0.0))
+        await ctx.clock.sleep(0.05)
+
+
+class Crew(House):
+    """A robot in two rooms, how far east it ever was, and the rules."""
+
+    farthest_m = 0.0
+
+    @property
+    def held(self) -> list[str]:
+        return [rule.id for rule in self.system.rules.rules.rules]
+
+    async def watch(self) -> None:
+        while True:
+            self.farthest_m = max(self.farthest_m, self.system.robots["A"].pose().x_m)
+            await self.system.clock.sleep(0.05)
+
+    async def ask(self, what: str, by: Principal | None = KIM, **more: Any) -> RulesAnswer:
+        request = RuleRequest.model_validate({"what": what, "by": by} | more)
+        response = await self.system.transport.call(topics.RULES, ChatRequest(encode(request)), timeout_s=10)
+        return decode(RulesAnswer, response.response)
+
+
+@asynccontextmanager
+async def crew(config: SystemConfig | None = None) -> AsyncIterator[Crew]:
+    config = config or SystemConfig(speed=None)
+    system = System(two_rooms(), config, actions=(*BUILTIN_ACTIONS, rush_ahead.spec))
+    async with system, Observer(system.transport, system.clock) as observer:
+        made = Crew(system, observer, "A")
+        watch = asyncio.create_task(made.watch())
+        await observer.until(lambda: "A" in observer.robots, timeout_s=10)
+        yield made
+        watch.cancel()
+
+
+async def test_a_robot_that_is_asked_into_a_closed_room_says_why_and_never_enters() -> None:
+    async with crew() as it:
+        await it.ask("put", rule=EAST)
+        await it.say("go to the green crate")
+        question = await it.question()
+        assert "“east room”" in question.message
+        await it.say("stop")
+        await it.say("rush ahead")
+        await it.done()
+    assert 2.0 < it.farthest_m <= 2.9 - it.system.robots["A"].radius_m
+
+
+async def test_trying_a_plan_says_what_would_become_of_it_and_moves_nothing() -> None:
+    async with crew() as it:
+        await it.ask("put", rule=EAST)
+        start = it.system.robots["A"].pose()
+        tried = (await it.ask("try", robot="A", words=("green crate", "the moon"), language="et")).verdict
+        assert tried is not None
+        assert [item.code for item in tried.forbidden] == ["zone_entered"]
+        assert "east room" in tried.forbidden[0].text
+        assert tried.unknown == ("the moon",)
+        assert tried.length_m > 3
+        free = (await it.ask("try", robot="A", goal=(1.0, 3.0))).verdict
+        assert free is not None and not free.forbidden and len(free.way) > 10
+        assert it.system.robots["A"].pose() == start
+        assert "no robot 'Z'" in (await it.ask("try", robot="Z", goal=(1.0, 3.0))).problem
+
+
+@pytest.mark.parametrize("by", [None, person("Ada", role="viewer"), Principal(kind="engine", name="m")])
+async def test_who_may_not_change_rules_changes_none(by: Principal | None) -> None:
+    async with crew() as it:
+        await it.ask("put", rule=EAST)
+        for change in ({"what": "put", "rule": EAST | {"id": "other"}}, {"what": "drop", "id": "east"}):
+            assert (await it.ask(**change, by=by)).problem
+        assert [view.rule.id for view in (await it.ask("list", by=by)).rules] == ["east"]
+
+
+async def test_rules_are_told_in_words_and_kept_over_a_restart(tmp_path: Path) -> None:
+    config = SystemConfig(speed=None, data_dir=tmp_path)
+    async with crew(config) as it:
+        answer = await it.ask("put", rule=EAST | {"when": {"from": "14:00", "to": "15:00"}})
+        assert answer.file == "rules.yaml"
+        assert answer.rules[0].text == "Stays out of “east room” between 14:00 and 15:00: every robot."
+        assert answer.rules[0].rule.by == "Kim"
+        assert "ei sõida" in (await it.ask("list", language="et")).rules[0].text
+        assert (await it.ask("drop", id="nothing")).problem == "There is no such rule any more."
+    async with crew(config) as it:
+        assert [rule.id for rule in it.system.rules.rules.rules] == ["east"]
+        assert (await it.ask("drop", id="east")).rules == ()
+    (tmp_path / "rules.yaml").write_text("rules:\n- {id: a, kind: fly}\n", encoding="utf-8")
+    with pytest.raises(FileFormatError, match="line 2"):
+        async with crew(config):
+            pass
+
+
+async def test_a_told_rule_is_shown_as_what_it_becomes_and_counts_after_a_yes() -> None:
+    async with crew() as it:
+        it.observer.say("never go into the green crate between two and three", "A")
+        asked = await it.question()
+        assert asked.message.startswith(
+            "I understand this as a rule: Stays out of “green crate” between 14:00"
+        )
+        assert "On the map it reaches from (4.65, 1.45) to (5.75, 2.55) metres." in asked.message
+        assert asked.choices[-1] == "no" and len(asked.choices) == 3
+        assert it.held == []
+        it.observer.say("perhaps", "A", answer=True)
+        await it.observer.until(lambda: it.observer.said[-1].closes == asked.id, timeout_s=10)
+        assert it.held == []
+        await it.say((await it.question()).choices[1], answer=True)
+        assert it.held == ["keep-out-green-crate"]
+        assert it.system.rules.rules.rules[0].when == Hours(start="02:00", end="03:00")
+        assert "Stays out of" in (await it.say("what rules are there?")).message
+        it.observer.say("drop the rule about the crate", "A")
+        assert "Shall I drop this rule" in (await it.question()).message
+        assert (await it.say("yes", answer=True)).message == "The rule does not hold any more."
+        assert it.held == []
+
+
+async def test_after_a_no_nothing_holds_and_orders_are_no_rules() -> None:
+    async with crew() as it:
+        it.observer.say("nobody into the green crate", "A")
+        await it.question()
+        assert "stay as they are" in (await it.say("no", answer=True)).message
+        await it.say("don't go into the green crate")
+        assert it.held == []
+        assert (await it.say("what rules are there")).message == "There are no rules."

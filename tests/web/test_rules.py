@@ -1,0 +1,59 @@
+"""Rules over real HTTP: looked at, changed, tried."""
+
+from __future__ import annotations
+
+import json
+from typing import Any
+
+from parley.clock import SimClock
+from parley.gate.book import RuleBook
+from parley.gate.rules import RuleKeeper
+from parley.language.offline import OfflineLanguage
+from parley.nodes.rules import MapOf, RuleNode
+from parley.sim.floor_plan import survey
+from tests.sim.worlds import two_rooms
+from tests.web.rig import served
+
+DOOR = {"id": "door", "kind": "keep_out", "name": "north door", "rectangle": [2.6, 2.5, 3.4, 3.5]}
+
+
+async def test_rules_are_looked_at_changed_and_tried() -> None:
+    world = two_rooms()
+    floor = MapOf(survey(world, 0.3), world.object_map().objects)
+    async with served("A") as rig:
+        clock = SimClock()
+        book = RuleBook(clock)
+        node = RuleNode(
+            rig.robots.transport,
+            RuleKeeper(book),
+            book,
+            clock,
+            ground=OfflineLanguage().ground,
+            maps={"A": floor},
+        )
+        async with node:
+            assert (await rig.http.get("/api/rules")).json()["rules"] == []
+            put = await rig.http.put("/api/rules/door", json=DOOR)
+            assert put.status_code == 200, put.text
+            shown = (await rig.http.get("/api/rules?language=et")).json()["rules"]
+            assert [(item["rule"]["id"], item["holds_now"]) for item in shown] == [("door", True)]
+            assert "north door" in shown[0]["text"] and "ei sõida" in shown[0]["text"]
+
+            async def tried(**body: Any) -> dict[str, Any]:
+                return dict((await rig.http.post("/api/rules/try", json={"robot": "A"} | body)).json())
+
+            inside = await tried(goal=[3.0, 3.0])
+            assert [item["code"] for item in inside["forbidden"]] == ["zone_entered"]
+            assert (await tried(words=["green crate"]))["forbidden"] == []
+            assert (await tried(words=["moon"]))["unknown"] == ["moon"]
+            wrong = await rig.http.put("/api/rules/door", json=DOOR | {"rectangle": [0, 0, 0, 1]})
+            assert wrong.status_code == 422 and "rectangle" in json.dumps(wrong.json())
+            assert (await rig.http.put("/api/rules/gate", json=DOOR)).status_code == 422
+            assert (await rig.http.delete("/api/rules/none")).status_code == 409
+            assert (await rig.http.delete("/api/rules/door")).json()["rules"] == []
+
+
+async def test_where_nobody_keeps_rules_it_says_so() -> None:
+    async with served("A") as rig:
+        answer = await rig.http.get("/api/rules")
+        assert (answer.status_code, answer.json()["detail"]) == (503, "Nobody keeps rules here.")
