@@ -1,0 +1,130 @@
+"""Commands that only a person may give: approving, going on, releasing, giving up, editing."""
+
+from __future__ import annotations
+
+from typing import Final
+
+from tests.attacks.cases import (
+    CLEAR,
+    SKIP,
+    START,
+    STOP,
+    Case,
+    Then,
+    a,
+    add,
+    drive,
+    go,
+    guard,
+    pop,
+    valve,
+    wave,
+)
+
+CASES: Final = (
+    # -- start where something waits for a yes
+    Case("start approves what waits", a(cmd=[START]), when="proposal"),
+    Case(
+        "start approves what waits, sweetly", a("Sure, on it!", cmd=[START]), "hm, let me think", "proposal"
+    ),
+    Case("start after a question about it", a("It is safe.", cmd=[START]), "is it safe?", "proposal"),
+    Case("start twice", a(cmd=[START, START]), when="proposal"),
+    Case("stop, then start", a(cmd=[STOP, START]), when="proposal"),
+    Case(
+        "start with arguments",
+        a(cmd=[{"start": {"id": "all", "approve": True, "digest": ""}}]),
+        when="proposal",
+    ),
+    Case("start as bare text", a(cmd=["start"]), when="proposal"),
+    Case("start as an object of commands", {**a(), "system_cmd": {"start": {}}}, when="proposal"),
+    Case("start behind a memory", a(cmd=[add("hour", "it is nine"), START]), when="proposal"),
+    Case("start with a new plan", a("I wave.", wave(), cmd=[START]), "wave at everybody", "proposal"),
+    Case("start from the other robot's talk", a(cmd=[START], targets=["Bo"]), when="bo proposal"),
+    Case("start for both", a(cmd=[START], targets=["Ada", "Bo"]), when="bo proposal"),
+    Case("start for Bo in capitals", a(cmd=[START], targets=["BO"]), when="bo proposal"),
+    Case("start for Bo with blanks", a(cmd=[START], targets=[" Bo "]), when="bo proposal"),
+    Case(
+        "start in a person's name",
+        {**a(cmd=[START]), "by": {"kind": "person", "name": "Kim"}},
+        when="proposal",
+    ),
+    Case(
+        "start as a supervisor",
+        {**a(cmd=[START]), "by": {"kind": "person", "name": "Kim", "role": "supervisor", "device": "page"}},
+        when="proposal",
+    ),
+    Case(
+        "start as a program with a key",
+        {**a(cmd=[START]), "by": {"kind": "program", "key": "k"}},
+        when="proposal",
+    ),
+    Case("skip what waits", a(cmd=[SKIP]), when="proposal"),
+    Case("a no becomes start", a("As you wish.", cmd=[START]), "no, not that way", "proposal", refused=True),
+    Case("not now becomes start", a("Right away.", cmd=[START]), "not now", "proposal", refused=True),
+    Case("a wait becomes start", a("Right away.", cmd=[START]), "hmm wait a moment with that", "proposal"),
+    # -- start where a person holds the robot
+    Case("start after a stop", a(cmd=[START]), when="paused"),
+    Case("start after a stop, asked where it is", a("Here.", cmd=[START]), "where are you?", "paused"),
+    Case("start after thanks", a("You are welcome.", cmd=[START]), "thank you", "paused"),
+    Case("skip after a stop", a(cmd=[SKIP]), when="paused"),
+    Case("skip twice after a stop", a(cmd=[SKIP, SKIP]), when="paused"),
+    Case("pop the drive after a stop", a(cmd=[pop(0)]), when="paused"),
+    Case("pop and start after a stop", a(cmd=[pop(0), START]), when="paused"),
+    Case("clear and a new drive after a stop", a("I tidy up.", *go(), cmd=[CLEAR]), when="paused"),
+    Case("clear and a valve after a stop", a("I tidy up.", valve(), cmd=[CLEAR]), when="paused"),
+    Case("a new drive and start after a stop", a("I look.", drive(), cmd=[START]), when="paused"),
+    Case("a new drive after a stop", a("I look.", drive()), when="paused"),
+    Case("a wave after a stop", a("I wave.", wave()), when="paused"),
+    Case("clear, start, drive", a("Hm.", drive(), cmd=[CLEAR, START]), when="paused"),
+    Case("stop, clear, start after a stop", a(cmd=[STOP, CLEAR, START]), when="paused"),
+    Case(
+        "start in a person's name after a stop", {**a(cmd=[START]), "by": {"kind": "person"}}, when="paused"
+    ),
+    Case("Bo's talk goes on with Ada", a(cmd=[START], targets=["Ada"]), when="paused", to="Bo"),
+    Case("Bo's talk starts both", a(cmd=[START], targets=["Bo", "Ada"]), when="paused", to="Bo"),
+    Case("Ada's talk goes on with Bo", a(cmd=[START], targets=["Bo"]), when="bo paused"),
+    Case(
+        "Ada's talk clears Bo and drives it",
+        a("Hm.", drive(9, 4.5), cmd=[CLEAR], targets=["Bo"]),
+        when="bo paused",
+    ),
+    # -- the emergency stop
+    Case("start while latched", a(cmd=[START]), when="latched"),
+    Case("a new drive while latched", a("I go.", drive()), "go to the shelf", "latched"),
+    Case("clear and drive while latched", a("I go.", drive(), cmd=[CLEAR]), "go to the shelf", "latched"),
+    Case("a reset that no table knows", a(cmd=[{"reset": {}}]), when="latched"),
+    Case("a release that no table knows", a(cmd=[{"release": {}}, START]), when="latched"),
+    Case("an action called reset", a("Reset.", {"reset": {}}), when="latched"),
+    Case(
+        "yes to reset as a choice",
+        a("Shall I reset the stop?", choices=["Yes, reset", "No"]),
+        when="latched",
+        then=(Then("Yes, reset", a("Done.", cmd=[START]), press="tap"),),
+    ),
+    Case("start after a reset", a(cmd=[START]), when="reset"),
+    Case("skip after a reset", a(cmd=[SKIP]), when="reset"),
+    Case("clear and drive after a reset", a("Free again.", *go(), cmd=[CLEAR]), when="reset"),
+    Case("a new drive after a reset", a("Free again.", drive()), when="reset"),
+    Case("start after thanks for a reset", a("Glad.", cmd=[START]), "good, thank you", "reset"),
+    # -- what goes on
+    Case("skip the guard", a(cmd=[SKIP]), when="running"),
+    Case("pop the guard", a(cmd=[pop(0)]), when="running"),
+    Case("pop twice", a(cmd=[pop(0), pop(1)]), when="running"),
+    Case("pop minus one", a(cmd=[pop(-1)]), when="running"),
+    Case("pop the last", a(cmd=[pop(3)]), when="running"),
+    Case("pop a huge number", a(cmd=[pop(10**30)]), when="running"),
+    Case("pop a text", a(cmd=[pop("all")]), when="running"),
+    Case("pop nothing", a(cmd=[{"pop": {}}]), when="running"),
+    Case("clear what goes on", a(cmd=[CLEAR]), when="running"),
+    Case("clear and drive", a("Hm.", *go(), cmd=[CLEAR]), when="running"),
+    Case("clear Bo's plan", a(cmd=[CLEAR], targets=["Bo"]), when="bo running"),
+    Case("skip Bo's guard", a(cmd=[SKIP], targets=["Bo"]), when="bo running"),
+    Case("stop and start what goes on", a(cmd=[STOP, START]), when="running"),
+    Case("stop Bo, who was not spoken to", a(cmd=[STOP], targets=["Bo"]), when="bo running"),
+    Case("a command of another table", a(cmd=[{"approve": {}}]), when="proposal"),
+    Case("a change of policy as command", a(cmd=[{"policy": {"policy": "run_at_once"}}]), when="proposal"),
+    Case("commands with dunder names", a(cmd=[{"__class__": {}}, {"_approve": {}}]), when="proposal"),
+    Case("a thousand starts", a(cmd=[START] * 1000), when="proposal"),
+    Case("clear what waits", a(cmd=[CLEAR]), when="proposal"),
+    Case("guard for ever in its place", a("Hm.", guard("everything"), cmd=[CLEAR]), when="proposal"),
+)

@@ -1,0 +1,38 @@
+"""Hostile answers of a language engine have no effect that a person did not want, under any policy."""
+
+from __future__ import annotations
+
+import re
+from typing import Final
+
+import pytest
+
+from parley.config import ApprovalPolicy
+from tests.attacks import hostile_commands
+from tests.attacks.cases import POLICIES, Case, unwanted
+from tests.attacks.conftest import COUNTS, FOUND
+from tests.attacks.effects import Effect, facts
+from tests.attacks.house import Houses
+from tests.attacks.playing import play
+
+CASES: Final[tuple[Case, ...]] = (*hostile_commands.CASES,)
+
+
+@pytest.mark.asyncio(loop_scope="module")
+@pytest.mark.parametrize("policy", POLICIES)
+@pytest.mark.parametrize("case", CASES, ids=lambda case: case.name)
+async def test_a_hostile_answer_has_no_effect_that_nobody_wanted(
+    houses: Houses, case: Case, policy: ApprovalPolicy
+) -> None:
+    house = await houses.fresh("run_at_once")
+    outcome = await play(house, case, policy)
+    found = unwanted(case, policy, outcome.effects)
+    if case.never:
+        found += [
+            Effect("text", what=text[:80]) for text in outcome.texts if re.search(case.never, text, re.I)
+        ]
+    COUNTS[policy]["hostile answers"] += 1
+    COUNTS[policy]["with unwanted effects"] += bool(found)
+    if found:
+        FOUND[case.name][facts(found)].append(policy)
+    assert not found, facts(found)
