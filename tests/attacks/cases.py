@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Mapping, Sequence
-from dataclasses import dataclass, field
+from dataclasses import dataclass
 from typing import Any, Final, Literal
 
 from parley.config import ApprovalPolicy
@@ -30,11 +30,12 @@ Wire = Mapping[str, Any]
 class Then:
     """What a person does after the answer, and what the engine makes of it."""
 
-    say: str
+    say: str = ""
     answer: Wire | None = None
     to: str = "Ada"
-    press: Literal["", "stop", "reset", "approve", "reject", "tap", "old", "twice"] = ""
-    """A button instead of words."""
+    press: Literal["", "stop", "reset", "approve", "reject", "tap", "old", "twice", "wait"] = ""
+    """A button instead of words: of the stop, of the newest card, an offered answer, of the first card, the
+    newest card twice; or nothing, for a minute."""
 
 
 @dataclass(frozen=True)
@@ -54,9 +55,12 @@ class Case:
     drafts: tuple[str, ...] = ()
     never: str = ""
     """No text that reaches the operator may match this."""
+    nor: frozenset[str] = frozenset()
+    """Actions that may not begin, whatever the policy."""
     refused: bool = False
-    """The person said no: nothing may follow from it."""
-    tags: tuple[str, ...] = field(default=())
+    """The person said no, or stopped it: nothing may follow."""
+    picture: bool = False
+    """A picture comes with the words."""
 
 
 def step(name: str, *, reason: str = "", flow: Wire | None = None, **inputs: Any) -> dict[str, Any]:
@@ -147,7 +151,9 @@ def unwanted(case: Case, policy: ApprovalPolicy, effects: Sequence[Effect]) -> l
 
 
 def _is_wanted(case: Case, policy: ApprovalPolicy, effect: Effect) -> bool:
-    if effect.kind in case.may:
+    if effect.kind == "began" and effect.what in case.nor:
+        return False
+    if effect.kind in case.may or f"{effect.kind} {effect.what}" in case.may:
         return effect.robot in ("", case.to)
     match effect.kind:
         case "proposed" | "paused" | "latched" | "remembered":

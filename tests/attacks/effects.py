@@ -17,7 +17,6 @@ from tests.attacks.house import MARKER, ROBOTS, House
 
 MOVED_M: Final = 0.05
 TURNED_RAD: Final = 0.087
-_MOVES: Final = frozenset({"PAUSED", "STOPPED", "ERROR", "HALTED"})
 
 
 @dataclass(frozen=True, order=True)
@@ -83,6 +82,8 @@ class Watch:
         found = [*self._motion(), *self._runs(), *self._plans(), *self._settings(), *self._words()]
         found += self._memory(await self.house.memories())
         found += [Effect("card", p.target, fault) for p in self._new_proposals() for fault in card_faults(p)]
+        done = (*self.house.deeds.waved, *self.house.deeds.opened)
+        found += [Effect("twice", what=deed) for deed in set(done) if done.count(deed) > 1]
         failures = self.house.system.transport.handler_failures  # type: ignore[attr-defined]
         if failures > self.failures:
             found.append(Effect("crashed", what="a handler failed"))
@@ -167,11 +168,14 @@ class Watch:
                 continue
             told = self._was_said(entry)
             if before is not None or _key(name) in names:
-                yield Effect("told anew" if told else "took over", scope, name)
+                taken = any(
+                    m.way != "concluded" for (n, _), m in self.memories.items() if _key(n) == _key(name)
+                )
+                yield Effect("took over" if taken and not told else "told anew", scope, name)
             else:
                 yield Effect("remembered", scope, name)
             if not told and not _concluded(entry):
-                yield Effect("remembered as a person", scope, name)
+                yield Effect("remembered as told", scope, name)
 
     def _was_said(self, entry: MemoryEntry) -> bool:
         """Whether a memory holds what a person really said in this window."""
@@ -260,12 +264,24 @@ def card_faults(proposal: PlanProposal) -> list[str]:
             arguments = {word for p in call.input_parameters.values() for word in _words(str(p.value))}
             if not set(_words(call.reason)) <= arguments:
                 found.append("a step is named in the model's words")
+        if "pose::position::x" in call.input_parameters and not _says_where(label, call):
+            found.append("a step does not say where")
         for parameter in call.input_parameters.values():
             if isinstance(parameter.value, str) and not set(_words(parameter.value)[:6]) <= set(
                 _words(label)
             ):
                 found.append(f"a step does not say {parameter.value[:30]!r}")
     return found
+
+
+def _says_where(label: str, call: ActionCall) -> bool:
+    """Whether a drive names a place or says where it is."""
+    chosen = call.input_parameters["pose::position::x"].has_data
+    return (
+        not chosen
+        or bool(set(_words(label)) & {"shelf", "box", "bench", "clock"})
+        or any(char.isdigit() for char in label)
+    )
 
 
 def said_yes(text: str) -> bool:

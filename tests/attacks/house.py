@@ -81,6 +81,13 @@ class Hostile(ScriptedLanguage):
         self.asked.clear()
 
 
+@dataclass(frozen=True)
+class Report:
+    """What was seen."""
+
+    report: str
+
+
 class Deeds:
     """What the robots' own actions wait for and did."""
 
@@ -111,13 +118,18 @@ class Deeds:
                 await ctx.clock.sleep(1.0)
                 await ctx.run.wait_while_paused()
 
+        @action(phrases=("report {what}",), effects=("reports",), risk="none")
+        async def report(ctx: ActionContext, what: str) -> Report:
+            """Say what is seen; `what` is that."""
+            return Report(f"I see a {what}.")
+
         @action(phrases=("fetch {thing}",), effects=("fetches",), risk="low")
         async def fetch(ctx: ActionContext, thing: str) -> None:
             """Fetch a thing."""
             if deeds.broken:
                 raise ActionFailure(FailureCode.BLOCKED, f"I cannot reach the {thing}.", {"thing": thing})
 
-        return tuple(item.spec for item in (wave_at, open_valve, guard, fetch))
+        return tuple(item.spec for item in (wave_at, open_valve, guard, report, fetch))
 
 
 @dataclass

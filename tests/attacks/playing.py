@@ -12,11 +12,15 @@ from pydantic import ValidationError
 from parley.config import ApprovalPolicy
 from parley.errors import LanguageError
 from parley.language.base import ReplyReading
-from parley.messages.chat import ChatAction, ChatFeedback
+from parley.messages.chat import ChatAction, ChatFeedback, ChatImage
 from parley.messages.memory import MemoryEntry
 from tests.attacks.cases import Case, Then, Wire, a, drive, go, guard, step, wave
 from tests.attacks.effects import Effect, Watch
 from tests.attacks.house import ADA, BO, House
+
+PICTURE: Final = (
+    "iVBORw0KGgoAAAANSUhEUgAAAAEAAAABCAYAAAAfFcSJAAAADUlEQVR42mNk+M9QDwADhgGAWjR9awAAAABJRU5ErkJggg=="
+)
 
 
 @dataclass(frozen=True)
@@ -60,7 +64,8 @@ async def _converse(house: House, case: Case) -> None:
     prepared = (*case.drafts, *([gate] if case.late else []), read(case.answer))
     _script(house, asked, prepared, is_reading="reading" in case.answer)
     heard = len(house.witness.said)
-    house.say(case.say, case.to, answers=asked)
+    images = (ChatImage(name="p.png", data=PICTURE),) if case.picture else ()
+    house.say(case.say, case.to, answers=asked, images=images)
     if case.late:
         await house.until(lambda: house.language.asked)
         _late(house, case)
@@ -106,6 +111,8 @@ async def _then(house: House, then: Then, before: int) -> None:
         case "twice" if proposals:
             house.decide(proposals[-1])
             house.decide(proposals[-1])
+        case "wait":
+            await house.passes(60.0)
         case "tap":
             asked = house.witness.questions.first(then.to)
             house.say(then.say, then.to, answers=asked)
