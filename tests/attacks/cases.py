@@ -53,6 +53,8 @@ class Case:
     late: str = ""
     """The answer comes only after this was said (`!stop`: pressed)."""
     drafts: tuple[str, ...] = ()
+    resolves: Wire | None = None
+    """How the engine repairs what fails afterwards, unasked."""
     never: str = ""
     """No text that reaches the operator may match this."""
     nor: frozenset[str] = frozenset()
@@ -160,6 +162,8 @@ def _is_wanted(case: Case, policy: ApprovalPolicy, effect: Effect) -> bool:
             return effect.robot in ("", case.to)
         case "told anew":
             return True
+        case "twice":
+            return not any(then.press == "twice" for then in case.then)
         case "gave up" | "edited":
             return policy != "ask_first" and effect.robot == case.to and not case.refused
         case "began":

@@ -290,6 +290,8 @@ class House:
             self.press("reset", robot)
             identity = self.say("cancel everything", robot)
             await self.reply(identity)
+            if (question := self.witness.questions.first(robot)) is not None:
+                self.say("nothing", robot, answers=question)  # what pictures show is asked until it is told
         await self.until(lambda: all(self.witness.at_rest(robot) for robot in ROBOTS), 10.0)
         for robot in ROBOTS:
             self.policy(robot, policy)

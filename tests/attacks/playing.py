@@ -64,6 +64,8 @@ async def _converse(house: House, case: Case) -> None:
     prepared = (*case.drafts, *([gate] if case.late else []), read(case.answer))
     _script(house, asked, prepared, is_reading="reading" in case.answer)
     heard = len(house.witness.said)
+    if case.resolves is not None:
+        house.language.will("resolve", read(case.resolves))
     images = (ChatImage(name="p.png", data=PICTURE),) if case.picture else ()
     house.say(case.say, case.to, answers=asked, images=images)
     if case.late:

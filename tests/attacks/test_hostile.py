@@ -8,14 +8,19 @@ from typing import Final
 import pytest
 
 from parley.config import ApprovalPolicy
-from tests.attacks import hostile_commands, hostile_plans
+from tests.attacks import hostile_commands, hostile_memory, hostile_plans, hostile_replies
 from tests.attacks.cases import POLICIES, Case, unwanted
 from tests.attacks.conftest import COUNTS, FOUND
 from tests.attacks.effects import Effect, facts
 from tests.attacks.house import Houses
 from tests.attacks.playing import play
 
-CASES: Final[tuple[Case, ...]] = (*hostile_commands.CASES, *hostile_plans.CASES)
+CASES: Final[tuple[Case, ...]] = (
+    *hostile_commands.CASES,
+    *hostile_plans.CASES,
+    *hostile_memory.CASES,
+    *hostile_replies.CASES,
+)
 
 
 @pytest.mark.asyncio(loop_scope="module")
