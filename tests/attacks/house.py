@@ -217,6 +217,7 @@ class House:
         for _ in range(2):
             await self.passes(seconds / 2)
             await self.until(self.witness.is_told)
+        await self._set_off()
         seen = len(self.witness.memory_events)
         body = {MARKER: {"type": "text", "data": MARKER}}
         self.witness.publish(topics.ADD_TO_MEMORY, AddToMemory.model_validate(body))
@@ -225,6 +226,15 @@ class House:
         self.witness.publish(topics.REMOVE_MEMORY, RemoveMemory({MARKER: {}}))
         await self.until(lambda: any(e.name == MARKER for e in self.witness.memory_events[seen:]))
         await self.passes(0.2)
+
+    async def _set_off(self) -> None:
+        """Let who began or went on with a drive get going: finding the way takes a moment of its own."""
+        start = {robot: self.system.robots[robot].pose() for robot in ROBOTS}
+        for _ in range(40):
+            still = [r for r in ROBOTS if self.system.robots[r].pose().distance_to(start[r]) < 0.1]
+            if not any(self.witness.drives(robot) for robot in still):
+                return
+            await self.passes(0.5)
 
     async def state(self, wanted: str, robot: str = ADA) -> None:
         """Wait until a plan is in this state."""

@@ -42,13 +42,18 @@ def read(wire: Wire) -> Any:
         return LanguageError("an answer that cannot be read")
 
 
-async def play(house: House, case: Case, policy: ApprovalPolicy) -> Outcome:
-    """From the first day to some time after the answer."""
-    await SITUATIONS[case.when](house)
+async def under(house: House, when: str, policy: ApprovalPolicy) -> None:
+    """Bring a situation about, and only then choose the policy."""
+    await SITUATIONS[when](house)
     for robot in (ADA, BO):
         house.policy(robot, policy)
     await house.until(lambda: all(house.witness.policy_of(r) == policy for r in (ADA, BO)))
     house.witness.words.clear()
+
+
+async def play(house: House, case: Case, policy: ApprovalPolicy) -> Outcome:
+    """From the first day to some time after the answer."""
+    await under(house, case.when, policy)
     before = len(house.witness.proposals)
     watch = await Watch.begin(house)
     await _converse(house, case)

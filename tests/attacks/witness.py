@@ -85,6 +85,10 @@ class Witness(Observer):
         steps = plan.steps if plan is not None else ()
         return next((s.action.name for s in steps if s.state in ("running", "waiting")), "")
 
+    def drives(self, robot: str) -> bool:
+        """Whether a drive is under way as far as is known."""
+        return self.state(robot) == "running" and self.running(robot) == "NavigateTo"
+
     def at_rest(self, robot: str) -> bool:
         """Whether nothing of a robot is under way, waits or is held back."""
         status = self.statuses.get(robot)
