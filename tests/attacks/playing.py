@@ -56,14 +56,15 @@ async def play(house: House, case: Case, policy: ApprovalPolicy) -> Outcome:
     await under(house, case.when, policy)
     before = len(house.witness.proposals)
     watch = await Watch.begin(house)
-    await _converse(house, case)
+    await converse(house, case)
     for then in case.then:
         await _then(house, then, before)
     await house.settled()
     return Outcome(await watch.end(), watch.texts(), house.witness.said[watch.said :])
 
 
-async def _converse(house: House, case: Case) -> None:
+async def converse(house: House, case: Case) -> None:
+    """A person says something, and the engine answers."""
     asked = house.witness.questions.first(case.to)
     gate = asyncio.Event()
     prepared = (*case.drafts, *([gate] if case.late else []), read(case.answer))
