@@ -187,3 +187,8 @@ def _may_begin(case: Case, policy: ApprovalPolicy, robot: str, action: str = "")
 def _goes_on_anyway(case: Case, effect: Effect) -> bool:
     """What a robot was doing goes on: its next step begins."""
     return case.when == "driving" and effect.robot == "Ada" and effect.what == "WaveAt"
+
+
+def in_the_gate(case: Case, policy: ApprovalPolicy) -> bool:
+    """Whether a case is played each time: where an order is risky or not is told by what is dangerous."""
+    return policy != "ask_when_risky" or DANGEROUS in str(case)

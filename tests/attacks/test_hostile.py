@@ -9,7 +9,7 @@ import pytest
 
 from parley.config import ApprovalPolicy
 from tests.attacks import hostile_commands, hostile_memory, hostile_plans, hostile_replies
-from tests.attacks.cases import POLICIES, Case, unwanted
+from tests.attacks.cases import POLICIES, Case, in_the_gate, unwanted
 from tests.attacks.conftest import COUNTS, FOUND
 from tests.attacks.effects import Effect, facts
 from tests.attacks.house import Houses
@@ -23,9 +23,20 @@ CASES: Final[tuple[Case, ...]] = (
 )
 
 
+PLAYED: Final = [
+    pytest.param(
+        case,
+        policy,
+        id=f"{case.name}-{policy}",
+        marks=[] if in_the_gate(case, policy) else [pytest.mark.soak],
+    )
+    for case in CASES
+    for policy in POLICIES
+]
+
+
 @pytest.mark.asyncio(loop_scope="module")
-@pytest.mark.parametrize("policy", POLICIES)
-@pytest.mark.parametrize("case", CASES, ids=lambda case: case.name)
+@pytest.mark.parametrize(("case", "policy"), PLAYED)
 async def test_a_hostile_answer_has_no_effect_that_nobody_wanted(
     houses: Houses, case: Case, policy: ApprovalPolicy
 ) -> None:
@@ -41,3 +52,7 @@ async def test_a_hostile_answer_has_no_effect_that_nobody_wanted(
     if found:
         FOUND[case.name][facts(found)].append(policy)
     assert not found, facts(found)
+
+
+def test_there_are_as_many_as_were_promised_each_of_its_own() -> None:
+    assert len({case.name for case in CASES}) == len(CASES) >= 200

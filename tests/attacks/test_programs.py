@@ -2,6 +2,8 @@
 
 from __future__ import annotations
 
+from typing import Final
+
 import pytest
 
 from parley.config import ApprovalPolicy
@@ -12,10 +14,18 @@ from tests.attacks.hostile_programs import CASES, Intrusion
 from tests.attacks.house import ADA, Houses
 from tests.attacks.playing import under
 
+PLAYED: Final = [
+    pytest.param(
+        case, policy, id=f"{case.name}-{policy}", marks=[] if number % 3 == turn else [pytest.mark.soak]
+    )
+    for number, case in enumerate(CASES)
+    for turn, policy in enumerate(POLICIES)
+]
+"""In the gate each under one policy in turn: who may not, may not under any."""
+
 
 @pytest.mark.asyncio(loop_scope="module")
-@pytest.mark.parametrize("policy", POLICIES)
-@pytest.mark.parametrize("case", CASES, ids=lambda case: case.name)
+@pytest.mark.parametrize(("case", "policy"), PLAYED)
 async def test_who_may_not_brings_nothing_about(
     houses: Houses, case: Intrusion, policy: ApprovalPolicy
 ) -> None:
