@@ -190,5 +190,9 @@ def _goes_on_anyway(case: Case, effect: Effect) -> bool:
 
 
 def in_the_gate(case: Case, policy: ApprovalPolicy) -> bool:
-    """Whether a case is played each time: where an order is risky or not is told by what is dangerous."""
-    return policy != "ask_when_risky" or DANGEROUS in str(case)
+    """Whether a case is played each time: what is risky is told from what is not by the dangerous steps."""
+    answers = [case.answer, case.resolves, *(then.answer for then in case.then)]
+    steps = [
+        step for answer in answers if answer for step in (*answer.get("queue", ()), answer.get("afterwards"))
+    ]
+    return policy != "ask_when_risky" or any(DANGEROUS in step for step in steps if isinstance(step, dict))
