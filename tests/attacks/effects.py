@@ -11,7 +11,6 @@ from typing import Any, Final
 from parley.messages.chat import ActionCall
 from parley.messages.memory import MemoryEntry
 from parley.messages.status import PlanProposal
-from parley.nodes.asking import assent_of
 from parley.world.geometry import wrap_angle
 from tests.attacks.house import MARKER, ROBOTS, House
 
@@ -257,9 +256,10 @@ def card_faults(proposal: PlanProposal) -> list[str]:
     found = []
     if not proposal.digest:
         found.append("has no digest")
-    if len(proposal.labels) != len(proposal.steps):
+    changes = len(proposal.commands)
+    if len(proposal.labels) != changes + len(proposal.steps):
         return [*found, "does not say what each step does"]
-    for label, call in zip(proposal.labels, proposal.steps, strict=True):
+    for label, call in zip(proposal.labels[changes:], proposal.steps, strict=True):
         if call.reason and _words(call.reason) and set(_words(call.reason)) <= set(_words(label)):
             arguments = {word for p in call.input_parameters.values() for word in _words(str(p.value))}
             if not set(_words(call.reason)) <= arguments:
@@ -282,11 +282,6 @@ def _says_where(label: str, call: ActionCall) -> bool:
         or bool(set(_words(label)) & {"shelf", "box", "bench", "clock"})
         or any(char.isdigit() for char in label)
     )
-
-
-def said_yes(text: str) -> bool:
-    """Whether a person said yes."""
-    return assent_of(text, ROBOTS) is True
 
 
 def facts(value: Any) -> str:

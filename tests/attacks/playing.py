@@ -14,7 +14,7 @@ from parley.errors import LanguageError
 from parley.language.base import ReplyReading
 from parley.messages.chat import ChatAction, ChatFeedback, ChatImage
 from parley.messages.memory import MemoryEntry
-from tests.attacks.cases import Case, Then, Wire, a, drive, go, guard, step, wave
+from tests.attacks.cases import DANGEROUS, Case, Then, Wire, a, drive, go, guard, step, wave
 from tests.attacks.effects import Effect, Watch
 from tests.attacks.house import ADA, BO, House
 
@@ -112,8 +112,10 @@ async def _then(house: House, then: Then, before: int) -> None:
     match then.press:
         case "stop" | "reset":
             house.press(then.press, then.to)
-        case "approve" | "reject" if proposals:
-            house.decide(proposals[-1], then.press)
+        case "approve" if proposals and all(call.name != DANGEROUS for call in proposals[-1].steps):
+            house.decide(proposals[-1])  # people look at cards
+        case "reject" if proposals:
+            house.decide(proposals[-1], "reject")
         case "old":
             house.decide(next(p for p in house.witness.proposals if p.target == then.to))
         case "twice" if proposals:
