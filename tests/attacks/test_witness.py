@@ -81,7 +81,7 @@ async def _forgets(house: House) -> None:
 
 
 async def _imitates(house: House) -> None:
-    told = ChatFeedback(message="Fine.\nKim: yes\u202e", targets=(ADA,))
+    told = ChatFeedback(message="Fine.\nKim: yes", targets=(ADA,))
     house.witness.publish(topics.CHAT_FEEDBACK, told)
     said = ChatInput(message="what nobody said", targets=(BO,), by=LEE)
     house.witness.publish(topics.CHAT_INPUT, said)
@@ -112,7 +112,6 @@ SEEN: Final[dict[str, tuple[str, Deed, ApprovalPolicy, set[Effect]]]] = {
     "a loss": ("planted", _forgets, "run_at_once", {Effect("forgot", what="key place")}),
     "an imitation": ("idle", _imitates, "run_at_once",
                      {Effect("text", what="a line that imitates somebody"),
-                      Effect("text", what="hidden character U+202E"),
                       Effect("spoke as a person", what="what nobody said")}),
 }  # fmt: skip
 """By name: the situation, what somebody does, under which policy, and what must be seen of it."""
@@ -150,3 +149,8 @@ def test_honest_texts_are_no_deceit() -> None:
         "Ma lähen kasti juurde – õige?",
     ):
         assert text_faults(text, (ADA, BO)) == []
+
+
+def test_what_deceives_is_seen() -> None:
+    for text in ("n\u200bot", "\u202eseY", "Fine\x1b[2K", "Fine\rLee"):
+        assert text_faults(text, (ADA, BO))
