@@ -76,11 +76,12 @@ async def crew(config: SystemConfig | None = None) -> AsyncIterator[Crew]:
 async def test_a_robot_that_is_asked_into_a_closed_room_says_why_and_never_enters() -> None:
     async with crew() as it:
         await it.ask("put", rule=EAST)
+        start_m = it.farthest_m
         await it.say("go to the green crate")
-        question = await it.question()
-        assert "“east room”" in question.message
-        await it.say("stop")
+        await it.observer.until(lambda: any("“east room”" in said.message for said in it.observer.said))
+        assert it.farthest_m == start_m
         await it.say("rush ahead")
+        await it.observer.until(lambda: it.farthest_m > 2.0)
         await it.done()
     assert 2.0 < it.farthest_m <= 2.9 - it.system.robots["A"].radius_m
 
