@@ -19,7 +19,7 @@ __all__ = ["command_line", "run"]
 
 _COMMANDS = (
     "demo", "doctor", "interpret", "eval", "incidents", "transcripts",
-    "graph", "actions", "memory", "world", "prompt", "bench", "web",
+    "graph", "actions", "language", "memory", "world", "prompt", "bench", "web",
 )  # fmt: skip
 """Each is a module of this package: with `register` if it is one command, with an `app` if it is several."""
 

@@ -1,4 +1,4 @@
-"""The options by which commands choose a language engine."""
+"""The options by which commands choose a language engine, and `parley language`."""
 
 from __future__ import annotations
 
@@ -8,6 +8,8 @@ from typing import Annotated, Any
 import typer
 
 from parley.errors import ConfigError
+from parley.files import read_text as read_file
+from parley.language.builtin.markup import read_text
 from parley.memory.embedder import KEY_VARIABLE
 
 __all__ = [
@@ -16,9 +18,28 @@ __all__ = [
     "EmbeddingsOption",
     "KeyFileOption",
     "LanguageOption",
+    "app",
     "embedding_settings",
     "language_settings",
 ]
+
+app = typer.Typer(no_args_is_help=True, help="What the built-in language engine learns from.")
+
+
+@app.callback()
+def _group() -> None:
+    """What the built-in language engine learns from."""
+
+
+@app.command()
+def check(
+    file: Annotated[Path, typer.Argument(help="Annotated sentences, see builtin/training/README.md.")],
+) -> None:
+    """Check annotated sentences; the first line that is wrong is named."""
+    sentences = list(read_text(read_file(file), file.name))
+    frames = {trigger.frame for sentence in sentences for trigger in sentence.triggers}
+    typer.echo(f"{len(sentences)} sentences, {len(frames)} frames: they can be read")
+
 
 ConfigOption = Annotated[
     Path | None,
