@@ -46,7 +46,7 @@ ConfigOption = Annotated[
     typer.Option(help="File with settings (YAML): language model, memory, pictures, whether to ask first."),
 ]
 LanguageOption = Annotated[
-    str, typer.Option(help="What understands you: offline, provider:model, or provider:model@address.")
+    str, typer.Option(help="What understands you: offline, builtin (new), provider:model, or provider:model@address.")
 ]
 KeyFileOption = Annotated[
     Path | None, typer.Option(help="File with the model's key; default: the provider's environment variable.")
@@ -85,6 +85,6 @@ def language_settings(language: str, key_file: Path | None) -> dict[str, Any]:
     """
     if not language:
         return {} if key_file is None else {"model": {"key_file": key_file}}
-    if language != "offline" and ":" not in language:
-        raise ConfigError(f"there is no language engine {language!r}; use offline or provider:model")
+    if language not in ("offline", "builtin") and ":" not in language:
+        raise ConfigError(f"there is no language engine {language!r}; use offline, builtin or provider:model")
     return {"language": language, "model": {"key_file": key_file}}

@@ -35,7 +35,8 @@ ROLES: tuple[Role, ...] = get_args(Role)
 
 FRAMES: tuple[str, ...] = (
     "GO", "TURN", "BRING", "TAKE", "PUT", "GIVE", "FIND", "LOOK", "FOLLOW", "GUIDE", "ON", "OFF", "OPEN",
-    "CLOSE", "CONNECT", "DISC", "SAY", "ASK", "WAIT", "PHOTO", "COUNT", "CLEAN", "POUR", "CUT", "MIX", "COOK", "MAKE",
+    "CLOSE", "CONNECT", "DISC", "SAY", "ASK", "WAIT", "PHOTO", "COUNT", "CLEAN", "POUR", "CUT", "MIX",
+    "COOK", "MAKE",
     "ANSWER", "CHARGE", "PUSH", "DO", "BELOC", "BECAT", "REMEMBER", "FORGET",
 )  # fmt: skip
 """What may be wanted of somebody, and what may be told."""
