@@ -8,7 +8,7 @@ PIP := $(BIN)/python -m pip --disable-pip-version-check --no-input
 
 .DEFAULT_GOAL := help
 .DELETE_ON_ERROR:
-.PHONY: help demo page types screenshots test test-page check format bench soak clean
+.PHONY: help demo page types screenshots test test-page check format bench soak train clean
 
 NPM := frontend/npm
 PAGE := src/parley/web/static/index.html
@@ -64,6 +64,10 @@ soak: $(VENV)/.dev ## The long tests: ten minutes, or PARLEY_SOAK_S seconds, and
 	@$(BIN)/python -m pytest -s -m soak tests/
 	@$(MAKE) --no-print-directory page
 	@PARLEY_KILLS=20 PARLEY_COMMAND="$(abspath $(BIN)/parley)" $(NPM) run --silent e2e -- e2e/connection
+
+train: $(VENV)/.runtime ## Train the tagger of the built-in language engine (a large library, and minutes)
+	@$(PIP) install --quiet -c constraints.txt --group train
+	@$(BIN)/python -m parley.language.builtin.training.train
 
 clean: ## Remove everything that was made
 	rm -rf $(VENV) frontend/node_modules src/parley/web/static dist build .mypy_cache .ruff_cache .pytest_cache .hypothesis

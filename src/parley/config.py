@@ -126,7 +126,7 @@ class SystemConfig(BaseModel, TextFile):
     actions_dir: FilePath | None = None
     """Folder with more actions, watched while the system runs."""
     language: str = Field(default="offline", pattern=r"^(offline|builtin|[A-Za-z0-9_.-]+:.+)$")
-    """Which language engine understands people: `offline`, `builtin`, `provider:model`, `provider:model@address`."""
+    """What understands people: `offline`, `builtin`, `provider:model`, `provider:model@address`."""
     language_fallback: tuple[str, ...] = ("offline",)
     """Asked in this order when a model gives no answer."""
     model: ModelSettings = Field(default_factory=ModelSettings)

@@ -46,7 +46,7 @@ ConfigOption = Annotated[
     typer.Option(help="File with settings (YAML): language model, memory, pictures, whether to ask first."),
 ]
 LanguageOption = Annotated[
-    str, typer.Option(help="What understands you: offline, builtin (new), provider:model, or provider:model@address.")
+    str, typer.Option(help="Engine: offline, builtin (new), provider:model, or provider:model@address.")
 ]
 KeyFileOption = Annotated[
     Path | None, typer.Option(help="File with the model's key; default: the provider's environment variable.")

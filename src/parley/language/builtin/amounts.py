@@ -2,38 +2,39 @@
 
 from __future__ import annotations
 
+import itertools
 from collections.abc import Sequence
 from dataclasses import dataclass
 
 from parley.language.builtin.lexicon import Lexicon
 
-__all__ = ["Amount", "amount_of", "direction_of"]
+__all__ = ["Amount", "amount_of", "direction_of", "is_compass"]
 
-_ONES = {
-    word: number
-    for number, word in enumerate(
-        "zero one two three four five six seven eight nine ten eleven twelve thirteen fourteen fifteen sixteen "
-        "seventeen eighteen nineteen".split()
-    )
-}
+_SMALL = """zero one two three four five six seven eight nine ten eleven twelve thirteen fourteen fifteen
+sixteen seventeen eighteen nineteen"""
+_ONES = {word: number for number, word in enumerate(_SMALL.split())}
 _TENS = {
-    "twenty": 20, "thirty": 30, "forty": 40, "fourty": 40, "fifty": 50, "sixty": 60, "seventy": 70, "eighty": 80,
+    "twenty": 20, "thirty": 30, "forty": 40, "fourty": 40, "fifty": 50, "sixty": 60, "seventy": 70,
+    "eighty": 80,
     "ninety": 90,
 }  # fmt: skip
 _UNITS = {
     "m": "m", "metre": "m", "meter": "m", "metres": "m", "meters": "m", "cm": "cm", "centimetre": "cm",
     "centimeter": "cm", "centimetres": "cm", "centimeters": "cm", "inch": "inches", "inches": "inches",
     "foot": "feet", "feet": "feet", "ft": "feet", "yard": "yards", "yards": "yards", "degree": "degrees",
-    "degrees": "degrees", "deg": "degrees", "°": "degrees", "mm": "mm", "millimetres": "mm", "millimeters": "mm",
+    "degrees": "degrees", "deg": "degrees", "°": "degrees", "mm": "mm", "millimetres": "mm",
+    "millimeters": "mm",
     "second": "s", "seconds": "s", "s": "s", "sec": "s", "minute": "min", "minutes": "min", "min": "min",
     "hour": "h", "hours": "h", "radians": "radians",
 }  # fmt: skip
 _LENGTHS = frozenset({"m", "cm", "inches", "feet", "yards", "mm"})
 _ANGLES = frozenset({"degrees", "radians"})
 _SAID_SO = frozenset({
-    "about", "at", "least", "another", "by", "around", "exactly", "roughly", "approximately", "more", "some", "for",
-    "only", "just", "maybe", "turn", "of", "a", "an", "the", "and", "like", "half", "quarter", "full", "hundred", "couple",
-    "uh", "um", "point", "to", "your", "circle",
+    "about", "at", "least", "another", "by", "around", "exactly", "roughly", "approximately", "more",
+    "some", "for",
+    "only", "just", "maybe", "turn", "of", "a", "an", "the", "and", "like", "half", "quarter", "full",
+    "hundred", "couple",
+    "uh", "um", "to", "your", "circle", "say", "perhaps",
 })  # fmt: skip
 
 
@@ -71,7 +72,9 @@ def amount_of(words: Sequence[str]) -> Amount | None:
 
 def _parted(word: str) -> list[str]:
     """Number and unit of what was written as one word; the parts of words with a hyphen."""
-    digits = next((at for at, letter in enumerate(word) if not (letter.isdigit() or letter in ".,")), len(word))
+    digits = next(
+        (at for at, letter in enumerate(word) if not (letter.isdigit() or letter in ".,")), len(word)
+    )
     if digits and word[digits:] in _UNITS:
         return [word[:digits].replace(",", "."), word[digits:]]
     return word.split("-") if "-" in word else [word]
@@ -106,7 +109,12 @@ def _number(words: Sequence[str]) -> float | None:
             total, seen = total + 0.25, True
         elif word == "couple":
             current, seen = 2.0, True
-        elif word in ("a", "an", "another") and not seen and "half" not in words and "hundred" not in words[at + 1 :]:
+        elif (
+            word in ("a", "an", "another")
+            and not seen
+            and "half" not in words
+            and "hundred" not in words[at + 1 :]
+        ):
             current, seen = 1.0, "couple" not in words
     return total + current if seen and total + current > 0 else None
 
@@ -114,7 +122,7 @@ def _number(words: Sequence[str]) -> float | None:
 def direction_of(words: Sequence[str], lexicon: Lexicon) -> str | None:
     """The one direction that words name, or None."""
     low = [word.lower() for word in words]
-    joined = ["".join(pair) for pair in zip(low, low[1:], strict=False)]
+    joined = ["".join(pair) for pair in itertools.pairwise(low)]
     found = {name for name in _COMPASS if any(word in lexicon.classes[name] for word in [*low, *joined])}
     diagonal = {name for name in found if len(name) > 5}
     if diagonal:

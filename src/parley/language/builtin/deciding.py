@@ -7,13 +7,14 @@ from dataclasses import replace
 
 from parley.language.base import Situation
 from parley.language.builtin.answers import answer
-from parley.language.builtin.decision import Answer, Ask, Control, Decision, Deed, Do, Remember
+from parley.language.builtin.decision import Answer, Ask, Control, Decision, Deed, Do, Remember, Told
 from parley.language.builtin.deeds import Builder
 from parley.language.builtin.facts import places, told_of
 from parley.language.builtin.lexicon import Lexicon
-from parley.language.builtin.reading import Reading, Wish
+from parley.language.builtin.reading import Reading
 from parley.language.builtin.skills import Skills
 from parley.language.builtin.spans import Parse
+from parley.language.builtin.wishes import Wish
 from parley.language.control import control_of
 
 __all__ = ["AGREED", "ALONE", "decide"]
@@ -25,12 +26,21 @@ ALONE = 0.8
 
 
 def decide(
-    situation: Situation, parse: Parse, reading: Reading, skills: Skills, lexicon: Lexicon, reader: Callable[[str], Reading]
+    situation: Situation,
+    parse: Parse,
+    reading: Reading,
+    skills: Skills,
+    lexicon: Lexicon,
+    reader: Callable[[str], Reading],
 ) -> Decision:
     """What to do, ask, remember or say."""
     starts = [token.start for token in parse.tokens]
     told = told_of(reading, situation.message, starts, lexicon)
-    orders = tuple(wish for wish in reading.wishes if wish.act in ("order", "edit", "answer") and wish.frame not in _NO_DEED)
+    orders = tuple(
+        wish
+        for wish in reading.wishes
+        if wish.act in ("order", "edit", "answer") and wish.frame not in _NO_DEED
+    )
     if not orders:
         return _without_order(situation, reading, told, lexicon, reader)
     doubt = _doubt(reading, orders)
@@ -38,6 +48,9 @@ def decide(
         return replace(doubt, told=told)
     builder = Builder(situation, skills, lexicon, places(situation.memory, reader, lexicon))
     deeds: list[Deed] = []
+    builder.told_about(reading.about)
+    if reading.manner:
+        builder.unheeded(" ".join(reading.manner))
     for filler in reading.loose:
         builder.loose(filler)
     for wish in reading.wishes:
@@ -59,8 +72,15 @@ _NO_DEED = frozenset({"BELOC", "BECAT", "REMEMBER", "FORGET"})
 def _doubt(reading: Reading, orders: tuple[Wish, ...]) -> Ask | None:
     """Why an order is not certain enough to be carried out."""
     if reading.left_over:
-        return Ask(f"I do not understand “{' '.join(reading.left_over)}” in this. Please say it in other words.")
-    if "alarm" in reading.acts or "question" in reading.acts or "control" in reading.acts or "edit" in reading.acts:
+        return Ask(
+            f"I do not understand “{' '.join(reading.left_over)}” in this. Please say it in other words."
+        )
+    if (
+        "alarm" in reading.acts
+        or "question" in reading.acts
+        or "control" in reading.acts
+        or "edit" in reading.acts
+    ):
         return Ask("I am not sure what you want me to do. Please say one thing at a time.")
     for wish in orders:
         weak = wish.share < (AGREED if wish.witness == "agrees" else ALONE)
@@ -74,9 +94,12 @@ def _doubt(reading: Reading, orders: tuple[Wish, ...]) -> Ask | None:
 
 
 def _without_order(
-    situation: Situation, reading: Reading, told: tuple[object, ...], lexicon: Lexicon, reader: Callable[[str], Reading]
+    situation: Situation,
+    reading: Reading,
+    facts: tuple[Told, ...],
+    lexicon: Lexicon,
+    reader: Callable[[str], Reading],
 ) -> Decision:
-    facts = told_of(reading, situation.message, [], lexicon) if False else told  # type: ignore[truthy-bool]
     command = control_of(situation.message, situation.robots)
     if command is not None:
         return Control("stop" if command == "emergency_stop" else command)
@@ -86,7 +109,7 @@ def _without_order(
             "Shall I go somewhere or tell somebody something?"
         )
     if facts:
-        return Remember(facts)  # type: ignore[arg-type]
+        return Remember(facts)
     if "question" in reading.acts:
         return answer(situation, reading, lexicon, reader)
     if "need" in reading.acts:

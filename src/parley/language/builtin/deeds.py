@@ -1,4 +1,4 @@
-"""From one wish to deeds: its roles grounded by type, an action for its frame, or steps that come to the same."""
+"""From one wish to deeds: its roles grounded by type, an action for its frame, or steps that amount to it."""
 
 from __future__ import annotations
 
@@ -10,16 +10,18 @@ from parley.language.builtin.amounts import amount_of, direction_of
 from parley.language.builtin.decision import Ask, Deed, Note
 from parley.language.builtin.facts import Place, known_place
 from parley.language.builtin.lexicon import Lexicon
-from parley.language.builtin.reading import Filler, Wish
-from parley.language.builtin.reply import with_article
+from parley.language.builtin.saying import with_article
 from parley.language.builtin.skills import Skill, Skills
 from parley.language.builtin.things import Mention, link, noun_phrase
+from parley.language.builtin.wishes import Filler, Wish
 from parley.world.object_map import MapObject
 
 __all__ = ["Builder"]
 
 _LOGIC = {"C": "a condition", "U": "“until”", "W": "a time", "E": "an exception", "O": "how often"}
-_MOVABLE = frozenset({"TAKE", "BRING", "GIVE", "PUT", "FIND", "COUNT", "POUR", "CUT", "MIX", "COOK", "DO", "MAKE"})
+_MOVABLE = frozenset(
+    {"TAKE", "BRING", "GIVE", "PUT", "FIND", "COUNT", "POUR", "CUT", "MIX", "COOK", "DO", "MAKE"}
+)
 
 
 @dataclass(frozen=True, slots=True)
@@ -50,28 +52,56 @@ class Builder:
         logic = next((_LOGIC[filler.role] for filler in wish.fillers if filler.role in _LOGIC), "")
         if wish.negated or wish.otherwise or logic:
             what = "what not to do" if wish.negated else logic or "“otherwise”"
-            return Ask(f"I understand that there is {what} in this, and I cannot plan that yet. What shall I do now?")
+            return Ask(
+                f"I understand that there is {what} in this, and I cannot plan that yet. What shall I do now?"
+            )
         frame = self.lexicon.frames.get(wish.frame)
-        strange = next((f for f in wish.fillers if frame and f.role not in frame.roles and f.role not in "AMPWI"), None)
+        strange = next(
+            (f for f in wish.fillers if frame and f.role not in frame.roles and f.role not in "AMPWI"), None
+        )
         if frame is None or strange is not None:
-            return Ask(f"I do not understand what “{strange.text if strange else wish.verb}” is in this. Please say it otherwise.")
+            unclear = strange.text if strange else wish.verb
+            return Ask(f"I do not understand what “{unclear}” is in this. Please say it otherwise.")
+        twice = next((f for f in wish.fillers if len(wish.all(f.role)) > 1 and f.role not in "AMP"), None)
+        if twice is not None:
+            both = " and ".join(f"“{filler.text}”" for filler in wish.all(twice.role))
+            return Ask(f"I do not understand how {both} go together here. Please say it otherwise.")
         values: dict[str, Value] = {}
         for filler in wish.fillers:
+            if (
+                filler.role == "T"
+                and filler.words[-1] in ("yourself", "itself")
+                and wish.frame in ("CONNECT", "DISC", "CHARGE")
+            ):
+                continue
             value = self._value(wish, filler)
             if isinstance(value, Ask):
                 return value
             if value is not None:
                 values[filler.role] = value
-        if "T" in values:
-            self.last_thing = values["T"]
+        for role in "LSGT":
+            self.last_thing = values[role] if role in values and values[role].things else self.last_thing
+        self.last_thing = values.get("T", self.last_thing)
         for filler in wish.all("M") + wish.all("P"):
-            self.notes.append(Note(f"I choose way and pace myself, so “{filler.text}” changes nothing."))
+            self.unheeded(filler.text)
         return self._planned(wish, values)
+
+    def unheeded(self, text: str) -> None:
+        """A wish about the manner, which no action takes."""
+        self.notes.append(Note(f"I choose way and pace myself, so “{text}” changes nothing."))
+
+    def told_about(self, name: tuple[str, ...]) -> None:
+        """Somebody of whom something was told just now."""
+        if name:
+            text = " ".join(name)
+            self.last_person = Value(text, with_article(text), (), known_place(name, self.known))
 
     def loose(self, filler: Filler) -> None:
         """Something that is spoken of before it is wanted."""
         if filler.role == "T":
-            value = self._thing("BELOC", filler, link(filler.words, filler.head, self.situation.objects, self.lexicon))
+            value = self._thing(
+                "BELOC", filler, link(filler.words, filler.head, self.situation.objects, self.lexicon)
+            )
             self.last_thing = value if isinstance(value, Value) else self.last_thing
 
     # -- values --
@@ -99,7 +129,7 @@ class Builder:
 
     def _person(self, filler: Filler, mention: Mention) -> Value | Ask:
         if mention.kind == "pronoun":
-            return self.last_person or self._last_told() or Ask(f"Who is “{filler.text}”?")
+            return self.last_person or Ask(f"Who is “{filler.text}”?")
         if mention.kind in ("speaker", "here"):
             return Value("operator", "you")
         name, rest = noun_phrase(filler.words, filler.head, self.lexicon)
@@ -107,10 +137,6 @@ class Builder:
         found = Value(text, with_article(text), mention.things, known_place(name, self.known))
         self.last_person = found
         return found
-
-    def _last_told(self) -> Value | None:
-        """Somebody of whom something was told just now."""
-        return None
 
     def _thing(self, frame: str, filler: Filler, mention: Mention) -> Value | Ask:
         if mention.kind == "pronoun":
@@ -122,15 +148,27 @@ class Builder:
         if mention.kind == "one":
             thing = mention.things[0]
             return Value(thing.description, with_article(thing.description), mention.things)
+        if mention.kind == "part":
+            return Value(mention.text, with_article(mention.text), mention.things)
         if mention.kind == "several":
             names = tuple(dict.fromkeys(thing.description for thing in mention.things))
-            if len(names) > 1 and not rest and not self._finds_out():
-                return Ask(f"Which one do you mean: {' or '.join(with_article(n) for n in names[:6])}?", names[:6])
+            if not rest and not self._finds_out() and len(names) > 1:
+                return Ask(
+                    f"Which one do you mean: {' or '.join(with_article(n) for n in names[:6])}?", names[:6]
+                )
+            if not rest and not self._finds_out():
+                return Ask(
+                    f"There are {len(mention.things)} things called “{names[0]}”. Which one do you mean?"
+                )
             return Value(mention.text, with_article(mention.text), mention.things)
         place = known_place(name, self.known)
         if place is not None:
             return Value(place.thing, with_article(place.thing), (), place)
-        if frame in _MOVABLE and filler.role == "T" and (frame in ("FIND", "COUNT", "DO", "MAKE") or rest or not self.situation.objects):
+        if (
+            frame in _MOVABLE
+            and filler.role == "T"
+            and (frame in ("FIND", "COUNT", "DO", "MAKE") or rest or not self.situation.objects)
+        ):
             return Value(mention.text, with_article(mention.text))
         if frame in ("PHOTO", "BELOC"):
             return Value(mention.text, with_article(mention.text))
@@ -147,6 +185,8 @@ class Builder:
             missing = self._steering(wish, values)
             if missing is not None:
                 return missing
+        if wish.frame == "GO" and "N" in values and "G" in values:
+            return Ask(f"Shall I go to {values['G'].said}, or only {values['N'].said} in that direction?")
         if wish.frame == "GO":
             return self._way(values.get("G") or values.get("L"))
         if wish.frame == "FACE" and "G" in values:
@@ -165,17 +205,24 @@ class Builder:
     def _steering(self, wish: Wish, values: dict[str, Value]) -> Ask | None:
         """What has to be said of a movement; "forward" and "back" may be in the verb."""
         if "H" not in values:
-            backing = any(word in ("back", "reverse", "backing", "reversing") for word in wish.verb.split())
+            backing = any(
+                word in ("back", "backup", "reverse", "backing", "reversing") for word in wish.verb.split()
+            )
             if wish.frame == "MOVE" and (backing or "N" in values):
                 values["H"] = Value("back", "back") if backing else Value("forward", "forward")
             elif wish.frame == "TURN" and "around" in wish.verb.split():
                 values["H"] = Value("around", "around")
-            elif wish.frame == "TURN" and values.get("N", Value("", "")).argument in ("180 degrees", "360 degrees"):
+            elif wish.frame == "TURN" and values.get("N", Value("", "")).argument in (
+                "180 degrees",
+                "360 degrees",
+            ):
                 values["H"] = Value("left", "left")
             else:
                 return Ask("To the left or to the right?" if wish.frame == "TURN" else "Which direction?")
         if "N" not in values and values["H"].argument != "around":
-            return Ask("By how many degrees shall I turn?" if wish.frame == "TURN" else "How far shall I move?")
+            return Ask(
+                "By how many degrees shall I turn?" if wish.frame == "TURN" else "How far shall I move?"
+            )
         return None
 
     def _direct(self, wish: Wish, skill: Skill, values: dict[str, Value]) -> list[Deed] | Ask:
@@ -185,7 +232,12 @@ class Builder:
         taken = set()
         for role, value in values.items():
             slot = skill.roles.get(role) or next(
-                (skill.roles[other] for other in _ALIKE.get(role, "") if other in skill.roles and other not in values), None
+                (
+                    skill.roles[other]
+                    for other in _ALIKE.get(role, "")
+                    if other in skill.roles and other not in values
+                ),
+                None,
             )
             if slot is not None and slot not in arguments:
                 arguments[slot] = value.argument
@@ -195,12 +247,21 @@ class Builder:
                 if isinstance(way, Ask):
                     return way
                 before += way
-        missing = [name for name in skill.action.inputs if name not in arguments and name not in skill.action.optional]
+        missing = [
+            name
+            for name in skill.action.inputs
+            if name not in arguments and name not in skill.action.optional
+        ]
         if missing:
-            return Ask(f"I can {self.lexicon.frames[wish.frame].gloss}, but I need to know more: what, where or whom?")
+            return Ask(
+                f"I can {self.lexicon.frames[wish.frame].gloss}, but I need to know more: what, or where?"
+            )
         if "looks" in skill.action.effects and "GO" in self.skills:
             before += self._way_to_thing(values.get("T"))
-        return [*before, Deed(wish.frame, skill, arguments, {role: value.said for role, value in values.items()})]
+        return [
+            *before,
+            Deed(wish.frame, skill, arguments, {role: value.said for role, value in values.items()}),
+        ]
 
     def _way(self, goal: Value | None) -> list[Deed] | Ask:
         skill = self.skills.get("GO")
@@ -221,8 +282,8 @@ class Builder:
         if locate is None or not locate.roles:
             return Ask("I cannot find out where that is.")
         if goal.argument == "operator" or not goal.things:
-            return Ask(f"I do not know where {goal.said if goal.argument != 'operator' else 'you are'}"
-                       f"{'' if goal.argument == 'operator' else ' is'}. Which place is it near?")  # fmt: skip
+            unknown = "you are" if goal.argument == "operator" else f"{goal.said} is"
+            return Ask(f"I do not know where {unknown}. Which place is it near?")
         return [
             Deed("GO", locate, {next(iter(locate.roles.values())): goal.argument}, said, hidden=True),
             Deed("GO", skill, {}, said),
@@ -251,7 +312,10 @@ class Builder:
             way = self._way(thing)
         if isinstance(way, Ask):
             return way
-        return [*way, Deed("FIND", look, {next(iter(look.roles.values())): thing.argument}, {"T": thing.said})]
+        return [
+            *way,
+            Deed("FIND", look, {next(iter(look.roles.values())): thing.argument}, {"T": thing.said}),
+        ]
 
     def _take(self, values: dict[str, Value]) -> list[Deed] | Ask:
         thing, ask = values.get("T"), self.skills.get("ASK")

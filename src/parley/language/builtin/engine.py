@@ -23,7 +23,7 @@ from parley.language.builtin.skills import SkillTable
 from parley.language.builtin.spans import Parse, parse
 from parley.language.builtin.tagger import shipped_tagger
 from parley.language.builtin.things import link
-from parley.language.builtin.tokens import tokenize
+from parley.language.builtin.tokens import spoken, tokenize
 from parley.messages.chat import ChatAction
 from parley.messages.memory import MemoryEntry
 from parley.robots.base import CameraImage
@@ -68,23 +68,26 @@ class BuiltinLanguage:
         if self._skills is None:
             self._skills = SkillTable(shipped_tagger(), self._lexicon)
         skills = self._skills.of(situation.catalogue)
-        return decide(situation, parsed, reading, skills, self._lexicon, self._reading)
+        return decide(situation, parsed, reading, skills, self._lexicon, self.reading)
 
-    def _reading(self, text: str) -> Reading:
+    def reading(self, text: str) -> Reading:
+        """What a text says, whatever the situation."""
         return self._read(text)[1]
 
     def _read_text(self, text: str) -> tuple[Parse, Reading]:
-        tokens = tokenize(text)
+        tokens = spoken(tokenize(text)) or tokenize(text)
         parsed = parse(tokens, shipped_tagger().tag([token.text for token in tokens]))
         return parsed, read(parsed, self._lexicon)
 
     async def select_memories(self, query: str, index: Sequence[MemoryEntry]) -> list[str]:
         """See `Language.select_memories`."""
         wanted = {token.low for token in tokenize(query)} - self._lexicon.classes["small"]
-        return [
-            memory.name for memory in index
-            if wanted & {token.low for token in tokenize(f"{memory.name.replace('_', ' ')} {memory.info} {memory.data}")}
-        ]  # fmt: skip
+        found = []
+        for memory in index:
+            text = f"{memory.name.replace('_', ' ')} {memory.info} {memory.data}"
+            if wanted & {token.low for token in tokenize(text)}:
+                found.append(memory.name)
+        return found
 
     async def resolve(self, situation: ErrorSituation) -> ChatAction:
         """See `Language.resolve`."""
@@ -97,7 +100,11 @@ class BuiltinLanguage:
         words = [token.low for token in tokenize(description) if token.is_word]
         if not words:
             return Grounding("none")
-        exact = [item for item in objects if description.strip().lower() in (item.description.lower(), item.id.lower())]
+        exact = [
+            item
+            for item in objects
+            if description.strip().lower() in (item.description.lower(), item.id.lower())
+        ]
         if len(exact) == 1:
             return Grounding("match", tuple(exact))
         found = link(words, recovery.head_of(words, self._lexicon), objects, self._lexicon)
@@ -113,6 +120,5 @@ class BuiltinLanguage:
 
     async def read_reply(self, question: str, reply: str, choices: Sequence[str] = ()) -> ReplyReading:
         """See `Language.read_reply`."""
-        parsed, reading = self._read(reply) if reply.strip() else (None, None)
-        acts = reading.acts if reading is not None and parsed is not None else frozenset()
-        return recovery.read_reply(reply, choices, acts, self._lexicon)
+        said = any(token.is_word for token in tokenize(reply))
+        return recovery.read_reply(reply, choices, self.reading(reply).acts if said else frozenset())

@@ -8,11 +8,12 @@ from dataclasses import dataclass
 
 from parley.language.builtin.decision import Told
 from parley.language.builtin.lexicon import Lexicon, stem
-from parley.language.builtin.reading import Reading, Wish
+from parley.language.builtin.reading import Reading
+from parley.language.builtin.saying import with_article
 from parley.language.builtin.things import noun_phrase
 from parley.messages.memory import MemoryEntry
 
-__all__ = ["Place", "places", "told_of"]
+__all__ = ["Place", "known_place", "places", "told_of"]
 
 
 @dataclass(frozen=True, slots=True)
@@ -47,7 +48,9 @@ def told_of(reading: Reading, message: str, starts: Sequence[int], lexicon: Lexi
         text = text.strip().rstrip(".,;!?").removesuffix(" and").strip()
         key = "_".join(re.findall(r"\w+", " ".join(name)))[:150]
         if key and text:
-            found.append(Told(f"{key}_location", _quoted(text), f"Where {' '.join(name)} is"))
+            plain = re.search(re.escape(" ".join(name)), message, re.IGNORECASE)
+            shown = plain[0] if plain else " ".join(name)
+            found.append(Told(f"{key}_location", _quoted(text), f"Where {with_article(shown)} is"))
     return tuple(found)
 
 
@@ -88,8 +91,3 @@ def known_place(name: Sequence[str], known: Sequence[Place]) -> Place | None:
     near = [p for p in known if set(wanted) <= {stem(word) for word in p.thing.split()}]
     names = {place.thing for place in near}
     return near[0] if len(names) == 1 else None
-
-
-def wish_place(wish: Wish) -> bool:
-    """Whether a wish is a fact about where something is."""
-    return wish.frame == "BELOC"

@@ -12,7 +12,7 @@ FRAME_TAGS: tuple[str, ...] = ("O", *(f"{mark}-{frame}" for frame in FRAMES for 
 ROLE_TAGS: tuple[str, ...] = ("O", *(f"{mark}-{role}" for role in ROLES for mark in "BI"))
 MODE_TAGS: tuple[str, ...] = ("plain", "negated", "otherwise")
 DESCRIBED: tuple[str, ...] = (OTHER, *FRAMES, "MOVE", "FACE", "LOCATE")
-"""What an action may be: a frame, or what GO and TURN are with other roles, or finding the coordinates of a place."""
+"""What an action may be: a frame, what GO and TURN are with other roles, or finding where a place is."""
 
 HEADS: dict[str, int] = {
     "act": len(ACT_TAGS),

@@ -12,11 +12,19 @@ import yaml
 __all__ = ["Frame", "Lexicon", "lemmas", "lexicon", "stem"]
 
 _IRREGULAR = {
-    "took": "take", "taken": "take", "brought": "bring", "went": "go", "gone": "go", "found": "find", "gave": "give",
-    "given": "give", "told": "tell", "said": "say", "got": "get", "made": "make", "lit": "light", "held": "hold",
-    "seen": "see", "saw": "see", "laid": "lay", "kept": "keep", "drove": "drive", "came": "come", "sent": "send",
+    "took": "take", "taken": "take", "brought": "bring", "went": "go", "gone": "go", "found": "find",
+    "gave": "give",
+    "given": "give", "told": "tell", "said": "say", "got": "get", "made": "make", "lit": "light",
+    "held": "hold",
+    "seen": "see", "saw": "see", "laid": "lay", "kept": "keep", "drove": "drive", "came": "come",
+    "sent": "send",
     "tying": "tie", "lying": "lie", "does": "do", "did": "do", "has": "have", "goes": "go",
 }  # fmt: skip
+
+
+_ENDINGS = (
+    ("ies", "y"), ("es", ""), ("s", ""), ("ied", "y"), ("ed", ""), ("ed", "e"), ("ing", ""), ("ing", "e"),
+)  # fmt: skip
 
 
 @dataclass(frozen=True, slots=True)
@@ -73,8 +81,7 @@ def lemmas(word: str) -> tuple[str, ...]:
     found = [word]
     if word in _IRREGULAR:
         found.append(_IRREGULAR[word])
-    for ending, instead in (("ies", "y"), ("es", ""), ("s", ""), ("ied", "y"), ("ed", ""), ("ed", "e"), ("ing", ""),
-                            ("ing", "e")):  # fmt: skip
+    for ending, instead in _ENDINGS:
         if word.endswith(ending) and len(word) - len(ending) > 1:
             cut = word[: -len(ending)] + instead
             found.append(cut)
@@ -90,12 +97,16 @@ def stem(word: str) -> str:
         return word[:-3] + "y"
     if len(word) > 4 and word.endswith(("ches", "shes", "sses", "xes", "oes")):
         return word[:-2]
-    return word[:-1] if len(word) > 3 and word.endswith("s") and not word.endswith(("ss", "us", "is")) else word
+    return (
+        word[:-1] if len(word) > 3 and word.endswith("s") and not word.endswith(("ss", "us", "is")) else word
+    )
 
 
 def _load(name: str) -> dict[str, object]:
     text = (resources.files("parley.language.lexicon") / f"{name}.yaml").read_text(encoding="utf-8")
-    read: dict[str, object] = yaml.load(text, yaml.CBaseLoader if hasattr(yaml, "CBaseLoader") else yaml.BaseLoader)  # noqa: S506
+    read: dict[str, object] = yaml.load(
+        text, yaml.CBaseLoader if hasattr(yaml, "CBaseLoader") else yaml.BaseLoader
+    )
     return read
 
 

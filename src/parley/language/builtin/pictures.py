@@ -20,7 +20,9 @@ def inspect(image: CameraImage, request: str) -> InspectionReport:
         LanguageError: The robot has no detector, so nothing can be said about its pictures.
     """
     if image.detections is None:
-        raise LanguageError("this robot has no detector, and without a language model I cannot judge pictures")
+        raise LanguageError(
+            "this robot has no detector, and without a language model I cannot judge pictures"
+        )
     seen = [found for found in image.detections if found.pixels >= _LEAST_PIXELS]
     labels = list(dict.fromkeys(found.label for found in seen))
     shown = ", ".join(labels) or "nothing that I know"
@@ -30,6 +32,8 @@ def inspect(image: CameraImage, request: str) -> InspectionReport:
         named = any(word not in ("if", "whether", "what", "how") for word in request.split()[:1])
         if not named:
             return InspectionReport(f"I looked. I can see: {shown}. Please judge for yourself.")
-        return InspectionReport(f"I looked, but I cannot see the {request}. I can see: {shown}.", False, request)
+        return InspectionReport(
+            f"I looked, but I cannot see the {request}. I can see: {shown}.", False, request
+        )
     far = "" if match.distance_m is None else f", about {match.distance_m:.1f} m away"
     return InspectionReport(f"I can see the {match.label}{far}.", True, match.label)

@@ -1,64 +1,16 @@
-"""From spans to what is wished and told: frames with their roles, who agrees on them, and what is left over."""
+"""From spans to what is wished and told: frames with roles, who agrees on them, and what is left over."""
 
 from __future__ import annotations
 
 from dataclasses import dataclass, replace
-from typing import Literal
 
 from parley.language.builtin.amounts import amount_of, direction_of
-from parley.language.builtin.lexicon import Lexicon
+from parley.language.builtin.lexicon import Lexicon, lemmas
+from parley.language.builtin.retyping import retyped
 from parley.language.builtin.spans import Parse, Span, Verb
+from parley.language.builtin.wishes import Filler, Wish, Witness
 
-__all__ = ["Filler", "Reading", "Wish", "read"]
-
-Witness = Literal["agrees", "unknown", "differs"]
-
-
-@dataclass(frozen=True, slots=True)
-class Filler:
-    """What fills a role: words of the message, by their places."""
-
-    role: str
-    start: int
-    end: int
-    head: int
-    words: tuple[str, ...]
-    """From start to end, in small letters."""
-    share: float = 1.0
-
-    @property
-    def text(self) -> str:
-        """Its words."""
-        return " ".join(self.words)
-
-
-@dataclass(frozen=True, slots=True)
-class Wish:
-    """One frame with its roles."""
-
-    frame: str
-    start: int
-    verb: str
-    fillers: tuple[Filler, ...]
-    share: float
-    """How much the tagger believes in the least certain part of it."""
-    witness: Witness
-    """What the lexicon says to it."""
-    act: str = "order"
-    negated: bool = False
-    otherwise: bool = False
-
-    def all(self, role: str) -> tuple[Filler, ...]:
-        """What fills a role."""
-        return tuple(filler for filler in self.fillers if filler.role == role)
-
-    def one(self, role: str) -> Filler | None:
-        """What fills a role first."""
-        return next(iter(self.all(role)), None)
-
-    def has(self, roles: str) -> bool:
-        """Whether one of these roles is filled."""
-        return any(filler.role in roles for filler in self.fillers)
+__all__ = ["Reading", "read"]
 
 
 @dataclass(frozen=True, slots=True)
@@ -72,27 +24,69 @@ class Reading:
     """What belongs to no frame."""
     left_over: tuple[str, ...]
     """Words that no part of the reading accounts for."""
+    manner: tuple[str, ...] = ()
+    """Words about how it is to be done."""
+    about: tuple[str, ...] = ()
+    """Of whom or what something is told that is no frame: "Kim" in "Kim is tired"."""
 
 
 def read(parse: Parse, lexicon: Lexicon) -> Reading:
     """What is wished and told."""
     wishes: list[Wish] = []
-    fillers = [_filler(parse, span) for span in parse.spans]
+    spans = _merged(parse)
+    fillers = [_filler(parse, span, lexicon) for span in spans]
     for number, verb in enumerate(parse.verbs):
-        mine = [filler for filler, span in zip(fillers, parse.spans, strict=True) if span.owner == number]
+        mine = [filler for filler, span in zip(fillers, spans, strict=True) if span.owner == number]
         wishes.append(_wish(parse, verb, mine, lexicon))
-    loose = [filler for filler, span in zip(fillers, parse.spans, strict=True) if span.owner is None]
+    loose = [filler for filler, span in zip(fillers, spans, strict=True) if span.owner is None]
     implied = [_implied(parse, filler, lexicon) for filler in loose]
     implied_wishes = _joined([wish for wish in implied if wish is not None])
     rest = tuple(filler for filler, wish in zip(loose, implied, strict=True) if wish is None)
     ordered = sorted([*wishes, *implied_wishes], key=lambda wish: wish.start)
-    spread = [part for wish in ordered for part in _spread(_retyped(wish, lexicon))]
-    return Reading(frozenset(parse.acts), tuple(spread), rest, _left_over(parse, lexicon))
+    wanted = _without_openers([retyped(wish, lexicon) for wish in ordered], parse)
+    spread = [part for wish in wanted for part in _spread(wish)]
+    return Reading(
+        frozenset(parse.acts), tuple(spread), rest, _left_over(parse, lexicon), _about(parse, lexicon)
+    )
 
 
-def _filler(parse: Parse, span: Span) -> Filler:
+def _merged(parse: Parse) -> list[Span]:
+    """Spans of one role that touch each other are one; a role behind a later verb belongs to that one."""
+    found: list[Span] = []
+    for span in parse.spans:
+        last = found[-1] if found else None
+        if last is not None and last.role == span.role and last.end == span.start and span.role in "NGTSLHX":
+            head = span.head if span.role in "NH" else last.head
+            found[-1] = replace(last, end=span.end, head=head, share=min(last.share, span.share))
+            continue
+        nearest = max((n for n, verb in enumerate(parse.verbs) if verb.start < span.start), default=None)
+        if span.owner is not None and nearest is not None and span.owner < nearest and span.role in "TGSRHN":
+            span = replace(span, owner=nearest)
+        found.append(span)
+    return found
+
+
+def _without_openers(wishes: list[Wish], parse: Parse) -> list[Wish]:
+    """Without a bare "go" or "turn" that only opens the next wish ("go get a box", "turn and face it")."""
+    kept = []
+    for wish, behind in zip(wishes, [*wishes[1:], None], strict=False):
+        near = behind is not None and behind.start - wish.start <= len(wish.verb.split()) + 1
+        bare = not wish.fillers and not wish.negated and wish.frame in ("GO", "TURN", "MOVE")
+        between = parse.tokens[wish.start : behind.start] if behind is not None else ()
+        apart = any(token.low in ("then", ",", ".") for token in between)
+        if not (near and bare and not apart and behind is not None and behind.act == wish.act):
+            kept.append(wish)
+    return kept
+
+
+def _filler(parse: Parse, span: Span, lexicon: Lexicon) -> Filler:
     words = tuple(token.low for token in parse.tokens[span.start : span.end])
-    return Filler(span.role, span.start, span.end, span.head - span.start, words, span.share)
+    head = span.head - span.start
+    small = lexicon.classes["prepositions"] | lexicon.classes["determiners"]
+    if words[head] in small and any(word not in small for word in words):
+        first = next(at for at, word in enumerate(words) if word not in small)
+        head = next((at - 1 for at in range(first, len(words)) if words[at] in small), len(words) - 1)
+    return Filler(span.role, span.start, span.end, head, words, span.share)
 
 
 def _wish(parse: Parse, verb: Verb, mine: list[Filler], lexicon: Lexicon) -> Wish:
@@ -101,13 +95,15 @@ def _wish(parse: Parse, verb: Verb, mine: list[Filler], lexicon: Lexicon) -> Wis
     while words and (words[0] in ("don't", "dont", "not", "never", "do") and len(words) > 1):
         words = words[1:]
     known = lexicon.frames_of(words, particles)
+    known |= {general for special, general in _KIND_OF.items() if special in known}
     witness: Witness = "agrees" if verb.frame in known else "differs" if known else "unknown"
     act = parse.acts[verb.start]
     said = " ".join([*words, *particles])
     share = min([verb.share, *(filler.share for filler in mine)])
-    return Wish(
-        verb.frame, verb.start, said, tuple(mine), share, witness, act, verb.negated, verb.otherwise
-    )
+    return Wish(verb.frame, verb.start, said, tuple(mine), share, witness, act, verb.negated, verb.otherwise)
+
+
+_KIND_OF = {"FACE": "TURN", "MOVE": "GO"}
 
 
 def _implied(parse: Parse, filler: Filler, lexicon: Lexicon) -> Wish | None:
@@ -120,7 +116,9 @@ def _implied(parse: Parse, filler: Filler, lexicon: Lexicon) -> Wish | None:
         frame = "TURN" if amount is not None and amount.kind == "angle" else "GO"
     elif filler.role == "H":
         frame = "TURN" if direction_of(filler.words, lexicon) in ("left", "right") else "GO"
-    return Wish(frame, filler.start, "", (filler,), filler.share, "unknown" if filler.role == "G" else "agrees")
+    return Wish(
+        frame, filler.start, "", (filler,), filler.share, "unknown" if filler.role == "G" else "agrees"
+    )
 
 
 def _joined(wishes: list[Wish]) -> list[Wish]:
@@ -138,43 +136,41 @@ def _joined(wishes: list[Wish]) -> list[Wish]:
     return found
 
 
-def _retyped(wish: Wish, lexicon: Lexicon) -> Wish:
-    """With the frame that its roles ask for: taking to somewhere is bringing, turning to a thing is facing it."""
-    frame = wish.frame
-    amount = next((amount_of(filler.words) for filler in wish.all("N")), None)
-    if frame in ("TAKE", "FIND") and wish.has("RG") and wish.has("T") and not (frame == "FIND" and not wish.has("G")):
-        frame = "BRING" if frame == "TAKE" else frame
-    elif frame == "BRING" and not wish.has("RG") and wish.verb.split(" ")[0] in ("take", "grab", "pick", "collect", "lift"):
-        frame = "TAKE"
-    elif frame == "GO" and not wish.has("G") and amount is not None and amount.kind == "angle":
-        frame = "TURN"
-    elif frame == "GO" and not wish.has("G") and wish.has("HN"):
-        frame = "MOVE"
-    elif frame == "GO" and not wish.fillers and any(word in _BACKING for word in wish.verb.split()):
-        frame = "MOVE"
-    if frame == "TURN" and not wish.has("N"):
-        direction = next((direction_of(filler.words, lexicon) for filler in wish.all("H")), None)
-        if wish.has("TG") or (direction or "") in _COMPASS:
-            frame = "FACE"
-    return replace(wish, frame=frame)
-
-
-_BACKING = frozenset({"back", "reverse", "backing", "reversing", "retreat"})
-_COMPASS = frozenset({"north", "south", "east", "west", "northeast", "northwest", "southeast", "southwest"})
-_MANY = {"T", "G"}
+_MANY = ("T", "G")
+_REPEATED = frozenset(
+    {"GO", "LOOK", "FIND", "ON", "OFF", "OPEN", "CLOSE", "COUNT", "CLEAN", "TAKE", "BRING", "DO"}
+)
 
 
 def _spread(wish: Wish) -> list[Wish]:
-    """One wish for each of several goals or things."""
+    """One wish for each of several goals or things, if that is all that there are several of."""
     for role in _MANY:
         several = wish.all(role)
-        if len(several) > 1:
+        if len(several) > 1 and wish.frame in _REPEATED:
             others = tuple(filler for filler in wish.fillers if filler.role != role)
             return [
                 replace(wish, start=wish.start if not number else one.start, fillers=(*others, one))
                 for number, one in enumerate(several)
             ]
     return [wish]
+
+
+_LEADING = frozenset({"with", "to", "for", "at", "of", "by", "from", "in", "into"})
+"""What may lead to a role without being part of it; "on" and "off" may be half a verb."""
+
+
+def _is_name(word: str, lexicon: Lexicon) -> bool:
+    """Whether the first word of a message may be the name of somebody who is called: no word that is known."""
+    verbs = any((lemma,) in lexicon.verbs for lemma in lemmas(word))
+    return word.isalpha() and len(word) > 2 and not verbs and not any(word in c for c in lexicon.classes.values())
+
+
+def _about(parse: Parse, lexicon: Lexicon) -> tuple[str, ...]:
+    """The words before the first "is", "has" and the like of what is told."""
+    told = [token.low for token, act in zip(parse.tokens, parse.acts, strict=True) if act in ("told", "need")]
+    end = next((at for at, word in enumerate(told) if word in lexicon.classes["being"]), 0)
+    words = tuple(word for word in told[:end] if word not in lexicon.classes["small"])
+    return words if end and len(words) < 4 else ()
 
 
 def _left_over(parse: Parse, lexicon: Lexicon) -> tuple[str, ...]:
@@ -184,12 +180,21 @@ def _left_over(parse: Parse, lexicon: Lexicon) -> tuple[str, ...]:
     for span in parse.spans:
         taken |= set(range(span.start, span.end))
     low = [token.low for token in parse.tokens]
+    starts = {span.start for span in parse.spans}
     small = lexicon.classes["small"]
     left = []
     for at, token in enumerate(parse.tokens):
-        if at in taken or not token.is_word or low[at] in small or parse.acts[at] in ("social", "told"):
+        if at in taken or not token.is_word or low[at] in small or parse.acts[at] in ("social", "told", "need"):
             continue
-        if any(" ".join(low[max(at - back, 0) : at - back + size]) in small for size in (2, 3) for back in range(size)):
+        if low[at] in _LEADING and at + 1 in starts:
+            continue
+        if at == 0 and _is_name(token.low, lexicon) and len(low) > 1:
+            continue
+        if any(
+            " ".join(low[max(at - back, 0) : at - back + size]) in small
+            for size in (2, 3)
+            for back in range(size)
+        ):
             continue
         left.append(token.text)
     return tuple(left)

@@ -1,4 +1,4 @@
-"""What to do when a step failed, and how answers are meant: choices by their words, a few plain answers, else ask."""
+"""What to do when a step failed, and how answers are meant: choices by their words, else ask."""
 
 from __future__ import annotations
 
@@ -42,7 +42,9 @@ def resolve(situation: ErrorSituation, lexicon: Lexicon) -> ChatAction:
     return _ask(situation, names, "I did not understand that. ")
 
 
-_DONE = frozenset({"done", "did", "moved", "cleared", "removed", "fixed", "ready", "finished", "opened", "have"})
+_DONE = frozenset(
+    {"done", "did", "moved", "cleared", "removed", "fixed", "ready", "finished", "opened", "have"}
+)
 _NOT = frozenset({"not", "no", "don't", "never", "can't", "didn't", "haven't"})
 
 
@@ -50,7 +52,9 @@ def _candidates(situation: ErrorSituation) -> tuple[str, ...]:
     listed = situation.details.get("candidates")
     if situation.code is not FailureCode.AMBIGUOUS or not isinstance(listed, list):
         return ()
-    return tuple(str(item["description"]) for item in listed if isinstance(item, dict) and "description" in item)
+    return tuple(
+        str(item["description"]) for item in listed if isinstance(item, dict) and "description" in item
+    )
 
 
 def _ask(situation: ErrorSituation, names: Sequence[str], before: str = "") -> ChatAction:
@@ -100,16 +104,20 @@ def chosen(words: Collection[str], names: Sequence[str]) -> str | None:
 def head_of(words: Sequence[str], lexicon: Lexicon) -> int:
     """Which word of a description names the thing: the last one before a preposition."""
     small = lexicon.classes["prepositions"]
-    first = next((at for at, word in enumerate(words) if word not in small | lexicon.classes["determiners"]), 0)
+    first = next(
+        (at for at, word in enumerate(words) if word not in small | lexicon.classes["determiners"]), 0
+    )
     stop = next((at for at in range(first + 1, len(words)) if words[at] in small), len(words))
     return stop - 1
 
 
-_YES = frozenset({"yes", "yep", "yeah", "ok", "okay", "sure", "done", "ready", "correct", "right", "did", "put", "have"})
+_YES = frozenset(
+    {"yes", "yep", "yeah", "ok", "okay", "sure", "done", "ready", "correct", "right", "did", "put", "have"}
+)
 _NO = frozenset({"no", "nope", "nah", "not", "don't", "never", "can't", "won't"})
 
 
-def read_reply(reply: str, choices: Sequence[str], acts: Collection[str], lexicon: Lexicon) -> ReplyReading:
+def read_reply(reply: str, choices: Sequence[str], acts: frozenset[str]) -> ReplyReading:
     """How an answer to a question is meant."""
     words = _words(reply)
     if not words:

@@ -9,7 +9,7 @@ from parley.language.builtin.decision import Answer, Ask, Control, Decision, Dee
 from parley.language.builtin.lexicon import Lexicon
 from parley.messages.chat import ActionCall, ChatAction, SystemCommand
 
-__all__ = ["said", "to_chat", "with_article"]
+__all__ = ["said", "to_chat"]
 
 _CONTROLLED = {
     "stop": "I stop.", "pause": "I stop.", "start": "I go on.", "clear": "I drop all that I was told to do.",
@@ -40,7 +40,8 @@ def to_chat(decision: Decision, lexicon: Lexicon) -> ChatAction:
             )
         case Control(command):
             return ChatAction(
-                message_response=_CONTROLLED.get(command, "Yes."), system_cmd=(SystemCommand(command=command),)
+                message_response=_CONTROLLED.get(command, "Yes."),
+                system_cmd=(SystemCommand(command=command),),
             )
         case Answer(text, sources):
             return ChatAction(message_response=text, sources=sources)
@@ -62,18 +63,6 @@ def said(deed: Deed, lexicon: Lexicon) -> str:
     return re.sub(r" +", " ", re.sub(r"\{(\w)\}", held, re.sub(r"\[([^\]]*)\]", kept, text))).strip()
 
 
-def with_article(text: str) -> str:
-    """A noun phrase with "the", unless it is a name or has a word like that already."""
-    first = text.split(" ", 1)[0]
-    bare = text[:1].isupper() or first in _OWN or not text or text[-1].isdigit()
-    return text if bare else f"the {text}"
-
-
-_OWN = frozenset(
-    {"the", "a", "an", "my", "your", "his", "her", "our", "their", "this", "that", "these", "those", "you", "it", "all", "what"}
-)  # fmt: skip
-
-
 def _listed(parts: Sequence[str]) -> str:
     return parts[0] if len(parts) == 1 else f"{', '.join(parts[:-1])} and then {parts[-1]}"
 
@@ -84,7 +73,13 @@ def _call(deed: Deed, lexicon: Lexicon) -> ActionCall:
         for name, value in deed.arguments.items()
     }
     return ActionCall.model_validate(
-        {deed.skill.action.name: {"input_parameters": inputs, "output_parameters": {}, "reason": said(deed, lexicon)}}
+        {
+            deed.skill.action.name: {
+                "input_parameters": inputs,
+                "output_parameters": {},
+                "reason": said(deed, lexicon),
+            }
+        }
     )
 
 
@@ -94,6 +89,8 @@ def _remembered(fact: Told) -> str:
 
 def _memories(told: Sequence[Told]) -> tuple[SystemCommand, ...]:
     return tuple(
-        SystemCommand(command="add_memory", arguments={"name": fact.name, "data": fact.text, "info": fact.about})
+        SystemCommand(
+            command="add_memory", arguments={"name": fact.name, "data": fact.text, "info": fact.about}
+        )
         for fact in told
     )

@@ -1,6 +1,6 @@
 """Which frame each action of a catalogue is, and which role each of its parameters: once for each catalogue.
 
-Names decide nothing: what an action's maker says of it does, read by the tagger; effects do where they are said.
+Names decide nothing: what an action's maker says of it does, read by the tagger; effects, where there are.
 """
 
 from __future__ import annotations
@@ -19,14 +19,20 @@ from parley.language.builtin.lexicon import Lexicon
 from parley.language.builtin.tagger import Tagger
 from parley.messages.status import ActionInfo
 
-__all__ = ["Skill", "Skills", "SkillTable"]
+__all__ = ["Skill", "SkillTable", "Skills"]
 
 _SURE = 0.5
+_RIVAL = 0.15
+"""If so much speaks for the opposite, an action is not used."""
+_OPPOSITES = {"ON": "OFF", "OPEN": "CLOSE", "CONNECT": "DISC", "TAKE": "PUT"}
+_OPPOSITES |= {other: one for one, other in _OPPOSITES.items()}
 _KEPT = 64
 _EFFECTS = {"locates": "LOCATE", "moves": "GO", "looks": "LOOK", "asks_operator": "ASK"}
-_ROLES = {"MOVE": "HN", "TURN": "HN", "FACE": "T", "LOCATE": "G", "GO": "G", "LOOK": "TK", "ASK": "X", "PHOTO": "T",
-          "SAY": "XR", "ANSWER": "TX", "WAIT": "D", "OPEN": "T", "CLOSE": "T", "FOLLOW": "T", "FIND": "TL", "ON": "TL",
-          "OFF": "TL", "GUIDE": "TGS", "BRING": "TRGS", "COOK": "TLI", "MIX": "TIL"}  # fmt: skip
+_ROLES = {
+    "MOVE": "HN", "TURN": "HN", "FACE": "T", "LOCATE": "G", "GO": "G", "LOOK": "TK", "ASK": "X", "PHOTO":
+    "T", "SAY": "XR", "ANSWER": "TX", "WAIT": "D", "OPEN": "T", "CLOSE": "T", "FOLLOW": "T", "FIND": "TL",
+    "ON": "TL", "OFF": "TL", "GUIDE": "TGS", "BRING": "TRGS", "COOK": "TLI", "MIX": "TIL",
+}  # fmt: skip
 
 
 @dataclass(frozen=True, slots=True)
@@ -76,8 +82,9 @@ class SkillTable:
         rows, columns = linear_sum_assignment(-np.log(table + 1e-4))
         found: Skills = {}
         for row, column in zip(rows, columns, strict=True):
-            if table[row, column] >= _SURE:
-                action, frame = catalogue[row], frames[column]
+            action, frame = catalogue[int(row)], frames[column]
+            rival = beliefs[row].get(_OPPOSITES.get(frame, ""), 0.0)
+            if table[row, column] >= _SURE and rival < _RIVAL:
                 found[frame] = Skill(action, frame, self._roles(action, frame), float(table[row, column]))
         return found
 

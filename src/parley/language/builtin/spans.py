@@ -64,9 +64,7 @@ def parse(tokens: tuple[Token, ...], scores: Scores) -> Parse:
     frames = _best(scores.frame[:size], FRAME_TAGS)
     roles = _best(scores.role[:size], ROLE_TAGS)
     acts = tuple(ACT_TAGS[int(row.argmax())] for row in scores.act[:size])
-    shares = tuple(
-        float(min(scores.frame[at, frames[at]], scores.role[at, roles[at]])) for at in range(size)
-    )
+    shares = tuple(float(min(scores.frame[at, frames[at]], scores.role[at, roles[at]])) for at in range(size))
     verbs = _verbs(frames, scores)
     return Parse(tokens, acts, verbs, _spans(roles, scores, verbs), shares)
 

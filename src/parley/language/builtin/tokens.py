@@ -6,7 +6,7 @@ import re
 from collections.abc import Sequence
 from dataclasses import dataclass
 
-__all__ = ["Token", "tokenize"]
+__all__ = ["Token", "spoken", "tokenize"]
 
 _WORD = re.compile(
     r"\d+(?:[.,:]\d+)+[^\W_]*"  # 2.5m, 14:30
@@ -51,6 +51,25 @@ def tokenize(text: str) -> tuple[Token, ...]:
     return tuple(found)
 
 
-def words_of(tokens: Sequence[Token]) -> str:
-    """The words of tokens, with spaces between."""
-    return " ".join(token.text for token in tokens)
+_HUM = re.compile(r"u+h+m*|u+m+|h+m+|m+h*m+|e+r+m*|a+h+|o+h+|e+h+|([a-z])\1{1,}|xxx", re.IGNORECASE)
+
+
+def spoken(tokens: Sequence[Token]) -> tuple[Token, ...]:
+    """Those that carry something: without hums, words said twice, and beginnings of the word that follows."""
+    kept: list[Token] = []
+    loud = [token for token in tokens if not _HUM.fullmatch(token.text)]
+    for token, behind in zip(loud, [*loud[1:], None], strict=False):
+        begun = behind is not None and token.low.isalpha() and token.low not in ("a", "i")
+        if begun and behind is not None and behind.low == token.low:
+            continue
+        short = len(token.low) < 4 and token.low not in _SHORT
+        if not (begun and short and behind is not None and behind.low.startswith(token.low)):
+            kept.append(token)
+    return tuple(kept)
+
+
+_SHORT = frozenset({
+    "on", "in", "to", "the", "at", "it", "so", "no", "be", "go", "up", "do", "an", "and", "for", "off", "all",
+    "us",
+    "we", "if", "or", "by", "my", "me", "of", "is", "as",
+})  # fmt: skip

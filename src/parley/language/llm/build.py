@@ -33,7 +33,8 @@ def build_language(
     """The engine that `names` says, the next behind the one before.
 
     Args:
-        names: `offline`, `builtin`, `provider:model`, `provider:model@address` or `replay:file`; the usual one first.
+        names: `offline`, `builtin`, `provider:model`, `provider:model@address` or `replay:file`; the
+            usual one first.
         settings: How models are asked.
         check: Whether a plan can be carried out.
         clock: Wall time; None: this machine's.

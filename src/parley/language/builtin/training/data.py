@@ -19,7 +19,9 @@ _HERE = resources.files("parley.language.builtin.training")
 
 
 def _files(kind: str) -> list[Traversable]:
-    return sorted((file for file in (_HERE / kind).iterdir() if file.name.endswith(".txt")), key=lambda f: f.name)
+    return sorted(
+        (file for file in (_HERE / kind).iterdir() if file.name.endswith(".txt")), key=lambda f: f.name
+    )
 
 
 def written() -> list[Annotated]:
@@ -31,7 +33,7 @@ def written() -> list[Annotated]:
 
 def from_templates(chance: random.Random, times: int) -> list[Annotated]:
     """Sentences out of templates, each filled so many times."""
-    words = yaml.load((_HERE / "words.yaml").read_text("utf-8"), yaml.BaseLoader)  # noqa: S506
+    words = yaml.load((_HERE / "words.yaml").read_text("utf-8"), yaml.BaseLoader)
     lines = [
         line for file in _files("templates") for line in file.read_text("utf-8").splitlines()
         if line.strip() and not line.startswith("#")
@@ -52,6 +54,11 @@ def descriptions() -> list[tuple[str, str]]:
 def data_hash() -> str:
     """Of everything that the weights are made of but the base model: it stands in the model card."""
     digest = hashlib.sha256()
-    for file in [*_files("sentences"), *_files("templates"), _HERE / "words.yaml", _HERE / "descriptions.txt"]:
+    for file in [
+        *_files("sentences"),
+        *_files("templates"),
+        _HERE / "words.yaml",
+        _HERE / "descriptions.txt",
+    ]:
         digest.update(file.name.encode() + b"\0" + file.read_bytes())
     return digest.hexdigest()

@@ -58,7 +58,7 @@ class Tagger(nn.Module):
         self.described = nn.Linear(WIDTH, len(DESCRIBED))
 
     def forward(self, ids: Tensor, mask: Tensor, first: Tensor) -> tuple[Tensor, ...]:
-        """Scores of act, frame, role, head, mode per word; of arcs word to word (column 0: none); of frames."""
+        """Scores of the heads for each word; of arcs word to word (column 0: none); of frames."""
         places = torch.arange(ids.shape[1], device=ids.device)
         x = self.dropout(self.norm(self.pieces(ids) + self.places(places) + self.kind))
         hidden = (1.0 - mask)[:, None, None, :] * -1e4
@@ -80,7 +80,9 @@ def load_base(model: Tagger, weights: bytes) -> None:
     def tensor(name: str) -> Tensor:
         entry = table[name]
         start, end = (8 + size + offset for offset in entry["data_offsets"])
-        return torch.frombuffer(bytearray(weights[start:end]), dtype=torch.float32).view(entry["shape"]).clone()
+        return (
+            torch.frombuffer(bytearray(weights[start:end]), dtype=torch.float32).view(entry["shape"]).clone()
+        )
 
     with torch.no_grad():
         model.pieces.weight.copy_(tensor("embeddings.word_embeddings.weight"))

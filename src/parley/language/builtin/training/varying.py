@@ -16,7 +16,8 @@ _CHOICE = re.compile(r"<<([^<>]*)>>")
 
 _BEFORE = (
     "please", "can you", "could you", "can you please", "could you please", "would you", "would you please",
-    "robot", "robot please", "robot can you", "okay", "ok", "okay now", "uh", "um", "uhh", "hm", "and", "and then",
+    "robot", "robot please", "robot can you", "okay", "ok", "okay now", "uh", "um", "uhh", "hm", "and",
+    "and then",
     "now", "then", "okay and", "so", "I want you to", "I would like you to", "I need you to", "go ahead and",
     "let's", "you should", "alright", "right", "hey", "next", "please could you", "will you", "you need to",
 )  # fmt: skip
@@ -107,7 +108,8 @@ def _spliced(sentence: Annotated, start: int, end: int, words: Sequence[str], ac
         for one in sentence.triggers
     )  # fmt: skip
     roles = tuple(
-        RoleSpan(one.role, begin(one.start), finish(one.end), begin(one.head), one.owner) for one in sentence.roles
+        RoleSpan(one.role, begin(one.start), finish(one.end), begin(one.head), one.owner)
+        for one in sentence.roles
     )
     return Annotated((*sentence.words[:start], *words, *sentence.words[end:]), acts, triggers, roles)
 
