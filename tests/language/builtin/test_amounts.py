@@ -8,25 +8,39 @@ from parley.language.builtin.amounts import amount_of, direction_of
 from parley.language.builtin.lexicon import lexicon
 from parley.language.builtin.tokens import spoken, tokenize
 
+AMOUNTS = {
+    "one hundred and fifty degrees": "150 degrees",
+    "one eighty degrees": "180 degrees",
+    "forty five degrees": "45 degrees",
+    "at least two feet": "2 feet",
+    "half a metre": "0.5 m",
+    "a quarter turn": "90 degrees",
+    "2.5m": "2.5 m",
+    "one and a half metres": "1.5 m",
+    "ninety": "90",
+    "a couple of feet": "2 feet",
+    "one two": "None",
+    "the box": "None",
+    "two feet three metres": "None",
+}
 
-@pytest.mark.parametrize(
-    ("words", "amount"),
-    [
-        ("one hundred and fifty degrees", "150 degrees"), ("one eighty degrees", "180 degrees"),
-        ("forty five degrees", "45 degrees"), ("at least two feet", "2 feet"), ("half a metre", "0.5 m"),
-        ("a quarter turn", "90 degrees"), ("2.5m", "2.5 m"), ("one and a half metres", "1.5 m"), ("ninety", "90"),
-        ("a couple of feet", "2 feet"), ("one two", "None"), ("the box", "None"), ("two feet three metres", "None"),
-    ],
-)  # fmt: skip
+
+@pytest.mark.parametrize(("words", "amount"), AMOUNTS.items())
 def test_an_amount_is_read_or_not_at_all(words: str, amount: str) -> None:
     assert str(amount_of(words.split())) == amount
 
 
-@pytest.mark.parametrize(
-    ("words", "direction"),
-    [("to your left", "left"), ("straight ahead", "forward"), ("due north west", "northwest"), ("straight back", "back"),
-     ("left or right", None), ("the box", None)],
-)  # fmt: skip
+DIRECTIONS = {
+    "to your left": "left",
+    "straight ahead": "forward",
+    "due north west": "northwest",
+    "straight back": "back",
+    "left or right": None,
+    "the box": None,
+}
+
+
+@pytest.mark.parametrize(("words", "direction"), DIRECTIONS.items())
 def test_a_direction_is_read_or_not_at_all(words: str, direction: str | None) -> None:
     assert direction_of(words.split(), lexicon()) == direction
 

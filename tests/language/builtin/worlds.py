@@ -38,15 +38,20 @@ CATALOGUE = (
     action("snap", "Take a photo and send it."),
 )
 
-SENTENCES = (
-    "go to the office", "drive to the front gate", "bring the red box to the office", "pick up the blue crate",
-    "put the red box on the desk", "turn on the lamp", "switch off the pump", "open the front gate",
-    "close the front gate", "look for the red box", "take a picture", "turn left by ninety degrees",
-    "move forward two metres", "take the red box and put it on the desk", "go to the yard and open the front gate",
-    "follow me", "inspect the pump", "fetch the blue crate from the yard",
-)  # fmt: skip
+SENTENCES = tuple(
+    """go to the office; drive to the front gate; bring the red box to the office; pick up the blue crate;
+put the red box on the desk; turn on the lamp; switch off the pump; open the front gate; close the front gate;
+look for the red box; take a picture; turn left by ninety degrees; move forward two metres; follow me;
+take the red box and put it on the desk; go to the yard and open the front gate; inspect the pump;
+fetch the blue crate from the yard""".replace("\n", " ").split("; ")
+)
 
 
 def situation(message: str, **more: object) -> Situation:
-    values: dict[str, object] = {"objects": THINGS, "catalogue": CATALOGUE, "robot": "Ada", "robots": ("Ada",)}
+    values: dict[str, object] = {
+        "objects": THINGS,
+        "catalogue": CATALOGUE,
+        "robot": "Ada",
+        "robots": ("Ada",),
+    }
     return Situation(message, **(values | more))  # type: ignore[arg-type]

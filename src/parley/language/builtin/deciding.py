@@ -19,9 +19,9 @@ from parley.language.control import control_of
 
 __all__ = ["AGREED", "ALONE", "decide"]
 
-AGREED = 0.45
+AGREED = 0.3
 """So much the tagger must believe in the least certain part of a wish that the lexicon agrees with."""
-ALONE = 0.8
+ALONE = 0.75
 """So much where the lexicon does not know the verb."""
 
 

@@ -150,8 +150,9 @@ class Builder:
             return Value(thing.description, with_article(thing.description), mention.things)
         if mention.kind == "part":
             return Value(mention.text, with_article(mention.text), mention.things)
-        if mention.kind == "several":
+        if mention.kind in ("several", "unclear"):
             names = tuple(dict.fromkeys(thing.description for thing in mention.things))
+            rest = () if mention.kind == "unclear" else rest
             if not rest and not self._finds_out() and len(names) > 1:
                 return Ask(
                     f"Which one do you mean: {' or '.join(with_article(n) for n in names[:6])}?", names[:6]

@@ -50,20 +50,17 @@ class Lexicon:
     hints: Mapping[str, frozenset[str]]
     """Role -> words in names of parameters that speak for it."""
 
-    def frames_of(self, verb: Sequence[str], particles: Sequence[str] = ()) -> frozenset[str]:
-        """What words may call up: those of the whole, else of the verb alone; none if they are not known."""
-        whole = tuple(word for given in (*verb, *particles) for word in [given])
-        for words in (whole, tuple(verb)):
-            for form in _forms(words):
-                found = self.verbs.get(form)
-                if found is not None:
-                    return found
-        for size in range(len(verb), 0, -1):
-            for form in _forms(tuple(verb[:size])):
-                found = self.verbs.get(form)
-                if found is not None:
-                    return found
+    def exactly(self, words: Sequence[str]) -> frozenset[str]:
+        """What these words together may call up, in any form of the first; none if they are not known."""
+        for form in _forms(tuple(words)):
+            if form in self.verbs:
+                return self.verbs[form]
         return frozenset()
+
+    def frames_of(self, verb: Sequence[str], particles: Sequence[str] = ()) -> frozenset[str]:
+        """What a verb may call up with its particles, else alone, else by its first words."""
+        tries = [[*verb, *particles], *(verb[:size] for size in range(len(verb), 0, -1))]
+        return next((found for words in tries if (found := self.exactly(words))), frozenset())
 
     def is_in(self, word: str, name: str) -> bool:
         """Whether a word belongs to a closed class."""

@@ -45,9 +45,10 @@ def read(parse: Parse, lexicon: Lexicon) -> Reading:
     ordered = sorted([*wishes, *implied_wishes], key=lambda wish: wish.start)
     wanted = _without_openers([retyped(wish, lexicon) for wish in ordered], parse)
     spread = [part for wish in wanted for part in _spread(wish)]
-    return Reading(
-        frozenset(parse.acts), tuple(spread), rest, _left_over(parse, lexicon), _about(parse, lexicon)
-    )
+    idle = _left_over(parse, lexicon)
+    manner = tuple(word for word in idle if word.lower() in lexicon.classes["manner"])
+    left = tuple(word for word in idle if word not in manner)
+    return Reading(frozenset(parse.acts), tuple(spread), rest, left, manner, _about(parse, lexicon))
 
 
 def _merged(parse: Parse) -> list[Span]:
@@ -94,13 +95,25 @@ def _wish(parse: Parse, verb: Verb, mine: list[Filler], lexicon: Lexicon) -> Wis
     particles = [parse.tokens[at].low for at in verb.particles]
     while words and (words[0] in ("don't", "dont", "not", "never", "do") and len(words) > 1):
         words = words[1:]
-    known = lexicon.frames_of(words, particles)
+    _, longer = _reach(parse, verb, lexicon)
+    known = longer or lexicon.frames_of(words, particles)
     known |= {general for special, general in _KIND_OF.items() if special in known}
     witness: Witness = "agrees" if verb.frame in known else "differs" if known else "unknown"
     act = parse.acts[verb.start]
     said = " ".join([*words, *particles])
     share = min([verb.share, *(filler.share for filler in mine)])
     return Wish(verb.frame, verb.start, said, tuple(mine), share, witness, act, verb.negated, verb.otherwise)
+
+
+def _reach(parse: Parse, verb: Verb, lexicon: Lexicon) -> tuple[int, frozenset[str]]:
+    """Where a verb ends with the words behind it that the lexicon knows to belong to it, and what that is."""
+    words = [token.low for token in parse.tokens[verb.start : verb.end]]
+    behind = [token.low for token in parse.tokens[verb.end : verb.end + 2]]
+    for size in range(len(behind), 0, -1):
+        found = frozenset[str]() if verb.particles else lexicon.exactly([*words, *behind[:size]])
+        if found:
+            return verb.end + size, found
+    return verb.end, frozenset()
 
 
 _KIND_OF = {"FACE": "TURN", "MOVE": "GO"}
@@ -160,9 +173,14 @@ _LEADING = frozenset({"with", "to", "for", "at", "of", "by", "from", "in", "into
 
 
 def _is_name(word: str, lexicon: Lexicon) -> bool:
-    """Whether the first word of a message may be the name of somebody who is called: no word that is known."""
+    """Whether the first word of a message may be the name of who is called: it is no word that is known."""
     verbs = any((lemma,) in lexicon.verbs for lemma in lemmas(word))
-    return word.isalpha() and len(word) > 2 and not verbs and not any(word in c for c in lexicon.classes.values())
+    return (
+        word.isalpha()
+        and len(word) > 2
+        and not verbs
+        and not any(word in c for c in lexicon.classes.values())
+    )
 
 
 def _about(parse: Parse, lexicon: Lexicon) -> tuple[str, ...]:
@@ -176,7 +194,8 @@ def _about(parse: Parse, lexicon: Lexicon) -> tuple[str, ...]:
 def _left_over(parse: Parse, lexicon: Lexicon) -> tuple[str, ...]:
     taken: set[int] = set()
     for verb in parse.verbs:
-        taken |= {*range(verb.start, verb.end), *verb.particles}
+        end, _ = _reach(parse, verb, lexicon)
+        taken |= {*range(verb.start, end), *verb.particles}
     for span in parse.spans:
         taken |= set(range(span.start, span.end))
     low = [token.low for token in parse.tokens]
@@ -184,7 +203,12 @@ def _left_over(parse: Parse, lexicon: Lexicon) -> tuple[str, ...]:
     small = lexicon.classes["small"]
     left = []
     for at, token in enumerate(parse.tokens):
-        if at in taken or not token.is_word or low[at] in small or parse.acts[at] in ("social", "told", "need"):
+        if (
+            at in taken
+            or not token.is_word
+            or low[at] in small
+            or parse.acts[at] in ("social", "told", "need")
+        ):
             continue
         if low[at] in _LEADING and at + 1 in starts:
             continue

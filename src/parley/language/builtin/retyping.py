@@ -12,7 +12,9 @@ __all__ = ["BACKING", "retyped"]
 
 BACKING = frozenset({"back", "backup", "reverse", "backing", "reversing", "retreat"})
 """Verbs that say the direction themselves."""
-_AT = frozenset({"on", "in", "at", "near", "by", "under", "beside", "next", "behind", "inside", "from", "off"})
+_AT = frozenset(
+    {"on", "in", "at", "near", "by", "under", "beside", "next", "behind", "inside", "from", "off"}
+)
 """Prepositions that say where something is, and not where to."""
 _TAKING = frozenset({"take", "grab", "pick", "collect", "lift"})
 

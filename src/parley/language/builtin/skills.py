@@ -22,10 +22,15 @@ from parley.messages.status import ActionInfo
 __all__ = ["Skill", "SkillTable", "Skills"]
 
 _SURE = 0.5
+_LEAST = 0.1
+_MARGIN = 20.0
+"""So much likelier two opposite actions must be as they are than exchanged."""
 _RIVAL = 0.15
 """If so much speaks for the opposite, an action is not used."""
 _OPPOSITES = {"ON": "OFF", "OPEN": "CLOSE", "CONNECT": "DISC", "TAKE": "PUT"}
 _OPPOSITES |= {other: one for one, other in _OPPOSITES.items()}
+_TOO_MANY = 0.2
+"""What is left of a belief where an action has more parameters than a frame has roles."""
 _KEPT = 64
 _EFFECTS = {"locates": "LOCATE", "moves": "GO", "looks": "LOOK", "asks_operator": "ASK"}
 _ROLES = {
@@ -65,7 +70,7 @@ class SkillTable:
 
     def of(self, catalogue: Sequence[ActionInfo]) -> Skills:
         """What a robot with these actions can do, by frame."""
-        key = json.dumps([(a.name, sorted(a.inputs), a.description, a.effects) for a in catalogue])
+        key = json.dumps([(a.name, a.inputs, a.optional, a.description, a.effects) for a in catalogue])
         found = self._known.get(key)
         if found is None:
             found = self._known[key] = self._match(catalogue)
@@ -81,12 +86,26 @@ class SkillTable:
         table = np.array([[belief.get(frame, 0.0) for frame in frames] for belief in beliefs])
         rows, columns = linear_sum_assignment(-np.log(table + 1e-4))
         found: Skills = {}
-        for row, column in zip(rows, columns, strict=True):
-            action, frame = catalogue[int(row)], frames[column]
-            rival = beliefs[row].get(_OPPOSITES.get(frame, ""), 0.0)
-            if table[row, column] >= _SURE and rival < _RIVAL:
-                found[frame] = Skill(action, frame, self._roles(action, frame), float(table[row, column]))
+        chosen = {frames[column]: int(row) for row, column in zip(rows, columns, strict=True)}
+        for frame, row in chosen.items():
+            share = beliefs[row].get(frame, 0.0)
+            if self._is_told_apart(frame, row, chosen, beliefs) and share >= _LEAST:
+                found[frame] = Skill(catalogue[row], frame, self._roles(catalogue[row], frame), share)
         return found
+
+    @staticmethod
+    def _is_told_apart(
+        frame: str, row: int, chosen: dict[str, int], beliefs: Sequence[dict[str, float]]
+    ) -> bool:
+        """Whether an action is this and not the opposite: by itself, or because another is the opposite."""
+        share = beliefs[row].get(frame, 0.0)
+        opposite = _OPPOSITES.get(frame, "")
+        rival = beliefs[row].get(opposite, 0.0)
+        other = chosen.get(opposite)
+        if other is None:
+            return share >= _SURE and rival < _RIVAL
+        swapped = rival * beliefs[other].get(frame, 0.0)
+        return share * beliefs[other].get(opposite, 0.0) > _MARGIN * swapped and share + rival >= _SURE
 
     def _belief(self, action: ActionInfo) -> dict[str, float]:
         """How much each frame fits an action, of one."""
@@ -95,15 +114,14 @@ class SkillTable:
             return {said: 1.0}
         if not action.description:
             return {}
-        sentences = [part for part in re.split(r"(?<=[.;])\s+", action.description) if part][:2]
-        texts = [action.description, *(sentences if len(sentences) > 1 else [])]
-        for text in texts:
-            if text not in self._described:
-                self._described[text] = self._tagger.describe([text])[0]
-        first = self._described[texts[0]]
-        if len(texts) == 1:
-            return first
-        return {frame: max(share, self._described[texts[1]][frame]) for frame, share in first.items()}
+        if action.description not in self._described:
+            self._described[action.description] = self._tagger.describe([action.description])[0]
+        found = self._described[action.description]
+        many = len(action.inputs)
+        return {
+            frame: share * (_TOO_MANY if many > len(_ROLES.get(frame, "TRGSL")) else 1.0)
+            for frame, share in found.items()
+        }
 
     def _roles(self, action: ActionInfo, frame: str) -> dict[str, str]:
         """Which parameter takes which role: names hint, the order decides between equals."""

@@ -13,7 +13,7 @@ from parley.world.object_map import MapObject
 
 __all__ = ["Mention", "link", "noun_phrase"]
 
-Kind = Literal["one", "part", "several", "none", "speaker", "pronoun", "person", "here"]
+Kind = Literal["one", "part", "several", "unclear", "none", "speaker", "pronoun", "person", "here"]
 
 
 @dataclass(frozen=True, slots=True)
@@ -74,7 +74,7 @@ def link(words: Sequence[str], head: int, objects: Sequence[MapObject], lexicon:
         if of_whole and len(best) == 1:
             return Mention("part", " ".join((*name, *rest)), tuple(best))
         if best and not of_whole and _best(whole, objects) not in ([], best):
-            return Mention("several", " ".join(name), (*best, *_best(whole, objects)))
+            return Mention("unclear", " ".join(name), (*best, *_best(whole, objects)))
     if not best:
         return Mention("none", " ".join((*name, *rest)))
     if len(best) > 1 and rest:
