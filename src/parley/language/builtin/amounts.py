@@ -129,7 +129,8 @@ def direction_of(words: Sequence[str], lexicon: Lexicon) -> str | None:
         found = diagonal if len(diagonal) == 1 else found
     elif not found:
         found = {name for name in _SIDES if any(word in lexicon.classes[name] for word in low)}
-        found = found - {"forward"} if "back" in found or ("left" in found or "right" in found) else found
+        aside = found & {"left", "right", "back"}
+        found = found - {"forward"} if aside and "and" not in low else found
     return found.pop() if len(found) == 1 else None
 
 

@@ -18,7 +18,7 @@ class Deed:
     frame: str
     """Whose words say it in the reply."""
     skill: Skill
-    arguments: Mapping[str, str]
+    arguments: Mapping[str, str | float]
     """Parameter -> value."""
     said: Mapping[str, str]
     """Role -> words for the reply."""

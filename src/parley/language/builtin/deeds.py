@@ -6,7 +6,7 @@ from collections.abc import Sequence
 from dataclasses import dataclass, field
 
 from parley.language.base import Situation
-from parley.language.builtin.amounts import amount_of, direction_of
+from parley.language.builtin.amounts import Amount, amount_of, direction_of
 from parley.language.builtin.decision import Ask, Deed, Note
 from parley.language.builtin.facts import Place, known_place
 from parley.language.builtin.lexicon import Lexicon
@@ -33,6 +33,7 @@ class Value:
     things: tuple[MapObject, ...] = ()
     place: Place | None = None
     """Where it is remembered to be."""
+    amount: Amount | None = None
 
 
 @dataclass(slots=True)
@@ -87,8 +88,8 @@ class Builder:
         return self._planned(wish, values)
 
     def unheeded(self, text: str) -> None:
-        """A wish about the manner, which no action takes."""
-        self.notes.append(Note(f"I choose way and pace myself, so “{text}” changes nothing."))
+        """A part that no action takes, such as the manner: it is said."""
+        self.notes.append(Note(f"I cannot take “{text}” into account."))
 
     def told_about(self, name: tuple[str, ...]) -> None:
         """Somebody of whom something was told just now."""
@@ -119,7 +120,8 @@ class Builder:
                 return Ask(f"How much is “{filler.text}”? Please say a number and its unit.")
             if amount.kind == "number" and kind == "distance":
                 return Ask(f"{amount} of what: metres, feet?")
-            return Value(str(amount) if amount.unit else f"{amount} degrees", str(amount))
+            text = str(amount) if amount.unit else f"{amount} degrees"
+            return Value(text, text, amount=amount)
         if kind == "text":
             return Value(filler.text, filler.text)
         mention = link(filler.words, filler.head, self.situation.objects, self.lexicon)
@@ -153,6 +155,8 @@ class Builder:
         if mention.kind in ("several", "unclear"):
             names = tuple(dict.fromkeys(thing.description for thing in mention.things))
             rest = () if mention.kind == "unclear" else rest
+            marked = {word for thing in self.situation.objects for word in thing.description.lower().split()}
+            rest = tuple(word for word in rest if word in marked or word in self.lexicon.classes["parts"])
             if not rest and not self._finds_out() and len(names) > 1:
                 return Ask(
                     f"Which one do you mean: {' or '.join(with_article(n) for n in names[:6])}?", names[:6]
@@ -188,6 +192,8 @@ class Builder:
                 return missing
         if wish.frame == "GO" and "N" in values and "G" in values:
             return Ask(f"Shall I go to {values['G'].said}, or only {values['N'].said} in that direction?")
+        if wish.frame == "BRING" and not {"R", "G"} & set(values) and wish.verb.split()[0] not in _TO_ME:
+            return Ask("Where shall I bring it?")
         if wish.frame == "GO":
             return self._way(values.get("G") or values.get("L"))
         if wish.frame == "FACE" and "G" in values:
@@ -228,41 +234,30 @@ class Builder:
 
     def _direct(self, wish: Wish, skill: Skill, values: dict[str, Value]) -> list[Deed] | Ask:
         """By the action that is made for it."""
-        arguments: dict[str, str] = {}
+        arguments: dict[str, str | float] = {}
+        said: dict[str, str] = {}
         before: list[Deed] = []
-        taken = set()
+        gloss = self.lexicon.frames[wish.frame].gloss
         for role, value in values.items():
-            slot = skill.roles.get(role) or next(
-                (
-                    skill.roles[other]
-                    for other in _ALIKE.get(role, "")
-                    if other in skill.roles and other not in values
-                ),
-                None,
-            )
+            slot = _slot(skill, role, values)
             if slot is not None and slot not in arguments:
-                arguments[slot] = value.argument
-                taken.add(role)
-            elif role in "SL" and "GO" in self.skills:
-                way = self._way(value)
-                if isinstance(way, Ask):
-                    return way
+                given = _typed(value, skill.action.inputs[slot])
+                if given is None:
+                    return Ask(f"I cannot {gloss} with “{value.said}”. Please say it otherwise.")
+                arguments[slot], said[role] = given, value.said
+                continue
+            way = self._way(value) if role in "SL" and "GO" in self.skills else None
+            if isinstance(way, list):
                 before += way
-        missing = [
-            name
-            for name in skill.action.inputs
-            if name not in arguments and name not in skill.action.optional
-        ]
-        if missing:
-            return Ask(
-                f"I can {self.lexicon.frames[wish.frame].gloss}, but I need to know more: what, or where?"
-            )
+            elif wish.frame in _LOOSE:
+                self.unheeded(value.said)
+            else:
+                return way or Ask(f"I can {gloss}, but I do not know what to do about {value.said}.")
+        if set(skill.action.inputs) - set(arguments) - set(skill.action.optional):
+            return Ask(f"I can {gloss}, but I need to know more: what, or where?")
         if "looks" in skill.action.effects and "GO" in self.skills:
             before += self._way_to_thing(values.get("T"))
-        return [
-            *before,
-            Deed(wish.frame, skill, arguments, {role: value.said for role, value in values.items()}),
-        ]
+        return [*before, Deed(wish.frame, skill, arguments, said)]
 
     def _way(self, goal: Value | None) -> list[Deed] | Ask:
         skill = self.skills.get("GO")
@@ -338,6 +333,32 @@ class Builder:
             return Ask("Where shall I bring it?")
         way = self._way(goal)
         return way if isinstance(way, Ask) else [*taken, *way]
+
+
+_TO_ME = frozenset({"bring", "fetch", "get", "retrieve", "go", "give", "want", "find"})
+"""Verbs of bringing that mean the speaker if nobody is named."""
+_LOOSE = frozenset({"FOLLOW", "PHOTO", "LOOK"})
+"""What is done all the same if a part of it has no place in the action; that is said."""
+_METRES = {"m": 1.0, "cm": 0.01, "mm": 0.001, "feet": 0.3048, "inches": 0.0254, "yards": 0.9144}
+_SECONDS = {"s": 1.0, "min": 60.0, "h": 3600.0}
+
+
+def _slot(skill: Skill, role: str, values: dict[str, Value]) -> str | None:
+    """The parameter for a role: its own, else that of a like role that nothing else fills."""
+    if role in skill.roles:
+        return skill.roles[role]
+    like = (other for other in _ALIKE.get(role, "") if other in skill.roles and other not in values)
+    return next((skill.roles[other] for other in like), None)
+
+
+def _typed(value: Value, kind: str) -> str | float | None:
+    """What is given to a parameter of a type; None if it cannot be: numbers are metres, degrees, seconds."""
+    if kind == "string":
+        return value.argument
+    if kind != "number" or value.amount is None:
+        return None
+    scale = (_METRES | _SECONDS).get(value.amount.unit, 1.0)
+    return round(value.amount.value * scale, 4)
 
 
 _ALIKE = {"G": "RL", "R": "G", "K": "T", "T": "KX", "S": "G", "L": "S", "H": "T"}

@@ -84,9 +84,12 @@ def _filler(parse: Parse, span: Span, lexicon: Lexicon) -> Filler:
     words = tuple(token.low for token in parse.tokens[span.start : span.end])
     head = span.head - span.start
     small = lexicon.classes["prepositions"] | lexicon.classes["determiners"]
-    if words[head] in small and any(word not in small for word in words):
-        first = next(at for at, word in enumerate(words) if word not in small)
-        head = next((at - 1 for at in range(first, len(words)) if words[at] in small), len(words) - 1)
+    first = next((at for at, word in enumerate(words) if word not in small), None)
+    if first is not None and span.role in "TGSLR":
+        behind = (at for at in range(first, len(words)) if words[at] in small - {"of"})
+        end = next(behind, len(words))
+        if words[head] in small or head >= end:
+            head = end - 1
     return Filler(span.role, span.start, span.end, head, words, span.share)
 
 

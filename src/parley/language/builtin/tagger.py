@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-import os
 from collections.abc import Sequence
 from dataclasses import dataclass
 from functools import cache
@@ -80,7 +79,7 @@ def shipped_tagger() -> Tagger:
     """The one whose weights lie beside this program; loaded on first use."""
     import onnxruntime
 
-    folder = resources.files("parley.language.builtin") / os.environ.get("PARLEY_WEIGHTS", "weights")
+    folder = resources.files("parley.language.builtin") / "weights"
     options = onnxruntime.SessionOptions()
     options.intra_op_num_threads = 1
     options.inter_op_num_threads = 1

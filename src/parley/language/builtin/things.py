@@ -8,6 +8,7 @@ from typing import Literal
 
 from rapidfuzz.distance import OSA
 
+from parley.language.builtin.amounts import is_compass
 from parley.language.builtin.lexicon import Lexicon, stem
 from parley.world.object_map import MapObject
 
@@ -66,6 +67,8 @@ def link(words: Sequence[str], head: int, objects: Sequence[MapObject], lexicon:
         return Mention("pronoun", words[head])
     name, rest = noun_phrase(words, head, lexicon)
     best = _best(name, objects)
+    if best and any(is_compass(word) for word in name) and _rank_of(name, best[0]) > 1:
+        return Mention("none", " ".join((*name, *rest)))
     part = name.index("of") if "of" in name[:-1] else 0
     if part and (not best or _rank_of(name, best[0]) > 1):
         of_whole = name[part - 1] in lexicon.classes["parts"]
