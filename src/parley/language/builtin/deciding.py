@@ -43,7 +43,7 @@ def decide(
     )
     if not orders:
         return _without_order(situation, reading, told, lexicon, reader)
-    doubt = _doubt(reading, orders)
+    doubt = _doubt(reading, orders) or _amends(situation, parse, lexicon) or _for_another(situation, reading)
     if doubt is not None:
         return replace(doubt, told=told)
     builder = Builder(situation, skills, lexicon, places(situation.memory, reader, lexicon))
@@ -62,8 +62,16 @@ def decide(
         made = builder.deeds(wish)
         if isinstance(made, Ask):
             return replace(made, told=told)
-        deeds += made
+        deeds += _without_repeats(deeds, made)
     return Do(tuple(deeds), tuple(builder.notes), told)
+
+
+def _without_repeats(deeds: list[Deed], more: list[Deed]) -> list[Deed]:
+    """Without the way to where the last deeds have led already."""
+    ways = [deed for deed in deeds if deed.frame == "GO"]
+    size = len([deed for deed in more if deed.frame == "GO"])
+    there = 0 < size < len(more) and deeds and deeds[-1].frame == "GO" and ways[-size:] == more[:size]
+    return more[size:] if there else more
 
 
 _NO_DEED = frozenset({"BELOC", "BECAT", "REMEMBER", "FORGET"})
@@ -91,6 +99,25 @@ def _doubt(reading: Reading, orders: tuple[Wish, ...]) -> Ask | None:
         if filler.role not in ("A", "T", "L", "M"):
             return Ask(f"I do not understand what “{filler.text}” belongs to. Please say it in other words.")
     return None
+
+
+def _amends(situation: Situation, parse: Parse, lexicon: Lexicon) -> Ask | None:
+    """A change of the plan that runs is not an order behind it."""
+    words = [token.text for token in parse.tokens if token.low in lexicon.classes["amending"]]
+    if not situation.queue or not words:
+        return None
+    return Ask(
+        f"Is “{words[0]}” meant to change my plan? I cannot do that yet: cancel it, then say all anew."
+    )
+
+
+def _for_another(situation: Situation, reading: Reading) -> Ask | None:
+    """An order to somebody else is not carried out by this robot."""
+    called = {word for filler in reading.loose if filler.role == "A" for word in filler.words}
+    other = next(
+        (name for name in situation.robots if name.lower() in called and name != situation.robot), None
+    )
+    return Ask(f"Is that for {other}? Please say it to {other}.") if other else None
 
 
 def _without_order(

@@ -9,7 +9,7 @@ from parley.language.base import Situation
 from parley.language.builtin.amounts import Amount, amount_of, direction_of
 from parley.language.builtin.decision import Ask, Deed, Note
 from parley.language.builtin.facts import Place, known_place
-from parley.language.builtin.lexicon import Lexicon
+from parley.language.builtin.lexicon import Lexicon, stem
 from parley.language.builtin.saying import with_article
 from parley.language.builtin.skills import Skill, Skills
 from parley.language.builtin.things import Mention, link, noun_phrase
@@ -51,6 +51,7 @@ class Builder:
     def deeds(self, wish: Wish) -> list[Deed] | Ask:
         """The deeds of a wish, or a question."""
         logic = next((_LOGIC[filler.role] for filler in wish.fillers if filler.role in _LOGIC), "")
+        logic = logic or next((text for f in wish.fillers if (text := self._beyond(f))), "")
         if wish.negated or wish.otherwise or logic:
             what = "what not to do" if wish.negated else logic or "“otherwise”"
             return Ask(
@@ -86,6 +87,15 @@ class Builder:
         for filler in wish.all("M") + wish.all("P"):
             self.unheeded(filler.text)
         return self._planned(wish, values)
+
+    def _beyond(self, filler: Filler) -> str:
+        """What in a role cannot be planned yet: all of several, between two, a condition that is no check."""
+        if filler.role in "XKMAP":
+            return ""
+        among = {*filler.words} & self.lexicon.classes["quantifiers"]
+        if among or filler.words[0] == "between":
+            return f"“{next(iter(among), 'between')}”"
+        return "“or”" if "or" in filler.words else ""
 
     def unheeded(self, text: str) -> None:
         """A part that no action takes, such as the manner: it is said."""
@@ -256,7 +266,7 @@ class Builder:
         if set(skill.action.inputs) - set(arguments) - set(skill.action.optional):
             return Ask(f"I can {gloss}, but I need to know more: what, or where?")
         if "looks" in skill.action.effects and "GO" in self.skills:
-            before += self._way_to_thing(values.get("T"))
+            before += self._way_to_thing(values.get("T") or self._spoken_of(wish.one("K")))
         return [*before, Deed(wish.frame, skill, arguments, said)]
 
     def _way(self, goal: Value | None) -> list[Deed] | Ask:
@@ -292,6 +302,15 @@ class Builder:
         way = self._way(thing)
         return [] if isinstance(way, Ask) else way
 
+    def _spoken_of(self, filler: Filler | None) -> Value | None:
+        """The one thing of the map that a statement names, if it names one."""
+        said = {stem(word) for word in filler.words} if filler else set()
+        names = [(item, (item.description, *item.aliases)) for item in self.situation.objects]
+        found = [item for item, texts in names if any({stem(w) for w in t.split()} <= said for t in texts)]
+        if len(found) != 1:
+            return None
+        return Value(found[0].description, with_article(found[0].description), tuple(found))
+
     def _used(self, place: Place) -> None:
         note = Note(f"I remember: {place.memory.data.rstrip('.')}.", place.memory.name)
         if note not in self.notes:
@@ -306,6 +325,8 @@ class Builder:
             way = self._way(values.get("L") or values["S"])
         elif thing.place is not None or thing.things:
             way = self._way(thing)
+        else:
+            return Ask(f"I do not know where {thing.said} is. Where shall I look?")
         if isinstance(way, Ask):
             return way
         return [
@@ -337,7 +358,7 @@ class Builder:
 
 _TO_ME = frozenset({"bring", "fetch", "get", "retrieve", "go", "give", "want", "find"})
 """Verbs of bringing that mean the speaker if nobody is named."""
-_LOOSE = frozenset({"FOLLOW", "PHOTO", "LOOK"})
+_LOOSE = frozenset({"FOLLOW", "PHOTO"})
 """What is done all the same if a part of it has no place in the action; that is said."""
 _METRES = {"m": 1.0, "cm": 0.01, "mm": 0.001, "feet": 0.3048, "inches": 0.0254, "yards": 0.9144}
 _SECONDS = {"s": 1.0, "min": 60.0, "h": 3600.0}

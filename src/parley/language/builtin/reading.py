@@ -81,15 +81,18 @@ def _without_openers(wishes: list[Wish], parse: Parse) -> list[Wish]:
 
 
 def _filler(parse: Parse, span: Span, lexicon: Lexicon) -> Filler:
-    words = tuple(token.low for token in parse.tokens[span.start : span.end])
+    end = span.end
+    while end - 1 > span.head and not parse.tokens[end - 1].is_word:
+        end -= 1
+    words = tuple(token.low for token in parse.tokens[span.start : end])
     head = span.head - span.start
     small = lexicon.classes["prepositions"] | lexicon.classes["determiners"]
     first = next((at for at, word in enumerate(words) if word not in small), None)
     if first is not None and span.role in "TGSLR":
-        behind = (at for at in range(first, len(words)) if words[at] in small - {"of"})
-        end = next(behind, len(words))
-        if words[head] in small or head >= end:
-            head = end - 1
+        behind = (at for at in range(first, len(words)) if words[at] in small - {"of", "'s"})
+        stop = next(behind, len(words))
+        if words[head] in small or head >= stop:
+            head = stop - 1
     return Filler(span.role, span.start, span.end, head, words, span.share)
 
 
@@ -209,7 +212,10 @@ def _left_over(parse: Parse, lexicon: Lexicon) -> tuple[str, ...]:
         if (
             at in taken
             or not token.is_word
-            or low[at] in small
+            or (
+                low[at] in small
+                and not (at and len(low[at]) == 1 and token.text.isupper() and low[at] != "i")
+            )
             or parse.acts[at] in ("social", "told", "need")
         ):
             continue
