@@ -8,7 +8,7 @@ PIP := $(BIN)/python -m pip --disable-pip-version-check --no-input
 
 .DEFAULT_GOAL := help
 .DELETE_ON_ERROR:
-.PHONY: help demo page types screenshots test test-page check format bench soak lock sbom clean
+.PHONY: help demo page types screenshots test test-page check format bench soak lock sbom train clean
 
 NPM := frontend/npm
 PAGE := src/parley/web/static/index.html
@@ -77,6 +77,10 @@ sbom: $(VENV)/.dev frontend/node_modules/.installed ## Lists of what is inside (
 	@mkdir -p build
 	@$(BIN)/cyclonedx-py requirements requirements.lock --pyproject pyproject.toml -o build/sbom-python.cdx.json
 	@$(NPM) sbom --sbom-format cyclonedx --package-lock-only --omit dev > build/sbom-page.cdx.json
+
+train: $(VENV)/.runtime ## Train the tagger of the built-in language engine (a large library, and minutes)
+	@$(PIP) install --quiet -c constraints.txt --group train
+	@$(BIN)/python -m parley.language.builtin.training.train
 
 clean: ## Remove everything that was made
 	rm -rf $(VENV) frontend/node_modules src/parley/web/static dist build .mypy_cache .ruff_cache .pytest_cache .hypothesis

@@ -130,8 +130,8 @@ class SystemConfig(BaseModel, TextFile):
     """Folder with more actions, watched while the system runs."""
     audit_months: int | None = Field(default=24, ge=1, le=1200)
     """How long the log of who did what is kept; None: for good."""
-    language: str = Field(default="offline", pattern=r"^(offline|[A-Za-z0-9_.-]+:.+)$")
-    """Which language engine understands people: `offline`, `provider:model`, `provider:model@address`."""
+    language: str = Field(default="offline", pattern=r"^(offline|builtin|[A-Za-z0-9_.-]+:.+)$")
+    """What understands people: `offline`, `builtin`, `provider:model`, `provider:model@address`."""
     language_fallback: tuple[str, ...] = ("offline",)
     """Asked in this order when a model gives no answer."""
     model: ModelSettings = Field(default_factory=ModelSettings)

@@ -219,7 +219,7 @@ def _memory(subject: Subject) -> Finding:
 
 
 def _language(subject: Subject) -> Finding:
-    if subject.language == "offline":
+    if subject.language in ("offline", "builtin"):
         return Finding("language", "ok", "built in; needs no model, key or network")
     from parley.language.llm.models import ModelSpec, make_model, read_key
 

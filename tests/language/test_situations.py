@@ -8,9 +8,10 @@ from typing import Any
 import pytest
 
 from parley.errors import FailureCode, InvalidMessageError
-from parley.language.base import ErrorSituation, Situation
+from parley.language.base import DraftHandler, ErrorSituation, Situation
 from parley.language.offline import OfflineLanguage
 from parley.language.situations import interpret_lines, read_situation
+from parley.messages.chat import ChatAction
 from tests.language.dev_set import CATALOGUES
 
 OBJECTS = [
@@ -111,3 +112,17 @@ def test_code_is_read_as_others_write_it_and_an_unknown_one_is_none(written: str
     error = read_situation({"kind": "error", "error_message": "x", "failed_action": FAILED, "code": written})
     assert isinstance(error, ErrorSituation)
     assert error.code is code
+
+
+class Breaking(OfflineLanguage):
+    async def interpret(self, situation: Situation, *, on_draft: DraftHandler | None = None) -> ChatAction:
+        if situation.message == "break":
+            raise IndexError("a defect")
+        return await super().interpret(situation)
+
+
+async def test_a_line_on_which_the_engine_breaks_down_does_not_end_the_run() -> None:
+    lines = ['{"id": 1, "message": "break"}', '{"id": 2, "message": "hello"}']
+    first, second = [json.loads(line) async for line in interpret_lines(lines, Breaking())]
+    assert "a defect" in first["error"] and first["id"] == 1
+    assert "output" in second

@@ -1,4 +1,4 @@
-"""The options by which commands choose a language engine."""
+"""The options by which commands choose a language engine, and `parley language`."""
 
 from __future__ import annotations
 
@@ -8,6 +8,8 @@ from typing import Annotated, Any
 import typer
 
 from parley.errors import ConfigError
+from parley.files import read_text as read_file
+from parley.language.builtin.markup import read_text
 from parley.memory.embedder import KEY_VARIABLE
 
 __all__ = [
@@ -16,16 +18,35 @@ __all__ = [
     "EmbeddingsOption",
     "KeyFileOption",
     "LanguageOption",
+    "app",
     "embedding_settings",
     "language_settings",
 ]
+
+app = typer.Typer(no_args_is_help=True, help="What the built-in language engine learns from.")
+
+
+@app.callback()
+def _group() -> None:
+    """What the built-in language engine learns from."""
+
+
+@app.command()
+def check(
+    file: Annotated[Path, typer.Argument(help="Annotated sentences, see builtin/training/README.md.")],
+) -> None:
+    """Check annotated sentences; the first line that is wrong is named."""
+    sentences = list(read_text(read_file(file), file.name))
+    frames = {trigger.frame for sentence in sentences for trigger in sentence.triggers}
+    typer.echo(f"{len(sentences)} sentences, {len(frames)} frames: they can be read")
+
 
 ConfigOption = Annotated[
     Path | None,
     typer.Option(help="File with settings (YAML): language model, memory, pictures, whether to ask first."),
 ]
 LanguageOption = Annotated[
-    str, typer.Option(help="What understands you: offline, provider:model, or provider:model@address.")
+    str, typer.Option(help="Engine: offline, builtin (new), provider:model, or provider:model@address.")
 ]
 KeyFileOption = Annotated[
     Path | None, typer.Option(help="File with the model's key; default: the provider's environment variable.")
@@ -64,6 +85,6 @@ def language_settings(language: str, key_file: Path | None) -> dict[str, Any]:
     """
     if not language:
         return {} if key_file is None else {"model": {"key_file": key_file}}
-    if language != "offline" and ":" not in language:
-        raise ConfigError(f"there is no language engine {language!r}; use offline or provider:model")
+    if language not in ("offline", "builtin") and ":" not in language:
+        raise ConfigError(f"there is no language engine {language!r}; use offline, builtin or provider:model")
     return {"language": language, "model": {"key_file": key_file}}

@@ -80,7 +80,7 @@ def language_label(language: str) -> dict[str, Any]:
     Args:
         language: ``offline`` or ``provider:model``, perhaps with ``@address``.
     """
-    if language == "offline":
+    if language in ("offline", "builtin"):
         return {"language": "built in, works without a model", "offline_language": True}
     provider, _, model = language.partition("@")[0].partition(":")
     return {"language": f"{model} ({provider})", "offline_language": False}

@@ -232,5 +232,11 @@ async def _answer(
             output = await language.interpret(situation)
         return write_output(output, time.perf_counter() - start_s, identifier)
     except (InvalidMessageError, LanguageError) as error:
-        body = {} if identifier is None else {"id": identifier}
-        return json.dumps(body | {"error": str(error)}, ensure_ascii=False)
+        return _error(identifier, str(error))
+    except Exception as error:  # noqa: BLE001 - one line that cannot be answered must not end a run of many
+        return _error(identifier, f"line {number}: the engine broke down: {error!r}")
+
+
+def _error(identifier: object, text: str) -> str:
+    body = {} if identifier is None else {"id": identifier}
+    return json.dumps(body | {"error": text}, ensure_ascii=False)

@@ -14,9 +14,10 @@ from parley.language.llm.reading import PlanCheck
 from parley.language.llm.usage import Usage
 from parley.language.offline import OfflineLanguage
 
-__all__ = ["OFFLINE", "build_language"]
+__all__ = ["BUILTIN", "OFFLINE", "build_language"]
 
 OFFLINE = "offline"
+BUILTIN = "builtin"
 _REPLAY = "replay:"
 
 
@@ -32,7 +33,8 @@ def build_language(
     """The engine that `names` says, the next behind the one before.
 
     Args:
-        names: `offline`, `provider:model`, `provider:model@address` or `replay:file`; the usual one first.
+        names: `offline`, `builtin`, `provider:model`, `provider:model@address` or `replay:file`; the
+            usual one first.
         settings: How models are asked.
         check: Whether a plan can be carried out.
         clock: Wall time; None: this machine's.
@@ -42,23 +44,32 @@ def build_language(
     Raises:
         ConfigError: A name is not understood, a library or a key is missing, a file cannot be read.
     """
-    if names[0] == OFFLINE:
-        return OfflineLanguage()
+    if names[0] in (OFFLINE, BUILTIN):
+        return _own(names[0])
     try:
         from parley.language.llm.chain import ChainLanguage
     except ImportError as error:
         raise ConfigError("language models need a library: pip install 'parley-hri[openai]'") from error
 
     clock = clock or WallClock()
-    settings = _shared(settings, sum(name != OFFLINE for name in set(names)), within_s)
+    settings = _shared(settings, sum(name not in (OFFLINE, BUILTIN) for name in set(names)), within_s)
     budget = Budget(clock, max_tokens=settings.max_tokens_per_hour, max_usd=settings.max_usd_per_hour)
     engines = [
-        OfflineLanguage()
-        if name == OFFLINE
+        _own(name)
+        if name in (OFFLINE, BUILTIN)
         else _model(name, settings, first=not number, check=check, clock=clock, usage=usage, budget=budget)
         for number, name in enumerate(dict.fromkeys(names))
     ]
     return ChainLanguage(engines) if len(engines) > 1 else engines[0]
+
+
+def _own(name: str) -> Language:
+    """One of our engines; the new one is loaded, with its weights, only where it is asked for."""
+    if name == OFFLINE:
+        return OfflineLanguage()
+    from parley.language.builtin.engine import BuiltinLanguage
+
+    return BuiltinLanguage()
 
 
 def _shared(settings: ModelSettings, models: int, within_s: float | None) -> ModelSettings:

@@ -1,0 +1,124 @@
+"""The built-in engine of `--language builtin`: the interface, answered by two witnesses and one decision."""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from functools import lru_cache
+
+from parley.language.base import (
+    DraftHandler,
+    ErrorSituation,
+    Grounding,
+    InspectionReport,
+    ReplyReading,
+    Situation,
+)
+from parley.language.builtin import pictures, recovery
+from parley.language.builtin.deciding import decide
+from parley.language.builtin.decision import Ask, Decision
+from parley.language.builtin.lexicon import lexicon
+from parley.language.builtin.reading import Reading, read
+from parley.language.builtin.reply import to_chat
+from parley.language.builtin.skills import SkillTable
+from parley.language.builtin.spans import Parse, parse
+from parley.language.builtin.tagger import shipped_tagger
+from parley.language.builtin.things import link
+from parley.language.builtin.tokens import spoken, tokenize
+from parley.messages.chat import ChatAction
+from parley.messages.memory import MemoryEntry
+from parley.robots.base import CameraImage
+from parley.world.geometry import Pose2D
+from parley.world.object_map import MapObject
+
+__all__ = ["BuiltinLanguage"]
+
+_LONGEST = 600
+
+
+class BuiltinLanguage:
+    """Understands operators' English by a small tagger and a lexicon; does only what it is certain of."""
+
+    def __init__(self) -> None:
+        self._lexicon = lexicon()
+        self._skills: SkillTable | None = None
+        self._read = lru_cache(maxsize=256)(self._read_text)
+
+    @property
+    def label(self) -> str:
+        """See `Language.label`."""
+        return "built-in language engine (no language model: plain English, asks when it is not certain)"
+
+    @property
+    def sees_pictures(self) -> bool:
+        """See `Language.sees_pictures`."""
+        return False
+
+    async def interpret(self, situation: Situation, *, on_draft: DraftHandler | None = None) -> ChatAction:
+        """See `Language.interpret`."""
+        chat = to_chat(self.decide(situation), self._lexicon)
+        return chat.model_copy(update={"targets": (situation.robot,) if situation.robot else ()})
+
+    def decide(self, situation: Situation) -> Decision:
+        """What comes of a message."""
+        if len(situation.message) > _LONGEST:
+            return Ask("That is too much at once. Please say it in shorter pieces.")
+        if not any(token.is_word for token in tokenize(situation.message)):
+            return Ask("I did not understand that. Please say what I should do.")
+        parsed, reading = self._read(situation.message)
+        if self._skills is None:
+            self._skills = SkillTable(shipped_tagger(), self._lexicon)
+        skills = self._skills.of(situation.catalogue)
+        return decide(situation, parsed, reading, skills, self._lexicon, self.reading)
+
+    def reading(self, text: str) -> Reading:
+        """What a text says, whatever the situation."""
+        return self._read(text)[1]
+
+    def _read_text(self, text: str) -> tuple[Parse, Reading]:
+        tokens = spoken(tokenize(text)) or tokenize(text)
+        parsed = parse(tokens, shipped_tagger().tag([token.text for token in tokens]))
+        return parsed, read(parsed, self._lexicon)
+
+    async def select_memories(self, query: str, index: Sequence[MemoryEntry]) -> list[str]:
+        """See `Language.select_memories`."""
+        wanted = {token.low for token in tokenize(query)} - self._lexicon.classes["small"]
+        found = []
+        for memory in index:
+            text = f"{memory.name.replace('_', ' ')} {memory.info} {memory.data}"
+            if wanted & {token.low for token in tokenize(text)}:
+                found.append(memory.name)
+        return found
+
+    async def resolve(self, situation: ErrorSituation) -> ChatAction:
+        """See `Language.resolve`."""
+        return recovery.resolve(situation, self._lexicon)
+
+    async def ground(
+        self, description: str, objects: Sequence[MapObject], pose: Pose2D | None = None
+    ) -> Grounding:
+        """See `Language.ground`."""
+        words = [token.low for token in tokenize(description) if token.is_word]
+        if not words:
+            return Grounding("none")
+        exact = [
+            item
+            for item in objects
+            if description.strip().lower() in (item.description.lower(), item.id.lower())
+        ]
+        if len(exact) == 1:
+            return Grounding("match", tuple(exact))
+        found = link(words, recovery.head_of(words, self._lexicon), objects, self._lexicon)
+        kinds = {"one": "match", "several": "ambiguous"}
+        outcome = kinds.get(found.kind)
+        if outcome == "match":
+            return Grounding("match", found.things)
+        return Grounding("ambiguous", found.things) if outcome else Grounding("none")
+
+    async def inspect(self, image: CameraImage, request: str) -> InspectionReport:
+        """See `Language.inspect`."""
+        return pictures.inspect(image, request)
+
+    async def read_reply(self, question: str, reply: str, choices: Sequence[str] = ()) -> ReplyReading:
+        """See `Language.read_reply`."""
+        said = any(token.is_word for token in tokenize(reply))
+        return recovery.read_reply(reply, choices, self.reading(reply).acts if said else frozenset())

@@ -1,0 +1,93 @@
+"""Facts: what is told becomes a memory, and what is remembered says where something is."""
+
+from __future__ import annotations
+
+import re
+from collections.abc import Callable, Sequence
+from dataclasses import dataclass
+
+from parley.language.builtin.decision import Told
+from parley.language.builtin.lexicon import Lexicon, stem
+from parley.language.builtin.reading import Reading
+from parley.language.builtin.saying import with_article
+from parley.language.builtin.things import noun_phrase
+from parley.messages.memory import MemoryEntry
+
+__all__ = ["Place", "known_place", "places", "told_of"]
+
+
+@dataclass(frozen=True, slots=True)
+class Place:
+    """That something is somewhere, as it is remembered."""
+
+    thing: str
+    where: tuple[str, ...]
+    """The words for the place, without what leads to them."""
+    head: int
+    memory: MemoryEntry
+
+
+def told_of(reading: Reading, message: str, starts: Sequence[int], lexicon: Lexicon) -> tuple[Told, ...]:
+    """The facts of a message.
+
+    Args:
+        reading: Of the message.
+        message: Its text.
+        starts: Where each of its words begins in it.
+        lexicon: Words.
+    """
+    found = []
+    for wish in reading.wishes:
+        thing = wish.one("T")
+        if wish.frame != "BELOC" or wish.act != "told" or thing is None or not wish.has("LG"):
+            continue
+        name, _ = noun_phrase(thing.words, thing.head, lexicon)
+        start = min(starts[min([wish.start, *(filler.start for filler in wish.fillers)])], len(message))
+        last = max(filler.end for filler in wish.fillers)
+        text = message[start : starts[last]] if last < len(starts) else message[start:]
+        text = text.strip().rstrip(".,;!?").removesuffix(" and").strip()
+        key = "_".join(re.findall(r"\w+", " ".join(name)))[:150]
+        if key and text:
+            plain = re.search(re.escape(" ".join(name)), message, re.IGNORECASE)
+            shown = plain[0] if plain else " ".join(name)
+            found.append(Told(f"{key}_location", _quoted(text), f"Where {with_article(shown)} is"))
+    return tuple(found)
+
+
+def _quoted(text: str) -> str:
+    """A fact as it stands inside a sentence."""
+    first, _, rest = text.partition(" ")
+    return f"{first.lower()} {rest}" if first.lower() in _SMALL else text
+
+
+_SMALL = frozenset({"the", "a", "an", "there", "there's", "my", "our", "this", "that", "some", "your"})
+
+
+def places(
+    memories: Sequence[MemoryEntry], reader: Callable[[str], Reading], lexicon: Lexicon
+) -> list[Place]:
+    """Where things are, as far as memories say it; the newest first."""
+    found = []
+    for memory in reversed(memories):
+        if memory.type != "text" or len(memory.data) > 200:
+            continue
+        for wish in reader(memory.data).wishes:
+            where = wish.one("L") or wish.one("G")
+            thing = wish.one("T")
+            if wish.frame == "BELOC" and where is not None and thing is not None:
+                name, _ = noun_phrase(thing.words, thing.head, lexicon)
+                place, rest = noun_phrase(where.words, where.head, lexicon)
+                words = (*place, *rest)
+                found.append(Place(" ".join(name), words, len(place) - 1, memory))
+    return found
+
+
+def known_place(name: Sequence[str], known: Sequence[Place]) -> Place | None:
+    """Where a thing is: one called so, else the only one whose name begins or ends like that."""
+    wanted = [stem(word) for word in name]
+    for place in known:
+        if [stem(word) for word in place.thing.split()] == wanted:
+            return place
+    near = [p for p in known if set(wanted) <= {stem(word) for word in p.thing.split()}]
+    names = {place.thing for place in near}
+    return near[0] if len(names) == 1 else None

@@ -1,0 +1,123 @@
+"""The other witness: what the lexicon knows of verbs, frames, roles and small words."""
+
+from __future__ import annotations
+
+from collections.abc import Mapping, Sequence
+from dataclasses import dataclass
+from functools import cache
+from importlib import resources
+
+import yaml
+
+__all__ = ["Frame", "Lexicon", "lemmas", "lexicon", "stem"]
+
+_IRREGULAR = {
+    "took": "take", "taken": "take", "brought": "bring", "went": "go", "gone": "go", "found": "find",
+    "gave": "give",
+    "given": "give", "told": "tell", "said": "say", "got": "get", "made": "make", "lit": "light",
+    "held": "hold",
+    "seen": "see", "saw": "see", "laid": "lay", "kept": "keep", "drove": "drive", "came": "come",
+    "sent": "send",
+    "tying": "tie", "lying": "lie", "does": "do", "did": "do", "has": "have", "goes": "go",
+}  # fmt: skip
+
+
+_ENDINGS = (
+    ("ies", "y"), ("es", ""), ("s", ""), ("ied", "y"), ("ed", ""), ("ed", "e"), ("ing", ""), ("ing", "e"),
+)  # fmt: skip
+
+
+@dataclass(frozen=True, slots=True)
+class Frame:
+    """One thing that may be wanted."""
+
+    name: str
+    gloss: str
+    roles: Mapping[str, str]
+    """Role -> type of what fills it."""
+    say: str
+    """How it is said in a reply."""
+    tests: tuple[str, ...]
+
+
+@dataclass(frozen=True, slots=True)
+class Lexicon:
+    """Frames, the verbs that call them up, and closed classes of words."""
+
+    frames: Mapping[str, Frame]
+    verbs: Mapping[tuple[str, ...], frozenset[str]]
+    classes: Mapping[str, frozenset[str]]
+    hints: Mapping[str, frozenset[str]]
+    """Role -> words in names of parameters that speak for it."""
+
+    def exactly(self, words: Sequence[str]) -> frozenset[str]:
+        """What these words together may call up, in any form of the first; none if they are not known."""
+        for form in _forms(tuple(words)):
+            if form in self.verbs:
+                return self.verbs[form]
+        return frozenset()
+
+    def frames_of(self, verb: Sequence[str], particles: Sequence[str] = ()) -> frozenset[str]:
+        """What a verb may call up with its particles, else alone, else by its first words."""
+        tries = [[*verb, *particles], *(verb[:size] for size in range(len(verb), 0, -1))]
+        return next((found for words in tries if (found := self.exactly(words))), frozenset())
+
+    def is_in(self, word: str, name: str) -> bool:
+        """Whether a word belongs to a closed class."""
+        return word in self.classes[name]
+
+
+def _forms(words: tuple[str, ...]) -> list[tuple[str, ...]]:
+    """With each lemma the first word may have."""
+    return [(first, *words[1:]) for first in lemmas(words[0])] if words else []
+
+
+def lemmas(word: str) -> tuple[str, ...]:
+    """What a word may be a form of, the likeliest first."""
+    word = word.lower()
+    found = [word]
+    if word in _IRREGULAR:
+        found.append(_IRREGULAR[word])
+    for ending, instead in _ENDINGS:
+        if word.endswith(ending) and len(word) - len(ending) > 1:
+            cut = word[: -len(ending)] + instead
+            found.append(cut)
+            if len(cut) > 2 and cut[-1] == cut[-2]:
+                found.append(cut[:-1])
+    return tuple(dict.fromkeys(found))
+
+
+def stem(word: str) -> str:
+    """A noun without its plural, in small letters."""
+    word = word.lower().replace("’", "'")
+    if len(word) > 4 and word.endswith("ies"):
+        return word[:-3] + "y"
+    if len(word) > 4 and word.endswith(("ches", "shes", "sses", "xes", "oes")):
+        return word[:-2]
+    return (
+        word[:-1] if len(word) > 3 and word.endswith("s") and not word.endswith(("ss", "us", "is")) else word
+    )
+
+
+def _load(name: str) -> dict[str, object]:
+    text = (resources.files("parley.language.lexicon") / f"{name}.yaml").read_text(encoding="utf-8")
+    read: dict[str, object] = yaml.load(
+        text, yaml.CBaseLoader if hasattr(yaml, "CBaseLoader") else yaml.BaseLoader
+    )
+    return read
+
+
+@cache
+def lexicon() -> Lexicon:
+    """The one that lies beside this program."""
+    frames: dict[str, Frame] = {}
+    verbs: dict[tuple[str, ...], set[str]] = {}
+    for name, entry in _load("frames").items():
+        if not isinstance(entry, dict):
+            raise TypeError(f"frames.yaml: {name} is no entry")
+        frames[name] = Frame(name, entry["gloss"], entry["roles"], entry["say"], tuple(entry["tests"]))
+        for verb in entry.get("verbs", ()):
+            verbs.setdefault(tuple(verb.split()), set()).add(name)
+    classes = {name: frozenset(words) for name, words in _load("classes").items() if isinstance(words, list)}
+    hints = {name: frozenset(words) for name, words in _load("parameters").items() if isinstance(words, list)}
+    return Lexicon(frames, {words: frozenset(names) for words, names in verbs.items()}, classes, hints)

@@ -1,0 +1,233 @@
+"""From spans to what is wished and told: frames with roles, who agrees on them, and what is left over."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass, replace
+
+from parley.language.builtin.amounts import amount_of, direction_of
+from parley.language.builtin.lexicon import Lexicon, lemmas
+from parley.language.builtin.retyping import retyped
+from parley.language.builtin.spans import Parse, Span, Verb
+from parley.language.builtin.wishes import Filler, Wish, Witness
+
+__all__ = ["Reading", "read"]
+
+
+@dataclass(frozen=True, slots=True)
+class Reading:
+    """What a message says."""
+
+    acts: frozenset[str]
+    wishes: tuple[Wish, ...]
+    """In their order, facts that are told among them."""
+    loose: tuple[Filler, ...]
+    """What belongs to no frame."""
+    left_over: tuple[str, ...]
+    """Words that no part of the reading accounts for."""
+    manner: tuple[str, ...] = ()
+    """Words about how it is to be done."""
+    about: tuple[str, ...] = ()
+    """Of whom or what something is told that is no frame: "Kim" in "Kim is tired"."""
+
+
+def read(parse: Parse, lexicon: Lexicon) -> Reading:
+    """What is wished and told."""
+    wishes: list[Wish] = []
+    spans = _merged(parse)
+    fillers = [_filler(parse, span, lexicon) for span in spans]
+    for number, verb in enumerate(parse.verbs):
+        mine = [filler for filler, span in zip(fillers, spans, strict=True) if span.owner == number]
+        wishes.append(_wish(parse, verb, mine, lexicon))
+    loose = [filler for filler, span in zip(fillers, spans, strict=True) if span.owner is None]
+    implied = [_implied(parse, filler, lexicon) for filler in loose]
+    implied_wishes = _joined([wish for wish in implied if wish is not None])
+    rest = tuple(filler for filler, wish in zip(loose, implied, strict=True) if wish is None)
+    ordered = sorted([*wishes, *implied_wishes], key=lambda wish: wish.start)
+    wanted = _without_openers([retyped(wish, lexicon) for wish in ordered], parse)
+    spread = [part for wish in wanted for part in _spread(wish)]
+    idle = _left_over(parse, lexicon)
+    manner = tuple(word for word in idle if word.lower() in lexicon.classes["manner"])
+    left = tuple(word for word in idle if word not in manner)
+    return Reading(frozenset(parse.acts), tuple(spread), rest, left, manner, _about(parse, lexicon))
+
+
+def _merged(parse: Parse) -> list[Span]:
+    """Spans of one role that touch each other are one; a role behind a later verb belongs to that one."""
+    found: list[Span] = []
+    for span in parse.spans:
+        last = found[-1] if found else None
+        if last is not None and last.role == span.role and last.end == span.start and span.role in "NGTSLHX":
+            head = span.head if span.role in "NH" else last.head
+            found[-1] = replace(last, end=span.end, head=head, share=min(last.share, span.share))
+            continue
+        nearest = max((n for n, verb in enumerate(parse.verbs) if verb.start < span.start), default=None)
+        if span.owner is not None and nearest is not None and span.owner < nearest and span.role in "TGSRHN":
+            span = replace(span, owner=nearest)
+        found.append(span)
+    return found
+
+
+def _without_openers(wishes: list[Wish], parse: Parse) -> list[Wish]:
+    """Without a bare "go" or "turn" that only opens the next wish ("go get a box", "turn and face it")."""
+    kept = []
+    for wish, behind in zip(wishes, [*wishes[1:], None], strict=False):
+        near = behind is not None and behind.start - wish.start <= len(wish.verb.split()) + 1
+        bare = not wish.fillers and not wish.negated and wish.frame in ("GO", "TURN", "MOVE")
+        between = parse.tokens[wish.start : behind.start] if behind is not None else ()
+        apart = any(token.low in ("then", ",", ".") for token in between)
+        if not (near and bare and not apart and behind is not None and behind.act == wish.act):
+            kept.append(wish)
+    return kept
+
+
+def _filler(parse: Parse, span: Span, lexicon: Lexicon) -> Filler:
+    end = span.end
+    while end - 1 > span.head and not parse.tokens[end - 1].is_word:
+        end -= 1
+    words = tuple(token.low for token in parse.tokens[span.start : end])
+    head = span.head - span.start
+    small = lexicon.classes["prepositions"] | lexicon.classes["determiners"]
+    first = next((at for at, word in enumerate(words) if word not in small), None)
+    if first is not None and span.role in "TGSLR":
+        behind = (at for at in range(first, len(words)) if words[at] in small - {"of", "'s"})
+        stop = next(behind, len(words))
+        if words[head] in small or head >= stop:
+            head = stop - 1
+    return Filler(span.role, span.start, span.end, head, words, span.share)
+
+
+def _wish(parse: Parse, verb: Verb, mine: list[Filler], lexicon: Lexicon) -> Wish:
+    words = [token.low for token in parse.tokens[verb.start : verb.end]]
+    particles = [parse.tokens[at].low for at in verb.particles]
+    while words and (words[0] in ("don't", "dont", "not", "never", "do") and len(words) > 1):
+        words = words[1:]
+    _, longer = _reach(parse, verb, lexicon)
+    known = longer or lexicon.frames_of(words, particles)
+    known |= {general for special, general in _KIND_OF.items() if special in known}
+    witness: Witness = "agrees" if verb.frame in known else "differs" if known else "unknown"
+    act = parse.acts[verb.start]
+    said = " ".join([*words, *particles])
+    share = min([verb.share, *(filler.share for filler in mine)])
+    return Wish(verb.frame, verb.start, said, tuple(mine), share, witness, act, verb.negated, verb.otherwise)
+
+
+def _reach(parse: Parse, verb: Verb, lexicon: Lexicon) -> tuple[int, frozenset[str]]:
+    """Where a verb ends with the words behind it that the lexicon knows to belong to it, and what that is."""
+    words = [token.low for token in parse.tokens[verb.start : verb.end]]
+    behind = [token.low for token in parse.tokens[verb.end : verb.end + 2]]
+    for size in range(len(behind), 0, -1):
+        found = frozenset[str]() if verb.particles else lexicon.exactly([*words, *behind[:size]])
+        if found:
+            return verb.end + size, found
+    return verb.end, frozenset()
+
+
+_KIND_OF = {"FACE": "TURN", "MOVE": "GO"}
+
+
+def _implied(parse: Parse, filler: Filler, lexicon: Lexicon) -> Wish | None:
+    """The frame of a goal, a direction or an angle that stands without a verb."""
+    if parse.acts[filler.start] not in ("order", "edit") or filler.role not in "GHN":
+        return None
+    frame = "GO"
+    if filler.role == "N":
+        amount = amount_of(filler.words)
+        frame = "TURN" if amount is not None and amount.kind == "angle" else "GO"
+    elif filler.role == "H":
+        frame = "TURN" if direction_of(filler.words, lexicon) in ("left", "right") else "GO"
+    return Wish(
+        frame, filler.start, "", (filler,), filler.share, "unknown" if filler.role == "G" else "agrees"
+    )
+
+
+def _joined(wishes: list[Wish]) -> list[Wish]:
+    """A direction and an amount side by side are one wish."""
+    found: list[Wish] = []
+    for wish in wishes:
+        last = found[-1] if found else None
+        near = last is not None and wish.start - last.fillers[-1].end < 2
+        if last is not None and near and {last.fillers[0].role, wish.fillers[0].role} == {"H", "N"}:
+            frame = "TURN" if "TURN" in (last.frame, wish.frame) else "GO"
+            fillers = (*last.fillers, *wish.fillers)
+            found[-1] = replace(last, frame=frame, fillers=fillers, share=min(last.share, wish.share))
+        else:
+            found.append(wish)
+    return found
+
+
+_MANY = ("T", "G")
+_REPEATED = frozenset(
+    {"GO", "LOOK", "FIND", "ON", "OFF", "OPEN", "CLOSE", "COUNT", "CLEAN", "TAKE", "BRING", "DO"}
+)
+
+
+def _spread(wish: Wish) -> list[Wish]:
+    """One wish for each of several goals or things, if that is all that there are several of."""
+    for role in _MANY:
+        several = wish.all(role)
+        if len(several) > 1 and wish.frame in _REPEATED:
+            others = tuple(filler for filler in wish.fillers if filler.role != role)
+            return [
+                replace(wish, start=wish.start if not number else one.start, fillers=(*others, one))
+                for number, one in enumerate(several)
+            ]
+    return [wish]
+
+
+_LEADING = frozenset({"with", "to", "for", "at", "of", "by", "from", "in", "into"})
+"""What may lead to a role without being part of it; "on" and "off" may be half a verb."""
+
+
+def _is_name(word: str, lexicon: Lexicon) -> bool:
+    """Whether the first word of a message may be the name of who is called: it is no word that is known."""
+    verbs = any((lemma,) in lexicon.verbs for lemma in lemmas(word))
+    return (
+        word.isalpha()
+        and len(word) > 2
+        and not verbs
+        and not any(word in c for c in lexicon.classes.values())
+    )
+
+
+def _about(parse: Parse, lexicon: Lexicon) -> tuple[str, ...]:
+    """The words before the first "is", "has" and the like of what is told."""
+    told = [token.low for token, act in zip(parse.tokens, parse.acts, strict=True) if act in ("told", "need")]
+    end = next((at for at, word in enumerate(told) if word in lexicon.classes["being"]), 0)
+    words = tuple(word for word in told[:end] if word not in lexicon.classes["small"])
+    return words if end and len(words) < 4 else ()
+
+
+def _left_over(parse: Parse, lexicon: Lexicon) -> tuple[str, ...]:
+    taken: set[int] = set()
+    for verb in parse.verbs:
+        end, _ = _reach(parse, verb, lexicon)
+        taken |= {*range(verb.start, end), *verb.particles}
+    for span in parse.spans:
+        taken |= set(range(span.start, span.end))
+    low = [token.low for token in parse.tokens]
+    starts = {span.start for span in parse.spans}
+    small = lexicon.classes["small"]
+    left = []
+    for at, token in enumerate(parse.tokens):
+        if (
+            at in taken
+            or not token.is_word
+            or (
+                low[at] in small
+                and not (at and len(low[at]) == 1 and token.text.isupper() and low[at] != "i")
+            )
+            or parse.acts[at] in ("social", "told", "need")
+        ):
+            continue
+        if low[at] in _LEADING and at + 1 in starts:
+            continue
+        if at == 0 and _is_name(token.low, lexicon) and len(low) > 1:
+            continue
+        if any(
+            " ".join(low[max(at - back, 0) : at - back + size]) in small
+            for size in (2, 3)
+            for back in range(size)
+        ):
+            continue
+        left.append(token.text)
+    return tuple(left)

@@ -1,0 +1,96 @@
+"""The reply, made from the decision and nothing else; and the message that carries both."""
+
+from __future__ import annotations
+
+import re
+from collections.abc import Sequence
+
+from parley.language.builtin.decision import Answer, Ask, Control, Decision, Deed, Do, Remember, Told
+from parley.language.builtin.lexicon import Lexicon
+from parley.messages.chat import ActionCall, ChatAction, SystemCommand
+
+__all__ = ["said", "to_chat"]
+
+_CONTROLLED = {
+    "stop": "I stop.", "pause": "I stop.", "start": "I go on.", "clear": "I drop all that I was told to do.",
+    "skip": "I leave out this step.",
+}  # fmt: skip
+
+
+def to_chat(decision: Decision, lexicon: Lexicon) -> ChatAction:
+    """The message that a decision is."""
+    match decision:
+        case Do(deeds, notes, told):
+            words = [note.text for note in notes] + [_remembered(fact) for fact in told]
+            words.append(f"I will {_listed([said(deed, lexicon) for deed in deeds if not deed.hidden])}.")
+            return ChatAction(
+                message_response=" ".join(words),
+                queue=tuple(_call(deed, lexicon) for deed in deeds),
+                system_cmd=_memories(told),
+                sources=tuple(note.source for note in notes if note.source),
+            )
+        case Ask(question, choices, told):
+            words = [_remembered(fact) for fact in told]
+            return ChatAction(
+                message_response=" ".join([*words, question]), choices=choices, system_cmd=_memories(told)
+            )
+        case Remember(told):
+            return ChatAction(
+                message_response=" ".join(_remembered(fact) for fact in told), system_cmd=_memories(told)
+            )
+        case Control(command):
+            return ChatAction(
+                message_response=_CONTROLLED.get(command, "Yes."),
+                system_cmd=(SystemCommand(command=command),),
+            )
+        case Answer(text, sources):
+            return ChatAction(message_response=text, sources=sources)
+
+
+def said(deed: Deed, lexicon: Lexicon) -> str:
+    """A deed in words: the frame's sentence with what its roles hold."""
+    frame = lexicon.frames.get(deed.frame)
+    text = frame.say if frame else deed.frame.lower()
+
+    def held(match: re.Match[str]) -> str:
+        role = match[1]
+        return deed.said.get(role, "")
+
+    def kept(match: re.Match[str]) -> str:
+        roles = re.findall(r"\{(\w)\}", match[1])
+        return match[1] if all(deed.said.get(role) for role in roles) else ""
+
+    return re.sub(r" +", " ", re.sub(r"\{(\w)\}", held, re.sub(r"\[([^\]]*)\]", kept, text))).strip()
+
+
+def _listed(parts: Sequence[str]) -> str:
+    return parts[0] if len(parts) == 1 else f"{', '.join(parts[:-1])} and then {parts[-1]}"
+
+
+def _call(deed: Deed, lexicon: Lexicon) -> ActionCall:
+    inputs = {
+        name: {"pvf_type": deed.skill.action.inputs.get(name, "string"), "pvf_value": value}
+        for name, value in deed.arguments.items()
+    }
+    return ActionCall.model_validate(
+        {
+            deed.skill.action.name: {
+                "input_parameters": inputs,
+                "output_parameters": {},
+                "reason": said(deed, lexicon),
+            }
+        }
+    )
+
+
+def _remembered(fact: Told) -> str:
+    return f"I will remember that {fact.text}."
+
+
+def _memories(told: Sequence[Told]) -> tuple[SystemCommand, ...]:
+    return tuple(
+        SystemCommand(
+            command="add_memory", arguments={"name": fact.name, "data": fact.text, "info": fact.about}
+        )
+        for fact in told
+    )

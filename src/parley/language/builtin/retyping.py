@@ -1,0 +1,66 @@
+"""Frames that differ by their roles alone: taking to a place is bringing, turning to a thing is facing it."""
+
+from __future__ import annotations
+
+from dataclasses import replace
+
+from parley.language.builtin.amounts import amount_of, direction_of, is_compass
+from parley.language.builtin.lexicon import Lexicon
+from parley.language.builtin.wishes import Filler, Wish
+
+__all__ = ["BACKING", "retyped"]
+
+BACKING = frozenset({"back", "backup", "reverse", "backing", "reversing", "retreat"})
+"""Verbs that say the direction themselves."""
+_AT = frozenset(
+    {"on", "in", "at", "near", "by", "under", "beside", "next", "behind", "inside", "from", "off"}
+)
+"""Prepositions that say where something is, and not where to."""
+_TAKING = frozenset({"take", "grab", "pick", "collect", "lift"})
+
+
+def retyped(wish: Wish, lexicon: Lexicon) -> Wish:
+    """With the frame that its roles ask for."""
+    if wish.frame in ("GO", "TURN"):
+        wish = _renamed(wish, "G", "H", [f for f in wish.all("G") if _is_direction(f, lexicon)])
+    if wish.frame == "GO":
+        return _gone(wish)
+    if wish.frame == "TURN" and not wish.has("N"):
+        direction = next((direction_of(filler.words, lexicon) for filler in wish.all("H")), None)
+        return replace(wish, frame="FACE") if wish.has("TG") or is_compass(direction or "") else wish
+    if wish.frame == "TAKE":
+        wish = _renamed(wish, "G", "S", [f for f in wish.all("G") if f.words[0] in _AT])
+        return replace(wish, frame="BRING") if wish.has("RG") and wish.has("T") else wish
+    if wish.frame == "BRING" and not wish.has("RG") and wish.verb.split(" ")[0] in _TAKING:
+        return replace(wish, frame="TAKE")
+    return wish
+
+
+def _gone(wish: Wish) -> Wish:
+    """Going with somebody is following, by an angle turning, without a goal moving."""
+    amount = next((amount_of(filler.words) for filler in wish.all("N")), None)
+    company = [filler for filler in wish.all("G") if filler.words[0] == "with"]
+    if company:
+        return replace(_renamed(wish, "G", "T", company), frame="FOLLOW")
+    if wish.has("G"):
+        return wish
+    if amount is not None and amount.kind == "angle":
+        return replace(wish, frame="TURN")
+    backing = not wish.fillers and any(word in BACKING for word in wish.verb.split())
+    return replace(wish, frame="MOVE") if wish.has("HN") or backing else wish
+
+
+def _renamed(wish: Wish, role: str, other: str, fillers: list[Filler]) -> Wish:
+    if not fillers:
+        return wish
+    return replace(
+        wish,
+        fillers=tuple(replace(f, role=other) if f.role == role and f in fillers else f for f in wish.fillers),
+    )
+
+
+def _is_direction(filler: Filler, lexicon: Lexicon) -> bool:
+    """For "to your left", "forward": nothing but a direction."""
+    small = lexicon.classes["prepositions"] | lexicon.classes["determiners"] | {"side", "direction"}
+    rest = [word for word in filler.words if word not in small]
+    return bool(rest) and all(direction_of([word], lexicon) for word in rest)

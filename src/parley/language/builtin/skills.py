@@ -1,0 +1,140 @@
+"""Which frame each action of a catalogue is, and which role each of its parameters: once for each catalogue.
+
+Names decide nothing: what an action's maker says of it does, read by the tagger; effects, where there are.
+"""
+
+from __future__ import annotations
+
+import json
+import re
+from collections import OrderedDict
+from collections.abc import Sequence
+from dataclasses import dataclass
+
+import numpy as np
+from scipy.optimize import linear_sum_assignment
+
+from parley.language.builtin.labels import OTHER
+from parley.language.builtin.lexicon import Lexicon
+from parley.language.builtin.tagger import Tagger
+from parley.messages.status import ActionInfo
+
+__all__ = ["Skill", "SkillTable", "Skills"]
+
+_SURE = 0.5
+_LEAST = 0.1
+_MARGIN = 20.0
+"""So much likelier two opposite actions must be as they are than exchanged."""
+_RIVAL = 0.15
+"""If so much speaks for the opposite, an action is not used."""
+_OPPOSITES = {"ON": "OFF", "OPEN": "CLOSE", "CONNECT": "DISC", "TAKE": "PUT"}
+_OPPOSITES |= {other: one for one, other in _OPPOSITES.items()}
+_TOO_MANY = 0.2
+"""What is left of a belief where an action has more parameters than a frame has roles."""
+_KEPT = 64
+_EFFECTS = {"locates": "LOCATE", "moves": "GO", "looks": "LOOK", "asks_operator": "ASK"}
+_ROLES = {
+    "MOVE": "HN", "TURN": "HN", "FACE": "T", "LOCATE": "G", "GO": "G", "LOOK": "TK", "ASK": "X", "PHOTO":
+    "T", "SAY": "XR", "ANSWER": "TX", "WAIT": "D", "OPEN": "T", "CLOSE": "T", "FOLLOW": "T", "FIND": "TL",
+    "ON": "TL", "OFF": "TL", "GUIDE": "TGS", "BRING": "TRGS", "COOK": "TLI", "MIX": "TIL",
+}  # fmt: skip
+
+
+@dataclass(frozen=True, slots=True)
+class Skill:
+    """An action that does what a frame wants."""
+
+    action: ActionInfo
+    frame: str
+    roles: dict[str, str]
+    """Role -> parameter."""
+    share: float = 1.0
+
+    @property
+    def takes_pose(self) -> bool:
+        """Whether it wants coordinates, which another action finds."""
+        return any("::" in name for name in self.action.inputs)
+
+
+Skills = dict[str, Skill]
+
+
+class SkillTable:
+    """The skills of catalogues that were seen already."""
+
+    def __init__(self, tagger: Tagger, lexicon: Lexicon) -> None:
+        self._tagger = tagger
+        self._lexicon = lexicon
+        self._known: OrderedDict[str, Skills] = OrderedDict()
+        self._described: dict[str, dict[str, float]] = {}
+
+    def of(self, catalogue: Sequence[ActionInfo]) -> Skills:
+        """What a robot with these actions can do, by frame."""
+        key = json.dumps([(a.name, a.inputs, a.optional, a.description, a.effects) for a in catalogue])
+        found = self._known.get(key)
+        if found is None:
+            found = self._known[key] = self._match(catalogue)
+            if len(self._known) > _KEPT:
+                self._known.popitem(last=False)
+        return found
+
+    def _match(self, catalogue: Sequence[ActionInfo]) -> Skills:
+        if not catalogue:
+            return {}
+        beliefs = [self._belief(action) for action in catalogue]
+        frames = sorted({frame for belief in beliefs for frame in belief} - {OTHER})
+        table = np.array([[belief.get(frame, 0.0) for frame in frames] for belief in beliefs])
+        rows, columns = linear_sum_assignment(-np.log(table + 1e-4))
+        found: Skills = {}
+        chosen = {frames[column]: int(row) for row, column in zip(rows, columns, strict=True)}
+        for frame, row in chosen.items():
+            share = beliefs[row].get(frame, 0.0)
+            if self._is_told_apart(frame, row, chosen, beliefs) and share >= _LEAST:
+                found[frame] = Skill(catalogue[row], frame, self._roles(catalogue[row], frame), share)
+        return found
+
+    @staticmethod
+    def _is_told_apart(
+        frame: str, row: int, chosen: dict[str, int], beliefs: Sequence[dict[str, float]]
+    ) -> bool:
+        """Whether an action is this and not the opposite: by itself, or because another is the opposite."""
+        share = beliefs[row].get(frame, 0.0)
+        opposite = _OPPOSITES.get(frame, "")
+        rival = beliefs[row].get(opposite, 0.0)
+        other = chosen.get(opposite)
+        if other is None:
+            return share >= _SURE and rival < _RIVAL
+        swapped = rival * beliefs[other].get(frame, 0.0)
+        return share * beliefs[other].get(opposite, 0.0) > _MARGIN * swapped and share + rival >= _SURE
+
+    def _belief(self, action: ActionInfo) -> dict[str, float]:
+        """How much each frame fits an action, of one."""
+        said = next((frame for effect, frame in _EFFECTS.items() if effect in action.effects), None)
+        if said is not None:
+            return {said: 1.0}
+        if not action.description:
+            return {}
+        if action.description not in self._described:
+            self._described[action.description] = self._tagger.describe([action.description])[0]
+        found = self._described[action.description]
+        many = len(action.inputs)
+        return {
+            frame: share * (_TOO_MANY if many > len(_ROLES.get(frame, "TRGSL")) else 1.0)
+            for frame, share in found.items()
+        }
+
+    def _roles(self, action: ActionInfo, frame: str) -> dict[str, str]:
+        """Which parameter takes which role: names hint, the order decides between equals."""
+        known = self._lexicon.frames.get(frame)
+        roles = list(_ROLES.get(frame) or (known.roles if known else "T"))
+        names = [name for name in action.inputs if "::" not in name]
+        if not names:
+            return {}
+        table = np.zeros((len(names), len(roles)))
+        for row, name in enumerate(names):
+            words = re.findall(r"[a-z]+|\d+", re.sub(r"(?<=[a-z0-9])(?=[A-Z])", " ", name).lower())
+            for column, role in enumerate(roles):
+                hits = sum(word in self._lexicon.hints.get(role, ()) for word in words)
+                table[row, column] = hits - 0.1 * abs(row - column) - 0.02 * column
+        rows, columns = linear_sum_assignment(-table)
+        return {roles[column]: names[row] for row, column in zip(rows, columns, strict=True)}

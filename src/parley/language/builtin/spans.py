@@ -1,0 +1,132 @@
+"""From scores of tags to triggers and role spans: the best sequence that can be read."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+from functools import lru_cache
+
+import numpy as np
+
+from parley.language.builtin.labels import ACT_TAGS, FRAME_TAGS, MODE_TAGS, ROLE_TAGS
+from parley.language.builtin.tagger import Matrix, Scores
+from parley.language.builtin.tokens import Token
+
+__all__ = ["Parse", "Span", "Verb", "parse"]
+
+
+@dataclass(frozen=True, slots=True)
+class Verb:
+    """Words that call up a frame, as the tagger sees them."""
+
+    frame: str
+    start: int
+    end: int
+    share: float
+    """How much the tagger believes in it."""
+    negated: bool = False
+    otherwise: bool = False
+    particles: tuple[int, ...] = ()
+
+
+@dataclass(frozen=True, slots=True)
+class Span:
+    """Words that fill a role, as the tagger sees them."""
+
+    role: str
+    start: int
+    end: int
+    head: int
+    owner: int | None
+    """Which of the verbs it belongs to."""
+    share: float
+
+
+@dataclass(frozen=True, slots=True)
+class Parse:
+    """A message with what its words are."""
+
+    tokens: tuple[Token, ...]
+    acts: tuple[str, ...]
+    verbs: tuple[Verb, ...]
+    spans: tuple[Span, ...]
+    shares: tuple[float, ...]
+    """How much the tagger believes in what it says of each word."""
+
+    def text(self, start: int, end: int) -> str:
+        """The words from one to another, as they were said."""
+        return " ".join(token.text for token in self.tokens[start:end] if token.is_word)
+
+
+def parse(tokens: tuple[Token, ...], scores: Scores) -> Parse:
+    """The best reading of the scores."""
+    size = min(len(tokens), len(scores.act))
+    tokens = tokens[:size]
+    frames = _best(scores.frame[:size], FRAME_TAGS)
+    roles = _best(scores.role[:size], ROLE_TAGS)
+    acts = tuple(ACT_TAGS[int(row.argmax())] for row in scores.act[:size])
+    shares = tuple(float(min(scores.frame[at, frames[at]], scores.role[at, roles[at]])) for at in range(size))
+    verbs = _verbs(frames, scores)
+    return Parse(tokens, acts, verbs, _spans(roles, scores, verbs), shares)
+
+
+def _best(shares: Matrix, tags: tuple[str, ...]) -> list[int]:
+    """The likeliest tags of which every I- stands behind its B- or another I-."""
+    allowed = _follows(tags)
+    logs = np.log(shares + 1e-9)
+    best = logs[0] + np.array([-50.0 if tag.startswith("I-") else 0.0 for tag in tags])
+    back = []
+    for row in logs[1:]:
+        ways = best[:, None] + allowed
+        back.append(ways.argmax(0))
+        best = ways.max(0) + row
+    path = [int(best.argmax())]
+    for row in reversed(back):
+        path.append(int(row[path[-1]]))
+    return path[::-1]
+
+
+@lru_cache(maxsize=8)
+def _follows(tags: tuple[str, ...]) -> Matrix:
+    table = np.zeros((len(tags), len(tags)), dtype=np.float32)
+    for behind, tag in enumerate(tags):
+        if tag.startswith("I-"):
+            for before, other in enumerate(tags):
+                if other[1:] != tag[1:] or other in ("O", "+"):
+                    table[before, behind] = -50.0
+    return table
+
+
+def _pieces(path: list[int], tags: tuple[str, ...]) -> list[tuple[str, int, int]]:
+    """Name, start and end of each B- with the I- behind it."""
+    found: list[tuple[str, int, int]] = []
+    for at, number in enumerate(path):
+        mark, _, name = tags[number].partition("-")
+        if mark == "B":
+            found.append((name, at, at + 1))
+        elif mark == "I" and found:
+            found[-1] = (found[-1][0], found[-1][1], at + 1)
+    return found
+
+
+def _verbs(path: list[int], scores: Scores) -> tuple[Verb, ...]:
+    pieces = _pieces(path, FRAME_TAGS)
+    beside = [at for at, number in enumerate(path) if FRAME_TAGS[number] == "+"]
+    verbs = []
+    for number, (frame, start, end) in enumerate(pieces):
+        share = float(min(scores.frame[at, path[at]] for at in range(start, end)))
+        mode = MODE_TAGS[int(scores.mode[start].argmax())]
+        behind = pieces[number + 1][1] if number + 1 < len(pieces) else len(path)
+        mine = tuple(at for at in beside if end <= at < behind)
+        verbs.append(Verb(frame, start, end, share, mode == "negated", mode == "otherwise", mine))
+    return tuple(verbs)
+
+
+def _spans(path: list[int], scores: Scores, verbs: tuple[Verb, ...]) -> tuple[Span, ...]:
+    spans = []
+    for role, start, end in _pieces(path, ROLE_TAGS):
+        share = float(min(scores.role[at, path[at]] for at in range(start, end)))
+        head = start + int(scores.head[start:end, 1].argmax())
+        ways = [float(scores.arcs[head, 0]), *(float(scores.arcs[head, verb.start + 1]) for verb in verbs)]
+        best = int(np.argmax(ways))
+        spans.append(Span(role, start, end, head, best - 1 if best else None, share))
+    return tuple(spans)

@@ -1,0 +1,87 @@
+"""The learned witness: words to scores of tags, by a small encoder that runs without torch."""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from dataclasses import dataclass
+from functools import cache
+from importlib import resources
+from typing import Any
+
+import numpy as np
+from numpy.typing import NDArray
+
+from parley.language.builtin.labels import DESCRIBED, HEADS
+from parley.language.builtin.wordpiece import WordPiece
+
+__all__ = ["Scores", "Tagger", "shipped_tagger"]
+
+Matrix = NDArray[np.float32]
+
+
+@dataclass(frozen=True, slots=True)
+class Scores:
+    """Shares of belief for each word; rows add up to one."""
+
+    act: Matrix
+    frame: Matrix
+    role: Matrix
+    head: Matrix
+    mode: Matrix
+    arcs: Matrix
+    """Column 0: belongs to nothing; column n: to what begins at word n - 1."""
+
+
+@dataclass(frozen=True, slots=True)
+class Tagger:
+    """The encoder with its heads."""
+
+    session: Any
+    pieces: WordPiece
+
+    def tag(self, words: Sequence[str]) -> Scores:
+        """The scores of a sentence's words; of a very long one those of its beginning."""
+        split = self.pieces.split(words)
+        ids = np.array([split.ids], dtype=np.int64)
+        given = {
+            "ids": ids,
+            "mask": np.ones(ids.shape, dtype=np.float32),
+            "first": np.array([split.first or (0,)], dtype=np.int64),
+        }
+        found = self.session.run([*HEADS, "arcs"], given)
+        act, frame, role, head, mode, arcs = (_shares(scores[0]) for scores in found)
+        return Scores(act, frame, role, head, mode, arcs)
+
+    def describe(self, texts: Sequence[str]) -> list[dict[str, float]]:
+        """What each text, said of an action, describes: frames and the belief in them."""
+        found: list[dict[str, float]] = []
+        for text in texts:
+            split = self.pieces.split(text.split())
+            ids = np.array([split.ids], dtype=np.int64)
+            given = {
+                "ids": ids,
+                "mask": np.ones(ids.shape, dtype=np.float32),
+                "first": np.zeros((1, 1), dtype=np.int64),
+            }
+            shares = _shares(self.session.run(["described"], given)[0][0])
+            found.append({frame: float(share) for frame, share in zip(DESCRIBED, shares, strict=True)})
+        return found
+
+
+def _shares(scores: Matrix) -> Matrix:
+    grown = np.exp(scores - scores.max(-1, keepdims=True))
+    shares: Matrix = grown / grown.sum(-1, keepdims=True)
+    return shares
+
+
+@cache
+def shipped_tagger() -> Tagger:
+    """The one whose weights lie beside this program; loaded on first use."""
+    import onnxruntime
+
+    folder = resources.files("parley.language.builtin") / "weights"
+    options = onnxruntime.SessionOptions()
+    options.intra_op_num_threads = 1
+    options.inter_op_num_threads = 1
+    session = onnxruntime.InferenceSession((folder / "tagger.onnx").read_bytes(), options)
+    return Tagger(session, WordPiece.of((folder / "vocabulary.txt").read_text(encoding="utf-8")))

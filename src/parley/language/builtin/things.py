@@ -1,0 +1,147 @@
+"""Mentions: which thing of the map, which person or which remembered thing words mean."""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from dataclasses import dataclass
+from typing import Literal
+
+from rapidfuzz.distance import OSA
+
+from parley.language.builtin.amounts import is_compass
+from parley.language.builtin.lexicon import Lexicon, stem
+from parley.world.object_map import MapObject
+
+__all__ = ["Mention", "link", "noun_phrase"]
+
+Kind = Literal["one", "part", "several", "unclear", "none", "speaker", "pronoun", "person", "here"]
+
+
+@dataclass(frozen=True, slots=True)
+class Mention:
+    """What words refer to."""
+
+    kind: Kind
+    text: str
+    """The noun phrase as it was said, without article."""
+    things: tuple[MapObject, ...] = ()
+
+
+def noun_phrase(words: Sequence[str], head: int, lexicon: Lexicon) -> tuple[tuple[str, ...], tuple[str, ...]]:
+    """The words that name the thing, and those that say where it is or which one.
+
+    Args:
+        words: Of the span, in small letters.
+        head: Which of them names the thing.
+        lexicon: Closed classes.
+    """
+    start = 0
+    small = lexicon.classes["prepositions"] | lexicon.classes["determiners"] | {"of", "uh", "um"}
+    while start < min(head, len(words) - 1) and words[start] in small:
+        start += 1
+    end = head + 1
+    if end + 1 < len(words) and words[end] == "of" and words[end + 1] not in lexicon.classes["prepositions"]:
+        end += 2
+        while (
+            end < len(words)
+            and words[end] not in lexicon.classes["prepositions"]
+            and words[end - 1] in ("the", "a")
+        ):
+            end += 1
+    name = words[start:end]
+    return tuple(name), tuple(words[end:])
+
+
+def link(words: Sequence[str], head: int, objects: Sequence[MapObject], lexicon: Lexicon) -> Mention:
+    """What words mean among the things of the map."""
+    bare = [
+        word for word in words if word not in lexicon.classes["determiners"] | lexicon.classes["prepositions"]
+    ]
+    if words[head] in lexicon.classes["me"] or any(word in lexicon.classes["me"] for word in bare[:1]):
+        return Mention("speaker", "me")
+    if " ".join(words) in lexicon.classes["here"]:
+        return Mention("here", "here")
+    if words[head] in lexicon.classes["persons"]:
+        return Mention("pronoun", words[head])
+    if words[head] in lexicon.classes["pronouns"] and len(bare) <= 1:
+        return Mention("pronoun", words[head])
+    name, rest = noun_phrase(words, head, lexicon)
+    best = _best(name, objects)
+    if best and any(is_compass(word) for word in name) and _rank_of(name, best[0]) > 1:
+        return Mention("none", " ".join((*name, *rest)))
+    part = name.index("of") if "of" in name[:-1] else 0
+    if part and (not best or _rank_of(name, best[0]) > 1):
+        of_whole = name[part - 1] in lexicon.classes["parts"]
+        whole = [word for word in name[part + 1 :] if word not in lexicon.classes["determiners"]]
+        best = _best(whole if of_whole else name[:part], objects)
+        if of_whole and len(best) == 1:
+            return Mention("part", " ".join((*name, *rest)), tuple(best))
+        if best and not of_whole and _best(whole, objects) not in ([], best):
+            return Mention("unclear", " ".join(name), (*best, *_best(whole, objects)))
+    if not best:
+        return Mention("none", " ".join((*name, *rest)))
+    if len(best) > 1 and rest:
+        nearer = [
+            item for item in best if set(_stems(item.description.split())) & set(_content(rest, lexicon))
+        ]
+        best = nearer or best
+    return Mention("one" if len(best) == 1 else "several", " ".join((*name, *rest)), tuple(best))
+
+
+def _stems(words: Sequence[str]) -> tuple[str, ...]:
+    return tuple(stem(part) for word in words for part in word.replace("_", " ").replace("-", " ").split())
+
+
+def _content(words: Sequence[str], lexicon: Lexicon) -> list[str]:
+    small = lexicon.classes["prepositions"] | lexicon.classes["determiners"]
+    return [stem(word) for word in words if word not in small]
+
+
+def _best(name: Sequence[str], objects: Sequence[MapObject]) -> list[MapObject]:
+    """The things that fit best: called so; by more words; by fewer; mistyped; as the end of a word."""
+    wanted = _stems(name)
+    if not wanted:
+        return []
+    ranked: dict[int, list[MapObject]] = {}
+    for item in objects:
+        names = [_stems(text.split()) for text in (item.description, item.id, *item.aliases)]
+        rank = min((_rank(wanted, known) for known in names if known), default=9)
+        if rank < 9:
+            ranked.setdefault(rank, []).append(item)
+    return ranked[min(ranked)] if ranked else []
+
+
+def _rank_of(name: Sequence[str], item: MapObject) -> int:
+    return min(
+        _rank(_stems(name), _stems(text.split())) for text in (item.description, item.id, *item.aliases)
+    )
+
+
+def _rank(wanted: tuple[str, ...], known: tuple[str, ...]) -> int:
+    if wanted == known or set(wanted) == set(known) or "".join(wanted) == "".join(known):
+        return 0
+    if known[-len(wanted) :] == wanted or (set(wanted) <= set(known) and wanted[-1] == _main(known)):
+        return 1
+    if wanted[-len(known) :] == known:
+        return 2
+    if len(wanted) == len(known) and all(
+        _alike(one, other) for one, other in zip(wanted, known, strict=True)
+    ):
+        return 3
+    if len(wanted[-1]) > 3 and len(known) == 1 and known[0].endswith(wanted[-1]):
+        return 4
+    return 9
+
+
+def _main(known: tuple[str, ...]) -> str:
+    """The word that names the thing: the last one before "in", "of", "by" ..."""
+    marks = [
+        at
+        for at, word in enumerate(known)
+        if word in ("in", "of", "by", "at", "near", "next", "on", "with", "beside")
+    ]
+    return known[marks[0] - 1] if marks and marks[0] else known[-1]
+
+
+def _alike(one: str, other: str) -> bool:
+    return one == other or (min(len(one), len(other)) > 4 and OSA.distance(one, other) == 1)

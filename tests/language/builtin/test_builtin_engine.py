@@ -1,0 +1,133 @@
+"""The built-in engine as a whole: its witnesses agree, its reply is its decision, names decide nothing."""
+
+from __future__ import annotations
+
+import hashlib
+import json
+import random
+from importlib import resources
+
+import pytest
+
+from parley.language.base import Situation
+from parley.language.builtin.decision import Ask, Do
+from parley.language.builtin.engine import BuiltinLanguage
+from parley.language.builtin.lexicon import lexicon
+from parley.language.builtin.training.data import data_hash
+from parley.messages.status import ActionInfo
+from parley.world.object_map import MapObject
+from tests.language.builtin.worlds import CATALOGUE, NAMES, SENTENCES, THINGS, action, situation
+
+ENGINE = BuiltinLanguage()
+STRANGE = "glim pot,zorb,quell stand,vantry,bulber,norrick,plaunt,thrum,skeel,oblex"
+ODD = ["uh", "and", "then", "not", "if", ",", ".", "…", "3", "½", "it", "’s", "\u200d", "é"]
+UNCERTAIN = """don't go to the office; if the front gate is open close it; go to the zeppelin; frobnicate it;
+check every door except the last one; turn left; move forward; ; ?!; the; go to the office at six; stop;
+hello; somebody fell; Kim is in the office; where is the red box; bring it to me; never open the front gate;
+check the pump and if it is on go to the office; go to all the gates; go between the desk and the lamp"""
+
+
+def calls(given: Situation) -> list[tuple[str, list[str]]]:
+    decision = ENGINE.decide(given)
+    deeds = decision.deeds if isinstance(decision, Do) else ()
+    return [(deed.frame, sorted(map(str, deed.arguments.values()))) for deed in deeds]
+
+
+@pytest.mark.parametrize("frame", lexicon().frames)
+def test_both_witnesses_read_the_sentences_of_a_frame_as_that_frame(frame: str) -> None:
+    for sentence in lexicon().frames[frame].tests:
+        reading = ENGINE.reading(sentence)
+        assert [wish.frame for wish in reading.wishes] == [frame], sentence
+        assert reading.wishes[0].witness == ("unknown" if frame == "DO" else "agrees"), sentence
+        assert not reading.left_over, sentence
+
+
+def test_weights_and_data_belong_together() -> None:
+    folder = resources.files("parley.language.builtin") / "weights"
+    card = json.loads((folder / "card.json").read_text(encoding="utf-8"))
+    weights = hashlib.sha256((folder / "tagger.onnx").read_bytes()).hexdigest()
+    assert (card["data_sha256"], card["weights_sha256"]) == (data_hash(), weights), "run make train"
+
+
+async def test_what_is_said_is_what_is_done_and_nothing_else() -> None:
+    done = 0
+    for sentence in SENTENCES:
+        decision = ENGINE.decide(situation(sentence))
+        reply = (await ENGINE.interpret(situation(sentence))).message_response
+        if isinstance(decision, Do):
+            done += 1
+            given = {str(value) for deed in decision.deeds for value in deed.arguments.values()}
+            assert {name for name in NAMES if name in reply} == given & set(NAMES), reply
+    assert done >= len(SENTENCES) - 2
+
+
+def test_other_names_of_things_give_the_same_deeds() -> None:
+    odd = dict(zip(NAMES, STRANGE.split(","), strict=True))
+    renamed = tuple(
+        MapObject(f"id{n}", odd[item.description], item.x_m, 1.0) for n, item in enumerate(THINGS)
+    )
+    same = 0
+    for sentence in SENTENCES:
+        other = sentence
+        for name, new in odd.items():
+            other = other.replace(name, new)
+        plain = calls(situation(sentence))
+        wanted = [(frame, sorted(odd.get(value, value) for value in values)) for frame, values in plain]
+        got = calls(situation(other, objects=renamed))
+        assert got in (wanted, []), other  # it may ask about a strange word, but never do something else
+        same += got == wanted
+    assert same >= len(SENTENCES) - 4
+
+
+def test_other_names_of_actions_give_the_same_deeds() -> None:
+    chance = random.Random(5)
+    renamed = [info.model_copy(update={"name": f"a{number}"}) for number, info in enumerate(CATALOGUE)]
+    chance.shuffle(renamed)
+    for sentence in SENTENCES:
+        assert calls(situation(sentence, catalogue=tuple(renamed))) == calls(situation(sentence))
+
+
+@pytest.mark.parametrize("message", [text.strip() for text in UNCERTAIN.split(";")])
+async def test_what_is_not_certain_is_not_done(message: str) -> None:
+    answer = await ENGINE.interpret(situation(message))
+    assert answer.queue == () and answer.message_response
+
+
+def test_a_fact_is_remembered_in_the_words_it_was_told_in() -> None:
+    decision = ENGINE.decide(situation("Kim is in the office."))
+    assert [(fact.name, fact.text) for fact in getattr(decision, "told", ())] == [
+        ("kim_location", "Kim is in the office")
+    ]
+
+
+def test_an_action_that_the_robot_lacks_is_not_replaced_by_another() -> None:
+    lamp: tuple[ActionInfo, ...] = (action("on", "Switch a device on.", "device"),)
+    assert isinstance(ENGINE.decide(situation("open the front gate", catalogue=lamp)), Ask)
+
+
+def test_a_parameter_takes_only_its_type() -> None:
+    info = ActionInfo(
+        name="m",
+        description="Move forward or back by a distance.",
+        inputs={"direction": "string", "distance": "number"},
+    )
+    decision = ENGINE.decide(situation("move forward ten feet", catalogue=(info,)))
+    assert isinstance(decision, Do)
+    assert decision.deeds[0].arguments == {"direction": "forward", "distance": 3.048}
+
+
+def splice(chance: random.Random) -> str:
+    words = [*" ".join(SENTENCES).split(), *ODD]
+    return " ".join(chance.choice(words) for _ in range(chance.randrange(1, 14)))
+
+
+@pytest.mark.parametrize(
+    "times", [300, pytest.param(10_000, marks=[pytest.mark.soak, pytest.mark.timeout(900)])]
+)
+async def test_no_words_break_it_and_every_deed_is_possible(times: int) -> None:
+    chance = random.Random(times)
+    for _ in range(times):
+        for call in (await ENGINE.interpret(situation(splice(chance)))).queue:
+            info = next(info for info in CATALOGUE if info.name == call.name)
+            given = set(call.input_parameters)
+            assert set(info.inputs) - set(info.optional) <= given <= set(info.inputs)
