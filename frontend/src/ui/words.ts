@@ -39,6 +39,10 @@ export function inWords(name: string): string {
 /** With a capital letter in front. */
 export const sentence = (text: string): string => text.charAt(0).toUpperCase() + text.slice(1);
 
+/** Somebody's words as they stand between our quotation marks: their own cannot end them. */
+export const quoted = (words: string): string =>
+  words.replaceAll(/[“„«‟]/g, '‘').replaceAll(/[”»"]/g, '’').replaceAll(/\s+/g, ' ').trim();
+
 /** Day and time. */
 export function dayAndTime(unixMs: number, nowUnixMs: number, language: string): string {
   return `${dayName(unixMs, nowUnixMs, language)} ${clockTime(unixMs, language)}`;

@@ -74,6 +74,7 @@ function PlanOf({ plan }: { plan: PlanView }) {
           {t(`state.${plan.state}`)}
           {current >= 0 && plan.steps.length > 1 && t('stateStep', { number: current + 1, all: plan.steps.length })}
         </p>
+        <HeldBy who={plan.held_by} />
         {!here && <p className={css.away}>{t('away', { robot: plan.robot })}</p>}
         <PlanControls plan={plan} onEdit={pending.length > 0 && !editing ? () => setEditing(plan) : null} />
       </div>
@@ -123,6 +124,13 @@ function PlanOf({ plan }: { plan: PlanView }) {
       )}
     </>
   );
+}
+
+/** Who told it to stand still. */
+function HeldBy({ who }: { who: PlanView['held_by'] }) {
+  const { t } = useTranslation('plan');
+  if (!who) return null;
+  return <p>{who.name ? t('heldBy', { who: who.name }) : t('heldBySomebody')}</p>;
 }
 
 /** Brings the step that is being done into view when another one's turn has come. */
