@@ -4,7 +4,7 @@ import { useTranslation } from 'react-i18next';
 import type { StepState, StepView } from '@/live/types';
 import { Icon, type IconName } from '@/ui/icon';
 import { needsCare } from '@/ui/risk';
-import { inWords, quoted, sentence } from '@/ui/words';
+import { addsTo, inWords, quoted, sentence } from '@/ui/words';
 
 import { Details } from './details';
 import css from './step-card.module.css';
@@ -71,7 +71,7 @@ function Told({ step }: { step: StepView }) {
   return (
     <>
       {step.message && <p className={css.message}>{step.message}</p>}
-      {step.reason && <p className={css.reason}>{t('says', { words: quoted(step.reason) })}</p>}
+      {addsTo(step.label, step.reason) && <p className={css.reason}>{t('says', { words: quoted(step.reason) })}</p>}
     </>
   );
 }
