@@ -193,7 +193,9 @@ class Heard:
         )  # fmt: skip
 
     def on_stop(self, command: StopCommand) -> list[AuditEvent]:
-        """An emergency stop, or its release."""
+        """An emergency stop, or its release; that a robot stands while words are read is neither."""
+        if command.command not in ("stop", "reset"):
+            return []
         effect = Effect.STOP if command.command == "stop" else Effect.RESET
         outcome = "done" if verdict(command.by, effect) == "allow" else "asked"
         return [
