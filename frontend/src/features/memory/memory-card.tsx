@@ -19,6 +19,9 @@ interface Props {
 
 const MINUTE_MS = 60_000;
 
+/** Words alone, to see whether two texts are the same. */
+const bare = (text: string) => text.toLowerCase().match(/[\p{L}\p{N}]+/gu)?.join(' ');
+
 /** One memory. */
 export function MemoryCard({ item, onEdit }: Props) {
   const { t } = useTranslation(['memory', 'common']);
@@ -79,7 +82,7 @@ function Origin({ item }: { item: MemoryItem }) {
     <p className={css.origin}>
       {way && <strong className={css.way}>{t(`way.${way}`)}</strong>}
       {words && way !== 'concluded' && <span>{words}</span>}
-      {item.words && <span>{t('inWords', { words: quoted(item.words) })}</span>}
+      {item.words && bare(item.words) !== bare(item.data) && <span>{t('inWords', { words: quoted(item.words) })}</span>}
       {item.updated_unix_ms > 0 && (
         <time dateTime={new Date(item.updated_unix_ms).toISOString()}>{dayAndTime(item.updated_unix_ms, now, i18n.language)}</time>
       )}
