@@ -6,7 +6,7 @@ import { afterAll, beforeAll, describe, expect, it } from 'vitest';
 
 import { barriers, hasBrowser, robotNamed, say, sizes, startStage, type Stage } from './stage';
 
-const pages = ['', 'plan', 'display', 'map', 'memory', 'robots', 'rules', 'incidents', 'log', 'settings'] as const;
+const pages = ['', 'plan', 'display', 'map', 'memory', 'robots', 'rules', 'incidents', 'log', 'people', 'settings'] as const;
 /** In the second language only once: words change widths, not colours. */
 const faces = [
   ['light', 'en'],
