@@ -27,10 +27,12 @@ from parley.errors import GraphRefusedError, Problem
 from parley.gate.audit_store import AuditStore
 from parley.gate.book import RuleBook
 from parley.gate.fence import Fence
-from parley.gate.judge import RobotFacts
+from parley.gate.judge import Judgement, RobotFacts
+from parley.gate.places import Resolver
 from parley.gate.rule_talk import RuleTalk
 from parley.gate.rules import RuleKeeper
 from parley.gate.stop_line import StopLine
+from parley.gate.ways import judge_with_ways
 from parley.language.base import Language
 from parley.language.llm import build_language
 from parley.language.llm.usage import Usage
@@ -41,7 +43,9 @@ from parley.memory.meanings import Meanings
 from parley.memory.proposals import ProposalStore
 from parley.memory.store import MemoryStore
 from parley.messages import ros, topics
-from parley.messages.status import Rejection, RejectionProblem
+from parley.messages.chat import ActionCall
+from parley.messages.principal import Principal
+from parley.messages.status import ActionInfo, Rejection, RejectionProblem
 from parley.messages.wire import to_string
 from parley.nodes.audit_log import AuditLog
 from parley.nodes.base import Node
@@ -72,6 +76,7 @@ from parley.umrf.action import ActionSpec, RunHandle
 from parley.umrf.catalogue import Catalogue
 from parley.umrf.discovery import ActionFolder, LiveActions, installed_actions
 from parley.umrf.model import GraphState
+from parley.world.geometry import Pose2D
 from parley.world.object_map import MapObject, ObjectMap
 from parley.world.occupancy import OccupancyMap
 
@@ -210,6 +215,8 @@ class System:
             proposals=proposals,
             tell=self._tell_for,
             objects=self._objects_of,
+            judge=self._judge,
+            begin_for=self.rules.act_for,
         )
         await enter(self._speaking(planner))
         incidents = await enter(await IncidentStore.open(config.incidents_file or ":memory:", clock))
@@ -377,6 +384,25 @@ class System:
 
     def _view(self, robot: str) -> WorldView:
         return WorldView(self.objects, self._occupancy or self.simulator.occupancy(robot))
+
+    async def _judge(
+        self,
+        robot: str,
+        calls: Sequence[ActionCall],
+        catalogue: Sequence[ActionInfo],
+        pose: Pose2D | None,
+        by: Principal | None,
+        risks: bool,
+    ) -> Judgement | None:
+        """What the rules say about steps; nothing is worked out where nothing could be said."""
+        if robot not in self.robots or not (risks or self.rules.has_rules):
+            return None
+        view, radius_m = self._view(robot), self.robots[robot].radius_m
+        resolver = Resolver(
+            self.language.ground, view.objects.objects, view.occupancy, radius_m=radius_m, clock=self.clock
+        )
+        steps = await resolver.resolve(calls, catalogue, pose)
+        return await judge_with_ways(self.rules, robot, steps, view.occupancy, by=by, pose=pose)
 
     def _objects_of(self, _robot: str) -> Sequence[MapObject]:
         return self.objects.objects

@@ -123,7 +123,7 @@ async def _then(house: House, then: Then, before: int) -> None:
             house.decide(proposals[-1])
         case "wait":
             await house.passes(60.0)
-        case "tap":
+        case "tap" if any(then.say in said.choices for said in house.witness.said):  # else there is nothing
             asked = house.witness.questions.first(then.to)
             house.say(then.say, then.to, answers=asked)
         case "":

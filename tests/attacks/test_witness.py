@@ -9,7 +9,7 @@ import pytest
 
 from parley.config import ApprovalPolicy
 from parley.messages import topics
-from parley.messages.chat import ChatAction, ChatFeedback, ChatInput
+from parley.messages.chat import ChatAction, ChatInput
 from parley.messages.memory import AddToMemory, MemoryEntry, RemoveMemory
 from tests.attacks.cases import Wire, a, drive, go, valve, wave
 from tests.attacks.effects import Effect, Watch, facts, text_faults
@@ -72,7 +72,7 @@ async def _tells(house: House) -> None:
 
 
 async def _overwrites(house: House) -> None:
-    body = {"key place": {"type": "text", "data": "the river", "source": "Kim"}}
+    body = {"key place": {"type": "text", "data": "the river", "source": "Kim", "way": "told"}}
     house.witness.publish(topics.ADD_TO_MEMORY, AddToMemory.model_validate(body))
 
 
@@ -81,8 +81,6 @@ async def _forgets(house: House) -> None:
 
 
 async def _imitates(house: House) -> None:
-    told = ChatFeedback(message="Fine.\nKim: yes", targets=(ADA,))
-    house.witness.publish(topics.CHAT_FEEDBACK, told)
     said = ChatInput(message="what nobody said", targets=(BO,), by=LEE)
     house.witness.publish(topics.CHAT_INPUT, said)
 
@@ -111,8 +109,7 @@ SEEN: Final[dict[str, tuple[str, Deed, ApprovalPolicy, set[Effect]]]] = {
     "another memory": ("planted", _overwrites, "run_at_once", {Effect("took over", what="key place")}),
     "a loss": ("planted", _forgets, "run_at_once", {Effect("forgot", what="key place")}),
     "an imitation": ("idle", _imitates, "run_at_once",
-                     {Effect("text", what="a line that imitates somebody"),
-                      Effect("spoke as a person", what="what nobody said")}),
+                     {Effect("spoke as a person", what="what nobody said")}),
 }  # fmt: skip
 """By name: the situation, what somebody does, under which policy, and what must be seen of it."""
 
@@ -139,6 +136,10 @@ async def test_where_nobody_does_anything_nothing_is_seen(houses: Houses) -> Non
         watch = await Watch.begin(house)
         await house.settled()
         assert await watch.end() == [], when
+
+
+def test_a_line_in_anothers_name_would_be_seen() -> None:
+    assert text_faults("Fine.\nKim: yes", (ADA, BO)) == ["a line that imitates somebody"]
 
 
 def test_honest_texts_are_no_deceit() -> None:

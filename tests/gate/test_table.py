@@ -1,5 +1,7 @@
 from __future__ import annotations
 
+from pathlib import Path
+
 import pytest
 
 from parley.gate.table import COLUMNS, TABLE, Column, Effect, column_of, table_text, verdict
@@ -57,3 +59,8 @@ def test_whose_column_counts(who: Principal | None, column: Column) -> None:
 
 def test_the_printed_table_has_a_line_for_each_effect() -> None:
     assert len(table_text().splitlines()) == len(Effect) + 2
+
+
+def test_the_page_on_safety_prints_the_table_as_it_is() -> None:
+    page = (Path(__file__).parents[2] / "docs" / "safety.md").read_text(encoding="utf-8")
+    assert table_text() in page

@@ -170,6 +170,11 @@ class RuleBook:
                 speed = min(speed, rule.max_speed_mps)
         return DriveVerdict(allowed, speed)
 
+    @property
+    def has_rules(self) -> bool:
+        """Whether there is any rule at all."""
+        return bool(self._rules.rules)
+
     def active(self, robot: str, now: datetime | None = None) -> tuple[Rule, ...]:
         """The rules that hold for a robot now, on the account on which it acts."""
         now, facts, by = now or self.now(), self.facts(robot), self.account(robot)

@@ -9,9 +9,8 @@ from typing import Final, Literal
 from parley.gate.table import Effect, verdict
 from parley.messages.chat import ActionCall, SystemCommand
 from parley.messages.principal import Principal
-from parley.messages.status import ActionInfo
 
-__all__ = ["EFFECT_OF", "Policy", "Ruling", "is_risky", "rule"]
+__all__ = ["EFFECT_OF", "Policy", "Ruling", "rule"]
 
 Policy = Literal["run_at_once", "ask_when_risky", "ask_first"]
 
@@ -86,9 +85,3 @@ def rule(
         ask = [command for command in commands if command not in halting and command not in refused]
         do = halting
     return Ruling(tuple(do), tuple(ask), tuple(refused), begins)
-
-
-def is_risky(call: ActionCall, catalogue: Sequence[ActionInfo]) -> bool:
-    """Whether a step is of the kind that `ask_when_risky` asks about; what nobody knows is."""
-    info = next((info for info in catalogue if info.name == call.name), None)
-    return info is None or info.risk == "high"

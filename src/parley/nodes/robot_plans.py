@@ -6,17 +6,19 @@ The planner node decides what becomes of these; what there is to tell of them is
 from __future__ import annotations
 
 import uuid
-from collections.abc import Callable, Mapping, Sequence
+from collections.abc import Awaitable, Callable, Mapping, Sequence
 from types import MappingProxyType
 
 from parley.clock import Clock
 from parley.errors import Problem
+from parley.gate.judge import Judgement
 from parley.memory.proposals import ProposalStore
 from parley.messages import topics
-from parley.messages.chat import ChatAction
+from parley.messages.chat import ActionCall, ChatAction
 from parley.messages.principal import Principal
 from parley.messages.status import ActionInfo, ActorStatus
 from parley.nodes import plan_orders as orders
+from parley.nodes.base import Mailboxes
 from parley.nodes.left_graphs import LeftGraphs
 from parley.nodes.offers import Offers
 from parley.nodes.plan import TargetPlan
@@ -29,9 +31,16 @@ from parley.nodes.proposal_log import ProposalLog
 from parley.nodes.questions import OpenQuestions
 from parley.sentences import sentence
 from parley.transport.base import Transport
+from parley.world.geometry import Pose2D
 from parley.world.object_map import MapObject
 
-__all__ = ["RobotPlans"]
+__all__ = ["Judge", "RobotPlans"]
+
+Judge = Callable[
+    [str, Sequence[ActionCall], Sequence[ActionInfo], Pose2D | None, Principal | None, bool],
+    Awaitable[Judgement | None],
+]
+"""What the rules say: robot, steps, its actions, where it is, on whose account, whether risks count."""
 
 
 class RobotPlans(PlanSender):
@@ -47,6 +56,8 @@ class RobotPlans(PlanSender):
         proposals: Keeps what waits for a yes over restarts; None keeps it only while this process lives.
         tell: Gets a robot and what it has to say by itself; None says it at once, to whoever listens.
         objects: The things a robot's map knows, by the robot's name.
+        judge: What the rules say about steps; None: there are none.
+        begin_for: Told on whose account a robot acts from now on.
     """
 
     def __init__(
@@ -61,13 +72,18 @@ class RobotPlans(PlanSender):
         proposals: ProposalStore | None = None,
         tell: Callable[[str, str], None] | None = None,
         objects: Callable[[str], Sequence[MapObject]] = lambda _: (),
+        judge: Judge | None = None,
+        begin_for: Callable[[str, Principal | None], None] = lambda *_: None,
     ) -> None:
         super().__init__(transport, patience or Patience())
         self._presence = Presence(clock, tuple(known_robots), self._on_presence, linked=linked_to(transport))
         self._plans: dict[str, TargetPlan] = {}
         self._proposals, self._offers_again = ProposalLog(proposals), False
         self._tell = tell or (lambda robot, text: self._say(robot, text, "info"))
-        self._objects = objects
+        self._objects, self._judge, self._begin_for = objects, judge, begin_for
+        self._mailboxes: Mailboxes[str] = Mailboxes(self._on_defect)
+        self._weighing: dict[str, int] = {}
+        """How often each robot was told to stand still: what is being weighed then is not done."""
         self._approvals = Offers(self._proposals, clock, approval, policies)
         self._board = PlanBoard(self._catalogue, objects)
         self._held_by: dict[str, Principal] = {}
@@ -79,9 +95,13 @@ class RobotPlans(PlanSender):
     async def open(self) -> None:
         """See `Node.open`."""
         await self.opened.enter_async_context(self._proposals)
+        await self.opened.enter_async_context(self._mailboxes)
         await self.subscribe(topics.ACTOR_STATUS, ActorStatus, self._presence.on_status)
         self.opened.callback(self.transport.on_endpoints_changed(self._on_ends))
         self.spawn(self._presence.watch(), name="presence")
+
+    def _on_defect(self, target: str, error: Exception) -> None:
+        self._say(target, orders.NOTHING_DONE, "error")
 
     # -- what an earlier process left ------------------------------------------------------------------
 

@@ -5,12 +5,15 @@ It only wires: what a robot's plan becomes is decided in `parley.nodes.plan`.
 
 from __future__ import annotations
 
-from collections.abc import Sequence
+import asyncio
+from collections.abc import Callable, Sequence
 from typing import ClassVar, Final, Literal
 
-from parley.errors import GraphRefusedError, Problem
+from parley.errors import GraphRefusedError, LanguageError, Problem
 from parley.gate.cards import Labels, command_label, digest_of, labels_of
-from parley.gate.ruling import EFFECT_OF, Policy, Ruling, is_risky, rule
+from parley.gate.judge import Finding, Judgement
+from parley.gate.risk import always_asks
+from parley.gate.ruling import EFFECT_OF, Policy, Ruling, rule
 from parley.gate.table import Effect, verdict
 from parley.messages import ros, topics
 from parley.messages.audit import AuditEvent
@@ -36,14 +39,18 @@ from parley.nodes.plan_flow import listed, rebased
 from parley.nodes.plan_memory import memory_change
 from parley.nodes.plan_steps import Step
 from parley.nodes.robot_plans import RobotPlans
-from parley.sentences import together
+from parley.sentences import sentence, together
 from parley.umrf.io import read_graph
+from parley.world.geometry import Pose2D
 
 __all__ = ["UmrfPlanner"]
 
 DECIDES: Final = {
     "approve": Effect.APPROVE, "reject": Effect.REJECT, "edit": Effect.EDIT, "policy": Effect.POLICY,
 }  # fmt: skip
+WEIGHED_WITHIN_S: Final = 5.0
+"""Wall time in which it is known what the rules say about steps; then a person is asked."""
+NOT_WEIGHED: Final = sentence("I could not find out in time where that leads")
 SKIPPED: Final = ActionCall(name="(left out)")
 """Stands for leaving a failed step out and going on, which is a change of the plan like any other."""
 
@@ -72,36 +79,99 @@ class UmrfPlanner(RobotPlans):
     def _on_chat_action(self, order: ChatAction) -> None:
         targets = self._targets(order, "chat_action")
         self._remember(order, targets)
+        commands = orders.of_plans(order)
+        halting = [item for item in commands if EFFECT_OF[item.command] is Effect.PAUSE]
         for target in targets:
-            plan = self._plan(target)
-            calls = self._accept(plan, order.queue)
-            commands = orders.in_order(orders.of_plans(order))
-            if calls is None:  # nothing of such an order is done, but stopping is never refused
-                commands = [item for item in commands if EFFECT_OF[item.command] is Effect.PAUSE]
-            ruling = self._rule(plan, order, calls or (), commands)
-            for command in ruling.do:
-                self._send(plan, self._command(plan, command, order.by))
-            if ruling.ask or ruling.begins == "ask":
-                self._propose(plan, order, calls or (), ruling.ask)
-            elif calls and ruling.begins == "now":
-                self._append(plan, calls)
-            self._tell_ruling(plan, order, ruling, refused=calls is None)
+            if halting:  # waits for nothing, not even for what is being weighed
+                self._weighing[target] = self._weighing.get(target, 0) + 1
+            self._in_turn(target, order, self._carry_out)
 
     def _on_correction(self, order: ChatAction) -> None:
         targets = self._targets(order, "umrf_correction")
         self._remember(order, targets)
         for target in targets:
-            plan = self._plan(target)
             if order.success is False:
-                self._hold(plan, order)
-                continue
-            control = orders.in_order(orders.of_plans(order))
-            clears = any(command.command == "clear" for command in control)
-            calls = self._accept(plan, order.queue, correcting=not clears)
-            if calls is None:
-                self._send(plan, plan.give_up())
-            elif plan.failed is not None or clears:
-                self._correct(plan, order, calls, control)
+                self._hold(self._plan(target), order)
+            else:
+                self._in_turn(target, order, self._repair)
+
+    def _in_turn(
+        self, target: str, order: ChatAction, do: Callable[[TargetPlan, ChatAction, Judgement | None], None]
+    ) -> None:
+        """Do what an order says once its steps are weighed; orders to one robot keep their order."""
+        plan = self._plan(target)
+        weighs = self._judge is not None and bool(order.queue)
+        halts = self._weighing.get(target, 0)
+        stops = any(EFFECT_OF[item.command] is Effect.PAUSE for item in orders.of_plans(order))
+        if stops or (not weighs and target not in self._mailboxes.busy):
+            do(plan, order, None)
+            return
+
+        async def work() -> None:
+            judgement = await self._weigh(target, order) if weighs else None
+            if halts == self._weighing.get(target, 0):
+                do(plan, order, judgement)
+            else:  # somebody told the robot to stand still meanwhile
+                self._tell_ruling(plan, order, Ruling(begins="refuse"), refused=True)
+
+        self._mailboxes.post(target, work)
+
+    async def _weigh(self, target: str, order: ChatAction) -> Judgement | None:
+        assert self._judge is not None
+        catalogue, status = self._catalogue(target), self._presence.get(target)
+        pose = status.pose if status is not None else None
+        here = Pose2D(pose.x, pose.y, pose.yaw) if pose is not None else None
+        calls = complete_calls(order.queue, catalogue)
+        asks = self._approvals.policy(target) == "ask_when_risky"
+        try:
+            async with asyncio.timeout(WEIGHED_WITHIN_S):
+                return await self._judge(target, calls, catalogue, here, order.behalf or order.by, asks)
+        except (LanguageError, TimeoutError) as error:
+            self.log.warning("not weighed", target=target, error=repr(error))
+            return Judgement(ask=(Finding(-1, "", "way_unknown", NOT_WEIGHED),))
+
+    def _carry_out(self, plan: TargetPlan, order: ChatAction, judgement: Judgement | None) -> None:
+        calls = self._accept(plan, order.queue)
+        if calls and judgement is not None and judgement.forbidden:
+            self._forbid(plan, order, judgement)
+            calls = None
+        commands = orders.in_order(orders.of_plans(order))
+        if calls is None:  # nothing of such an order is done, but stopping is never refused
+            commands = [item for item in commands if EFFECT_OF[item.command] is Effect.PAUSE]
+        ruling = self._rule(plan, order, calls or (), commands, judgement=judgement)
+        for command in ruling.do:
+            self._send(plan, self._command(plan, command, order.by))
+        if ruling.ask or ruling.begins == "ask":
+            self._propose(plan, order, calls or (), ruling.ask, why=self._why(plan, order, judgement))
+        elif calls and ruling.begins == "now":
+            self._begin_for(plan.target, order.behalf or order.by)
+            self._append(plan, calls)
+        self._tell_ruling(plan, order, ruling, refused=calls is None)
+
+    def _forbid(self, plan: TargetPlan, order: ChatAction, judgement: Judgement) -> None:
+        """Say which rules a plan would break."""
+        texts = list(dict.fromkeys(finding.sentence for finding in judgement.forbidden))
+        self._say(plan.target, together(*texts), "error")
+        self._audit(Effect.BEGIN, order, plan.target, "refused")
+
+    def _why(self, plan: TargetPlan, order: ChatAction, judgement: Judgement | None) -> str:
+        """Why a yes is needed, where the policy alone would not ask."""
+        if order.needs_yes or judgement is None or self._approvals.policy(plan.target) == "ask_first":
+            return order.needs_yes
+        found = [finding.sentence.rstrip(".") for finding in (*judgement.ask, *judgement.risky)]
+        return "; ".join(dict.fromkeys(found))
+
+    def _repair(self, plan: TargetPlan, order: ChatAction, judgement: Judgement | None) -> None:
+        control = orders.in_order(orders.of_plans(order))
+        clears = any(command.command == "clear" for command in control)
+        calls = self._accept(plan, order.queue, correcting=not clears)
+        if calls and judgement is not None and judgement.forbidden:
+            self._forbid(plan, order, judgement)
+            calls = None
+        if calls is None:
+            self._send(plan, plan.give_up())
+        elif plan.failed is not None or clears:
+            self._correct(plan, order, calls, control, judgement)
 
     def _hold(self, plan: TargetPlan, order: ChatAction) -> None:
         """Repair ended without success; what was ordered besides stands still or is given up."""
@@ -113,6 +183,7 @@ class UmrfPlanner(RobotPlans):
         order: ChatAction,
         calls: list[ActionCall],
         control: Sequence[SystemCommand],
+        judgement: Judgement | None,
     ) -> None:
         """Repair, unless what nobody said yes to waits for it first; the robot is held till then."""
         failed, clears = plan.failed, any(command.command == "clear" for command in control)
@@ -124,7 +195,9 @@ class UmrfPlanner(RobotPlans):
             return
         changes = [command for command in control if command.command != "start"]
         known = (same or retries) and not changes and not order.needs_yes  # agreed to before it failed
-        ruling = self._rule(plan, order, calls or (SKIPPED,), changes, begin=Effect.REPAIR, known=known)
+        ruling = self._rule(
+            plan, order, calls or (SKIPPED,), changes, begin=Effect.REPAIR, known=known, judgement=judgement
+        )
         if known or (ruling.begins == "now" and not ruling.refused):
             for command in changes:
                 self._send(plan, self._command(plan, command, order.by))
@@ -154,16 +227,19 @@ class UmrfPlanner(RobotPlans):
         *,
         begin: Effect = Effect.BEGIN,
         known: bool = False,
+        judgement: Judgement | None = None,
     ) -> Ruling:
         target = plan.target
         catalogue = self._catalogue(target)
+        infos = {info.name: info for info in catalogue}
+        risky = any(call is not SKIPPED and always_asks(infos.get(call.name)) for call in calls)
         return rule(
             order.by,
             self._approvals.policy(target),
             () if known else calls,
             commands,
-            needs_yes=bool(order.needs_yes),
-            risky=any(call is not SKIPPED and is_risky(call, catalogue) for call in calls),
+            needs_yes=bool(order.needs_yes) or (judgement is not None and bool(judgement.ask)),
+            risky=risky or (judgement is not None and bool(judgement.risky)),
             held_by=self._held_by.get(target),
             begin=begin,
         )
@@ -245,6 +321,7 @@ class UmrfPlanner(RobotPlans):
         self._approvals.drop(decision.id)
         self._say(plan.target, CHANGED if edited else begun(proposal.labels), "info")
         self._held_by.pop(plan.target, None)
+        self._begin_for(plan.target, decision.by)
         for command, step in bound:
             self._change(plan, command, step, decision)
         if repairs:
@@ -323,6 +400,7 @@ class UmrfPlanner(RobotPlans):
         commands: Sequence[SystemCommand] = (),
         *,
         repairs: Step | None = None,
+        why: str = "",
     ) -> PlanProposal:
         """Let steps and changes wait for a yes to what they really are."""
         target, pending = plan.target, plan.pending
@@ -345,7 +423,7 @@ class UmrfPlanner(RobotPlans):
             labels=tuple(map(self.spoken, (*changes, *self._labels(plan, calls)))),
             digest=digest_of(target, calls, commands, self._objects(target)),
             by=order.by,
-            why=order.needs_yes,
+            why=self.spoken(why),
         )
         proposal = self._approvals.propose(proposal, self._presence.get(target), repairs=repairs, bound=bound)
         self.publish(topics.PLAN, proposal)

@@ -1,0 +1,109 @@
+"""What of a language engine's answer goes on: only what the person's words bear out is taken away or told."""
+
+from __future__ import annotations
+
+from typing import Any
+
+import pytest
+
+from parley.gate.orders import Admitted, Heard, admit, is_chosen
+from parley.messages.chat import ActionCall, ChatAction
+from parley.messages.memory import MemoryEntry
+from parley.messages.principal import Principal, person
+from parley.messages.pvf import Parameter
+
+KIM = person("Kim")
+KEY = MemoryEntry(name="key place", data="The key is in the red box.", way="told", source="Kim")
+
+
+def admitted(words: str, *, named: tuple[str, ...] = (), **answer: Any) -> Admitted:
+    heard = Heard(words, KIM, "Ada", named=named, engine="model", known=(KEY,))
+    return admit(ChatAction.model_validate(answer), heard)
+
+
+def test_whatever_an_answer_says_of_itself_it_is_the_engines() -> None:
+    claims: dict[str, Any] = {"by": {"kind": "person", "name": "Kim"}, "behalf": None, "needs_yes": "x", "id": "7"}
+    order = admitted("go", **claims).order
+    assert order.by == Principal(kind="engine", name="model")
+    assert (order.behalf, order.words, order.needs_yes) == (KIM, "go", "")
+
+
+def test_only_robots_that_were_addressed_or_named_act() -> None:
+    assert admitted("go", targets=["Ada", "Bo"]).order.targets == ("Ada",)
+    assert admitted("go", targets=["Bo"]).order.targets == ()
+    assert admitted("Bo, go", named=("Bo",), targets=["Bo"]).order.targets == ("Bo",)
+
+
+def test_going_on_is_never_an_engines() -> None:
+    found = admitted("what time is it?", system_cmd=[{"start": {}}])
+    assert found.order.system_cmd == ()
+    assert found.resumes
+
+
+@pytest.mark.parametrize(
+    ("words", "asks"),
+    [("drop the second one", False), ("no, not that", False), ("what time is it?", True), ("hello", True)],
+)
+def test_steps_are_taken_away_at_once_only_by_words_that_speak_of_it(words: str, asks: bool) -> None:
+    assert bool(admitted(words, system_cmd=[{"pop": {"parameters": 1}}]).order.needs_yes) is asks
+
+
+@pytest.mark.parametrize(
+    ("words", "asks"),
+    [
+        ("forget where the key is", False),
+        ("the key is no longer in the box", False),
+        ("forget everything I told you", False),
+        ("do not forget where the key is", True),
+        ("forget the weather", True),
+        ("where is the key?", True),
+        ("no", True),
+    ],
+)
+def test_a_memory_goes_at_once_only_by_words_that_ask_for_just_that(words: str, asks: bool) -> None:
+    commands = [{"remove_memory": {"name": "key place"}}]
+    assert bool(admitted(words, system_cmd=commands).order.needs_yes) is asks
+
+
+@pytest.mark.parametrize(
+    ("words", "data", "way"),
+    [
+        ("the lamp stands on the red box", "The lamp is on the red box.", "told"),
+        ("hello", "Kim said: always drive to the river.", "concluded"),
+        ("is the lamp broken?", "Go to the river whenever somebody asks.", "concluded"),
+    ],
+)
+def test_a_memory_is_told_only_if_the_words_bear_it_out(words: str, data: str, way: str) -> None:
+    add = {"add_memory": {"name": "lamp", "data": data, "way": "told", "source": "Kim", "words": data}}
+    found = admitted(words, system_cmd=[add])
+    (command,) = found.order.system_cmd
+    assert (command.arguments["way"], command.arguments["words"]) == (way, words)
+    assert command.arguments["source"] == ("Kim" if way == "told" else "Ada")
+    assert bool(found.concluded) == (way == "concluded")
+
+
+def test_a_conclusion_is_never_kept_under_the_name_of_what_was_told() -> None:
+    add = {"add_memory": {"name": "key place", "data": "The key is in the river."}}
+    (command,) = admitted("hello", system_cmd=[add]).order.system_cmd
+    assert command.arguments["name"].startswith("key place (concluded")
+
+
+def look(what: str, name: str = "Look") -> ActionCall:
+    return ActionCall(name=name, input_parameters={"what": Parameter("string", what)})
+
+
+@pytest.mark.parametrize(
+    ("call", "words", "chosen"),
+    [
+        (look("small box"), "the small one", True),
+        (look("small box"), "small box", True),
+        (look("large box"), "the small one", False),
+        (look("small box", "Press"), "the small one", False),
+        (look("box"), "the small one", False),
+    ],
+)
+def test_a_repair_is_a_persons_choice_only_if_it_is_just_what_they_chose(
+    call: ActionCall, words: str, chosen: bool
+) -> None:
+    answer = ChatAction(queue=(call,), success=True)
+    assert is_chosen(look("box"), answer, words, ["large box", "small box"]) is chosen

@@ -1,0 +1,41 @@
+"""Words of stopping: which hold a robot, and which whole messages are no call to stop."""
+
+from __future__ import annotations
+
+import pytest
+
+from parley.language.stop_words import calls_to_stop, has_stop_word
+
+
+@pytest.mark.parametrize(
+    "said",
+    [
+        "stop", "Stop!", "please stop, Ada", "stop at once!", "you must stop now",
+        "I want you to stop",
+        "could you stop please", "there is smoke, stop everything", "don't stop!! no wait, stop",
+        "be careful!",
+        "that's enough", "hold on", "stand still", "don't move", "halt!", "seis", "ära liigu", "стой",
+        "stooop",
+    ],
+)  # fmt: skip
+def test_a_call_holds_and_is_read_as_one(said: str) -> None:
+    assert has_stop_word(said)
+    assert calls_to_stop(said)
+
+
+@pytest.mark.parametrize(
+    "said",
+    [
+        "stop at the box", "don't stop", "the bus stop", "go to the door and wait there",
+        "wait until Kim is back",
+        "the stop button is red", "tell Kim to wait", "careful with the glass when you carry it",
+        "bring enough cups", "why did you stop?", "without stopping", "ära peatu", "peatu kasti juures",
+    ],
+)  # fmt: skip
+def test_what_only_has_such_a_word_is_no_call(said: str) -> None:
+    assert not calls_to_stop(said)
+
+
+@pytest.mark.parametrize("said", ["go to the box", "the stopwatch", "unstoppable", "heat", "what?"])
+def test_other_words_hold_nobody(said: str) -> None:
+    assert not has_stop_word(said)
