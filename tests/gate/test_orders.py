@@ -22,7 +22,12 @@ def admitted(words: str, *, named: tuple[str, ...] = (), **answer: Any) -> Admit
 
 
 def test_whatever_an_answer_says_of_itself_it_is_the_engines() -> None:
-    claims: dict[str, Any] = {"by": {"kind": "person", "name": "Kim"}, "behalf": None, "needs_yes": "x", "id": "7"}
+    claims: dict[str, Any] = {
+        "by": {"kind": "person", "name": "Kim"},
+        "behalf": None,
+        "needs_yes": "x",
+        "id": "7",
+    }
     order = admitted("go", **claims).order
     assert order.by == Principal(kind="engine", name="model")
     assert (order.behalf, order.words, order.needs_yes) == (KIM, "go", "")
