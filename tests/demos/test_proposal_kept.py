@@ -173,7 +173,7 @@ def test_the_terminal_shows_it_again_and_takes_the_yes(data: Path) -> None:
     ]  # fmt: skip
     done = subprocess.run(command, input="yes\n", capture_output=True, text=True, timeout=100, check=False)
     told = " ".join(done.stdout.split())
-    order = ["David would do this:", "Answer yes or no.", "I will go to the dining table.", "I have finished"]
+    order = ["David would do this:", "Answer yes or no.", "All right: 1. Find out", "I have finished"]
     places = [told.find(text) for text in order]
     assert places == sorted(places), done.stdout
     assert places[0] >= 0, done.stdout

@@ -19,6 +19,8 @@ from parley.errors import ConfigError
 from parley.web.app import openapi_text
 
 ENDS_WITHIN_S = 15
+STEPS = "1. Find out where “dining table” is, 2. Go to “dining table”"
+ASKED = f"This is what I would do: {STEPS}. Shall I?"
 """How long a test waits for an end; how quick it is, is not a test's business."""
 
 
@@ -101,7 +103,7 @@ def test_a_plan_that_waits_for_a_yes_is_on_the_page_again_after_kill_9(tmp_path:
         snapshot_with(client, "robots")
         post(client, "m1", "go to the dining table")
         entries = until(client, "m1")
-        assert entries[-1]["message"] == "I would go to the dining table. Shall I?"
+        assert entries[-1]["message"] == ASKED
         (before,) = snapshot_with(client, "proposals")["proposals"]
         post(client, "m2", "what can you do?")  # what the robot says later is kept later
         until(client, "m2")
@@ -110,7 +112,7 @@ def test_a_plan_that_waits_for_a_yes_is_on_the_page_again_after_kill_9(tmp_path:
         snapshot_with(client, "robots")
         (again,) = snapshot_with(client, "proposals")["proposals"]
         assert again == before
-        decision = {"id": again["id"], "decision": "approve"}
+        decision = {"id": again["id"], "decision": "approve", "digest": again["digest"]}
         assert client.post("/api/plans/David/decision", json=decision).status_code == 200
         ends_s = time.monotonic() + 60
         while not any("I have finished" in said["message"] for said in entries):
@@ -119,9 +121,7 @@ def test_a_plan_that_waits_for_a_yes_is_on_the_page_again_after_kill_9(tmp_path:
             time.sleep(0.1)
         said = [entry["message"] for entry in entries]
         assert any("started anew" in message for message in said)
-        assert said.index("I will go to the dining table.") > said.index(
-            "I would go to the dining table. Shall I?"
-        )
+        assert said.index(f"All right: {STEPS}.") > said.index(ASKED)
         assert client.get("/api/snapshot").json()["proposals"] == []
 
 

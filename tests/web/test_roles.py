@@ -40,7 +40,11 @@ BODIES: dict[tuple[str, str], list[tuple[Any, Effect]]] = {
     ("PUT", "/api/plans/{robot}/policy"): [({"policy": "ask_first"}, Effect.POLICY)],
     ("PUT", "/api/plans/{robot}/steps"): [({"steps": [], "revision": 0}, Effect.EDIT)],
     ("POST", "/api/robots"): [({"name": "Kim's cart"}, Effect.SETTING)],
-    ("PUT", "/api/memory/{name}"): [({"data": "the box is red"}, Effect.REMEMBER)],
+    ("PUT", "/api/memory"): [({"data": "the box is red"}, Effect.REMEMBER)],
+    ("PUT", "/api/rules/{rule_id}"): [
+        ({"id": "r1", "name": "hall", "kind": "keep_out", "rectangle": [0, 0, 1, 1]}, Effect.RULE)
+    ],
+    ("POST", "/api/rules/try"): [({"robot": "Ada", "goal": [1.0, 1.0]}, Effect.SEE)],
     ("PUT", "/api/me/password"): [({"old": "wrong", "new": PASSWORD}, Effect.SEE)],
     ("POST", "/api/me/passkeys"): [({"id": "x", "name": "key", "credential": {}}, Effect.SEE)],
     ("POST", "/api/people"): [({"name": "new", "password": "short"}, Effect.PEOPLE)],

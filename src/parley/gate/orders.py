@@ -31,7 +31,7 @@ __all__ = ["Admitted", "Heard", "admit", "admit_repair", "engine", "is_chosen"]
 SAID_NO: Final = sentence("you said no to something")
 NOT_ASKED_FOR: Final = sentence("you did not say so in so many words")
 _DECIDING: Final = re.compile(
-    r"\b(?:approve|reset|release|stop|resume|carry\s+on|go\s+ahead|policy|vabasta|jätka|kinnita)\b",
+    r"\b(?:approve|reset|release|policy|vabasta|kinnita)\b",
     re.IGNORECASE,
 )
 """What a person says with their own words or by a press of ours; no engine offers it to be tapped."""

@@ -72,7 +72,8 @@ def rule(
         if found == "own":
             found = "allow" if held_by == by and not held_by_person else "refuse"
         if found == "policy":
-            found = "yes" if asks or held_by_person else "allow"
+            moves = command.command == "skip" or (command.command == "clear" and bool(calls))
+            found = "yes" if asks or (held_by_person and moves) else "allow"
         (do if found == "allow" else ask if found == "yes" else refused).append(command)
     found = verdict(by, begin)
     begins: Literal["now", "ask", "refuse"] = "now"

@@ -299,7 +299,13 @@ class ErrorHandler(Node):
         """The answer of the engine as far as it may go on, and on whose account."""
         name, target = self._language.label, repair.failure.target
         words = answer.message if answer is not None else ""
-        heard = Heard(words, answer.who if answer is not None else engine(name), target, engine=name)
+        heard = Heard(
+            words,
+            answer.who if answer is not None else engine(name),
+            target,
+            engine=name,
+            earlier=(repair.failure.error_message,),  # what "it" in an answer is
+        )
         order = admit_repair(resolution.model_copy(update={"targets": (target,)}), heard)
         choices = repair.question.choices if repair.question is not None else ()
         if answer is not None and is_chosen(repair.failure.action_called, resolution, words, choices):

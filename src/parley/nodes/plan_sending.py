@@ -112,7 +112,7 @@ class PlanSender(Node):
 
         self.spawn(wait(), name=f"deadline {plan.target}")
 
-    def _say(self, target: str, text: str, kind: Literal["info", "error"]) -> None:
+    def _say(self, target: str, text: str, kind: Literal["response", "info", "error"]) -> None:
         said = ChatFeedback(message=self.spoken(text), targets=(target,), type=kind)
         self.publish(topics.CHAT_FEEDBACK, said)
 

@@ -301,7 +301,7 @@ class UmrfPlanner(RobotPlans):
         if decision.decision == "reject":
             self._approvals.drop(decision.id)
             self._send(plan, plan.give_up() if repairs else [])
-            self._say(plan.target, orders.WAITING if plan.held else REFUSED, "info")
+            self._say(plan.target, orders.WAITING if plan.held else REFUSED, "response")
             return
         shown = decision.digest or (proposal.digest if decision.decision == "edit" else "")
         if shown != proposal.digest or self._digest(proposal) != proposal.digest:
@@ -319,16 +319,17 @@ class UmrfPlanner(RobotPlans):
             return  # it goes on waiting, for a better edit
         bound = self._approvals.bound(decision.id)
         self._approvals.drop(decision.id)
-        self._say(plan.target, CHANGED if edited else begun(proposal.labels), "info")
-        self._held_by.pop(plan.target, None)
-        self._begin_for(plan.target, decision.by)
+        self._say(plan.target, CHANGED if edited else begun(proposal.labels), "response")
+        if calls:  # whoever says yes to steps wants them done
+            self._held_by.pop(plan.target, None)
+            self._begin_for(plan.target, decision.by)
         for command, step in bound:
             self._change(plan, command, step, decision)
         if repairs:
             self._send(plan, orders.take_repair(plan, calls))
         elif calls:
             self._append(plan, calls)
-            if plan.update().state == "paused":  # whoever says yes to steps wants them done
+            if plan.update().state == "paused":
                 self._send(plan, plan.start())
         else:
             self._send(plan, [])
@@ -411,9 +412,9 @@ class UmrfPlanner(RobotPlans):
             known = index is not None and 0 <= index < len(pending)
             step = pending[index] if known and index is not None else None
             bound.append((command, plan.current if command.command == "skip" else step))
-        about = self._labels(plan, [step.call for _, step in bound if step is not None])
-        texts = iter(about)
-        changes = [command_label(command, next(texts) if step is not None else "") for command, step in bound]
+        shown = zip(plan.steps, self._labels(plan, [step.call for step in plan.steps]), strict=True)
+        texts = {id(step): label for step, label in shown}
+        changes = [command_label(command, texts.get(id(step), "")) for command, step in bound]
         proposal = PlanProposal(
             id="new",
             target=target,
