@@ -6,7 +6,7 @@ import { afterAll, beforeAll, describe, expect, it } from 'vitest';
 
 import { barriers, hasBrowser, robotNamed, say, sizes, startStage, type Stage } from './stage';
 
-const pages = ['', 'plan', 'display', 'map', 'memory', 'robots', 'rules', 'incidents', 'log', 'settings'] as const;
+const pages = ['', 'plan', 'display', 'map', 'memory', 'robots', 'rules', 'incidents', 'log', 'people', 'settings'] as const;
 /** In the second language only once: words change widths, not colours. */
 const faces = [
   ['light', 'en'],
@@ -107,8 +107,9 @@ describe.skipIf(!hasBrowser)('nobody meets a barrier', () => {
   }, 300_000);
 
   it('on any page, while a robot asks', async () => {
-    const [waiting] = (await stage.get<{ proposals: { id: string }[] }>('snapshot')).proposals;
-    await post(stage, 'plans/David/decision', { id: waiting?.id, decision: 'approve' });
+    const [waiting] = (await stage.get<{ proposals: { id: string; digest: string }[] }>('snapshot')).proposals;
+    const yes = { id: waiting?.id, digest: waiting?.digest, decision: 'approve' };
+    expect((await post(stage, 'plans/David/decision', yes)).status).toBe(200);
     const first = await stage.open(sizes.desktop);
     await first.getByText(/^Answering David/).waitFor();
     const found: string[] = [];

@@ -60,7 +60,7 @@ describe.skipIf(!hasBrowser)('an operator without a mouse', () => {
     await page.getByRole('dialog', { name: 'Keys' }).waitFor();
     await page.keyboard.press('Escape');
     await page.keyboard.press('Escape');
-    await page.getByText('David is stopped and stays so until you release it.').waitFor();
+    await page.getByText('David is stopped and stays so until it is released.').waitFor();
     await page.getByText('Stands still (measured)').waitFor();
     await tabTo(page, /^Release/);
     await page.keyboard.press('Enter');

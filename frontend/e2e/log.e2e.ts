@@ -23,7 +23,7 @@ describe.skipIf(!hasBrowser)('the log', () => {
     await say(page, 'who sent you there?');
     await page.getByText(/told me at \d\d:\d\d: “Go to the dining table”\./).waitFor();
     await page.getByRole('button', { name: /^Stop/ }).first().click();
-    await page.getByText('David is stopped and stays so until you release it.').waitFor();
+    await page.getByText('David is stopped and stays so until it is released.').waitFor();
     await say(page, 'kes su peatas?');
     await page.getByText(/peatas mu kell \d\d:\d\d/).waitFor();
   });

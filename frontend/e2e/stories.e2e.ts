@@ -36,11 +36,11 @@ describe.skipIf(!hasBrowser)('an operator', () => {
     await page.getByText('Connected', { exact: true }).waitFor();
     await page.keyboard.press('Escape');
     await page.keyboard.press('Escape');
-    await page.getByText('David is stopped and stays so until you release it.').waitFor();
+    await page.getByText('David is stopped and stays so until it is released.').waitFor();
     await page.getByText('Stands still (measured)').waitFor();
 
     const other = await stage.open(sizes.phone);
-    await other.getByText('David is stopped and stays so until you release it.').waitFor();
+    await other.getByText('David is stopped and stays so until it is released.').waitFor();
 
     await page.getByRole('button', { name: 'Release…' }).click();
     await page.getByRole('button', { name: 'Yes, it is safe' }).click();

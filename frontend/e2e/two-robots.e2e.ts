@@ -28,7 +28,8 @@ async function placesOf(stage: Stage, robot: string): Promise<string> {
 }
 
 /** What the conversation shows, as texts. */
-const said = (page: Page) => page.locator('ol > li > div:first-of-type > p').allTextContents();
+const said = (page: Page) =>
+  page.getByRole('region', { name: 'Conversation' }).locator('li > div:first-of-type > p').allTextContents();
 
 describe.skipIf(!hasBrowser)('people with two robots', () => {
   let stage: Stage;
@@ -123,7 +124,7 @@ describe.skipIf(!hasBrowser)('people with two robots', () => {
     await page.getByRole('button', { name: 'Which robots to stop' }).click();
     await page.getByRole('menuitem', { name: 'Stop only Ruth' }).click();
     await page.getByText('Stands still (measured)').waitFor();
-    await page.getByText('Ruth is stopped and stays so until you release it.').waitFor();
+    await page.getByText('Ruth is stopped and stays so until it is released.').waitFor();
     expect((await robotNamed(stage, 'Ruth'))?.state).toBe('stopped');
     expect((await robotNamed(stage, 'David'))?.state).not.toBe('stopped');
     await page.getByRole('button', { name: 'Release…' }).click();

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import pytest
 
-from parley.language.stop_words import calls_to_stop, has_stop_word
+from parley.language.stop_words import calls_to_stop, has_stop_word, is_no
 
 
 @pytest.mark.parametrize(
@@ -39,3 +39,8 @@ def test_what_only_has_such_a_word_is_no_call(said: str) -> None:
 @pytest.mark.parametrize("said", ["go to the box", "the stopwatch", "unstoppable", "heat", "what?"])
 def test_other_words_hold_nobody(said: str) -> None:
     assert not has_stop_word(said)
+
+
+def test_a_no_is_one_only_if_nothing_else_is_said() -> None:
+    assert all(map(is_no, ("no", "No!", "no no no", "nope", "not there!", "Ei.")))
+    assert not any(map(is_no, ("", "no problem", "no, go to the box", "go on", "not yet")))

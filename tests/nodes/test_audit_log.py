@@ -106,6 +106,15 @@ async def test_an_order_stands_in_the_log_from_the_words_to_the_end() -> None:
         )
 
 
+async def test_who_holds_a_robot_while_words_are_read_releases_no_stop() -> None:
+    async with rig() as r:
+        for _way in ("its own line", "the topic"):
+            await r.tell(topics.STOP, StopCommand(targets=("Ada",), id="s1", by=KIM))
+        await r.tell(topics.STOP, StopCommand(command="hold", targets=("Ada",), id="m1", by=KIM))
+        await r.tell(topics.STOP, StopCommand(command="go_on", id="m1"))
+        assert [entry.effect for entry in await r.log(robot="Ada")] == ["stop"]
+
+
 async def test_a_yes_of_nobody_is_no_yes_of_the_one_who_asked() -> None:
     async with rig() as r:
         await r.tell(topics.PLAN, PlanProposal(id="p", target="Ada", steps=(GO,)))

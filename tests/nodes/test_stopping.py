@@ -61,7 +61,7 @@ def dropped(party: Crew) -> list[str]:
     return [step.state for step in party.observer.plans["A"].steps if step.state in ("stopped", "skipped")]
 
 
-@pytest.mark.parametrize("words", ["stop", "Wait!", "hold on", "A, pause please"])
+@pytest.mark.parametrize("words", ["stop", "Wait!", "hold on", "no, no!", "A, pause please"])
 @pytest.mark.spec("P1")
 async def test_stop_pauses_stands_still_keeps_the_plan_and_carry_on_resumes(party: Crew, words: str) -> None:
     party.observer.say(words, "A")

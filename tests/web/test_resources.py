@@ -116,7 +116,7 @@ async def test_a_proposal_is_shown_decided_once_and_gone() -> None:
         rig.robots.tell(topics.PLAN, PlanProposal(id="p1", target="Ada", message="Shall I?", steps=(GO,)))
         await page.until(lambda: page.of("proposal"))
         step = page.of("proposal")[0]["proposal"]["steps"][0]
-        assert (step["action"], step["label"]) == ("NavigateTo", "go there")
+        assert (step["action"], step["label"], step["reason"]) == ("NavigateTo", "navigate to", "go there")
         edit = {"id": "p1", "decision": "edit", "steps": [step["call"], step["call"]]}
         assert (await rig.http.post("/api/plans/Ada/decision", json=edit)).status_code == 200
         await rig.heard()
@@ -230,12 +230,15 @@ async def test_a_forgotten_memory_that_is_brought_back_keeps_where_it_came_from(
         await MemoryStore.open(":memory:") as store,
         MemoryNode(rig.robots.transport, store, OfflineLanguage()),
     ):
-        seen = MemoryEntry(name="box", data="The box is by the door.", info="the box", source="Ada/Inspect")
+        seen = MemoryEntry(
+            name="box", data="The box is by the door.", info="the box", source="Ada/Inspect", way="seen"
+        )
         await store.add(seen)
         assert (await rig.http.delete("/api/memory?name=box")).status_code == 200
         back = {"data": seen.data, "info": seen.info, "again": True}
         assert (await rig.http.put("/api/memory?name=box", json=back)).status_code == 200
-        assert (await rig.http.get("/api/memory/one?name=box")).json()["source"] == "Ada/Inspect"
+        known = (await rig.http.get("/api/memory/one?name=box")).json()
+        assert (known["source"], known["way"]) == ("Ada/Inspect", "seen"), "an undo makes nothing told"
         assert (await rig.http.delete("/api/memory?name=box")).status_code == 200
         changed = {**back, "data": "The box is gone."}
         assert (await rig.http.put("/api/memory?name=box", json=changed)).status_code == 200

@@ -6,13 +6,14 @@ from typing import Any
 
 import pytest
 
-from parley.messages.chat import ActionCall, ChatFeedback, ChatInput, ReplyDraft
+from parley.messages.chat import ActionCall, ChatFeedback, ChatInput, ReplyDraft, SystemCommand
 from parley.messages.principal import person
 from parley.messages.pvf import Parameter
 from parley.messages.rules import RiskClass
 from parley.messages.status import (
     ActorStatus,
     GraphEvent,
+    PlanDecision,
     PlanProposal,
     PlanUpdate,
     StopCommand,
@@ -397,9 +398,9 @@ def test_a_graph_of_others_is_shown_whole_before_anything_of_it_ran() -> None:
     book.on_graph("Ada", whole)
     shown = plan_of(book, "g9")
     assert (shown.kind, shown.state) == ("graph", "running")
-    assert [(s.id, s.action, s.label, s.state) for s in shown.steps] == [
-        ("Look_0", "Look", "see", "queued"),
-        ("Move_1", "Move", "move", "queued"),
+    assert [(s.id, s.action, s.label, s.reason, s.state) for s in shown.steps] == [
+        ("Look_0", "Look", "look", "see", "queued"),
+        ("Move_1", "Move", "move", "", "queued"),
     ]
     book.on_event(event("Move_1", "RUNNING", graph="g9"))
     book.on_graph("Ada", whole)  # tells later what the event told already
@@ -425,6 +426,25 @@ def test_whole_graphs_of_plans_change_nothing() -> None:
     before = list(changes)
     book.on_graph("Ada", Graph("g1", (Node("Move"),)))
     assert changes == before
+
+
+def test_cards_show_what_code_says_of_changes_and_steps_and_never_what_a_model_wrote() -> None:
+    book, _ = plans()
+    calls = (ActionCall(name="GoTo", reason="Approved by Kim"), ActionCall(name="LookAround", reason="Done"))
+    forget = SystemCommand(command="remove_memory", arguments={"name": "box"})
+    labels = ("Forget “box”", "Go to “door”")
+    book.on_proposal(PlanProposal(id="1", target="Ada", steps=calls, commands=(forget,), labels=labels))
+    shown = book.proposals["1"]
+    assert shown.changes == ("Forget “box”",)
+    assert [step.label for step in shown.steps] == ["Go to “door”", "look around"]
+
+
+def test_a_yes_to_what_waits_no_more_leaves_the_newest_alone() -> None:
+    book, _ = plans()
+    for identity in ("old", "new"):
+        book.on_proposal(PlanProposal(id=identity, target="Ada", steps=(ActionCall(name="GoTo"),)))
+        book.on_decision(PlanDecision(id="old", target="Ada", decision="approve"))
+    assert list(book.proposals) == ["new"]
 
 
 def test_progress_of_one_step_leaves_the_others_as_they_are() -> None:

@@ -6,7 +6,7 @@ import { IncidentsPage } from '@/features/incidents';
 import { LogPage } from '@/features/log';
 import { MapPanel } from '@/features/map';
 import { MemoryPage } from '@/features/memory';
-import { offered, pathOf, SettingsPage, type Page } from '@/features/menu';
+import { here, offered, pathOf, SettingsPage, type Page } from '@/features/menu';
 import { MyAccountSection, PeoplePage } from '@/features/people';
 import { PlanPanel } from '@/features/plan';
 import { RobotsPage } from '@/features/robots';
@@ -49,6 +49,13 @@ export function Pages({ layout, ...session }: Props) {
       {offered(info, may).map((name) => (
         <Route key={name} path={pathOf(name)}>
           {page[name]}
+        </Route>
+      ))}
+      {here(info).map((name) => (
+        <Route key={`not ${name}`} path={pathOf(name)}>
+          <Empty title={t('notForYou')}>
+            <Link href={pathOf('chat')}>{t('toChat')}</Link>
+          </Empty>
         </Route>
       ))}
       <Route>

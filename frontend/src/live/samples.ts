@@ -81,6 +81,7 @@ export const plan = (part: Partial<PlanView> & { robot: string }): PlanView => (
   revision: 1,
   steps: [],
   changed: [],
+  held_by: null,
   ...part,
 });
 
@@ -116,6 +117,8 @@ export const memory = (part: Partial<MemoryItem> & { name: string }): MemoryItem
   data: 'The box is by the door.',
   info: '',
   source: 'operator',
+  way: 'told',
+  words: '',
   created_unix_ms: Date.UTC(2026, 0, 2, 10),
   updated_unix_ms: Date.UTC(2026, 0, 2, 10),
   used_unix_ms: 0,

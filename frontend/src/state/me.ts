@@ -15,7 +15,8 @@ export type Effect =
   | 'forget'
   | 'policy'
   | 'setting'
-  | 'people';
+  | 'people'
+  | 'audit';
 
 interface Me {
   /** Null until the server told. */

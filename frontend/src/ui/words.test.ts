@@ -1,6 +1,6 @@
 import { describe, expect, it } from 'vitest';
 
-import { ago, inWords, timeOrDay } from './words';
+import { addsTo, ago, inWords, quoted, timeOrDay } from './words';
 
 describe('words', () => {
   it('say how long ago something was', () => {
@@ -21,5 +21,14 @@ describe('words', () => {
   it('are made of names', () => {
     expect(inWords('GoToPlace')).toBe('Go to place');
     expect(inWords('box_place')).toBe('Box place');
+  });
+
+  it('stay between their quotation marks', () => {
+    expect(quoted('go.” Kim says: “yes\n\nKim: “go')).toBe('go.’ Kim says: ‘yes Kim: ‘go');
+  });
+
+  it('are worth showing where they say more than stands there', () => {
+    expect(addsTo('Go to “door”', 'go to the door')).toBe(false);
+    expect(addsTo('Go to “door”', 'go to the door to let Kim pass')).toBe(true);
   });
 });

@@ -39,6 +39,18 @@ export function inWords(name: string): string {
 /** With a capital letter in front. */
 export const sentence = (text: string): string => text.charAt(0).toUpperCase() + text.slice(1);
 
+/** Somebody's words as they stand between our quotation marks: their own cannot end them. */
+export const quoted = (words: string): string =>
+  words.replaceAll(/[“„«‟]/g, '‘').replaceAll(/[”»"]/g, '’').replaceAll(/\s+/g, ' ').trim();
+
+const LONG = /[\p{L}\p{N}]{4,}/gu;
+
+/** Whether somebody's words say more than stands there already. */
+export function addsTo(known: string, words: string): boolean {
+  const there = new Set(known.toLowerCase().match(LONG));
+  return (words.toLowerCase().match(LONG) ?? []).some((word) => !there.has(word));
+}
+
 /** Day and time. */
 export function dayAndTime(unixMs: number, nowUnixMs: number, language: string): string {
   return `${dayName(unixMs, nowUnixMs, language)} ${clockTime(unixMs, language)}`;

@@ -75,6 +75,7 @@ class Heard:
         self._plans: _Last[PlanUpdate] = _Last()
         self._running: _Last[dict[str, Any]] = _Last()
         self._memories: _Last[tuple[Principal | None, str]] = _Last()
+        self._stops: _Last[StopCommand] = _Last()
 
     def on_input(self, said: ChatInput) -> list[AuditEvent]:
         """Words of a person; what is passed on by those who asked is no new message."""
@@ -193,7 +194,12 @@ class Heard:
         )  # fmt: skip
 
     def on_stop(self, command: StopCommand) -> list[AuditEvent]:
-        """An emergency stop, or its release."""
+        """An emergency stop, or its release; that a robot stands while words are read is neither."""
+        if command.command not in ("stop", "reset"):
+            return []
+        if command.id and self._stops.get(command.id) == command:
+            return []  # a press that came by two ways
+        self._stops[command.id] = command
         effect = Effect.STOP if command.command == "stop" else Effect.RESET
         outcome = "done" if verdict(command.by, effect) == "allow" else "asked"
         return [

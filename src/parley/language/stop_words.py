@@ -11,7 +11,7 @@ import re
 import unicodedata
 from typing import Final
 
-__all__ = ["calls_to_stop", "has_stop_word"]
+__all__ = ["calls_to_stop", "has_stop_word", "is_no"]
 
 _WORDS: Final = (
     r"s+t+o+p+p*|stp+|sto|sotp|stpo|tsop|stpp|stopp?it|h+a+l+t+|w+a+i+t+|f+r+e+e+z+e+|w+h?o+a+h?|brake|"
@@ -27,6 +27,10 @@ _PHRASES: Final = (
     r"pea\s+kinni|jää\s+(?:seisma|paigale)|ära\s+(?:liigu|sõida)|paigal|kohe\s+seisma"
 )
 _STOP: Final = re.compile(rf"(?<![\w-])(?:{_WORDS}|{_PHRASES})(?![\w])", re.IGNORECASE)
+
+_NO: Final = re.compile(
+    r"\W*(?:(?:no+|nope|nah|not\s+(?:there|that(?:\s+way)?)|ei|mitte\s+sinna)\W*)+", re.IGNORECASE
+)
 
 _THING: Final = (
     r"(?:bus|tram|train|taxi|coach|pit|rest|full|door|lift|end|next|last|first|second|third|final|every|each|"
@@ -79,6 +83,11 @@ def calls_to_stop(text: str) -> bool:
         not any(start <= found.start() and found.end() <= end for start, end in taken)
         for found in _STOP.finditer(plain)
     )
+
+
+def is_no(text: str) -> bool:
+    """Whether a message says no and nothing else; a robot that drives and asked nothing then stands."""
+    return _NO.fullmatch(_plain(text)) is not None
 
 
 def _plain(text: str) -> str:

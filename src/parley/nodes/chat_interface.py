@@ -17,7 +17,7 @@ from parley.gate.rule_talk import RuleTalk
 from parley.gate.table import Effect, verdict
 from parley.language.base import Language, Situation
 from parley.language.control import Control, control_of
-from parley.language.stop_words import calls_to_stop
+from parley.language.stop_words import calls_to_stop, is_no
 from parley.memory.sayings import for_oneself
 from parley.messages import topics
 from parley.messages.chat import ChatAction, ChatFeedback, ChatInput, SystemCommand
@@ -150,10 +150,11 @@ class ChatInterface(Node):
         targets = self._addressed(said)
         if control is not None:
             targets = self._presence.named_in(said.message) or targets
-        calls = calls_to_stop(said.message)
+        calls, refuses = calls_to_stop(said.message), is_no(said.message)
         for target in targets:
             question = self._questions.first(target) if said.type == "response" else None
-            if calls and control not in _HALTING and self._known.moves(target, self._presence.get(target)):
+            halts = calls or (refuses and question is None and self._offered.newest(target) is None)
+            if halts and control not in _HALTING and self._known.moves(target, self._presence.get(target)):
                 self._control(target, "stop", said)
             elif control is not None and not self._answers(target, question, control):
                 self._control(target, control, said)

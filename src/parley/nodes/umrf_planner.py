@@ -340,9 +340,8 @@ class UmrfPlanner(RobotPlans):
     def _show_again(self, plan: TargetPlan, proposal: PlanProposal) -> None:
         """Something else was agreed to than what waits, or it would mean something else by now."""
         self._approvals.drop(proposal.id)
-        renewed = proposal.model_copy(
-            update={"digest": self._digest(proposal), "labels": self._labels(plan, proposal.steps)}
-        )
+        labels = tuple(map(self.spoken, self._labels(plan, proposal.steps)))
+        renewed = proposal.model_copy(update={"digest": self._digest(proposal), "labels": labels})
         if proposal.commands:
             self._say(plan.target, orders.PLAN_CHANGED, "error")
             self._send(plan, [])

@@ -133,8 +133,9 @@ class StepView(WebModel):
     action: str
     """Name of the action."""
     label: str
-    """For people: what it does, else the reason, else the action's name in words."""
+    """For people: what it does, in words that our code wrote."""
     reason: str = ""
+    """Why it is there, in the words of whoever planned it."""
     state: Literal[
         "queued", "running", "finished", "failed", "stopped", "skipped", "paused", "stopping", "waiting"
     ]
@@ -165,6 +166,8 @@ class PlanView(WebModel):
     steps: tuple[StepView, ...] = ()
     changed: tuple[str, ...] = ()
     """Ids of the steps that the newest change of a running plan added or altered."""
+    held_by: Principal | None = None
+    """Who told the robot to stand still."""
 
 
 class ProposalView(WebModel):
@@ -173,6 +176,9 @@ class ProposalView(WebModel):
     id: str
     robot: str
     message: str = ""
+    """What whoever proposes it says about it."""
+    changes: tuple[str, ...] = ()
+    """What a yes changes before the steps begin, in words that our code wrote."""
     steps: tuple[StepView, ...] = ()
     """Their `label`s are written by our code, not by whoever proposes."""
     digest: str = ""
@@ -206,6 +212,10 @@ class MemoryItem(WebModel):
     """The text; for a picture its address below this server."""
     info: str = ""
     source: str = ""
+    way: Literal["told", "seen", "concluded", ""] = ""
+    """How it is known; `concluded` by a language engine, which nobody said."""
+    words: str = ""
+    """The person's own words that it was taken from."""
     created_unix_ms: int = 0
     updated_unix_ms: int = 0
     used_unix_ms: int = 0

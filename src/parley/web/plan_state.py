@@ -72,7 +72,12 @@ class PlanBook:
         return revision < self._free_since.get(robot, 0)
 
     def on_proposal(self, proposal: PlanProposal) -> None:
-        """Steps wait for a yes."""
+        """Steps wait for a yes, in the place of what was decided but is not what waits."""
+        for other in [p for p in self.proposals.values() if p.robot == proposal.target]:
+            if other.id != proposal.id and other.id in self.decided:
+                self._end_proposal(other.id)
+        changes = len(proposal.commands)
+        labels = proposal.labels[changes:]
         steps = tuple(
             self._step(
                 proposal.target,
@@ -80,7 +85,7 @@ class PlanBook:
                 call,
                 "queued",
                 NodeTold(),
-                "".join(proposal.labels[number : number + 1]),
+                "".join(labels[number : number + 1]),
             )
             for number, call in enumerate(proposal.steps)
         )
@@ -88,6 +93,7 @@ class PlanBook:
             id=proposal.id,
             robot=proposal.target,
             message=proposal.message,
+            changes=proposal.labels[:changes],
             steps=steps,
             digest=proposal.digest,
             by=proposal.by,
@@ -184,6 +190,7 @@ class PlanBook:
                 revision=update.revision,
                 steps=steps,
                 changed=_changed(shown, steps) if before is not None and shown is not None else (),
+                held_by=update.held_by,
             )
         )
 
@@ -282,9 +289,7 @@ def _changed(before: PlanView, steps: Sequence[StepView]) -> tuple[str, ...]:
 
 
 def _label(call: ActionCall) -> str:
-    """A step in words: its reason, or else what the action is called and given."""
-    if call.reason:
-        return call.reason
+    """A step that nobody gave a label: what the action is called and given; never a model's words."""
     words = " ".join(part.lower() for part in _WORD_STARTS.split(call.name) if part)
     given = [str(p.value) for p in call.input_parameters.values() if p.type == "string" and p.has_data]
     return f"{words}: {', '.join(given)}" if given else words

@@ -34,8 +34,11 @@ def listen(transport: Transport) -> None:
             [heartbeat] = [task for task in asyncio.all_tasks() if task.get_name() == f"heartbeat {name}"]
             heartbeat.cancel()
         case ["propose", name, count]:
-            steps = tuple(ActionCall(name="Inspect", reason=f"look at box {n}") for n in range(int(count)))
-            proposal = PlanProposal(id="long", target=name, message="A long round.", steps=steps)
+            steps = (ActionCall(name="Inspect"),) * int(count)
+            labels = tuple(f"look at box {number}" for number in range(int(count)))
+            proposal = PlanProposal(
+                id="long", target=name, message="A long round.", steps=steps, labels=labels
+            )
             transport.publisher(topics.PLAN).publish(to_string(proposal))
 
 

@@ -130,6 +130,13 @@ describe('the chat', () => {
     ]);
   });
 
+  it('undoes by a tap what a robot concluded by itself', async () => {
+    const noted = entry({ id: 'n', seq: 1, type: 'info', message: 'I noted for myself: “Kim likes tea”', choices: ['Forget “kim”'] });
+    const user = show({ chat: [noted] });
+    await user.click(screen.getByRole('button', { name: 'Forget “kim”' }));
+    expect(sent).toMatchObject([{ text: 'Forget “kim”', reply_to: '', targets: ['Ada'] }]);
+  });
+
   it('says which of several robots takes a message as an answer', async () => {
     const question = entry({ id: 'q', seq: 1, type: 'request', message: 'Which door?', question: 'open' });
     const user = show({ chat: [question] });

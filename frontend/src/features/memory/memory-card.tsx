@@ -6,11 +6,11 @@ import { attempt } from '@/state/do';
 import { useToasts } from '@/state/toasts';
 import { Button } from '@/ui/button';
 import { useNow } from '@/ui/use-now';
-import { ago, dayAndTime, inWords } from '@/ui/words';
+import { ago, dayAndTime, inWords, quoted } from '@/ui/words';
 
 import { MemoryHistory } from './memory-history';
 import css from './memory.module.css';
-import { forget, sourceOf } from './remembering';
+import { forget, sourceOf, wayOf } from './remembering';
 
 interface Props {
   item: MemoryItem;
@@ -18,6 +18,9 @@ interface Props {
 }
 
 const MINUTE_MS = 60_000;
+
+/** Words alone, to see whether two texts are the same. */
+const bare = (text: string) => text.toLowerCase().match(/[\p{L}\p{N}]+/gu)?.join(' ');
 
 /** One memory. */
 export function MemoryCard({ item, onEdit }: Props) {
@@ -74,9 +77,12 @@ function Origin({ item }: { item: MemoryItem }) {
     someone: source.kind === 'someone' ? t('from.someone', { who: source.who }) : '',
     deed: source.kind === 'deed' ? t('from.deed', { who: source.who }) : '',
   }[source.kind];
+  const way = wayOf(item);
   return (
     <p className={css.origin}>
-      {words && <span>{words}</span>}
+      {way && <strong className={css.way}>{t(`way.${way}`)}</strong>}
+      {words && way !== 'concluded' && <span>{words}</span>}
+      {item.words && bare(item.words) !== bare(item.data) && <span>{t('inWords', { words: quoted(item.words) })}</span>}
       {item.updated_unix_ms > 0 && (
         <time dateTime={new Date(item.updated_unix_ms).toISOString()}>{dayAndTime(item.updated_unix_ms, now, i18n.language)}</time>
       )}

@@ -42,6 +42,19 @@ describe('the memory page', () => {
     );
   });
 
+  it('tells what was said, and in which words, from what nobody said', async () => {
+    const items = [
+      memory({ name: 'told', words: 'Put the box by the door please.' }),
+      memory({ name: 'same', words: 'the box is by the door' }),
+      memory({ name: 'guessed', source: 'Ada', way: 'concluded' }),
+    ];
+    vi.stubGlobal('fetch', network({ memory: { json: items } }, asked));
+    render(<MemoryPage />);
+    await screen.findByText('In the words “Put the box by the door please.”');
+    expect(screen.getAllByText(/^In the words/)).toHaveLength(1);
+    expect(screen.getByText('Concluded by the robot, nobody said it').parentElement?.textContent).not.toContain('From');
+  });
+
   it('corrects what is remembered under its own name', async () => {
     const user = await show();
     await user.click(screen.getByRole('button', { name: 'Correct “Box place”' }));

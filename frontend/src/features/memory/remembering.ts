@@ -22,6 +22,9 @@ export function sourceOf(item: MemoryItem): Source {
   return who === 'operator' ? { kind: 'operator' } : { kind: 'someone', who };
 }
 
+/** How it is known; of old memories that is not known. */
+export const wayOf = (item: MemoryItem): 'told' | 'seen' | 'concluded' | null => item.way || null;
+
 /** What is needed to remember it again. */
 async function bodyOf(item: MemoryItem): Promise<MemoryBody> {
   const data = item.type === 'image' ? await fetchPicture(item.data) : item.data;

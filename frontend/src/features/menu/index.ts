@@ -1,5 +1,5 @@
 export { ConnectionBanner } from './connection-banner';
-export { offered, pathOf, type Page } from './pages';
+export { here, offered, pathOf, type Page } from './pages';
 export { SettingsPage } from './settings-page';
 export { Sidebar } from './sidebar';
 export { TopBar } from './top-bar';

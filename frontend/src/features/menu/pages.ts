@@ -10,7 +10,11 @@ export type Page = (typeof pages)[number];
 
 export const pathOf = (page: Page) => (page === 'chat' ? '/' : `/${page}`);
 
-/** Pages that this server offers; a part that is switched off there has none. */
-export function offered(info: ServerInfo | null, may: (effect: Effect) => boolean): readonly Page[] {
-  return pages.filter((page) => info?.modules?.[page] !== false && (page !== 'people' || may('people')));
-}
+const needs: Partial<Record<Page, Effect>> = { people: 'people', log: 'audit' };
+
+/** Pages that this server has; a part that is switched off there has none. */
+export const here = (info: ServerInfo | null): readonly Page[] => pages.filter((page) => info?.modules?.[page] !== false);
+
+/** Those of them that this visitor may look at. */
+export const offered = (info: ServerInfo | null, may: (effect: Effect) => boolean): readonly Page[] =>
+  here(info).filter((page) => !needs[page] || may(needs[page]));

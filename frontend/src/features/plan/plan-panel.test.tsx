@@ -69,7 +69,7 @@ describe('the plan', () => {
   });
 
   it('says in the words of the robot what a step is, rather than its name', async () => {
-    const action = { name: 'GoTo', description: 'Drive to a place.', inputs: {}, outputs: {}, phrases: [], optional: [], effects: [], risk: 'low' as const, kind: 'moves' as const, capabilities: [], examples: [], duration_s: null, timeout_s: null };
+    const action = { name: 'GoTo', description: 'Drive to a place.', inputs: {}, outputs: {}, label: '', phrases: [], optional: [], effects: [], risk: 'low' as const, kind: 'moves' as const, capabilities: [], examples: [], duration_s: null, timeout_s: null };
     useLive.getState().takeSnapshot(snapshot({ robots: [robot({ name: 'Ada', catalogue: [action] })], plans: [plan({ robot: 'Ada', steps })] }));
     render(<PlanPanel />);
     await userEvent.setup().click(screen.getAllByRole('button', { name: 'Show details' })[0] as HTMLElement);
@@ -127,9 +127,21 @@ describe('the plan', () => {
   it('lets a person say yes or no to steps that wait for it', async () => {
     const user = show({ steps: [], state: 'awaiting_approval' });
     act(() => {
-      const proposal = { id: 'p1', robot: 'Ada', message: 'I would go.', steps: [step({ id: 's' })], digest: 'd1', why: '' };
+      const proposal = {
+        id: 'p1',
+        robot: 'Ada',
+        message: 'I would go.” Kim says: “Yes',
+        changes: ['Forget “box”'],
+        steps: [step({ id: 's', label: 'Go to “door”', reason: 'to look' })],
+        digest: 'd1',
+        why: 'It is night.',
+      };
       useLive.getState().takeChanges([{ kind: 'proposal', seq: 1, proposal }]);
     });
+    const card = screen.getByRole('region', { name: 'Ada asks: shall I do this?' });
+    const lines = ['It is night.', 'Forget “box”', 'Go to “door”', 'Says: “to look”', 'Says: “I would go.’ Kim says: ‘Yes”'];
+    const places = lines.map((line) => card.textContent?.indexOf(line) ?? -1);
+    expect(places.every((place, index) => place > (places[index - 1] ?? -1)), places.join(' ')).toBe(true);
     await user.click(screen.getByRole('button', { name: 'Yes, begin' }));
     expect(sent).toEqual([
       { method: 'POST', path: '/api/plans/Ada/decision', body: { id: 'p1', digest: 'd1', decision: 'approve' } },

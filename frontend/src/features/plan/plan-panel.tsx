@@ -74,6 +74,7 @@ function PlanOf({ plan }: { plan: PlanView }) {
           {t(`state.${plan.state}`)}
           {current >= 0 && plan.steps.length > 1 && t('stateStep', { number: current + 1, all: plan.steps.length })}
         </p>
+        <HeldBy by={plan.held_by} />
         {!here && <p className={css.away}>{t('away', { robot: plan.robot })}</p>}
         <PlanControls plan={plan} onEdit={pending.length > 0 && !editing ? () => setEditing(plan) : null} />
       </div>
@@ -123,6 +124,12 @@ function PlanOf({ plan }: { plan: PlanView }) {
       )}
     </>
   );
+}
+
+/** Who told it to stand still. */
+function HeldBy({ by }: { by: PlanView['held_by'] }) {
+  const { t } = useTranslation('plan');
+  return by?.name ? <p>{t('heldBy', { who: by.name })}</p> : null;
 }
 
 /** Brings the step that is being done into view when another one's turn has come. */

@@ -5,6 +5,7 @@ import { decidePlan, type Decision } from '@/live/api';
 import type { ProposalView } from '@/live/types';
 import { attempt } from '@/state/do';
 import { Button } from '@/ui/button';
+import { quoted } from '@/ui/words';
 
 import { toDraft } from './editing';
 import { PlanEditor } from './plan-editor';
@@ -25,7 +26,7 @@ export function ProposalCard({ proposal }: { proposal: ProposalView }) {
   return (
     <section className={css.card} aria-label={title}>
       <h3>{title}</h3>
-      {proposal.message && <p className={css.message}>{proposal.message}</p>}
+      {proposal.why && <p className={css.why}>{proposal.why}</p>}
       {editing ? (
         <PlanEditor
           robot={proposal.robot}
@@ -47,11 +48,22 @@ export function ProposalCard({ proposal }: { proposal: ProposalView }) {
               {t('reject')}
             </Button>
           </div>
+          {proposal.changes.length > 0 && (
+            <>
+              <h4>{t('changesFirst')}</h4>
+              <ul className={css.changes}>
+                {proposal.changes.map((change, index) => (
+                  <li key={`${index} ${change}`}>{change}</li>
+                ))}
+              </ul>
+            </>
+          )}
           <ol className={css.steps}>
             {proposal.steps.map((step, index) => (
               <StepCard key={step.id} step={step} number={index + 1} changed={false} />
             ))}
           </ol>
+          {proposal.message && <p className={css.says}>{t('says', { words: quoted(proposal.message) })}</p>}
         </>
       )}
     </section>

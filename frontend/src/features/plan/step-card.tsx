@@ -4,7 +4,7 @@ import { useTranslation } from 'react-i18next';
 import type { StepState, StepView } from '@/live/types';
 import { Icon, type IconName } from '@/ui/icon';
 import { needsCare } from '@/ui/risk';
-import { inWords, sentence } from '@/ui/words';
+import { addsTo, inWords, quoted, sentence } from '@/ui/words';
 
 import { Details } from './details';
 import css from './step-card.module.css';
@@ -65,13 +65,13 @@ export function StepCard({ step, number, changed, onRemove = null }: Props) {
   );
 }
 
-/** Why it failed, and why it is there. */
+/** Why it failed, and what whoever planned it says about it: its words, never ours. */
 function Told({ step }: { step: StepView }) {
   const { t } = useTranslation('plan');
   return (
     <>
       {step.message && <p className={css.message}>{step.message}</p>}
-      {step.reason && step.reason !== step.label && <p className={css.reason}>{t('why', { reason: step.reason })}</p>}
+      {addsTo(step.label, step.reason) && <p className={css.reason}>{t('says', { words: quoted(step.reason) })}</p>}
     </>
   );
 }

@@ -87,13 +87,17 @@ async def put_memory(name: Name, put: MemoryPut, web: Web, who: Who) -> Done:
     """Remember something under a name; what stood there before goes to the history."""
     if put.type == "image":
         checked_image(put.data)
+    former = (await _former(web, name, put) if put.again else None) or MemoryBody(
+        data="", source=who.by.name or "operator", way="told"
+    )
     body = MemoryBody(
         type=put.type,
         data=put.data,
         info=put.info or (put.data[:200] if put.type == "text" else name),
         scope=put.scope,
-        source=(put.again and await _former_source(web, name, put)) or who.by.name or "operator",
-        way="told",
+        source=former.source,
+        way=former.way,
+        words=former.words,
     )
     await _change(web, AddToMemory({name: body}))
     return Done()
@@ -121,13 +125,13 @@ async def _get(web: Backend, name: str, scope: str, *, pictures: bool) -> Memory
     return named[0]
 
 
-async def _former_source(web: Backend, name: str, put: MemoryPut) -> str:
-    """Where what is put back came from, by the history and not by who asks; empty if it is not the same."""
+async def _former(web: Backend, name: str, put: MemoryPut) -> MemoryEntry | None:
+    """What is put back, by the history and not by who asks; None if it is not the same."""
     request = GetMemory(request=name, kind="history", scope=put.scope, pictures=put.type == "image")
     former = [entry for entry in await _ask(web, request) if entry.scope == put.scope]
     if former and (former[-1].type, former[-1].data) == (put.type, put.data):
-        return former[-1].source
-    return ""
+        return former[-1]
+    return None
 
 
 async def _change(web: Backend, message: AddToMemory | RemoveMemory) -> None:
@@ -150,6 +154,8 @@ def _item(entry: MemoryEntry) -> MemoryItem:
         data=f"/api/memory/image?{query}" if is_image else entry.data,
         info=entry.info,
         source=entry.source,
+        way=entry.way,
+        words=entry.words,
         created_unix_ms=entry.created_unix_ms,
         updated_unix_ms=entry.updated_unix_ms,
         used_unix_ms=entry.used_unix_ms,
