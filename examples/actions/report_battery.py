@@ -7,7 +7,7 @@ class Battery:
     share: float
 
 
-@action(phrases=("report the battery", "check the battery level"), risk="none", timeout_s=5)
+@action(phrases=("report the battery", "check the battery level"), effects=("speaks",), timeout_s=5)
 async def report_battery(ctx) -> Battery:
     """Report how full the battery is."""
     ctx.operator.tell(f"My battery is at {ctx.robot.battery() or 0:.0%}.")

@@ -94,11 +94,6 @@ def test_two_that_take_turns_until_one_succeeds_are_a_retry() -> None:
     assert structure(turns) == Retry(Fallback((A, B)))
 
 
-def test_an_action_that_is_told_to_follow_itself_does_not() -> None:
-    alone = graph({("A", "A"): "ignore run run?"}, leave={"A": "run ignore ignore?"})
-    assert structure(alone) == A
-
-
 def with_parameters(*, entry: dict[str, Any] | None = None, **more: Any) -> Graph:
     """A gives a number and a text to B, which calls the text otherwise."""
     nodes = {
@@ -177,6 +172,7 @@ REFUSED: list[tuple[str, Callable[[], Graph]]] = [
     ("spontaneous", lambda: graph({}, nodes={"A": {"type": "spontaneous"}})),
     ("several_actors", lambda: graph({("A", "B"): DEFAULT}, nodes={"A": {"actor": "a"}})),
     ("three_ways", lambda: graph({("A", "B"): "run ignore ignore", ("A", "C"): "ignore run ignore"})),
+    ("self_edge", lambda: graph({("A", "A"): "ignore run ignore"})),
     ("entry_waits", lambda: graph({("A", "B"): DEFAULT}, entry=("A", "B"))),
     ("join_in_cycle", lambda: graph(FORK | {("B", "D"): DEFAULT, ("C", "D"): DEFAULT,
                                              ("D", "A"): DEFAULT + "?"})),

@@ -19,6 +19,7 @@ EXPORT_REASONS: Final[Mapping[str, str]] = MappingProxyType(
         "several_actors": "actions of more than one actor stand in one graph",
         "three_ways": "true, false and error lead to three different places",
         "entry_waits": "an action is an entry and also requires a parent",
+        "self_edge": "an edge leads from an action back to itself",
         "join_in_cycle": "a join of required parents lies on a cycle",
         "join_never": "a join requires a parent that does not always end before",
         "join_order": "one end of an action reaches a join by several edges with different answers",

@@ -150,6 +150,10 @@ class Ways:
         return [relation.node for relation in relations]
 
     def _refusals(self) -> Iterator[Problem]:
+        for node in self.graph.nodes:
+            own = self._relations.get((node.ref, node.ref))
+            if own is not None and any(own.response(result) is Response.RUN for result in Result):
+                yield refusal("self_edge", self.path(node.ref), node.full_name)
         actors = {node.actor for node in self.graph.nodes}
         if len(actors) > 1:
             yield refusal("several_actors", "actions", ", ".join(sorted(actors - {""})))
