@@ -45,7 +45,7 @@ _BEGIN: Final = re.compile(
     r"^(?:(?:please|from now on|remember|note|rule|palun|edaspidi|reegel)\b[:,]?\s*(?:that\s+)?)+"
 )
 _ASK: Final = re.compile(
-    r"^(?:always ask|ask (?:me |us )?every time|küsi alati|alati küsi)"
+    r"^(?:always ask|ask (?:me |us )?every time|ask(?= (?:me|us) before)|küsi alati|alati küsi)"
     r"(?: me| us| somebody| minult| meilt| luba)?(?: first)?,?"
     r" (?:before|enne kui|enne) (?P<rest>.+)$"
 )
@@ -192,7 +192,9 @@ def _slowed(said: str, world: _World) -> dict[str, Any] | NotUnderstood | None:
 def _forbidden(said: str, world: _World) -> dict[str, Any] | NotUnderstood | None:
     """For "nobody into the ward", "Ada must not open doors"."""
     if asking := _UNASKED.search(said):
-        subject, _, wish = said[: asking.start()].partition("never ")
+        subject, _, wish = re.sub(r"\b(?:don't|do not) ", "never ", said[: asking.start()]).partition(
+            "never "
+        )
         return _asked(f"always ask before {wish}", world) if wish and not subject.strip() else None
     found = _NEVER.match(said)
     if found is None:

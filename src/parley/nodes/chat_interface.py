@@ -50,12 +50,13 @@ from parley.nodes.recollections import Recollections
 from parley.nodes.rulings import Rulings
 from parley.nodes.situations import Situations
 from parley.nodes.thinking import PATIENCE_S, DroppedError, Thinking
-from parley.sentences import together
+from parley.sentences import sentence, together
 from parley.transport.base import Transport
 from parley.world.object_map import MapObject
 
 __all__ = ["ChatInterface"]
 
+_SHORT_WORDS: Final = 3
 _HALTING: Final = ("stop", "clear", "emergency_stop")
 """Controls after which nothing that was said before may still set a robot in motion."""
 
@@ -155,7 +156,7 @@ class ChatInterface(Node):
             question = self._questions.first(target) if said.type == "response" else None
             halts = calls or (refuses and question is None and self._offered.newest(target) is None)
             if halts and control not in _HALTING and self._known.moves(target, self._presence.get(target)):
-                self._control(target, "stop", said)
+                self._control(target, "stop", said, more=control is None)
             elif control is not None and not self._answers(target, question, control):
                 self._control(target, control, said)
             elif not self._presence.is_there(target):
@@ -307,7 +308,7 @@ class ChatInterface(Node):
 
     # -- control ---------------------------------------------------------------------------------------
 
-    def _control(self, target: str, control: Control, said: ChatInput) -> None:
+    def _control(self, target: str, control: Control, said: ChatInput, *, more: bool = False) -> None:
         """Act at once, ahead of anything that is still being understood."""
         if control in _HALTING:
             self._halt(target)
@@ -327,7 +328,7 @@ class ChatInterface(Node):
             yes = PlanDecision(
                 id=offered.id, target=target, decision="approve", digest=offered.digest, by=said.who
             )
-            self.publish(topics.PLAN_DECISION, yes)
+            self._hand_on(target, yes, said)
             return
         elif control == "emergency_stop":
             stop = StopCommand(targets=(target,), id=uuid.uuid4().hex, by=said.who, words=said.message)
@@ -341,6 +342,8 @@ class ChatInterface(Node):
             )
             self.publish(topics.CHAT_ACTION, order)
         reply = reply or texts.CONTROL_REPLIES[control]
+        if more and len(said.message.split()) > _SHORT_WORDS:  # there may be an order in it
+            reply = together(sentence(reply), texts.REST_LEFT)
         self._known.conversation(target).operator(said.message)
         self._known.conversation(target).assistant(reply)
         asked = self._questions.first(target) if state == "held" else None

@@ -17,6 +17,7 @@ __all__ = [
     "NOTHING_TO_RESUME",
     "NOT_DONE",
     "ONLY_LOOKS",
+    "REST_LEFT",
     "SAY_CARRY_ON",
     "concluded",
     "dropped",
@@ -68,6 +69,7 @@ _NEVER_MIND: Final = re.compile(
 
 
 ONLY_LOOKS: Final = "You may look and stop, but not give orders here."
+REST_LEFT: Final = sentence("If there was more in what you said, please say it again.")
 NOT_DONE: Final = sentence("I have not done that.")
 SAY_CARRY_ON: Final = "I go on when you say “carry on”."
 NOTHING_TO_RESUME: Final = "There is nothing left to go on with."

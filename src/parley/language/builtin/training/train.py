@@ -122,7 +122,7 @@ def _learn(model: Tagger, pieces: WordPiece, learnt: list[Annotated], epochs: in
                 group["lr"] = rate * scale
             loss = _loss(model, batch, chance)
             optimizer.zero_grad()
-            loss.backward()  # type: ignore[no-untyped-call]
+            loss.backward()
             nn.utils.clip_grad_norm_(model.parameters(), 1.0)
             optimizer.step()
             if step % 20 == 0:
