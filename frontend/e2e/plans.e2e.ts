@@ -71,8 +71,8 @@ describe.skipIf(!hasBrowser)('an operator with a plan', () => {
     const dragged = (await names(page))[0];
     await rows.first().locator('span').first().dragTo(rows.nth(2), { targetPosition: { x: 60, y: 40 } });
     await expect.poll(async () => (await names(page))[0], { timeout: PATIENCE_MS }).not.toBe(dragged);
-    await proposal(page).getByRole('button', { name: 'Cancel' }).press('Enter');
-    await proposal(page).getByRole('button', { name: 'No', exact: true }).press('Enter');
+    await proposal(page).getByRole('button', { name: 'Cancel' }).click();
+    await proposal(page).getByRole('button', { name: 'No', exact: true }).click();
     await proposal(page).waitFor({ state: 'detached' });
   });
 
