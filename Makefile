@@ -29,7 +29,7 @@ types: $(VENV)/.runtime frontend/node_modules/.installed ## Renew the page's typ
 	@$(NPM) run --silent types
 
 test: $(VENV)/.dev $(PAGE) ## All tests that take seconds
-	@$(BIN)/python -m pytest -q -n auto -m "not soak and not ros"
+	@$(BIN)/python -m pytest -q -n auto --dist loadfile -m "not soak and not ros"
 	@$(MAKE) --no-print-directory test-page
 
 test-page: $(VENV)/.runtime $(PAGE) ## Those of the page: lint, types, units, and stories in a real browser

@@ -91,7 +91,8 @@ class UmrfPlanner(RobotPlans):
         self._remember(order, targets)
         for target in targets:
             if order.success is False:
-                self._hold(self._plan(target), order)
+                plan = self._plan(target)
+                self._send(plan, plan.give_up())
             else:
                 self._in_turn(target, order, self._repair)
 
@@ -172,10 +173,6 @@ class UmrfPlanner(RobotPlans):
             self._send(plan, plan.give_up())
         elif plan.failed is not None or clears:
             self._correct(plan, order, calls, control, judgement)
-
-    def _hold(self, plan: TargetPlan, order: ChatAction) -> None:
-        """Repair ended without success; what was ordered besides stands still or is given up."""
-        self._send(plan, plan.give_up())
 
     def _correct(
         self,
