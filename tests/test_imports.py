@@ -19,19 +19,23 @@ LAYERS: tuple[frozenset[str], ...] = (
     frozenset({"transport", "umrf", "memory", "world"}),
     frozenset({"sim"}),
     frozenset({"gate", "language", "robots", "engine", "actions"}),
-    frozenset({"nodes", "web"}),
+    frozenset({"agents", "web"}),
     frozenset({"terminal", "system", "demos", "bench", "evaluation", "doctor", "cli"}),
 )
 """Rooms by height, lowest first; rooms of one height may know each other."""
 
 NEVER = {
     "umrf": {"transport"},
-    "language": {"nodes"},
-    "actions": {"transport", "engine", "nodes", "sim"},
+    "language": {"agents"},
+    "actions": {"transport", "engine", "agents", "sim"},
     "sim": {"robots"},
-    "terminal": {"nodes", "engine", "robots", "sim", "system", "demos", "bench", "cli"},
+    "terminal": {"agents", "engine", "robots", "sim", "system", "demos", "bench", "cli"},
 }
 """What a room must not know although its height would allow it, or so that it never will."""
+
+AGENTS = ("base", "display", "planner", "recovery", "chat")
+"""Rooms of `agents` by height: planning knows nothing of repairs, nor these of talk. Rooms that are not named
+(rules, the single files) are known by none of the others."""
 
 ONLY_IN = {
     "rclpy": {"transport/ros2.py"},
@@ -114,6 +118,22 @@ def test_a_room_does_not_know_what_it_must_not_know(room: str) -> None:
     assert told(known) == []
 
 
+def test_inside_agents_no_room_imports_a_higher_one() -> None:
+    height = {room: at for at, room in enumerate(AGENTS)}
+    rooms = {path.parent.name for path in SOURCE.glob("agents/*/__init__.py")}
+    top = len(AGENTS)
+    upwards = [
+        found
+        for found in IMPORTS
+        if found.where.startswith("agents/")
+        and (inner := ".".join(found.module.split(".")[2:3])) in rooms
+        and found.module.startswith("parley.agents.")
+        and (own := found.where.split("/")[1]) != inner
+        and height.get(inner, top) >= height.get(own, top)
+    ]
+    assert told(upwards) == []
+
+
 @pytest.mark.parametrize("package", ONLY_IN)
 def test_a_third_party_stays_in_its_place(package: str) -> None:
     places = tuple(ONLY_IN[package])
@@ -151,5 +171,5 @@ def test_modules_do_not_import_each_other_in_a_circle() -> None:
 
 
 def test_an_upward_import_would_be_found() -> None:
-    found = Import("messages/chat.py", 1, "parley.nodes.base")
+    found = Import("messages/chat.py", 1, "parley.agents.base")
     assert HEIGHT[found.imported_room] > HEIGHT[found.room]

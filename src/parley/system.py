@@ -14,6 +14,24 @@ import structlog
 
 from parley.actions.builtin import BUILTIN_ACTIONS
 from parley.actions.context import ActionContext
+from parley.agents.audit_log import AuditLog
+from parley.agents.base import Node
+from parley.agents.chat.chat_interface import ChatInterface
+from parley.agents.display.camera_feed import CameraFeed
+from parley.agents.display.display_interface import DisplayInterface
+from parley.agents.display.map_feed import MapFeed, MapViews
+from parley.agents.display.map_service import MapService
+from parley.agents.memory import MemoryNode
+from parley.agents.notices import Notices
+from parley.agents.planner.check import plan_problems
+from parley.agents.planner.restore import adopted_steps, interruption_text, restored_steps
+from parley.agents.planner.steps import Step
+from parley.agents.planner.umrf_planner import UmrfPlanner
+from parley.agents.planner.unattended import UnattendedPlans
+from parley.agents.recovery.error_handler import ErrorHandler
+from parley.agents.recovery.repair import left_over_text
+from parley.agents.rules.lookout import Lookout
+from parley.agents.rules.rules import MapOf, RuleNode
 from parley.clock import SimClock
 from parley.config import SystemConfig
 from parley.engine.engine import ActionEngine
@@ -47,24 +65,6 @@ from parley.messages.chat import ActionCall
 from parley.messages.principal import Principal
 from parley.messages.status import ActionInfo, Rejection, RejectionProblem
 from parley.messages.wire import to_string
-from parley.nodes.audit_log import AuditLog
-from parley.nodes.base import Node
-from parley.nodes.camera_feed import CameraFeed
-from parley.nodes.chat_interface import ChatInterface
-from parley.nodes.display_interface import DisplayInterface
-from parley.nodes.error_handler import ErrorHandler
-from parley.nodes.lookout import Lookout
-from parley.nodes.map_feed import MapFeed, MapViews
-from parley.nodes.map_service import MapService
-from parley.nodes.memory import MemoryNode
-from parley.nodes.notices import Notices
-from parley.nodes.plan_check import plan_problems
-from parley.nodes.plan_restore import adopted_steps, interruption_text, restored_steps
-from parley.nodes.plan_steps import Step
-from parley.nodes.repair import left_over_text
-from parley.nodes.rules import MapOf, RuleNode
-from parley.nodes.umrf_planner import UmrfPlanner
-from parley.nodes.unattended import UnattendedPlans
 from parley.robots.base import Robot
 from parley.robots.run_robot import RunRobot
 from parley.robots.simulated import SimulatedRobot

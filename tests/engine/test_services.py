@@ -12,6 +12,7 @@ import numpy as np
 import pytest
 from PIL import Image
 
+from parley.agents.memory import MemoryNode
 from parley.clock import WallClock
 from parley.engine.services import ContextServices
 from parley.language.scripted import ScriptedLanguage
@@ -22,7 +23,6 @@ from parley.messages.display import DisplayFeed
 from parley.messages.memory import MemoryEntry
 from parley.messages.ros import String
 from parley.messages.wire import decode, to_string
-from parley.nodes.memory import MemoryNode
 from parley.robots.base import CameraImage
 from parley.transport.local import LocalTransport
 

@@ -13,9 +13,9 @@ from hypothesis import HealthCheck, settings
 from schemathesis.checks import not_a_server_error
 from schemathesis.specs.openapi.checks import response_schema_conformance, status_code_conformance
 
+from parley.agents.memory import MemoryNode
 from parley.language.offline import OfflineLanguage
 from parley.memory.store import MemoryStore
-from parley.nodes.memory import MemoryNode
 from parley.web.app import create_api
 from tests.web.rig import served
 

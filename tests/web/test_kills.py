@@ -16,7 +16,7 @@ from pathlib import Path
 import httpx
 import pytest
 
-from parley.nodes.questions import SeenIds
+from parley.agents.questions import SeenIds
 
 
 @contextmanager

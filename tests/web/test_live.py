@@ -6,13 +6,13 @@ import asyncio
 import socket
 from typing import Any
 
+from parley.agents.planner.umrf_planner import UmrfPlanner
 from parley.clock import WallClock
 from parley.messages import topics
 from parley.messages.chat import ActionCall, ChatAction
 from parley.messages.map import MapView
 from parley.messages.ros import UmrfGraphFeedback
 from parley.messages.status import PoseInfo
-from parley.nodes.umrf_planner import UmrfPlanner
 from parley.umrf.io import write_graph
 from parley.umrf.model import Graph, GraphState, Node
 from parley.web.config import WebConfig

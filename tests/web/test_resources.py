@@ -8,6 +8,8 @@ from typing import Any
 
 import pytest
 
+from parley.agents.audit_log import AuditLog
+from parley.agents.memory import MemoryNode
 from parley.errors import FailureCode
 from parley.gate.audit_store import AuditStore
 from parley.language.offline import OfflineLanguage
@@ -29,8 +31,6 @@ from parley.messages.status import (
     StopReport,
 )
 from parley.messages.wire import encode
-from parley.nodes.audit_log import AuditLog
-from parley.nodes.memory import MemoryNode
 from parley.web.config import MODULES
 from parley.web.robot_state import STOP_DEADLINE_S
 from tests.web.rig import JPEG, HandClock, Page, served

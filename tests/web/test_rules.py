@@ -5,11 +5,11 @@ from __future__ import annotations
 import json
 from typing import Any
 
+from parley.agents.rules.rules import MapOf, RuleNode
 from parley.clock import SimClock
 from parley.gate.book import RuleBook
 from parley.gate.rules import RuleKeeper
 from parley.language.offline import OfflineLanguage
-from parley.nodes.rules import MapOf, RuleNode
 from parley.sim.floor_plan import survey
 from tests.sim.worlds import two_rooms
 from tests.web.rig import served

@@ -13,13 +13,13 @@ from typing import Final
 import numpy as np
 from PIL import Image
 
+from parley.agents.display.display_interface import DisplayInterface
 from parley.clock import WallClock
 from parley.messages import topics
 from parley.messages.display import DisplayFeed, RawImage
 from parley.messages.ros import CompressedImage
 from parley.messages.topics import display_topic
 from parley.messages.wire import to_string
-from parley.nodes.display_interface import DisplayInterface
 from parley.transport.local import LocalTransport
 
 __all__ = ["DisplayFigures", "measure_display"]

@@ -8,6 +8,7 @@ from dataclasses import dataclass
 from typing import Any, Final
 
 from parley.actions.builtin import BUILTIN_ACTIONS
+from parley.agents.planner.check import plan_problems
 from parley.config import ModelSettings
 from parley.language.base import Situation
 from parley.language.llm import build_language
@@ -17,7 +18,6 @@ from parley.language.llm.scripted_server import Say, ScriptedServer
 from parley.language.offline import OfflineLanguage
 from parley.language.prompts import compose_interpret
 from parley.messages.memory import MemoryEntry
-from parley.nodes.plan_check import plan_problems
 from parley.umrf.catalogue import Catalogue
 from parley.world.geometry import Pose2D
 from parley.world.object_map import MapObject

@@ -12,6 +12,7 @@ from typing import Any, Final
 
 import numpy as np
 
+from parley.agents.memory import MemoryNode
 from parley.clock import WallClock
 from parley.language.scripted import ScriptedLanguage
 from parley.memory.client import ask_memory
@@ -20,7 +21,6 @@ from parley.memory.meanings import Meanings
 from parley.memory.store import MemoryStore
 from parley.memory.vectors import Vectors
 from parley.messages.memory import GetMemory, MemoryEntry
-from parley.nodes.memory import MemoryNode
 from parley.transport.local import LocalTransport
 
 __all__ = ["MemoryFigures", "measure_memory"]

@@ -23,6 +23,7 @@ from typing import Any, Final
 
 from starlette.types import ASGIApp, Message, Receive, Scope, Send
 
+from parley.agents.display.display_interface import DisplayInterface
 from parley.bench.engine import share
 from parley.bench.web_browser import BrowserFigures, measure_browser
 from parley.bench.web_load import TOPICS, feed_name, robot_name
@@ -30,7 +31,6 @@ from parley.clock import WallClock
 from parley.errors import ParleyError
 from parley.messages import topics
 from parley.messages.ros import String
-from parley.nodes.display_interface import DisplayInterface
 from parley.transport.local import LocalTransport
 from parley.web.feed_state import Picture
 

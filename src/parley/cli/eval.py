@@ -11,6 +11,7 @@ from typing import Annotated, Any
 
 import typer
 
+from parley.agents.planner.check import plan_problems
 from parley.cli.language import KeyFileOption, language_settings
 from parley.cli.output import emit_json, quiet_logs
 from parley.clock import WallClock
@@ -24,7 +25,6 @@ from parley.evaluation.scores import BackendScore, score
 from parley.evaluation.sets import load_set
 from parley.language.llm import build_language
 from parley.language.llm.usage import Usage
-from parley.nodes.plan_check import plan_problems
 
 __all__ = ["register"]
 

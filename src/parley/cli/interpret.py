@@ -11,6 +11,7 @@ from typing import Annotated, TextIO
 import typer
 
 from parley.actions.builtin import BUILTIN_ACTIONS
+from parley.agents.planner.check import plan_problems
 from parley.cli.language import KeyFileOption, LanguageOption, language_settings
 from parley.cli.output import quiet_logs
 from parley.config import ModelSettings
@@ -18,7 +19,6 @@ from parley.errors import ConfigError
 from parley.language.base import Language
 from parley.language.llm import build_language
 from parley.language.situations import Explains, interpret_lines
-from parley.nodes.plan_check import plan_problems
 from parley.umrf.catalogue import Catalogue
 
 __all__ = ["register"]

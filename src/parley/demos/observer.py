@@ -7,6 +7,8 @@ import json
 from collections.abc import Callable
 from typing import Any, ClassVar
 
+from parley.agents.base import Node
+from parley.agents.questions import OpenQuestions
 from parley.clock import Clock
 from parley.messages import topics
 from parley.messages.chat import ChatFeedback, ChatInput
@@ -16,8 +18,6 @@ from parley.messages.incident import Incident
 from parley.messages.memory import MemoryEvent
 from parley.messages.ros import String
 from parley.messages.status import ActorStatus, GraphEvent, PlanUpdate, Rejection, StopReport
-from parley.nodes.base import Node
-from parley.nodes.questions import OpenQuestions
 from parley.transport.base import Transport
 
 __all__ = ["Observer"]

@@ -6,13 +6,13 @@ import asyncio
 from collections.abc import Sequence
 from dataclasses import dataclass
 
+from parley.agents.planner.check import plan_problems
 from parley.clock import Clock
 from parley.errors import LanguageError
 from parley.evaluation.cases import Case
 from parley.evaluation.judge import wrong
 from parley.language.base import ErrorSituation, Language, Situation
 from parley.messages.chat import ActionCall, ChatAction
-from parley.nodes.plan_check import plan_problems
 
 __all__ = ["Outcome", "evaluate"]
 

@@ -8,6 +8,10 @@ from contextlib import AsyncExitStack, asynccontextmanager
 from dataclasses import dataclass, field
 from typing import Any
 
+from parley.agents.chat.chat_interface import ChatInterface
+from parley.agents.memory import MemoryNode
+from parley.agents.planner.check import plan_problems
+from parley.agents.recovery.error_handler import ErrorHandler
 from parley.clock import SimClock, WallClock
 from parley.config import ModelSettings
 from parley.language.base import Language, Situation
@@ -19,12 +23,8 @@ from parley.messages import topics
 from parley.messages.chat import ChatFeedback, ChatInput, ReplyDraft
 from parley.messages.memory import MemoryEntry
 from parley.messages.status import ActionInfo
-from parley.nodes.chat_interface import ChatInterface
-from parley.nodes.error_handler import ErrorHandler
-from parley.nodes.memory import MemoryNode
-from parley.nodes.plan_check import plan_problems
 from parley.world.object_map import MapObject
-from tests.nodes.crew import Crew, crew
+from tests.agents.crew import Crew, crew
 
 LOOK = ActionInfo(
     name="Look", inputs={"what": "string"}, description="Look at a thing.", phrases=("look at {what}",)

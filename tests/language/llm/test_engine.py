@@ -16,8 +16,8 @@ from parley.language.base import ErrorSituation, InspectionReport, Picture, Repl
 from parley.language.llm.scripted_server import Say
 from parley.messages.memory import MemoryEntry
 from parley.robots.base import CameraImage, Detection
+from tests.agents.crew import look
 from tests.language.llm.rig import BOX, LOOK, LOOKS, model, situation
-from tests.nodes.crew import look
 
 
 def picture() -> CameraImage:

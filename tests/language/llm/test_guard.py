@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import pytest
 
+from parley.agents.planner.check import plan_problems
 from parley.config import ModelSettings
 from parley.errors import LanguageError
 from parley.language.llm import build_language
@@ -11,7 +12,6 @@ from parley.language.llm.chain import ChainLanguage
 from parley.language.llm.engine import LlmLanguage
 from parley.language.llm.guard import Breaker, Budget
 from parley.language.llm.scripted_server import Say
-from parley.nodes.plan_check import plan_problems
 from tests.language.llm.rig import LOOKS, HandClock, model, situation
 
 BROKEN = Say(body="oops", status=500)

@@ -8,13 +8,13 @@ from pathlib import Path
 
 import pytest
 
+from parley.agents.planner.check import plan_problems
 from parley.config import ModelSettings
 from parley.errors import ConfigError, LanguageError
 from parley.language.llm import build_language
 from parley.language.llm.models import ModelSpec, make_model
 from parley.language.llm.recording import Redactor
 from parley.language.llm.scripted_server import Say, ScriptedServer
-from parley.nodes.plan_check import plan_problems
 from tests.language.llm.rig import LOOKS, situation
 
 KEY = "sk-very-secret-0123456789"

@@ -9,14 +9,14 @@ from hypothesis import given
 from hypothesis import strategies as st
 from pydantic import ValidationError
 
+from parley.agents.planner.check import plan_problems
 from parley.language.llm.answers import ANSWERS, PlanAnswer
 from parley.language.llm.drafts import DraftReader
 from parley.language.llm.reading import AnswerRefusedError, read_plan
 from parley.messages.chat import ChatAction
 from parley.messages.wire import decode, encode
-from parley.nodes.plan_check import plan_problems
+from tests.agents.crew import look
 from tests.language.llm.rig import situation
-from tests.nodes.crew import look
 
 WORDS = st.sampled_from(
     [

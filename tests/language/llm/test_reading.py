@@ -5,6 +5,7 @@ from __future__ import annotations
 import pytest
 from pydantic import ValidationError
 
+from parley.agents.planner.check import plan_problems
 from parley.errors import FailureCode
 from parley.language.base import ErrorSituation, ReplyReading
 from parley.language.llm.answers import GroundAnswer, PlanAnswer, ReplyAnswer, ResolveAnswer, SelectAnswer
@@ -19,9 +20,8 @@ from parley.language.llm.reading import (
 from parley.messages.chat import ActionCall, Flow, FlowIf
 from parley.messages.memory import MemoryEntry
 from parley.messages.pvf import Parameter
-from parley.nodes.plan_check import plan_problems
+from tests.agents.crew import drive, find
 from tests.language.llm.rig import BOX, DRIVE, FIND, LOOK, LOOK_PLAN, situation
-from tests.nodes.crew import drive, find
 
 
 def plan(**changes: object) -> PlanAnswer:

@@ -7,6 +7,7 @@ from pathlib import Path
 
 import pytest
 
+from parley.agents.planner.check import plan_problems
 from parley.config import ModelSettings
 from parley.errors import ConfigError, FileFormatError, LanguageError
 from parley.language.base import Language
@@ -14,7 +15,6 @@ from parley.language.llm import build_language
 from parley.language.llm.scripted_server import Say
 from parley.language.offline import OfflineLanguage
 from parley.messages.memory import MemoryEntry
-from parley.nodes.plan_check import plan_problems
 from tests.language.llm.rig import LOOK_PLAN, LOOKS, model, situation
 
 HERE = Path(__file__).parent

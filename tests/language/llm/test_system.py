@@ -11,8 +11,8 @@ import pytest
 from parley.config import SystemConfig
 from parley.demos.catalogue import load_demo
 from parley.language.llm.scripted_server import Say, ScriptedServer
+from tests.agents.crew import Wire
 from tests.demos.house import House, running
-from tests.nodes.crew import Wire
 
 GO = Say(
     answer={

@@ -6,6 +6,7 @@ from dataclasses import replace
 
 import pytest
 
+from parley.agents.recovery.repair import memory_query
 from parley.errors import FailureCode
 from parley.language.base import Situation
 from parley.language.offline import OfflineLanguage
@@ -13,7 +14,6 @@ from parley.language.offline.facts.protocols import read_protocol
 from parley.messages.chat import ActionCall, ChatAction
 from parley.messages.failure import ErrorHandlingMessage
 from parley.messages.memory import MemoryEntry
-from parley.nodes.repair import memory_query
 from parley.world.geometry import Pose2D
 from tests.language.dev_set import commands, plan
 from tests.language.offline.repair.test_recovery import HOME, answered, failing

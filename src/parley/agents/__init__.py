@@ -1,0 +1,1 @@
+"""The nodes that talk, plan, repair, remember and show; each wires one thing to topics."""

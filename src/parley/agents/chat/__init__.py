@@ -1,0 +1,1 @@
+"""The chat interface: where a message is heard, understood and answered."""

@@ -1,0 +1,559 @@
+"""The chat interface node: from what an operator writes to a reply and a Chat Action (thesis 4.3.5).
+
+Stop words and their kin are recognised in code before any language engine is asked and never wait behind it.
+"""
+
+from __future__ import annotations
+
+import uuid
+from collections.abc import Awaitable, Callable, Sequence
+from dataclasses import replace
+from typing import ClassVar, Final
+
+from parley.agents.base import Mailboxes, Node
+from parley.agents.chat import texts as texts
+from parley.agents.chat.drafts import Drafts
+from parley.agents.chat.finishing import Finishing
+from parley.agents.chat.holds import Holds
+from parley.agents.chat.log_answers import log_answer
+from parley.agents.chat.memories import Confirmations, keeping_order
+from parley.agents.chat.recollections import Recollections
+from parley.agents.chat.rulings import Rulings
+from parley.agents.chat.situations import Situations
+from parley.agents.planner.asking import SHALL_I, Offered, wish_of
+from parley.agents.planner.check import check_calls, complete_calls
+from parley.agents.planner.orders import no_robot
+from parley.agents.planner.steps import LATCHED
+from parley.agents.presence import Presence, linked_to
+from parley.agents.questions import SeenIds
+from parley.agents.thinking import PATIENCE_S, DroppedError, Thinking
+from parley.clock import Clock
+from parley.errors import LanguageError
+from parley.gate.orders import Admitted, Heard, admit
+from parley.gate.rule_talk import RuleTalk
+from parley.gate.table import Effect, verdict
+from parley.language.base import Language, Situation
+from parley.language.control import Control, control_of
+from parley.language.stop_words import calls_to_stop, is_no
+from parley.memory.sayings import for_oneself
+from parley.messages import topics
+from parley.messages.chat import ChatAction, ChatFeedback, ChatInput, SystemCommand
+from parley.messages.failure import ErrorHandlingMessage
+from parley.messages.memory import AddToMemory, MemoryBody, MemoryEntry, MemoryEvent, RemoveMemory
+from parley.messages.status import (
+    ActorStatus,
+    PlanDecision,
+    PlanProposal,
+    PlanRuling,
+    PlanUpdate,
+    Rejection,
+    RejectionProblem,
+    StopCommand,
+)
+from parley.sentences import sentence, together
+from parley.transport.base import Transport
+from parley.world.object_map import MapObject
+
+__all__ = ["ChatInterface"]
+
+_SHORT_WORDS: Final = 3
+_HALTING: Final = ("stop", "clear", "emergency_stop")
+"""Controls after which nothing that was said before may still set a robot in motion."""
+
+
+class ChatInterface(Node):
+    """Understands messages, one conversation per robot, different robots side by side.
+
+    Args:
+        transport: Where the topics are.
+        language: What understands.
+        clock: Wall time.
+        objects: The things a robot's map knows, by the robot's name.
+        language_timeout_s: Wall time an answer of the language engine may take.
+        history_exchanges: How many exchanges are remembered as context.
+        known_robots: Robots that send no heartbeat of ours.
+        patience_s: Wall time after which the operator is told that an answer takes long.
+        rules: Hears what people say about rules before any language engine does.
+    """
+
+    name: ClassVar[str] = "chat_interface"
+
+    def __init__(
+        self,
+        transport: Transport,
+        language: Language,
+        clock: Clock,
+        *,
+        objects: Callable[[str], Sequence[MapObject]] = lambda _: (),
+        language_timeout_s: float = 30.0,
+        history_exchanges: int = 10,
+        known_robots: Sequence[str] = (),
+        patience_s: float = PATIENCE_S,
+        rules: RuleTalk | None = None,
+    ) -> None:
+        super().__init__(transport)
+        self._rules = rules
+        self._language, self._clock = language, clock
+        self._thinking = Thinking(language_timeout_s, patience_s)
+        self._presence = Presence(clock, tuple(known_robots), linked=linked_to(transport))
+        self._known = Situations(transport, self._presence, objects, history_exchanges)
+        self._questions = self._known.questions
+        self._mailboxes: Mailboxes[str] = Mailboxes(self._on_defect)
+        self._offered, self._finishing = Offered(), Finishing(clock.now_s)
+        self._seen_ids = SeenIds()
+        self._holds = Holds(lambda command: self.publish(topics.STOP, command))
+        self._confirmations, self._rulings = Confirmations(), Rulings(transport)
+        self._recollections = Recollections(self, clock, self._remember, self._presence.names)
+        self._halts: dict[str, int] = {}
+        """How often each robot was told to stop: what was asked for before that is dropped."""
+
+    async def open(self) -> None:
+        """See `Node.open`."""
+        await self.opened.enter_async_context(self._mailboxes)
+        await self.subscribe(topics.ACTOR_STATUS, ActorStatus, self._presence.on_status)
+        await self.subscribe(topics.CHAT_FEEDBACK, ChatFeedback, self._on_said)
+        await self.subscribe(topics.MEMORY_EVENT, MemoryEvent, self._confirmations.on_event)
+        await self.subscribe(topics.STOP, StopCommand, self._on_emergency)
+        await self.subscribe(topics.ERROR_HANDLING, ErrorHandlingMessage, self._known.on_failure)
+        await self.subscribe_plans(self._on_plan)
+        await self.subscribe(topics.PLAN_DECISION, PlanDecision, self._on_decision)
+        await self.subscribe(topics.RULING, PlanRuling, self._rulings.on_ruling)
+        await self.subscribe(topics.CHAT_INPUT, ChatInput, self._on_input)
+        self.spawn(self._presence.watch(), name="presence")
+
+    # -- from the wire ---------------------------------------------------------------------------------
+
+    def _on_input(self, said: ChatInput) -> None:
+        """Hear a message; where a word of stopping is in it, its robots stand while it is read."""
+        targets = tuple(self._presence.resolve(name) or name for name in said.targets)
+        held = self._holds.begin(said, targets)
+        try:
+            self._read(said)
+        finally:
+            self._holds.end(held)
+
+    def _read(self, said: ChatInput) -> None:
+        if not self._seen_ids.is_new(said.id):
+            return
+        if problem := texts.unreadable(said.message, bare=bool(said.images)):
+            self._say(said.targets, problem, "error", said.id)
+            return
+        control = control_of(said.message, self._presence.names())
+        if control not in _HALTING and verdict(said.who, Effect.SPEAK) != "allow":
+            self._say(said.targets, texts.ONLY_LOOKS, "error", said.id)
+            return
+        if control not in _HALTING and self._questions.is_late(said):
+            self._say(said.targets, texts.settled(said.message), "response", said.id)
+            return
+        if control is None and said.type == "response" and not said.targets and self._questions.robots():
+            self._questions.on_input(said)
+            return  # an answer; where several robots wait, the error handler asks which is meant
+        targets = self._addressed(said)
+        if control is not None:
+            targets = self._presence.named_in(said.message) or targets
+        calls, refuses = calls_to_stop(said.message), is_no(said.message)
+        for target in targets:
+            question = self._questions.first(target) if said.type == "response" else None
+            halts = calls or (refuses and question is None and self._offered.newest(target) is None)
+            if halts and control not in _HALTING and self._known.moves(target, self._presence.get(target)):
+                self._control(target, "stop", said, more=control is None)
+            elif control is not None and not self._answers(target, question, control):
+                self._control(target, control, said)
+            elif not self._presence.is_there(target):
+                text = texts.not_there(target)
+                self._say((target,), text, "error", said.id)
+            else:
+                self._hear(target, said, question)
+        self._questions.on_input(said)
+
+    def _hear(self, target: str, said: ChatInput, question: ChatFeedback | None) -> None:
+        """Have something understood, unless it answers `question` or is about what waits or takes long."""
+        names = self._presence.names()
+        decision = self._offered.decided(target, said, names) if question is None else None
+        if decision is not None:
+            self._hand_on(target, decision, said)
+            return
+        if question is None and (self._set_aside(target, said) or self._undoes(target, said)):
+            return
+        about = said.reply_to or (question.id if question else "")
+        known = self._recollections.asked(about) or (self._rules is not None and self._rules.asked(about))
+        ours = about if said.type == "response" and known else ""
+        if question is None or ours:
+            self._mailboxes.post(target, self._work(target, said, ours))
+        elif said.images:
+            self._mailboxes.post(target, self._keep_pictures(target, said, question.message))
+
+    def _hand_on(self, target: str, decision: PlanDecision, said: ChatInput) -> None:
+        """Hand a yes or no on, if the question about the plan is what the robot said last; else ask again."""
+        offered = self._offered.newest(target)
+        if decision.decision == "reject" or offered is None or self._offered.is_asked(target):
+            self.publish(topics.PLAN_DECISION, decision)
+        else:
+            text = together(wish_of(offered.labels, offered.why), SHALL_I)
+            self._say((target,), text, "response", said.id)
+
+    def _on_said(self, feedback: ChatFeedback) -> None:
+        self._known.on_feedback(feedback)
+        self._offered.on_said(feedback, self.spoken(SHALL_I))
+
+    def _set_aside(self, target: str, said: ChatInput) -> bool:
+        """Whether a message is only about an older one that takes long; else tell that it waits behind it."""
+        if texts.is_never_mind(said.message) and self._thinking.drop(target):
+            self._say((target,), "All right.", "response", said.id)
+            return True
+        if slow := self._thinking.slow_message(target):
+            self._say_thinking(target, slow, said.message)
+        return False
+
+    def _say_thinking(self, target: str, message: str, newer: str = "") -> None:
+        text = texts.still_thinking(message, newer)
+        feedback = ChatFeedback(
+            message=self.spoken(text), targets=(target,), type="info", choices=(texts.NEVER_MIND,)
+        )
+        self.publish(topics.CHAT_FEEDBACK, feedback)
+
+    def _answers(self, target: str, question: ChatFeedback | None, control: Control) -> bool:
+        """Whether "go on" answers a question; while the robot is paused it means to go on."""
+        return question is not None and control == "start" and self._known.state(target) != "paused"
+
+    def _work(self, target: str, said: ChatInput, ours: str = "") -> Callable[[], Awaitable[None]]:
+        halts = self._halts.get(target, 0)
+
+        async def work() -> None:
+            if await self._about_rules(target, said, ours):
+                return
+            if not ours and (answer := await log_answer(self.transport, self._clock, target, said)):
+                self._say((target,), answer, "response", said.id)
+            elif not await self._recollections.handles(target, said, ours):
+                await self._answer(target, said, halts)
+
+        return work
+
+    async def _about_rules(self, target: str, said: ChatInput, ours: str) -> bool:
+        """Whether a message was about rules; what becomes one is decided by code and a person's yes."""
+        status = self._presence.get(target)
+        reply = self._rules and await self._rules.reply(
+            said.message, said.who, robot=target, robots=self._presence.names(),
+            places=self._known.objects(target), catalogue=status.catalogue if status else (), answers=ours,
+        )  # fmt: skip
+        if not reply:
+            return False
+        feedback = ChatFeedback(
+            message=self.spoken(reply.text), targets=(target,), type="request" if reply.id else "response",
+            choices=tuple(map(self.spoken, reply.choices)), id=reply.id, closes=reply.closes,
+            reply_to=said.id,
+        )  # fmt: skip
+        self.publish(topics.CHAT_FEEDBACK, feedback)
+        return True
+
+    def _keep_pictures(self, target: str, said: ChatInput, question: str) -> Callable[[], Awaitable[None]]:
+        """Of an answer with pictures: whoever asked gets the words."""
+
+        async def work() -> None:
+            await self._recollections.keep_with_answer(target, said, question)
+
+        return work
+
+    def _addressed(self, said: ChatInput) -> list[str]:
+        """The robots a message is for; without an addressee nothing may move."""
+        names = self._presence.names()
+        if not said.targets and len(names) == 1:
+            return [names[0]]
+        if not said.targets:
+            self._say((), texts.which_robot(self._presence.known_text()), "error", said.id)
+        found: list[str] = []
+        for name in said.targets:
+            known = self._presence.resolve(name)
+            if known is None:
+                text = no_robot(name, self._presence.known_text())
+                self._say((name,), text, "error", said.id)
+                problem = RejectionProblem(
+                    path="targets", message=f"unknown robot {name!r}", code="unknown_robot"
+                )
+                self.publish(
+                    topics.REJECTION,
+                    Rejection(
+                        source=self.name, target=name, what=topics.CHAT_INPUT.name, problems=(problem,)
+                    ),
+                )
+            elif known not in found:
+                found.append(known)
+        return found
+
+    def _on_plan(self, told: PlanUpdate | PlanProposal) -> None:
+        if isinstance(told, PlanProposal):
+            self._offered.on_proposal(told)
+            self._finishing.on_proposal(told)
+            return
+        self._known.plans[told.target] = told
+        self._offered.on_update(told)
+        self._holds.on_update(told)
+        status = self._presence.get(told.target)
+        if done := self._finishing.on_update(told, status.catalogue if status else ()):
+            self._say((told.target,), done, "info")
+
+    def _on_decision(self, decision: PlanDecision) -> None:
+        self._offered.on_decision(decision)
+        self._finishing.on_decision(decision)
+
+    def _on_emergency(self, command: StopCommand) -> None:
+        """The stop button: what was asked for before it is dropped, as if it had been said."""
+        if command.command == "stop":
+            for target in command.targets or self._presence.ever():
+                self._halt(target)
+
+    def _halt(self, target: str) -> None:
+        self._halts[target] = self._halts.get(target, 0) + 1
+        self._thinking.give_up(target)
+
+    # -- control ---------------------------------------------------------------------------------------
+
+    def _control(self, target: str, control: Control, said: ChatInput, *, more: bool = False) -> None:
+        """Act at once, ahead of anything that is still being understood."""
+        if control in _HALTING:
+            self._halt(target)
+            if control == "stop" and self._known.moves(target, self._presence.get(target)):
+                self._holds.keep(target, said)
+        self._finishing.on_answer(target, said.message, asks_back=False)
+        state, status = self._known.state(target), self._presence.get(target)
+        # A plan that waits for approval has no step yet: only approving or dropping it does anything.
+        nothing = state == "idle" or (state == "awaiting_approval" and control in ("stop", "skip"))
+        if state == "idle" and status is not None and status.state == "paused":
+            nothing = False  # its engine holds a graph that is no plan of ours
+        reply = texts.nothing_to_do(control, said.message) if nothing else ""
+        offered = self._offered.newest(target)
+        if control == "start" and status is not None and status.state == "stopped":
+            reply = LATCHED
+        elif control == "start" and state in ("awaiting_approval", "held") and offered is not None:
+            yes = PlanDecision(
+                id=offered.id, target=target, decision="approve", digest=offered.digest, by=said.who
+            )
+            self._hand_on(target, yes, said)
+            return
+        elif control == "emergency_stop":
+            stop = StopCommand(targets=(target,), id=uuid.uuid4().hex, by=said.who, words=said.message)
+            self.publish(topics.STOP, stop)
+        elif (
+            not reply or control in _HALTING
+        ):  # stopping is sent in any case: the plan may be newer than known
+            command = SystemCommand(command=control)
+            order = ChatAction(
+                system_cmd=(command,), targets=(target,), by=said.who, words=said.message, reply_to=said.id
+            )
+            self.publish(topics.CHAT_ACTION, order)
+        reply = reply or texts.CONTROL_REPLIES[control]
+        if more and len(said.message.split()) > _SHORT_WORDS:  # there may be an order in it
+            reply = together(sentence(reply), texts.REST_LEFT)
+        self._known.conversation(target).operator(said.message)
+        self._known.conversation(target).assistant(reply)
+        asked = self._questions.first(target) if state == "held" else None
+        self.publish(
+            topics.CHAT_FEEDBACK,
+            ChatFeedback(
+                message=self.spoken(reply),
+                targets=(target,),
+                closes=asked.id if asked else "",
+                reply_to=said.id,
+            ),
+        )
+
+    # -- understanding ---------------------------------------------------------------------------------
+
+    async def _answer(self, target: str, said: ChatInput, halts: int) -> None:
+        message = said.message
+        own = for_oneself(message)
+        # What may have to wait for a yes is not announced while it is being worked out.
+        drafts = Drafts(
+            "" if self._known.may_have_to_ask(target) else said.id,
+            target,
+            lambda draft: self.publish(topics.REPLY_DRAFT, draft),
+            self._clock,
+        )
+        try:
+            async with self._thinking.about(target, lambda: self._say_thinking(target, message), message):
+                situation = await self._known.of(
+                    target, own or message, said, sees_pictures=self._language.sees_pictures
+                )
+                understood = keeping_order(situation) or await self._language.interpret(
+                    situation, on_draft=drafts
+                )
+        except (LanguageError, TimeoutError) as error:
+            if isinstance(error, DroppedError):
+                self._say((target,), texts.dropped(message), "response", said.id)
+                return
+            if isinstance(error, TimeoutError) and halts != self._halts.get(target, 0):
+                self._say((target,), texts.left(message), "response", said.id)
+                return
+            self.log.warning("not understood", target=target, error=repr(error))
+            plain = error.plain if isinstance(error, LanguageError) else ""
+            self._say((target,), texts.nothing_started(plain), "error", said.id)
+            return
+        if halts != self._halts.get(target, 0) and (understood.queue or understood.system_cmd):
+            self._say((target,), texts.left(message), "response", said.id)
+            return
+        admitted = admit(understood, self._heard(target, said, situation, own=bool(own)))
+        order = self._trusted(target, admitted.order)
+        if order is None:
+            text = "I worked out a plan that I cannot carry out, so I did nothing. Please say it another way."
+            self._say((target,), text, "error", said.id)
+            return
+        order = self._own_share(order, target, said)
+        if not order.targets:
+            text = admitted.refused[0] if admitted.refused else texts.that_is_for(understood.targets)
+            self._say((target,), text, "response", said.id)
+            return
+        await self._carry_out(target, said, understood, replace(admitted, order=order), situation)
+
+    async def _carry_out(
+        self, target: str, said: ChatInput, understood: ChatAction, admitted: Admitted, situation: Situation
+    ) -> None:
+        """Hand an order on, hear what became of it, and say just that."""
+        order = admitted.order.model_copy(update={"id": uuid.uuid4().hex, "reply_to": said.id})
+        wanted = [
+            command
+            for command in order.system_cmd
+            if command.command == "add_memory" or (command.command == "remove_memory" and not order.needs_yes)
+        ]
+        confirmations = [self._confirmations.wait_for(str(c.arguments["name"])) for c in wanted]
+        self._rulings.expect(order)
+        if order.queue or order.system_cmd:
+            self._order(order, said.message)
+        failed = await self._confirmations.confirmed(confirmations)
+        rulings = await self._rulings.about(order)
+        asked = next((ruling for ruling in rulings if ruling.outcome == "asked"), None)
+        reply = failed or understood.message_response or "Done."
+        if not failed:
+            reply = self._honest(target, reply, order, admitted, rulings)
+        if not failed and self._waits_behind_a_question(target, order):
+            reply = together(reply, texts.AFTERWARDS)
+        conversation = self._known.conversation(target)
+        conversation.operator(said.message)
+        conversation.assistant(reply)
+        told = {str(command.arguments.get("name")) for command in order.system_cmd}
+        known = {entry.name for entry in situation.memory}
+        sources = tuple(name for name in understood.sources if name in known and name not in told)
+        why = "" if failed else self._recollections.why(target, said, sources, situation.memory)
+        reply = together(reply, why, SHALL_I if asked is not None and not failed else "")
+        asks = bool(understood.choices) and not understood.queue and asked is None
+        if not order.queue:
+            self._finishing.on_answer(target, said.message, asks_back=asks)
+        self.publish(
+            topics.CHAT_FEEDBACK,
+            ChatFeedback(
+                message=self.spoken(reply),
+                targets=(target,),
+                type="error" if failed else "response",
+                sources=tuple(name for name in understood.sources if name in known | told),
+                choices=understood.choices if asks else (),
+                reply_to=said.id,
+            ),
+        )
+        for command in order.system_cmd if not failed else ():
+            if command.arguments.get("name") in admitted.concluded:
+                self._show_concluded(target, command)
+
+    def _honest(
+        self,
+        target: str,
+        reply: str,
+        order: ChatAction,
+        admitted: Admitted,
+        rulings: Sequence[PlanRuling],
+    ) -> str:
+        """The engine's reply where what it says was done; else what was done instead, in our words."""
+        asked = next((ruling for ruling in rulings if ruling.outcome == "asked"), None)
+        if asked is not None:
+            return wish_of(asked.labels, asked.why)
+        if rulings and all(ruling.outcome == "refused" for ruling in rulings):
+            return together(texts.NOT_DONE, *admitted.refused)
+        if admitted.resumes and not order.queue:
+            return texts.SAY_CARRY_ON if self._known.state(target) != "idle" else texts.NOTHING_TO_RESUME
+        return together(reply, *admitted.refused)
+
+    def _heard(self, target: str, said: ChatInput, situation: Situation, *, own: bool) -> Heard:
+        return Heard(
+            words=said.message,
+            by=said.who,
+            robot=target,
+            named=tuple(name for name in self._presence.named_in(said.message) if name != target),
+            engine=self._language.label,
+            own=own,
+            known=situation.memory,
+            earlier=tuple(turn.content for turn in situation.history if turn.role == "operator"),
+        )
+
+    def _show_concluded(self, target: str, command: SystemCommand) -> None:
+        """What an engine adds by itself is shown, and undone by a tap."""
+        name, data = str(command.arguments["name"]), str(command.arguments.get("data", ""))
+        if command.arguments.get("type") == "image":
+            data = name
+        feedback = ChatFeedback(
+            message=self.spoken(texts.concluded(data)),
+            targets=(target,),
+            type="info",
+            choices=(self.spoken(texts.undo(name)),),
+        )
+        self.publish(topics.CHAT_FEEDBACK, feedback)
+
+    def _undoes(self, target: str, said: ChatInput) -> bool:
+        """Whether a message is a tap on what undoes a memory; it is done then."""
+        name = texts.undone(said.message)
+        if not name or verdict(said.who, Effect.FORGET) != "allow":
+            return False
+        self.publish(topics.REMOVE_MEMORY, RemoveMemory({name: {}}))
+        self._say((target,), texts.forgotten(name), "response", said.id)
+        return True
+
+    def _order(self, order: ChatAction, words: str) -> None:
+        for name in order.targets if order.queue else ():
+            self._finishing.on_order(name, words, instead=self._known.gave_up(name))
+        self.publish(topics.CHAT_ACTION, order)
+
+    def _waits_behind_a_question(self, target: str, order: ChatAction) -> bool:
+        """Whether an order is kept until the robot's question about a failed step is answered."""
+        control = {command.command for command in order.system_cmd} - {"add_memory", "remove_memory"}
+        return self._known.waits_for_answer(target) and bool(order.queue) and not control
+
+    def _trusted(self, target: str, understood: ChatAction) -> ChatAction | None:
+        """The order with its addressees, if each robot named can carry it out; None if not."""
+        named = [self._presence.resolve(name) for name in understood.targets]
+        targets = tuple(name for name in named if name is not None) or (target,)
+        if None in named:
+            return None
+        for name in targets:
+            status = self._presence.get(name)
+            if status is None or not status.catalogue or not understood.queue:
+                continue
+            problems = check_calls(complete_calls(understood.queue, status.catalogue), status.catalogue)
+            if problems:
+                self.log.warning("plan refused", target=name, problems=[str(problem) for problem in problems])
+                return None
+        return understood.model_copy(update={"targets": targets})
+
+    def _own_share(self, order: ChatAction, target: str, said: ChatInput) -> ChatAction:
+        """The order without the other robots that got the same message: each of them reads it for itself."""
+        others = {self._presence.resolve(name) for name in said.targets} - {target}
+        left = tuple(name for name in order.targets if name not in others)
+        return order.model_copy(update={"targets": left})
+
+    # -- memory ----------------------------------------------------------------------------------------
+
+    async def _remember(self, entry: MemoryEntry) -> str:
+        """Store a memory; the plain reason if it is not durable in time."""
+        wait = self._confirmations.wait_for(entry.name)
+        body = MemoryBody.model_validate(entry.model_dump() | {"way": "told"})
+        self.publish(topics.ADD_TO_MEMORY, AddToMemory({entry.name: body}))
+        return await self._confirmations.confirmed([wait])
+
+    # -- helpers ---------------------------------------------------------------------------------------
+
+    def _say(self, targets: Sequence[str], text: str, kind: str, reply_to: str = "") -> None:
+        feedback = ChatFeedback.model_validate(
+            {"message": self.spoken(text), "targets": tuple(targets), "type": kind, "reply_to": reply_to}
+        )
+        self.publish(topics.CHAT_FEEDBACK, feedback)
+
+    def _on_defect(self, target: str, error: Exception) -> None:
+        self._say(
+            (target,), "Something went wrong on my side. Nothing was started; please try again.", "error"
+        )

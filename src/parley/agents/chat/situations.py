@@ -1,0 +1,144 @@
+"""What the chat interface has heard about each robot, and the situation a message is understood in."""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Sequence
+from typing import Final, Literal
+
+from parley.agents.chat.conversation import Conversation
+from parley.agents.chat.memories import memory_query
+from parley.agents.planner.flow import pending_calls
+from parley.agents.presence import Presence
+from parley.agents.questions import LastAsked, OpenQuestions
+from parley.agents.recovery.repair import failed_situation
+from parley.agents.shown_pictures import remembered_pictures, sent_pictures
+from parley.language.base import Situation
+from parley.memory.client import recall, recall_newest
+from parley.memory.sayings import asks_for_all
+from parley.messages.chat import ChatFeedback, ChatInput
+from parley.messages.failure import ErrorHandlingMessage
+from parley.messages.memory import MemoryEntry
+from parley.messages.status import ActorStatus, PlanUpdate
+from parley.transport.base import Transport
+from parley.world.geometry import Pose2D
+from parley.world.object_map import MapObject
+
+__all__ = ["Situations"]
+
+_STATUS: Final[dict[str, Literal["paused", "running"]]] = {
+    "paused": "paused",
+    "held": "paused",
+    "running": "running",
+}
+"""A plan's states as a language engine is told them; all others are idle."""
+
+
+class Situations:
+    """Plans, failures, questions and conversations by robot.
+
+    Args:
+        transport: Where memories and pictures are asked for.
+        presence: Which robots there are.
+        objects: The things a robot's map knows, by the robot's name.
+        history_exchanges: How many exchanges are remembered as context.
+    """
+
+    def __init__(
+        self,
+        transport: Transport,
+        presence: Presence,
+        objects: Callable[[str], Sequence[MapObject]],
+        history_exchanges: int,
+    ) -> None:
+        self._transport, self._presence, self.objects = transport, presence, objects
+        self._history_exchanges = history_exchanges
+        self.plans: dict[str, PlanUpdate] = {}
+        self.questions = OpenQuestions()
+        self._failures: dict[str, ErrorHandlingMessage] = {}
+        self._conversations: dict[str, Conversation] = {}
+        self._asked = LastAsked()
+
+    def on_feedback(self, feedback: ChatFeedback) -> None:
+        """Something was said to an operator; it may be a question."""
+        self.questions.on_feedback(feedback)
+        self._asked.on_feedback(feedback)
+
+    def on_failure(self, failure: ErrorHandlingMessage) -> None:
+        """A step failed; it is what later questions are about."""
+        self._failures[failure.target] = failure
+
+    def conversation(self, target: str) -> Conversation:
+        """What was said to and by a robot."""
+        return self._conversations.setdefault(target, Conversation(self._history_exchanges))
+
+    def state(self, target: str) -> str:
+        """A robot's plan's state."""
+        plan = self.plans.get(target)
+        return plan.state if plan is not None else "idle"
+
+    def moves(self, target: str, status: ActorStatus | None) -> bool:
+        """Whether a robot is under way, or may be: a step that moves it runs, or it does not stand."""
+        plan = self.plans.get(target)
+        if plan is None or plan.state != "running":
+            return status is not None and status.state == "running" and status.at_rest is False
+        moving = {info.name for info in status.catalogue if "moves" in info.effects} if status else set()
+        runs = [step.action.name for step in plan.steps if step.state in ("running", "paused")]
+        return status is None or status.at_rest is False or bool(moving & set(runs))
+
+    def may_have_to_ask(self, target: str) -> bool:
+        """Whether some steps of a robot wait for a person's yes."""
+        return target in self.plans and self.plans[target].policy != "run_at_once"
+
+    def waits_for_answer(self, target: str) -> bool:
+        """Whether a robot stands with a failed step and has asked what to do."""
+        return self.state(target) == "held" and self.questions.first(target) is not None
+
+    def gave_up(self, target: str) -> bool:
+        """Whether a robot stands with a failed step and nothing more is asked about it."""
+        return self.state(target) == "held" and self.questions.first(target) is None
+
+    async def of(self, target: str, message: str, said: ChatInput, *, sees_pictures: bool) -> Situation:
+        """Everything a language engine is told about one message.
+
+        Args:
+            target: The robot.
+            message: What is to be understood of what was said.
+            said: The whole message, with its pictures and what it replies to.
+            sees_pictures: Whether remembered pictures are of use.
+        """
+        turns = self.conversation(target).turns
+        memory = await self._recalled(target, message)
+        pictures = await sent_pictures(said.images)
+        if sees_pictures:
+            known = await remembered_pictures(self._transport, memory, target)
+            pictures += tuple(each for each in known if each.jpeg not in [sent.jpeg for sent in pictures])
+        objects, failure = tuple(self.objects(target)), self._failures.get(target)
+        status, plan, asked = (
+            self._presence.get(target),
+            self.plans.get(target),
+            self.questions.first(target),
+        )
+        pose = status.pose if status is not None else None
+        return Situation(
+            message=message,
+            memory=memory,
+            history=turns,
+            queue=tuple(pending_calls(plan)) if plan else (),
+            status=_STATUS.get(self.state(target), "idle"),
+            objects=objects,
+            robot_pose=Pose2D(pose.x, pose.y, pose.yaw) if pose is not None else None,
+            robot=target,
+            robots=self._presence.names(),
+            catalogue=status.catalogue if status else (),
+            failure=failed_situation(failure, memory=memory, objects=objects, status=status)
+            if failure is not None and self.waits_for_answer(target)
+            else None,
+            question=asked.message if asked is not None else self._asked.words(said.reply_to),
+            pictures=pictures,
+        )
+
+    async def _recalled(self, target: str, message: str) -> tuple[MemoryEntry, ...]:
+        if asks_for_all(message):
+            return await recall_newest(self._transport, scope=target)
+        query = memory_query(message, self.conversation(target).turns)
+        return await recall(self._transport, query, scope=target)

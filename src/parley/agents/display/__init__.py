@@ -1,0 +1,1 @@
+"""The display interface: pictures, cameras and maps for screens."""

@@ -1,0 +1,87 @@
+"""Answers `/parley/get_map`: the map a robot drives by, as a picture, and the things on it."""
+
+from __future__ import annotations
+
+import asyncio
+import base64
+import io
+from collections.abc import Iterable, Mapping
+from typing import ClassVar
+
+from PIL import Image
+
+from parley.agents.base import Node
+from parley.errors import InvalidMessageError
+from parley.messages import topics
+from parley.messages.map import GetMap, MapInfo, MapThing
+from parley.messages.ros import ChatRequest, ChatResponse
+from parley.messages.status import PoseInfo
+from parley.messages.wire import decode, encode
+from parley.transport.base import Transport
+from parley.world.object_map import MapObject
+from parley.world.occupancy import OccupancyMap
+
+__all__ = ["MapService", "map_info"]
+
+
+class MapService(Node):
+    """Knows the maps of all robots of a system.
+
+    Args:
+        transport: Where it answers.
+        maps: Robot -> the floor it drives by, and what stands on it.
+    """
+
+    name: ClassVar[str] = "map_service"
+
+    def __init__(
+        self, transport: Transport, maps: Mapping[str, tuple[OccupancyMap, Iterable[MapObject]]]
+    ) -> None:
+        super().__init__(transport)
+        self._maps = maps
+
+    async def open(self) -> None:
+        """See `Node.open`."""
+        server = await self.transport.serve(topics.GET_MAP, self._on_get)
+        self.opened.push_async_callback(server.close)
+
+    async def _on_get(self, request: ChatRequest) -> ChatResponse:
+        """A `MapInfo`, or an empty object: there is no such map, or the request cannot be read."""
+        try:
+            robot = decode(GetMap, request.message).robot
+        except InvalidMessageError as error:
+            self.refuse(topics.GET_MAP.name, error)
+            return ChatResponse("{}")
+        if robot not in self._maps:
+            return ChatResponse("{}")
+        occupancy, objects = self._maps[robot]
+        info = await asyncio.to_thread(map_info, robot, occupancy, objects)
+        return ChatResponse(encode(info))
+
+
+def map_info(robot: str, occupancy: OccupancyMap, objects: Iterable[MapObject]) -> MapInfo:
+    """The message about one map."""
+    buffer = io.BytesIO()
+    Image.fromarray(occupancy.to_pixels()).save(buffer, "PNG")
+    rows, columns = occupancy.cells.shape
+    return MapInfo(
+        robot=robot,
+        name=occupancy.name,
+        resolution=occupancy.resolution_m,
+        width=columns,
+        height=rows,
+        origin=PoseInfo(x=occupancy.origin_x_m, y=occupancy.origin_y_m),
+        image=base64.b64encode(buffer.getvalue()).decode("ascii"),
+        objects=tuple(
+            MapThing(
+                id=item.id,
+                kind=item.class_name,
+                description=item.description,
+                x=item.x_m,
+                y=item.y_m,
+                width=item.width_m,
+                height=item.height_m,
+            )
+            for item in objects
+        ),
+    )

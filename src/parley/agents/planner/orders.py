@@ -1,0 +1,65 @@
+"""What the planner makes of orders and decisions before a plan hears of them, and its own words. Pure."""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from typing import Final
+
+from parley.agents.planner.effects import Effect
+from parley.agents.planner.plan import TargetPlan
+from parley.messages.chat import ActionCall, ChatAction, SystemCommand
+from parley.sentences import sentence
+
+__all__ = [
+    "LEFT", "NOTHING_DONE", "NOT_AS_SHOWN", "PLAN_CHANGED", "STEP_OVER", "WAITING", "WAITING_HELPLESS",
+    "bare", "forgetting", "in_order", "no_robot", "of_memory", "of_plans", "take_repair",
+]  # fmt: skip
+
+_HELP: Final = sentence("Say “try again”, “skip it” or “cancel everything”, or give me another order.")
+WAITING: Final = sentence("Then I am waiting here. {help}", help=_HELP)
+WAITING_HELPLESS: Final = sentence(
+    "What I worked out would not help, so I am waiting here. {help}", help=_HELP
+)
+NOTHING_DONE: Final = "I worked out a plan that I cannot carry out, so I did nothing."
+LEFT: Final = "I cannot carry out these steps, so I left everything as it is."
+NOT_AS_SHOWN: Final = sentence("That is not what waits for your yes by now, so I have not begun.")
+STEP_OVER: Final = "That step is over by now, so there was nothing to leave out."
+PLAN_CHANGED: Final = "The plan has changed in the meantime, so I left it as it is. Please look at it again."
+
+
+def no_robot(name: str, known: str) -> str:
+    """That nobody is called `name`, and who is there."""
+    return sentence("There is no robot called {name}. {known}", name=name, known=known)
+
+
+def take_repair(plan: TargetPlan, calls: Sequence[ActionCall]) -> list[Effect]:
+    """Do what a person agreed to, even if the robot was told to stand still meanwhile."""
+    return plan.append(calls) if plan.given_up and calls else plan.correct(calls)
+
+
+def bare(call: ActionCall) -> tuple[str, object]:
+    """What makes two actions do the same: name and arguments."""
+    return call.name, call.input_parameters
+
+
+def of_memory(order: ChatAction) -> list[SystemCommand]:
+    """The commands of an order that are about memories."""
+    return [c for c in order.system_cmd if c.command in ("add_memory", "remove_memory")]
+
+
+def forgetting(order: ChatAction) -> list[SystemCommand]:
+    """What is to be forgotten only after a yes."""
+    return [c for c in of_memory(order) if order.needs_yes and c.command == "remove_memory"]
+
+
+def of_plans(order: ChatAction) -> list[SystemCommand]:
+    """The others."""
+    return [c for c in order.system_cmd if c.command not in ("add_memory", "remove_memory")]
+
+
+def in_order(commands: Sequence[SystemCommand]) -> list[SystemCommand]:
+    """Steps are counted before any is dropped, so the last is dropped first."""
+    last_first = iter(
+        sorted((c for c in commands if c.command == "pop"), key=lambda c: c.pop_index or 0, reverse=True)
+    )
+    return [next(last_first) if command.command == "pop" else command for command in commands]

@@ -1,0 +1,232 @@
+"""One robot's plan: what is to be done, what is being done, what went wrong. Pure; the planner node wires it.
+
+Every method says what to send (a list of `Effect`s) and changes nothing else. The plan never assumes that a
+message arrives: what the engine reports decides, and what differs from the plan is sent again.
+
+Step identity: each node gets an ``instance_id`` from a counter that never goes back within a graph, kept in
+plan order. A repeated or moved step gets a new one: late reports about an old one cannot be mistaken for it.
+
+Here are the orders; what the plan is made of is in `plan_core`, what it makes of reports in `plan_reports`.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from typing import Final
+
+from parley.agents.planner.core import GOING, KEEP_DONE
+from parley.agents.planner.effects import Effect, PauseGraph, ResumeGraph, Say, StopGraph
+from parley.agents.planner.flow import shifted, steps_of
+from parley.agents.planner.reports import ReportedPlan
+from parley.agents.planner.steps import ACTIVE_STATES, OPEN_STATES, Step, When, with_givers
+from parley.messages.chat import ActionCall
+from parley.sentences import sentence
+
+__all__ = ["KEEP_DONE", "TargetPlan"]
+
+_ALL_AT_ONCE: Final = (
+    "I can only stop all that I am doing at the same time, not one of it. "
+    "Wait until the rest is done, or say “cancel everything”."
+)
+
+
+class TargetPlan(ReportedPlan):
+    """The plan of one robot.
+
+    Args:
+        target: The robot.
+        new_graph_name: Gives a name never used before.
+        waits_for_operator: Whether an action (by name) waits for a person while it runs.
+        can_end_step: Whether the engine understands `/parley/step`, and tells how each step ended; if not,
+            skipping restarts the rest.
+    """
+
+    def append(self, calls: Sequence[ActionCall]) -> list[Effect]:
+        """Add actions behind the plan; during a repair they wait, after one that failed they go first."""
+        if not calls:
+            return []
+        if self.given_up:
+            return self._replace_failed(calls)
+        over = self._over
+        self._add(calls)
+        if self.held:
+            return []
+        return self._start() if over else self._push()
+
+    def edit(self, calls: Sequence[ActionCall]) -> list[Effect]:
+        """Put `calls` in the place of all steps that have not begun.
+
+        Args:
+            calls: Their flows count the steps that have begun, in order, and then `calls`.
+        """
+        over, free = self._over, {id(step) for step in self.not_begun}
+        begun = [step for step in self.steps if id(step) not in free]
+        self.steps = [*begun, *steps_of(calls, begun, begun)]
+        return self._start() if over and calls else self._push()
+
+    @property
+    def _over(self) -> bool:
+        """Whether nothing is left, so that what comes next begins a graph of its own."""
+        return self.run in ("none", "halted") and not self.held and not self.pending
+
+    def restore(self, steps: Sequence[Step]) -> None:
+        """Take over what an earlier process left; it waits until the operator says to go on."""
+        self.steps, self._pause_wanted = [*steps], bool(steps)
+
+    def adopt(self, graph_name: str, steps: Sequence[Step], *, dry: bool) -> None:
+        """Take over a graph that an engine holds since an earlier process; as `restore`.
+
+        Args:
+            graph_name: The graph.
+            steps: What it consists of, with the ids of its nodes.
+            dry: Whether it ran dry; otherwise it stands still.
+        """
+        self.restore(steps)
+        self.graph_name, self.run = graph_name, "halted" if dry else "paused"
+        self._next_id = 1 + max((step.instance_id for step in steps), default=-1)
+
+    def fail_again(self, action: str) -> Step | None:
+        """Of what an earlier process left, the step whose repair was under way; the plan is held for it."""
+        step = next((s for s in self.steps if s.call.name == action and s.state == "queued"), None)
+        if step is not None:
+            step.state, self.held, self._pause_wanted = "failed", True, False
+        return step
+
+    def pause(self) -> list[Effect]:
+        """Stand still, keep the plan."""
+        if self.held:
+            self.given_up = True
+            return self._still()
+        self._pause_wanted = bool(self.pending)
+        return [PauseGraph(self.graph_name)] if self._pause_wanted and self.run in GOING else []
+
+    def start(self) -> list[Effect]:
+        """Go on after a pause, or try a failed step again."""
+        if self.held and self.failed is not None:
+            return self._replace_failed([self.failed.call])
+        if not self.pending:
+            return [Say("There is nothing left to go on with.")]
+        self._pause_wanted = False
+        if self.run in ("none", "halted"):
+            return self._push()
+        if self.run not in GOING:
+            return []
+        # A pause that somebody else caused may not have been reported yet; resuming what runs does nothing.
+        changes = self._modify() if self._dirty else []
+        return [*changes, ResumeGraph(self.graph_name)]
+
+    def clear(self) -> list[Effect]:
+        """Drop everything and stop the robot's graph."""
+        for step in self.steps:
+            if step.state in OPEN_STATES or step.state == "failed":
+                step.state = "stopped"
+        self.held = self.given_up = self._pause_wanted = self._dirty = self._awaiting = False
+        if not self.graph_name:
+            return []
+        self._stopping, self.graph_name, self.run = self.graph_name, "", "stopping"
+        return [StopGraph(self._stopping)]
+
+    def pop(self, index: int | None) -> list[Effect]:
+        """Drop the pending step `index` (0 is the one being executed).
+
+        A missing or impossible index changes nothing and is said (P15).
+        """
+        pending = self.pending
+        if index is None or not 0 <= index < len(pending):
+            left = len(pending)
+            return [Say(_no_step(index, left), "error")]
+        step = pending[index]
+        if step is self.current:
+            return self.skip()
+        if step.state in ACTIVE_STATES:
+            if self._ends_others(step):
+                return [Say(_ALL_AT_ONCE, "error")]
+            step.ending = True
+            return self._end(step)
+        self.steps.remove(step)
+        self._tidy()
+        return self._push()
+
+    def skip(self) -> list[Effect]:
+        """Leave out the step being executed, or the failed one, and go on with the next."""
+        current = self.current
+        if current is None:
+            return [Say("There is no step to skip.")]
+        if current.state == "failed":
+            return self._replace_failed([])
+        if current.state == "queued" and self.run not in ("starting", "continuing", "running"):
+            current.state = "skipped"
+            self._tidy()
+            return self._push()
+        if self._ends_others(current):
+            return [Say(_ALL_AT_ONCE, "error")]
+        current.ending = True
+        self._pause_wanted = False
+        return self._end(current) if current.state != "queued" else []
+
+    def _ends_others(self, step: Step) -> bool:
+        """Whether the engine could end `step` only together with what runs beside it."""
+        beside = (s for s in self.steps if s is not step and s.together is step.together)
+        return not self._can_end_step() and any(other.state in OPEN_STATES for other in beside)
+
+    def correction(self, calls: Sequence[ActionCall]) -> list[ActionCall]:
+        """What will really be put in the failed step's place: `calls` with the values they can be given."""
+        failed = self.failed
+        if failed is None or not calls:
+            return list(calls)
+        corrected = with_givers(calls, self.steps[: self.steps.index(failed)])
+        return corrected if len(corrected) == len(calls) else [corrected[0], *shifted(calls, 1)]
+
+    def correct(self, calls: Sequence[ActionCall]) -> list[Effect]:
+        """Put `calls` in the place of the failed step (none: leave it out) and go on.
+
+        A correction for which nothing failed, or that comes after the repair was ended, is late and dropped.
+        """
+        return self._replace_failed(calls) if self.failed is not None and not self.given_up else []
+
+    def give_up(self) -> list[Effect]:
+        """Repair ended without success: stay held, keep the plan, take the next order."""
+        self.given_up = self.held
+        return [PauseGraph(self.graph_name)] if self.held and self.graph_name else []
+
+    def _still(self) -> list[Effect]:
+        """Beside a step that failed another may still be coming to its end."""
+        active = any(step.state in ACTIVE_STATES for step in self.steps)
+        return [PauseGraph(self.graph_name)] if active and self.graph_name else []
+
+    def _replace_failed(self, calls: Sequence[ActionCall]) -> list[Effect]:
+        failed = self.failed
+        self.held = self.given_up = False
+        if failed is None:
+            self._add(calls)
+            return self._push()
+        self._put_for(failed, self.correction(calls))
+        self._tidy()
+        return self._push()
+
+    def _put_for(self, failed: Step, calls: Sequence[ActionCall]) -> None:
+        """Put `calls` in the failed step's place; what ran beside it is done again beside the last."""
+        beside = [s for s in self.steps if s.together is failed.together and s.state in OPEN_STATES]
+        at = min(self.steps.index(step) for step in [failed, *beside])
+        steps = steps_of(calls, self.steps[:at])
+        place = self.steps.index(failed)
+        self.steps[place : place + 1] = steps[-1:]
+        self.steps[at:at] = steps[:-1]
+        if not steps:
+            return
+        steps[-1].together = failed.together
+        heir = next((step for step in reversed(steps) if step.call.name == failed.call.name), steps[-1])
+        for step in self.steps:
+            if step.when is not None and step.when.step is failed:
+                step.when = When(heir, step.when.result)
+
+
+def _no_step(index: int | None, left: int) -> str:
+    """That a step cannot be meant, and how many there are."""
+    if index is None:
+        several = sentence("There is no such step; {left} steps are left.", left=left)
+        return sentence("There is no such step; one step is left.") if left == 1 else several
+    number = index + 1
+    if left == 1:
+        return sentence("There is no step number {number}; one step is left.", number=number)
+    return sentence("There is no step number {number}; {left} steps are left.", number=number, left=left)

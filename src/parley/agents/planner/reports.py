@@ -1,0 +1,377 @@
+"""What a robot's plan makes of what the engine reports. Pure."""
+
+from __future__ import annotations
+
+from collections.abc import Collection, Mapping, Sequence
+from typing import Any, Final
+
+from parley.agents.planner.core import PlanCore
+from parley.agents.planner.effects import Effect, EndStep, PauseGraph, Say, StopGraph
+from parley.agents.planner.steps import (
+    ACTIVE_NODES,
+    ACTIVE_STATES,
+    GONE_CODES,
+    KEPT_LATCHED,
+    LATCHED,
+    OPEN_STATES,
+    Step,
+    previous,
+    stages,
+    verdict,
+)
+from parley.errors import FailureCode
+from parley.messages.failure import FailureReport
+from parley.sentences import sentence
+from parley.umrf.model import Graph, GraphState, Node, NodeState, Response, Result
+
+__all__ = ["ReportedPlan"]
+
+_UNCHANGED: Final = "I could not do that, so I changed nothing."
+_BUSY: Final = ACTIVE_NODES | {NodeState.STOPPING}
+
+
+def _state(nodes: Mapping[str, Node], step: Step) -> NodeState | None:
+    node = nodes.get(step.node)
+    return node.state if node is not None else None
+
+
+class ReportedPlan(PlanCore):
+    """The part of `TargetPlan` that listens to the engine."""
+
+    def on_graph(self, graph: Graph) -> list[Effect]:
+        """Take over what the engine reports; reports about any other graph are late and dropped (P4)."""
+        if graph.name == self._stopping:
+            return self._on_stopping(graph)
+        if graph.name == self._abandoned and graph.state in (GraphState.RUNNING, GraphState.PAUSED):
+            return [StopGraph(graph.name)]
+        if not self.graph_name or graph.name != self.graph_name:
+            return []
+        effects: list[Effect] = []
+        by_name = {node.full_name: node for node in graph.nodes}
+        answered = False
+        found = [
+            (step, by_name[step.node])
+            for group in stages(self.steps)
+            # What failed comes first, as it decides whether the end of what ran beside it counts.
+            for step in sorted(group, key=lambda s: _state(by_name, s) is not NodeState.ERROR)
+            if step.node in by_name
+        ]
+        self._note_dropped(graph, found)
+        self._note_unharmed(graph, found)
+        for step, node in found:
+            if step.node == node.full_name:
+                was = step.result
+                effects += self._on_node(step, node)
+                answered |= node.state is NodeState.ERROR and was is None and step.result is False
+        state = graph.state
+        if answered and not any(node.state in _BUSY for node in graph.nodes):
+            state = GraphState.HALTED  # the reference's last word after an error is that the graph runs (D17)
+        return effects + self._end_strays(graph) + self._on_graph_state(state)
+
+    def on_outputs(self, graph_name: str, node: str, outputs: dict[str, Any]) -> None:
+        """Remember what a step gave, for steps that have to be run again apart from it."""
+        if graph_name == self.graph_name:
+            for step in self.steps:
+                if step.node == node:
+                    step.outputs.update(outputs)
+
+    def on_result(self, graph_name: str, node: str, result: str) -> list[Effect]:
+        """Take over how a step ended: `on_true`, `on_false`, `on_stopped` or `on_error`."""
+        step = next((s for s in self.steps if s.node == node), None) if node else None
+        if graph_name != self.graph_name or step is None:
+            return []
+        if result in ("on_true", "on_false"):
+            step.result = result == "on_true"
+        elif result == "on_stopped":
+            step.stopped = True
+            if step.upset and step.state == "finished":
+                step.again()
+                return self._continue() if self._may_continue() else []
+        if self.run == "halted":
+            self._note_ended_by_others()
+        self._decide()
+        return self._continue() if self._awaiting and self._may_continue() else []
+
+    def on_no_result(self, graph_name: str) -> list[Effect]:
+        """How a step ended was waited for, and not heard."""
+        if graph_name != self.graph_name or not self._awaiting or not self._may_continue():
+            return []
+        self._awaiting = False
+        return self._unknown()
+
+    def _may_continue(self) -> bool:
+        return self.run == "halted" and not self.held and not self._pause_wanted
+
+    def on_refused(self, graph_name: str, what: str, codes: Collection[str] = ()) -> list[Effect]:
+        """The engine refused the command `what`, for the reasons `codes`.
+
+        A refused start means that nothing runs (P2). After an emergency stop, and when the engine has lost
+        the graph, the plan is kept until the operator says to go on.
+        """
+        if graph_name != self.graph_name or not graph_name:
+            return []
+        command, latched = what.removeprefix("umrf_graph_"), "stop_latched" in codes
+        if command in ("pause", "resume") and self.run == "starting":
+            return []  # it overtook the start; a pause is sent again
+        if command != "start" and not GONE_CODES.isdisjoint(codes):
+            return self._on_gone(go_on=command == "resume")
+        if command == "start" and self.run == "starting":
+            self._abandon_start()
+            for step in self.steps:
+                if step.state == "queued" and not latched:
+                    step.state = "stopped"
+        elif command == "modify":
+            told = self._dirty and self.run == "halted"
+            self._dirty = True
+            if self._nudged:
+                self.run, self._nudged = "halted", set()
+            elif told:
+                return []  # one of several commands that are refused for the same reason
+            if "node_active" in codes:
+                return []  # a step began just before it was dropped; it is ended
+        elif command == "pause":
+            self._pause_wanted = False
+        return self._kept(command) if latched else [Say(_UNCHANGED, "error")]
+
+    def _kept(self, command: str) -> list[Effect]:
+        """After an emergency stop nothing is sent, and refused, again before somebody says to go on."""
+        self._pause_wanted = bool(self.pending)
+        return [Say(LATCHED if command == "resume" else KEPT_LATCHED, "error")]
+
+    def on_return(self, graphs: Mapping[str, str]) -> list[Effect]:
+        """The robot is back after its contact was lost, with these graphs and their states.
+
+        What was said while it was away it did not hear: it is told again to stop or to stand still.
+        """
+        going = {name for name, state in graphs.items() if state in (GraphState.RUNNING, GraphState.PAUSED)}
+        given_up = [StopGraph(name) for name in (self._stopping, self._abandoned) if name in going]
+        if not self.graph_name or self.run == "starting":
+            return [*given_up]
+        if self.graph_name in graphs:
+            return [*given_up, *([PauseGraph(self.graph_name)] if self._pause_wanted else ())]
+        return [*given_up, *self._on_gone(go_on=False)]
+
+    def on_no_answer(self, graph_name: str) -> list[Effect]:
+        """Nothing was heard since the start of `graph_name`: the robot may be away."""
+        if graph_name != self.graph_name or self.run != "starting":
+            return []
+        self._abandon_start()
+        self._abandoned = graph_name
+        text = sentence(
+            "{robot} does not answer. The plan is kept; say “carry on” to try again.", robot=self.target
+        )
+        return [Say(text, "error")]
+
+    def on_no_progress(self, graph_name: str, node: str) -> list[Effect]:
+        """A dry graph was told to go on with `node` some time ago; if it did not, that step failed."""
+        step = next((s for s in self.steps if s.node == node), None)
+        asked = graph_name == self.graph_name and node in self._nudged and not self.held
+        if not asked or step is None or step.state != "queued" or self._pause_wanted:
+            return []
+        reason = f"I could not begin with this step: {step.call.reason or step.call.name}."
+        self._nudged.clear()
+        self.run = "running" if any(s.state in ACTIVE_STATES for s in self.steps) else "halted"
+        return self._fail(step, FailureReport(message=reason, code=FailureCode.INTERNAL))
+
+    def on_no_end(self, graph_name: str) -> list[Effect]:
+        """A stopped graph did not report its end in time: go on without it."""
+        if graph_name != self._stopping:
+            return []
+        self._abandoned, self._stopping, self.run = graph_name, "", "none"
+        return self._push()
+
+    # -- inside ----------------------------------------------------------------------------------------
+
+    def _on_node(self, step: Step, node: Node) -> list[Effect]:
+        if step.state not in OPEN_STATES:
+            return []
+        match node.state:
+            case NodeState.RUNNING:
+                return self._on_running(step, node)
+            case NodeState.STOPPING if step.state == "queued":
+                step.state = "running"
+            case NodeState.PAUSED | NodeState.PAUSE_REQUESTED:
+                step.state = "paused"
+                self._nudged.discard(step.node)
+            case NodeState.FINISHED:
+                self._nudged.discard(step.node)
+                if step.upset and not step.ending and (step.stopped or not self._can_end_step()):
+                    step.again()  # an engine that does not say that it was stopped may have stopped it
+                else:
+                    step.state = "skipped" if step.ending else "finished"
+            case NodeState.ERROR if step.ending:
+                step.state = "skipped"
+            case NodeState.ERROR if step.upset or self.held:
+                step.again()  # one failure at a time; should it fail again, it is told then
+            case NodeState.ERROR:
+                newest = max(node.messages, key=lambda entry: entry.timestamp, default=None)
+                report = FailureReport.parse(newest.message if newest else "It failed without saying why.")
+                return self._on_error(step, report)
+        return []
+
+    def _on_running(self, step: Step, node: Node) -> list[Effect]:
+        begins = step.state == "queued"
+        step.state = "waiting" if self._waits(node.name) else "running"
+        self._nudged.discard(step.node)
+        if not begins:
+            return []
+        for other in self.steps:
+            other.ending = other.ending and other.state != "skipped"  # what follows it has begun
+        return self._end(step) if step.ending else []
+
+    def _on_error(self, step: Step, report: FailureReport) -> list[Effect]:
+        """A step that failed is repaired; but where others ask whether something is there, no will do."""
+        self._nudged.discard(step.node)
+        asked = any(s.when is not None and s.when.step is step for s in self.steps if s.state in OPEN_STATES)
+        if report.code is FailureCode.NO_MATCH and asked:
+            step.state, step.result = "finished", False
+            self._upset(step)
+            return []
+        return self._fail(step, report)
+
+    def _on_graph_state(self, state: GraphState) -> list[Effect]:
+        match state:
+            case GraphState.RUNNING | GraphState.INITIALIZED | GraphState.UNINITIALIZED:
+                return self._on_going()
+            case GraphState.PAUSED:
+                self.run = "paused"
+                current = next((s for s in self.steps if s.state in OPEN_STATES), None)
+                if any(s.ending for s in self.steps) and current is not None and current.state == "queued":
+                    return self._go_on_after_skip()
+            case GraphState.HALTED:
+                return self._on_halted()
+            case GraphState.STOPPED | GraphState.FINISHED | GraphState.ERROR:
+                return self._on_ended_by_others(state)
+        return []
+
+    def _on_going(self) -> list[Effect]:
+        just_started, self.run = self.run in ("starting", "continuing"), "running"
+        if self.held:
+            # The reference's last word after an error is that the graph still runs (D17).
+            if not any(step.state in ACTIVE_STATES for step in self.steps):
+                self.run = "halted"
+            return []
+        if self._pause_wanted:  # the pause may have overtaken what set it going
+            return [PauseGraph(self.graph_name)] if just_started else []
+        return self._modify() if self._dirty else []
+
+    def _infer(self) -> None:
+        """An engine that does not say how steps ended shows it by what it left out.
+
+        That is what it passed by, and what it did not begin although the step before decides about it.
+        """
+        begun = 0
+        for index, step in enumerate(self.steps):
+            if step.state != "queued":
+                begun = index
+        for index, step in enumerate(self.steps):
+            on = step.when.step if step.when is not None else None
+            if step.state != "queued" or on is None or on.state != "finished" or verdict(step) is not None:
+                continue
+            if index < begun or on in previous(self.steps, index, step.together):
+                step.state = "skipped"
+
+    def _on_halted(self) -> list[Effect]:
+        if not self.held and not self._nudged and not self._can_end_step():
+            self._infer()
+        self._note_ended_by_others()
+        self._decide()
+        waiting = [step for step in self.steps if step.state in OPEN_STATES]
+        if waiting and not self.held and self._is_asked(waiting):
+            return []  # asked already; this report may be older than that. `on_no_progress` watches it.
+        self.run = "halted"
+        if self.held:
+            return []
+        if any(step.ending and step.state == "skipped" for step in self.steps):
+            return self._go_on_after_skip()
+        if not waiting or self._pause_wanted or self._awaiting:
+            return []
+        return self._continue()
+
+    def _is_asked(self, waiting: list[Step]) -> bool:
+        asked = {step.node for step in waiting if step.state == "queued"} & self._nudged
+        return bool(asked) and self.run in ("continuing", "running")
+
+    def _go_on_after_skip(self) -> list[Effect]:
+        for step in self.steps:
+            step.ending = False
+        self._tidy()
+        return [] if self._pause_wanted else self._continue()
+
+    def _end_strays(self, graph: Graph) -> list[Effect]:
+        """A step that began just before it was dropped is ended."""
+        known = {step.node for step in self.steps if step.state != "skipped"}
+        strays = [n.full_name for n in graph.nodes if n.state in ACTIVE_NODES and n.full_name not in known]
+        return [EndStep(graph.name, node) for node in strays if self._can_end_step()]
+
+    def _on_gone(self, *, go_on: bool) -> list[Effect]:
+        """The engine has no such graph, e.g. because it was started anew; the plan is kept."""
+        self._abandon_start()
+        self._pause_wanted = False
+        if go_on:
+            return self._push()
+        text = "My plan was interrupted. It is kept; say “carry on” when I should go on with it."
+        return [Say(text, "error")] if self.pending and not self.held else []
+
+    def _note_ended_by_others(self) -> None:
+        """Steps that somebody else ended are as those that were left out: nothing came of them."""
+        for step in self.steps:
+            if step.ended_by_others:
+                step.state = "stopped"
+
+    def _on_ended_by_others(self, state: GraphState) -> list[Effect]:
+        """The graph ended although nobody asked here: what is left will not run."""
+        left = [
+            step
+            for step in self.steps
+            if step.state in OPEN_STATES or (step.state in ("finished", "stopped") and step.stopped)
+        ]
+        for step in left:
+            step.state = "stopped"
+        self.graph_name, self.run, self._pause_wanted = "", "none", False
+        if not left or state is GraphState.FINISHED:
+            return []
+        undone = "; ".join(step.call.reason for step in left if step.call.reason)
+        if not undone:
+            return [Say("The plan was stopped.")]
+        return [Say(sentence("The plan was stopped. Not done: {undone}.", undone=undone))]
+
+    def _note_dropped(self, graph: Graph, found: Sequence[tuple[Step, Node]]) -> None:
+        """A step that was dropped when it had begun already may fail yet, and stop what ran beside it."""
+        known = {step.node for step, _ in found}
+        failed = {
+            node.ref for node in graph.nodes if node.state is NodeState.ERROR and node.full_name not in known
+        }
+        for step, node in found:
+            stops = (
+                edge.node in failed and edge.response(Result.ON_ERROR) is Response.STOP
+                for edge in node.parents
+            )
+            if failed and any(stops):
+                step.upset = step.upset or (step.state in OPEN_STATES and step.result is None)
+
+    def _note_unharmed(self, graph: Graph, found: Sequence[tuple[Step, Node]]) -> None:
+        """What ran on beside a step that failed while all stood still was not stopped: its end counts."""
+        if self._can_end_step() or any(node.state is NodeState.ERROR for node in graph.nodes):
+            return
+        for step, node in found:
+            step.upset = step.upset and node.state is not NodeState.RUNNING
+
+    def _on_stopping(self, graph: Graph) -> list[Effect]:
+        if graph.state is GraphState.RUNNING:
+            self._note_done(graph)
+            return [StopGraph(self._stopping)]  # the stop may have overtaken the start
+        if graph.state not in (GraphState.STOPPED, GraphState.ERROR, GraphState.FINISHED):
+            return []
+        self._stopping, self.run = "", "none"
+        return self._push()
+
+    def _note_done(self, graph: Graph) -> None:
+        """What has come to its end before the stop reached the engine need not be done again."""
+        done = {node.full_name for node in graph.nodes if node.state is NodeState.FINISHED}
+        for step in self.steps:
+            if step.state in OPEN_STATES and step.node in done:
+                step.state = "finished"
+
+    def _abandon_start(self) -> None:
+        self.graph_name, self.run = "", "none"

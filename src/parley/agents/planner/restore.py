@@ -1,0 +1,121 @@
+"""What a killed process left of a robot's plan, as steps that can be gone on with. Pure."""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from typing import Any
+
+from parley.agents.planner.graph import FLOW_KEY
+from parley.agents.planner.steps import Step, When, handed_over, previous, with_givers
+from parley.engine.journal import Interrupted
+from parley.messages.chat import ActionCall
+from parley.sentences import sentence
+from parley.umrf.model import Node, NodeState
+
+__all__ = ["adopted_steps", "interruption_text", "restored_steps"]
+
+
+def restored_steps(was: Interrupted) -> list[Step]:
+    """What was not finished, to be done again from the interrupted step on.
+
+    A step that takes its inputs from one that is done gets the values which that gave; if they were not
+    written down, the giver is done again too. A graph that is no simple sequence is none of steps: its
+    engine goes on with it as it is (`ActionEngine.restore`).
+    """
+    if not was.is_linear or _has_flow(was):
+        return []
+    done = [
+        Step(_call(node), state="finished", outputs=dict(was.outputs.get(node.full_name, {})))
+        for node in was.graph.nodes
+        if node.state is NodeState.FINISHED
+    ]
+    steps: list[Step] = []
+    for call in with_givers([_call(node) for node in was.remaining], done):
+        steps.append(Step(call, fed=handed_over(call, steps[-1:])))
+    return steps
+
+
+def adopted_steps(was: Interrupted) -> list[Step]:
+    """The plan behind a graph with conditions or concurrency that its engine holds, as far as it can be told.
+
+    None if the graph was not made by a planner, or is a simple sequence.
+    """
+    if not _has_flow(was):
+        return []
+    steps: dict[str, Step] = {}
+    for node in was.graph.nodes:
+        flow = _flow(node)
+        step = Step(_call(node), node.instance_id, outputs=dict(was.outputs.get(node.full_name, {})))
+        step.state = "finished" if node.state is NodeState.FINISHED else "queued"
+        if node.state is NodeState.ERROR:
+            step.instance_id = -1  # done anew, as a node of its own
+        leader, condition = steps.get(flow.get("together_with", "")), flow.get("if", {})
+        if leader is not None:
+            step.together = leader.together
+        on = steps.get(condition.get("node", ""))
+        if on is not None:
+            step.when = When(on, bool(condition["result"]))
+            if node.state is not NodeState.UNINITIALIZED:
+                on.result = step.when.result  # it would not have begun otherwise
+        steps[node.full_name] = step
+    found = list(steps.values())
+    for index, step in enumerate(found):
+        step.fed = handed_over(step.call, previous(found, index, step.together))
+    _leave_out_passed(found, [node.state for node in was.graph.nodes])
+    return found
+
+
+def _leave_out_passed(steps: Sequence[Step], states: Sequence[NodeState]) -> None:
+    """What did not begin although something behind it has is not to be done."""
+    begun: object = None
+    for step, state in reversed(list(zip(steps, states, strict=True))):
+        if state is not NodeState.UNINITIALIZED:
+            begun = begun or step.together
+        elif begun is not None and begun is not step.together:
+            step.state = "skipped"
+
+
+def _has_flow(was: Interrupted) -> bool:
+    return any(_flow(node) for node in was.graph.nodes)
+
+
+def _flow(node: Node) -> dict[str, Any]:
+    attributes = node.gui_attributes
+    flow = attributes.get(FLOW_KEY) if isinstance(attributes, dict) else None
+    return flow if isinstance(flow, dict) else {}
+
+
+def interruption_text(was: Interrupted, goes_on: Sequence[Step] | bool) -> str:
+    """What the operator is told about it.
+
+    Args:
+        was: What was interrupted.
+        goes_on: The steps that are left, or whether its engine holds it.
+    """
+    current = next(iter(was.going_on or was.remaining))
+    words = current.description or current.name
+    if was.shared:
+        return sentence(
+            "I was interrupted while I was at “{step}”. The other robots have gone on without me, "
+            "so please give the order again if it still holds.",
+            step=words,
+        )
+    if not goes_on:
+        return sentence(
+            "I was interrupted while I was at “{step}”. Please give the order again if it still holds.",
+            step=words,
+        )
+    return sentence(
+        "I was interrupted while I was at “{step}”. Say “carry on” to go on with the rest, or “cancel "
+        "everything”.",
+        step=words,
+    )
+
+
+def _call(node: Node) -> ActionCall:
+    return ActionCall(
+        name=node.name,
+        input_parameters=dict(node.input_parameters),
+        output_parameters=dict(node.output_parameters),
+        reason=node.description,
+    )

@@ -1,0 +1,152 @@
+"""What robots do with their plans when nobody is connected for a while: go on, wait, or drive home."""
+
+from __future__ import annotations
+
+import asyncio
+from typing import Any, ClassVar, Final
+
+from parley.agents.base import Node
+from parley.clock import Clock
+from parley.messages import topics
+from parley.messages.attendance import Attendance, Unattended
+from parley.messages.chat import ActionCall, ChatAction, ChatFeedback, ChatInput, CommandName, SystemCommand
+from parley.messages.principal import Principal
+from parley.messages.status import ActorStatus, PlanProposal, PlanUpdate, PoseInfo
+from parley.sentences import sentence
+from parley.transport.base import Transport
+
+__all__ = ["PRESENCE", "Absence", "UnattendedPlans"]
+
+PRESENCE: Final = Principal(kind="program", name="presence", key="presence")
+SILENT_S: Final = 15.0
+"""Wall time after which nobody counts as connected through a server that tells nothing any more."""
+LOOK_S: Final = 1.0
+
+_TEXTS: Final[dict[Unattended, str]] = {
+    "go_on": "Nobody is connected any more. I go on with what I was told.",
+    "hold": "Nobody is connected any more, so I wait here. Say “carry on” when I should go on.",
+    "go_home": "Nobody is connected any more, so I drop the rest and go back to where I started.",
+}
+_REASON: Final = "go back to where I started"
+
+
+class Absence:
+    """Since when nobody is connected. Pure: the time is handed in."""
+
+    def __init__(self) -> None:
+        self._servers: dict[str, tuple[int, float]] = {}
+        self._since_s: float | None = None
+
+    def heard(self, told: Attendance, now_s: float) -> None:
+        """A server tells how many there are."""
+        self._servers[told.server] = (told.people, now_s)
+
+    def since_s(self, now_s: float) -> float | None:
+        """Since when there is nobody; None: there is somebody, or no server that would know."""
+        people = sum(count for count, at_s in self._servers.values() if now_s - at_s <= SILENT_S)
+        if people or not self._servers:
+            self._since_s = None
+        elif self._since_s is None:
+            self._since_s = now_s
+        return self._since_s
+
+
+class UnattendedPlans(Node):
+    """Looks after plans that nobody looks after.
+
+    Args:
+        transport: Where the topics are.
+        clock: Wall time.
+        choice: What robots do whose order says nothing of it.
+        after_s: Wall time for which nobody must be connected.
+    """
+
+    name: ClassVar[str] = "unattended plans"
+
+    def __init__(self, transport: Transport, clock: Clock, choice: Unattended, after_s: float) -> None:
+        super().__init__(transport)
+        self._clock, self._choice, self._after_s = clock, choice, after_s
+        self._absence = Absence()
+        self._choices: dict[str, Unattended] = {}
+        """As the newest order of each robot says."""
+        self._running: set[str] = set()
+        self._homes: dict[str, PoseInfo] = {}
+        """Where each robot stood when it was heard of first."""
+        self._settled: set[str] = set()
+        """Robots that did their part in this absence."""
+
+    async def open(self) -> None:
+        """See `Node.open`."""
+        await self.subscribe(topics.ATTENDANCE, Attendance, self._on_attendance)
+        await self.subscribe(topics.CHAT_INPUT, ChatInput, self._on_input)
+        await self.subscribe(topics.ACTOR_STATUS, ActorStatus, self._on_status)
+        await self.subscribe_plans(self._on_plan)
+        self.spawn(self._watch(), name="watch")
+
+    def look(self) -> None:
+        """See whether somebody is there, and what is to be done if not."""
+        now_s = self._clock.wall_s()
+        since_s = self._absence.since_s(now_s)
+        if since_s is None:
+            self._settled.clear()
+        elif now_s - since_s >= self._after_s:
+            for robot in sorted(self._running - self._settled):
+                self._settled.add(robot)
+                self._settle(robot)
+
+    async def _watch(self) -> None:
+        while True:
+            self.look()
+            await asyncio.sleep(LOOK_S)
+
+    def _on_attendance(self, told: Attendance) -> None:
+        self._absence.heard(told, self._clock.wall_s())
+        self.look()
+
+    def _on_input(self, said: ChatInput) -> None:
+        if said.unattended is not None:
+            self._choices |= dict.fromkeys(said.targets, said.unattended)
+
+    def _on_status(self, status: ActorStatus) -> None:
+        if status.pose is not None:
+            self._homes.setdefault(status.actor, status.pose)
+
+    def _on_plan(self, told: PlanUpdate | PlanProposal) -> None:
+        if isinstance(told, PlanProposal):
+            return
+        if told.state == "running":
+            self._running.add(told.target)
+        else:
+            self._running.discard(told.target)
+
+    def _settle(self, robot: str) -> None:
+        choice = self._choices.get(robot, self._choice)
+        home = self._homes.get(robot)
+        if choice == "go_home" and home is None:
+            choice = "hold"
+        if choice == "hold":
+            self._order(robot, "stop")
+        elif choice == "go_home" and home is not None:
+            drive = ActionCall(name="NavigateTo", input_parameters=_pose(home), reason=self.spoken(_REASON))
+            self._order(robot, "clear", drive)
+        text = self.spoken(sentence(_TEXTS[choice]))
+        self.publish(topics.CHAT_FEEDBACK, ChatFeedback(message=text, targets=(robot,), type="info"))
+
+    def _order(self, robot: str, command: CommandName, *queue: ActionCall) -> None:
+        order = ChatAction(
+            system_cmd=(SystemCommand(command=command),), queue=queue, targets=(robot,), by=PRESENCE
+        )
+        self.publish(topics.CHAT_ACTION, order)
+
+
+def _pose(home: PoseInfo) -> dict[str, Any]:
+    def number(value: float) -> dict[str, Any]:
+        return {"pvf_type": "number", "pvf_value": value}
+
+    position = {"x": number(home.x), "y": number(home.y), "z": number(0.0)}
+    return {
+        "pose": {
+            "position": position,
+            "orientation": {"r": number(0.0), "p": number(0.0), "y": number(home.yaw)},
+        }
+    }

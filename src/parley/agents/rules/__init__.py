@@ -1,0 +1,1 @@
+"""Rules of the house, and what robots do when they see something."""

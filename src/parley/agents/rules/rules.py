@@ -1,0 +1,159 @@
+"""Answers `/parley/rules`: which rules there are, changes them for people, tries plans without driving."""
+
+from __future__ import annotations
+
+from collections.abc import Mapping, Sequence
+from dataclasses import dataclass
+from typing import ClassVar
+
+from parley.agents.base import Node
+from parley.agents.presence import Presence
+from parley.clock import Clock
+from parley.errors import ConfigError, InvalidMessageError
+from parley.gate.book import RuleBook
+from parley.gate.hours import holds_at
+from parley.gate.judge import Finding, Place, PlannedStep
+from parley.gate.places import Ground, Resolver
+from parley.gate.rules import RuleKeeper
+from parley.gate.table import Effect, verdict
+from parley.gate.ways import judge_with_ways
+from parley.gate.wording import rule_text
+from parley.messages import topics
+from parley.messages.chat import ActionCall
+from parley.messages.ros import ChatRequest, ChatResponse
+from parley.messages.rule_requests import RuleFinding, RuleRequest, RulesAnswer, RuleVerdict, RuleView
+from parley.messages.status import ActionInfo, ActorStatus
+from parley.messages.wire import decode, encode
+from parley.sentences import SpokenLanguage, in_language
+from parley.transport.base import Transport
+from parley.world.geometry import Pose2D
+from parley.world.object_map import MapObject
+from parley.world.occupancy import OccupancyMap
+
+__all__ = ["MapOf", "RuleNode"]
+
+_DRIVE = ActionInfo(name="drive", effects=("moves",))
+
+
+@dataclass(frozen=True, slots=True)
+class MapOf:
+    """What one robot drives by."""
+
+    occupancy: OccupancyMap
+    objects: Sequence[MapObject]
+
+
+class RuleNode(Node):
+    """Keeps the rules of a system.
+
+    Args:
+        transport: Where it answers.
+        keeper: Where the rules are kept.
+        book: Where they hold.
+        clock: Held while a plan is tried.
+        ground: How words are matched with things on the map.
+        maps: Robot -> what it drives by.
+    """
+
+    name: ClassVar[str] = "rules"
+
+    def __init__(
+        self,
+        transport: Transport,
+        keeper: RuleKeeper,
+        book: RuleBook,
+        clock: Clock,
+        *,
+        ground: Ground,
+        maps: Mapping[str, MapOf],
+    ) -> None:
+        super().__init__(transport)
+        self._keeper, self._book, self._clock = keeper, book, clock
+        self._ground, self._maps = ground, maps
+        self._presence = Presence(clock)
+
+    async def open(self) -> None:
+        """See `Node.open`."""
+        await self.subscribe(topics.ACTOR_STATUS, ActorStatus, self._presence.on_status)
+        server = await self.transport.serve(topics.RULES, self._on_request)
+        self.opened.push_async_callback(server.close)
+
+    async def _on_request(self, asked: ChatRequest) -> ChatResponse:
+        try:
+            request = decode(RuleRequest, asked.message or "{}")
+        except InvalidMessageError as error:
+            self.refuse(topics.RULES.name, error)
+            return ChatResponse(encode(self._answer("en", problem=f"{error.path}: {error.problem}")))
+        try:
+            answer = await self._done(request)
+        except ConfigError as error:
+            answer = self._answer(request.language, problem=str(error))
+        return ChatResponse(encode(answer))
+
+    async def _done(self, request: RuleRequest) -> RulesAnswer:
+        if request.what == "try":
+            judged = await self._try(request)
+            return self._answer(request.language).model_copy(update={"verdict": judged})
+        if request.what != "list" and verdict(request.by, Effect.RULE) != "allow":
+            return self._answer(request.language, problem="You may not change rules.")
+        if request.what == "put" and request.rule is not None:
+            name = request.by.name if request.by is not None else ""
+            await self._keeper.put(request.rule.model_copy(update={"by": request.rule.by or name}))
+        elif request.what == "drop" and await self._keeper.drop(request.id) is None:
+            return self._answer(request.language, problem="There is no such rule any more.")
+        return self._answer(request.language)
+
+    def _answer(self, language: SpokenLanguage, problem: str = "") -> RulesAnswer:
+        now = self._book.now()
+        path = self._keeper.path
+        return RulesAnswer(
+            rules=tuple(
+                RuleView(
+                    rule=rule,
+                    text=in_language(rule_text(rule), language),
+                    holds_now=holds_at(rule.when, now),
+                )
+                for rule in self._book.rules.rules
+            ),
+            problem=in_language(problem, language),
+            file=path.name if path is not None else "",
+        )
+
+    # -- trying -------------------------------------------------------------------------------------------
+
+    async def _try(self, request: RuleRequest) -> RuleVerdict:
+        """What the rules say about a plan, without driving."""
+        found, status = self._maps.get(request.robot), self._presence.get(request.robot)
+        if found is None:
+            raise ConfigError(f"there is no robot {request.robot!r} here")
+        told = status.pose if status is not None else None
+        pose = Pose2D(told.x, told.y, told.yaw) if told is not None else None
+        catalogue = status.catalogue if status is not None else ()
+        radius_m = self._book.facts(request.robot).radius_m
+        resolver = Resolver(
+            self._ground, found.objects, found.occupancy, radius_m=radius_m, clock=self._clock
+        )
+        steps = list(await resolver.resolve(request.steps, catalogue, pose))
+        if request.goal is not None:
+            steps.append(PlannedStep(ActionCall(name="drive"), _DRIVE, Place(*request.goal)))
+        places = {words: await resolver.find(words, pose) for words in request.words}
+        steps += [PlannedStep(ActionCall(name="drive"), _DRIVE, place) for place in places.values() if place]
+        judged = await judge_with_ways(
+            self._book, request.robot, steps, found.occupancy, by=request.by, pose=pose
+        )
+        return RuleVerdict(
+            forbidden=_findings(judged.forbidden, request.language),
+            ask=_findings(judged.ask, request.language),
+            risky=_findings(judged.risky, request.language),
+            length_m=round(judged.length_m, 2),
+            expected_s=round(judged.expected_s, 1),
+            way=tuple((round(x, 2), round(y, 2)) for way in judged.ways for x, y in way),
+            unknown=tuple(words for words, place in places.items() if place is None),
+        )
+
+
+def _findings(findings: Sequence[Finding], language: SpokenLanguage) -> tuple[RuleFinding, ...]:
+    return tuple(
+        RuleFinding(step=item.step, rule=item.rule, code=item.code, text=in_language(item.sentence, language))
+        for item in findings
+    )

@@ -1,1 +1,0 @@
-"""The five nodes; each wires one thing to topics."""

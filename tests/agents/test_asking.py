@@ -1,0 +1,57 @@
+"""Words while a plan waits for a yes: what would be done, what is a yes, and what is asked again later."""
+
+from __future__ import annotations
+
+from parley.agents.planner.asking import Offered, begun, offered_again, wish_of
+from parley.messages.chat import ChatInput
+from parley.messages.principal import person
+from parley.messages.status import PlanDecision, PlanProposal, PlanUpdate, PoseInfo
+
+
+def test_what_would_be_done_is_said_step_by_step() -> None:
+    assert wish_of(["Go to the box"]) == "This is what I would do: Go to the box."
+    told = wish_of(["Go to the box.", "Look"], "it is far")
+    assert told == "I ask first: it is far. This is what I would do: 1. Go to the box, 2. Look."
+    assert begun(["Go to the box", "Look"]) == "All right: 1. Go to the box, 2. Look."
+
+
+def said(text: str) -> ChatInput:
+    return ChatInput(message=text, targets=("Ada",), author="Kim")
+
+
+def offered(*ids: str) -> Offered:
+    waiting = Offered()
+    for identity in ids:
+        waiting.on_proposal(PlanProposal(id=identity, target="Ada", digest=f"digest {identity}"))
+    return waiting
+
+
+def test_a_yes_goes_to_what_was_proposed_last() -> None:
+    waiting = offered("p1", "p2")
+    decision = waiting.decided("Ada", said("yes"), ["Ada"])
+    assert decision is not None
+    assert (decision.id, decision.target, decision.decision) == ("p2", "Ada", "approve")
+    assert decision.digest == "digest p2"
+    assert decision.by == person("Kim")
+    waiting.on_decision(decision)
+    last = waiting.decided("Ada", said("no"), ["Ada"])
+    assert last is not None
+    assert (last.id, last.decision) == ("p1", "reject")
+
+
+def test_a_yes_means_nothing_where_nothing_waits() -> None:
+    waiting = offered("p1")
+    assert waiting.decided("Bob", said("yes"), ["Ada", "Bob"]) is None
+    waiting.on_decision(PlanDecision(id="p1", target="Ada", decision="reject"))
+    assert waiting.decided("Ada", said("yes"), ["Ada"]) is None
+    waiting = offered("p1")
+    waiting.on_update(PlanUpdate(target="Ada", state="awaiting_approval"))
+    waiting.on_update(PlanUpdate(target="Ada", state="idle"))
+    assert waiting.decided("Ada", said("yes"), ["Ada"]) is None
+
+
+def test_a_robot_that_is_somewhere_else_says_so_when_it_asks_again() -> None:
+    here, there = PoseInfo(x=1.0, y=1.0), PoseInfo(x=3.0, y=1.0)
+    assert "I am not where I was then." in offered_again("I would go.", here, there, repairs=False)
+    assert "where I was" not in offered_again("I would go.", here, here, repairs=False)
+    assert "where I was" not in offered_again("I would go.", None, there, repairs=False)

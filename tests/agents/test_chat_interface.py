@@ -1,0 +1,485 @@
+"""The chat interface over a real local transport; the test plays the operator, the robots and the memory."""
+
+from __future__ import annotations
+
+import asyncio
+from collections.abc import AsyncIterator
+from contextlib import asynccontextmanager
+from dataclasses import dataclass
+from typing import Any
+
+import pytest
+
+from parley.agents.base import Node
+from parley.agents.chat.chat_interface import ChatInterface
+from parley.agents.chat.texts import MAX_CHARS, is_never_mind
+from parley.clock import WallClock
+from parley.demos.observer import Observer
+from parley.errors import FailureCode, LanguageError
+from parley.language.scripted import ScriptedLanguage
+from parley.messages import topics
+from parley.messages.chat import (
+    ActionCall,
+    ChatAction,
+    ChatFeedback,
+    ChatInput,
+    ReplyDraft,
+    SystemCommand,
+)
+from parley.messages.failure import ErrorHandlingMessage
+from parley.messages.memory import MemoryEvent
+from parley.messages.pvf import Parameter
+from parley.messages.status import ActionInfo, ActorStatus, PlanStep, PlanUpdate, StopCommand
+from parley.transport.local import LocalTransport
+
+LOOK = ActionInfo(name="Look", inputs={"what": "string"}, description="Look at something.")
+
+
+class Listener(Node):
+    """Collects what the chat interface sends to the planner and to the engines."""
+
+    name = "listener"
+
+    def __init__(self, transport: LocalTransport) -> None:
+        super().__init__(transport)
+        self.orders: list[ChatAction] = []
+        self.stops: list[StopCommand] = []
+        self.arrived = asyncio.Event()
+
+    async def open(self) -> None:
+        await self.subscribe(topics.CHAT_ACTION, ChatAction, self._on_order)
+        await self.subscribe(topics.STOP, StopCommand, self._on_stop)
+
+    def _on_order(self, order: ChatAction) -> None:
+        self.orders.append(order)
+        self.arrived.set()
+
+    def _on_stop(self, stop: StopCommand) -> None:
+        self.stops.append(stop)
+        self.arrived.set()
+
+
+@dataclass
+class Room:
+    """Everything a test needs."""
+
+    language: ScriptedLanguage
+    observer: Observer
+    planner: Listener
+    transport: LocalTransport
+
+    def robot(self, name: str) -> None:
+        self.observer.publish(topics.ACTOR_STATUS, ActorStatus(actor=name, catalogue=(LOOK,)))
+
+    async def reply(self, count: int = 1) -> str:
+        await self.observer.until(lambda: len(self.observer.said) >= count, timeout_s=5)
+        return self.observer.said[count - 1].message
+
+    async def orders(self) -> list[ChatAction]:
+        async with asyncio.timeout(5):
+            await self.planner.arrived.wait()
+        return self.planner.orders
+
+
+@pytest.fixture
+async def room() -> AsyncIterator[Room]:
+    async with opened() as found:
+        yield found
+
+
+@asynccontextmanager
+async def opened(**settings: Any) -> AsyncIterator[Room]:
+    language = ScriptedLanguage()
+    async with LocalTransport() as transport, Observer(transport, WallClock()) as observer:
+        chat = ChatInterface(transport, language, WallClock(), **settings)
+        async with chat, Listener(transport) as planner:
+            room = Room(language, observer, planner, transport)
+            room.robot("A")
+            room.robot("B")
+            await observer.until(lambda: {"A", "B"} <= observer.robots, timeout_s=5)
+            yield room
+        assert transport.handler_failures == 0
+
+
+def look(what: str = "box") -> ActionCall:
+    return ActionCall(name="Look", input_parameters={"what": Parameter("string", what)})
+
+
+async def test_order_is_answered_and_handed_to_the_planner(room: Room) -> None:
+    room.language.will("interpret", ChatAction(message_response="I will look.", queue=(look(),)))
+    room.observer.say("look at the box", "A")
+    assert await room.reply() == "I will look."
+    (order,) = await room.orders()
+    assert (order.targets, [call.name for call in order.queue]) == (("A",), ["Look"])
+
+
+@pytest.mark.spec("P20")
+async def test_history_reaches_the_next_question(room: Room) -> None:
+    room.language.will(
+        "interpret", ChatAction(message_response="Which?"), ChatAction(message_response="Fine.")
+    )
+    room.observer.say("look at the box", "A")
+    await room.reply()
+    room.observer.say("the red one", "A")
+    await room.reply(2)
+    situation = room.language.asked[-1][1]
+    assert [turn.content for turn in situation.history] == ["look at the box", "Which?"]
+
+
+@pytest.mark.spec("P21")
+async def test_what_is_still_to_be_done_is_known_when_the_next_message_is_understood(room: Room) -> None:
+    steps = (PlanStep(action=look("box"), state="running"), PlanStep(action=look("chair")))
+    room.observer.publish(topics.PLAN, PlanUpdate(target="A", state="running", steps=steps))
+    room.language.will("interpret", ChatAction(message_response="Fine."))
+    room.observer.say("and then the door", "A")
+    await room.reply()
+    situation = room.language.asked[-1][1]
+    assert [call.input_parameters["what"].value for call in situation.queue] == ["box", "chair"]
+    assert situation.status == "running"
+
+
+@pytest.mark.parametrize("text", ["", "   ", "\n"])
+async def test_empty_message_is_answered_without_asking_anybody(room: Room, text: str) -> None:
+    room.observer.say(text, "A")
+    assert "words" in await room.reply()
+    assert room.language.asked == []
+
+
+async def test_overlong_message_is_answered_without_asking_anybody(room: Room) -> None:
+    room.observer.say("word " * (MAX_CHARS // 4), "A")
+    assert "too long" in await room.reply()
+    assert room.language.asked == []
+
+
+async def test_hundred_kilobytes_are_refused_in_one_short_sentence(room: Room) -> None:
+    room.observer.say("x" * 100_000, "A")
+    assert len(await room.reply()) < 200
+
+
+async def test_unknown_robot_is_named_with_those_that_exist(room: Room) -> None:
+    room.observer.say("look", "Z")
+    reply = await room.reply()
+    assert "Z" in reply
+    assert "A, B" in reply
+    assert room.planner.orders == []
+
+
+async def test_message_without_an_addressee_moves_nobody(room: Room) -> None:
+    room.observer.publish(topics.CHAT_INPUT, ChatInput(message="look"))
+    assert "Which robot" in await room.reply()
+    assert room.planner.orders == []
+
+
+async def test_stop_goes_ahead_of_a_language_call_that_hangs(room: Room) -> None:
+    room.language.will("interpret", asyncio.Event())
+    room.observer.say("look at the box", "A")
+    await room.observer.until(lambda: True)
+    room.observer.say("stop", "A")
+    (order,) = await room.orders()
+    assert [command.command for command in order.system_cmd] == ["stop"]
+
+
+async def test_order_that_is_still_being_understood_when_stop_comes_moves_nobody(room: Room) -> None:
+    hanging = asyncio.Event()
+    room.language.will("interpret", hanging, ChatAction(message_response="I will look.", queue=(look(),)))
+    room.observer.say("look at the box", "A")
+    room.observer.say("stop", "A")
+    await room.reply()
+    hanging.set()
+    assert "told me to stop" in await room.reply(2)
+    assert [order.queue for order in room.planner.orders] == [()]
+
+
+async def test_carry_on_after_an_emergency_stop_says_what_to_do_first(room: Room) -> None:
+    room.observer.publish(topics.ACTOR_STATUS, ActorStatus(actor="A", state="stopped", catalogue=(LOOK,)))
+    room.observer.say("carry on", "A")
+    assert "Release the stop first" in await room.reply()
+    assert room.planner.orders == []
+
+
+async def test_one_robots_hanging_language_call_does_not_delay_another(room: Room) -> None:
+    hanging = asyncio.Event()
+    room.language.will("interpret", hanging, ChatAction(message_response="late"))
+    room.language.will("interpret", ChatAction(message_response="I will look.", queue=(look(),)))
+    room.observer.say("look at the box", "A")
+    room.observer.say("look at the door", "B")
+    await room.reply()
+    assert [said.targets for said in room.observer.said] == [("B",)]
+    hanging.set()
+    await room.reply(2)
+    assert [said.targets for said in room.observer.said] == [("B",), ("A",)]
+
+
+async def test_robot_named_in_a_stop_wins_over_the_selected_one(room: Room) -> None:
+    room.observer.say("B, stop!", "A")
+    (order,) = await room.orders()
+    assert order.targets == ("B",)
+
+
+async def test_what_is_said_to_two_robots_for_both_moves_each_of_them_once(room: Room) -> None:
+    both = ChatAction(message_response="I will look.", queue=(look(),), targets=("A", "B"))
+    room.language.will("interpret", both, both)
+    room.observer.publish(topics.CHAT_INPUT, ChatInput(message="both, look at the box", targets=("A", "B")))
+    await room.reply(2)
+    assert sorted(order.targets for order in room.planner.orders) == [("A",), ("B",)]
+
+
+async def test_what_is_said_to_two_robots_for_one_moves_only_that_one(room: Room) -> None:
+    one = ChatAction(message_response="I will look.", queue=(look(),), targets=("B",))
+    room.language.will("interpret", one, one)
+    room.observer.publish(topics.CHAT_INPUT, ChatInput(message="B, look at the box", targets=("A", "B")))
+    await room.reply(2)
+    assert sorted(said.message for said in room.observer.said) == ["I will look.", "That is for B."]
+    assert [order.targets for order in room.planner.orders] == [("B",)]
+
+
+async def test_emergency_stop_goes_straight_to_the_engines(room: Room) -> None:
+    room.observer.say("emergency stop", "A")
+    await room.orders()
+    assert room.planner.stops[0].targets == ("A",)
+
+
+@pytest.mark.spec("P20")
+async def test_language_that_fails_ends_in_a_plain_sentence(room: Room) -> None:
+    room.language.will("interpret", LanguageError("the model is gone"))
+    room.observer.say("look at the box", "A")
+    assert "try again" in await room.reply()
+    assert room.planner.orders == []
+
+
+async def test_defect_of_the_language_engine_ends_in_a_plain_sentence(room: Room) -> None:
+    room.language.will("interpret", ZeroDivisionError())
+    room.observer.say("look at the box", "A")
+    assert "went wrong" in await room.reply()
+    assert room.planner.orders == []
+
+
+@pytest.mark.parametrize(
+    "call",
+    [
+        ActionCall(name="Fly"),
+        ActionCall(name="Look", input_parameters={"where": Parameter("string", "here")}),
+        ActionCall(name="Look", input_parameters={"what": Parameter("number", 3.0)}),
+        ActionCall(name="Look"),
+    ],
+    ids=["unknown action", "unknown parameter", "wrong type", "missing value"],
+)
+@pytest.mark.spec("P12")
+async def test_plan_that_the_robot_cannot_carry_out_never_leaves(room: Room, call: ActionCall) -> None:
+    room.language.will("interpret", ChatAction(message_response="Sure.", queue=(call,)))
+    room.observer.say("do something", "A")
+    assert "cannot carry out" in await room.reply()
+    assert room.planner.orders == []
+
+
+async def test_memory_is_acknowledged_only_after_it_is_stored(room: Room) -> None:
+    command = SystemCommand(command="add_memory", arguments={"data": "the key is red", "info": "key"})
+    room.language.will("interpret", ChatAction(message_response="Noted.", system_cmd=(command,)))
+    room.observer.say("the key is red", "A")
+    (order,) = await room.orders()
+    await asyncio.sleep(0.05)
+    assert room.observer.said == []
+    name = order.system_cmd[0].arguments["name"]
+    room.observer.publish(topics.MEMORY_EVENT, MemoryEvent(kind="added", name=name))
+    assert await room.reply() == "Noted."
+
+
+async def test_memory_that_could_not_be_stored_is_not_acknowledged(room: Room) -> None:
+    command = SystemCommand(command="add_memory", arguments={"data": "the key is red", "name": "key"})
+    room.language.will("interpret", ChatAction(message_response="Noted.", system_cmd=(command,)))
+    room.observer.say("the key is red", "A")
+    await room.orders()
+    room.observer.publish(
+        topics.MEMORY_EVENT, MemoryEvent(kind="failed", name="key", message="The disk is full.")
+    )
+    assert "could not store" in await room.reply()
+
+
+async def test_message_sent_twice_is_handled_once(room: Room) -> None:
+    room.language.will("interpret", ChatAction(message_response="1"), ChatAction(message_response="2"))
+    said = ChatInput(message="look", targets=("A",), id="same")
+    room.observer.publish(topics.CHAT_INPUT, said)
+    room.observer.publish(topics.CHAT_INPUT, said)
+    await room.reply()
+    await asyncio.sleep(0.05)
+    assert len(room.observer.said) == 1
+
+
+async def test_answer_that_nobody_waits_for_is_taken_as_an_order(room: Room) -> None:
+    room.language.will("interpret", ChatAction(message_response="I will look."))
+    room.observer.publish(topics.CHAT_INPUT, ChatInput(message="look", targets=("A",), type="response"))
+    assert await room.reply() == "I will look."
+
+
+async def test_draft_of_a_reply_is_published_for_the_message_it_answers(room: Room) -> None:
+    drafts: list[ReplyDraft] = []
+    await room.observer.subscribe(topics.REPLY_DRAFT, ReplyDraft, drafts.append)
+    room.language.will("interpret", "I will", "I will look", ChatAction(message_response="I will look."))
+    room.observer.publish(topics.CHAT_INPUT, ChatInput(message="look", targets=("A",), id="m1"))
+    assert await room.reply() == "I will look."
+    assert drafts[0] == ReplyDraft(reply_to="m1", targets=("A",), message="I will")
+    assert len(drafts) == 1  # the second came too soon after the first
+
+
+async def test_message_without_an_id_gets_no_drafts(room: Room) -> None:
+    drafts: list[ReplyDraft] = []
+    await room.observer.subscribe(topics.REPLY_DRAFT, ReplyDraft, drafts.append)
+    room.language.will("interpret", "I will", ChatAction(message_response="I will look."))
+    room.observer.publish(topics.CHAT_INPUT, ChatInput(message="look", targets=("A",)))
+    assert await room.reply() == "I will look."
+    assert drafts == []
+
+
+@pytest.mark.parametrize(
+    ("message", "targets"),
+    [("look", ("A",)), ("stop", ("A",)), ("look", ("Nobody",)), ("look", ()), (" ", ("A",))],
+    ids=["plan", "stop", "unknown robot", "no robot", "no words"],
+)
+async def test_every_reply_names_the_message_it_answers(
+    room: Room, message: str, targets: tuple[str, ...]
+) -> None:
+    room.language.will("interpret", ChatAction(message_response="Yes."))
+    room.observer.publish(topics.CHAT_INPUT, ChatInput(message=message, targets=targets, id="m7"))
+    await room.reply()
+    assert room.observer.said[0].reply_to == "m7"
+
+
+async def test_reason_of_the_language_engine_is_told_in_its_plain_words(room: Room) -> None:
+    room.language.will("interpret", LanguageError("HTTP 500", plain="My helper is asleep."))
+    room.observer.publish(topics.CHAT_INPUT, ChatInput(message="look", targets=("A",)))
+    assert await room.reply() == "My helper is asleep. Nothing was started; please try again."
+
+
+async def test_operator_is_told_when_understanding_takes_long() -> None:
+    async with opened(patience_s=0.0) as room:
+        gate = asyncio.Event()
+        room.language.will("interpret", gate, ChatAction(message_response="At last."))
+        room.observer.say("look at the box", "A")
+        assert "I am still thinking about “look at the box”" in await room.reply()
+        assert room.observer.said[0].type == "info"
+        gate.set()
+        assert await room.reply(2) == "At last."
+
+
+async def test_stop_lets_go_of_a_message_that_takes_long_and_the_next_one_is_heard() -> None:
+    async with opened(patience_s=0.0) as room:
+        never = asyncio.Event()
+        room.language.will("interpret", never, ChatAction(message_response="Here I am."))
+        room.observer.say("look at the box", "A")
+        await room.reply()
+        room.observer.say("stop", "A")
+        assert "so I leave this: “look at the box”" in await room.reply(3)
+        room.observer.say("hello", "A")
+        assert await room.reply(4) == "Here I am."
+        assert [order.queue for order in room.planner.orders] == [()]
+
+
+async def test_question_during_a_repair_is_understood_with_the_failure(room: Room) -> None:
+    failure = ErrorHandlingMessage(
+        error_message="There are two boxes.", action_called=look(), target="A", code=FailureCode.AMBIGUOUS
+    )
+    room.observer.publish(topics.ERROR_HANDLING, failure)
+    room.observer.publish(topics.PLAN, PlanUpdate(target="A", state="held"))
+    ask = ChatFeedback(message="Which box?", targets=("A",), type="request", id="q1")
+    room.observer.publish(topics.CHAT_FEEDBACK, ask)
+    await room.reply()
+    room.language.will("interpret", ChatAction(message_response="Because there are two."))
+    room.observer.say("why?", "A")
+    assert await room.reply(2) == "Because there are two."
+    situation = room.language.asked[-1][1]
+    assert situation.failure.error_message == "There are two boxes."
+    assert situation.question == "Which box?"
+    room.observer.publish(topics.PLAN, PlanUpdate(target="A", state="running"))
+    room.language.will("interpret", ChatAction(message_response="Fine."))
+    room.observer.say("hello", "A")
+    await room.reply(3)
+    assert room.language.asked[-1][1].failure is None
+
+
+@pytest.mark.parametrize("words", ["the red one", "skip it", "try again"])
+async def test_answer_to_a_settled_question_is_neither_an_order_nor_a_control(room: Room, words: str) -> None:
+    ask = ChatFeedback(message="Which box?", targets=("A",), type="request", id="q1")
+    room.observer.publish(topics.CHAT_FEEDBACK, ask)
+    room.observer.publish(topics.CHAT_FEEDBACK, ChatFeedback(message="Ok.", targets=("A",), closes="q1"))
+    await room.reply(2)
+    answer = ChatInput(message=words, targets=("A",), type="response", reply_to="q1")
+    room.observer.publish(topics.CHAT_INPUT, answer)
+    assert await room.reply(3) == f"My question is settled already, so I leave this: “{words}”"
+    assert (room.language.asked, room.planner.orders) == ([], [])
+
+
+async def test_stop_stops_whatever_it_answers(room: Room) -> None:
+    ask = ChatFeedback(message="Which box?", targets=("A",), type="request", id="q1")
+    room.observer.publish(topics.CHAT_FEEDBACK, ask)
+    room.observer.publish(topics.CHAT_FEEDBACK, ChatFeedback(message="Ok.", targets=("A",), closes="q1"))
+    await room.reply(2)
+    answer = ChatInput(message="stop", targets=("A",), type="response", reply_to="q1")
+    room.observer.publish(topics.CHAT_INPUT, answer)
+    (order,) = await room.orders()
+    assert [command.command for command in order.system_cmd] == ["stop"]
+
+
+async def test_newer_message_is_told_that_it_waits_and_the_older_one_can_be_let_go_without_stopping() -> None:
+    async with opened(patience_s=0.0) as room:
+        never = asyncio.Event()
+        room.language.will("interpret", never, ChatAction(message_response="Here I am."))
+        room.observer.say("look at the box", "A")
+        assert "say “never mind”" in await room.reply()
+        room.observer.say("where are you?", "A")
+        text = "I am still thinking about “look at the box”. “where are you?” comes next."
+        assert text in await room.reply(2)
+        assert [said.choices for said in room.observer.said] == [("never mind",)] * 2
+        room.observer.say("Never mind!", "A")
+        await room.reply(5)
+        said = [each.message for each in room.observer.said[2:5]]
+        assert said[:2] == ["All right.", "I leave this: “look at the box”"]
+        assert room.planner.orders == [], "nobody said stop"
+        await room.observer.until(
+            lambda: any(each.message == "Here I am." for each in room.observer.said), timeout_s=5
+        )
+
+
+async def test_never_mind_is_an_ordinary_message_while_nothing_takes_long(room: Room) -> None:
+    room.language.will("interpret", ChatAction(message_response="Fine."))
+    room.observer.say("never mind", "A")
+    assert await room.reply() == "Fine."
+
+
+async def test_letting_go_concerns_one_robot() -> None:
+    async with opened(patience_s=0.0) as room:
+        gate = asyncio.Event()
+        room.language.will("interpret", gate, ChatAction(message_response="I see."))
+        room.observer.say("look at the box", "A")
+        await room.reply()
+        room.language.will("interpret", ChatAction(message_response="Hm?"))
+        gate.set()
+        await room.reply(2)
+        room.observer.say("never mind", "B")
+        await room.observer.until(lambda: any(s.targets == ("B",) for s in room.observer.said), timeout_s=5)
+        assert "All right." not in [said.message for said in room.observer.said]
+
+
+async def test_order_that_was_asked_back_about_is_over_with_a_stop(room: Room) -> None:
+    drive = ActionInfo(name="Drive", effects=("moves",))
+    room.observer.publish(topics.ACTOR_STATUS, ActorStatus(actor="A", catalogue=(drive,)))
+    order = ChatAction(message_response="I go.", queue=(ActionCall(name="Drive"),) * 2)
+    question = ChatAction(message_response="Which box?", choices=("red", "blue"))
+    room.language.will("interpret", question, order)
+    for number, words in enumerate(("go to the box", "stop", "go to the door"), 1):
+        room.observer.say(words, "A")
+        await room.reply(number)
+    for state, plan in (("running", "running"), ("finished", "idle")):
+        steps = [{"action": call.model_dump(), "state": state} for call in order.queue]
+        update = {"target": "A", "graph_name": "g", "state": plan, "steps": steps}
+        room.observer.publish(topics.PLAN, PlanUpdate.model_validate(update))
+    assert await room.reply(4) == "I have finished: “go to the door”."
+
+
+@pytest.mark.parametrize("text", ["never mind", "Nevermind.", "forget it", "please forget that", "drop it!"])
+def test_words_that_let_go_are_known(text: str) -> None:
+    assert is_never_mind(text)
+
+
+@pytest.mark.parametrize("text", ["forget the box", "never mind the dog, go on", "mind the step", ""])
+def test_words_that_mean_more_do_not_let_go(text: str) -> None:
+    assert not is_never_mind(text)

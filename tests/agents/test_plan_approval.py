@@ -1,0 +1,365 @@
+"""Policies, repairs that wait for a yes, edits of the plan in progress, what a plan tells about itself."""
+
+from __future__ import annotations
+
+import json
+from typing import Any
+
+import pytest
+
+from parley.messages import topics
+from parley.messages.chat import ActionCall, ChatAction, ChatFeedback, ChatInput, Flow, FlowIf, SystemCommand
+from tests.agents.crew import ENGINE, KIM, Crew, crew, decide, drive, find, look, proposals
+
+
+def press(what: str) -> ActionCall:
+    """An action of high risk."""
+    return look(what).model_copy(update={"name": "Press"})
+
+
+async def policy(party: Crew, wanted: str) -> None:
+    decide(party, decision="policy", policy=wanted)
+    await party.until(lambda: "A" in party.observer.plans and party.observer.plans["A"].policy == wanted)
+
+
+# -- asking when it is risky ---------------------------------------------------------------------------
+
+
+async def test_only_orders_with_a_risky_step_wait_where_that_is_wanted() -> None:
+    async with crew("A") as party:
+        await policy(party, "ask_when_risky")
+        party.order(look("box"))
+        await party.until(lambda: party.body.did == ["look box"])
+        party.order(look("door"), press("bell"))
+        await party.until(lambda: proposals(party))
+        await party.state("awaiting_approval")
+        assert party.body.did == ["look box"]
+        decide(party, id=proposals(party)[0]["id"], decision="approve")
+        await party.until(lambda: party.body.did == ["look box", "look door", "press bell"])
+
+
+async def test_policy_from_the_start_is_told_when_the_robot_comes() -> None:
+    async with crew("A", ask_first=["A"]) as party:
+        await party.until(lambda: "A" in party.observer.plans)
+        assert party.observer.plans["A"].policy == "ask_first"
+
+
+async def test_who_listens_later_is_told_the_plans_and_proposals_as_they_are() -> None:
+    async with crew("A", "B", ask_first=["A"]) as party:
+        party.order(look("box"))
+        party.order(look("door"), target="B")
+        await party.until(lambda: proposals(party) and "look door" in party.bodies["B"].did)
+        await party.state("idle", "B")
+        told: list[dict[str, Any]] = []
+        late = await party.transport.subscribe(topics.PLAN, lambda said: told.append(json.loads(said.data)))
+        await party.until(lambda: len(told) >= 3)
+        now = party.wire.objects(topics.PLAN)
+        for robot in ("A", "B"):
+            updates = [item for item in now if item["kind"] == "update" and item["target"] == robot]
+            assert [item for item in told if item["kind"] == "update" and item["target"] == robot] == [
+                updates[-1]
+            ]
+        assert [item for item in told if item["kind"] == "proposal"] == proposals(party)[-1:]
+        before = len(party.wire.objects(topics.PLAN))
+        await late.close()
+        await party.settled()
+        assert len(party.wire.objects(topics.PLAN)) == before, "who leaves is no reason to tell anything"
+
+
+# -- repairs -------------------------------------------------------------------------------------------
+
+
+async def failed(party: Crew) -> None:
+    """The first of two approved steps fails."""
+    party.body.failures["look box"] = 1
+    party.order(look("box"), look("door"))
+    await party.until(lambda: proposals(party))
+    decide(party, id=proposals(party)[0]["id"], decision="approve")
+    await party.state("held")
+
+
+async def test_repair_with_new_steps_waits_for_a_yes_where_everything_does() -> None:
+    async with crew("A", ask_first=["A"]) as party:
+        await failed(party)
+        party.correct(look("lid"))
+        await party.until(lambda: len(proposals(party)) == 2)
+        await party.hears("Shall I?")
+        await party.settled()
+        assert (party.body.did, party.observer.state("A")) == (["look box"], "held")
+        decide(party, id=proposals(party)[1]["id"], decision="approve")
+        await party.state("idle")
+        assert party.body.did == ["look box", "look lid", "look door"]
+
+
+async def test_going_on_is_no_yes_to_a_repair_that_waits() -> None:
+    async with crew("A", ask_first=["A"]) as party:
+        await failed(party)
+        party.correct(look("lid"))
+        await party.until(lambda: len(proposals(party)) == 2)
+        party.command("start")
+        await party.hears("Look: what “lid”. Shall I?")
+        assert party.body.did == ["look box"]
+        decide(party, id=proposals(party)[1]["id"], decision="approve")
+        await party.state("idle")
+        assert party.body.did == ["look box", "look lid", "look door"]
+
+
+async def test_repair_can_be_agreed_to_after_the_robot_was_told_to_stand_still() -> None:
+    async with crew("A", ask_first=["A"]) as party:
+        await failed(party)
+        party.correct(look("lid"))
+        await party.until(lambda: len(proposals(party)) == 2)
+        party.command("stop")
+        await party.settled()
+        decide(party, id=proposals(party)[1]["id"], decision="approve")
+        await party.state("idle")
+        assert party.body.did == ["look box", "look lid", "look door"]
+
+
+async def test_repair_that_is_refused_leaves_the_robot_waiting_for_another_order() -> None:
+    async with crew("A", ask_first=["A"]) as party:
+        await failed(party)
+        party.correct(look("lid"))
+        await party.until(lambda: len(proposals(party)) == 2)
+        decide(party, id=proposals(party)[1]["id"], decision="reject")
+        await party.hears("Then I am waiting here.")
+        assert party.observer.state("A") == "held"
+        party.command("skip")
+        await party.state("idle")
+        assert party.body.did == ["look box", "look door"]
+
+
+async def test_repair_that_was_settled_otherwise_is_not_done_any_more() -> None:
+    async with crew("A", ask_first=["A"]) as party:
+        await failed(party)
+        party.correct(look("lid"))
+        await party.until(lambda: len(proposals(party)) == 2)
+        party.command("skip")
+        await party.state("idle")
+        decide(party, id=proposals(party)[1]["id"], decision="approve")
+        await party.hears("no longer waiting")
+        assert party.body.did == ["look box", "look door"]
+
+
+async def test_trying_the_same_again_and_leaving_out_need_no_yes() -> None:
+    async with crew("A", ask_first=["A"]) as party:
+        await failed(party)
+        party.correct(look("box"))
+        await party.state("idle")
+        assert party.body.did == ["look box", "look box", "look door"]
+
+
+async def test_repair_that_a_person_chose_goes_on_at_once() -> None:
+    async with crew("A", ask_first=["A"]) as party:
+        await failed(party)
+        party.correct(look("lid"), by=KIM)
+        await party.state("idle")
+        assert party.body.did == ["look box", "look lid", "look door"]
+        assert len(proposals(party)) == 1
+
+
+async def test_repair_that_drops_the_plan_runs_its_own_steps() -> None:
+    async with crew("A") as party:
+        party.body.failures["look box"] = 1
+        party.order(look("box"), look("door"))
+        await party.state("held")
+        correction = ChatAction(
+            queue=(find("lid"), drive()),
+            system_cmd=(SystemCommand(command="clear"),),
+            targets=("A",),
+            success=True,
+            by=ENGINE,
+        )
+        party.observer.publish(topics.UMRF_CORRECTION, correction)
+        await party.until(lambda: party.body.did == ["look box", "find lid", "drive 3"])
+        await party.state("idle")
+
+
+async def test_orders_during_a_repair_are_shown_behind_the_failed_step_and_can_be_dropped() -> None:
+    async with crew("A") as party:
+        party.body.failures["look box"] = 1
+        party.order(look("box"))
+        await party.state("held")
+        party.order(look("door"), look("lid"))
+        await party.until(lambda: party.steps() == ["failed", "queued", "queued"])
+        party.command("pop", parameters=1)
+        await party.until(lambda: party.steps() == ["failed", "queued"])
+        party.correct(look("floor"))
+        await party.state("idle")
+        assert party.body.did == ["look box", "look floor", "look lid"]
+
+
+# -- editing the plan in progress ----------------------------------------------------------------------
+
+
+def shown(party: Crew) -> list[str]:
+    return [step.action.input_parameters["what"].value for step in party.observer.plans["A"].steps]
+
+
+async def begun(party: Crew, *calls: ActionCall) -> None:
+    """Robot A is at its first look, the others are still to come."""
+    party.body.gate("box")
+    party.order(look("box"), *calls)
+    await party.doing("look box")
+    await party.until(lambda: len(party.steps()) == 1 + len(calls))
+
+
+async def test_edit_takes_the_place_of_all_that_has_not_begun_and_another_restores_it() -> None:
+    async with crew("A") as party:
+        await begun(party, look("door"), look("lid"))
+        before = [step.action.model_dump() for step in party.observer.plans["A"].steps[1:]]
+        revision = party.observer.plans["A"].revision
+        decide(party, decision="edit", steps=[look("floor").model_dump()], revision=revision)
+        await party.until(lambda: shown(party) == ["box", "floor"])
+        later = party.observer.plans["A"].revision
+        assert later > revision
+        decide(party, decision="edit", steps=before, revision=later)
+        await party.until(lambda: shown(party) == ["box", "door", "lid"])
+        party.body.gate("box").set()
+        await party.state("idle")
+        assert party.body.did == ["look box", "look door", "look lid"]
+
+
+async def test_edit_of_a_plan_that_has_changed_meanwhile_is_refused_and_changes_nothing() -> None:
+    async with crew("A") as party:
+        await begun(party, look("door"))
+        revision = party.observer.plans["A"].revision
+        party.order(look("lid"))
+        await party.until(lambda: shown(party) == ["box", "door", "lid"])
+        decide(party, decision="edit", steps=[], revision=revision)
+        await party.hears("The plan has changed in the meantime")
+        assert party.observer.refusals[-1].what == topics.PLAN_DECISION.name
+        assert party.observer.refusals[-1].problems[0].code == "past_revision"
+        assert shown(party) == ["box", "door", "lid"]
+
+
+async def test_pausing_does_not_make_an_edit_too_late() -> None:
+    async with crew("A") as party:
+        await begun(party, look("door"))
+        revision = party.observer.plans["A"].revision
+        party.command("stop")
+        await party.state("paused")
+        assert party.observer.plans["A"].revision > revision
+        decide(party, decision="edit", steps=[look("lid").model_dump()], revision=revision)
+        await party.until(lambda: shown(party) == ["box", "lid"])
+        party.body.gate("box").set()
+        await party.settled()
+        assert party.body.did == ["look box"]
+        party.command("start")
+        await party.state("idle")
+        assert party.body.did == ["look box", "look lid"]
+
+
+@pytest.mark.parametrize(
+    ("step", "path"),
+    [
+        (ActionCall(name="Fly"), "steps[1].name"),
+        (ActionCall(name="Look"), "steps[1].input_parameters.what"),
+        (look("lid").model_copy(update={"flow": Flow(together_with=0)}), "steps[1].flow.together_with"),
+        (look("lid").model_copy(update={"flow": Flow(if_=FlowIf(step=9))}), "steps[1].flow"),
+    ],
+    ids=["unknown action", "missing value", "together with what has begun", "unknown step"],
+)
+async def test_impossible_edit_is_refused_with_place_and_remedy(step: ActionCall, path: str) -> None:
+    async with crew("A") as party:
+        await begun(party, look("door"))
+        decide(party, decision="edit", steps=[look("floor").model_dump(), step.model_dump()])
+        await party.hears("cannot carry out")
+        problem = party.observer.refusals[-1].problems[0]
+        assert problem.path == path
+        assert problem.remedy
+        assert shown(party) == ["box", "door"]
+
+
+async def test_edit_keeps_conditions_on_what_it_keeps() -> None:
+    async with crew("A") as party:
+        check = look("door").model_copy(update={"name": "Check"})
+        only_if = look("lid").model_copy(update={"flow": Flow(if_=FlowIf(step=0))})
+        await begun(party)
+        party.order(check, only_if, look("floor"))
+        await party.until(lambda: len(party.steps()) == 4)
+        first, second, third = (step.action for step in party.observer.plans["A"].steps[1:])
+        decide(party, decision="edit", steps=[call.model_dump() for call in (third, first, second)])
+        await party.until(lambda: shown(party) == ["box", "floor", "door", "lid"])
+        flow = party.observer.plans["A"].steps[3].action.flow
+        assert flow is not None
+        assert flow.if_ == FlowIf(step=2)
+        party.body.gate("box").set()
+        await party.until(lambda: party.steps() == ["finished", "finished", "finished", "skipped"])
+        assert party.body.did == ["look box", "look floor", "check door"]
+
+
+async def test_edit_that_drops_what_another_step_depends_on_is_refused() -> None:
+    async with crew("A") as party:
+        check = look("door").model_copy(update={"name": "Check"})
+        only_if = look("lid").model_copy(update={"flow": Flow(if_=FlowIf(step=0))})
+        await begun(party)
+        party.order(check, only_if)
+        await party.until(lambda: len(party.steps()) == 3)
+        kept = party.observer.plans["A"].steps[2].action
+        decide(party, decision="edit", steps=[kept.model_dump()])
+        await party.hears("cannot carry out")
+        assert party.observer.refusals[-1].problems[0].path == "steps[0].flow"
+
+
+async def test_edit_during_a_repair_counts_after_it() -> None:
+    async with crew("A") as party:
+        party.body.failures["look box"] = 1
+        party.order(look("box"), look("door"))
+        await party.state("held")
+        decide(party, decision="edit", steps=[look("lid").model_dump()])
+        await party.until(lambda: shown(party) == ["box", "lid"])
+        party.correct(look("big box"))
+        await party.state("idle")
+        assert party.body.did == ["look box", "look big box", "look lid"]
+
+
+async def test_edit_of_an_idle_robot_is_an_order_that_a_person_has_agreed_to() -> None:
+    async with crew("A", ask_first=["A"]) as party:
+        decide(party, decision="edit", steps=[look("lid").model_dump()])
+        await party.until(lambda: party.body.did == ["look lid"])
+
+
+# -- what a plan tells ---------------------------------------------------------------------------------
+
+
+async def test_revision_grows_with_each_change() -> None:
+    async with crew("A") as party:
+        party.order(look("box"), look("door"))
+        await party.state("running")
+        await party.state("idle")
+        seen = [item["revision"] for item in party.wire.objects(topics.PLAN)]
+        assert seen == list(range(1, len(seen) + 1))
+
+
+async def test_step_is_shown_as_waiting_while_its_question_is_open() -> None:
+    async with crew("A") as party:
+        await begun(party, look("door"))
+        question = ChatFeedback(message="Is it open?", targets=("A",), type="request", id="q")
+        party.observer.publish(topics.CHAT_FEEDBACK, question)
+        await party.until(lambda: party.steps() == ["waiting", "queued"])
+        party.observer.publish(
+            topics.CHAT_INPUT, ChatInput(message="yes", targets=("A",), type="response", reply_to="q")
+        )
+        await party.until(lambda: party.steps() == ["running", "queued"])
+
+
+async def test_robot_that_goes_in_good_order_says_what_is_left_undone() -> None:
+    async with crew("A") as party:
+        await begun(party, look("door"))
+        await party.dismiss("A")
+        await party.hears("The plan was stopped. Not done: look at the box; look at the door.")
+        assert party.steps() == ["stopped", "stopped"]
+
+
+async def test_plan_of_a_robot_that_goes_while_it_is_held_is_kept_and_told() -> None:
+    async with crew("A") as party:
+        party.body.failures["look box"] = 1
+        party.order(look("box"), look("door"))
+        await party.state("held")
+        await party.dismiss("A")
+        await party.hears("Its plan is kept.")
+        await party.engine("A")
+        party.command("start")
+        await party.state("idle")
+        assert party.body.did == ["look box", "look box", "look door"]

@@ -1,0 +1,139 @@
+"""Which questions of robots are open."""
+
+from __future__ import annotations
+
+import pytest
+
+from parley.agents.questions import OpenQuestions, SeenIds
+from parley.messages.chat import ChatFeedback, ChatInput
+
+
+def ask(text: str, *targets: str) -> ChatFeedback:
+    return ChatFeedback(message=text, targets=targets or ("A",), type="request", id=text)
+
+
+def answer(questions: OpenQuestions, *targets: str, reply_to: str = "", kind: str = "response") -> None:
+    questions.on_input(
+        ChatInput.model_validate(
+            {"message": "yes", "targets": targets or ("A",), "type": kind, "reply_to": reply_to}
+        )
+    )
+
+
+def first(questions: OpenQuestions, target: str = "A") -> str:
+    found = questions.first(target)
+    return found.id if found else ""
+
+
+@pytest.fixture
+def questions() -> OpenQuestions:
+    found = OpenQuestions()
+    found.on_feedback(ask("one"))
+    found.on_feedback(ask("two"))
+    return found
+
+
+def test_nobody_asked_anything() -> None:
+    assert OpenQuestions().first("A") is None
+
+
+def test_oldest_comes_first_and_an_answer_settles_it(questions: OpenQuestions) -> None:
+    assert first(questions) == "one"
+    answer(questions)
+    assert first(questions) == "two"
+    answer(questions)
+    assert first(questions) == ""
+
+
+def test_answer_settles_the_question_it_names(questions: OpenQuestions) -> None:
+    answer(questions, reply_to="two")
+    answer(questions)
+    assert first(questions) == ""
+
+
+def test_answer_to_a_question_nobody_asked_settles_nothing(questions: OpenQuestions) -> None:
+    answer(questions, reply_to="three")
+    assert first(questions) == "one"
+
+
+def test_order_settles_nothing(questions: OpenQuestions) -> None:
+    answer(questions, kind="request")
+    assert first(questions) == "one"
+
+
+@pytest.mark.parametrize("kind", ["info", "response", "error"])
+def test_robot_withdraws_its_question_with_whatever_it_says(questions: OpenQuestions, kind: str) -> None:
+    questions.on_feedback(
+        ChatFeedback.model_validate({"message": "", "targets": ["A"], "type": kind, "closes": "one"})
+    )
+    assert first(questions) == "two"
+
+
+def test_robots_have_questions_of_their_own(questions: OpenQuestions) -> None:
+    questions.on_feedback(ask("three", "B"))
+    answer(questions, "B")
+    assert (first(questions), first(questions, "B")) == ("one", "")
+
+
+def test_robot_is_found_whatever_the_capitals(questions: OpenQuestions) -> None:
+    assert first(questions, "a") == "one"
+    answer(questions, " a")
+    assert first(questions) == "two"
+
+
+def test_what_robots_say_beside_questions_is_no_question() -> None:
+    questions = OpenQuestions()
+    questions.on_feedback(ChatFeedback(message="I am there.", targets=("A",)))
+    assert questions.first("A") is None
+
+
+def test_answer_to_a_named_question_settles_it_whoever_it_was_sent_to(questions: OpenQuestions) -> None:
+    questions.on_feedback(ask("three", "B"))
+    answer(questions, "A", reply_to="three")
+    assert (first(questions), first(questions, "B")) == ("one", "")
+
+
+@pytest.mark.parametrize(
+    ("message", "robots"),
+    [
+        ("Ada, take it", ["Ada"]),
+        ("take it, ada!", ["Ada"]),
+        ("it is beside Ada", ["Bob"]),
+        ("Adam, take it", ["Bob"]),
+        ("take it", ["Bob"]),
+    ],
+)
+def test_robot_called_by_name_comes_before_the_one_it_was_sent_to(message: str, robots: list[str]) -> None:
+    questions = OpenQuestions()
+    questions.on_feedback(ask("one", "Ada"))
+    questions.on_feedback(ask("two", "Bob"))
+    said = ChatInput(message=message, targets=("Bob",), type="response")
+    assert [robot for robot, _ in questions.answered(said)] == robots
+
+
+def test_answer_for_nobody_is_only_clear_while_one_robot_waits() -> None:
+    questions = OpenQuestions()
+    questions.on_feedback(ask("one", "Ada"))
+    said = ChatInput(message="yes", type="response")
+    assert [robot for robot, _ in questions.answered(said)] == ["Ada"]
+    questions.on_feedback(ask("two", "Bob"))
+    assert questions.answered(said) == []
+    assert questions.robots() == ["Ada", "Bob"]
+
+
+def test_answer_is_late_once_its_question_is_settled_by_whatever_means(questions: OpenQuestions) -> None:
+    questions.on_feedback(ChatFeedback(message="Which?", targets=("A",), type="request", id="q7"))
+    answer = ChatInput(message="red", targets=("A",), type="response", reply_to="q7")
+    assert not questions.is_late(answer)
+    questions.on_input(answer)
+    assert questions.is_late(answer)
+    assert not questions.is_late(answer.model_copy(update={"reply_to": ""}))
+    assert not questions.is_late(answer.model_copy(update={"reply_to": "nobody asked"}))
+    assert not questions.is_late(answer.model_copy(update={"type": "request"}))
+
+
+def test_only_so_many_ids_are_kept() -> None:
+    seen = SeenIds(kept=2)
+    assert [seen.is_new(name) for name in ("a", "b", "a", "c", "a", "", "")] == [
+        True, True, False, True, True, True, True,
+    ]  # fmt: skip

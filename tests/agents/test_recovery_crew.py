@@ -1,0 +1,146 @@
+"""Recovery with real planner, engines and chat interface: hold and release (thesis 4.3.6)."""
+
+from __future__ import annotations
+
+from collections.abc import AsyncIterator
+
+import pytest
+
+from parley.agents.chat.texts import AFTERWARDS
+from parley.messages import topics
+from parley.messages.chat import ActionCall, ChatAction, ChatInput, SystemCommand
+from tests.agents.crew import Crew, crew, look
+
+ASK = ChatAction(success=False, message_response="What should I do?")
+AGAIN = ChatAction(success=True, message_response="I try again.", queue=(look("box"),))
+
+
+def order(*steps: ActionCall) -> ChatAction:
+    return ChatAction(message_response="All right.", queue=steps)
+
+
+@pytest.fixture
+async def failed() -> AsyncIterator[Crew]:
+    """A robot whose first of two steps failed, and that asks."""
+    async with crew("A", talking=True) as party:
+        party.body.failures["look box"] = 1
+        party.language.will("interpret", order(look("box"), look("door")))
+        party.language.will("resolve", ASK)
+        party.observer.say("look at the box and the door", "A")
+        await party.hears("What should I do?")
+        yield party
+
+
+async def test_correction_releases_the_robot_and_the_rest_of_the_plan_follows(failed: Crew) -> None:
+    failed.language.will("resolve", AGAIN)
+    failed.observer.say("try it once more", "A", answer=True)
+    await failed.state("idle")
+    assert failed.body.did == ["look box", "look box", "look door"]
+
+
+async def test_order_during_a_repair_waits_is_confirmed_and_then_carried_out(failed: Crew) -> None:
+    failed.language.will("interpret", order(look("desk")))
+    failed.observer.say("look at the desk", "A")
+    await failed.hears(AFTERWARDS)
+    assert failed.body.did == ["look box"]
+    failed.language.will("resolve", AGAIN)
+    failed.observer.say("try it once more", "A", answer=True)
+    await failed.state("idle")
+    assert failed.body.did == ["look box", "look box", "look door", "look desk"]
+
+
+async def test_order_said_as_the_answer_for_afterwards_is_carried_out_last(failed: Crew) -> None:
+    later = ChatAction(message_response="I will do that afterwards.", queue=(look("desk"),))
+    failed.language.will("resolve", later, AGAIN)
+    failed.observer.say("after that look at the desk", "A", answer=True)
+    await failed.hears("I will do that afterwards.")
+    await failed.until(lambda: failed.observer.questions.first("A") is not None)
+    failed.observer.say("try it once more", "A", answer=True)
+    await failed.state("idle")
+    assert failed.body.did == ["look box", "look box", "look door", "look desk"]
+
+
+async def test_order_instead_of_everything_drops_the_plan_and_runs(failed: Crew) -> None:
+    clear = SystemCommand(command="clear")
+    instead = ChatAction(success=True, message_response="Yes.", queue=(look("desk"),), system_cmd=(clear,))
+    failed.language.will("resolve", instead)
+    failed.observer.say("forget it and look at the desk", "A", answer=True)
+    await failed.until(lambda: "look desk" in failed.body.did)
+    await failed.state("idle")
+    assert failed.body.did == ["look box", "look desk"]
+
+
+async def test_question_to_the_robot_in_between_leaves_it_held_and_its_question_open(failed: Crew) -> None:
+    failed.language.will("interpret", ChatAction(message_response="By the door."))
+    failed.observer.say("where is it?", "A")
+    await failed.hears("By the door.")
+    assert failed.observer.state("A") == "held"
+    assert failed.observer.questions.first("A") is not None
+    assert not any(AFTERWARDS in text for text in failed.texts())
+
+
+@pytest.mark.spec("P18")
+async def test_after_the_last_attempt_any_order_goes_on(failed: Crew) -> None:
+    failed.language.will("resolve", ASK, ASK, ASK)
+    for count in (2, 3, 4):
+        failed.observer.say("hmm", "A", answer=True)
+        await failed.until(
+            lambda count=count: sum("What should I do?" in t for t in failed.texts()) >= min(count, 3)  # type: ignore[misc]
+        )
+    await failed.hears("Left to do: look at the box; look at the door.")
+    assert failed.observer.state("A") == "held"
+    failed.language.will("interpret", order(look("desk")))
+    failed.observer.say("look at the desk", "A")
+    await failed.until(lambda: "look desk" in failed.body.did)
+
+
+async def test_protocol_to_stop_holds_the_robot_until_it_is_told_to_carry_on() -> None:
+    async with crew("A", talking=True) as party:
+        party.body.failures["look box"] = 1
+        stop = SystemCommand(command="stop")
+        party.language.will("interpret", order(look("box")))
+        party.language.will(
+            "resolve", ChatAction(success=True, message_response="Stopped.", system_cmd=(stop,))
+        )
+        party.observer.say("look at the box", "A")
+        await party.hears("Stopped.")
+        await party.state("held")
+        assert party.body.did == ["look box"]
+        party.observer.say("carry on", "A")
+        await party.state("idle")
+        assert party.body.did == ["look box", "look box"]
+
+
+async def test_robots_that_fail_at_once_are_helped_each_for_itself() -> None:
+    async with crew("A", "B", talking=True) as party:
+        for name in ("A", "B"):
+            party.bodies[name].failures["look box"] = 1
+            party.language.will("interpret", order(look("box")))
+            party.language.will("resolve", ASK)
+            party.observer.say("look at the box", name)
+            await party.until(lambda name=name: party.observer.questions.first(name) is not None)  # type: ignore[misc]
+        party.language.will("resolve", AGAIN)
+        party.observer.publish(
+            topics.CHAT_INPUT, ChatInput(message="B, try it once more", targets=("A",), type="response")
+        )
+        await party.state("idle", "B")
+        assert party.bodies["B"].did == ["look box", "look box"]
+        assert (party.observer.state("A"), party.bodies["A"].did) == ("held", ["look box"])
+        assert party.observer.questions.first("A") is not None
+
+
+async def test_answer_for_nobody_is_not_taken_for_an_order() -> None:
+    async with crew("A", "B", talking=True) as party:
+        for name in ("A", "B"):
+            party.bodies[name].failures["look box"] = 1
+            party.language.will("interpret", order(look("box")))
+            party.language.will("resolve", ASK)
+            party.observer.say("look at the box", name)
+            await party.until(lambda name=name: party.observer.questions.first(name) is not None)  # type: ignore[misc]
+        party.observer.publish(topics.CHAT_INPUT, ChatInput(message="the red one", type="response"))
+        await party.hears("Which robot do you mean, A or B?")
+        assert sum("Which robot" in text for text in party.texts()) == 1
+        party.language.will("resolve", AGAIN)
+        party.observer.publish(topics.CHAT_INPUT, ChatInput(message="A", type="response"))
+        await party.state("idle", "A")
+        assert party.bodies["A"].did == ["look box", "look box"]
