@@ -6,7 +6,7 @@ message arrives: what the engine reports decides, and what differs from the plan
 Step identity: each node gets an ``instance_id`` from a counter that never goes back within a graph, kept in
 plan order. A repeated or moved step gets a new one: late reports about an old one cannot be mistaken for it.
 
-Here are the orders; what the plan is made of is in `plan_core`, what it makes of reports in `plan_reports`.
+Here are the orders; what the plan is made of is in `core`, what it makes of reports in `reports`.
 """
 
 from __future__ import annotations

@@ -6,120 +6,100 @@ The planner node decides what becomes of these; what there is to tell of them is
 from __future__ import annotations
 
 import uuid
-from collections.abc import Awaitable, Callable, Mapping, Sequence
-from types import MappingProxyType
+from collections.abc import Callable, Sequence
+from typing import Literal
 
-from parley.agents.base import Mailboxes
+from parley.agents.base import Node
 from parley.agents.planner import orders as orders
-from parley.agents.planner.approval import PlanBoard, Policy
+from parley.agents.planner.approval import PlanBoard
+from parley.agents.planner.check import check_calls, complete_calls
 from parley.agents.planner.effects import Effect
 from parley.agents.planner.left_graphs import LeftGraphs
 from parley.agents.planner.offers import Offers
 from parley.agents.planner.plan import TargetPlan
-from parley.agents.planner.proposal_log import ProposalLog
 from parley.agents.planner.sending import Patience, PlanSender
 from parley.agents.planner.steps import Step
 from parley.agents.presence import Presence, linked_to
 from parley.agents.questions import OpenQuestions
 from parley.clock import Clock
 from parley.errors import Problem
-from parley.gate.judge import Judgement
-from parley.memory.proposals import ProposalStore
+from parley.gate.table import Effect as GateEffect
 from parley.messages import topics
+from parley.messages.audit import AuditEvent
 from parley.messages.chat import ActionCall, ChatAction
 from parley.messages.principal import Principal
 from parley.messages.status import ActionInfo, ActorStatus
 from parley.sentences import sentence
-from parley.transport.base import Transport
-from parley.world.geometry import Pose2D
 from parley.world.object_map import MapObject
 
-__all__ = ["Judge", "RobotPlans"]
-
-Judge = Callable[
-    [str, Sequence[ActionCall], Sequence[ActionInfo], Pose2D | None, Principal | None, bool],
-    Awaitable[Judgement | None],
-]
-"""What the rules say: robot, steps, its actions, where it is, on whose account, whether risks count."""
+__all__ = ["RobotPlans"]
 
 
-class RobotPlans(PlanSender):
+class RobotPlans:
     """One plan per robot, kept while it is away, told to everybody at each change.
 
     Args:
-        transport: Where the topics are.
+        node: Whose topics.
         clock: Its wall time says who is gone.
         known_robots: Robots that send no heartbeat of ours (a TeMoto engine).
-        approval: Whether new steps wait for a person's yes.
-        policies: Robots for which that is otherwise.
+        approvals: What waits for a yes.
         patience: How long an engine is waited for.
-        proposals: Keeps what waits for a yes over restarts; None keeps it only while this process lives.
         tell: Gets a robot and what it has to say by itself; None says it at once, to whoever listens.
         objects: The things a robot's map knows, by the robot's name.
-        judge: What the rules say about steps; None: there are none.
-        begin_for: Told on whose account a robot acts from now on.
     """
 
     def __init__(
         self,
-        transport: Transport,
+        node: Node,
         clock: Clock,
         *,
-        known_robots: Sequence[str] = (),
-        approval: Policy = "run_at_once",
-        policies: Mapping[str, Policy] = MappingProxyType({}),
-        patience: Patience | None = None,
-        proposals: ProposalStore | None = None,
-        tell: Callable[[str, str], None] | None = None,
-        objects: Callable[[str], Sequence[MapObject]] = lambda _: (),
-        judge: Judge | None = None,
-        begin_for: Callable[[str, Principal | None], None] = lambda *_: None,
+        known_robots: Sequence[str],
+        approvals: Offers,
+        patience: Patience,
+        tell: Callable[[str, str], None] | None,
+        objects: Callable[[str], Sequence[MapObject]],
     ) -> None:
-        super().__init__(transport, patience or Patience())
-        self._presence = Presence(clock, tuple(known_robots), self._on_presence, linked=linked_to(transport))
-        self._plans: dict[str, TargetPlan] = {}
-        self._proposals, self._offers_again = ProposalLog(proposals), False
-        self._tell = tell or (lambda robot, text: self._say(robot, text, "info"))
-        self._objects, self._judge, self._begin_for = objects, judge, begin_for
-        self._mailboxes: Mailboxes[str] = Mailboxes(self._on_defect)
-        self._weighing: dict[str, int] = {}
-        """How often each robot was told to stand still: what is being weighed then is not done."""
-        self._approvals = Offers(self._proposals, clock, approval, policies)
-        self._board = PlanBoard(self._catalogue, objects)
-        self._held_by: dict[str, Principal] = {}
+        self._node = node
+        self._sender = PlanSender(node, patience, self._speaks_parley, self.send)
+        self.say, self.refuse = self._sender.say, self._sender.refuse
+        self.presence = Presence(
+            clock, tuple(known_robots), self._on_presence, linked=linked_to(node.transport)
+        )
+        self.by_robot: dict[str, TargetPlan] = {}
+        """By robot: those that were ever needed."""
+        self.approvals, self.objects = approvals, objects
+        self.board = PlanBoard(self.catalogue, objects)
+        self.held_by: dict[str, Principal] = {}
         """Who told each robot to stand still, until it goes on."""
+        self.questions, self.left = OpenQuestions(), LeftGraphs()
+        self._tell = tell or (lambda robot, text: self.say(robot, text, "info"))
+        self._offers_again = False
         self._listeners = 0
         """How many listen to the plans."""
-        self._questions, self._left = OpenQuestions(), LeftGraphs()
 
     async def open(self) -> None:
-        """See `Node.open`."""
-        await self.opened.enter_async_context(self._proposals)
-        await self.opened.enter_async_context(self._mailboxes)
-        await self.subscribe(topics.ACTOR_STATUS, ActorStatus, self._presence.on_status)
-        self.opened.callback(self.transport.on_endpoints_changed(self._on_ends))
-        self.spawn(self._presence.watch(), name="presence")
-
-    def _on_defect(self, target: str, error: Exception) -> None:
-        self._say(target, orders.NOTHING_DONE, "error")
+        """Hear which robots are there; closed with the node."""
+        await self._node.subscribe(topics.ACTOR_STATUS, ActorStatus, self.presence.on_status)
+        self._node.opened.callback(self._node.transport.on_endpoints_changed(self._on_ends))
+        self._node.spawn(self.presence.watch(), name="presence")
 
     # -- what an earlier process left ------------------------------------------------------------------
 
     def restore(self, target: str, steps: Sequence[Step]) -> None:
         """Hold `steps`, which an earlier process left, until the operator says to go on or to drop them."""
-        plan = self._plan(target)
+        plan = self.plan(target)
         plan.restore(steps)
-        self._send(plan, [])
+        self.send(plan, [])
 
     def adopt(self, target: str, name: str, steps: Sequence[Step], *, dry: bool) -> None:
         """Hold the plan behind a graph that an earlier process left and the engine of `target` took up."""
-        plan = self._plan(target)
+        plan = self.plan(target)
         plan.adopt(name, steps, dry=dry)
-        self._send(plan, [])
+        self.send(plan, [])
 
     def hold_graph(self, target: str, name: str) -> None:
         """The engine of `target` holds a graph that an earlier process left; the same words go for it."""
-        self._left.hold(self._plan(target).target, name)
+        self.left.hold(self.plan(target).target, name)
 
     def offer_again(self) -> None:
         """Propose what an earlier process left waiting for a yes, now and to robots that come later.
@@ -127,80 +107,82 @@ class RobotPlans(PlanSender):
         Called when the plans it left are restored: a repair goes in the place of a step of theirs.
         """
         self._offers_again = True
-        for robot in self._presence.names():
+        for robot in self.presence.names():
             self._offer_left(robot)
 
     def _offer_left(self, robot: str) -> None:
-        status = self._presence.get(robot) if self._offers_again else None
-        for proposal, text in self._approvals.take_left(self._plan(robot), status) if status else ():
+        status = self.presence.get(robot) if self._offers_again else None
+        for proposal, text in self.approvals.take_left(self.plan(robot), status) if status else ():
             if proposal is not None:
-                self.publish(topics.PLAN, proposal)
-            self._send(self._plan(robot), [])
+                self._node.publish(topics.PLAN, proposal)
+            self.send(self.plan(robot), [])
             self._tell(robot, text)
 
     # -- who is there ----------------------------------------------------------------------------------
 
-    def _targets(self, order: ChatAction, what: str) -> list[str]:
+    def targets(self, order: ChatAction, what: str) -> list[str]:
         """The robots an order is for; no addressee or an unknown one means no motion."""
         found: list[str] = []
         for name in order.targets:
-            known = self._presence.resolve(name)
+            known = self.presence.resolve(name)
             if known is None:
                 problem = Problem(
-                    "targets", f"no robot is called {name!r}", self._presence.known_text(), "unknown_robot"
+                    "targets", f"no robot is called {name!r}", self.presence.known_text(), "unknown_robot"
                 )
-                self._refuse(what, name, [problem])
-                self._say(name, orders.no_robot(name, self._presence.known_text()), "error")
+                self.refuse(what, name, [problem])
+                self.say(name, orders.no_robot(name, self.presence.known_text()), "error")
             elif known not in found:
                 found.append(known)
         if not order.targets:
-            self._refuse(
+            self.refuse(
                 what,
                 "",
-                [Problem("targets", "no robot is named", self._presence.known_text(), "no_robot")],
+                [Problem("targets", "no robot is named", self.presence.known_text(), "no_robot")],
             )
         return found
 
-    def _catalogue(self, target: str) -> Sequence[ActionInfo]:
-        status = self._presence.get(target)
+    def catalogue(self, target: str) -> Sequence[ActionInfo]:
+        """What a robot can do; nothing while it is not there."""
+        status = self.presence.get(target)
         return status.catalogue if status is not None else ()
 
     def _on_presence(self, robot: str, joined: bool) -> None:
-        if joined and self._approvals.policy(robot) != "run_at_once":
-            self._send(self._plan(robot), [])
+        if joined and self.approvals.policy(robot) != "run_at_once":
+            self.send(self.plan(robot), [])
         if joined:
             self._offer_left(robot)
-        plan = self._plans.get(robot)
+        plan = self.by_robot.get(robot)
         if plan is None:
             return
         if not joined:
             text = sentence("I have lost contact with {robot}. Its plan is kept.", robot=robot)
             if plan.pending:
-                self._say(robot, text, "error")
-        elif (status := self._presence.get(robot)) is not None:
-            self._send(plan, plan.on_return(status.graphs))
+                self.say(robot, text, "error")
+        elif (status := self.presence.get(robot)) is not None:
+            self.send(plan, plan.on_return(status.graphs))
 
     def _speaks_parley(self, target: str) -> bool:
-        return self._presence.get(target) is not None
+        return self.presence.get(target) is not None
 
     # -- their plans -----------------------------------------------------------------------------------
 
     def _on_ends(self) -> None:
         """Tell all plans again when somebody new listens; saying the same twice does no harm."""
         name = topics.PLAN.name
-        ends = self.transport.endpoints()
+        ends = self._node.transport.endpoints()
         before, self._listeners = (
             self._listeners,
             sum(e.role == "subscription" and e.name == name for e in ends),
         )
         if self._listeners > before:
-            for told in (*self._board.shown, *self._approvals.waiting):
-                self.publish(topics.PLAN, told)
+            for told in (*self.board.shown, *self.approvals.waiting):
+                self._node.publish(topics.PLAN, told)
 
-    def _plan(self, target: str) -> TargetPlan:
-        plan = self._plans.get(target)
+    def plan(self, target: str) -> TargetPlan:
+        """The plan of a robot, empty at first."""
+        plan = self.by_robot.get(target)
         if plan is None:
-            plan = self._plans[target] = TargetPlan(
+            plan = self.by_robot[target] = TargetPlan(
                 target,
                 new_graph_name=lambda: f"{target}_{uuid.uuid4().hex[:12]}",
                 waits_for_operator=lambda action: self._has_effect(target, action, "asks_operator"),
@@ -209,12 +191,57 @@ class RobotPlans(PlanSender):
         return plan
 
     def _has_effect(self, target: str, action: str, effect: str) -> bool:
-        status = self._presence.get(target)
+        status = self.presence.get(target)
         return status is not None and any(i.name == action and effect in i.effects for i in status.catalogue)
 
-    def _send(self, plan: TargetPlan, effects: Sequence[Effect]) -> None:
-        super()._send(plan, effects)
-        self._approvals.drop_settled(plan)
-        update = self._board.show(plan, self._approvals, self._held_by.get(plan.target))
+    def send(self, plan: TargetPlan, effects: Sequence[Effect]) -> None:
+        """Send all of it, then the plan as it is now."""
+        for effect in effects:
+            self._sender.send(plan, effect)
+        self.approvals.drop_settled(plan)
+        update = self.board.show(plan, self.approvals, self.held_by.get(plan.target))
         if update is not None:
-            self.publish(topics.PLAN, update)
+            self._node.publish(topics.PLAN, update)
+
+    def accept(
+        self,
+        plan: TargetPlan,
+        queue: Sequence[ActionCall],
+        *,
+        correcting: bool = False,
+        decided: bool = False,
+    ) -> list[ActionCall] | None:
+        """The completed actions, or None (and everybody told) if the robot cannot carry them out.
+
+        Args:
+            plan: Of the robot.
+            queue: The actions.
+            correcting: Whether they take the failed step's place.
+            decided: Whether a person put them together.
+        """
+        catalogue = self.catalogue(plan.target)
+        calls = complete_calls(queue, catalogue)
+        put = plan.correction(calls) if correcting else calls
+        problems = check_calls(put, catalogue, path="steps" if decided else "queue")
+        if not problems:
+            return calls
+        text = orders.WAITING_HELPLESS if correcting and not decided else ""
+        self.refuse_plan(plan, problems, decided=decided, text=text)
+        return None
+
+    def refuse_plan(
+        self, plan: TargetPlan, problems: Sequence[Problem], *, decided: bool, text: str = ""
+    ) -> None:
+        """Tell everybody that steps cannot be carried out."""
+        topic = topics.PLAN_DECISION if decided else topics.CHAT_ACTION
+        self.refuse(topic.name, plan.target, problems)
+        self.say(plan.target, text or (orders.LEFT if decided else orders.NOTHING_DONE), "error")
+
+    def audit(
+        self, effect: GateEffect, order: ChatAction, target: str, outcome: Literal["asked", "refused"]
+    ) -> None:
+        """Put on record what did not begin at once."""
+        self._node.publish(
+            topics.AUDIT,
+            AuditEvent(effect=effect, by=order.by, robot=target, outcome=outcome, words=order.words),
+        )

@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 import asyncio
-from abc import abstractmethod
 from collections.abc import Callable, Sequence
 from dataclasses import dataclass
 from typing import Literal
@@ -27,7 +26,6 @@ from parley.messages import ros, topics
 from parley.messages.chat import ChatFeedback
 from parley.messages.status import Rejection, RejectionProblem, StepCommand
 from parley.messages.wire import to_string
-from parley.transport.base import Transport
 from parley.umrf.io import write_graph
 
 __all__ = ["Patience", "PlanSender"]
@@ -47,38 +45,38 @@ class Patience:
     """To say how a step ended on which others depend."""
 
 
-class PlanSender(Node):
-    """The half of the planner that speaks.
+class PlanSender:
+    """What a plan says, put on the topics.
 
     Args:
-        transport: Where the topics are.
+        node: Whose topics.
         patience: How long an engine is waited for.
+        speaks_parley: Whether a robot's engine is one of ours.
+        again: Gets what is to be sent when an engine stayed silent.
     """
 
-    def __init__(self, transport: Transport, patience: Patience) -> None:
-        super().__init__(transport)
-        self._patience = patience
+    def __init__(
+        self,
+        node: Node,
+        patience: Patience,
+        speaks_parley: Callable[[str], bool],
+        again: Callable[[TargetPlan, Sequence[Effect]], None],
+    ) -> None:
+        self._node, self._patience = node, patience
+        self._speaks_parley, self._again = speaks_parley, again
 
-    @abstractmethod
-    def _speaks_parley(self, target: str) -> bool:
-        """Whether the robot's engine is one of ours; override."""
-
-    def _send(self, plan: TargetPlan, effects: Sequence[Effect]) -> None:
-        """Send all of it, then the plan as it is now; override for the latter."""
-        for effect in effects:
-            self._send_one(plan, effect)
-
-    def _send_one(self, plan: TargetPlan, effect: Effect) -> None:
+    def send(self, plan: TargetPlan, effect: Effect) -> None:
+        """Send what one effect says."""
         targets = (plan.target,)
         match effect:
             case StartGraph(graph):
                 text = write_graph(graph, faithful=True)
-                self.send(topics.GRAPH_START, ros.UmrfGraphStart(umrf_graph_json=text, targets=targets))
+                self._node.send(topics.GRAPH_START, ros.UmrfGraphStart(umrf_graph_json=text, targets=targets))
                 self._later(self._patience.answer_s, plan, lambda: plan.on_no_answer(graph.name))
             case ModifyGraph(graph, continue_from):
                 text = write_graph(graph, faithful=True)
                 message = ros.UmrfGraphModify(graph.name, targets, text, continue_from)
-                self.send(topics.GRAPH_MODIFY, message)
+                self._node.send(topics.GRAPH_MODIFY, message)
                 if continue_from:
                     self._later(
                         self._patience.progress_s,
@@ -86,40 +84,42 @@ class PlanSender(Node):
                         lambda: plan.on_no_progress(graph.name, continue_from),
                     )
             case PauseGraph(name):
-                self.send(topics.GRAPH_PAUSE, ros.UmrfGraphPause(name, targets))
+                self._node.send(topics.GRAPH_PAUSE, ros.UmrfGraphPause(name, targets))
                 if not self._speaks_parley(plan.target):  # the reference listens to its own misspelling
-                    self.send(topics.GRAPH_PAUSE_TEMOTO, ros.UmrfGraphPause(name, targets))
+                    self._node.send(topics.GRAPH_PAUSE_TEMOTO, ros.UmrfGraphPause(name, targets))
             case ResumeGraph(name):
-                self.send(topics.GRAPH_RESUME, ros.UmrfGraphResume(name, targets))
+                self._node.send(topics.GRAPH_RESUME, ros.UmrfGraphResume(name, targets))
             case StopGraph(name):
-                self.send(topics.GRAPH_STOP, ros.UmrfGraphStop(name, targets))
+                self._node.send(topics.GRAPH_STOP, ros.UmrfGraphStop(name, targets))
                 self._later(self._patience.end_s, plan, lambda: plan.on_no_end(name))
             case EndStep(name, node):
-                self.publish(topics.STEP, StepCommand(target=plan.target, graph_name=name, node=node))
+                self._node.publish(topics.STEP, StepCommand(target=plan.target, graph_name=name, node=node))
             case AwaitResult(name):
                 self._later(self._patience.result_s, plan, lambda: plan.on_no_result(name))
             case ReportFailure(message):
-                self.publish(topics.ERROR_HANDLING, message)
+                self._node.publish(topics.ERROR_HANDLING, message)
             case Say(text, kind):
-                self._say(plan.target, text, kind)
+                self.say(plan.target, text, kind)
 
     def _later(self, seconds: float, plan: TargetPlan, look: Callable[[], list[Effect]]) -> None:
         """Look again after some wall time; `look` decides whether anything is still amiss."""
 
         async def wait() -> None:
             await asyncio.sleep(seconds)
-            self._send(plan, look())
+            self._again(plan, look())
 
-        self.spawn(wait(), name=f"deadline {plan.target}")
+        self._node.spawn(wait(), name=f"deadline {plan.target}")
 
-    def _say(self, target: str, text: str, kind: Literal["response", "info", "error"]) -> None:
-        said = ChatFeedback(message=self.spoken(text), targets=(target,), type=kind)
-        self.publish(topics.CHAT_FEEDBACK, said)
+    def say(self, target: str, text: str, kind: Literal["response", "info", "error"]) -> None:
+        """Say one of our own sentences for a robot."""
+        said = ChatFeedback(message=self._node.spoken(text), targets=(target,), type=kind)
+        self._node.publish(topics.CHAT_FEEDBACK, said)
 
-    def _refuse(self, what: str, target: str, problems: Sequence[Problem]) -> None:
-        self.log.warning("refused", what=what, target=target, problems=[str(p) for p in problems])
+    def refuse(self, what: str, target: str, problems: Sequence[Problem]) -> None:
+        """Tell programs and the log why something was not taken."""
+        self._node.log.warning("refused", what=what, target=target, problems=[str(p) for p in problems])
         listed = tuple(
             RejectionProblem(path=p.path, message=p.message, remedy=p.remedy, code=p.code) for p in problems
         )
-        rejection = Rejection(source=self.name, target=target, what=what, problems=listed)
-        self.send(topics.REJECTION, to_string(rejection))
+        rejection = Rejection(source=self._node.name, target=target, what=what, problems=listed)
+        self._node.send(topics.REJECTION, to_string(rejection))

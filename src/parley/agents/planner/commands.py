@@ -1,0 +1,121 @@
+"""What a command from the closed table does to a robot's plan and to memories."""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+
+from parley.agents.base import Node
+from parley.agents.planner import orders
+from parley.agents.planner.asking import SHALL_I, wish_of
+from parley.agents.planner.effects import Effect as PlanEffect
+from parley.agents.planner.effects import Say
+from parley.agents.planner.plan import TargetPlan
+from parley.agents.planner.remembering import memory_change
+from parley.agents.planner.robot_plans import RobotPlans
+from parley.agents.planner.steps import Step
+from parley.errors import Problem
+from parley.gate.ruling import EFFECT_OF
+from parley.gate.table import verdict
+from parley.messages import topics
+from parley.messages.chat import ActionCall, ChatAction, SystemCommand
+from parley.messages.memory import AddToMemory, RemoveMemory
+from parley.messages.principal import Principal
+from parley.messages.status import PlanDecision
+from parley.sentences import together
+
+__all__ = ["Commands"]
+
+
+class Commands:
+    """Commands, once it is ruled that they are done.
+
+    Args:
+        node: Whose topics.
+        plans: What is known of each robot.
+    """
+
+    def __init__(self, node: Node, plans: RobotPlans) -> None:
+        self._node, self._plans = node, plans
+
+    def effects_of(self, plan: TargetPlan, command: SystemCommand, by: Principal | None) -> list[PlanEffect]:
+        """What is to be sent because of a command; memories are everybody's, see `remember`."""
+        match command.command:
+            case "stop" | "pause":
+                left = self._plans.left.pause(plan.target)
+                if plan.pending or left:
+                    self.hold_for(plan, by)
+                return [*left, *plan.pause()]
+            case "start":
+                left = [] if plan.pending else self._plans.left.go_on(plan.target)
+                waiting = self._plans.approvals.of(plan.target)
+                repairs = any(self._plans.approvals.repairs(proposal.id) for proposal in waiting)
+                if waiting and (
+                    repairs or not plan.pending
+                ):  # a yes is bound to what was shown, going on is not
+                    return [Say(together(wish_of(waiting[-1].labels), SHALL_I))]
+                self._plans.held_by.pop(plan.target, None)
+                return left or plan.start()
+            case "clear":
+                for proposal in self._plans.approvals.of(plan.target):
+                    self._plans.approvals.drop(proposal.id)
+                self._plans.held_by.pop(plan.target, None)
+                return [*self._plans.left.stop(plan.target), *plan.clear()]
+            case "skip":
+                return plan.skip()
+            case "pop":
+                return plan.pop(command.pop_index)
+        return []  # memories are everybody's, see _remember
+
+    def append(self, plan: TargetPlan, calls: Sequence[ActionCall]) -> None:
+        """Put steps behind the plan; a robot that stands still goes on standing, and says so."""
+        still = plan.update().state == "paused"
+        self._plans.send(plan, plan.append(calls))
+        if calls and still and plan.update().state == "paused":
+            self._plans.say(
+                plan.target, "I am still standing still. Say “carry on” when I should go on.", "info"
+            )
+
+    def hold_for(self, plan: TargetPlan, by: Principal | None) -> None:
+        """Remember who told a robot to stand still; a person's word counts before anybody else's."""
+        before = self._plans.held_by.get(plan.target)
+        if before is None or not before.is_person:
+            self._plans.held_by[plan.target] = by or Principal()
+
+    def change(
+        self, plan: TargetPlan, command: SystemCommand, step: Step | None, decision: PlanDecision
+    ) -> None:
+        """Do what a person said yes to, to the step that was meant."""
+        if change := memory_change(command):
+            self.remember(ChatAction(system_cmd=(command,), by=decision.by), [plan.target])
+            assert not isinstance(change, Problem)
+        elif command.command in ("pop", "skip"):
+            if step in plan.pending:
+                self._plans.send(plan, plan.pop(plan.pending.index(step)))
+            else:
+                self._plans.say(plan.target, orders.STEP_OVER, "info")
+        else:
+            self._plans.send(plan, self.effects_of(plan, command, decision.by))
+
+    def remember(self, order: ChatAction, targets: Sequence[str]) -> None:
+        """Let be remembered and forgotten what an order may."""
+        for command in orders.of_memory(order):
+            effect = EFFECT_OF[command.command]
+            found = verdict(order.by, effect)
+            if found == "yes" and order.behalf is not None and not order.needs_yes:
+                found = "allow"  # the person's own words ask for it
+            if found != "allow":
+                if not order.needs_yes:
+                    self._plans.audit(effect, order, ",".join(targets), "refused")
+                continue
+            if order.by is None or order.by.kind == "program":  # whose word it is cannot be known
+                known = {name: x for name, x in command.arguments.items() if name not in ("way", "words")}
+                command = command.model_copy(
+                    update={"arguments": known | {"source": str(order.by or "program")}}
+                )
+            match memory_change(command):
+                case AddToMemory() as added:
+                    self._node.publish(topics.ADD_TO_MEMORY, added)
+                case RemoveMemory() as removed:
+                    self._node.publish(topics.REMOVE_MEMORY, removed)
+                case Problem() as problem:
+                    self._plans.refuse("chat_action", ",".join(targets), [problem])

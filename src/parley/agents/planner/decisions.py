@@ -1,0 +1,142 @@
+"""What people decide about plans: yes, no, other steps, and whether they are asked at all."""
+
+from __future__ import annotations
+
+from typing import Final, Literal
+
+from parley.agents.base import Node
+from parley.agents.planner import orders
+from parley.agents.planner.approval import Policy
+from parley.agents.planner.asking import CHANGED, REFUSED, begun
+from parley.agents.planner.check import check_calls, complete_calls
+from parley.agents.planner.commands import Commands
+from parley.agents.planner.flow import listed, rebased
+from parley.agents.planner.ordering import BeginFor
+from parley.agents.planner.proposing import Proposals
+from parley.agents.planner.robot_plans import RobotPlans
+from parley.errors import Problem
+from parley.gate.table import Effect, verdict
+from parley.messages import topics
+from parley.messages.audit import AuditEvent
+from parley.messages.chat import ActionCall
+from parley.messages.status import PlanDecision
+
+__all__ = ["Decisions"]
+
+DECIDES: Final = {
+    "approve": Effect.APPROVE, "reject": Effect.REJECT, "edit": Effect.EDIT, "policy": Effect.POLICY,
+}  # fmt: skip
+
+
+class Decisions:
+    """Decisions of people; nobody else's count.
+
+    Args:
+        node: Whose topics.
+        plans: What is known of each robot.
+        proposals: What waits for a yes.
+        commands: Does what a command says.
+        begin_for: Told on whose account a robot acts from now on.
+    """
+
+    def __init__(
+        self,
+        node: Node,
+        plans: RobotPlans,
+        proposals: Proposals,
+        commands: Commands,
+        begin_for: BeginFor,
+    ) -> None:
+        self._node, self._plans, self._proposals, self._commands = node, plans, proposals, commands
+        self._begin_for = begin_for
+
+    async def open(self) -> None:
+        """Take decisions; closed with the node."""
+        await self._node.subscribe(topics.PLAN_DECISION, PlanDecision, self._on_decision)
+
+    def _on_decision(self, decision: PlanDecision) -> None:
+        target = self._plans.presence.resolve(decision.target) or decision.target
+        if verdict(decision.by, DECIDES[decision.decision]) != "allow":
+            problem = Problem("by", "only a person decides that", "let a person say it", "not_a_person")
+            self._plans.refuse(topics.PLAN_DECISION.name, target, [problem])
+            self._node.publish(
+                topics.AUDIT,
+                AuditEvent(
+                    effect=DECIDES[decision.decision], by=decision.by, robot=target, outcome="refused"
+                ),
+            )
+        elif decision.decision == "policy":
+            self._set_policy(target, decision.policy)
+        elif decision.decision == "edit" and not decision.id:
+            self._edit(target, decision)
+        else:
+            self._decide(target, decision)
+
+    def _decide(self, target: str, decision: PlanDecision) -> None:
+        proposal = self._plans.approvals.get(decision.id)
+        if proposal is None or proposal.target != target:
+            self._plans.say(decision.target, "That plan is no longer waiting for an answer.", "error")
+            return
+        plan, repairs = self._plans.plan(proposal.target), self._plans.approvals.repairs(decision.id)
+        if decision.decision == "reject":
+            self._plans.approvals.drop(decision.id)
+            self._plans.send(plan, plan.give_up() if repairs else [])
+            self._plans.say(plan.target, orders.WAITING if plan.held else REFUSED, "response")
+            return
+        shown = decision.digest or (proposal.digest if decision.decision == "edit" else "")
+        if shown != proposal.digest or self._proposals.digest(proposal) != proposal.digest:
+            self._proposals.show_again(plan, proposal)
+            return
+        edited = decision.decision == "edit"
+        calls: list[ActionCall] | None = list(proposal.steps)
+        if edited:
+            calls, problems = rebased(decision.steps, proposal.steps)
+            if problems:
+                self._plans.refuse_plan(plan, problems, decided=True)
+                return
+        calls = self._plans.accept(plan, calls or (), correcting=repairs, decided=edited)
+        if calls is None:
+            return  # it goes on waiting, for a better edit
+        bound = self._plans.approvals.bound(decision.id)
+        self._plans.approvals.drop(decision.id)
+        self._plans.say(plan.target, CHANGED if edited else begun(proposal.labels), "response")
+        if calls:  # whoever says yes to steps wants them done
+            self._plans.held_by.pop(plan.target, None)
+            self._begin_for(plan.target, decision.by)
+        for command, step in bound:
+            self._commands.change(plan, command, step, decision)
+        if repairs:
+            self._plans.send(plan, orders.take_repair(plan, calls))
+        elif calls:
+            self._commands.append(plan, calls)
+            if plan.update().state == "paused":
+                self._plans.send(plan, plan.start())
+        else:
+            self._plans.send(plan, [])
+
+    def _edit(self, target: str, decision: PlanDecision) -> None:
+        """Put other steps in the place of all that have not begun; whoever edits has said yes to them."""
+        plan = self._plans.plan(target)
+        if self._plans.board.is_past(target, decision.revision):
+            problem = Problem(
+                "revision", "the plan is another by now", "edit it as it is now", "past_revision"
+            )
+            self._plans.refuse(topics.PLAN_DECISION.name, target, [problem])
+            self._plans.say(target, orders.PLAN_CHANGED, "error")
+            return
+        free = {id(step) for step in plan.not_begun}
+        begun = [index for index, step in enumerate(plan.steps) if id(step) not in free]
+        known, catalogue = [plan.steps[index] for index in begun], self._plans.catalogue(target)
+        calls, problems = rebased(decision.steps, listed(plan.steps), begun)
+        if not problems:
+            calls = complete_calls(calls, catalogue, known=len(known))
+            problems = check_calls(calls, catalogue, before=known, known=known, path="steps")
+        if problems:
+            self._plans.refuse_plan(plan, problems, decided=True)
+        else:
+            self._plans.send(plan, plan.edit(calls))
+
+    def _set_policy(self, target: str, policy: Policy | Literal[""]) -> None:
+        if policy:
+            self._plans.approvals.choose(target, policy)
+            self._plans.send(self._plans.plan(target), [])

@@ -1,0 +1,95 @@
+"""What waits for a yes: made from what it really is, shown again when it has become something else."""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+
+from parley.agents.base import Node
+from parley.agents.planner import orders
+from parley.agents.planner.approval import Bound
+from parley.agents.planner.asking import SHALL_I, wish_of
+from parley.agents.planner.plan import TargetPlan
+from parley.agents.planner.robot_plans import RobotPlans
+from parley.agents.planner.steps import Step
+from parley.gate.cards import Labels, command_label, digest_of, labels_of
+from parley.messages import topics
+from parley.messages.chat import ActionCall, ChatAction, SystemCommand
+from parley.messages.status import PlanProposal
+from parley.sentences import together
+
+__all__ = ["Proposals"]
+
+
+class Proposals:
+    """Proposals, as people see them.
+
+    Args:
+        node: Whose topics and language.
+        plans: What is known of each robot.
+    """
+
+    def __init__(self, node: Node, plans: RobotPlans) -> None:
+        self._node, self._plans = node, plans
+
+    def propose(
+        self,
+        plan: TargetPlan,
+        order: ChatAction,
+        calls: Sequence[ActionCall],
+        commands: Sequence[SystemCommand] = (),
+        *,
+        repairs: Step | None = None,
+        why: str = "",
+    ) -> PlanProposal:
+        """Let steps and changes wait for a yes to what they really are."""
+        target, pending = plan.target, plan.pending
+        commands = [*orders.forgetting(order), *commands]
+        bound: list[Bound] = []
+        for command in commands:
+            index = command.pop_index if command.command == "pop" else None
+            known = index is not None and 0 <= index < len(pending)
+            step = pending[index] if known and index is not None else None
+            bound.append((command, plan.current if command.command == "skip" else step))
+        shown = zip(plan.steps, self._labels(plan, [step.call for step in plan.steps]), strict=True)
+        texts = {id(step): label for step, label in shown}
+        changes = [command_label(command, texts.get(id(step), "")) for command, step in bound]
+        proposal = PlanProposal(
+            id="new",
+            target=target,
+            message=order.message_response,
+            steps=tuple(calls),
+            commands=tuple(commands),
+            labels=tuple(map(self._node.spoken, (*changes, *self._labels(plan, calls)))),
+            digest=digest_of(target, calls, commands, self._plans.objects(target)),
+            by=order.by,
+            why=self._node.spoken(why),
+        )
+        proposal = self._plans.approvals.propose(
+            proposal, self._plans.presence.get(target), repairs=repairs, bound=bound
+        )
+        self._node.publish(topics.PLAN, proposal)
+        self._plans.send(plan, [])
+        return proposal
+
+    def show_again(self, plan: TargetPlan, proposal: PlanProposal) -> None:
+        """Something else was agreed to than what waits, or it would mean something else by now."""
+        self._plans.approvals.drop(proposal.id)
+        labels = tuple(map(self._node.spoken, self._labels(plan, proposal.steps)))
+        renewed = proposal.model_copy(update={"digest": self.digest(proposal), "labels": labels})
+        if proposal.commands:
+            self._plans.say(plan.target, orders.PLAN_CHANGED, "error")
+            self._plans.send(plan, [])
+            return
+        shown = self._plans.approvals.propose(renewed, self._plans.presence.get(plan.target))
+        self._node.publish(topics.PLAN, shown)
+        self._plans.send(plan, [])
+        self._plans.say(plan.target, together(orders.NOT_AS_SHOWN, wish_of(shown.labels), SHALL_I), "info")
+
+    def digest(self, proposal: PlanProposal) -> str:
+        """What a proposal stands for by now."""
+        return digest_of(
+            proposal.target, proposal.steps, proposal.commands, self._plans.objects(proposal.target)
+        )
+
+    def _labels(self, plan: TargetPlan, calls: Sequence[ActionCall]) -> Labels:
+        return labels_of(calls, self._plans.catalogue(plan.target), self._plans.objects(plan.target))
