@@ -7,35 +7,29 @@ from __future__ import annotations
 
 import uuid
 from collections.abc import Awaitable, Callable, Sequence
-from dataclasses import replace
 from typing import ClassVar, Final
 
 from parley.agents.base import Mailboxes, Node
 from parley.agents.chat import texts as texts
-from parley.agents.chat.drafts import Drafts
+from parley.agents.chat.answering import Answering
 from parley.agents.chat.finishing import Finishing
 from parley.agents.chat.holds import Holds
 from parley.agents.chat.log_answers import log_answer
-from parley.agents.chat.memories import Confirmations, keeping_order
+from parley.agents.chat.memories import Confirmations
 from parley.agents.chat.recollections import Recollections
-from parley.agents.chat.rulings import Rulings
 from parley.agents.chat.situations import Situations
 from parley.agents.planner.asking import SHALL_I, Offered, wish_of
-from parley.agents.planner.check import check_calls, complete_calls
 from parley.agents.planner.orders import no_robot
 from parley.agents.planner.steps import LATCHED
 from parley.agents.presence import Presence, linked_to
 from parley.agents.questions import SeenIds
-from parley.agents.thinking import PATIENCE_S, DroppedError, Thinking
+from parley.agents.thinking import PATIENCE_S, Thinking
 from parley.clock import Clock
-from parley.errors import LanguageError
-from parley.gate.orders import Admitted, Heard, admit
 from parley.gate.rule_talk import RuleTalk
 from parley.gate.table import Effect, verdict
-from parley.language.base import Language, Situation
+from parley.language.base import Language
 from parley.language.control import Control, control_of
 from parley.language.stop_words import calls_to_stop, is_no
-from parley.memory.sayings import for_oneself
 from parley.messages import topics
 from parley.messages.chat import ChatAction, ChatFeedback, ChatInput, SystemCommand
 from parley.messages.failure import ErrorHandlingMessage
@@ -44,7 +38,6 @@ from parley.messages.status import (
     ActorStatus,
     PlanDecision,
     PlanProposal,
-    PlanRuling,
     PlanUpdate,
     Rejection,
     RejectionProblem,
@@ -93,19 +86,32 @@ class ChatInterface(Node):
     ) -> None:
         super().__init__(transport)
         self._rules = rules
-        self._language, self._clock = language, clock
+        self._clock = clock
         self._thinking = Thinking(language_timeout_s, patience_s)
         self._presence = Presence(clock, tuple(known_robots), linked=linked_to(transport))
+        self._halts: dict[str, int] = {}
+        """How often each robot was told to stop."""
         self._known = Situations(transport, self._presence, objects, history_exchanges)
         self._questions = self._known.questions
         self._mailboxes: Mailboxes[str] = Mailboxes(self._on_defect)
         self._offered, self._finishing = Offered(), Finishing(clock.now_s)
         self._seen_ids = SeenIds()
         self._holds = Holds(lambda command: self.publish(topics.STOP, command))
-        self._confirmations, self._rulings = Confirmations(), Rulings(transport)
+        self._confirmations = Confirmations()
         self._recollections = Recollections(self, clock, self._remember, self._presence.names)
-        self._halts: dict[str, int] = {}
-        """How often each robot was told to stop: what was asked for before that is dropped."""
+        self._answering = Answering(
+            self,
+            language,
+            clock,
+            known=self._known,
+            presence=self._presence,
+            thinking=self._thinking,
+            finishing=self._finishing,
+            recollections=self._recollections,
+            confirmations=self._confirmations,
+            halts=lambda target: self._halts.get(target, 0),
+        )
+        self._say = self._answering.say
 
     async def open(self) -> None:
         """See `Node.open`."""
@@ -117,7 +123,7 @@ class ChatInterface(Node):
         await self.subscribe(topics.ERROR_HANDLING, ErrorHandlingMessage, self._known.on_failure)
         await self.subscribe_plans(self._on_plan)
         await self.subscribe(topics.PLAN_DECISION, PlanDecision, self._on_decision)
-        await self.subscribe(topics.RULING, PlanRuling, self._rulings.on_ruling)
+        await self._answering.open()
         await self.subscribe(topics.CHAT_INPUT, ChatInput, self._on_input)
         self.spawn(self._presence.watch(), name="presence")
 
@@ -202,15 +208,8 @@ class ChatInterface(Node):
             self._say((target,), "All right.", "response", said.id)
             return True
         if slow := self._thinking.slow_message(target):
-            self._say_thinking(target, slow, said.message)
+            self._answering.still_thinking(target, slow, said.message)
         return False
-
-    def _say_thinking(self, target: str, message: str, newer: str = "") -> None:
-        text = texts.still_thinking(message, newer)
-        feedback = ChatFeedback(
-            message=self.spoken(text), targets=(target,), type="info", choices=(texts.NEVER_MIND,)
-        )
-        self.publish(topics.CHAT_FEEDBACK, feedback)
 
     def _answers(self, target: str, question: ChatFeedback | None, control: Control) -> bool:
         """Whether "go on" answers a question; while the robot is paused it means to go on."""
@@ -225,7 +224,7 @@ class ChatInterface(Node):
             if not ours and (answer := await log_answer(self.transport, self._clock, target, said)):
                 self._say((target,), answer, "response", said.id)
             elif not await self._recollections.handles(target, said, ours):
-                await self._answer(target, said, halts)
+                await self._answering.answer(target, said, halts)
 
         return work
 
@@ -357,144 +356,6 @@ class ChatInterface(Node):
             ),
         )
 
-    # -- understanding ---------------------------------------------------------------------------------
-
-    async def _answer(self, target: str, said: ChatInput, halts: int) -> None:
-        message = said.message
-        own = for_oneself(message)
-        # What may have to wait for a yes is not announced while it is being worked out.
-        drafts = Drafts(
-            "" if self._known.may_have_to_ask(target) else said.id,
-            target,
-            lambda draft: self.publish(topics.REPLY_DRAFT, draft),
-            self._clock,
-        )
-        try:
-            async with self._thinking.about(target, lambda: self._say_thinking(target, message), message):
-                situation = await self._known.of(
-                    target, own or message, said, sees_pictures=self._language.sees_pictures
-                )
-                understood = keeping_order(situation) or await self._language.interpret(
-                    situation, on_draft=drafts
-                )
-        except (LanguageError, TimeoutError) as error:
-            if isinstance(error, DroppedError):
-                self._say((target,), texts.dropped(message), "response", said.id)
-                return
-            if isinstance(error, TimeoutError) and halts != self._halts.get(target, 0):
-                self._say((target,), texts.left(message), "response", said.id)
-                return
-            self.log.warning("not understood", target=target, error=repr(error))
-            plain = error.plain if isinstance(error, LanguageError) else ""
-            self._say((target,), texts.nothing_started(plain), "error", said.id)
-            return
-        if halts != self._halts.get(target, 0) and (understood.queue or understood.system_cmd):
-            self._say((target,), texts.left(message), "response", said.id)
-            return
-        admitted = admit(understood, self._heard(target, said, situation, own=bool(own)))
-        order = self._trusted(target, admitted.order)
-        if order is None:
-            text = "I worked out a plan that I cannot carry out, so I did nothing. Please say it another way."
-            self._say((target,), text, "error", said.id)
-            return
-        order = self._own_share(order, target, said)
-        if not order.targets:
-            text = admitted.refused[0] if admitted.refused else texts.that_is_for(understood.targets)
-            self._say((target,), text, "response", said.id)
-            return
-        await self._carry_out(target, said, understood, replace(admitted, order=order), situation)
-
-    async def _carry_out(
-        self, target: str, said: ChatInput, understood: ChatAction, admitted: Admitted, situation: Situation
-    ) -> None:
-        """Hand an order on, hear what became of it, and say just that."""
-        order = admitted.order.model_copy(update={"id": uuid.uuid4().hex, "reply_to": said.id})
-        wanted = [
-            command
-            for command in order.system_cmd
-            if command.command == "add_memory" or (command.command == "remove_memory" and not order.needs_yes)
-        ]
-        confirmations = [self._confirmations.wait_for(str(c.arguments["name"])) for c in wanted]
-        self._rulings.expect(order)
-        if order.queue or order.system_cmd:
-            self._order(order, said.message)
-        failed = await self._confirmations.confirmed(confirmations)
-        rulings = await self._rulings.about(order)
-        asked = next((ruling for ruling in rulings if ruling.outcome == "asked"), None)
-        reply = failed or understood.message_response or "Done."
-        if not failed:
-            reply = self._honest(target, reply, order, admitted, rulings)
-        if not failed and self._waits_behind_a_question(target, order):
-            reply = together(reply, texts.AFTERWARDS)
-        conversation = self._known.conversation(target)
-        conversation.operator(said.message)
-        conversation.assistant(reply)
-        told = {str(command.arguments.get("name")) for command in order.system_cmd}
-        known = {entry.name for entry in situation.memory}
-        sources = tuple(name for name in understood.sources if name in known and name not in told)
-        why = "" if failed else self._recollections.why(target, said, sources, situation.memory)
-        reply = together(reply, why, SHALL_I if asked is not None and not failed else "")
-        asks = bool(understood.choices) and not understood.queue and asked is None
-        if not order.queue:
-            self._finishing.on_answer(target, said.message, asks_back=asks)
-        self.publish(
-            topics.CHAT_FEEDBACK,
-            ChatFeedback(
-                message=self.spoken(reply),
-                targets=(target,),
-                type="error" if failed else "response",
-                sources=tuple(name for name in understood.sources if name in known | told),
-                choices=understood.choices if asks else (),
-                reply_to=said.id,
-            ),
-        )
-        for command in order.system_cmd if not failed else ():
-            if command.arguments.get("name") in admitted.concluded:
-                self._show_concluded(target, command)
-
-    def _honest(
-        self,
-        target: str,
-        reply: str,
-        order: ChatAction,
-        admitted: Admitted,
-        rulings: Sequence[PlanRuling],
-    ) -> str:
-        """The engine's reply where what it says was done; else what was done instead, in our words."""
-        asked = next((ruling for ruling in rulings if ruling.outcome == "asked"), None)
-        if asked is not None:
-            return wish_of(asked.labels, asked.why)
-        if rulings and all(ruling.outcome == "refused" for ruling in rulings):
-            return together(texts.NOT_DONE, *admitted.refused)
-        if admitted.resumes and not order.queue:
-            return texts.SAY_CARRY_ON if self._known.state(target) != "idle" else texts.NOTHING_TO_RESUME
-        return together(reply, *admitted.refused)
-
-    def _heard(self, target: str, said: ChatInput, situation: Situation, *, own: bool) -> Heard:
-        return Heard(
-            words=said.message,
-            by=said.who,
-            robot=target,
-            named=tuple(name for name in self._presence.named_in(said.message) if name != target),
-            engine=self._language.label,
-            own=own,
-            known=situation.memory,
-            earlier=tuple(turn.content for turn in situation.history if turn.role == "operator"),
-        )
-
-    def _show_concluded(self, target: str, command: SystemCommand) -> None:
-        """What an engine adds by itself is shown, and undone by a tap."""
-        name, data = str(command.arguments["name"]), str(command.arguments.get("data", ""))
-        if command.arguments.get("type") == "image":
-            data = name
-        feedback = ChatFeedback(
-            message=self.spoken(texts.concluded(data)),
-            targets=(target,),
-            type="info",
-            choices=(self.spoken(texts.undo(name)),),
-        )
-        self.publish(topics.CHAT_FEEDBACK, feedback)
-
     def _undoes(self, target: str, said: ChatInput) -> bool:
         """Whether a message is a tap on what undoes a memory; it is done then."""
         name = texts.undone(said.message)
@@ -504,38 +365,6 @@ class ChatInterface(Node):
         self._say((target,), texts.forgotten(name), "response", said.id)
         return True
 
-    def _order(self, order: ChatAction, words: str) -> None:
-        for name in order.targets if order.queue else ():
-            self._finishing.on_order(name, words, instead=self._known.gave_up(name))
-        self.publish(topics.CHAT_ACTION, order)
-
-    def _waits_behind_a_question(self, target: str, order: ChatAction) -> bool:
-        """Whether an order is kept until the robot's question about a failed step is answered."""
-        control = {command.command for command in order.system_cmd} - {"add_memory", "remove_memory"}
-        return self._known.waits_for_answer(target) and bool(order.queue) and not control
-
-    def _trusted(self, target: str, understood: ChatAction) -> ChatAction | None:
-        """The order with its addressees, if each robot named can carry it out; None if not."""
-        named = [self._presence.resolve(name) for name in understood.targets]
-        targets = tuple(name for name in named if name is not None) or (target,)
-        if None in named:
-            return None
-        for name in targets:
-            status = self._presence.get(name)
-            if status is None or not status.catalogue or not understood.queue:
-                continue
-            problems = check_calls(complete_calls(understood.queue, status.catalogue), status.catalogue)
-            if problems:
-                self.log.warning("plan refused", target=name, problems=[str(problem) for problem in problems])
-                return None
-        return understood.model_copy(update={"targets": targets})
-
-    def _own_share(self, order: ChatAction, target: str, said: ChatInput) -> ChatAction:
-        """The order without the other robots that got the same message: each of them reads it for itself."""
-        others = {self._presence.resolve(name) for name in said.targets} - {target}
-        left = tuple(name for name in order.targets if name not in others)
-        return order.model_copy(update={"targets": left})
-
     # -- memory ----------------------------------------------------------------------------------------
 
     async def _remember(self, entry: MemoryEntry) -> str:
@@ -544,14 +373,6 @@ class ChatInterface(Node):
         body = MemoryBody.model_validate(entry.model_dump() | {"way": "told"})
         self.publish(topics.ADD_TO_MEMORY, AddToMemory({entry.name: body}))
         return await self._confirmations.confirmed([wait])
-
-    # -- helpers ---------------------------------------------------------------------------------------
-
-    def _say(self, targets: Sequence[str], text: str, kind: str, reply_to: str = "") -> None:
-        feedback = ChatFeedback.model_validate(
-            {"message": self.spoken(text), "targets": tuple(targets), "type": kind, "reply_to": reply_to}
-        )
-        self.publish(topics.CHAT_FEEDBACK, feedback)
 
     def _on_defect(self, target: str, error: Exception) -> None:
         self._say(

@@ -1,0 +1,267 @@
+"""From a message to an order and to a reply that says what really became of it."""
+
+from __future__ import annotations
+
+import uuid
+from collections.abc import Callable, Sequence
+from dataclasses import replace
+
+from parley.agents.base import Node
+from parley.agents.chat import texts
+from parley.agents.chat.drafts import Drafts
+from parley.agents.chat.finishing import Finishing
+from parley.agents.chat.memories import Confirmations, keeping_order
+from parley.agents.chat.recollections import Recollections
+from parley.agents.chat.rulings import Rulings
+from parley.agents.chat.situations import Situations
+from parley.agents.planner.asking import SHALL_I, wish_of
+from parley.agents.planner.check import check_calls, complete_calls
+from parley.agents.presence import Presence
+from parley.agents.thinking import DroppedError, Thinking
+from parley.clock import Clock
+from parley.errors import LanguageError
+from parley.gate.orders import Admitted, Heard, admit
+from parley.language.base import Language, Situation
+from parley.memory.sayings import for_oneself
+from parley.messages import topics
+from parley.messages.chat import ChatAction, ChatFeedback, ChatInput, SystemCommand
+from parley.messages.status import PlanRuling
+from parley.sentences import together
+
+__all__ = ["Answering"]
+
+
+class Answering:
+    """Understands messages, hands orders on, and says just what was done.
+
+    Args:
+        node: Whose topics and language.
+        language: What understands.
+        clock: Wall time.
+        known: What was heard of each robot.
+        presence: Who is there.
+        thinking: How long understanding may take.
+        finishing: Told of orders, so that it is said when all is done.
+        memories: Asks the memory, and hears what it kept.
+        halts: How often a robot was told to stop: what was asked for before that is dropped.
+    """
+
+    def __init__(
+        self,
+        node: Node,
+        language: Language,
+        clock: Clock,
+        *,
+        known: Situations,
+        presence: Presence,
+        thinking: Thinking,
+        finishing: Finishing,
+        recollections: Recollections,
+        confirmations: Confirmations,
+        halts: Callable[[str], int],
+    ) -> None:
+        self._node, self._language, self._clock = node, language, clock
+        self._known, self._presence, self._thinking = known, presence, thinking
+        self._finishing, self._recollections, self._confirmations = finishing, recollections, confirmations
+        self._halts, self._rulings = halts, Rulings(node.transport)
+
+    async def open(self) -> None:
+        """Hear what the planner rules; closed with the node."""
+        await self._node.subscribe(topics.RULING, PlanRuling, self._rulings.on_ruling)
+
+    def say(self, targets: Sequence[str], text: str, kind: str, reply_to: str = "") -> None:
+        """Say one of our own sentences in the conversation with some robots."""
+        feedback = ChatFeedback.model_validate(
+            {
+                "message": self._node.spoken(text),
+                "targets": tuple(targets),
+                "type": kind,
+                "reply_to": reply_to,
+            }
+        )
+        self._node.publish(topics.CHAT_FEEDBACK, feedback)
+
+    def still_thinking(self, target: str, message: str, newer: str = "") -> None:
+        """Say that a message takes long, and perhaps that a newer one waits behind it."""
+        text = texts.still_thinking(message, newer)
+        feedback = ChatFeedback(
+            message=self._node.spoken(text), targets=(target,), type="info", choices=(texts.NEVER_MIND,)
+        )
+        self._node.publish(topics.CHAT_FEEDBACK, feedback)
+
+    async def answer(self, target: str, said: ChatInput, halts: int) -> None:
+        """Understand a message and do what it says.
+
+        Args:
+            target: The robot it was said to.
+            said: The message.
+            halts: How often that robot had been told to stop when it was said.
+        """
+        message = said.message
+        own = for_oneself(message)
+        # What may have to wait for a yes is not announced while it is being worked out.
+        drafts = Drafts(
+            "" if self._known.may_have_to_ask(target) else said.id,
+            target,
+            lambda draft: self._node.publish(topics.REPLY_DRAFT, draft),
+            self._clock,
+        )
+        try:
+            async with self._thinking.about(target, lambda: self.still_thinking(target, message), message):
+                situation = await self._known.of(
+                    target, own or message, said, sees_pictures=self._language.sees_pictures
+                )
+                understood = keeping_order(situation) or await self._language.interpret(
+                    situation, on_draft=drafts
+                )
+        except (LanguageError, TimeoutError) as error:
+            if isinstance(error, DroppedError):
+                self.say((target,), texts.dropped(message), "response", said.id)
+                return
+            if isinstance(error, TimeoutError) and halts != self._halts(target):
+                self.say((target,), texts.left(message), "response", said.id)
+                return
+            self._node.log.warning("not understood", target=target, error=repr(error))
+            plain = error.plain if isinstance(error, LanguageError) else ""
+            self.say((target,), texts.nothing_started(plain), "error", said.id)
+            return
+        if halts != self._halts(target) and (understood.queue or understood.system_cmd):
+            self.say((target,), texts.left(message), "response", said.id)
+            return
+        admitted = admit(understood, self._heard(target, said, situation, own=bool(own)))
+        order = self._trusted(target, admitted.order)
+        if order is None:
+            text = "I worked out a plan that I cannot carry out, so I did nothing. Please say it another way."
+            self.say((target,), text, "error", said.id)
+            return
+        order = self._own_share(order, target, said)
+        if not order.targets:
+            text = admitted.refused[0] if admitted.refused else texts.that_is_for(understood.targets)
+            self.say((target,), text, "response", said.id)
+            return
+        await self._carry_out(target, said, understood, replace(admitted, order=order), situation)
+
+    async def _carry_out(
+        self, target: str, said: ChatInput, understood: ChatAction, admitted: Admitted, situation: Situation
+    ) -> None:
+        """Hand an order on, hear what became of it, and say just that."""
+        order = admitted.order.model_copy(update={"id": uuid.uuid4().hex, "reply_to": said.id})
+        wanted = [
+            command
+            for command in order.system_cmd
+            if command.command == "add_memory" or (command.command == "remove_memory" and not order.needs_yes)
+        ]
+        confirmations = [self._confirmations.wait_for(str(c.arguments["name"])) for c in wanted]
+        self._rulings.expect(order)
+        if order.queue or order.system_cmd:
+            self._order(order, said.message)
+        failed = await self._confirmations.confirmed(confirmations)
+        rulings = await self._rulings.about(order)
+        asked = next((ruling for ruling in rulings if ruling.outcome == "asked"), None)
+        reply = failed or understood.message_response or "Done."
+        if not failed:
+            reply = self._honest(target, reply, order, admitted, rulings)
+        if not failed and self._waits_behind_a_question(target, order):
+            reply = together(reply, texts.AFTERWARDS)
+        conversation = self._known.conversation(target)
+        conversation.operator(said.message)
+        conversation.assistant(reply)
+        told = {str(command.arguments.get("name")) for command in order.system_cmd}
+        known = {entry.name for entry in situation.memory}
+        sources = tuple(name for name in understood.sources if name in known and name not in told)
+        why = "" if failed else self._recollections.why(target, said, sources, situation.memory)
+        reply = together(reply, why, SHALL_I if asked is not None and not failed else "")
+        asks = bool(understood.choices) and not understood.queue and asked is None
+        if not order.queue:
+            self._finishing.on_answer(target, said.message, asks_back=asks)
+        self._node.publish(
+            topics.CHAT_FEEDBACK,
+            ChatFeedback(
+                message=self._node.spoken(reply),
+                targets=(target,),
+                type="error" if failed else "response",
+                sources=tuple(name for name in understood.sources if name in known | told),
+                choices=understood.choices if asks else (),
+                reply_to=said.id,
+            ),
+        )
+        for command in order.system_cmd if not failed else ():
+            if command.arguments.get("name") in admitted.concluded:
+                self._show_concluded(target, command)
+
+    def _honest(
+        self,
+        target: str,
+        reply: str,
+        order: ChatAction,
+        admitted: Admitted,
+        rulings: Sequence[PlanRuling],
+    ) -> str:
+        """The engine's reply where what it says was done; else what was done instead, in our words."""
+        asked = next((ruling for ruling in rulings if ruling.outcome == "asked"), None)
+        if asked is not None:
+            return wish_of(asked.labels, asked.why)
+        if rulings and all(ruling.outcome == "refused" for ruling in rulings):
+            return together(texts.NOT_DONE, *admitted.refused)
+        if admitted.resumes and not order.queue:
+            return texts.SAY_CARRY_ON if self._known.state(target) != "idle" else texts.NOTHING_TO_RESUME
+        return together(reply, *admitted.refused)
+
+    def _heard(self, target: str, said: ChatInput, situation: Situation, *, own: bool) -> Heard:
+        return Heard(
+            words=said.message,
+            by=said.who,
+            robot=target,
+            named=tuple(name for name in self._presence.named_in(said.message) if name != target),
+            engine=self._language.label,
+            own=own,
+            known=situation.memory,
+            earlier=tuple(turn.content for turn in situation.history if turn.role == "operator"),
+        )
+
+    def _show_concluded(self, target: str, command: SystemCommand) -> None:
+        """What an engine adds by itself is shown, and undone by a tap."""
+        name, data = str(command.arguments["name"]), str(command.arguments.get("data", ""))
+        if command.arguments.get("type") == "image":
+            data = name
+        feedback = ChatFeedback(
+            message=self._node.spoken(texts.concluded(data)),
+            targets=(target,),
+            type="info",
+            choices=(self._node.spoken(texts.undo(name)),),
+        )
+        self._node.publish(topics.CHAT_FEEDBACK, feedback)
+
+    def _order(self, order: ChatAction, words: str) -> None:
+        for name in order.targets if order.queue else ():
+            self._finishing.on_order(name, words, instead=self._known.gave_up(name))
+        self._node.publish(topics.CHAT_ACTION, order)
+
+    def _waits_behind_a_question(self, target: str, order: ChatAction) -> bool:
+        """Whether an order is kept until the robot's question about a failed step is answered."""
+        control = {command.command for command in order.system_cmd} - {"add_memory", "remove_memory"}
+        return self._known.waits_for_answer(target) and bool(order.queue) and not control
+
+    def _trusted(self, target: str, understood: ChatAction) -> ChatAction | None:
+        """The order with its addressees, if each robot named can carry it out; None if not."""
+        named = [self._presence.resolve(name) for name in understood.targets]
+        targets = tuple(name for name in named if name is not None) or (target,)
+        if None in named:
+            return None
+        for name in targets:
+            status = self._presence.get(name)
+            if status is None or not status.catalogue or not understood.queue:
+                continue
+            problems = check_calls(complete_calls(understood.queue, status.catalogue), status.catalogue)
+            if problems:
+                self._node.log.warning(
+                    "plan refused", target=name, problems=[str(problem) for problem in problems]
+                )
+                return None
+        return understood.model_copy(update={"targets": targets})
+
+    def _own_share(self, order: ChatAction, target: str, said: ChatInput) -> ChatAction:
+        """The order without the other robots that got the same message: each of them reads it for itself."""
+        others = {self._presence.resolve(name) for name in said.targets} - {target}
+        left = tuple(name for name in order.targets if name not in others)
+        return order.model_copy(update={"targets": left})
