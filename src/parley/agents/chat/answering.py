@@ -42,7 +42,8 @@ class Answering:
         presence: Who is there.
         thinking: How long understanding may take.
         finishing: Told of orders, so that it is said when all is done.
-        memories: Asks the memory, and hears what it kept.
+        recollections: Says why something is so.
+        confirmations: Hears what the memory kept.
         halts: How often a robot was told to stop: what was asked for before that is dropped.
     """
 
