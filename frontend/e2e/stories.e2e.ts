@@ -27,7 +27,7 @@ describe.skipIf(!hasBrowser)('an operator', () => {
   it('sees the steps of the plan and what each was given', async () => {
     const page = await stage.open(sizes.desktop);
     await steps(page).getByText(/Working on it|Done/).first().waitFor();
-    await steps(page).getByRole('button', { name: 'Show details' }).first().click();
+    await steps(page).getByRole('button', { name: /^1\. / }).first().click();
     await steps(page).getByText('Given').waitFor();
   });
 

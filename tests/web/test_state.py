@@ -23,7 +23,7 @@ from parley.umrf.model import Graph, GraphState, Node, NodeState
 from parley.web.changes import ChangeLog
 from parley.web.chat_state import KEPT_ENTRIES, ChatBook
 from parley.web.limits import Attempts, Rate
-from parley.web.models import Change, ChatEntry, PlanView, RobotChange, RobotGone, RobotView
+from parley.web.models import AbilityView, Change, ChatEntry, PlanView, RobotChange, RobotGone, RobotView
 from parley.web.plan_state import PlanBook
 from parley.web.robot_state import LOST_AFTER_S, STOP_DEADLINE_S, RobotBook
 
@@ -308,7 +308,9 @@ def test_a_long_conversation_is_cut_but_open_questions_stay() -> None:
 
 def plans() -> tuple[PlanBook, list[Change]]:
     changes: list[Change] = []
-    return PlanBook(changes.append, lambda _robot, _action: RiskClass.HANDLES), changes
+    return PlanBook(
+        changes.append, lambda _robot, name: AbilityView(name=name, kind=RiskClass.HANDLES)
+    ), changes
 
 
 def step(name: str, state: str = "queued", node: str = "", **inputs: str) -> dict[str, Any]:
@@ -469,10 +471,21 @@ def test_a_proposal_told_again_is_no_news() -> None:
     assert len(changes) == count
 
 
+def test_the_time_while_a_step_stood_still_is_not_work() -> None:
+    book, _ = plans()
+    book.on_update(update(step("MoveTo", "running", "MoveTo_0")))
+    for state, at_ms in [("RUNNING", 100), ("PAUSED", 400), ("RUNNING", 9_000), ("FINISHED", 9_100)]:
+        book.on_event(event("MoveTo_0", state, unix_ms=at_ms))
+    book.on_update(update(step("MoveTo", "finished", "MoveTo_0")))
+    assert plan_of(book).steps[0].worked_ms == 400
+
+
 def test_how_much_care_a_step_needs_is_said_when_it_becomes_known() -> None:
     changes: list[Any] = []
     risks: dict[str, RiskClass] = {}
-    book = PlanBook(changes.append, lambda _robot, action: risks.get(action, RiskClass.MOVES))
+    book = PlanBook(
+        changes.append, lambda _robot, name: AbilityView(name=name, kind=risks.get(name, RiskClass.MOVES))
+    )
     book.on_proposal(PlanProposal(id="p1", target="Ada", steps=(ActionCall(name="Press"),)))
     book.on_update(update(step("Press", "running", "Press_0")))
     risks["Press"] = RiskClass.HANDLES

@@ -71,6 +71,8 @@ export const step = (part: Partial<StepView> & { id: string }): StepView => ({
   call: { GoTo: { input_parameters: {}, output_parameters: {} } },
   started_unix_ms: 0,
   ended_unix_ms: 0,
+  worked_ms: 0,
+  only_finds: false,
   ...part,
 });
 

@@ -148,10 +148,14 @@ class StepView(WebModel):
     """Why it failed, in plain words."""
     risk: RiskClass = RiskClass.UNKNOWN
     """What kind of step it is, by what it does to the world."""
+    only_finds: bool = False
+    """Whether it only finds out where something is; people see that as a part of the step behind it."""
     call: dict[str, Any] = Field(default_factory=dict)
     """The step in Chat Action form, for edits."""
     started_unix_ms: int = 0
     ended_unix_ms: int = 0
+    worked_ms: int = 0
+    """For how long it worked until it ended; while it stood still does not count."""
 
 
 class PlanView(WebModel):

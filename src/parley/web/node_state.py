@@ -22,6 +22,7 @@ GraphShown = Literal["running", "paused", "held", "ended"]
 
 OVER: Final = frozenset({"finished", "failed", "stopped", "skipped"})
 """States of a step from which nothing follows any more."""
+_AT_WORK: Final = frozenset({"running", "stopping"})
 _NODE_STATES: Final[Mapping[str, StepState]] = {
     "RUNNING": "running",
     "PAUSE_REQUESTED": "running",
@@ -51,6 +52,10 @@ class NodeTold:
     outputs: tuple[ParameterView, ...] = ()
     started_unix_ms: int = 0
     ended_unix_ms: int = 0
+    worked_ms: int = 0
+    """How long it worked, without the time while it stood still."""
+    working_since_unix_ms: int = 0
+    """0 while it does not work."""
     call: ActionCall | None = None
     """What it does, as far as the whole graph was told."""
 
@@ -64,6 +69,11 @@ class NodeTold:
             self.state = "stopped"
         if self.state == "running" and not self.started_unix_ms:
             self.started_unix_ms = event.unix_ms
+        if self.working_since_unix_ms and self.state not in _AT_WORK:
+            self.worked_ms += max(0, event.unix_ms - self.working_since_unix_ms)
+            self.working_since_unix_ms = 0
+        elif not self.working_since_unix_ms and self.state in _AT_WORK:
+            self.working_since_unix_ms = event.unix_ms
         if self.state in OVER:
             self.ended_unix_ms = event.unix_ms
         if event.outputs:

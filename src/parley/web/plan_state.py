@@ -5,13 +5,14 @@ from __future__ import annotations
 import re
 from collections import OrderedDict
 from collections.abc import Callable, Sequence
-from typing import Final, Literal
+from typing import Any, Final, Literal
 
 from parley.messages.chat import ActionCall
 from parley.messages.rules import RiskClass
 from parley.messages.status import GraphEvent, PlanDecision, PlanProposal, PlanUpdate, Rejection
 from parley.umrf.model import Graph
 from parley.web.models import (
+    AbilityView,
     Change,
     PlanChange,
     PlanGone,
@@ -37,11 +38,13 @@ class PlanBook:
 
     Args:
         emit: Gets each change.
-        risk_of: The risk of an action of a robot, by robot and action.
+        ability_of: What a robot's catalogue says of an action, by robot and action; None: nothing.
     """
 
-    def __init__(self, emit: Callable[[Change], None], risk_of: Callable[[str, str], RiskClass]) -> None:
-        self._emit, self._risk_of = emit, risk_of
+    def __init__(
+        self, emit: Callable[[Change], None], ability_of: Callable[[str, str], AbilityView | None]
+    ) -> None:
+        self._emit, self._ability_of = emit, ability_of
         self.views: dict[tuple[str, str], PlanView] = {}
         self.proposals: dict[str, ProposalView] = {}
         self._updates: dict[str, PlanUpdate] = {}
@@ -128,7 +131,14 @@ class PlanBook:
                 self._emit(ProposalChange(seq=0, proposal=changed))
 
     def _weighed(self, robot: str, steps: Sequence[StepView]) -> tuple[StepView, ...]:
-        return tuple(step.model_copy(update={"risk": self._risk_of(robot, step.action)}) for step in steps)
+        return tuple(step.model_copy(update=self._nature(robot, step.action)) for step in steps)
+
+    def _nature(self, robot: str, action: str) -> dict[str, Any]:
+        """What kind of step an action makes."""
+        ability = self._ability_of(robot, action)
+        if ability is None:
+            return {"risk": RiskClass.UNKNOWN, "only_finds": False}
+        return {"risk": ability.kind, "only_finds": set(ability.effects) == {"locates"}}
 
     def forget(self, robot: str) -> None:
         """A robot was taken off the list."""
@@ -244,10 +254,11 @@ class PlanBook:
             progress=None if is_over else node.progress,
             progress_text="" if is_over else node.progress_text,
             message=node.message if state == "failed" else "",
-            risk=self._risk_of(robot, call.name),
             call=call.model_dump(),
             started_unix_ms=node.started_unix_ms,
             ended_unix_ms=node.ended_unix_ms if is_over else 0,
+            worked_ms=node.worked_ms if is_over else 0,
+            **self._nature(robot, call.name),
         )
 
     def _put(self, view: PlanView) -> None:

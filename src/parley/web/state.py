@@ -7,12 +7,12 @@ from collections.abc import Callable, Iterable
 from parley.messages.incident import Incident
 from parley.messages.map import MapView
 from parley.messages.memory import MemoryEvent
-from parley.messages.rules import RiskClass
 from parley.messages.status import GraphEvent, PlanProposal, PlanUpdate, Rejection
 from parley.web.changes import ChangeLog
 from parley.web.chat_state import ChatBook
 from parley.web.feed_state import FeedBook
 from parley.web.models import (
+    AbilityView,
     ChatChange,
     ChatEntry,
     IncidentChange,
@@ -58,7 +58,7 @@ class WebState:
         self._keep, self._has_older = keep, has_older
         self.robots = RobotBook(self.log.add)
         self.chat = ChatBook(self._on_entry, new_id, entries)
-        self.plans = PlanBook(self.log.add, self.risk_of)
+        self.plans = PlanBook(self.log.add, self.ability_of)
         self.feeds = FeedBook(self.log.add)
         self.incidents: dict[str, Incident] = {}
         self.views: dict[str, MapView] = {}
@@ -107,11 +107,10 @@ class WebState:
         self.views.pop(name, None)
         self.robots.remove(name)
 
-    def risk_of(self, robot: str, action: str) -> RiskClass:
-        """What an action does to the world as the robot's catalogue says."""
+    def ability_of(self, robot: str, action: str) -> AbilityView | None:
+        """What the robot's catalogue says of an action."""
         view = self.robots.views.get(robot)
-        found = next((item for item in view.catalogue if item.name == action), None) if view else None
-        return found.kind if found is not None else RiskClass.UNKNOWN
+        return next((item for item in view.catalogue if item.name == action), None) if view else None
 
     def snapshot(self, info: ServerInfo) -> Snapshot:
         """Everything as it stands."""

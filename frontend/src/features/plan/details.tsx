@@ -6,17 +6,18 @@ import type { World } from '@/live/world';
 import { clockTime, inWords } from '@/ui/words';
 
 import css from './details.module.css';
+import type { Line } from './lines';
 import { rowsOf, type Row } from './parameters';
 
 /** What a step was given, what it found out, and under what circumstances. */
-export function Details({ step }: { step: StepView }) {
+export function Details({ line: { step, finding } }: { line: Line }) {
   const { t } = useTranslation('plan');
   const description = useWorld((world) => descriptionOf(world, step.action));
   return (
     <div className={css.details}>
       <p className={css.action}>{description || inWords(step.action)}</p>
       <Values title={t('given')} parameters={step.inputs} />
-      <Values title={t('found')} parameters={step.outputs} />
+      <Values title={t('found')} parameters={[...finding.flatMap((one) => one.outputs), ...step.outputs]} />
       <Circumstances step={step} />
     </div>
   );

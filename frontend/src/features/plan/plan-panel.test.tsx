@@ -72,7 +72,7 @@ describe('the plan', () => {
     const action = { name: 'GoTo', description: 'Drive to a place.', inputs: {}, outputs: {}, label: '', phrases: [], optional: [], effects: [], risk: 'low' as const, kind: 'moves' as const, capabilities: [], examples: [], duration_s: null, timeout_s: null };
     useLive.getState().takeSnapshot(snapshot({ robots: [robot({ name: 'Ada', catalogue: [action] })], plans: [plan({ robot: 'Ada', steps })] }));
     render(<PlanPanel />);
-    await userEvent.setup().click(screen.getAllByRole('button', { name: 'Show details' })[0] as HTMLElement);
+    await userEvent.setup().click(screen.getByRole('button', { name: /^2\. Two/ }));
     screen.getByText('Drive to a place.');
     expect(screen.queryByText('Go to')).toBeNull();
   });

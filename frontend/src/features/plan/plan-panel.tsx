@@ -1,16 +1,18 @@
-import { useEffect, useMemo, useRef, useState } from 'react';
+import { useEffect, useMemo, useRef, useState, type Ref } from 'react';
 import { useTranslation } from 'react-i18next';
 
 import { useWorld } from '@/live/store';
-import type { PlanView, StepState } from '@/live/types';
+import type { PlanView, ProposalView, StepState } from '@/live/types';
 import { planKey } from '@/live/world';
 import { useSelection } from '@/state/selection';
 import { Choice } from '@/ui/choice';
+import { Icon } from '@/ui/icon';
 import { Empty, Panel } from '@/ui/panel';
 
 import { pendingSteps, toDraft } from './editing';
 import { PlanControls } from './plan-controls';
 import { PlanEditor } from './plan-editor';
+import { isEarlier, linesOf, type Line } from './lines';
 import { withReceived } from './parameters';
 import css from './plan-panel.module.css';
 import { PolicyChoice } from '@/ui/policy-choice';
@@ -60,19 +62,18 @@ function PlanOf({ plan }: { plan: PlanView }) {
   const here = useWorld((world) => world.robots[plan.robot]?.connection === 'here');
   const [editing, setEditing] = useState<PlanView | null>(null);
   const waiting = plan.kind === 'plan' ? proposalsOf(proposals, plan.robot) : [];
-  const current = plan.steps.findIndex((step) => BUSY.includes(step.state));
   const pending = pendingSteps(plan.steps);
-  const told = useMemo(() => withReceived(plan.steps), [plan.steps]);
+  const { lines, current, over } = useMemo(() => divided(plan), [plan]);
   const close = () => setEditing(null);
   const save = useSaving();
   const remove = useRemoving(plan);
-  const steps = useCurrentInView(current, editing !== null);
+  const steps = useCurrentInView(current - over, editing !== null);
   return (
     <>
       <div className={css.bar} data-state={plan.state}>
         <p className={css.state}>
           {t(`state.${plan.state}`)}
-          {current >= 0 && plan.steps.length > 1 && t('stateStep', { number: current + 1, all: plan.steps.length })}
+          {current >= 0 && lines.length > 1 && t('stateStep', { number: current + 1, all: lines.length })}
         </p>
         <HeldBy by={plan.held_by} />
         {!here && <p className={css.away}>{t('away', { robot: plan.robot })}</p>}
@@ -80,9 +81,8 @@ function PlanOf({ plan }: { plan: PlanView }) {
       </div>
       {/* eslint-disable-next-line jsx-a11y/no-noninteractive-tabindex -- what scrolls must be reachable by keys */}
       <div className={css.scroller} tabIndex={0} role="region" aria-label={t('steps')}>
-        {waiting.map((proposal) => (
-          <ProposalCard key={proposal.id} proposal={proposal} />
-        ))}
+        <Steps title={t('earlier')} from={0} lines={lines.slice(0, over)} plan={plan} isFolded={over < lines.length || waiting.length > 0} />
+        <Steps title={t('now')} from={over} lines={lines.slice(over)} plan={plan} isEditing={editing !== null} onRemove={remove} list={steps} />
         {editing && (
           <PlanEditor
             key={editing.revision}
@@ -96,21 +96,7 @@ function PlanOf({ plan }: { plan: PlanView }) {
             onCancel={close}
           />
         )}
-        {plan.steps.length > 0 && (
-          <ol className={css.steps} ref={steps}>
-            {told
-              .filter((step) => !editing || step.state !== 'queued')
-              .map((step, index) => (
-                <StepCard
-                  key={step.id}
-                  step={step}
-                  number={index + 1}
-                  changed={plan.changed.includes(step.id)}
-                  onRemove={plan.kind === 'plan' && step.state === 'queued' ? () => remove(step) : null}
-                />
-              ))}
-          </ol>
-        )}
+        <Proposed waiting={waiting} />
         {plan.steps.length === 0 && waiting.length === 0 && (
           <Empty title={t('empty', { robot: plan.robot })}>
             <p>{t('emptyHelp')}</p>
@@ -123,6 +109,76 @@ function PlanOf({ plan }: { plan: PlanView }) {
         </footer>
       )}
     </>
+  );
+}
+
+/** The steps as lines, which of them is being done, and how many are over. */
+function divided(plan: PlanView) {
+  const lines = linesOf(withReceived(plan.steps));
+  const current = lines.findIndex(({ step }) => BUSY.includes(step.state));
+  const open = plan.state === 'ended' ? -1 : lines.findIndex((line) => !isEarlier(line));
+  return { lines, current, over: open < 0 ? lines.length : open };
+}
+
+/** What waits for a yes; it comes last, as it would be done last. */
+function Proposed({ waiting }: { waiting: readonly ProposalView[] }) {
+  const { t } = useTranslation('plan');
+  if (waiting.length === 0) return null;
+  return (
+    <section className={css.part}>
+      <h3 className={css.heading}>{t('proposed')}</h3>
+      {waiting.map((proposal) => (
+        <ProposalCard key={proposal.id} proposal={proposal} />
+      ))}
+    </section>
+  );
+}
+
+interface StepsProps {
+  title: string;
+  /** How many stand before them. */
+  from: number;
+  lines: readonly Line[];
+  plan: PlanView;
+  /** Whether only their number is shown until somebody wants to see them. */
+  isFolded?: boolean;
+  isEditing?: boolean;
+  onRemove?: (line: Line) => void;
+  list?: Ref<HTMLOListElement>;
+}
+
+/** Steps under a heading, in the order in which they are done. */
+function Steps({ title, from, lines, plan, isFolded = false, isEditing = false, onRemove, list }: StepsProps) {
+  const { t } = useTranslation('plan');
+  const [open, setOpen] = useState(false);
+  if (lines.length === 0) return null;
+  return (
+    <section className={css.part}>
+      <h3 className={css.heading}>
+        {title}
+        {isFolded && (
+          <button type="button" className={css.fold} aria-expanded={open} onClick={() => setOpen(!open)}>
+            {t('stepCount', { count: lines.length })}
+            <Icon name={open ? 'up' : 'down'} size={16} />
+          </button>
+        )}
+      </h3>
+      {(open || !isFolded) && (
+        <ol className={css.steps} ref={list} start={from + 1}>
+          {lines.map((line, index) =>
+            isEditing && line.step.state === 'queued' ? null : (
+              <StepCard
+                key={line.step.id}
+                line={line}
+                number={from + index + 1}
+                changed={plan.changed.includes(line.step.id)}
+                onRemove={onRemove && plan.kind === 'plan' && line.step.state === 'queued' ? () => onRemove(line) : null}
+              />
+            ),
+          )}
+        </ol>
+      )}
+    </section>
   );
 }
 

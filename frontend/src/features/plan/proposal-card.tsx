@@ -8,6 +8,7 @@ import { Button } from '@/ui/button';
 import { quoted } from '@/ui/words';
 
 import { toDraft } from './editing';
+import { linesOf } from './lines';
 import { PlanEditor } from './plan-editor';
 import css from './proposal-card.module.css';
 import { StepCard } from './step-card';
@@ -25,7 +26,7 @@ export function ProposalCard({ proposal }: { proposal: ProposalView }) {
   const title = t('proposalTitle', { robot: proposal.robot });
   return (
     <section className={css.card} aria-label={title}>
-      <h3>{title}</h3>
+      <h4>{title}</h4>
       {proposal.why && <p className={css.why}>{proposal.why}</p>}
       {editing ? (
         <PlanEditor
@@ -50,7 +51,7 @@ export function ProposalCard({ proposal }: { proposal: ProposalView }) {
           </div>
           {proposal.changes.length > 0 && (
             <>
-              <h4>{t('changesFirst')}</h4>
+              <h5>{t('changesFirst')}</h5>
               <ul className={css.changes}>
                 {proposal.changes.map((change, index) => (
                   <li key={`${index} ${change}`}>{change}</li>
@@ -59,8 +60,8 @@ export function ProposalCard({ proposal }: { proposal: ProposalView }) {
             </>
           )}
           <ol className={css.steps}>
-            {proposal.steps.map((step, index) => (
-              <StepCard key={step.id} step={step} number={index + 1} changed={false} />
+            {linesOf(proposal.steps).map((line, index) => (
+              <StepCard key={line.step.id} line={line} number={index + 1} changed={false} />
             ))}
           </ol>
           {proposal.message && <p className={css.says}>{t('says', { words: quoted(proposal.message) })}</p>}

@@ -7,6 +7,7 @@ import { needsCare } from '@/ui/risk';
 import { addsTo, inWords, quoted, sentence } from '@/ui/words';
 
 import { Details } from './details';
+import type { Line } from './lines';
 import css from './step-card.module.css';
 
 const icons: Record<StepState, IconName> = {
@@ -21,46 +22,44 @@ const icons: Record<StepState, IconName> = {
   waiting: 'question',
 };
 
+/** States that the sign alone says well enough to those who see it. */
+const PLAIN: ReadonlySet<StepState> = new Set(['queued', 'finished']);
+
 interface Props {
-  step: StepView;
+  line: Line;
   number: number;
   changed: boolean;
   /** Given if the step can still be taken out. */
   onRemove?: (() => void) | null;
 }
 
-/** One step: what, why, how far. Its state is told by colour, sign and word. */
-export function StepCard({ step, number, changed, onRemove = null }: Props) {
+/** One step on one line: sign, what it does, how long it took; the rest on a tap. Never told by colour alone. */
+export function StepCard({ line, number, changed, onRemove = null }: Props) {
   const { t } = useTranslation('plan');
   const [open, setOpen] = useState(false);
+  const { step } = line;
+  const label = sentence(step.label) || inWords(step.action);
   return (
     <li className={css.card} data-state={step.state} data-changed={changed || undefined}>
-      <span className={css.mark} aria-hidden="true">
-        <Icon name={icons[step.state]} size={18} />
-      </span>
-      <div className={css.body}>
-        <div className={css.top}>
-          <p className={css.label}>
-            <span className={css.number}>{number}.</span> {sentence(step.label) || inWords(step.action)}
-          </p>
-          {onRemove && <Remove label={sentence(step.label)} onRemove={onRemove} />}
-        </div>
-        <div className={css.row}>
-          <p className={css.state}>
-            <span>{t(`step.${step.state}`)}</span>
-            {changed && <span className={css.badge}>{t('changed')}</span>}
-            {needsCare(step.risk) && <span className={css.badge}>{t('risky')}</span>}
-            <Took step={step} />
-          </p>
-          <button type="button" className={css.more} aria-expanded={open} onClick={() => setOpen(!open)}>
-            {open ? t('hideDetails') : t('showDetails')}
-            <Icon name={open ? 'up' : 'down'} size={16} />
-          </button>
-        </div>
-        {step.state === 'running' && <Progress step={step} />}
-        <Told step={step} />
-        {open && <Details step={step} />}
+      <div className={css.line}>
+        <button type="button" className={css.head} aria-expanded={open} onClick={() => setOpen(!open)}>
+          <span className={css.mark} aria-hidden="true">
+            <Icon name={icons[step.state]} size={16} />
+          </span>
+          <span className={css.label}>
+            <span className={css.number}>{number}.</span> {label}
+          </span>
+          <span className={PLAIN.has(step.state) ? 'hidden' : css.state}>{t(`step.${step.state}`)}</span>
+          {changed && <span className={css.badge}>{t('changed')}</span>}
+          {needsCare(step.risk) && <span className={css.badge}>{t('risky')}</span>}
+          <Took step={step} />
+          <Icon name={open ? 'up' : 'down'} size={16} />
+        </button>
+        {onRemove && <Remove label={label} onRemove={onRemove} />}
       </div>
+      {step.state === 'running' && <Progress step={step} />}
+      <Told step={step} />
+      {open && <Details line={line} />}
     </li>
   );
 }
@@ -108,11 +107,16 @@ function Progress({ step }: { step: StepView }) {
 
 function Took({ step }: { step: StepView }) {
   const { t } = useTranslation('plan');
-  if (step.started_unix_ms === 0 || step.ended_unix_ms <= step.started_unix_ms) return null;
-  const seconds = Math.max(1, Math.round((step.ended_unix_ms - step.started_unix_ms) / 1000));
+  if (step.worked_ms <= 0) return null;
+  const seconds = Math.max(1, Math.round(step.worked_ms / 1000));
   const time =
     seconds < 60
       ? t('seconds', { count: seconds })
       : t('minutes', { minutes: Math.floor(seconds / 60), seconds: seconds % 60 });
-  return <span>{t('took', { time })}</span>;
+  return (
+    <span className={css.took}>
+      <span className="hidden">{t('took')} </span>
+      {time}
+    </span>
+  );
 }

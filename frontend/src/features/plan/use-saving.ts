@@ -8,6 +8,7 @@ import { useToasts } from '@/state/toasts';
 import { sentence } from '@/ui/words';
 
 import { pendingSteps, putBack } from './editing';
+import type { Line } from './lines';
 
 type Outcome = 'saved' | 'refused' | 'conflict';
 
@@ -28,21 +29,24 @@ export function useSaving() {
   };
 }
 
-/** Takes one step that has not begun out of a plan; it can be put back for a while. */
+/** Takes one step that has not begun out of a plan, with the search for its place; it can be put back for a while. */
 export function useRemoving(plan: PlanView) {
   const { t } = useTranslation(['plan', 'common']);
   const show = useToasts((state) => state.show);
   const save = useSaving();
-  return async (step: StepView) => {
+  return async ({ step, finding }: Line) => {
     const before = pendingSteps(plan.steps);
-    const rest = before.filter((one) => one.id !== step.id);
+    const out = [...finding, step].map((one) => one.id);
+    const gone = before.filter((one) => out.includes(one.id));
+    const rest = before.filter((one) => !out.includes(one.id));
     const outcome = await save(plan.robot, rest.map(callOf), plan.revision, '');
     if (outcome !== 'saved') return;
     const undo = () => {
       const now = Object.values(useLive.getState().world.plans).find(
         (one) => one.robot === plan.robot && one.kind === 'plan',
       );
-      const steps = putBack(step, before, now ? pendingSteps(now.steps) : []);
+      const still = now ? pendingSteps(now.steps) : [];
+      const steps = gone.toReversed().reduce<readonly StepView[]>((known, one) => putBack(one, before, known), still);
       void save(plan.robot, steps.map(callOf), now?.revision ?? plan.revision);
     };
     show({

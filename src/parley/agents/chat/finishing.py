@@ -27,8 +27,8 @@ class _Job:
     graph_name: str = ""
     steps: int = 0
     began_s: float = 0.0
-    failed: list[str] = field(default_factory=list)
-    """Actions of which as many were in the plan when one failed as are listed here."""
+    failed: list[PlanStep] = field(default_factory=list)
+    """The plan as it was when a step of it failed."""
     words: list[str] = field(default_factory=list)
     """What was asked for."""
     unclear: str = ""
@@ -46,8 +46,8 @@ class _Job:
 class Finishing:
     """Follows the plans of all robots.
 
-    Only work that moves a robot and that takes a while, or several steps, is worth a word; what was stopped,
-    cancelled or left out is not finished.
+    Only work that moves a robot and that takes a while, or several steps, is worth a word; what was stopped
+    or cancelled is not finished, and what was left out is named.
 
     Args:
         now_s: Robot time.
@@ -112,36 +112,49 @@ class Finishing:
             job.asked, job.instead = "", False
         job.graph_name, job.steps = update.graph_name, len(update.steps)
         if update.state == "held":
-            job.failed = [step.action.name for step in update.steps]
+            job.failed = list(update.steps)
         return ""
 
     def _told(self, job: _Job, steps: Sequence[PlanStep], catalogue: Sequence[ActionInfo]) -> str:
         done = [step.action for step in steps if step.state == "finished"]
         moving = {info.name for info in catalogue if "moves" in info.effects}
-        if not _is_whole(steps) or _is_less(done, job.failed) or not any(c.name in moving for c in done):
+        if any(step.state in ("stopped", "failed") for step in steps):
             return ""
-        if len(steps) < 2 and self._now_s() - job.began_s < _SHORT_S:
+        left = [*_skipped(steps), *_less(done, job.failed)]
+        if not left and not any(c.name in moving for c in done):
+            return ""
+        if not left and len(steps) < 2 and self._now_s() - job.began_s < _SHORT_S:
             return ""
         finding = {info.name for info in catalogue if set(info.effects) == {"locates"}}
+        if left:
+            named = [step.label or step.action.name for step in left if step.action.name not in finding]
+            named = named or [step.label or step.action.name for step in left]
+            return sentence("I have finished. I left out: {what}.", what="; ".join(dict.fromkeys(named)))
         return sentence("I have finished: {what}.", what=_named(job, done, finding))
 
     def _job(self, target: str) -> _Job:
         return self._jobs.setdefault(target, _Job())
 
 
-def _is_whole(steps: Sequence[PlanStep]) -> bool:
-    """Whether nothing was stopped or left out but what a condition excluded."""
-    return all(
-        step.state == "finished"
-        or (step.state == "skipped" and step.action.flow is not None and step.action.flow.if_ is not None)
+def _skipped(steps: Sequence[PlanStep]) -> list[PlanStep]:
+    """What was left out, but for what a condition excluded."""
+    return [
+        step
         for step in steps
-    )
+        if step.state == "skipped" and (step.action.flow is None or step.action.flow.if_ is None)
+    ]
 
 
-def _is_less(done: Sequence[ActionCall], once: Sequence[str]) -> bool:
-    """Whether something of the plan that had failed was left out in the end."""
+def _less(done: Sequence[ActionCall], once: Sequence[PlanStep]) -> list[PlanStep]:
+    """Of the plan that had failed, what was left out in the end."""
     names = [call.name for call in done]
-    return any(names.count(name) < once.count(name) for name in set(once))
+    left = []
+    for step in reversed(once):
+        if step.action.name in names:
+            names.remove(step.action.name)
+        elif step.state != "skipped":
+            left.append(step)
+    return left[::-1]
 
 
 def _named(job: _Job, done: Sequence[ActionCall], finding: Collection[str]) -> str:

@@ -1,0 +1,26 @@
+import { describe, expect, it } from 'vitest';
+
+import { step } from '@/live/samples';
+import type { StepState } from '@/live/types';
+
+import { linesOf } from './lines';
+
+const place = [{ name: 'pose::position::x', type: 'number', value: null }];
+const find = (id: string, state: StepState = 'queued') => step({ id, state, only_finds: true, outputs: place, worked_ms: 400 });
+const go = (id: string, state: StepState = 'queued') => step({ id, state, inputs: place, worked_ms: 1000 });
+const shown = (...steps: Parameters<typeof linesOf>[0][number][]) => linesOf(steps).map((line) => `${line.step.id} ${line.step.state} ${line.step.worked_ms}`);
+
+describe('the lines of a plan', () => {
+  it('take the search for a place into the step that goes there', () => {
+    expect(shown(find('a', 'finished'), go('b', 'finished'), find('c', 'running'), go('d'))).toEqual([
+      'b finished 1400',
+      'd running 1400',
+    ]);
+  });
+
+  it('show a search that has something to say, or that was asked for on its own', () => {
+    expect(shown(find('a', 'failed'), go('b'))).toEqual(['a failed 400', 'b queued 1000']);
+    expect(shown(find('a'), step({ id: 'say' }))).toEqual(['a queued 400', 'say queued 0']);
+    expect(shown(find('a'))).toEqual(['a queued 400']);
+  });
+});

@@ -1,0 +1,43 @@
+/** The steps of a plan as people see them. Plain functions. */
+import type { StepState, StepView } from '@/live/types';
+
+/** One step, with the searches that are made only for its sake. */
+export interface Line {
+  step: StepView;
+  finding: readonly StepView[];
+}
+
+/** States in which a search has something to say of its own. */
+const ALONE: ReadonlySet<StepState> = new Set(['failed', 'waiting', 'paused', 'stopping', 'stopped']);
+const OVER: ReadonlySet<StepState> = new Set(['finished', 'failed', 'stopped', 'skipped']);
+
+/** Finding out where something is belongs to the step that goes there. */
+export function linesOf(steps: readonly StepView[]): readonly Line[] {
+  const lines: Line[] = [];
+  let finding: StepView[] = [];
+  steps.forEach((step, index) => {
+    const next = steps[index + 1];
+    if (step.only_finds && next && !ALONE.has(step.state) && feeds(step, next)) finding.push(step);
+    else {
+      lines.push({ step: together(step, finding), finding });
+      finding = [];
+    }
+  });
+  return lines;
+}
+
+/** What is over without having failed; the rest is still to be done or to be settled. */
+export const isEarlier = ({ step }: Line) => OVER.has(step.state) && step.state !== 'failed';
+
+const feeds = (step: StepView, next: StepView) =>
+  step.outputs.some((output) => next.inputs.some((input) => input.name === output.name));
+
+function together(step: StepView, finding: readonly StepView[]): StepView {
+  if (finding.length === 0) return step;
+  const begun = step.state === 'queued' && finding.some((one) => one.state === 'running');
+  return {
+    ...step,
+    state: begun ? 'running' : step.state,
+    worked_ms: finding.reduce((sum, one) => sum + one.worked_ms, step.worked_ms),
+  };
+}
