@@ -46,12 +46,14 @@ export function StepCard({ line, number, changed, onRemove = null }: Props) {
           <span className={css.mark} aria-hidden="true">
             <Icon name={icons[step.state]} size={16} />
           </span>
-          <span className={css.label}>
-            <span className={css.number}>{number}.</span> {label}
+          <span className={css.words}>
+            <span className={css.label}>
+              <span className={css.number}>{number}.</span> {label}
+            </span>{' '}
+            <span className={PLAIN.has(step.state) ? 'hidden' : css.state}>{t(`step.${step.state}`)}</span>{' '}
+            {changed && <span className={css.badge}>{t('changed')}</span>}{' '}
+            {needsCare(step.risk) && <span className={css.badge}>{t('risky')}</span>}
           </span>
-          <span className={PLAIN.has(step.state) ? 'hidden' : css.state}>{t(`step.${step.state}`)}</span>
-          {changed && <span className={css.badge}>{t('changed')}</span>}
-          {needsCare(step.risk) && <span className={css.badge}>{t('risky')}</span>}
           <Took step={step} />
           <Icon name={open ? 'up' : 'down'} size={16} />
         </button>
