@@ -81,8 +81,9 @@ class GraphRun:
         peers: Peers | None = None,
         make_inner: Callable[..., GraphRun] | None = None,
     ) -> None:
-        self.name = graph.name
-        self.actor = actor
+        self.name, self.actor = graph.name, actor
+        self.outer = ""
+        """Name of the graph inside of which it runs."""
         self.state = GraphState.INITIALIZED
         self.result: Result | None = None
         self.peers = peers
