@@ -205,11 +205,11 @@ class Cable:
         end.publish = lambda message: None if self.cut else send(message)  # type: ignore[method-assign]
         return end
 
-    async def subscribe(self, topic: topics.Topic[Any], handler: Any, *, depth: int | None = None) -> Any:
+    async def subscribe(self, topic: topics.Topic[Any], handler: Any, **how: Any) -> Any:
         def receive(message: Any) -> Any:
             return None if self.cut else handler(message)
 
-        return await self._transport.subscribe(topic, receive, depth=depth)
+        return await self._transport.subscribe(topic, receive, **how)
 
     async def serve(self, service: Any, handler: Any) -> Any:
         return await self._transport.serve(service, handler)

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import asyncio
+import contextlib
 import json
 import sqlite3
 import subprocess
@@ -18,7 +19,7 @@ from parley.umrf.io import read_graph
 from parley.umrf.model import GraphState, NodeState
 from tests.umrf.spec_actions import CATALOGUE, chain, node, planner_chain
 
-from .rig import rigged
+from .rig import engine_of, rigged
 
 ROOT = Path(__file__).parent.parent.parent
 
@@ -176,3 +177,19 @@ async def test_a_graph_that_waits_for_repair_was_interrupted_and_one_that_ran_dr
     await second.close()
     await journal.close()
     await asyncio.sleep(0)
+
+
+async def test_a_graph_that_is_only_named_like_an_inner_one_is_offered(tmp_path: Path) -> None:
+    names, path = ["job", "job__east__1"], tmp_path / "journal.db"
+    async with (
+        rigged() as rig,
+        await Journal.open(path, WallClock()) as journal,
+        engine_of("B", rig, journal=journal),
+    ):
+        for name in names:
+            rig.start(chain(name, [node("WaitFor", 0, seconds=60.0)]), ["B"])
+            await rig.until_graph(name, "RUNNING")
+        await journal.flush()
+        with contextlib.closing(sqlite3.connect(path)) as file:
+            left, _ = room.read_left(file)
+        assert [item.graph.name for item in left] == names

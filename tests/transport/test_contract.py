@@ -258,6 +258,29 @@ async def test_a_handler_may_close_its_own_subscription(network: Network) -> Non
     assert heard == ["first"]
 
 
+async def test_subscriptions_along_each_other_keep_the_order_and_one_that_is_closed_holds_up_no_other() -> (
+    None
+):
+    heard: list[str] = []
+
+    async def hang(message: String) -> None:
+        heard.append(message.data)
+        await asyncio.Event().wait()
+
+    async with LocalTransport() as transport:
+        first = await transport.subscribe(PLAIN, lambda message: heard.append(message.data))
+        other = Topic("other", String, PLAIN.ros_type, PLAIN.qos)
+        await transport.subscribe(other, lambda message: heard.append(message.data), along=first)
+        third = Topic("third", String, PLAIN.ros_type, PLAIN.qos)
+        hung = await transport.subscribe(third, hang, along=first)
+        for number, topic in enumerate((PLAIN, other, PLAIN, third, other)):
+            transport.publisher(topic).publish(String(str(number)))
+        await until(lambda: len(heard) == 4)
+        await hung.close()
+        await until(lambda: len(heard) == 5)
+    assert heard == ["0", "1", "2", "3", "4"]
+
+
 async def test_a_closed_publisher_sends_nothing_more(network: Network) -> None:
     heard: list[str] = []
     await network.there.subscribe(PLAIN, lambda message: heard.append(message.data))

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import asyncio
+import threading
 from typing import Any
 
 import pytest
@@ -10,13 +11,15 @@ import pytest
 from parley.clock import WallClock
 from parley.errors import FailureCode, GraphRefusedError
 from parley.messages.failure import FailureReport
+from parley.umrf.action import RunHandle, action
+from parley.umrf.catalogue import Catalogue
 from parley.umrf.executor import GraphRun
 from parley.umrf.io import read_graph
 from parley.umrf.model import GraphState, NodeState, Result
 from parley.umrf.transition import Transition
 
 from .spec_actions import CATALOGUE, chain, node, planner_chain
-from .watched import Watched
+from .watched import Watched, until
 
 LONG = 60.0
 
@@ -275,6 +278,52 @@ async def test_an_action_that_ignores_pauses_is_let_finish_and_its_children_are_
     watched.run.resume()
     assert await watched.run.wait() is Result.ON_TRUE
     assert watched.runs() == ["Insist_0", "NoOp_1"]
+
+
+@pytest.mark.spec("11.3")
+async def test_a_plain_action_is_paused_when_it_has_looked() -> None:
+    may_look, looked, may_end = threading.Event(), threading.Event(), threading.Event()
+
+    @action
+    def drive(ctx: RunHandle) -> None:
+        """Move on, look once, move on."""
+        may_look.wait(5)
+        assert ctx.paused
+        looked.set()
+        may_end.wait(5)
+
+    watched = Watched(
+        chain("g", [{"name": "Drive", "instance_id": 0, "type": "sync"}]), catalogue=Catalogue([drive.spec])
+    )
+    watched.run.start()
+    await asyncio.sleep(0.01)
+    watched.run.pause()
+    assert (watched.state("Drive_0"), watched.run.state) == ("PAUSE_REQUESTED", "RUNNING")
+    may_look.set()
+    await until(lambda: watched.run.state == "PAUSED")
+    assert looked.is_set() and watched.state("Drive_0") == "PAUSED"
+    watched.run.resume()
+    may_end.set()
+    assert await watched.run.wait() is Result.ON_TRUE
+
+
+async def test_nothing_begins_during_a_pause() -> None:
+    began = threading.Event()
+
+    @action
+    def drive(ctx: RunHandle) -> None:
+        """Say that it moves."""
+        began.set()
+
+    graph = chain("g", [{"name": "Drive", "instance_id": 0, "type": "sync"}])
+    watched = Watched(graph, catalogue=Catalogue([drive.spec]))
+    watched.run.start()
+    watched.run.pause()
+    assert (watched.state("Drive_0"), watched.run.state) == ("PAUSED", "PAUSED")
+    await asyncio.sleep(0.01)
+    assert not began.is_set()
+    watched.run.resume()
+    assert await watched.run.wait() is Result.ON_TRUE and began.is_set()
 
 
 async def test_a_pause_can_be_taken_back_before_it_took_hold() -> None:
@@ -554,6 +603,7 @@ async def test_a_node_that_ended_during_the_pause_goes_on_along_the_new_edges() 
 async def test_a_node_that_ended_during_the_pause_may_be_removed() -> None:
     watched = Watched(planner_chain("g", [node("WaitFor", 0, seconds=0.001), node("Crash", 1)]))
     watched.run.start()
+    await asyncio.sleep(0)  # it begins
     watched.run.pause()
     await asyncio.sleep(0.02)
     watched.run.modify(read_graph(planner_chain("g", [node("NoOp", 2)])))

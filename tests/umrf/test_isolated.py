@@ -51,7 +51,18 @@ async def tell(ctx: RunHandle, place: Place, times: int = 2) -> Told:
     return Told(f"{ctx.actor} {ctx.node} {place.x} " * times, os.getpid())
 
 
+class MuteError(Exception):
+    def __str__(self) -> str:
+        raise RuntimeError("no words")
+
+
 @action(isolated=True)
+def find_out(ctx: RunHandle) -> Outcome:
+    """Tell something that cannot leave, and which process this one comes from."""
+    return Outcome(facts={"seen": "a box", "parent": float(os.getppid()), "thing": lambda: None})
+
+
+@action(isolated=True, outputs={"what": "thing"})
 def misbehave(ctx: RunHandle, how: str) -> Outcome:
     """End badly."""
     match how:
@@ -63,6 +74,10 @@ def misbehave(ctx: RunHandle, how: str) -> Outcome:
             sys.exit(3)
         case "raise":
             raise KeyError("shelf")
+        case "badstr":
+            raise MuteError()
+        case "opaque":
+            return Outcome(outputs={"what": lambda: None})
         case "fail":
             raise ActionFailure(FailureCode.BLOCKED, "A box is in the way.", {"by": "a box"})
     return Outcome(False)
@@ -90,7 +105,7 @@ class Polite:
         await asyncio.sleep(60)
 
 
-ACTIONS: tuple[Any, ...] = (tell, misbehave, ignore_everything, work_until_stopped, Polite)
+ACTIONS: tuple[Any, ...] = (tell, find_out, misbehave, ignore_everything, work_until_stopped, Polite)
 
 
 CATALOGUE = Catalogue(item.spec for item in ACTIONS)
@@ -159,6 +174,8 @@ async def test_inputs_outputs_log_and_progress_cross_over() -> None:
         ("os._exit", FailureCode.INTERNAL, "exit code 7"),
         ("sys.exit", FailureCode.INTERNAL, "SystemExit"),
         ("raise", FailureCode.INTERNAL, "KeyError"),
+        ("badstr", FailureCode.INTERNAL, "MuteError: (RuntimeError while saying why)"),
+        ("opaque", FailureCode.INTERNAL, "cannot leave its process"),
         ("fail", FailureCode.BLOCKED, "A box is in the way."),
     ],
 )
@@ -169,6 +186,20 @@ async def test_a_bad_end_is_the_nodes_failure_alone(how: str, code: FailureCode,
     assert failure.code is code
     assert words in failure.message
     assert nobody_is_left()
+
+
+async def test_a_fact_that_cannot_leave_is_named_and_processes_come_from_a_warm_one() -> None:
+    parents = []
+    for _ in range(2):
+        run, told = started("FindOut", {})
+        assert await run.wait() is Result.ON_TRUE
+        (end,) = [item for item in told if item.state == "FINISHED" and item.node]
+        assert set(end.outputs) == {"seen", "parent"}
+        node = run.snapshot().node("FindOut_0")
+        assert node is not None
+        assert node.messages[-1].message.startswith("thing is not told, as it cannot leave its process")
+        parents.append(end.outputs["parent"].value)
+    assert parents[0] == parents[1] != os.getpid()
 
 
 @pytest.mark.parametrize("name", ["WorkUntilStopped", "Polite"])

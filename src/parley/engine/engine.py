@@ -39,7 +39,7 @@ from parley.messages.status import (
 from parley.messages.topics import Topic
 from parley.messages.wire import decode, to_string, to_string_unchecked
 from parley.robots.base import Robot
-from parley.transport.base import Publisher, Transport
+from parley.transport.base import Publisher, Subscription, Transport
 from parley.umrf.action import RunHandle
 from parley.umrf.catalogue import Catalogue, info_of
 from parley.umrf.check import reasons, vouch_steps
@@ -66,6 +66,7 @@ M = TypeVar(
 
 Admit = Callable[[ActionInfo, Mapping[str, Any]], None]
 
+C = TypeVar("C")
 P = TypeVar("P", bound=BaseModel)
 Raw = Mapping[str, Any]
 Steps = Generator[None, None, None]
@@ -229,11 +230,26 @@ class ActionEngine:
         stack.push_async_callback(shared.close)
 
     async def _listen(self, stack: AsyncExitStack) -> None:
-        async def on(topic: Topic[M], command: Callable[[M], None]) -> None:
-            subscription = await self._transport.subscribe(
-                topic, lambda message: self._command(topic.name, message, command), depth=COMMAND_DEPTH
-            )
+        subscriptions: list[Subscription] = []
+
+        async def on(topic: Topic[C], take: Callable[[C], None]) -> None:
+            """Commands of all topics are taken in the order in which they came."""
+            known = 0
+
+            def handle(message: C) -> None:
+                nonlocal known
+                if (lost := subscription.dropped - known) > 0:
+                    known += lost
+                    self._reject(topic.name, "", [_lost(lost)])
+                take(message)
+
+            along = subscriptions[0] if subscriptions else None
+            subscription = await self._transport.subscribe(topic, handle, depth=COMMAND_DEPTH, along=along)
+            subscriptions.append(subscription)
             stack.push_async_callback(subscription.close)
+
+        def light(topic: Topic[M], command: Callable[[M], None]) -> Callable[[M], None]:
+            return lambda message: self._command(topic.name, message, command)
 
         if self._own_line:
             names = dict.fromkeys(self._names, self.actor)
@@ -245,34 +261,27 @@ class ActionEngine:
             )
             await listener.open()
             stack.push_async_callback(listener.close)
-        step = await self._transport.subscribe(
-            topics.STEP, lambda message: self._payload(topics.STEP, StepCommand, message, self._on_step)
-        )
-        stack.push_async_callback(step.close)
         sync = await self._transport.subscribe(
             topics.SYNC, lambda message: self._payload(topics.SYNC, SyncNotice, message, self._together.take)
         )
         stack.push_async_callback(sync.close)
-        start = await self._transport.subscribe(
+        await on(
             topics.GRAPH_START,
             lambda message: self._heavy_command(
                 topics.GRAPH_START.name, message, message.umrf_graph_json, self._start
             ),
-            depth=COMMAND_DEPTH,
         )
-        stack.push_async_callback(start.close)
-        modify = await self._transport.subscribe(
+        await on(
             topics.GRAPH_MODIFY,
             lambda message: self._heavy_command(
                 topics.GRAPH_MODIFY.name, message, message.modified_graph, self._modify
             ),
-            depth=COMMAND_DEPTH,
         )
-        stack.push_async_callback(modify.close)
-        await on(topics.GRAPH_PAUSE, self._pause)
-        await on(topics.GRAPH_PAUSE_TEMOTO, self._pause)
-        await on(topics.GRAPH_RESUME, self._resume)
-        await on(topics.GRAPH_STOP, self._stop)
+        for topic in (topics.GRAPH_PAUSE, topics.GRAPH_PAUSE_TEMOTO):
+            await on(topic, light(topic, self._pause))
+        await on(topics.GRAPH_RESUME, light(topics.GRAPH_RESUME, self._resume))
+        await on(topics.GRAPH_STOP, light(topics.GRAPH_STOP, self._stop))
+        await on(topics.STEP, lambda message: self._payload(topics.STEP, StepCommand, message, self._on_step))
 
     async def _watch_others(self) -> None:
         """Listen to heartbeats from now on: who shares a graph must know who is there."""
@@ -286,12 +295,12 @@ class ActionEngine:
 
     def _command(self, what: str, message: M, command: Callable[[M], None]) -> None:
         """Carry out one command for us, or say why not."""
-        if self._names.isdisjoint(message.targets):
-            return
-        name = message.umrf_graph_name
+        if not self._names.isdisjoint(message.targets):
+            self._light(what, message.umrf_graph_name, lambda: command(message))
 
+    def _light(self, what: str, name: str, command: Callable[[], None]) -> None:
         def work() -> Steps:
-            command(message)
+            command()
             yield from ()
 
         self._inbox.put(name, lambda: self._told(what, name, work()), light=True)
@@ -393,9 +402,12 @@ class ActionEngine:
             self._reject(topic.name, error.graph_name, error.problems)
 
     def _on_step(self, command: StepCommand) -> None:
-        if command.target in self._names:
+        def end() -> None:
             self.runs.end_node(command.graph_name, command.node)
             self._together.pass_on("end", command.graph_name, (command.target,), node=command.node)
+
+        if command.target in self._names:
+            self._light(topics.STEP.name, command.graph_name, end)
 
     async def _graph_get(self, request: ros.UmrfGraphGetRequest) -> ros.UmrfGraphGetResponse:
         return ros.UmrfGraphGetResponse(
@@ -454,3 +466,12 @@ def _admitted(admit: Admit, make_context: Callable[[RunHandle], Any]) -> Callabl
         return make_context(run)
 
     return make
+
+
+def _lost(count: int) -> Problem:
+    return Problem(
+        "",
+        f"{count} commands were lost: more than {COMMAND_DEPTH} came at once",
+        "send them again, fewer at a time",
+        "commands_lost",
+    )

@@ -114,7 +114,7 @@ class Journal:
             shared = run.peers is not None and bool(run.peers.actors)
             known = self._text is not None and self._text.name == run.name
             graph = self._text if known and self._text is not None else run.snapshot()
-            self._batch.begun.append((number, run.actor, shared, graph, transition.unix_ms))
+            self._batch.begun.append((number, run.actor, run.outer, shared, graph, transition.unix_ms))
         elif transition.kind == "graph" and transition.cause == "modify":
             self._batch.modified.append((number, run.snapshot()))
         told = self._batch.told.get(number)

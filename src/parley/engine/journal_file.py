@@ -48,16 +48,17 @@ KEPT_TRANSITIONS: Final = 10_000
 TIDY_EVERY: Final = 100
 """Runs, and transitions of a run, between two looks for what is too old; and so many transitions to a row."""
 
-VERSION: Final = 3
+VERSION: Final = 4
 """Of the form of the file; one of another form is put aside, see `journal_older`."""
 _ENDED: Final = (GraphState.FINISHED.value, GraphState.STOPPED.value, GraphState.ERROR.value)
 
-_Newest = dict[tuple[str, str], tuple[int, str]]
-"""Actor and graph -> number and state of its newest run."""
+_Newest = dict[tuple[str, str], tuple[int, bool]]
+"""Actor and graph -> number of its newest run, and whether it ended or is gone on with inside of another."""
 
 _SCHEMA: Final = """
     CREATE TABLE IF NOT EXISTS run (
-        id INTEGER PRIMARY KEY, actor TEXT NOT NULL, graph_name TEXT NOT NULL, state TEXT NOT NULL,
+        id INTEGER PRIMARY KEY, actor TEXT NOT NULL, graph_name TEXT NOT NULL,
+        outer TEXT NOT NULL, state TEXT NOT NULL,
         started_unix_ms INTEGER NOT NULL, changed_unix_ms INTEGER NOT NULL,
         settled INTEGER NOT NULL DEFAULT 0, shared INTEGER NOT NULL DEFAULT 0,
         graph_started TEXT NOT NULL, graph_now TEXT, frame TEXT NOT NULL DEFAULT '{}'
@@ -101,8 +102,8 @@ class GraphText:
 class Batch:
     """What is still to be written, by the number of the run."""
 
-    begun: list[tuple[int, str, bool, Graph | GraphText, int]] = field(default_factory=list)
-    """Number, actor, whether others take part, graph, time."""
+    begun: list[tuple[int, str, str, bool, Graph | GraphText, int]] = field(default_factory=list)
+    """Number, actor, graph inside of which it runs, whether others take part, graph, time."""
     modified: list[tuple[int, Graph]] = field(default_factory=list)
     told: dict[int, list[Transition]] = field(default_factory=dict)
     saved: list[tuple[int, dict[str, Any], list[tuple[str, dict[str, Any]]]]] = field(default_factory=list)
@@ -161,6 +162,7 @@ def _write_begun(
     connection: sqlite3.Connection,
     number: int,
     actor: str,
+    outer: str,
     shared: bool,
     graph: Graph | GraphText,
     unix_ms: int,
@@ -172,9 +174,9 @@ def _write_begun(
         "UPDATE run SET settled = 1 WHERE settled = 0 AND actor = ? AND id < ?", (actor, first)
     )
     connection.execute(
-        "INSERT INTO run (id, actor, graph_name, state, started_unix_ms, changed_unix_ms, shared,"
-        " graph_started) VALUES (?, ?, ?, ?, ?, ?, ?, ?)",
-        (number, actor, graph.name, GraphState.RUNNING.value, unix_ms, unix_ms, shared, _text(graph)),
+        "INSERT INTO run (id, actor, graph_name, outer, state, started_unix_ms, changed_unix_ms, shared,"
+        " graph_started) VALUES (?, ?, ?, ?, ?, ?, ?, ?, ?)",
+        (number, actor, graph.name, outer, GraphState.RUNNING.value, unix_ms, unix_ms, shared, _text(graph)),
     )
 
 
@@ -228,14 +230,18 @@ def settle_all(connection: sqlite3.Connection) -> None:
 def read_left(connection: sqlite3.Connection) -> tuple[list[Interrupted], int]:
     """What was under way when the last process ended, and the number of the last run."""
     (last,) = connection.execute("SELECT coalesce(max(id), 0) FROM run").fetchone()
-    rows = connection.execute("SELECT actor, graph_name, id, state FROM run WHERE settled = 0 ORDER BY id")
-    newest: dict[tuple[str, str], tuple[int, str]] = {}
-    for actor, name, number, state in rows.fetchall():
+    rows = connection.execute(
+        "SELECT actor, graph_name, id, state IN (?, ?, ?) OR outer != ''"
+        " FROM run WHERE settled = 0 ORDER BY id",
+        _ENDED,
+    )
+    newest: _Newest = {}
+    for actor, name, number, passed in rows.fetchall():
         newest.pop((actor, name), None)  # of several runs of one name the last one counts
-        newest[actor, name] = (number, state)
+        newest[actor, name] = (number, bool(passed))
     found = []
-    for (actor, name), (number, state) in newest.items():
-        if state in _ENDED or _is_inner(actor, name, newest):
+    for (actor, name), (number, passed) in newest.items():
+        if passed:
             continue
         try:
             item = _interrupted(connection, actor, number, newest)
@@ -283,10 +289,3 @@ def _saved(connection: sqlite3.Connection, actor: str, number: int, newest: _New
         if (actor, name) in newest
     }
     return SavedRun(read_graph(text), frame, {node: json.loads(kept) for node, kept in nodes}, inner)
-
-
-def _is_inner(actor: str, name: str, newest: _Newest) -> bool:
-    """Whether it is a graph inside of another, which is the one to go on with; see `InnerRuns` for names."""
-    outer, mark, rest = name.rpartition("__")
-    outer = outer.rpartition("__")[0]
-    return bool(mark) and rest.isdecimal() and (actor, outer) in newest

@@ -70,7 +70,6 @@ class GraphRuns:
         self._stop_timeout_s = stop_timeout_s
         self._runs: dict[str, GraphRun] = {}
         self._replaced: list[GraphRun] = []
-        self._inner: set[GraphRun] = set()
         self._latched = latched
 
     @property
@@ -259,7 +258,6 @@ class GraphRuns:
     def clear(self) -> None:
         """Forget all runs, once they are closed and nobody asks for them any more."""
         self._runs.clear()
-        self._inner.clear()
         self._replaced.clear()
 
     def _hold(self, graph: Graph, parameters: Mapping[str, Any], peers: Peers | None) -> GraphRun:
@@ -289,7 +287,6 @@ class GraphRuns:
         old = self._runs.pop(graph.name, None)
         if old is not None:
             old.stop()
-            self._inner.discard(old)
             self._replaced = [item for item in [*self._replaced, old] if not item.idle]
         self._runs[graph.name] = run
         return run
@@ -297,11 +294,9 @@ class GraphRuns:
     def _hold_inner(self, graph: Graph, parameters: Mapping[str, Any], peers: Peers | None) -> GraphRun:
         """The run of a sub-graph; others see it as a graph of its own (10.8)."""
         old = self._runs.get(graph.name)
-        if old is not None and old not in self._inner and old.state in _BUSY:
+        if old is not None and not old.outer and old.state in _BUSY:
             raise _refused(graph.name, "already_running", f"{graph.name!r} is {old.state}", "stop it first")
-        run = self._hold(graph, parameters, peers)
-        self._inner.add(run)
-        return run
+        return self._hold(graph, parameters, peers)
 
     def _get(self, name: str) -> GraphRun:
         run = self._runs.get(name)
@@ -323,11 +318,11 @@ class GraphRuns:
         ended = [
             name
             for name, run in self._runs.items()
-            if run.idle and (run.state in ENDED or (run in self._inner and run.state is GraphState.HALTED))
+            if run.idle and (run.state in ENDED or (run.outer and run.state is GraphState.HALTED))
         ]
         halted = [name for name, run in self._runs.items() if run.idle and run.state is GraphState.HALTED]
         for name in {*ended[: -self._kept(ended)], *halted[:-KEPT_HALTED]}:
-            self._inner.discard(self._runs.pop(name))
+            del self._runs[name]
 
     def _kept(self, ended: Sequence[str]) -> int:
         """How many of the newest of `ended` are kept; at least one."""

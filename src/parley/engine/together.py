@@ -106,6 +106,7 @@ class Together:
         except GraphRefusedError as error:
             self._runs.drop(run)
             self._sync.drop(session)
+            run.stop()  # so that whoever waits for it hears that it is over
             self._refuse("umrf_graph_start", run.name, error.problems)
 
     # -- commands -------------------------------------------------------------------------------------------

@@ -85,9 +85,21 @@ class Transport(Protocol):
         ...
 
     async def subscribe(
-        self, topic: Topic[M], handler: Handler[M], *, depth: int | None = None
+        self,
+        topic: Topic[M],
+        handler: Handler[M],
+        *,
+        depth: int | None = None,
+        along: Subscription | None = None,
     ) -> Subscription:
         """Open the receiving end of `topic`; a latched topic hands over its last message first.
+
+        Args:
+            topic: What to hear.
+            handler: Gets each message.
+            depth: How many may wait; of more the oldest are dropped.
+            along: A subscription whose messages and these are handled in the order in which they came, as far
+                as the backend can tell that order.
 
         Raises:
             TypeMismatchError: The name is in use with another type.

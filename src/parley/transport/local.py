@@ -13,7 +13,7 @@ import structlog
 
 from parley.errors import TransportError, TransportTimeoutError, TypeMismatchError, UnavailableError
 from parley.messages.topics import Service, Topic
-from parley.transport.base import Endpoint, Handler
+from parley.transport.base import Endpoint, Handler, Subscription
 
 __all__ = ["LocalTransport"]
 
@@ -42,15 +42,64 @@ class _LocalPublisher(Generic[M]):
             self._transport._forget(self)
 
 
-class _LocalSubscription(Generic[M]):
-    """A bounded queue and the task that hands its messages to the handler."""
+class _Line:
+    """Subscriptions whose messages are handled as they came, one after the other, and the task for it."""
 
-    def __init__(self, transport: LocalTransport, topic: Topic[M], handler: Handler[M], depth: int) -> None:
+    def __init__(self, name: str) -> None:
+        self.turns: deque[_LocalSubscription[Any]] = deque()
+        self.users = 0
+        self._name = name
+        self._arrived = asyncio.Event()
+        self._handling: _LocalSubscription[Any] | None = None
+        self._work()
+
+    def _work(self) -> None:
+        self._task = asyncio.create_task(self._run(), name=f"sub {self._name}")
+
+    def add(self, subscription: _LocalSubscription[Any]) -> None:
+        """The newest message of `subscription` is the last in the line."""
+        self.turns.append(subscription)
+        self._arrived.set()
+
+    async def _run(self) -> None:
+        while True:
+            while self.turns:
+                self._handling = self.turns.popleft()
+                await self._handling.take()
+                self._handling = None
+            self._arrived.clear()
+            await self._arrived.wait()
+
+    async def leave(self, subscription: _LocalSubscription[Any]) -> None:
+        """A subscription is closed: its handler is cancelled if it runs, the others go on."""
+        self.users -= 1
+        if self.users and self._handling is not subscription:
+            return
+        task = self._task
+        task.cancel()
+        if task is not asyncio.current_task():
+            await asyncio.gather(task, return_exceptions=True)
+        if self.users:
+            self._work()
+
+
+class _LocalSubscription(Generic[M]):
+    """A bounded queue, and the line in which its messages wait for the handler."""
+
+    def __init__(
+        self,
+        transport: LocalTransport,
+        topic: Topic[M],
+        handler: Handler[M],
+        depth: int,
+        line: _Line | None,
+    ) -> None:
         self._transport, self._topic, self._handler = transport, topic, handler
         self._queue: deque[M] = deque(maxlen=None if topic.qos.keep_all else depth)
-        self._arrived = asyncio.Event()
         self._dropped = 0
-        self._task: asyncio.Task[None] | None = asyncio.create_task(self._run(), name=f"sub {topic.name}")
+        self._open = True
+        self.line = line or _Line(topic.name)
+        self.line.users += 1
 
     @property
     def dropped(self) -> int:
@@ -66,15 +115,14 @@ class _LocalSubscription(Generic[M]):
                     dropped=self._dropped,
                     depth=self._queue.maxlen,
                 )
+            self.line.turns.remove(self)
         self._queue.append(message)
-        self._arrived.set()
+        self.line.add(self)
 
-    async def _run(self) -> None:
-        while True:
-            await self._arrived.wait()
-            self._arrived.clear()
-            while self._queue:
-                await self._handle(self._queue.popleft())
+    async def take(self) -> None:
+        """Handle the message that waits longest; after a closing there is none."""
+        if self._queue:
+            await self._handle(self._queue.popleft())
 
     async def _handle(self, message: M) -> None:
         try:
@@ -92,13 +140,11 @@ class _LocalSubscription(Generic[M]):
             log.exception("handler failed", topic=self._topic.name)
 
     async def close(self) -> None:
-        task, self._task = self._task, None
-        if task is None:
-            return
-        self._transport._forget(self)
-        task.cancel()
-        if task is not asyncio.current_task():
-            await asyncio.gather(task, return_exceptions=True)
+        if self._open:
+            self._open = False
+            self._queue.clear()
+            self._transport._forget(self)
+            await self.line.leave(self)
 
 
 class _LocalServer:
@@ -150,11 +196,17 @@ class LocalTransport:
         return publisher
 
     async def subscribe(
-        self, topic: Topic[M], handler: Handler[M], *, depth: int | None = None
+        self,
+        topic: Topic[M],
+        handler: Handler[M],
+        *,
+        depth: int | None = None,
+        along: Subscription | None = None,
     ) -> _LocalSubscription[M]:
         """See `Transport.subscribe`."""
         self._check_type(topic.name, topic.ros_type)
-        subscription = _LocalSubscription(self, topic, handler, depth or topic.qos.depth)
+        line = along.line if isinstance(along, _LocalSubscription) else None
+        subscription = _LocalSubscription(self, topic, handler, depth or topic.qos.depth, line)
         self._subscriptions.setdefault(_absolute(topic.name), []).append(subscription)
         if topic.qos.latched and _absolute(topic.name) in self._latched:
             subscription.put(self._latched[_absolute(topic.name)])

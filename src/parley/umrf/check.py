@@ -7,8 +7,9 @@ runs without waiting for something that nobody will give.
 from __future__ import annotations
 
 from collections import Counter
-from collections.abc import Collection, Generator, Iterator, Sequence
+from collections.abc import Callable, Collection, Generator, Iterable, Iterator, Sequence
 from dataclasses import replace
+from typing import Final
 
 from parley.errors import GraphRefusedError, Problem
 from parley.messages.pvf import SEPARATOR, Parameter, Parameters
@@ -16,10 +17,23 @@ from parley.umrf.action import ActionSpec
 from parley.umrf.catalogue import Catalogue
 from parley.umrf.graph_index import GraphSpec, given_name
 from parley.umrf.io import UnreadableGraphError
-from parley.umrf.model import ENTRY, EXIT, ChildRelation, Graph, Node, NodeRef, ParentRelation
+from parley.umrf.model import (
+    ENTRY,
+    EXIT,
+    ChildRelation,
+    Graph,
+    Node,
+    NodeRef,
+    ParentRelation,
+    Response,
+    Result,
+)
 from parley.umrf.reading import SLICE
 
 __all__ = ["check", "reasons", "vouch_steps"]
+
+MAX_LEVELS: Final = 30
+"""How many graphs may be inside of each other."""
 
 _OF_NAMES = frozenset({"unknown_action", "not_capable", "reserved_name", "duplicate_node"})
 """Codes of problems that no value can have caused."""
@@ -83,9 +97,12 @@ class _Checker:
         known_actors: Collection[str],
         given: Collection[str],
         inside: Sequence[str] = (),
+        levels: dict[str, int] | None = None,
     ) -> None:
         self.graph, self.catalogue, self.actor, self.known_actors = graph, catalogue, actor, known_actors
         self.given, self.inside = given, (*inside, graph.name)
+        self.levels: dict[str, int] = {} if levels is None else levels
+        """Indexed graphs that were looked into -> how many levels are inside of them."""
         self.entries = {relation.node: relation for relation in graph.entry}
         self.nodes: dict[NodeRef, Node] = {}
         for node in graph.nodes:
@@ -157,13 +174,8 @@ class _Checker:
     def _unreachable(self) -> Iterator[Problem]:
         if not self.graph.entry:  # accepted: such a graph halts at once, and a modify may continue it
             return
-        reached: set[NodeRef] = set()
-        waiting = [relation.node for relation in self.graph.entry]
-        while waiting:
-            ref = waiting.pop()
-            if ref not in reached and ref in self.nodes:
-                reached.add(ref)
-                waiting.extend(child.node for child in self.nodes[ref].children)
+        reached = self._followed(lambda child, came: True)
+        runs = self._followed(lambda child, came: _can_follow(child, reached, came))
         for index, node in enumerate(self.graph.nodes):
             if node.ref not in reached:
                 yield Problem(
@@ -172,6 +184,25 @@ class _Checker:
                     "make it a child of another action or an entry",
                     "unreachable_node",
                 )
+            elif node.ref not in runs:
+                waits = [p.node for p in node.parents if p.required and p.node in reached - runs]
+                yield Problem(
+                    f"actions[{index}].parents",
+                    f"{node.full_name} waits for {_names(waits)}, which cannot run before it",
+                    "say required: false of a parent that a loop comes back from",
+                    "endless_wait",
+                )
+
+    def _followed(self, can: Callable[[Node, Collection[NodeRef]], bool]) -> set[NodeRef]:
+        """What comes to run from the entry on, if `can` says so of each node that was reached."""
+        came: set[NodeRef] = set()
+        waiting = [relation.node for relation in self.graph.entry]
+        while waiting:
+            ref = waiting.pop()
+            if ref not in came and ref in self.nodes and can(self.nodes[ref], came):
+                came.add(ref)
+                waiting.extend(child.node for child in self.nodes[ref].children)
+        return came
 
     def _action(self, node: Node, path: str) -> Iterator[Problem]:
         if node.actor and node.actor != self.actor:
@@ -202,11 +233,28 @@ class _Checker:
                 f"{path}.name", f"{node.name} would run inside itself: {way}", "break the circle", "recursion"
             )
             return
-        inner = _Checker(
-            spec.graph, self.catalogue, self.actor, self.known_actors, spec.inputs.keys(), self.inside
-        )
-        for problem in filter(None, inner.problems()):
-            yield replace(problem, path=f"{path}.{spec.name}.{problem.path}")
+        name = spec.graph.name
+        if len(self.inside) + self.levels.get(name, 0) > MAX_LEVELS:
+            yield Problem(
+                f"{path}.name",
+                f"with {node.name} more than {MAX_LEVELS} graphs would be inside of each other",
+                "make fewer graphs of them",
+                "too_deep",
+            )
+        elif name not in self.levels:
+            inner = _Checker(
+                spec.graph,
+                self.catalogue,
+                self.actor,
+                self.known_actors,
+                spec.inputs.keys(),
+                self.inside,
+                self.levels,
+            )
+            for problem in filter(None, inner.problems()):
+                yield replace(problem, path=f"{path}.{spec.name}.{problem.path}")
+            known = (self.levels.get(item.name, -1) for item in spec.graph.nodes)
+            self.levels[name] = 1 + max(known, default=-1)
 
     def _other_actor(self, node: Node, path: str) -> Iterator[Problem]:
         if not self.actor or node.actor in self.known_actors:
@@ -312,6 +360,22 @@ def _parameters(given: Parameters, known: Parameters, path: str, spec: ActionSpe
                 f"use {known[name].type}",
                 "wrong_type",
             )
+
+
+def _can_follow(node: Node, reached: Collection[NodeRef], came: Collection[NodeRef]) -> bool:
+    """Whether each reached parent that it needs came, or it passes on what one of them ended with.
+
+    What happens when something fails is left out: a way that only a failure opens is none.
+    """
+    parents = [parent for parent in node.parents if parent.node in reached]
+    return all(parent.node in came for parent in parents if parent.required) or any(
+        parent.node in came and Response.BYPASS in map(parent.response, (Result.ON_TRUE, Result.ON_FALSE))
+        for parent in parents
+    )
+
+
+def _names(refs: Iterable[NodeRef]) -> str:
+    return " and ".join(ref.full_name for ref in refs)
 
 
 def _tree(name: str) -> str:

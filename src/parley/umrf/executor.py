@@ -81,8 +81,9 @@ class GraphRun:
         peers: Peers | None = None,
         make_inner: Callable[..., GraphRun] | None = None,
     ) -> None:
-        self.name = graph.name
-        self.actor = actor
+        self.name, self.actor = graph.name, actor
+        self.outer = ""
+        """Name of the graph inside of which it runs."""
         self.state = GraphState.INITIALIZED
         self.result: Result | None = None
         self.peers = peers
@@ -126,8 +127,8 @@ class GraphRun:
     def pause(self) -> None:
         """Stand still (11.3); no effect on a graph that does nothing.
 
-        Actions that honour a pause are PAUSED at once. The others are let finish, and what follows them is
-        held back; the graph is PAUSED when the last of them is done.
+        Actions that honour a pause are PAUSED at once, plain ones when they have looked. The others are let
+        finish, and what follows is held back; the graph is PAUSED when the last of them is done.
         """
         if self.state is GraphState.RUNNING:
             self._holding = True
@@ -290,11 +291,12 @@ class GraphRun:
             clock=self._clock,
             on_progress=lambda fraction, text: self._announce.progress(item.node, fraction, text),
             asked=lambda: self._flow.asks(item.name),
+            on_still=lambda: self._inner_changed(self._flow.nodes[item.name], GraphState.PAUSED),
         )
         run.begin(self._make_context, self._run_ended)
 
     def _inner_changed(self, item: FlowNode, state: GraphState) -> None:
-        """A sub-graph came to stand still, or goes on."""
+        """A sub-graph or a plain action came to stand still, or goes on."""
         if state is GraphState.PAUSED and item.state in _MOVING:
             self._set_node(item, NodeState.PAUSED, "pause")
             self._settle()
@@ -414,9 +416,7 @@ class GraphRun:
             item = self._flow.nodes[effect.node]
             match effect.kind:
                 case "run" if item.name != source or item.state is NodeState.ERROR:
-                    self._run_node(
-                        item, cause
-                    )  # who triggers itself counts as running (10.4), unless it failed
+                    self._run_node(item, cause)  # who triggers itself counts as running (10.4), unless failed
                 case "stop":
                     self._stop_node(item, cause)
                 case "pause":

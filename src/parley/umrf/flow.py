@@ -98,6 +98,8 @@ class FlowNode:
     received: set[str] = field(default_factory=set)
     """Parents whose edge was seen at least once."""
     log: deque[LogMessage] = field(default_factory=lambda: deque(maxlen=MAX_LOG_MESSAGES))
+    starved: bool = False
+    """Whether it was to run (again) and lacked an input."""
     runner: Runner = field(kw_only=True)
     """What runs it, the same object for all runs."""
     unsaved: bool = True
@@ -332,20 +334,32 @@ class Flow:
         return False
 
     def waiting_for(self) -> str:
-        """Why nodes that were reached do not run, in words; empty if there are none."""
+        """Why nodes that were reached do not run, or what the exit waits for, in words; may be empty."""
         reasons: list[str] = []
         for item in self.nodes.values():
-            if (
-                item.active
-                or not item.received - {ENTRY.full_name}
-                or item.state is not NodeState.UNINITIALIZED
-            ):
+            began = item.state is not NodeState.UNINITIALIZED
+            if item.active or not item.received or (began and not item.starved):
                 continue
             if missing := item.missing_inputs():
-                reasons.append(f"{item.name} has no data for {', '.join(missing)}")
+                again = " to run again" if began else ""
+                reasons.append(f"{item.name} has no data for {', '.join(missing)}{again}")
             if missing := item.missing_edges():
                 reasons.append(f"{item.name} still waits for {', '.join(missing)}")
-        return "; ".join(reasons)
+        failed = any(item.state is NodeState.ERROR for item in self.nodes.values())
+        return "; ".join(reasons) or ("" if failed else self._exit_waits_for())
+
+    def _exit_waits_for(self) -> str:
+        """What the exit lacks, unless its edges are such that graphs of this kind are meant to run dry."""
+        usual = (Result.ON_TRUE, Result.ON_FALSE)
+        ends = [
+            name
+            for name, edge in self.exit.items()
+            if any(edge.response(result) is not Response.IGNORE for result in usual)
+        ]
+        if missing := [name for name in ends if self.exit[name].required and name not in self.exit_received]:
+            return f"the exit still waits for {', '.join(missing)}"
+        lacking = sorted(self.exit_needs.keys() - self.exit_given) if ends else ()
+        return f"the exit was not given {', '.join(lacking)}" if lacking else ""
 
     def past_values(self, item: FlowNode) -> dict[str, Any]:
         """For a node that is run out of turn (11.4): what it lacks, as its parents or it had it last."""
@@ -363,6 +377,7 @@ class Flow:
         """Do what the edge says once the child is ready; a value that is not allowed is the child's error."""
         if child.missing_edges():
             return []
+        child.starved = response is Response.RUN and bool(child.missing_inputs())
         if child.missing_inputs():
             return (
                 [Effect("fail", child.name, message=refused)] if refused and response is Response.RUN else []

@@ -13,17 +13,20 @@ What such an action gets is less than what others get, because little can cross 
 - a class action is made anew for each run, so it remembers nothing.
 
 Its module is imported again in that process, so it must be found there: by its name, or as a file of a folder
-of actions. Starting one takes some tenths of a second.
+of actions. The first one starts a process that has Parley loaded and waits (with the environment variables of
+that moment); each run is a fresh copy of that, begun within a tenth of a second or two besides the import.
 """
 
 from __future__ import annotations
 
 import asyncio
 import contextlib
+import functools
 import importlib
 import inspect
 import multiprocessing
 import os
+import pickle
 import signal
 import sys
 import threading
@@ -38,6 +41,7 @@ from parley.errors import ActionFailure, FailureCode
 from parley.umrf.action import Action, ActionSpec, Outcome, RunHandle, bind_inputs, outcome_of
 from parley.umrf.modules import PRIVATE, import_file
 from parley.umrf.motion import Motion
+from parley.umrf.reports import text_of
 from parley.umrf.signature import flatten_value
 from parley.umrf.threads import in_thread
 
@@ -48,6 +52,16 @@ STOP_GRACE_S: Final = 2.0
 
 _END_S: Final = 1.0
 """A process that has said its last word, or was killed, is gone by then."""
+
+
+@functools.cache
+def _processes() -> Any:
+    """Where processes come from: copies of a warm one where the system can do that (not on Windows)."""
+    if "forkserver" not in multiprocessing.get_all_start_methods():
+        return multiprocessing.get_context("spawn")
+    context = multiprocessing.get_context("forkserver")
+    context.set_forkserver_preload(["__main__", "parley.__main__", __name__])
+    return context
 
 
 @dataclass(frozen=True, slots=True)
@@ -123,7 +137,7 @@ class _Worker:
 
     def __init__(self, order: _Order, name: str, handle: RunHandle) -> None:
         self._order, self._name, self._handle = order, name, handle
-        self._ours, self._theirs = multiprocessing.get_context("spawn").Pipe()
+        self._ours, self._theirs = _processes().Pipe()
         self._process: Any = None
         self._lock = threading.Lock()
         self._killed = False
@@ -143,7 +157,7 @@ class _Worker:
             if self._killed:
                 self._theirs.close()
                 return False
-            process = multiprocessing.get_context("spawn").Process(
+            process = _processes().Process(
                 target=_work, args=(self._theirs, self._order), name=self._order.node, daemon=True
             )
             try:
@@ -274,15 +288,30 @@ def _work(connection: Connection, order: _Order) -> None:
         found = _find(order)
         spec = replace(found.spec, isolated=False)
         outcome = outcome_of(spec, _call(spec, context, order.values))
-        last: tuple[Any, ...] = ("returned", outcome.result, dict(outcome.outputs), dict(outcome.facts))
+        facts = {name: value for name, value in outcome.facts.items() if _can_leave(name, value, context)}
+        last: tuple[Any, ...] = ("returned", outcome.result, dict(outcome.outputs), facts)
     except ActionFailure as failure:
         last = ("failed", failure.code.value, failure.message, failure.details)
     except (asyncio.CancelledError, KeyboardInterrupt):
         last = ("failed", FailureCode.INTERNAL.value, "It was cancelled.", {})
     except BaseException as error:  # noqa: BLE001 - told to the engine, which tells people
-        text = f"{order.attribute} failed: {type(error).__name__}: {error}".rstrip(": ")
+        text = f"{order.attribute} failed: {type(error).__name__}: {text_of(error)}".rstrip(": ")
         last = ("failed", FailureCode.INTERNAL.value, text, {})
-    context.send(*last)
+    try:
+        context.send(*last)
+    except Exception as error:  # noqa: BLE001 - told to the engine, which tells people
+        text = f"What {order.attribute} gave cannot leave its process: {text_of(error)}"
+        context.send("failed", FailureCode.INTERNAL.value, text, {})
+
+
+def _can_leave(name: str, value: Any, context: IsolatedContext) -> bool:
+    """Whether a fact can be told to the engine; if not, the log of the node says so."""
+    try:
+        pickle.dumps(value)
+    except Exception as error:  # noqa: BLE001 - told in the node's log
+        context.log(f"{name} is not told, as it cannot leave its process: {text_of(error)}")
+        return False
+    return True
 
 
 def _find(order: _Order) -> Action[..., Any]:

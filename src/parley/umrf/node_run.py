@@ -54,6 +54,7 @@ class NodeRun:
         clock: Robot time for the action; progress is spaced by wall time.
         on_progress: Gets fraction and text, on the loop, at most every 100 ms.
         asked: Whether what follows depends on whether it ends true or false, as the graph is now.
+        on_still: Told on the loop when a plain action has seen that it is paused.
     """
 
     def __init__(
@@ -65,6 +66,7 @@ class NodeRun:
         clock: Clock,
         on_progress: Callable[[float | None, str], None],
         asked: Callable[[], bool],
+        on_still: Callable[[], None] = lambda: None,
     ) -> None:
         self.actor, self.graph_name, self.node, self.clock = actor, graph_name, item.name, clock
         self.motion = Motion(item.name)
@@ -72,13 +74,13 @@ class NodeRun:
         self.last_log = ""
         self.item = item
         """The node; another object once the graph is modified."""
-        self._on_progress, self._asked = on_progress, asked
+        self._on_progress, self._asked, self._on_still = on_progress, asked, on_still
         self._values = dict(item.values)
         self._loop = asyncio.get_running_loop()
         self._thread = threading.get_ident()
         self._going = asyncio.Event()
         self._going.set()
-        self._paused = self._stopping = self._threaded = self._over = False
+        self._paused = self._looked = self._stopping = self._threaded = self._over = False
         self._progress: tuple[float | None, str] | None = None
         self._progress_timer: asyncio.TimerHandle | None = None
         self._stop_timer: asyncio.TimerHandle | None = None
@@ -100,6 +102,8 @@ class NodeRun:
 
     async def _call(self, make_context: Callable[[RunHandle], Any]) -> Ended:
         item = self.item
+        if item.spec.pausable:
+            await self._going.wait()  # nothing begins during a pause
         run = item.runner.get()
         arguments = bind_inputs(item.spec, self._values)
         context = make_context(self)
@@ -169,12 +173,12 @@ class NodeRun:
 
     @property
     def stands_still(self) -> bool:
-        """Whether it honours a pause at once; otherwise it is let finish."""
-        return self.item.spec.pausable
+        """Whether it honours a pause now, a plain action when it has looked; others are let finish."""
+        return self.item.spec.pausable and (self._looked or not self._threaded)
 
     def pause(self) -> None:
         """Ask the action to stand still; its drive does so in any case."""
-        self._paused = True
+        self._looked, self._paused = False, True
         self.motion.pause()
         self._going.clear()
         if self._time is not None:
@@ -241,8 +245,15 @@ class NodeRun:
 
     @property
     def paused(self) -> bool:
-        """See `RunHandle.paused`."""
+        """See `RunHandle.paused`; a plain action that looks during a pause stands still from then on."""
+        if self._paused and not self._looked and threading.get_ident() != self._thread:
+            self._looked = True
+            self._loop.call_soon_threadsafe(self._has_looked)
         return self._paused
+
+    def _has_looked(self) -> None:
+        if self._paused and self.stands_still and not self._over:
+            self._on_still()
 
     async def wait_while_paused(self) -> None:
         """See `RunHandle.wait_while_paused`."""

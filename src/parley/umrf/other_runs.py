@@ -46,10 +46,13 @@ class InnerRuns:
         name = f"{outer}__{item.node.name}__{item.node.instance_id}"
         left = self._left(name)
         if left is None:
-            run = self._runs[item.name] = self._make(replace(item.spec.graph, name=name), parameters=values)
+            run = self._make(replace(item.spec.graph, name=name), parameters=values)
+        else:
+            run = self._make(left.graph, parameters={})
+        self._runs[item.name], run.outer = run, outer
+        if left is None:
             run.start()
         else:
-            run = self._runs[item.name] = self._make(left.graph, parameters={})
             run.restore(left)
             if run.holding:
                 run.resume()

@@ -11,7 +11,7 @@ from parley.messages.failure import FailureReport
 from parley.umrf.model import Node
 from parley.umrf.text import clean_text
 
-__all__ = ["failure_lines", "failure_text", "is_report", "stop_timed_out_text"]
+__all__ = ["failure_lines", "failure_text", "is_report", "stop_timed_out_text", "text_of"]
 
 log = structlog.get_logger(__name__)
 
@@ -35,14 +35,14 @@ def failure_text(action: str, error: BaseException) -> str:
         try:
             return FailureReport.of(error).to_text()
         except ValueError:  # its details are not what JSON can hold; the code and the sentence still count
-            return FailureReport(message=_text_of(error.message), code=error.code).to_text()
+            return FailureReport(message=text_of(error.message), code=error.code).to_text()
     if isinstance(error, asyncio.CancelledError):
         return FailureReport(message=f"{action} was cancelled from inside.").to_text()
-    text = f"{action} failed: {type(error).__name__}: {_text_of(error)}".rstrip(": ")
+    text = f"{action} failed: {type(error).__name__}: {text_of(error)}".rstrip(": ")
     return FailureReport(message=clean_text(text), code=FailureCode.INTERNAL).to_text()
 
 
-def _text_of(told: object) -> str:
+def text_of(told: object) -> str:
     """What an action raised, in its own words; it may fail at saying so, too."""
     try:
         return clean_text(str(told))
