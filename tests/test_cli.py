@@ -13,6 +13,7 @@ from pathlib import Path
 import pytest
 
 from parley.memory.embedding_server import EmbeddingServer
+from tests.sim.worlds import TWO_ROOMS
 
 DEMO = Path(__file__).parents[1] / "src" / "parley" / "demos" / "nursing_home"
 
@@ -128,6 +129,24 @@ def test_chat_over_a_pipe_answers_and_leaves_at_the_end_of_input(tmp_path: Path)
     )
     assert done.returncode == 0, done.stderr
     assert "sofa" in done.stdout.lower()
+
+
+def test_a_folder_with_a_world_of_ones_own_is_run(tmp_path: Path) -> None:
+    (tmp_path / "world.yaml").write_text(TWO_ROOMS, encoding="utf-8")
+    done = parley(
+        "demo",
+        str(tmp_path),
+        "--terminal",
+        "--speed",
+        "40",
+        "--data",
+        str(tmp_path / "data"),
+        text="go to the green crate\n",
+    )
+    assert (done.returncode, done.stderr) == (0, "")
+    assert "I will go to the green crate" in done.stdout
+    played = parley("demo", str(tmp_path), "--script")
+    assert played.returncode == 2 and "has no story.yaml" in played.stderr
 
 
 def test_memories_of_a_chat_are_listed_afterwards(tmp_path: Path) -> None:

@@ -2,12 +2,15 @@
 
 from __future__ import annotations
 
+import importlib
 import json
 import re
-import shlex
+import subprocess
+import sys
 from pathlib import Path
 
 import pytest
+from fastapi.testclient import TestClient
 from typer.testing import CliRunner
 
 from parley.cli import command_line
@@ -70,12 +73,44 @@ def test_settings_that_are_only_shown_are_settings_too() -> None:
         assert config.embeddings is not None and config.model.key_file is not None
 
 
+def run(name: str) -> list[str]:
+    """What a script of the examples prints; it must come to its end."""
+    done = subprocess.run(
+        [sys.executable, name], cwd=EXAMPLES, capture_output=True, text=True, timeout=60, check=False
+    )
+    assert (done.returncode, done.stderr) == (0, "")
+    return done.stdout.splitlines()
+
+
+def test_a_script_drives_a_robot_of_ones_own() -> None:
+    said, steps = run("script.py")
+    assert "red box" in said
+    assert steps.count("finished") == 2
+
+
+def test_a_notebook_remembers_asks_and_waits_for_a_yes() -> None:
+    remembered, answer, asks, _, states = run("notebook.py")
+    assert "bookshelf" in remembered
+    assert "bookshelf" in answer
+    assert asks.endswith("Shall I?")
+    assert states == "['finished', 'finished']"
+
+
+def test_a_web_app_of_ones_own_lets_a_person_order_and_a_program_propose(
+    monkeypatch: pytest.MonkeyPatch,
+) -> None:
+    monkeypatch.syspath_prepend(str(EXAMPLES))
+    with TestClient(importlib.import_module("web_app").app) as client:
+        (robot,) = client.get("/robots").json()
+        said = f"/robots/{robot}/say?text=go to the bookshelf"
+        assert client.post(said).json()["state"] == "awaiting_approval"
+        assert client.post("/robots/Nobody/say?text=hello").status_code == 404
+        assert client.post("/stop").json() == {"stopped": True}
+    with TestClient(importlib.import_module("web_app").app) as client:
+        assert client.post(said, headers={"authorization": "secret of Ada"}).json()["state"] == "running"
+
+
 def test_the_page_names_every_example_and_no_other() -> None:
-    named = {shlex.split(command)[-1] for command in re.findall(r"`parley (?:graph|demo)[^`]*`", PAGE)}
-    named = {word.strip("`") for word in named} | {"examples/situations.jsonl"}
-    files = {f"examples/graphs/{file.name}" for file in GRAPHS} | {
-        "examples/actions",
-        "examples/parley.yaml",
-        "examples/situations.jsonl",
-    }
-    assert named == files
+    named = set(re.findall(r"^\| `([^`]+)`", PAGE, re.MULTILINE))
+    files = {path.relative_to(EXAMPLES).as_posix() for path in EXAMPLES.rglob("*.*") if path.suffix != ".pyc"}
+    assert named == files - {"README.md"}

@@ -15,12 +15,12 @@ import parley
 SOURCE = Path(parley.__file__).parent
 
 LAYERS: tuple[frozenset[str], ...] = (
-    frozenset({"errors", "clock", "messages", "config", "files", "sentences"}),
+    frozenset({"errors", "extras", "logs", "clock", "messages", "config", "files", "sentences"}),
     frozenset({"transport", "umrf", "memory", "world"}),
     frozenset({"sim"}),
     frozenset({"gate", "language", "robots", "engine", "actions"}),
     frozenset({"agents", "web"}),
-    frozenset({"terminal", "system", "demos", "bench", "evaluation", "doctor", "cli"}),
+    frozenset({"terminal", "site", "system", "api", "demos", "bench", "evaluation", "doctor", "cli"}),
 )
 """Rooms by height, lowest first; rooms of one height may know each other."""
 

@@ -4,7 +4,9 @@
 
     ParleyError
     ├── ConfigError            whoever starts Parley: a setting or a file is wrong
-    │   └── FileFormatError    ... and this file, at this field, says what
+    │   ├── FileFormatError    ... and this file, at this field, says what
+    │   └── MissingExtraError  ... or a part is not installed, and its name
+    ├── NotAllowedError        whoever asked: who they are does not let them
     ├── InvalidMessageError    whoever sent the message: it does not fit the wire contract
     ├── GraphRefusedError      whoever sent the graph or command: it cannot run, and all the reasons why
     ├── TransportError         whoever runs the network
@@ -35,6 +37,8 @@ __all__ = [
     "GraphRefusedError",
     "InvalidMessageError",
     "LanguageError",
+    "MissingExtraError",
+    "NotAllowedError",
     "ParleyError",
     "Problem",
     "StoreError",
@@ -66,6 +70,22 @@ class FileFormatError(ConfigError):
     def __init__(self, file: str, field: str, problem: str) -> None:
         self.file, self.field, self.problem = file, field, problem
         super().__init__(f"{file}: {field + ': ' if field else ''}{problem}")
+
+
+class MissingExtraError(ConfigError):
+    """A part that is installed on its own is not there; the text says how to get it.
+
+    Attributes:
+        extra: Its name, as pip takes it.
+    """
+
+    def __init__(self, extra: str, what: str) -> None:
+        self.extra = extra
+        super().__init__(f"{what} is not installed; to get it: pip install 'parley-hri[{extra}]'")
+
+
+class NotAllowedError(ParleyError):
+    """Somebody wanted what is not theirs to decide; nothing was done."""
 
 
 class InvalidMessageError(ParleyError):

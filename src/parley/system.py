@@ -1,4 +1,4 @@
-"""Puts the rooms together for one process: simulation, engines, the five nodes, over one transport."""
+"""Puts the rooms together for one process: robots, engines, the five nodes, over one transport."""
 
 from __future__ import annotations
 
@@ -8,7 +8,7 @@ from contextlib import AbstractAsyncContextManager, AsyncExitStack
 from dataclasses import dataclass
 from functools import partial
 from types import TracebackType
-from typing import Final, Literal, Self, TypeVar
+from typing import TYPE_CHECKING, Final, Literal, Self, TypeVar
 
 import structlog
 
@@ -32,7 +32,6 @@ from parley.agents.recovery.error_handler import ErrorHandler
 from parley.agents.recovery.repair import left_over_text
 from parley.agents.rules.lookout import Lookout
 from parley.agents.rules.rules import MapOf, RuleNode
-from parley.clock import SimClock
 from parley.config import SystemConfig
 from parley.engine.engine import ActionEngine
 from parley.engine.interrupted import Interrupted
@@ -41,11 +40,11 @@ from parley.engine.presence import is_at_rest
 from parley.engine.services import ContextServices
 from parley.engine.stop_listener import StopListener
 from parley.engine.watchdog import LoopWatchdog
-from parley.errors import GraphRefusedError, Problem
+from parley.errors import ConfigError, GraphRefusedError, Problem
+from parley.extras import needs
 from parley.gate.audit_store import AuditStore
 from parley.gate.book import RuleBook
-from parley.gate.fence import Fence
-from parley.gate.judge import Judgement, RobotFacts
+from parley.gate.judge import Judgement
 from parley.gate.places import Resolver
 from parley.gate.rule_talk import RuleTalk
 from parley.gate.rules import RuleKeeper
@@ -66,10 +65,9 @@ from parley.messages.principal import Principal
 from parley.messages.status import ActionInfo, Rejection, RejectionProblem
 from parley.messages.wire import to_string
 from parley.robots.base import Robot
+from parley.robots.fleet import Fleet, OwnFleet
+from parley.robots.own import RobotBase
 from parley.robots.run_robot import RunRobot
-from parley.robots.simulated import SimulatedRobot
-from parley.sim.simulator import Simulator
-from parley.sim.world_file import WorldFile
 from parley.transport.base import Publisher, Transport
 from parley.transport.local import LocalTransport
 from parley.umrf.action import ActionSpec, RunHandle
@@ -79,6 +77,10 @@ from parley.umrf.model import GraphState
 from parley.world.geometry import Pose2D
 from parley.world.object_map import MapObject, ObjectMap
 from parley.world.occupancy import OccupancyMap
+
+if TYPE_CHECKING:  # only where a world is simulated
+    from parley.sim.simulator import Simulator
+    from parley.sim.world_file import WorldFile
 
 __all__ = ["System", "WorldView"]
 
@@ -101,13 +103,14 @@ class WorldView:
 
 
 class System:
-    """A simulated world with its robots, and everything that makes them understand people.
+    """Robots, simulated or own, and everything that makes them understand people.
 
     Use as ``async with``; what was opened is closed in reverse order, whatever happens.
 
     Args:
-        world: The simulated world.
+        world: The simulated world; None: there is none.
         config: The settings.
+        robots: Robots of your own, which take the place of those of the world.
         occupancy: The map the robots drive by; None: surveyed from the world as it is.
         objects: The object map; None: from the world file.
         language: The language engine; None: as configured.
@@ -117,9 +120,10 @@ class System:
 
     def __init__(
         self,
-        world: WorldFile,
+        world: WorldFile | None,
         config: SystemConfig,
         *,
+        robots: Sequence[RobotBase] = (),
         occupancy: OccupancyMap | None = None,
         objects: ObjectMap | None = None,
         language: Language | None = None,
@@ -127,7 +131,6 @@ class System:
         actions: Sequence[ActionSpec] = BUILTIN_ACTIONS,
     ) -> None:
         self.config = config
-        self.clock = SimClock()
         self.transport: Transport = transport or LocalTransport()
         self.usage = Usage()
         """What language models took, if any is asked."""
@@ -138,8 +141,10 @@ class System:
             usage=self.usage,
             within_s=0.9 * config.language_timeout_s,
         )
-        self.simulator = Simulator(world, clock=self.clock, speed=config.speed, seed=config.seed)
-        self.objects = objects or world.object_map()
+        self.fleet = OwnFleet(robots, occupancy) if robots else _simulated(world, config, occupancy)
+        """The robots, the time they live in, and their maps."""
+        self.clock = self.fleet.clock
+        self.objects = objects or (world.object_map() if world is not None else ObjectMap())
         self.rules = RuleBook(self.clock)
         """What robots may do."""
         installed = installed_actions()
@@ -153,7 +158,6 @@ class System:
         self._journal: Journal | None = None
         self._notices: Notices | None = None
         self._early: list[str] = []
-        self._occupancy = occupancy
         self._stack = AsyncExitStack()
 
     def at_rest(self, robot: str) -> bool | None:
@@ -177,7 +181,19 @@ class System:
     @property
     def robot_names(self) -> tuple[str, ...]:
         """The robots of this world."""
-        return tuple(robot.name for robot in self.simulator.world.robots)
+        return self.fleet.names
+
+    @property
+    def simulator(self) -> Simulator:
+        """The simulated world.
+
+        Raises:
+            ConfigError: The robots are real.
+        """
+        simulator: Simulator | None = getattr(self.fleet, "simulator", None)
+        if simulator is None:
+            raise ConfigError("there is no simulated world: the robots are your own")
+        return simulator
 
     async def _open(self) -> None:
         enter = self._stack.enter_async_context
@@ -195,7 +211,7 @@ class System:
         audit = await enter(await AuditStore.open(config.audit_file or ":memory:", clock))
         await enter(AuditLog(transport, audit, clock, months=config.audit_months, tell=self._tell_all))
         await self._keep_older_stops(journal)
-        await enter(self.simulator)
+        await enter(self.fleet)
         await enter(MemoryNode(transport, self.store, self.language, meanings=self._meanings(self.store)))
         await enter(
             DisplayInterface(
@@ -344,11 +360,8 @@ class System:
             await self._stack.enter_async_context(live)
 
     async def _open_robot(self, name: str, view: WorldView) -> ActionEngine:
-        model = self.simulator.model(name)
-        self.rules.know(name, RobotFacts(view.occupancy.name, model.radius_m, model.max_speed_mps))
-        fence = Fence(self.rules, name, braking_mps2=model.max_acceleration_mps2)
-        robot = SimulatedRobot(self.simulator, name, view.occupancy, fence)
-        self.robots[name] = robot
+        self.rules.know(name, self.fleet.facts(name))
+        robot = self.robots[name] = self.fleet.robot(name, self.rules)
         services = await self._stack.enter_async_context(ContextServices(name, self.transport))
 
         def make_context(run: RunHandle) -> ActionContext:
@@ -383,7 +396,7 @@ class System:
         return engine
 
     def _view(self, robot: str) -> WorldView:
-        return WorldView(self.objects, self._occupancy or self.simulator.occupancy(robot))
+        return WorldView(self.objects, self.fleet.occupancy(robot))
 
     async def _judge(
         self,
@@ -406,6 +419,14 @@ class System:
 
     def _objects_of(self, _robot: str) -> Sequence[MapObject]:
         return self.objects.objects
+
+
+def _simulated(world: WorldFile | None, config: SystemConfig, occupancy: OccupancyMap | None) -> Fleet:
+    if world is None:
+        raise ConfigError("a system needs a simulated world or robots of your own")
+    with needs("sim"):
+        from parley.robots.simulated import SimulatedFleet
+    return SimulatedFleet(world, speed=config.speed, seed=config.seed, occupancy=occupancy)
 
 
 def _held(engine: ActionEngine, was: Interrupted) -> bool:

@@ -2,23 +2,19 @@
 
 from __future__ import annotations
 
-from collections.abc import Awaitable, Callable
-
 import pytest
 
 from parley.clock import SimClock
-from parley.robots.base import Robot
+from parley.robots.check import PROMISES, Promise, commands_expire
 from parley.robots.run_robot import RunRobot
 from parley.robots.simulated import SimulatedRobot
 from parley.sim.simulator import Simulator
 from parley.umrf.motion import Motion
 from tests.sim.worlds import two_rooms
 
-from .contract import DRIVE_CONTRACT, commands_expire_although_the_loop_is_blocked
 
-
-@pytest.mark.parametrize("promise", DRIVE_CONTRACT, ids=lambda promise: promise.__name__)
-async def test_a_simulated_robot_keeps_its_promises(promise: Callable[[Robot], Awaitable[None]]) -> None:
+@pytest.mark.parametrize("promise", PROMISES, ids=lambda promise: promise.__name__)
+async def test_a_simulated_robot_keeps_its_promises(promise: Promise) -> None:
     async with Simulator(two_rooms(), clock=SimClock(), speed=1.0) as simulator:
         await promise(SimulatedRobot(simulator, "A", simulator.occupancy("A")))
 
@@ -26,4 +22,4 @@ async def test_a_simulated_robot_keeps_its_promises(promise: Callable[[Robot], A
 async def test_so_does_the_robot_that_an_action_gets() -> None:
     async with Simulator(two_rooms(), clock=SimClock(), speed=1.0) as simulator:
         robot = SimulatedRobot(simulator, "A", simulator.occupancy("A"))
-        await commands_expire_although_the_loop_is_blocked(RunRobot(robot, Motion("Drive_0")))
+        await commands_expire(RunRobot(robot, Motion("Drive_0")))

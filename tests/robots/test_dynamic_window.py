@@ -9,8 +9,8 @@ import pytest
 from hypothesis import given, settings
 from hypothesis import strategies as st
 
-from parley.robots.base import Velocity
-from parley.robots.dynamic_window import DriveLimits, choose_velocity
+from parley.robots.base import DriveLimits, Velocity
+from parley.robots.dynamic_window import choose_velocity
 
 LIMITS = DriveLimits(0.26, 1.8, 0.5, 3.0, keep_out_m=0.22)
 NOTHING = np.empty((0, 2))

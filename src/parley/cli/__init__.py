@@ -19,7 +19,7 @@ __all__ = ["command_line", "run"]
 
 _COMMANDS = (
     "demo", "doctor", "interpret", "eval", "incidents", "audit", "transcripts",
-    "graph", "actions", "language", "memory", "rules", "world", "prompt", "bench", "web", "people",
+    "graph", "actions", "robot", "language", "memory", "rules", "world", "prompt", "bench", "web", "people",
 )  # fmt: skip
 """Each is a module of this package: with `register` if it is one command, with an `app` if it is several."""
 

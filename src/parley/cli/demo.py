@@ -38,7 +38,9 @@ def register(app: typer.Typer) -> None:
 
 
 def demo(
-    name: Annotated[str, typer.Argument(help=f"One of: {', '.join(DEMOS)}.")] = "nursing-home",
+    name: Annotated[
+        str, typer.Argument(help=f"One of: {', '.join(DEMOS)}; or a folder with your own world.")
+    ] = "nursing-home",
     script: Annotated[
         bool, typer.Option("--script", help="Play the demonstration's story (or STORY) instead of chatting.")
     ] = False,
@@ -91,7 +93,7 @@ def demo(
     lang: Annotated[str, typer.Option(help="Language of the terminal: en or et.")] = "",
     verbose: Annotated[bool, typer.Option("--verbose", help="Show the log.")] = False,
 ) -> None:
-    """Run a demonstration: no ROS, no key, no GPU, no network."""
+    """Run a demonstration, or your own world: no ROS, no key, no GPU, no network."""
     quiet_logs(verbose)
     loaded = load_demo(name)
     if speed is not None and speed <= 0:
@@ -106,7 +108,7 @@ def demo(
         raise typer.Exit(_script(loaded, story, variant, chosen.changed({"speed": speed}), data, json))
     if story is not None or variant:
         raise ConfigError("a story file and --variant go with --script")
-    folder = data or chosen.data_dir or data_folder(name)
+    folder = data or chosen.data_dir or data_folder(loaded.folder_name)
     chosen = chosen.changed({"data_dir": folder} | ({} if speed is None else {"speed": speed}))
     if terminal:
         asyncio.run(_chat(loaded, chosen, lang))
@@ -121,7 +123,7 @@ def demo(
         origins=origin or (),
         without=without,
     )
-    page |= {"examples": loaded.story.examples, "data_dir": folder, "fresh_robots": True}
+    page |= {"examples": loaded.examples, "data_dir": folder, "fresh_robots": True}
     page |= {"unattended": chosen.unattended, "unattended_after_s": chosen.unattended_after_s}
     page |= language_label(chosen.language)
     asyncio.run(_serve(loaded, chosen, page, port_is_wish=port is None, opens=not no_open))
@@ -175,7 +177,7 @@ def data_folder(name: str) -> Path:
 async def _chat(demo: Demo, config: SystemConfig, lang: str) -> None:
     async with demo.system(config) as system:
         client = TerminalClient(system.transport, lang=lang or _language())
-        await client.run(greeting=list(demo.story.examples), engine=system.language.label)
+        await client.run(greeting=list(demo.examples), engine=system.language.label)
 
 
 async def _serve(

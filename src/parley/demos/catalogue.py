@@ -1,7 +1,8 @@
-"""The demonstrations that come with Parley: where their data lies and how to build their systems."""
+"""Demonstrations, those that come with Parley and a user's own: their data and their systems."""
 
 from __future__ import annotations
 
+import hashlib
 from collections.abc import Sequence
 from dataclasses import dataclass, replace
 from importlib import resources
@@ -15,12 +16,13 @@ from parley.demos.story import Story, Variant
 from parley.errors import ConfigError
 from parley.language.base import Language
 from parley.sim.world_file import RobotEntry, WorldFile
+from parley.site import Site
 from parley.system import System
 from parley.umrf.action import ActionSpec
 from parley.world.object_map import ObjectMap
 from parley.world.occupancy import OccupancyMap
 
-__all__ = ["DEMOS", "Demo", "load_demo"]
+__all__ = ["DEMOS", "Demo", "demo_folder", "load_demo"]
 
 DEMOS: Final = {"nursing-home": "nursing_home"}
 """Name on the command line -> folder."""
@@ -33,8 +35,29 @@ class Demo:
     name: str
     world: WorldFile
     objects: ObjectMap
-    occupancy: OccupancyMap
-    story: Story
+    occupancy: OccupancyMap | None
+    """Where there is free floor; None: surveyed."""
+    told: Story | None = None
+    """Its story, if it has one."""
+
+    folder_name: str = ""
+    """Names the folder where it keeps what is remembered; two worlds have two."""
+
+    @property
+    def examples(self) -> tuple[str, ...]:
+        """Sentences that people may want to try."""
+        return self.told.examples if self.told is not None else ()
+
+    @property
+    def story(self) -> Story:
+        """What can be played.
+
+        Raises:
+            ConfigError: It has no story.
+        """
+        if self.told is None:
+            raise ConfigError(f"{self.name} has no story.yaml, so there is nothing to play")
+        return self.told
 
     def system(
         self,
@@ -63,24 +86,34 @@ class Demo:
         return own.system(config, variant, actions=with_faults(BUILTIN_ACTIONS, story.faults))
 
 
-def load_demo(name: str, folder: Path | None = None) -> Demo:
+def demo_folder(name: str) -> Path:
+    """Where the data of one of `DEMOS` lies."""
+    return Path(str(resources.files("parley.demos") / DEMOS[name]))
+
+
+def load_demo(name: str) -> Demo:
     """Read a demonstration.
 
     Args:
-        name: One of `DEMOS`.
-        folder: Read from here instead of the package.
+        name: One of `DEMOS`, or a folder: with a ``world.yaml``, and perhaps maps and a ``story.yaml``.
 
     Raises:
         ConfigError: There is no such demonstration, or one of its files is wrong (named).
     """
-    if folder is None:
-        if name not in DEMOS:
-            raise ConfigError(f"there is no demonstration {name!r}; there are: {', '.join(DEMOS)}")
-        folder = Path(str(resources.files("parley.demos") / DEMOS[name]))
+    folder = demo_folder(name) if name in DEMOS else Path(name)
+    if not folder.is_dir():
+        raise ConfigError(
+            f"there is no demonstration and no folder {name!r}; demonstrations: {', '.join(DEMOS)}"
+        )
+    site, story = Site.load(folder), folder / "story.yaml"
+    if site.world is None:
+        raise ConfigError(f"{name} has no world.yaml, so there is nothing to simulate")
+    own = hashlib.sha256(str(folder.resolve()).encode()).hexdigest()[:8]
     return Demo(
-        name=name,
-        world=WorldFile.load(folder / "world.yaml"),
-        objects=ObjectMap.load(folder / "object_map.json"),
-        occupancy=OccupancyMap.load(folder / "map.yaml"),
-        story=Story.load(folder / "story.yaml"),
+        name=name if name in DEMOS else folder.resolve().name,
+        folder_name=name if name in DEMOS else f"{folder.resolve().name}-{own}",
+        world=site.world,
+        objects=site.objects,
+        occupancy=site.occupancy,
+        told=Story.load(story) if story.is_file() else None,
     )

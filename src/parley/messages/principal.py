@@ -6,7 +6,7 @@ from typing import Literal
 
 from parley.messages.base import Payload
 
-__all__ = ["ROLES", "Principal", "PrincipalKind", "Role", "person"]
+__all__ = ["ROLES", "Principal", "PrincipalKind", "Role", "person", "program"]
 
 PrincipalKind = Literal["person", "engine", "rule", "schedule", "program", "robot"]
 Role = Literal["viewer", "operator", "supervisor"]
@@ -46,3 +46,8 @@ class Principal(Payload):
 def person(name: str = "", *, device: str = "", role: Role = "operator") -> Principal:
     """A person."""
     return Principal(kind="person", name=name, device=device, role=role)
+
+
+def program(name: str, *, key: str = "") -> Principal:
+    """A program; with the name of the key by which people know it, it counts as known."""
+    return Principal(kind="program", name=name, key=key)

@@ -7,17 +7,19 @@ from __future__ import annotations
 
 from collections.abc import Callable
 from dataclasses import dataclass
-from typing import Final, Literal, Protocol
-
-import numpy as np
-from numpy.typing import NDArray
+from typing import TYPE_CHECKING, Final, Literal, Protocol
 
 from parley.world.geometry import Pose2D
+
+if TYPE_CHECKING:  # who only writes a robot class need not load it
+    import numpy as np
+    from numpy.typing import NDArray
 
 __all__ = [
     "COMMAND_LIFETIME_S",
     "CameraImage",
     "Detection",
+    "DriveLimits",
     "LaserScan",
     "NavigationControl",
     "Robot",
@@ -34,6 +36,18 @@ class Velocity:
 
     linear_mps: float = 0.0
     angular_radps: float = 0.0
+
+
+@dataclass(frozen=True, slots=True)
+class DriveLimits:
+    """What the drive can do, and what the robot keeps from obstacles."""
+
+    max_speed_mps: float
+    max_turn_radps: float
+    max_acceleration_mps2: float = 0.5
+    max_turn_acceleration_radps2: float = 3.0
+    keep_out_m: float = 0.0
+    """Distance that the robot's centre keeps from everything the lidar sees."""
 
 
 @dataclass(frozen=True, slots=True)

@@ -3,14 +3,13 @@
 from __future__ import annotations
 
 import math
-from dataclasses import dataclass
 
 import numpy as np
 from numpy.typing import NDArray
 
-from parley.robots.base import Velocity
+from parley.robots.base import DriveLimits, Velocity
 
-__all__ = ["DriveLimits", "choose_velocity"]
+__all__ = ["choose_velocity"]
 
 Floats = NDArray[np.float64]
 
@@ -18,18 +17,6 @@ _SPEEDS, _TURNS = 5, 15
 _HORIZON_S, _STRIDE_S = 1.5, 0.15
 _TURN_FIRST_RAD = 0.8
 _COMFORT_M = 0.15
-
-
-@dataclass(frozen=True, slots=True)
-class DriveLimits:
-    """What the drive can do, and what the robot keeps from obstacles."""
-
-    max_speed_mps: float
-    max_turn_radps: float
-    max_acceleration_mps2: float
-    max_turn_acceleration_radps2: float
-    keep_out_m: float
-    """Distance that the robot's centre keeps from everything the lidar sees."""
 
 
 def choose_velocity(

@@ -15,8 +15,8 @@ import structlog
 from parley.clock import Clock
 from parley.errors import ActionFailure, FailureCode
 from parley.gate.fence import Fence
-from parley.robots.base import LaserScan, NavigationControl, Velocity
-from parley.robots.dynamic_window import DriveLimits, choose_velocity
+from parley.robots.base import DriveLimits, LaserScan, NavigationControl, Velocity
+from parley.robots.dynamic_window import choose_velocity
 from parley.robots.obstacles import ObservedObstacles, scan_points
 from parley.world.geometry import Pose2D, wrap_angle
 from parley.world.occupancy import OccupancyMap

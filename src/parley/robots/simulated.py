@@ -2,16 +2,22 @@
 
 from __future__ import annotations
 
+from types import TracebackType
+from typing import Self
+
+from parley.clock import SimClock
 from parley.errors import ActionFailure, FailureCode
+from parley.gate.book import RuleBook
 from parley.gate.fence import Fence
-from parley.robots.base import CameraImage, Detection, LaserScan, NavigationControl, Velocity
-from parley.robots.dynamic_window import DriveLimits
+from parley.gate.judge import RobotFacts
+from parley.robots.base import CameraImage, Detection, DriveLimits, LaserScan, NavigationControl, Velocity
 from parley.robots.navigator import Navigator
 from parley.sim.simulator import Simulator
+from parley.sim.world_file import WorldFile
 from parley.world.geometry import Pose2D
 from parley.world.occupancy import OccupancyMap
 
-__all__ = ["SimulatedRobot"]
+__all__ = ["SimulatedFleet", "SimulatedRobot"]
 
 
 class SimulatedRobot:
@@ -123,3 +129,59 @@ class SimulatedRobot:
     def release(self) -> None:
         """See `Robot.release`."""
         self._simulator.set_stopped(self.name, False)
+
+
+class SimulatedFleet:
+    """The robots of a simulated world; implements `parley.robots.fleet.Fleet`.
+
+    Args:
+        world: What there is.
+        speed: Robot time per wall time; None: as fast as the machine can.
+        seed: For the noise of sensors.
+        occupancy: The map they drive by; None: surveyed from the world as it is.
+    """
+
+    def __init__(
+        self,
+        world: WorldFile,
+        *,
+        speed: float | None = 1.0,
+        seed: int = 0,
+        occupancy: OccupancyMap | None = None,
+    ) -> None:
+        self.clock = SimClock()
+        self.simulator = Simulator(world, clock=self.clock, speed=speed, seed=seed)
+        self._given = occupancy
+        self._surveyed: dict[str, OccupancyMap] = {}
+
+    async def __aenter__(self) -> Self:
+        await self.simulator.__aenter__()
+        return self
+
+    async def __aexit__(
+        self, kind: type[BaseException] | None, error: BaseException | None, trace: TracebackType | None
+    ) -> None:
+        await self.simulator.__aexit__(kind, error, trace)
+
+    @property
+    def names(self) -> tuple[str, ...]:
+        """See `Fleet.names`."""
+        return tuple(robot.name for robot in self.simulator.world.robots)
+
+    def occupancy(self, robot: str) -> OccupancyMap:
+        """See `Fleet.occupancy`."""
+        if self._given is not None:
+            return self._given
+        if robot not in self._surveyed:
+            self._surveyed[robot] = self.simulator.occupancy(robot)
+        return self._surveyed[robot]
+
+    def facts(self, robot: str) -> RobotFacts:
+        """See `Fleet.facts`."""
+        model = self.simulator.model(robot)
+        return RobotFacts(self.occupancy(robot).name, model.radius_m, model.max_speed_mps)
+
+    def robot(self, name: str, rules: RuleBook) -> SimulatedRobot:
+        """See `Fleet.robot`."""
+        fence = Fence(rules, name, braking_mps2=self.simulator.model(name).max_acceleration_mps2)
+        return SimulatedRobot(self.simulator, name, self.occupancy(name), fence)

@@ -18,7 +18,7 @@ from parley.errors import LanguageError
 from parley.gate.judge import Finding, Judgement
 from parley.gate.risk import always_asks
 from parley.gate.ruling import EFFECT_OF, Ruling, rule
-from parley.gate.table import Effect
+from parley.gate.table import Effect, verdict
 from parley.messages import topics
 from parley.messages.chat import ActionCall, ChatAction, SystemCommand
 from parley.messages.principal import Principal
@@ -236,12 +236,14 @@ class Ordering:
         catalogue = self._plans.catalogue(target)
         infos = {info.name: info for info in catalogue}
         risky = any(call is not SKIPPED and always_asks(infos.get(call.name)) for call in calls)
+        # Speaking to an engine gives nobody more than ordering would.
+        unknown = order.behalf is not None and verdict(order.behalf, begin) == "yes"
         return rule(
             order.by,
             self._plans.approvals.policy(target),
             () if known else calls,
             commands,
-            needs_yes=bool(order.needs_yes) or (judgement is not None and bool(judgement.ask)),
+            needs_yes=unknown or bool(order.needs_yes) or (judgement is not None and bool(judgement.ask)),
             risky=risky or (judgement is not None and bool(judgement.risky)),
             held_by=self._plans.held_by.get(target),
             begin=begin,

@@ -1,0 +1,106 @@
+"""The robots of one system, whatever they are made of."""
+
+from __future__ import annotations
+
+from collections import Counter
+from collections.abc import Sequence
+from types import TracebackType
+from typing import Protocol, Self
+
+import numpy as np
+
+from parley.clock import Clock, WallClock
+from parley.errors import ConfigError
+from parley.gate.book import RuleBook
+from parley.gate.fence import Fence
+from parley.gate.judge import RobotFacts
+from parley.robots.base import Robot
+from parley.robots.own import RobotBase
+from parley.world.occupancy import UNKNOWN, OccupancyMap
+
+__all__ = ["Fleet", "OwnFleet"]
+
+NO_MAP = OccupancyMap(np.full((1, 1), UNKNOWN, np.int8), 0.05, 0.0, 0.0, "no map")
+"""What a robot without a map drives by: nothing is known to be free."""
+
+
+class Fleet(Protocol):
+    """Robots, the time they live in, and the maps they drive by. Use as ``async with``."""
+
+    @property
+    def clock(self) -> Clock:
+        """Robot time."""
+        ...
+
+    async def __aenter__(self) -> Self: ...
+
+    async def __aexit__(
+        self, kind: type[BaseException] | None, error: BaseException | None, trace: TracebackType | None
+    ) -> None: ...
+
+    @property
+    def names(self) -> tuple[str, ...]:
+        """Who there is."""
+        ...
+
+    def occupancy(self, robot: str) -> OccupancyMap:
+        """The map a robot drives by."""
+        ...
+
+    def facts(self, robot: str) -> RobotFacts:
+        """What rules need to know about a robot."""
+        ...
+
+    def robot(self, name: str, rules: RuleBook) -> Robot:
+        """The robot, held to the rules; asked for once it is open."""
+        ...
+
+
+class OwnFleet:
+    """Robots that somebody wrote a class for; implements `Fleet`, in wall time.
+
+    Args:
+        robots: Of different names.
+        occupancy: The map they drive by; None: they have none, and drive to no place.
+
+    Raises:
+        ConfigError: Two have one name, or one has none.
+    """
+
+    def __init__(self, robots: Sequence[RobotBase], occupancy: OccupancyMap | None = None) -> None:
+        names = Counter(robot.name for robot in robots)
+        if "" in names or max(names.values(), default=0) > 1:
+            raise ConfigError(f"each robot needs a name of its own, not {', '.join(map(repr, names))}")
+        self.clock: Clock = WallClock()
+        self._robots = {robot.name: robot for robot in robots}
+        self._occupancy = occupancy or NO_MAP
+
+    async def __aenter__(self) -> Self:
+        return self
+
+    async def __aexit__(
+        self, kind: type[BaseException] | None, error: BaseException | None, trace: TracebackType | None
+    ) -> None:
+        for robot in self._robots.values():
+            robot.close()
+
+    @property
+    def names(self) -> tuple[str, ...]:
+        """See `Fleet.names`."""
+        return tuple(self._robots)
+
+    def occupancy(self, robot: str) -> OccupancyMap:
+        """See `Fleet.occupancy`."""
+        return self._occupancy
+
+    def facts(self, robot: str) -> RobotFacts:
+        """See `Fleet.facts`."""
+        own = self._robots[robot]
+        return RobotFacts(self._occupancy.name, own.radius_m, own.limits.max_speed_mps)
+
+    def robot(self, name: str, rules: RuleBook) -> RobotBase:
+        """See `Fleet.robot`."""
+        own = self._robots[name]
+        fence = Fence(rules, name, braking_mps2=own.limits.max_acceleration_mps2)
+        own.settle(None if self._occupancy is NO_MAP else self._occupancy, self.clock, fence)
+        return own
