@@ -15,6 +15,8 @@ __all__ = [
     "ActionInfo",
     "ActorStatus",
     "GraphEvent",
+    "Kind",
+    "ParameterInfo",
     "PlanDecision",
     "PlanProposal",
     "PlanRuling",
@@ -38,6 +40,26 @@ class PoseInfo(Payload):
     yaw: float = 0.0
 
 
+Kind = Literal[
+    "place", "thing", "person", "direction", "distance", "angle", "duration", "number", "text", "choice"
+]
+"""What an input of an action takes, as people speak of it."""
+
+
+class ParameterInfo(Payload):
+    """What is known about one input of an action besides its PVF type."""
+
+    kind: Kind = "thing"
+    unit: str = ""
+    """Of a number: metres, degrees, seconds or any other word."""
+    default: str | float | bool | None = None
+    """What counts if nothing is said."""
+    choices: tuple[str, ...] = ()
+    """What it may be, if that is a closed list."""
+    help: str = ""
+    """What it means."""
+
+
 class ActionInfo(Payload):
     """One action of a robot's catalogue, as language and people need it."""
 
@@ -46,6 +68,8 @@ class ActionInfo(Payload):
     """Flat parameter name -> PVF type."""
     optional: tuple[str, ...] = ()
     """Inputs that may be left without a value."""
+    parameters: dict[str, ParameterInfo] = Field(default_factory=dict)
+    """Flat parameter name -> its kind and the like; what is not told is derived (`parley.umrf.kinds`)."""
     outputs: dict[str, str] = Field(default_factory=dict)
     description: str = ""
     label: LineText = ""

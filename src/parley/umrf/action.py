@@ -34,6 +34,7 @@ from typing import Any, Generic, Literal, ParamSpec, Protocol, TypeVar, overload
 from parley.clock import Clock
 from parley.errors import ActionFailure, FailureCode
 from parley.messages.pvf import NATIVE_TYPES, SEPARATOR, Parameter, fits_type
+from parley.messages.status import Kind
 from parley.umrf.motion import Motion
 from parley.umrf.signature import (
     MISSING,
@@ -47,7 +48,16 @@ from parley.umrf.signature import (
 )
 from parley.umrf.text import clean_text
 
-__all__ = ["Action", "ActionSpec", "Outcome", "RunHandle", "action", "bind_inputs", "outcome_of"]
+__all__ = [
+    "Action",
+    "ActionSpec",
+    "Outcome",
+    "RunHandle",
+    "SayTest",
+    "action",
+    "bind_inputs",
+    "outcome_of",
+]
 
 P = ParamSpec("P")
 R = TypeVar("R")
@@ -106,6 +116,14 @@ class Outcome:
 
 
 @dataclass(frozen=True, slots=True)
+class SayTest:
+    """A sentence and what it has to give for an action's inputs; None: it must not lead to the action."""
+
+    say: str
+    inputs: Mapping[str, Any] | None
+
+
+@dataclass(frozen=True, slots=True)
 class ActionSpec:
     """Everything known about an action: its descriptor, how people ask for it, and what runs it."""
 
@@ -139,6 +157,10 @@ class ActionSpec:
     """Argument -> what it means, from the docstring."""
     units: Mapping[str, str] = field(default_factory=dict)
     """Flat parameter name -> unit, where it has one."""
+    kinds: Mapping[str, Kind] = field(default_factory=dict)
+    """Flat parameter name -> what it takes; what is not told is derived (`parley.umrf.kinds`)."""
+    tests: tuple[SayTest, ...] = ()
+    """Sentences with what they have to give, for `parley actions check`."""
     make: Callable[[], Any] | None = None
     """For class actions: makes the object whose `run` runs one node."""
 
@@ -184,6 +206,8 @@ def action(
     inputs: Mapping[str, Parameter | str] | None = None,
     outputs: Mapping[str, Parameter | str] | None = None,
     units: Mapping[str, str] | None = None,
+    kinds: Mapping[str, Kind] | None = None,
+    tests: Mapping[str, Mapping[str, Any] | None] | None = None,
 ) -> Callable[[Callable[P, R]], Action[P, R]]: ...
 
 
@@ -195,11 +219,12 @@ def action(target: Callable[..., Any] | None = None, /, **options: Any) -> Any:
         **options: `name` and `description` instead of those of the function; `label`, `phrases`, `effects`,
             `risk`, `capabilities`, `examples`, `duration_s`, `timeout_s`, `isolated`, `pausable` (never so
             for an isolated one), `type` as in `ActionSpec`; `inputs` and `outputs` (flat name ->
-            `Parameter` or PVF type) instead of what the signature says; `units` (flat name -> unit).
+            `Parameter` or PVF type) instead of what the signature says; `units` and `kinds` (flat name ->
+            unit, kind); `tests` (sentence -> inputs, or None where it must not lead to this action).
 
     Raises:
         TypeError: The signature cannot be described; says which argument.
-        ValueError: A duration or time-out is not a positive number.
+        ValueError: A duration or time-out is not a positive number; a unit or kind is of no input.
     """
     if target is not None:
         return Action(target, _describe(target, {}))
@@ -218,18 +243,24 @@ def _describe(target: Callable[..., Any], options: Mapping[str, Any]) -> ActionS
     hints, returned = resolve_hints(function, skip=2 if is_class else 1)
     inputs, outputs = rest.pop("inputs", None), rest.pop("outputs", None)
     description, texts = docstring_parts(target)
+    derived = _derive_inputs(hints, inspect.signature(function)) if inputs is None else _as_parameters(inputs)
+    kinds, units = rest.pop("kinds", None) or {}, rest.pop("units", None) or {}
+    for key, named in (("kinds", kinds), ("units", units)):
+        if strange := sorted(named.keys() - derived.keys()):
+            raise ValueError(f"{target.__name__}: {key}: there is no input {strange[0]!r}")
+    tests = rest.pop("tests", None) or {}
     return ActionSpec(
         name=rest.pop("name", "") or _camel_case(target.__name__),
         description=rest.pop("description", "") or description,
-        inputs=_derive_inputs(hints, inspect.signature(function))
-        if inputs is None
-        else _as_parameters(inputs),
+        inputs=derived,
         outputs=_derive_outputs(returned) if outputs is None else _as_parameters(outputs),
         run=None if is_class else target,
         make=target if is_class else None,
         arguments=hints if inputs is None else {},
         help=texts,
-        units=rest.pop("units", None) or {},
+        units=units,
+        kinds=kinds,
+        tests=tuple(SayTest(say, given) for say, given in tests.items()),
         **rest,
     )
 

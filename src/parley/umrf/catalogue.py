@@ -14,10 +14,11 @@ from rapidfuzz import fuzz, process
 
 from parley.errors import GraphRefusedError
 from parley.messages.pvf import Parameter
-from parley.messages.status import ActionInfo
+from parley.messages.status import ActionInfo, ParameterInfo
 from parley.umrf.action import ActionSpec
 from parley.umrf.graph_index import GraphSpec, entry_inputs, exit_outputs, files_marked, load_graphs
 from parley.umrf.io import read_descriptor
+from parley.umrf.kinds import parameters_of
 from parley.umrf.model import Graph, Node
 from parley.umrf.remote import actors_of
 
@@ -172,7 +173,7 @@ def _read(file: Path) -> list[ActionSpec]:
 
 def info_of(spec: ActionSpec) -> ActionInfo:
     """What language and people need to know about an action."""
-    return ActionInfo(
+    info = ActionInfo(
         name=spec.name,
         inputs={name: parameter.type for name, parameter in spec.inputs.items()},
         optional=tuple(name for name, item in spec.inputs.items() if not item.required or item.has_data),
@@ -187,6 +188,23 @@ def info_of(spec: ActionSpec) -> ActionInfo:
         duration_s=spec.duration_s,
         timeout_s=spec.timeout_s,
     )
+    told = {name: _told(spec, name, found) for name, found in parameters_of(info).items()}
+    return info.model_copy(update={"parameters": told})
+
+
+def _told(spec: ActionSpec, name: str, derived: ParameterInfo) -> ParameterInfo:
+    """What is known about one input: as its maker says, else as derived."""
+    parameter = spec.inputs[name]
+    given: dict[str, Any] = {"help": spec.help.get(name, "")}
+    if parameter.allowed:
+        given |= {"kind": "choice", "choices": tuple(map(str, parameter.allowed)), "unit": ""}
+    if name in spec.kinds:
+        given["kind"] = spec.kinds[name]
+    if name in spec.units:
+        given["unit"] = spec.units[name]
+    if isinstance(parameter.value, str | float | bool):
+        given["default"] = parameter.value
+    return derived.model_copy(update=given)
 
 
 def merge(node: Node, spec: ActionSpec) -> Node:

@@ -8,7 +8,7 @@ from dataclasses import dataclass
 
 from parley.language.builtin.lexicon import Lexicon
 
-__all__ = ["Amount", "amount_of", "direction_of", "is_compass"]
+__all__ = ["UNITS", "Amount", "amount_of", "direction_of", "is_compass"]
 
 _SMALL = """zero one two three four five six seven eight nine ten eleven twelve thirteen fourteen fifteen
 sixteen seventeen eighteen nineteen"""
@@ -18,7 +18,7 @@ _TENS = {
     "eighty": 80,
     "ninety": 90,
 }  # fmt: skip
-_UNITS = {
+UNITS = {
     "m": "m", "metre": "m", "meter": "m", "metres": "m", "meters": "m", "cm": "cm", "centimetre": "cm",
     "centimeter": "cm", "centimetres": "cm", "centimeters": "cm", "inch": "inches", "inches": "inches",
     "foot": "feet", "feet": "feet", "ft": "feet", "yard": "yards", "yards": "yards", "degree": "degrees",
@@ -59,9 +59,9 @@ class Amount:
 def amount_of(words: Sequence[str]) -> Amount | None:
     """The one amount that words mean; None if there is none, several, or words that are no part of it."""
     words = [part for word in words for part in _parted(word.lower())]
-    unit = next((_UNITS[word] for word in words if word in _UNITS), "")
-    number = [word for word in words if word not in _UNITS]
-    if any(not _is_part(word) for word in number) or sum(word in _UNITS for word in words) > 1:
+    unit = next((UNITS[word] for word in words if word in UNITS), "")
+    number = [word for word in words if word not in UNITS]
+    if any(not _is_part(word) for word in number) or sum(word in UNITS for word in words) > 1:
         return None
     if "turn" in words or "circle" in words:
         share = 90 if "quarter" in words else 180 if "half" in words else 360 if "full" in words else 0
@@ -75,7 +75,7 @@ def _parted(word: str) -> list[str]:
     digits = next(
         (at for at, letter in enumerate(word) if not (letter.isdigit() or letter in ".,")), len(word)
     )
-    if digits and word[digits:] in _UNITS:
+    if digits and word[digits:] in UNITS:
         return [word[:digits].replace(",", "."), word[digits:]]
     return word.split("-") if "-" in word else [word]
 
@@ -112,7 +112,8 @@ def _number(words: Sequence[str]) -> float | None:
         elif (
             word in ("a", "an", "another")
             and not seen
-            and "half" not in words
+            and not {*words[at + 1 : at + 2]} & {"half", "quarter"}
+            and not {*words[max(at - 2, 0) : at]} & {"half", "quarter"}
             and "hundred" not in words[at + 1 :]
         ):
             current, seen = 1.0, "couple" not in words

@@ -18,12 +18,14 @@ class Deed:
     frame: str
     """Whose words say it in the reply."""
     skill: Skill
-    arguments: Mapping[str, str | float]
+    arguments: Mapping[str, str | float | bool]
     """Parameter -> value."""
     said: Mapping[str, str]
     """Role -> words for the reply."""
     hidden: bool = False
     """Whether it only prepares the next one, and is not worth a word."""
+    text: str = ""
+    """How the reply says it, where no frame does."""
 
 
 @dataclass(frozen=True, slots=True)
@@ -60,6 +62,8 @@ class Ask:
     question: str
     choices: tuple[str, ...] = ()
     told: tuple[Told, ...] = ()
+    offer: tuple[Deed, ...] = ()
+    """What a yes would do."""
 
 
 @dataclass(frozen=True, slots=True)

@@ -10,10 +10,12 @@ from parley.language.builtin.amounts import Amount, amount_of, direction_of
 from parley.language.builtin.decision import Ask, Deed, Note
 from parley.language.builtin.facts import Place, known_place
 from parley.language.builtin.lexicon import Lexicon, stem
+from parley.language.builtin.owned import owned
 from parley.language.builtin.saying import with_article
 from parley.language.builtin.skills import Skill, Skills
 from parley.language.builtin.things import Mention, link, noun_phrase
 from parley.language.builtin.wishes import Filler, Wish
+from parley.messages.status import Kind
 from parley.world.object_map import MapObject
 
 __all__ = ["Builder"]
@@ -57,6 +59,8 @@ class Builder:
             return Ask(
                 f"I understand that there is {what} in this, and I cannot plan that yet. What shall I do now?"
             )
+        if wish.own is not None:
+            return owned(wish.own, self._grounds)
         frame = self.lexicon.frames.get(wish.frame)
         strange = next(
             (f for f in wish.fillers if frame and f.role not in frame.roles and f.role not in "AMPWI"), None
@@ -87,6 +91,52 @@ class Builder:
         for filler in wish.all("M") + wish.all("P"):
             self.unheeded(filler.text)
         return self._planned(wish, values)
+
+    def _grounds(self, filler: Filler, kind: Kind, about: frozenset[str]) -> tuple[str, str] | Ask:
+        """What words mean for an input of an action of the robot's own, of which more is said `about` it."""
+        filler = self._within(filler, about)
+        mention = link(filler.words, filler.head, self.situation.objects, self.lexicon)
+        if any(word in filler.words for word in self.lexicon.classes["quantifiers"] | {"and", "or"}):
+            return Ask(
+                f"I do not know yet how to do that with “{filler.text}”. Which one shall I begin with?"
+            )
+        if kind == "person" and not {*filler.words} & _CLAUSE:
+            found: Value | Ask = self._person(filler, mention)
+        elif mention.kind == "none" and kind != "place" and self._is_plain(filler, about):
+            found = Value(mention.text, with_article(mention.text))
+        else:
+            found = self._thing("OWN", filler, mention)
+        if isinstance(found, Ask):
+            return found
+        if found.place is not None and kind != "person":
+            where = link(found.place.where, found.place.head, self.situation.objects, self.lexicon)
+            if where.kind == "one":
+                self._used(found.place)
+                text = where.things[0].description
+                found = Value(text, with_article(text), where.things)
+        self.last_thing = found if kind != "person" else self.last_thing
+        return found.argument, found.said
+
+    def _within(self, filler: Filler, about: frozenset[str]) -> Filler:
+        """What remains where the first part only says again what the action is about: "the door of crate 2"."""
+        at = filler.words.index("of") if "of" in filler.words[:-1] else 0
+        small = self.lexicon.classes["determiners"]
+        if not at or not all(stem(word) in about for word in filler.words[:at] if word not in small):
+            return filler
+        words = filler.words[at + 1 :]
+        return Filler(filler.role, filler.start + at + 1, filler.end, len(words) - 1, words)
+
+    def _is_plain(self, filler: Filler, about: frozenset[str]) -> bool:
+        """Whether words may name a thing that no map holds: few, and the map holds nothing of its kind."""
+        objects = self.situation.objects
+        kinds = {stem(word) for item in objects for word in item.description.split() if len(word) > 2}
+        small = self.lexicon.classes["prepositions"] - {"of", "the"}
+        return (
+            not kinds & about
+            and len(filler.words) <= 6
+            and not _CLAUSE & {*filler.words}
+            and not small & {*filler.words[1:]}
+        )
 
     def _beyond(self, filler: Filler) -> str:
         """What in a role cannot be planned yet: all of several, between two, a condition that is no check."""
@@ -356,6 +406,10 @@ class Builder:
         return way if isinstance(way, Ask) else [*taken, *way]
 
 
+_CLAUSE = frozenset(
+    {"'s", "'", "how", "what", "whether", "who", "whoever", "whatever", "which", "where", "when", "rest"}
+)
+"""Words with which a description begins that is more than a name."""
 _TO_ME = frozenset({"bring", "fetch", "get", "retrieve", "go", "give", "want", "find"})
 """Verbs of bringing that mean the speaker if nobody is named."""
 _LOOSE = frozenset({"FOLLOW", "PHOTO"})

@@ -17,6 +17,7 @@ from parley.language.builtin import pictures, recovery
 from parley.language.builtin.deciding import decide
 from parley.language.builtin.decision import Ask, Decision
 from parley.language.builtin.lexicon import lexicon
+from parley.language.builtin.own import OwnActions
 from parley.language.builtin.reading import Reading, read
 from parley.language.builtin.reply import to_chat
 from parley.language.builtin.skills import SkillTable
@@ -41,6 +42,7 @@ class BuiltinLanguage:
     def __init__(self) -> None:
         self._lexicon = lexicon()
         self._skills: SkillTable | None = None
+        self._own: OwnActions | None = None
         self._read = lru_cache(maxsize=256)(self._read_text)
 
     @property
@@ -65,9 +67,12 @@ class BuiltinLanguage:
         if not any(token.is_word for token in tokenize(situation.message)):
             return Ask("I did not understand that. Please say what I should do.")
         parsed, reading = self._read(situation.message)
-        if self._skills is None:
+        if self._skills is None or self._own is None:
             self._skills = SkillTable(shipped_tagger(), self._lexicon)
+            self._own = OwnActions(shipped_tagger(), self._lexicon)
         skills = self._skills.of(situation.catalogue)
+        framed = frozenset(skill.action.name for skill in skills.values())
+        reading = self._own.applied(parsed, reading, situation.catalogue, framed)
         return decide(situation, parsed, reading, skills, self._lexicon, self.reading)
 
     def reading(self, text: str) -> Reading:

@@ -8,6 +8,7 @@ from collections.abc import Sequence
 from parley.language.builtin.decision import Answer, Ask, Control, Decision, Deed, Do, Remember, Told
 from parley.language.builtin.lexicon import Lexicon
 from parley.messages.chat import ActionCall, ChatAction, SystemCommand
+from parley.messages.pvf import NATIVE_TYPES, native_type
 
 __all__ = ["said", "to_chat"]
 
@@ -49,6 +50,8 @@ def to_chat(decision: Decision, lexicon: Lexicon) -> ChatAction:
 
 def said(deed: Deed, lexicon: Lexicon) -> str:
     """A deed in words: the frame's sentence with what its roles hold."""
+    if deed.text:
+        return deed.text
     frame = lexicon.frames.get(deed.frame)
     text = frame.say if frame else deed.frame.lower()
 
@@ -69,7 +72,7 @@ def _listed(parts: Sequence[str]) -> str:
 
 def _call(deed: Deed, lexicon: Lexicon) -> ActionCall:
     inputs = {
-        name: {"pvf_type": deed.skill.action.inputs.get(name, "string"), "pvf_value": value}
+        name: {"pvf_type": _type(deed.skill.action.inputs.get(name, ""), value), "pvf_value": value}
         for name, value in deed.arguments.items()
     }
     return ActionCall.model_validate(
@@ -81,6 +84,11 @@ def _call(deed: Deed, lexicon: Lexicon) -> ActionCall:
             }
         }
     )
+
+
+def _type(declared: str, value: str | float | bool) -> str:
+    """The declared type, or that of the value where the maker has words of his own ("int", "str")."""
+    return declared if declared in NATIVE_TYPES else native_type(value)
 
 
 def _remembered(fact: Told) -> str:

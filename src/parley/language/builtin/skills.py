@@ -40,6 +40,10 @@ _ROLES = {
 }  # fmt: skip
 
 
+_BARE = frozenset({OTHER, "PHOTO", "WAIT", "CHARGE", "LOOK", "FOLLOW"})
+"""What an action without inputs may be; any other frame says of what."""
+
+
 @dataclass(frozen=True, slots=True)
 class Skill:
     """An action that does what a frame wants."""
@@ -119,7 +123,9 @@ class SkillTable:
         found = self._described[action.description]
         many = len(action.inputs)
         return {
-            frame: share * (_TOO_MANY if many > len(_ROLES.get(frame, "TRGSL")) else 1.0)
+            frame: 0.0
+            if not many and frame not in _BARE
+            else share * (_TOO_MANY if many > len(_ROLES.get(frame, "TRGSL")) else 1.0)
             for frame, share in found.items()
         }
 

@@ -54,18 +54,28 @@ class Tagger:
 
     def describe(self, texts: Sequence[str]) -> list[dict[str, float]]:
         """What each text, said of an action, describes: frames and the belief in them."""
-        found: list[dict[str, float]] = []
-        for text in texts:
-            split = self.pieces.split(text.split())
-            ids = np.array([split.ids], dtype=np.int64)
-            given = {
-                "ids": ids,
-                "mask": np.ones(ids.shape, dtype=np.float32),
-                "first": np.zeros((1, 1), dtype=np.int64),
-            }
-            shares = _shares(self.session.run(["described"], given)[0][0])
-            found.append({frame: float(share) for frame, share in zip(DESCRIBED, shares, strict=True)})
-        return found
+        rows = (_shares(self._whole("described", text)) for text in texts)
+        return [{frame: float(share) for frame, share in zip(DESCRIBED, row, strict=True)} for row in rows]
+
+    def meanings(self, texts: Sequence[str]) -> Matrix:
+        """What each text means as a whole: rows of length one, so that products are likenesses."""
+        known = {output.name for output in self.session.get_outputs()}
+        name = "meaning" if "meaning" in known else "described"  # weights of before it was written
+        rows = np.array([self._whole(name, text.lower()) for text in texts], dtype=np.float32)
+        rows = rows - rows.mean(-1, keepdims=True)
+        units: Matrix = rows / np.linalg.norm(rows, axis=-1, keepdims=True)
+        return units
+
+    def _whole(self, output: str, text: str) -> Matrix:
+        split = self.pieces.split(text.split() or ["?"])
+        ids = np.array([split.ids], dtype=np.int64)
+        given = {
+            "ids": ids,
+            "mask": np.ones(ids.shape, dtype=np.float32),
+            "first": np.zeros((1, 1), dtype=np.int64),
+        }
+        row: Matrix = self.session.run([output], given)[0][0]
+        return row
 
 
 def _shares(scores: Matrix) -> Matrix:

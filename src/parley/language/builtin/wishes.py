@@ -3,7 +3,10 @@
 from __future__ import annotations
 
 from dataclasses import dataclass
-from typing import Literal
+from typing import TYPE_CHECKING, Literal
+
+if TYPE_CHECKING:
+    from parley.language.builtin.own import OwnAction
 
 __all__ = ["Filler", "Wish", "Witness"]
 
@@ -43,6 +46,8 @@ class Wish:
     act: str = "order"
     negated: bool = False
     otherwise: bool = False
+    own: OwnAction | None = None
+    """The action of the robot's own that is meant, where no frame is."""
 
     def all(self, role: str) -> tuple[Filler, ...]:
         """What fills a role."""

@@ -58,7 +58,7 @@ class Tagger(nn.Module):
         self.described = nn.Linear(WIDTH, len(DESCRIBED))
 
     def forward(self, ids: Tensor, mask: Tensor, first: Tensor) -> tuple[Tensor, ...]:
-        """Scores of the heads for each word; of arcs word to word (column 0: none); of frames."""
+        """Scores of heads and arcs for each word (column 0: none), of frames for the whole; its meaning."""
         places = torch.arange(ids.shape[1], device=ids.device)
         x = self.dropout(self.norm(self.pieces(ids) + self.places(places) + self.kind))
         hidden = (1.0 - mask)[:, None, None, :] * -1e4
@@ -69,7 +69,7 @@ class Tagger(nn.Module):
         arcs = self.arc_from(words) @ self.arc_to(words).transpose(1, 2) / _ARC**0.5
         arcs = torch.cat([self.arc_none(words), arcs], -1)
         pooled = (x * mask[:, :, None]).sum(1) / mask.sum(1, keepdim=True)
-        return (*tags, arcs, self.described(self.dropout(pooled)))
+        return (*tags, arcs, self.described(self.dropout(pooled)), pooled)
 
 
 def load_base(model: Tagger, weights: bytes) -> None:

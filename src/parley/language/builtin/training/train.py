@@ -187,7 +187,7 @@ def _loss(model: Tagger, batch: list[_Item], chance: random.Random) -> Tensor:
         for i in batch
     ]
     mask = _padded([[1] * len(row) for row in ids], 0).float()
-    *tags, arcs, described = model(_padded(ids, 0), mask, _padded([item.first for item in batch], 0))
+    *tags, arcs, described, _ = model(_padded(ids, 0), mask, _padded([item.first for item in batch], 0))
     entropy = nn.CrossEntropyLoss(ignore_index=_IGNORED, label_smoothing=0.02)
     loss = torch.zeros(())
     wanted = {name: _padded([item.tags[name] for item in batch], _IGNORED) for name in HEADS}
@@ -206,7 +206,7 @@ def _measure(model: Tagger, pieces: WordPiece, held: Sequence[Annotated]) -> dic
     for sentence in held:
         item = _item(pieces, sentence)
         with torch.no_grad():
-            *tags, arcs, _ = model(
+            *tags, arcs, _, _ = model(
                 torch.tensor([item.ids]), torch.ones(1, len(item.ids)), torch.tensor([item.first])
             )
         whole = True
@@ -224,7 +224,7 @@ def _write(model: Tagger, vocabulary: str, out: Path, scores: dict[str, float], 
     from onnxruntime.quantization import QuantType, quantize_dynamic
 
     out.mkdir(exist_ok=True)
-    names = [*HEADS, "arcs", "described"]
+    names = [*HEADS, "arcs", "described", "meaning"]
     words = {0: "batch", 1: "words"}
     with tempfile.TemporaryDirectory() as folder:
         whole = Path(folder) / "whole.onnx"
@@ -236,7 +236,7 @@ def _write(model: Tagger, vocabulary: str, out: Path, scores: dict[str, float], 
             output_names=names,
             dynamic_axes={
                 "ids": {0: "batch", 1: "pieces"}, "mask": {0: "batch", 1: "pieces"}, "first": words,
-                **dict.fromkeys(names[:-1], words), "described": {0: "batch"},
+                **dict.fromkeys(names[:-2], words), **{name: {0: "batch"} for name in names[-2:]},
             },
             opset_version=17,
             dynamo=False,

@@ -1,0 +1,87 @@
+"""Actions that fit no frame: meant by what their maker says, filled by kind, asked about when in doubt."""
+
+from __future__ import annotations
+
+import random
+
+import pytest
+
+from parley.language.builtin.decision import Ask, Decision, Do
+from parley.language.builtin.engine import BuiltinLanguage
+from parley.messages.status import ActionInfo, ParameterInfo
+from tests.language.builtin.worlds import CATALOGUE, situation
+
+ENGINE = BuiltinLanguage()
+
+TRADE = (
+    ActionInfo(name="a", inputs={"part": "string"}, description="Weld a part to the frame."),
+    ActionInfo(name="b", inputs={"times": "number"}, optional=("times",), description="Sound the horn."),
+    ActionInfo(name="c", inputs={"kg": "number", "pen": "string"}, description="Dispense feed into a pen."),
+    ActionInfo(name="d", inputs={"mode": "string"}, description="Set the fan; mode is low, middle or full."),
+    ActionInfo(name="e", inputs={"ballot": "string"}, description="Vote for a ballot."),
+    ActionInfo(name="f", inputs={"minutes": "number"}, description="Sterilise the chamber for some minutes."),
+    ActionInfo(
+        name="g",
+        inputs={"depth": "number"},
+        parameters={"depth": ParameterInfo(kind="distance", unit="millimetres")},
+        description="Drill a hole.",
+        phrases=("drill {depth} deep",),
+    ),
+)
+MEANT = {
+    "weld the bracket": ("a", {"part": "bracket"}),
+    "sound the horn": ("b", {}),
+    "please sound the horn three times": ("b", {"times": 3.0}),
+    "dispense 500 grams of feed into pen 4": ("c", {"kg": 0.5, "pen": "pen 4"}),
+    "set the fan to full": ("d", {"mode": "full"}),
+    "sterilise the chamber for half an hour": ("f", {"minutes": 30.0}),
+    "drill a hole 2 cm deep": ("g", {"depth": 20.0}),
+}
+NOT_MEANT = (
+    "weld it", "don't sound the horn", "set the fan to medium", "dispense 500 litres of feed into pen 4",
+    "sterilise the chamber", "weld every part", "drill a hole in the desk", "vote for what Kim likes",
+    "weld the bracket unless it rains", "honk", "sterilise the chamber for three metres",
+)  # fmt: skip
+
+
+def decide(message: str, catalogue: tuple[ActionInfo, ...] = TRADE) -> Decision:
+    return ENGINE.decide(situation(message, catalogue=(*CATALOGUE, *catalogue)))
+
+
+def done(decision: Decision) -> list[tuple[str, dict[str, object]]]:
+    deeds = decision.deeds if isinstance(decision, Do) else ()
+    return [(deed.skill.action.name, dict(deed.arguments)) for deed in deeds]
+
+
+@pytest.mark.parametrize("message", MEANT)
+def test_an_order_is_an_action_of_the_robots_own(message: str) -> None:
+    assert done(decide(message)) == [MEANT[message]]
+
+
+@pytest.mark.parametrize("message", NOT_MEANT)
+def test_an_order_that_fits_no_action_whole_is_asked_about(message: str) -> None:
+    assert isinstance(decide(message), Ask)
+
+
+def test_names_decide_nothing() -> None:
+    order = random.Random(7)
+    other = {info.name: "".join(order.choices("bcdfghjkl", k=8)) for info in TRADE}
+    renamed = tuple(info.model_copy(update={"name": other[info.name]}) for info in TRADE)
+    for message in (*MEANT, *NOT_MEANT):
+        plain = [(other[name], given) for name, given in done(decide(message))]
+        assert done(decide(message, renamed)) == plain, message
+
+
+def test_what_is_not_certain_is_offered_in_the_makers_words() -> None:
+    decision = decide("blow the horn")
+    assert isinstance(decision, Ask)
+    assert "sound the horn" in decision.question
+    assert done(Do(decision.offer)) == [("b", {})]
+    assert done(decide(decision.choices[0])) == [("b", {})]
+
+
+def test_an_action_of_which_nothing_is_said_is_never_more_than_offered() -> None:
+    silent = ActionInfo(name="eject_tip")
+    decision = decide("eject the tip", (silent,))
+    assert isinstance(decision, Ask)
+    assert done(Do(decision.offer)) == [("eject_tip", {})]
