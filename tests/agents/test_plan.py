@@ -98,13 +98,13 @@ class Engine:
             for node in self.graph.nodes
         )
         graph = Graph(self.graph.name, nodes, state=self.graph_state)
-        return self.take(list(self.plan.on_graph(graph)))
+        return self.take(list(self.plan.reports.on_graph(graph)))
 
     def finish(self, *outputs: tuple[str, float]) -> list[object]:
         """The running node ends well, the next one starts, or the graph runs dry."""
         name = next(n for n, state in self.states.items() if state is NodeState.RUNNING)
         self.states[name] = NodeState.FINISHED
-        self.plan.on_outputs(self.graph.name, name, dict(outputs))
+        self.plan.reports.on_outputs(self.graph.name, name, dict(outputs))
         order = [node.full_name for node in self.graph.nodes]
         following = order[order.index(name) + 1 :]
         if following:
@@ -203,7 +203,7 @@ def test_stale_halt_after_the_nudge_is_not_a_failure_but_lasting_silence_is(
     engine.states["Look_1"] = NodeState.UNINITIALIZED
     engine.graph_state = GraphState.HALTED
     assert engine.report() == []
-    (failure,) = plan.on_no_progress("graph_0", "Look_1")
+    (failure,) = plan.reports.on_no_progress("graph_0", "Look_1")
     assert isinstance(failure, ReportFailure)
 
 
@@ -370,7 +370,7 @@ def test_going_on_unchanged_resumes(plan: TargetPlan, engine: Engine) -> None:
 def test_pause_that_overtook_the_start_is_sent_again(plan: TargetPlan, engine: Engine) -> None:
     engine.take(list(plan.append([look()])))
     assert plan.pause() == [PauseGraph("graph_0")]
-    plan.on_refused("graph_0", "umrf_graph_pause")
+    plan.reports.on_refused("graph_0", "umrf_graph_pause")
     assert engine.report() == [PauseGraph("graph_0")]
 
 
@@ -393,11 +393,11 @@ def test_late_reports_of_an_old_graph_change_nothing(plan: TargetPlan, engine: E
     engine.take(list(plan.append([look()])))
     engine.report()
     plan.clear()
-    plan.on_graph(Graph("graph_0", state=GraphState.STOPPED))
+    plan.reports.on_graph(Graph("graph_0", state=GraphState.STOPPED))
     engine.take(list(plan.append([look("door")])))
     before = states(plan)
     late = Graph("graph_0", (Node("Look", 0, state=NodeState.ERROR),), state=GraphState.STOPPED)
-    assert plan.on_graph(late) == []
+    assert plan.reports.on_graph(late) == []
     assert states(plan) == before
 
 
@@ -406,7 +406,7 @@ def test_an_end_that_is_never_reported_does_not_block_for_ever(plan: TargetPlan,
     engine.report()
     plan.clear()
     plan.append([look("door")])
-    (start,) = plan.on_no_end("graph_0")
+    (start,) = plan.reports.on_no_end("graph_0")
     assert isinstance(start, StartGraph)
 
 
@@ -446,13 +446,13 @@ def test_after_giving_up_the_next_order_takes_the_failed_steps_place(
 @pytest.mark.spec("P2")
 def test_refused_start_leaves_nothing_running(plan: TargetPlan) -> None:
     plan.append([look()])
-    plan.on_refused("graph_0", "umrf_graph_start")
+    plan.reports.on_refused("graph_0", "umrf_graph_start")
     assert (plan.run, plan.update().state) == ("none", "idle")
 
 
 def test_silent_robot_is_reported_and_the_plan_kept(plan: TargetPlan) -> None:
     plan.append([look()])
-    (said,) = plan.on_no_answer("graph_0")
+    (said,) = plan.reports.on_no_answer("graph_0")
     assert isinstance(said, Say)
     (start,) = plan.start()
     assert isinstance(start, StartGraph)
@@ -519,7 +519,7 @@ def test_step_that_began_just_before_it_was_dropped_is_ended(plan: TargetPlan, e
     engine.take(list(plan.append([look("1"), look("2"), look("3")])))
     engine.report()
     plan.pop(1)
-    assert plan.on_refused("graph_0", "umrf_graph_modify", {"node_active"}) == []
+    assert plan.reports.on_refused("graph_0", "umrf_graph_modify", {"node_active"}) == []
     engine.states |= {"Look_0": NodeState.FINISHED, "Look_1": NodeState.RUNNING}
     assert EndStep("graph_0", "Look_1") in engine.report()
 
@@ -545,7 +545,7 @@ def test_change_that_a_latched_stop_refused_is_sent_again_when_going_on(
     engine.take(list(plan.append([look()])))
     engine.fail()
     plan.correct([look("lid")])
-    (said,) = plan.on_refused("graph_0", "umrf_graph_modify", {"stop_latched"})
+    (said,) = plan.reports.on_refused("graph_0", "umrf_graph_modify", {"stop_latched"})
     assert isinstance(said, Say)
     (modify,) = plan.start()
     assert isinstance(modify, ModifyGraph)
@@ -562,8 +562,8 @@ def test_leaving_out_the_last_step_says_that_nothing_is_left(plan: TargetPlan, e
 def test_robot_that_is_back_without_its_graph_waits_for_going_on(plan: TargetPlan, engine: Engine) -> None:
     engine.take(list(plan.append([look()])))
     engine.report()
-    assert plan.on_return({"graph_0": "RUNNING"}) == []
-    (said,) = plan.on_return({})
+    assert plan.reports.on_return({"graph_0": "RUNNING"}) == []
+    (said,) = plan.reports.on_return({})
     assert isinstance(said, Say)
     assert plan.update().state == "paused"
     (start,) = plan.start()
@@ -608,8 +608,8 @@ def test_a_pause_or_a_clear_that_a_robot_did_not_hear_holds_when_it_is_back(
     engine.take(list(plan.append([look("box"), look("door")])))
     engine.report()
     assert plan.pause() == [PauseGraph("graph_0")]
-    assert plan.on_return({"graph_0": "RUNNING"}) == [PauseGraph("graph_0")]
+    assert plan.reports.on_return({"graph_0": "RUNNING"}) == [PauseGraph("graph_0")]
     assert plan.clear() == [StopGraph("graph_0")]
-    assert plan.on_no_end("graph_0") == []
-    assert plan.on_return({"graph_0": "PAUSED"}) == [StopGraph("graph_0")]
-    assert plan.on_return({"graph_0": "STOPPED"}) == []
+    assert plan.reports.on_no_end("graph_0") == []
+    assert plan.reports.on_return({"graph_0": "PAUSED"}) == [StopGraph("graph_0")]
+    assert plan.reports.on_return({"graph_0": "STOPPED"}) == []

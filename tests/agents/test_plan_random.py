@@ -132,7 +132,9 @@ class Rig:
                 codes = {problem.code for problem in error.problems}
                 if type(effect) in what:
                     self.take(
-                        self.plan.on_refused(error.graph_name, f"umrf_graph_{what[type(effect)]}", codes)
+                        self.plan.reports.on_refused(
+                            error.graph_name, f"umrf_graph_{what[type(effect)]}", codes
+                        )
                     )
 
     def _command(self, effect: Effect) -> None:
@@ -158,7 +160,7 @@ class Rig:
         if self.events:
             event, graph = self.events.popleft(), self.event_graphs.popleft()
             if event.kind == "node" and event.result is not None:
-                self.take(self.plan.on_result(graph, event.node, event.result.value))
+                self.take(self.plan.reports.on_result(graph, event.node, event.result.value))
 
     def deliver_feedback(self) -> None:
         for graph in list(self.feedback.values()):
@@ -166,7 +168,7 @@ class Rig:
             if graph.state is GraphState.RUNNING and NodeState.ERROR not in states.values():
                 ended = {label for label, state in states.items() if state is NodeState.FINISHED}
                 self.known |= ended & self.done.keys()
-            self.take(self.plan.on_graph(graph))
+            self.take(self.plan.reports.on_graph(graph))
         self.feedback.clear()
 
     async def settle(self) -> None:
@@ -190,7 +192,7 @@ class Rig:
             if self.going and not self.paused:
                 next(iter(self.going.values())).set_result("true")
             elif self.awaited:
-                self.take(self.plan.on_no_result(self.awaited.popleft()))
+                self.take(self.plan.reports.on_no_result(self.awaited.popleft()))
             elif self.plan.held or self.plan.pending:
                 self.take(self.plan.start())
             else:

@@ -6,19 +6,21 @@ message arrives: what the engine reports decides, and what differs from the plan
 Step identity: each node gets an ``instance_id`` from a counter that never goes back within a graph, kept in
 plan order. A repeated or moved step gets a new one: late reports about an old one cannot be mistaken for it.
 
-Here are the orders; what the plan is made of is in `core`, what it makes of reports in `reports`.
+Here are the orders; what a plan is made of is in `state`, how the engine is told in `sync`, what comes of
+its reports in `reports`.
 """
 
 from __future__ import annotations
 
-from collections.abc import Sequence
+from collections.abc import Callable, Sequence
 from typing import Final
 
-from parley.agents.planner.core import GOING, KEEP_DONE
 from parley.agents.planner.effects import Effect, PauseGraph, ResumeGraph, Say, StopGraph
 from parley.agents.planner.flow import shifted, steps_of
-from parley.agents.planner.reports import ReportedPlan
+from parley.agents.planner.reports import Reports
+from parley.agents.planner.state import GOING, PlanState
 from parley.agents.planner.steps import ACTIVE_STATES, OPEN_STATES, Step, When, with_givers
+from parley.agents.planner.sync import KEEP_DONE, Sync
 from parley.messages.chat import ActionCall
 from parley.sentences import sentence
 
@@ -30,7 +32,7 @@ _ALL_AT_ONCE: Final = (
 )
 
 
-class TargetPlan(ReportedPlan):
+class TargetPlan(PlanState):
     """The plan of one robot.
 
     Args:
@@ -41,6 +43,24 @@ class TargetPlan(ReportedPlan):
             skipping restarts the rest.
     """
 
+    def __init__(
+        self,
+        target: str,
+        *,
+        new_graph_name: Callable[[], str],
+        waits_for_operator: Callable[[str], bool] = lambda _: False,
+        can_end_step: Callable[[], bool] = lambda: True,
+    ) -> None:
+        super().__init__(
+            target,
+            new_graph_name=new_graph_name,
+            waits_for_operator=waits_for_operator,
+            can_end_step=can_end_step,
+        )
+        self._sync = Sync(self)
+        self.reports = Reports(self, self._sync)
+        """Takes what the engine reports."""
+
     def append(self, calls: Sequence[ActionCall]) -> list[Effect]:
         """Add actions behind the plan; during a repair they wait, after one that failed they go first."""
         if not calls:
@@ -48,10 +68,10 @@ class TargetPlan(ReportedPlan):
         if self.given_up:
             return self._replace_failed(calls)
         over = self._over
-        self._add(calls)
+        self.add(calls)
         if self.held:
             return []
-        return self._start() if over else self._push()
+        return self._sync.start() if over else self._sync.push()
 
     def edit(self, calls: Sequence[ActionCall]) -> list[Effect]:
         """Put `calls` in the place of all steps that have not begun.
@@ -62,7 +82,7 @@ class TargetPlan(ReportedPlan):
         over, free = self._over, {id(step) for step in self.not_begun}
         begun = [step for step in self.steps if id(step) not in free]
         self.steps = [*begun, *steps_of(calls, begun, begun)]
-        return self._start() if over and calls else self._push()
+        return self._sync.start() if over and calls else self._sync.push()
 
     @property
     def _over(self) -> bool:
@@ -71,7 +91,7 @@ class TargetPlan(ReportedPlan):
 
     def restore(self, steps: Sequence[Step]) -> None:
         """Take over what an earlier process left; it waits until the operator says to go on."""
-        self.steps, self._pause_wanted = [*steps], bool(steps)
+        self.steps, self.pause_wanted = [*steps], bool(steps)
 
     def adopt(self, graph_name: str, steps: Sequence[Step], *, dry: bool) -> None:
         """Take over a graph that an engine holds since an earlier process; as `restore`.
@@ -83,13 +103,13 @@ class TargetPlan(ReportedPlan):
         """
         self.restore(steps)
         self.graph_name, self.run = graph_name, "halted" if dry else "paused"
-        self._next_id = 1 + max((step.instance_id for step in steps), default=-1)
+        self.next_id = 1 + max((step.instance_id for step in steps), default=-1)
 
     def fail_again(self, action: str) -> Step | None:
         """Of what an earlier process left, the step whose repair was under way; the plan is held for it."""
         step = next((s for s in self.steps if s.call.name == action and s.state == "queued"), None)
         if step is not None:
-            step.state, self.held, self._pause_wanted = "failed", True, False
+            step.state, self.held, self.pause_wanted = "failed", True, False
         return step
 
     def pause(self) -> list[Effect]:
@@ -97,8 +117,8 @@ class TargetPlan(ReportedPlan):
         if self.held:
             self.given_up = True
             return self._still()
-        self._pause_wanted = bool(self.pending)
-        return [PauseGraph(self.graph_name)] if self._pause_wanted and self.run in GOING else []
+        self.pause_wanted = bool(self.pending)
+        return [PauseGraph(self.graph_name)] if self.pause_wanted and self.run in GOING else []
 
     def start(self) -> list[Effect]:
         """Go on after a pause, or try a failed step again."""
@@ -106,13 +126,13 @@ class TargetPlan(ReportedPlan):
             return self._replace_failed([self.failed.call])
         if not self.pending:
             return [Say("There is nothing left to go on with.")]
-        self._pause_wanted = False
+        self.pause_wanted = False
         if self.run in ("none", "halted"):
-            return self._push()
+            return self._sync.push()
         if self.run not in GOING:
             return []
         # A pause that somebody else caused may not have been reported yet; resuming what runs does nothing.
-        changes = self._modify() if self._dirty else []
+        changes = self._sync.modify() if self.dirty else []
         return [*changes, ResumeGraph(self.graph_name)]
 
     def clear(self) -> list[Effect]:
@@ -120,11 +140,11 @@ class TargetPlan(ReportedPlan):
         for step in self.steps:
             if step.state in OPEN_STATES or step.state == "failed":
                 step.state = "stopped"
-        self.held = self.given_up = self._pause_wanted = self._dirty = self._awaiting = False
+        self.held = self.given_up = self.pause_wanted = self.dirty = self.awaiting = False
         if not self.graph_name:
             return []
-        self._stopping, self.graph_name, self.run = self.graph_name, "", "stopping"
-        return [StopGraph(self._stopping)]
+        self.stopping, self.graph_name, self.run = self.graph_name, "", "stopping"
+        return [StopGraph(self.stopping)]
 
     def pop(self, index: int | None) -> list[Effect]:
         """Drop the pending step `index` (0 is the one being executed).
@@ -142,10 +162,10 @@ class TargetPlan(ReportedPlan):
             if self._ends_others(step):
                 return [Say(_ALL_AT_ONCE, "error")]
             step.ending = True
-            return self._end(step)
+            return self._sync.end(step)
         self.steps.remove(step)
-        self._tidy()
-        return self._push()
+        self.tidy()
+        return self._sync.push()
 
     def skip(self) -> list[Effect]:
         """Leave out the step being executed, or the failed one, and go on with the next."""
@@ -156,18 +176,18 @@ class TargetPlan(ReportedPlan):
             return self._replace_failed([])
         if current.state == "queued" and self.run not in ("starting", "continuing", "running"):
             current.state = "skipped"
-            self._tidy()
-            return self._push()
+            self.tidy()
+            return self._sync.push()
         if self._ends_others(current):
             return [Say(_ALL_AT_ONCE, "error")]
         current.ending = True
-        self._pause_wanted = False
-        return self._end(current) if current.state != "queued" else []
+        self.pause_wanted = False
+        return self._sync.end(current) if current.state != "queued" else []
 
     def _ends_others(self, step: Step) -> bool:
         """Whether the engine could end `step` only together with what runs beside it."""
         beside = (s for s in self.steps if s is not step and s.together is step.together)
-        return not self._can_end_step() and any(other.state in OPEN_STATES for other in beside)
+        return not self.can_end_step() and any(other.state in OPEN_STATES for other in beside)
 
     def correction(self, calls: Sequence[ActionCall]) -> list[ActionCall]:
         """What will really be put in the failed step's place: `calls` with the values they can be given."""
@@ -198,11 +218,11 @@ class TargetPlan(ReportedPlan):
         failed = self.failed
         self.held = self.given_up = False
         if failed is None:
-            self._add(calls)
-            return self._push()
+            self.add(calls)
+            return self._sync.push()
         self._put_for(failed, self.correction(calls))
-        self._tidy()
-        return self._push()
+        self.tidy()
+        return self._sync.push()
 
     def _put_for(self, failed: Step, calls: Sequence[ActionCall]) -> None:
         """Put `calls` in the failed step's place; what ran beside it is done again beside the last."""

@@ -159,7 +159,7 @@ class RobotPlans:
             if plan.pending:
                 self.say(robot, text, "error")
         elif (status := self.presence.get(robot)) is not None:
-            self.send(plan, plan.on_return(status.graphs))
+            self.send(plan, plan.reports.on_return(status.graphs))
 
     def _speaks_parley(self, target: str) -> bool:
         return self.presence.get(target) is not None

@@ -72,7 +72,7 @@ class PlanSender:
             case StartGraph(graph):
                 text = write_graph(graph, faithful=True)
                 self._node.send(topics.GRAPH_START, ros.UmrfGraphStart(umrf_graph_json=text, targets=targets))
-                self._later(self._patience.answer_s, plan, lambda: plan.on_no_answer(graph.name))
+                self._later(self._patience.answer_s, plan, lambda: plan.reports.on_no_answer(graph.name))
             case ModifyGraph(graph, continue_from):
                 text = write_graph(graph, faithful=True)
                 message = ros.UmrfGraphModify(graph.name, targets, text, continue_from)
@@ -81,7 +81,7 @@ class PlanSender:
                     self._later(
                         self._patience.progress_s,
                         plan,
-                        lambda: plan.on_no_progress(graph.name, continue_from),
+                        lambda: plan.reports.on_no_progress(graph.name, continue_from),
                     )
             case PauseGraph(name):
                 self._node.send(topics.GRAPH_PAUSE, ros.UmrfGraphPause(name, targets))
@@ -91,11 +91,11 @@ class PlanSender:
                 self._node.send(topics.GRAPH_RESUME, ros.UmrfGraphResume(name, targets))
             case StopGraph(name):
                 self._node.send(topics.GRAPH_STOP, ros.UmrfGraphStop(name, targets))
-                self._later(self._patience.end_s, plan, lambda: plan.on_no_end(name))
+                self._later(self._patience.end_s, plan, lambda: plan.reports.on_no_end(name))
             case EndStep(name, node):
                 self._node.publish(topics.STEP, StepCommand(target=plan.target, graph_name=name, node=node))
             case AwaitResult(name):
-                self._later(self._patience.result_s, plan, lambda: plan.on_no_result(name))
+                self._later(self._patience.result_s, plan, lambda: plan.reports.on_no_result(name))
             case ReportFailure(message):
                 self._node.publish(topics.ERROR_HANDLING, message)
             case Say(text, kind):

@@ -118,7 +118,7 @@ class UmrfPlanner(Node):
             except GraphRefusedError as error:
                 self._plans.refuse("umrf_graph_feedback", feedback.actor, error.problems)
                 continue
-            self._plans.send(plan, plan.on_graph(graph))
+            self._plans.send(plan, plan.reports.on_graph(graph))
 
     def _on_event(self, event: GraphEvent) -> None:
         self._plans.left.told(event)
@@ -127,9 +127,9 @@ class UmrfPlanner(Node):
             return
         if event.outputs:
             values = {name: item.value for name, item in event.outputs.items() if item.has_data}
-            plan.on_outputs(event.graph_name, event.node, values)
+            plan.reports.on_outputs(event.graph_name, event.node, values)
         if event.result and event.cause != "bypass":
-            self._plans.send(plan, plan.on_result(event.graph_name, event.node, event.result))
+            self._plans.send(plan, plan.reports.on_result(event.graph_name, event.node, event.result))
 
     def _on_said(self, feedback: ChatFeedback) -> None:
         self._plans.questions.on_feedback(feedback)
@@ -156,4 +156,4 @@ class UmrfPlanner(Node):
         if rejection.source == self.name or rejection.graph_name != plan.graph_name:
             return
         codes = {problem.code for problem in rejection.problems}
-        self._plans.send(plan, plan.on_refused(rejection.graph_name, rejection.what, codes))
+        self._plans.send(plan, plan.reports.on_refused(rejection.graph_name, rejection.what, codes))
