@@ -3,24 +3,60 @@
 from __future__ import annotations
 
 import asyncio
+import contextlib
 import contextvars
+import os
+import queue
 import threading
 from collections.abc import Callable
-from typing import Any, TypeVar
+from typing import Any, Final, TypeVar
 
-__all__ = ["in_thread"]
+__all__ = ["IDLE", "in_thread"]
 
 T = TypeVar("T")
 
+IDLE: Final = "waits for an action"
+"""What a thread without work is called."""
+KEPT_S: Final = 10.0
+"""Wall time for which a thread without work waits for more."""
+
+_idle: list[_Thread] = []
+"""The newest is taken first, so that what is too many ends."""
+if hasattr(os, "register_at_fork"):
+    os.register_at_fork(after_in_child=_idle.clear)  # a copy of a process has none of its threads
+
+
+class _Thread(threading.Thread):
+    """Does one piece of work after the other; waits in `_idle` in between."""
+
+    def __init__(self) -> None:
+        super().__init__(daemon=True)
+        self.work: queue.SimpleQueue[Callable[[], None]] = queue.SimpleQueue()
+
+    def run(self) -> None:
+        """Work until nothing came for `KEPT_S`."""
+        while True:
+            try:
+                work = self.work.get(timeout=KEPT_S)
+            except queue.Empty:
+                try:
+                    _idle.remove(self)
+                except ValueError:  # taken in this moment: its work comes
+                    continue
+                return
+            work()
+            del work  # what it knows must not live until the next one
+
 
 async def in_thread(name: str, function: Callable[..., T], /, *args: Any, **kwargs: Any) -> T:
-    """Run `function` in a thread of its own and wait for it.
+    """Run `function` in a thread that does nothing else meanwhile, and wait for it.
 
-    A thread each, and a daemon: an action that never returns must neither keep a place in a pool nor keep the
-    process from ending. Cancelling the wait abandons the thread, so tell the action to stop before.
+    As many threads as there is work, kept for a while, and daemons: an action that never returns must neither
+    keep a place in a pool nor keep the process from ending. Cancelling the wait abandons the thread, so tell
+    the action to stop before.
 
     Args:
-        name: Name of the thread, for debuggers.
+        name: What the thread is called meanwhile, for debuggers.
         function: What to run; it sees the caller's context variables.
         *args: Its arguments.
         **kwargs: Its keyword arguments.
@@ -28,6 +64,11 @@ async def in_thread(name: str, function: Callable[..., T], /, *args: Any, **kwar
     loop = asyncio.get_running_loop()
     done: asyncio.Future[T] = loop.create_future()
     context = contextvars.copy_context()
+    try:
+        thread = _idle.pop()
+    except IndexError:
+        thread = _Thread()
+        thread.start()
 
     def settle(result: Any, error: BaseException | None) -> None:
         if done.cancelled():
@@ -40,14 +81,17 @@ async def in_thread(name: str, function: Callable[..., T], /, *args: Any, **kwar
             done.set_exception(error)
 
     def work() -> None:
+        thread.name = name
         result, error = None, None
         try:
             result = context.run(function, *args, **kwargs)
         except BaseException as caught:  # noqa: BLE001 - carried to whoever waits
             error = caught
-        if not loop.is_closed():
+        thread.name = IDLE
+        _idle.append(thread)  # before it is told, so that what follows finds it
+        with contextlib.suppress(RuntimeError):  # the loop is closed: nobody waits any more
             loop.call_soon_threadsafe(settle, result, error)
         result = error = None  # what was raised knows this frame: without this a circle
 
-    threading.Thread(target=work, name=name, daemon=True).start()
+    thread.work.put(work)
     return await done
