@@ -5,7 +5,11 @@ BIN := $(VENV)/bin
 # The first of these that is Python 3.11 or newer and can make virtual environments is used; e.g. make test PYTHONS=/opt/bin/python3
 PYTHONS ?= python3.13 python3.12 python3.11 python3
 PIP := $(BIN)/python -m pip --disable-pip-version-check --no-input
+# One line for each package that is fetched, so that somebody who waits sees why.
+SHOWN := | awk '/^ *(Downloading|Using cached) / { print "  " $$2, $$3, $$4, $$5; fflush() }'
 
+SHELL := /bin/bash
+.SHELLFLAGS := -o pipefail -c
 .DEFAULT_GOAL := help
 .DELETE_ON_ERROR:
 .PHONY: help demo page types screenshots test test-page check format bench soak lock sbom train clean
@@ -17,8 +21,11 @@ PAGE_SOURCES := $(shell find frontend/src frontend/public -type f ! -name api-ty
 help: ## Show what there is
 	@sed -n 's/^\([a-z-]*\):.*## \(.*\)/  make \1	\2/p' $(firstword $(MAKEFILE_LIST)) | expand -t 18
 
+# A released version brings the page; who changed its sources has made frontend/node_modules, and gets it built anew.
 demo: $(VENV)/.runtime ## Talk to a simulated robot in the browser
-	@$(MAKE) --no-print-directory page || echo "The page could not be built (see above); going on with what there is."
+	@if [ -f $(PAGE) ] && [ ! -d frontend/node_modules ]; then echo "Taking the page as it was built"; \
+	else $(MAKE) --no-print-directory page || echo "The page could not be built (see above); going on with what there is."; fi
+	@echo "Starting"
 	@$(BIN)/parley demo nursing-home
 
 page: $(PAGE) ## Build the operator's page, if its sources changed
@@ -69,7 +76,7 @@ soak: $(VENV)/.dev ## The long tests: ten minutes, or PARLEY_SOAK_S seconds, and
 lock: $(VENV)/.dev ## Renew requirements.lock from constraints.txt
 	@$(PIP) install --quiet -c constraints.txt --group release
 	@$(BIN)/pip-compile --quiet --generate-hashes --strip-extras --allow-unsafe --build-deps-for editable \
-	    --no-header --no-annotate -c constraints.txt -o requirements.lock pyproject.toml
+	    --no-header --no-annotate --extra sim --extra web -c constraints.txt -o requirements.lock pyproject.toml
 	@sed -i.old '/^--/d; /^$$/d' requirements.lock && rm requirements.lock.old
 
 sbom: $(VENV)/.dev frontend/node_modules/.installed ## Lists of what is inside (CycloneDX), into build
@@ -117,8 +124,8 @@ $(VENV)/.pip: $(VENV)/.python
 	@touch $@
 
 $(VENV)/.runtime: $(VENV)/.pip pyproject.toml constraints.txt
-	@echo "Installing Parley"
-	@$(PIP) install --quiet -c constraints.txt -e .
+	@echo "Installing Parley and what it needs (about 150 MB, once)"
+	@$(PIP) install --progress-bar off -c constraints.txt -e ".[sim,web]" $(SHOWN)
 	@touch $@
 
 $(VENV)/.dev: $(VENV)/.runtime

@@ -8,7 +8,7 @@ import sys
 import pytest
 from typer.testing import CliRunner
 
-from parley.cli import command_line
+from parley.cli import command_line, run
 
 
 def loaded(*arguments: str) -> set[str]:
@@ -59,3 +59,23 @@ def test_what_is_no_command_is_named_and_no_command_at_all_is_no_error_of_a_word
     assert done.returncode == code
     assert said in done.stderr
     assert bool(done.stderr) is bool(said)
+
+
+@pytest.mark.parametrize(
+    ("command", "library", "extra"), [("world", "mujoco", "sim"), ("people", "argon2", "web")]
+)
+def test_a_command_that_is_not_installed_says_how_to_get_it(
+    monkeypatch: pytest.MonkeyPatch,
+    capsys: pytest.CaptureFixture[str],
+    command: str,
+    library: str,
+    extra: str,
+) -> None:
+    for name in [
+        name for name in sys.modules if name.startswith(("parley.cli.", "parley.sim.", "parley.web."))
+    ]:
+        monkeypatch.delitem(sys.modules, name)
+    monkeypatch.setitem(sys.modules, library, None)
+    monkeypatch.setattr(sys, "argv", ["parley", command, "list", "--data", "nowhere"])
+    assert run(command_line(command)) == 2
+    assert f"pip install 'parley-hri[{extra}]'" in capsys.readouterr().err

@@ -33,6 +33,7 @@ State = Literal["ok", "missing", "wrong", "unused"]
 PYTHON: Final = (3, 11)
 NODE: Final = (20, 19)
 """What the tools that build the page ask for."""
+INSTALL: Final = "Run: pip install --upgrade parley-hri"
 FREE_BYTES: Final = 200 * 1024 * 1024
 TIMEOUT_S: Final = 3.0
 BROWSERS: Final = (
@@ -81,8 +82,8 @@ class Subject:
 def examine(subject: Subject) -> Iterable[Finding]:
     """Check everything, one finding after the other."""
     checks: tuple[Callable[[Subject], Finding], ...] = (
-        _python, _packages, _page, _browser, _node, _port, _folder, _space, _memory, _language,
-        _embeddings, _ros, _zenoh,
+        _python, _packages, _simulator, _server, _page, _browser, _node, _port, _folder, _space, _memory,
+        _language, _embeddings, _ros, _zenoh,
     )  # fmt: skip
     for check in checks:
         yield check(subject)
@@ -100,16 +101,27 @@ def _packages(_: Subject) -> Finding:
     try:
         wanted = importlib.metadata.requires("parley-hri") or []
     except importlib.metadata.PackageNotFoundError:
-        return Finding(
-            "packages", "missing", "Parley itself is not installed.", "Run: make demo", needed=True
-        )
+        return Finding("packages", "missing", "Parley itself is not installed.", INSTALL, needed=True)
     names = [re.split(r"[^A-Za-z0-9._-]", item, maxsplit=1)[0] for item in wanted if "extra ==" not in item]
     absent = sorted(name for name in names if not _installed(name))
     if absent:
-        return Finding(
-            "packages", "missing", f"Not installed: {', '.join(absent)}.", "Run: make demo", needed=True
-        )
+        return Finding("packages", "missing", f"Not installed: {', '.join(absent)}.", INSTALL, needed=True)
     return Finding("packages", "ok", f"all {len(names)} are installed", needed=True)
+
+
+def _simulator(_: Subject) -> Finding:
+    return _extra("sim", "simulator", "mujoco", "Not here; only simulated worlds need it.")
+
+
+def _server(_: Subject) -> Finding:
+    return _extra("web", "page server", "uvicorn", "Not here; only the page needs it.")
+
+
+def _extra(extra: str, subject: str, module: str, text: str) -> Finding:
+    """Whether something is there that is installed on its own."""
+    if importlib.util.find_spec(module) is not None:
+        return Finding(subject, "ok", "installed")
+    return Finding(subject, "unused", text, f"Run: pip install 'parley-hri[{extra}]'")
 
 
 def _installed(name: str) -> bool:
@@ -123,7 +135,12 @@ def _installed(name: str) -> bool:
 def _page(subject: Subject) -> Finding:
     if (subject.static_dir / "index.html").is_file():
         return Finding("page", "ok", "built")
-    return Finding("page", "missing", "It is not built.", "Run: make demo, or chat with --terminal.")
+    return Finding(
+        "page",
+        "missing",
+        "It is not built.",
+        "Install a released version, or run make page in the sources; or chat with --terminal.",
+    )
 
 
 def _browser(_: Subject) -> Finding:

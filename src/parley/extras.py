@@ -18,12 +18,15 @@ EXTRAS: Final = {"sim": "the simulator", "web": "the page for operators"}
 def needs(extra: str) -> Iterator[None]:
     """Say clearly that an extra is missing where the imports inside this need it.
 
+    Args:
+        extra: One of `EXTRAS`; empty: none is needed.
+
     Raises:
         MissingExtraError: A library of it is not installed.
     """
     try:
         yield
     except ModuleNotFoundError as error:
-        if (error.name or "parley").partition(".")[0] == "parley":
+        if not extra or (error.name or "parley").partition(".")[0] == "parley":
             raise  # one of ours is missing: a defect
         raise MissingExtraError(extra, EXTRAS[extra]) from error

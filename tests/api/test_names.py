@@ -27,7 +27,8 @@ def test_importing_it_loads_no_simulator_no_server_and_no_model() -> None:
     code = (
         "import sys, parley.api\n"
         "from parley.api import Parley, RobotBase, action, person\n"
-        "print(*(n for n in ('mujoco', 'fastapi', 'onnxruntime', 'pydantic_ai', 'numpy', 'scipy', 'PIL')"
+        "heavy = 'mujoco fastapi onnxruntime pydantic_ai numpy scipy PIL structlog rich'.split()\n"
+        "print(*(n for n in heavy"
         " if n in sys.modules))"
     )
     told = subprocess.run(

@@ -224,3 +224,4 @@ async def test_a_port_that_is_taken_is_named_or_replaced() -> None:
                 pass
         async with WebServer(rig.robots.transport, WebConfig(port=port), port_is_wish=True) as second:
             assert second.url != rig.url
+            assert second.instead_of == port

@@ -17,7 +17,8 @@ from typing import TYPE_CHECKING, Any, Final
 
 if TYPE_CHECKING:
     from parley.actions.context import ActionContext
-    from parley.api.door import Events, GraphRun, Parley, step
+    from parley.api.door import GraphRun, Parley, step
+    from parley.api.listening import Events
     from parley.api.sync import SyncParley
     from parley.config import ModelSettings, SystemConfig
     from parley.errors import (
@@ -53,7 +54,8 @@ if TYPE_CHECKING:
 
 _WHERE: Final = {
     "actions.context": ("ActionContext",),
-    "api.door": ("Events", "GraphRun", "Parley", "step"),
+    "api.door": ("GraphRun", "Parley", "step"),
+    "api.listening": ("Events",),
     "api.sync": ("SyncParley",),
     "config": ("ModelSettings", "SystemConfig"),
     "errors": (

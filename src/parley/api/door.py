@@ -15,7 +15,6 @@ from pathlib import Path
 from types import TracebackType
 from typing import TYPE_CHECKING, Any, Final, Literal, Self
 
-from parley.api.listening import Event, Events, Listener
 from parley.config import SystemConfig
 from parley.errors import ConfigError, GraphRefusedError, NotAllowedError, ParleyError, Problem
 from parley.gate.ruling import rule
@@ -47,13 +46,14 @@ from parley.messages.status import (
 from parley.messages.wire import decode, encode
 
 if TYPE_CHECKING:  # loaded when it is opened
+    from parley.api.listening import Event, Events, Listener
     from parley.language.base import Language
     from parley.robots.own import RobotBase
     from parley.site import Site
     from parley.system import System
     from parley.umrf.action import Action, ActionSpec
 
-__all__ = ["Events", "GraphRun", "Parley", "step"]
+__all__ = ["GraphRun", "Parley", "step"]
 
 NOBODY: Final = Principal()
 """A program that nobody vouches for: it may look, stop, speak, and propose."""
@@ -118,6 +118,7 @@ class Parley:
 
     async def __aenter__(self) -> Self:
         from parley.agents.chat.rulings import Rulings
+        from parley.api.listening import Listener
 
         async with AsyncExitStack() as stack:
             system = self._system = await stack.enter_async_context(await asyncio.to_thread(self._make))

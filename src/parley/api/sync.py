@@ -9,7 +9,6 @@ from pathlib import Path
 from typing import TYPE_CHECKING, Any, Self, TypeVar
 
 from parley.api.door import ANSWERS_WITHIN_S, NOBODY, Command, GraphRun, Parley
-from parley.api.listening import Event, Events
 from parley.config import SystemConfig
 from parley.errors import ParleyError
 from parley.messages.chat import ActionCall, ChatFeedback
@@ -18,6 +17,7 @@ from parley.messages.principal import Principal
 from parley.messages.status import PlanProposal, PlanRuling, PlanUpdate
 
 if TYPE_CHECKING:
+    from parley.api.listening import Event, Events
     from parley.language.base import Language
     from parley.robots.own import RobotBase
     from parley.site import Site

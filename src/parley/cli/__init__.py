@@ -13,15 +13,19 @@ from typer.exceptions import TyperException
 
 from parley import __version__
 from parley.cli.output import fail
-from parley.errors import ParleyError
+from parley.errors import MissingExtraError, ParleyError
+from parley.extras import needs
 
 __all__ = ["command_line", "run"]
 
-_COMMANDS = (
-    "demo", "doctor", "interpret", "eval", "incidents", "audit", "transcripts",
-    "graph", "actions", "robot", "language", "memory", "rules", "world", "prompt", "bench", "web", "people",
-)  # fmt: skip
-"""Each is a module of this package: with `register` if it is one command, with an `app` if it is several."""
+_COMMANDS = {
+    "demo": "sim", "doctor": "", "interpret": "", "eval": "", "incidents": "", "audit": "",
+    "transcripts": "sim",
+    "graph": "sim", "actions": "", "robot": "", "language": "", "memory": "", "rules": "", "world": "sim",
+    "prompt": "", "bench": "sim", "web": "web", "people": "web",
+}  # fmt: skip
+"""Command -> the extra that it needs, if any. Each is a module of this package: with `register` if it is one
+command, with an `app` if it is several."""
 
 
 def command_line(only: str | None = None) -> typer.Typer:
@@ -42,12 +46,28 @@ def command_line(only: str | None = None) -> typer.Typer:
     app.callback(invoke_without_command=True)(_top)
     needed = () if only == "--version" else _COMMANDS if only not in _COMMANDS else (only,)
     for name in needed:
-        module = importlib.import_module(f"parley.cli.{name}")
+        try:
+            with needs(_COMMANDS[name]):
+                module = importlib.import_module(f"parley.cli.{name}")
+        except MissingExtraError as missing:
+            _stand_in(app, name, missing)
+            continue
         if hasattr(module, "register"):
             module.register(app)
         else:
             app.add_typer(module.app, name=name)
     return app
+
+
+def _stand_in(app: typer.Typer, name: str, missing: MissingExtraError) -> None:
+    """A command that is not installed: help lists it, and whoever calls it is told how to get it."""
+    anything = {"ignore_unknown_options": True, "allow_extra_args": True, "help_option_names": []}
+
+    @app.command(
+        name, help=f"Not installed: pip install 'parley-hri\\[{missing.extra}]'", context_settings=anything
+    )
+    def tell(_: typer.Context) -> None:
+        raise missing
 
 
 def _top(version: bool = typer.Option(False, "--version", help="Show the version and leave.")) -> None:

@@ -26,6 +26,7 @@ from parley.demos.catalogue import DEMOS, Demo, load_demo
 from parley.demos.runner import StoryResult, play
 from parley.demos.story import Story, Variant
 from parley.errors import ConfigError
+from parley.extras import needs
 from parley.system import System
 from parley.terminal import TerminalClient
 
@@ -183,8 +184,9 @@ async def _chat(demo: Demo, config: SystemConfig, lang: str) -> None:
 async def _serve(
     demo: Demo, config: SystemConfig, page: dict[str, Any], *, port_is_wish: bool, opens: bool
 ) -> None:
-    from parley.web.config import WebConfig
-    from parley.web.server import WebServer
+    with needs("web"):
+        from parley.web.config import WebConfig
+        from parley.web.server import WebServer
 
     settings = WebConfig.model_validate(page)
     async with (

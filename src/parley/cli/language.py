@@ -33,7 +33,7 @@ def _group() -> None:
 
 @app.command()
 def check(
-    file: Annotated[Path, typer.Argument(help="Annotated sentences, see builtin/training/README.md.")],
+    file: Annotated[Path, typer.Argument(help="Annotated sentences, one a line.")],
 ) -> None:
     """Check annotated sentences; the first line that is wrong is named."""
     sentences = list(read_text(read_file(file), file.name))

@@ -112,6 +112,10 @@ async def serve_until_interrupted(server: WebServer, *, opens: bool) -> None:
         server: Open.
         opens: Whether to open the page in a browser.
     """
+    if server.instead_of:
+        typer.echo(
+            f"Port {server.instead_of} is taken (perhaps Parley runs already), so another one is used."
+        )
     typer.echo(f"The page is at {server.url}")
     code = server.pairing_code
     for address in server.backend.addresses:

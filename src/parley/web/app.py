@@ -50,7 +50,7 @@ def create_api() -> FastAPI:
     api = FastAPI(
         title="Parley",
         version=__version__,
-        description="The operator's page and its server. The live stream is described in docs/web.md.",
+        description="The operator's page and its server. The live stream is Socket.IO.",
         openapi_url="/api/openapi.json",
         docs_url=None,
         redoc_url=None,

@@ -20,7 +20,8 @@ NONCE_MARK: Final = "__CSP_NONCE__"
 _PLAIN = """<!doctype html>
 <html lang="en"><head><meta charset="utf-8"><title>Parley</title></head>
 <body><h1>Parley</h1>
-<p>The system is running, but its page is not built yet. Run <code>make demo</code>, which builds it.</p>
+<p>The system is running, but its page is not built yet.
+A released version brings it; from sources, <code>make page</code> builds it.</p>
 <p>Until then: <code>parley demo --terminal</code> talks to the robots in a terminal.</p>
 <p>Programs find the interface described at <a href="/api/openapi.json">/api/openapi.json</a>.</p>
 </body></html>

@@ -70,6 +70,8 @@ class WebServer:
             stop_line=stop_line,
             at_rest=at_rest,
         )
+        self.instead_of = 0
+        """The port that was wished for, where another program has it; else 0."""
         self.url = ""
         """Where the page is on this machine."""
         self.fingerprint = ""
@@ -98,6 +100,7 @@ class WebServer:
         listening = _listen(host, config.port, other_port_will_do=self._port_is_wish)
         self._stack.callback(listening.close)
         port = listening.getsockname()[1]
+        self.instead_of = config.port if config.port not in (0, port) else 0
         others = lan_addresses() if self.is_open_to_others else ()
         names = list(dict.fromkeys([*LOCAL_NAMES, *others, *_host_names(config)]))
         files = await self._certificate(names) if self.is_open_to_others or config.certificate else None
