@@ -273,18 +273,19 @@ class GraphRun:
         nodes = self._flow.nodes
         return (nodes[name] for name in self._runs if name in nodes and nodes[name].active)
 
-    def _run_node(self, item: FlowNode, cause: str) -> None:
+    def _run_node(self, item: FlowNode, cause: str, attempt: int = 1) -> None:
         """Start a run, unless one is going on: then the trigger is ignored (10.4)."""
         if item.name in self._runs or item.name in self._rounds:
             if item.name in self._runs and not item.active:
                 log.warning("node has still not stopped", graph=self.name, node=item.name)
             return
-        item.last_values = dict(item.values)
+        item.last_values, item.skipped = dict(item.values), None
         self._set_node(item, NodeState.RUNNING, cause)
         run = self._runs[item.name] = run_of(
             item,
             self._inner,
             self.peers,
+            attempt=attempt,
             on_state=lambda state: self._inner_changed(self._flow.nodes[item.name], state),
             actor=self.actor,
             graph_name=self.name,
@@ -319,6 +320,8 @@ class GraphRun:
             self._hand_over(item, Result.ON_STOPPED)
             self._run_node(item, "restart")
             return
+        if not stopped and self._tries_again(item, run, ending):
+            return
         if stopped or not item.spontaneous or not isinstance(ending, Ended):
             item.drop_transferred()
         if stopped and not (isinstance(run, RemoteRun) and isinstance(ending, Ended)):
@@ -327,6 +330,18 @@ class GraphRun:
             self._node_over(item, ending.result, ending.outputs, "run", ending.facts, failed=False)
         else:
             self._node_over(item, Result.ON_ERROR, {}, "run")
+
+    def _tries_again(self, item: FlowNode, run: NodeRun, ending: Ended | BaseException) -> bool:
+        """Begin another attempt of a node that failed, unless there were enough or it would make no sense."""
+        if not run.may_repeat(ending) or self.state not in (GraphState.RUNNING, GraphState.PAUSED):
+            return False
+        item.note(f"attempt {run.attempt} failed, another one follows", self._clock.unix_ms())
+        hold = item.state in _STILL or self._holding
+        self._run_node(item, "retry", run.attempt + 1)
+        if hold:
+            self._pause_node(item, "pause")
+            self._settle()
+        return True
 
     def _node_over(
         self,
@@ -427,6 +442,7 @@ class GraphRun:
                 case "restart":
                     self._run_node(item, cause)
                 case "bypassed":
+                    item.skipped = effect.result
                     self._set_node(item, item.state, "bypass", effect.result)
                 case "fail" if not item.active:
                     item.note(FailureReport(message=effect.message).to_text(), self._clock.unix_ms())

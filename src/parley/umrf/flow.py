@@ -100,6 +100,8 @@ class FlowNode:
     log: deque[LogMessage] = field(default_factory=lambda: deque(maxlen=MAX_LOG_MESSAGES))
     starved: bool = False
     """Whether it was to run (again) and lacked an input."""
+    skipped: Result | None = None
+    """See `Node.skipped`."""
     runner: Runner = field(kw_only=True)
     """What runs it, the same object for all runs."""
     unsaved: bool = True
@@ -159,6 +161,9 @@ class FlowNode:
                 children=node.children,
                 gui_attributes=node.gui_attributes,
                 messages=tuple(self.log),
+                retries=node.retries,
+                timeout_s=node.timeout_s,
+                skipped=self.skipped,
             )
         return self._shown
 
@@ -431,11 +436,17 @@ def _parents(node: Node) -> dict[str, ParentRelation]:
 
 
 def _carry(kept: FlowNode, node: Node, stale: set[str]) -> FlowNode:
-    """Step 4 of 11.5: relations are replaced, values that are given overwrite; nothing else changes."""
+    """Step 4 of 11.5: relations and limits are replaced, values that are given overwrite, nothing else."""
     parents, entered = _parents(node), {ENTRY.full_name} & kept.received
     carried = replace(
         kept,
-        node=replace(kept.node, parents=node.parents, children=node.children),
+        node=replace(
+            kept.node,
+            parents=node.parents,
+            children=node.children,
+            retries=node.retries,
+            timeout_s=node.timeout_s,
+        ),
         parents=parents,
         children=node.children,
         values=dict(kept.values),

@@ -27,7 +27,7 @@ from parley.umrf.model import (
     Response,
     Result,
 )
-from parley.umrf.reading import Reader, in_one_go, load_object
+from parley.umrf.reading import EXTRAS, Reader, in_one_go, load_object
 
 __all__ = [
     "GraphWriter",
@@ -42,8 +42,6 @@ __all__ = [
     "write_graph",
 ]
 
-EXTRAS: Final = "parley"
-"""The key of a descriptor for what UMRF does not know; other engines ignore it."""
 _TEXTS: Final = ("phrases", "examples", "effects", "capabilities")
 _TIMES: Final = ("duration_s", "timeout_s")
 
@@ -232,6 +230,8 @@ def _lay_out_node(node: Node) -> str:
         parts.append(f'"output_parameters": {_lay_out(outputs, _LINE)}')
     if node.parents:
         parts.append(f'"parents": [{",".join(map(_lay_out_parent, node.parents))}{_LINE}]')
+    if extras := _extras(node):
+        parts.append(f'"{EXTRAS}": {_lay_out(extras, _LINE)}')
     if node.messages:
         parts.append(f'"runtime": {_lay_out(_runtime(node), _LINE)}')
     parts.append(f'"state": "{node.state.value}"')
@@ -288,10 +288,22 @@ def node_to_json(node: Node, *, faithful: bool = False) -> dict[str, Any]:
     }
     if node.gui_attributes is not None:
         written["gui_attributes"] = node.gui_attributes
+    if extras := _extras(node):
+        written[EXTRAS] = extras
     if node.messages:
         written["runtime"] = _runtime(node)
     optional = ("actor", "input_parameters", "output_parameters", "parents", "children")
     return {key: value for key, value in written.items() if value or key not in optional}
+
+
+def _extras(node: Node) -> dict[str, Any]:
+    """What other engines ignore."""
+    extras: dict[str, Any] = {"retries": node.retries} if node.retries else {}
+    if node.timeout_s is not None:
+        extras["timeout_s"] = node.timeout_s
+    if node.skipped is not None:
+        extras["skipped"] = node.skipped.value
+    return extras
 
 
 def _runtime(node: Node) -> dict[str, Any]:

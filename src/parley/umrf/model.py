@@ -159,6 +159,12 @@ class Node:
     gui_attributes: Any = None
     messages: tuple[LogMessage, ...] = ()
     """At most the 10 newest, oldest first."""
+    retries: int = 0
+    """How often it is tried again after a failure."""
+    timeout_s: float | None = None
+    """Robot time that one attempt may take, pauses left out; None: as long as the action itself may."""
+    skipped: Result | None = None
+    """What was passed on instead of running it, the last time that an edge said `bypass`."""
 
     @property
     def ref(self) -> NodeRef:

@@ -8,9 +8,10 @@ import math
 import threading
 from collections.abc import Awaitable, Callable, Mapping
 from dataclasses import dataclass, field
-from typing import Any, Final
+from typing import Any, Final, TypeVar
 
 from parley.clock import Clock
+from parley.errors import ActionFailure, FailureCode
 from parley.umrf.action import ActionSpec, Outcome, RunHandle, bind_inputs, outcome_of
 from parley.umrf.flow import FlowNode
 from parley.umrf.model import Result
@@ -26,8 +27,21 @@ ROUND_S: Final = 0.01
 """Robot time between the beginnings of two rounds of a spontaneous node: one that returns at once must not
 keep everything else from running."""
 ABANDON_S: Final = 0.1
+_FINAL: Final = frozenset(
+    {
+        FailureCode.ATTENTION,
+        FailureCode.DECLINED,
+        FailureCode.FORBIDDEN,
+        FailureCode.NOT_CAPABLE,
+        FailureCode.NOT_UNDERSTOOD,
+    }
+)
+"""Failures that trying again does not change, or should not."""
 THREAD_GRACE_S: Final = 2.0
 """Wall time that a plain action has to notice that its time is over, before its thread is abandoned."""
+
+
+T = TypeVar("T")
 
 
 @dataclass(frozen=True, slots=True)
@@ -54,6 +68,7 @@ class NodeRun:
         clock: Robot time for the action; progress is spaced by wall time.
         on_progress: Gets fraction and text, on the loop, at most every 100 ms.
         asked: Whether what follows depends on whether it ends true or false, as the graph is now.
+        attempt: Which attempt of the node it is, from 1.
         on_still: Told on the loop when a plain action has seen that it is paused.
     """
 
@@ -66,8 +81,10 @@ class NodeRun:
         clock: Clock,
         on_progress: Callable[[float | None, str], None],
         asked: Callable[[], bool],
+        attempt: int = 1,
         on_still: Callable[[], None] = lambda: None,
     ) -> None:
+        self.attempt = attempt
         self.actor, self.graph_name, self.node, self.clock = actor, graph_name, item.name, clock
         self.motion = Motion(item.name)
         self.restart_wanted = False
@@ -81,6 +98,7 @@ class NodeRun:
         self._going = asyncio.Event()
         self._going.set()
         self._paused = self._looked = self._stopping = self._threaded = self._over = False
+        self._begun = self._in_thread = False
         self._progress: tuple[float | None, str] | None = None
         self._progress_timer: asyncio.TimerHandle | None = None
         self._stop_timer: asyncio.TimerHandle | None = None
@@ -102,16 +120,17 @@ class NodeRun:
 
     async def _call(self, make_context: Callable[[RunHandle], Any]) -> Ended:
         item = self.item
-        if item.spec.pausable:
+        if item.spec.pausable or self.attempt > 1:
             await self._going.wait()  # nothing begins during a pause
+        self._begun = True
         run = item.runner.get()
         arguments = bind_inputs(item.spec, self._values)
         context = make_context(self)
         if inspect.iscoroutinefunction(run):
             work = run(context, **arguments)
         else:
-            self._threaded = True
-            work = in_thread(f"action {self.node}", run, context, **arguments)
+            self._threaded = self._in_thread = True
+            work = in_thread(f"action {self.node}", self._to_its_end, run, context, arguments)
         try:
             returned = await self._limited(work)
         except SystemExit as error:  # would end the loop, and with it every robot of this process
@@ -120,15 +139,22 @@ class NodeRun:
             raise RuntimeError("it raised KeyboardInterrupt") from error
         return Ended.of(outcome_of(item.spec, returned))
 
-    def _limited(self, work: Awaitable[Any]) -> Awaitable[Any]:
-        """`work`, within the action's time-out if it has one."""
+    def _to_its_end(self, run: Callable[..., T], context: Any, arguments: Mapping[str, Any]) -> T:
+        try:
+            return run(context, **arguments)
+        finally:
+            self._in_thread = False
+
+    def _limited(self, work: Awaitable[T]) -> Awaitable[T]:
+        """`work`, within the time-out of the action or the node, if there is one."""
         spec = self.item.spec
-        if spec.timeout_s is None:
+        limits = [limit for limit in (spec.timeout_s, self.item.node.timeout_s) if limit is not None]
+        if not limits:
             return work
         self._time = PausableTime(self.clock)
         return within(
             work,
-            spec.timeout_s,
+            min(limits),
             name=spec.name,
             clock=self.clock,
             time=self._time,
@@ -156,6 +182,17 @@ class NodeRun:
             return asyncio.CancelledError()
         return self.task.exception() or self.task.result()
 
+    def may_repeat(self, ending: Ended | BaseException) -> bool:
+        """Whether the node is to be tried again after this end.
+
+        Not if a person or a rule said no, nor beside what has still not ended.
+        """
+        if isinstance(ending, Ended):
+            failed = ending.result is Result.ON_ERROR
+        else:
+            failed = not (isinstance(ending, ActionFailure) and ending.code in _FINAL)
+        return failed and not self._in_thread and self.attempt <= self.item.node.retries
+
     @property
     def spec(self) -> ActionSpec:
         """What runs."""
@@ -174,6 +211,8 @@ class NodeRun:
     @property
     def stands_still(self) -> bool:
         """Whether it honours a pause now, a plain action when it has looked; others are let finish."""
+        if not self._begun:
+            return self.item.spec.pausable or self.attempt > 1
         return self.item.spec.pausable and (self._looked or not self._threaded)
 
     def pause(self) -> None:

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import asyncio
 import functools
+import math
 from collections.abc import Callable, Mapping
 from dataclasses import replace
 from typing import TYPE_CHECKING, Any, Final
@@ -114,7 +115,7 @@ class SubgraphRun(NodeRun):
         inner = self._inner = self._start(self._values)
         inner.on_state = self._on_state
         try:
-            result = await inner.wait()
+            result = await self._limited(inner.wait())
         finally:
             inner.on_state = None
         if inner.state is GraphState.ERROR and self._timed_out is not None:
@@ -122,6 +123,12 @@ class SubgraphRun(NodeRun):
         # An inner graph that ran dry will not come to its exit: the outer one must hear of it.
         failed = result is Result.ON_HALTED
         return Ended(Result.ON_ERROR if failed else result, inner.exit_values())
+
+    def _expired(self) -> float:
+        """The time is over: the inner graph is stopped, which ends by itself."""
+        if self._inner is not None:
+            self._inner.stop()
+        return math.inf
 
     @property
     def inner_name(self) -> str:
@@ -188,6 +195,10 @@ class RemoteRun(NodeRun):
         self._stopping = True
         self._stop_timer = self._loop.call_later(timeout_s, timed_out)
         self.resume()
+
+    def may_repeat(self, ending: Ended | BaseException) -> bool:
+        """See `NodeRun.may_repeat`; that is for the engine of its actor to do."""
+        return False
 
     async def abandon(self) -> bool:
         """See `NodeRun.abandon`; nothing is lost by not waiting for others."""

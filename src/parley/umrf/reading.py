@@ -3,7 +3,9 @@
 from __future__ import annotations
 
 import json
+import math
 from collections.abc import Callable, Generator, Mapping
+from dataclasses import replace
 from typing import Any, Final, TypeVar
 
 from parley.errors import GraphRefusedError, InvalidMessageError, Problem
@@ -23,10 +25,13 @@ from parley.umrf.model import (
     Result,
 )
 
-__all__ = ["MAX_INSTANCE_ID", "SLICE", "Reader", "in_one_go", "load_object"]
+__all__ = ["EXTRAS", "MAX_INSTANCE_ID", "SLICE", "Reader", "in_one_go", "load_object"]
 
 MAX_INSTANCE_ID: Final = 65535
 MAX_MESSAGES: Final = 10
+MAX_RETRIES: Final = 100
+EXTRAS: Final = "parley"
+"""The key of a node or a descriptor for what UMRF does not know; other engines ignore it."""
 SLICE: Final = 50
 """So many nodes of a graph are read, checked or written in one go, which takes about a millisecond."""
 
@@ -81,7 +86,10 @@ class Reader:
         for index, item in enumerate(actions):
             if index % SLICE == SLICE - 1:
                 yield
-            nodes.append(self.node(item, f"actions[{index}]"))
+            node = self.node(item, f"actions[{index}]")
+            if node is not None and EXTRAS in item:
+                node = self._limited(node, item[EXTRAS], f"actions[{index}].{EXTRAS}")
+            nodes.append(node)
         complete = tuple(node for node in nodes if node is not None)
         if len(actions) == 1 and complete and "graph_entry" not in raw and "graph_exit" not in raw:
             entry: tuple[ChildRelation, ...] = (ChildRelation(complete[0].ref),)
@@ -119,6 +127,22 @@ class Reader:
             messages=self._messages(raw, path),
         )
         return node if name and kind else None
+
+    def _limited(self, node: Node, raw: Any, path: str) -> Node:
+        """The node with what we know besides UMRF; what descriptors say at that place is theirs."""
+        if not isinstance(raw, Mapping):
+            self._problem(path, f"expected an object, got {_kind(raw)}")
+            return node
+        retries, timeout_s = raw.get("retries", 0), raw.get("timeout_s")
+        if type(retries) is not int or not 0 <= retries <= MAX_RETRIES:
+            self._problem(
+                f"{path}.retries", f"expected a whole number from 0 to {MAX_RETRIES}, got {retries!r}"
+            )
+            retries = 0
+        if timeout_s is not None and (type(timeout_s) not in (int, float) or not 0 < timeout_s < math.inf):
+            self._problem(f"{path}.timeout_s", f"expected seconds above 0, got {timeout_s!r}")
+            timeout_s = None
+        return replace(node, retries=retries, timeout_s=timeout_s)
 
     def _child(self, raw: Any, path: str) -> ChildRelation | None:
         ref = self._ref(raw, path)

@@ -120,6 +120,8 @@ def save_node(item: FlowNode) -> dict[str, Any]:
     for key, names in (("transferred", item.transferred), ("received", item.received), ("lost", lost)):
         if names:
             saved[key] = sorted(names)
+    if item.skipped is not None:
+        saved["skipped"] = item.skipped.value
     if item.log:
         saved["log"] = [(line.timestamp, line.message) for line in list(item.log)]
     return saved
@@ -215,6 +217,7 @@ def _load_node(item: FlowNode, kept: Mapping[str, Any]) -> None:
     item.last_values = dict(kept.get("last", {}))
     item.outputs = dict(kept.get("outputs", {}))
     item.received = set(kept.get("received", ()))
+    item.skipped = Result(kept["skipped"]) if "skipped" in kept else None
     item.log.clear()
     item.log.extend(LogMessage(timestamp, message) for timestamp, message in kept.get("log", ()))
     item.touch()

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import asyncio
+import math
 from collections.abc import Awaitable, Callable
 from typing import TypeVar
 
@@ -60,7 +61,7 @@ async def within(
         time: How much of it has passed.
         going: Returns once no pause is in force.
         on_expiry: Called when the time is over; gives the wall time after which to cancel, for work that can
-            only be asked to end.
+            only be asked to end; infinite if it surely ends.
 
     Raises:
         ActionFailure: `timed_out`.
@@ -74,8 +75,9 @@ async def within(
                 await going()
                 await clock.sleep(left_s)
             expired = True
-            await asyncio.sleep(on_expiry())
-            scope.reschedule(0.0)
+            if (grace_s := on_expiry()) < math.inf:
+                await asyncio.sleep(grace_s)
+                scope.reschedule(0.0)
 
         watcher = asyncio.create_task(watch(), name=f"time-out of {name}")
         try:

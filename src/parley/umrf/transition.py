@@ -34,7 +34,7 @@ class Transition:
     instance_id: int = -1
     cause: str = ""
     """`start`, `edge`, `bypass`, `run` (the action itself), `dry`, `exit`, `stop`, `pause`, `resume`,
-    `modify`, `continue`, `restart`, `round` (of a spontaneous node), `end` (of one step), `restore`
+    `modify`, `continue`, `restart`, `retry`, `round` (of a spontaneous node), `end` (of one step), `restore`
     (taken over from a process that was killed)."""
     result: Result | None = None
     """How a node or the graph ended."""

@@ -170,6 +170,7 @@ REFUSED: list[tuple[str, Callable[[], Graph]]] = [
     ("control_response", lambda: graph({("A", "B"): "run stop bypass"})),
     ("stopped_response", stopped),
     ("spontaneous", lambda: graph({}, nodes={"A": {"type": "spontaneous"}})),
+    ("limits", lambda: graph({}, nodes={"A": {"retries": 1}})),
     ("several_actors", lambda: graph({("A", "B"): DEFAULT}, nodes={"A": {"actor": "a"}})),
     ("three_ways", lambda: graph({("A", "B"): "run ignore ignore", ("A", "C"): "ignore run ignore"})),
     ("self_edge", lambda: graph({("A", "A"): "ignore run ignore"})),

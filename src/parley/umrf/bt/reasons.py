@@ -16,6 +16,7 @@ EXPORT_REASONS: Final[Mapping[str, str]] = MappingProxyType(
         "control_response": "a condition answers with `stop`, `pause` or `restart`",
         "stopped_response": "a condition answers `on_stopped` with anything but `ignore`",
         "spontaneous": "a spontaneous action runs until it is stopped",
+        "limits": "an action has a retry count or a time limit of its own",
         "several_actors": "actions of more than one actor stand in one graph",
         "three_ways": "true, false and error lead to three different places",
         "entry_waits": "an action is an entry and also requires a parent",

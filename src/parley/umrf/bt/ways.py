@@ -161,6 +161,8 @@ class Ways:
             path = f"actions[{index}]"
             if node.type == "spontaneous":
                 yield refusal("spontaneous", f"{path}.type", node.full_name)
+            if node.retries or node.timeout_s is not None:
+                yield refusal("limits", f"{path}.parley", node.full_name)
             for position, relation in enumerate(node.parents):
                 yield from self._conditions(relation, f"{path}.parents[{position}]", node)
         for position, relation in enumerate(self.graph.exit):
