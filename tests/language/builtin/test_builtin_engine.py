@@ -21,10 +21,10 @@ from tests.language.builtin.worlds import CATALOGUE, NAMES, SENTENCES, THINGS, a
 ENGINE = BuiltinLanguage()
 STRANGE = "glim pot,zorb,quell stand,vantry,bulber,norrick,plaunt,thrum,skeel,oblex"
 ODD = ["uh", "and", "then", "not", "if", ",", ".", "…", "3", "½", "it", "’s", "\u200d", "é"]
-UNCERTAIN = """don't go to the office; if the front gate is open close it; go to the zeppelin; frobnicate it;
+UNCERTAIN = """don't go to the office; go to the zeppelin; frobnicate it;
 check every door except the last one; turn left; move forward; ; ?!; the; go to the office at six; stop;
 hello; somebody fell; Kim is in the office; where is the red box; bring it to me; never open the front gate;
-check the pump and if it is on go to the office; go to all the gates; go between the desk and the lamp"""
+go to all the gates; go between the desk and the lamp"""
 
 
 def calls(given: Situation) -> list[tuple[str, list[str]]]:

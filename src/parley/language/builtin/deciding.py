@@ -7,103 +7,86 @@ from dataclasses import replace
 
 from parley.language.base import Situation
 from parley.language.builtin.answers import answer
-from parley.language.builtin.decision import Answer, Ask, Control, Decision, Deed, Do, Remember, Told
+from parley.language.builtin.decision import Answer, Ask, Control, Decision, Do, Remember, Told
 from parley.language.builtin.deeds import Builder
 from parley.language.builtin.facts import places, told_of
 from parley.language.builtin.lexicon import Lexicon
+from parley.language.builtin.planner import Planner, orders_of
 from parley.language.builtin.reading import Reading
 from parley.language.builtin.skills import Skills
-from parley.language.builtin.spans import Parse
-from parley.language.builtin.wishes import Wish
+from parley.language.builtin.structure import Part, Unclear, arranged
+from parley.language.builtin.tokens import tokenize
 from parley.language.control import control_of
 
-__all__ = ["AGREED", "ALONE", "decide"]
-
-AGREED = 0.3
-"""So much the tagger must believe in the least certain part of a wish that the lexicon agrees with."""
-ALONE = 0.75
-"""So much where the lexicon does not know the verb."""
+__all__ = ["decide"]
 
 
 def decide(
     situation: Situation,
-    parse: Parse,
-    reading: Reading,
+    parts: tuple[Part, ...],
     skills: Skills,
     lexicon: Lexicon,
     reader: Callable[[str], Reading],
 ) -> Decision:
-    """What to do, ask, remember or say."""
-    starts = [token.start for token in parse.tokens]
-    told = told_of(reading, situation.message, starts, lexicon)
-    orders = tuple(
-        wish
-        for wish in reading.wishes
-        if wish.act in ("order", "edit", "answer") and wish.frame not in _NO_DEED
-    )
+    """What to do, ask, remember or say.
+
+    Args:
+        situation: What is known.
+        parts: The clauses of the message, each read.
+        skills: What the robot can do.
+        lexicon: Words.
+        reader: Reads what is remembered.
+    """
+    told = _told(situation, parts, lexicon)
+    orders = [wish for part in parts for wish in orders_of(part.reading)]
     if not orders:
-        return _without_order(situation, reading, told, lexicon, reader)
-    doubt = _doubt(reading, orders) or _amends(situation, parse, lexicon) or _for_another(situation, reading)
-    if doubt is not None:
-        return replace(doubt, told=told)
+        whole = _whole([part.reading for part in parts if part.clause.link == "main"])
+        return _without_order(situation, whole, told, lexicon, reader)
+    doubt = _amends(situation, lexicon) or _for_another(situation, parts)
+    nodes = arranged(parts, lexicon)
+    if isinstance(nodes, Unclear):
+        doubt = doubt or Ask(nodes.question)
+    if doubt is not None or isinstance(nodes, Unclear):
+        return replace(doubt or Ask("Please say it in other words."), told=told)
     builder = Builder(situation, skills, lexicon, places(situation.memory, reader, lexicon))
-    deeds: list[Deed] = []
-    builder.told_about(reading.about)
-    if reading.manner:
-        builder.unheeded(" ".join(reading.manner))
-    for filler in reading.loose:
-        builder.loose(filler)
-    for wish in reading.wishes:
-        if wish.frame == "BELOC":
-            for filler in wish.fillers:
-                builder.loose(filler)
-        if wish not in orders:
-            continue
-        made = builder.deeds(wish)
-        if isinstance(made, Ask):
-            return replace(made, told=told)
-        deeds += _without_repeats(deeds, made)
+    deeds = Planner(builder).planned(nodes)
+    if isinstance(deeds, Ask):
+        return replace(deeds, told=told)
+    while deeds and deeds[-1].open_ended:
+        deeds.pop()
+    if not deeds:
+        left = " ".join(note.text for note in builder.notes)
+        return Answer(f"All right. {left}") if left else Ask("I stay here. What shall I do?", told=told)
     return Do(tuple(deeds), tuple(builder.notes), told)
 
 
-def _without_repeats(deeds: list[Deed], more: list[Deed]) -> list[Deed]:
-    """Without the way to where the last deeds have led already."""
-    ways = [deed for deed in deeds if deed.frame == "GO"]
-    size = len([deed for deed in more if deed.frame == "GO"])
-    there = 0 < size < len(more) and deeds and deeds[-1].frame == "GO" and ways[-size:] == more[:size]
-    return more[size:] if there else more
+def _told(situation: Situation, parts: tuple[Part, ...], lexicon: Lexicon) -> tuple[Told, ...]:
+    """The facts among what is said as such: not those that something depends on."""
+    found: list[Told] = []
+    for part in parts:
+        if part.clause.link == "main":
+            starts = [token.start for token in part.parse.tokens]
+            ends = part.parse.tokens[-1].end
+            found += told_of(part.reading, situation.message[:ends], starts, lexicon)
+    return tuple(found)
 
 
-_NO_DEED = frozenset({"BELOC", "BECAT", "REMEMBER", "FORGET"})
+def _whole(readings: list[Reading]) -> Reading:
+    """What several clauses say together."""
+    if len(readings) == 1:
+        return readings[0]
+    return Reading(
+        frozenset(act for reading in readings for act in reading.acts),
+        tuple(wish for reading in readings for wish in reading.wishes),
+        tuple(filler for reading in readings for filler in reading.loose),
+        tuple(word for reading in readings for word in reading.left_over),
+    )
 
 
-def _doubt(reading: Reading, orders: tuple[Wish, ...]) -> Ask | None:
-    """Why an order is not certain enough to be carried out."""
-    if reading.left_over:
-        return Ask(
-            f"I do not understand “{' '.join(reading.left_over)}” in this. Please say it in other words."
-        )
-    if (
-        "alarm" in reading.acts
-        or "question" in reading.acts
-        or "control" in reading.acts
-        or "edit" in reading.acts
-    ):
-        return Ask("I am not sure what you want me to do. Please say one thing at a time.")
-    for wish in orders:
-        weak = wish.share < (AGREED if wish.witness == "agrees" else ALONE)
-        if weak or wish.witness == "differs":
-            what = f"“{wish.verb}”" if wish.verb else f"“{wish.fillers[0].text}”"
-            return Ask(f"I am not sure what you mean by {what}. Please say it in other words.")
-    for filler in reading.loose:
-        if filler.role not in ("A", "T", "L", "M"):
-            return Ask(f"I do not understand what “{filler.text}” belongs to. Please say it in other words.")
-    return None
-
-
-def _amends(situation: Situation, parse: Parse, lexicon: Lexicon) -> Ask | None:
+def _amends(situation: Situation, lexicon: Lexicon) -> Ask | None:
     """A change of the plan that runs is not an order behind it."""
-    words = [token.text for token in parse.tokens if token.low in lexicon.classes["amending"]]
+    tokens = tokenize(situation.message)
+    words = [token.text for token in tokens if token.low in lexicon.classes["amending"]]
     if not situation.queue or not words:
         return None
     return Ask(
@@ -111,9 +94,9 @@ def _amends(situation: Situation, parse: Parse, lexicon: Lexicon) -> Ask | None:
     )
 
 
-def _for_another(situation: Situation, reading: Reading) -> Ask | None:
+def _for_another(situation: Situation, parts: tuple[Part, ...]) -> Ask | None:
     """An order to somebody else is not carried out by this robot."""
-    called = {word for filler in reading.loose if filler.role == "A" for word in filler.words}
+    called = {word for part in parts for f in part.reading.loose if f.role == "A" for word in f.words}
     other = next(
         (name for name in situation.robots if name.lower() in called and name != situation.robot), None
     )

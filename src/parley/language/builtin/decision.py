@@ -24,6 +24,12 @@ class Deed:
     """Role -> words for the reply."""
     hidden: bool = False
     """Whether it only prepares the next one, and is not worth a word."""
+    check: Deed | None = None
+    """The earlier deed that decides whether it is done."""
+    open_ended: bool = False
+    """Whether it is to wait for what comes next, and means nothing if nothing comes."""
+    holds: bool = True
+    """With which result of that."""
     text: str = ""
     """How the reply says it, where no frame does."""
 

@@ -1,101 +1,135 @@
-"""From one wish to deeds: its roles grounded by type, an action for its frame, or steps that amount to it."""
+"""From one wish to deeds: an action for its frame, or steps that amount to it."""
 
 from __future__ import annotations
 
-from collections.abc import Sequence
-from dataclasses import dataclass, field
+from dataclasses import dataclass
 
-from parley.language.base import Situation
-from parley.language.builtin.amounts import Amount, amount_of, direction_of
-from parley.language.builtin.decision import Ask, Deed, Note
-from parley.language.builtin.facts import Place, known_place
-from parley.language.builtin.lexicon import Lexicon, stem
+from parley.language.builtin.amounts import amount_of
+from parley.language.builtin.checks import Look, check
+from parley.language.builtin.decision import Ask, Deed
+from parley.language.builtin.grounding import Value
+from parley.language.builtin.lexicon import stem
+from parley.language.builtin.own import OwnAction
 from parley.language.builtin.owned import owned
 from parley.language.builtin.saying import with_article
-from parley.language.builtin.skills import Skill, Skills
-from parley.language.builtin.things import Mention, link, noun_phrase
+from parley.language.builtin.skills import Skill
+from parley.language.builtin.structure import Part
+from parley.language.builtin.things import Mention, link
+from parley.language.builtin.ways import Ways, typed
 from parley.language.builtin.wishes import Filler, Wish
 from parley.messages.status import Kind
-from parley.world.object_map import MapObject
 
 __all__ = ["Builder"]
 
-_LOGIC = {"C": "a condition", "U": "“until”", "W": "a time", "E": "an exception", "O": "how often"}
-_MOVABLE = frozenset(
-    {"TAKE", "BRING", "GIVE", "PUT", "FIND", "COUNT", "POUR", "CUT", "MIX", "COOK", "DO", "MAKE"}
-)
-
-
-@dataclass(frozen=True, slots=True)
-class Value:
-    """What a role holds: the argument, how the reply says it, and which things of the map it may be."""
-
-    argument: str
-    said: str
-    things: tuple[MapObject, ...] = ()
-    place: Place | None = None
-    """Where it is remembered to be."""
-    amount: Amount | None = None
+_LOGIC = {"C": "a condition", "W": "a time"}
+_MOST_TIMES = 10
 
 
 @dataclass(slots=True)
-class Builder:
-    """Makes the deeds of one message; knows what was spoken of before."""
-
-    situation: Situation
-    skills: Skills
-    lexicon: Lexicon
-    known: Sequence[Place]
-    last_thing: Value | None = None
-    last_person: Value | None = None
-    notes: list[Note] = field(default_factory=list)
+class Builder(Ways):
+    """Makes the deeds of one message."""
 
     def deeds(self, wish: Wish) -> list[Deed] | Ask:
         """The deeds of a wish, or a question."""
+        self.whole = None
+        if wish.own is not None:
+            return self._logic(wish) or self._owned(wish, wish.own)
+        times = self._strange(wish) or self._times(wish)
+        if isinstance(times, Ask):
+            return times
+        values = self._values(wish)
+        if isinstance(values, Ask):
+            return values
+        several = [value for value in values.values() if value.each]
+        if len(several) > 1 or (several and (wish.frame in _ONCE or {*"LS"} & {*values})):
+            return Ask(f"Do you mean all of them: {several[-1].said}? Please say it for one after the other.")
+        for filler in wish.all("M") + wish.all("P"):
+            self.unheeded(filler.text)
+        if several:
+            self.whole = several[0]
+            made = self._for_each(wish, values, several[0])
+        else:
+            for role in "LSGT":
+                self.last_thing = values[role] if role in values and values[role].things else self.last_thing
+            self.last_thing = values.get("T", self.last_thing)
+            made = self._planned(wish, values)
+        return made if isinstance(made, Ask) else made * times
+
+    def _logic(self, wish: Wish) -> Ask | None:
+        """What of its logic no plan takes."""
+        if wish.has("U") and wish.frame not in ("WAIT", "FOLLOW"):
+            return Ask(f"I cannot do that “{wish.all('U')[0].text}” by myself. What shall I do now?")
         logic = next((_LOGIC[filler.role] for filler in wish.fillers if filler.role in _LOGIC), "")
         logic = logic or next((text for f in wish.fillers if (text := self._beyond(f))), "")
-        if wish.negated or wish.otherwise or logic:
-            what = "what not to do" if wish.negated else logic or "“otherwise”"
-            return Ask(
-                f"I understand that there is {what} in this, and I cannot plan that yet. What shall I do now?"
-            )
-        if wish.own is not None:
-            return owned(wish.own, self._grounds)
+        if wish.otherwise or logic:
+            what = logic or "“otherwise”"
+            return Ask(f"There is {what} in this, and I cannot plan that yet. What shall I do now?")
+        return None
+
+    def _strange(self, wish: Wish) -> Ask | None:
+        """Why a wish as a whole cannot be planned."""
+        logic = self._logic(wish)
+        if logic is not None:
+            return logic
         frame = self.lexicon.frames.get(wish.frame)
-        strange = next(
-            (f for f in wish.fillers if frame and f.role not in frame.roles and f.role not in "AMPWI"), None
-        )
+        known = {*frame.roles, *"AMPWIOE"} if frame else set()
+        strange = next((filler for filler in wish.fillers if filler.role not in known), None)
         if frame is None or strange is not None:
             unclear = strange.text if strange else wish.verb
             return Ask(f"I do not understand what “{unclear}” is in this. Please say it otherwise.")
-        twice = next((f for f in wish.fillers if len(wish.all(f.role)) > 1 and f.role not in "AMP"), None)
+        twice = next((f for f in wish.fillers if len(wish.all(f.role)) > 1 and f.role not in "AMPE"), None)
         if twice is not None:
             both = " and ".join(f"“{filler.text}”" for filler in wish.all(twice.role))
             return Ask(f"I do not understand how {both} go together here. Please say it otherwise.")
+        return None
+
+    def _values(self, wish: Wish) -> dict[str, Value] | Ask:
+        """What the roles of a wish hold."""
         values: dict[str, Value] = {}
+        said = [word for filler in wish.all("E") for word in filler.words]
+        self.left_out += tuple(word for word in said if word not in self.lexicon.classes["excepting"])
         for filler in wish.fillers:
-            if (
-                filler.role == "T"
-                and filler.words[-1] in ("yourself", "itself")
-                and wish.frame in ("CONNECT", "DISC", "CHARGE")
-            ):
+            itself = filler.words[-1] in ("yourself", "itself") and wish.frame in (
+                "CONNECT",
+                "DISC",
+                "CHARGE",
+            )
+            if filler.role in "OE" or (filler.role == "T" and itself):
                 continue
-            value = self._value(wish, filler)
+            value = self.value(wish, filler)
             if isinstance(value, Ask):
                 return value
             if value is not None:
                 values[filler.role] = value
-        for role in "LSGT":
-            self.last_thing = values[role] if role in values and values[role].things else self.last_thing
-        self.last_thing = values.get("T", self.last_thing)
-        for filler in wish.all("M") + wish.all("P"):
-            self.unheeded(filler.text)
-        return self._planned(wish, values)
+        if self.left_out:
+            return Ask(
+                f"I do not know what “{' '.join(self.left_out)}” is left out of. Please say it otherwise."
+            )
+        return values
+
+    def _owned(self, wish: Wish, own: OwnAction) -> list[Deed] | Ask:
+        """The deeds of an action of the robot's own: one, or one for each of a set."""
+        fillers = (one.filler for one in own.fills if one.parameter.kind in ("place", "thing"))
+        several = next((f for f in fillers if self.names_set(f)), None)
+        value = self._thing("DO", several, Mention("none", several.text)) if several is not None else None
+        if isinstance(value, Ask) or value is None or self.bound is not None:
+            return value if isinstance(value, Ask) else owned(own, self._grounds)
+        found: list[Deed] = []
+        for one in value.each or (value,):
+            self.bound = one
+            made = owned(own, self._grounds)
+            self.bound = None
+            if isinstance(made, Ask):
+                return made
+            found += made
+        return found
 
     def _grounds(self, filler: Filler, kind: Kind, about: frozenset[str]) -> tuple[str, str] | Ask:
         """What words mean for an input of an action of the robot's own, of which more is said `about` it."""
         filler = self._within(filler, about)
         mention = link(filler.words, filler.head, self.situation.objects, self.lexicon)
+        if self.bound is not None and self.names_set(filler):
+            return self.bound.argument, self.bound.said
         if any(word in filler.words for word in self.lexicon.classes["quantifiers"] | {"and", "or"}):
             return Ask(
                 f"I do not know yet how to do that with “{filler.text}”. Which one shall I begin with?"
@@ -111,7 +145,7 @@ class Builder:
         if found.place is not None and kind != "person":
             where = link(found.place.where, found.place.head, self.situation.objects, self.lexicon)
             if where.kind == "one":
-                self._used(found.place)
+                self.used(found.place)
                 text = where.things[0].description
                 found = Value(text, with_article(text), where.things)
         self.last_thing = found if kind != "person" else self.last_thing
@@ -138,136 +172,90 @@ class Builder:
             and not small & {*filler.words[1:]}
         )
 
-    def _beyond(self, filler: Filler) -> str:
-        """What in a role cannot be planned yet: all of several, between two, a condition that is no check."""
-        if filler.role in "XKMAP":
-            return ""
-        among = {*filler.words} & self.lexicon.classes["quantifiers"]
-        if among or filler.words[0] == "between":
-            return f"“{next(iter(among), 'between')}”"
-        return "“or”" if "or" in filler.words else ""
+    @property
+    def each(self) -> tuple[Value, ...]:
+        """The things of the set that the last wish was about."""
+        return self.whole.each if self.whole is not None else ()
 
-    def unheeded(self, text: str) -> None:
-        """A part that no action takes, such as the manner: it is said."""
-        self.notes.append(Note(f"I cannot take “{text}” into account."))
-
-    def told_about(self, name: tuple[str, ...]) -> None:
-        """Somebody of whom something was told just now."""
-        if name:
-            text = " ".join(name)
-            self.last_person = Value(text, with_article(text), (), known_place(name, self.known))
-
-    def loose(self, filler: Filler) -> None:
-        """Something that is spoken of before it is wanted."""
-        if filler.role == "T":
-            value = self._thing(
-                "BELOC", filler, link(filler.words, filler.head, self.situation.objects, self.lexicon)
+    def _for_each(self, wish: Wish, values: dict[str, Value], several: Value) -> list[Deed] | Ask:
+        """The same for one after the other."""
+        found: list[Deed] = []
+        for one in several.each:
+            made = self._planned(
+                wish, {role: one if value is several else value for role, value in values.items()}
             )
-            self.last_thing = value if isinstance(value, Value) else self.last_thing
-
-    # -- values --
-
-    def _value(self, wish: Wish, filler: Filler) -> Value | Ask | None:
-        kind = self.lexicon.frames[wish.frame].roles.get(filler.role, "text")
-        if kind == "direction" or (kind == "thing" and filler.role == "H"):
-            direction = direction_of(filler.words, self.lexicon)
-            if direction is None:
-                return Ask(f"Which direction is “{filler.text}”?")
-            return Value(direction, direction)
-        if kind in ("distance", "angle", "duration"):
-            amount = amount_of(filler.words)
-            if amount is None or amount.kind not in (kind, "number"):
-                return Ask(f"How much is “{filler.text}”? Please say a number and its unit.")
-            if amount.kind == "number" and kind == "distance":
-                return Ask(f"{amount} of what: metres, feet?")
-            text = str(amount) if amount.unit else f"{amount} degrees"
-            return Value(text, text, amount=amount)
-        if kind == "text":
-            return Value(filler.text, filler.text)
-        mention = link(filler.words, filler.head, self.situation.objects, self.lexicon)
-        if kind == "person":
-            return self._person(filler, mention)
-        return self._thing(wish.frame, filler, mention)
-
-    def _person(self, filler: Filler, mention: Mention) -> Value | Ask:
-        if mention.kind == "pronoun":
-            return self.last_person or Ask(f"Who is “{filler.text}”?")
-        if mention.kind in ("speaker", "here"):
-            return Value("operator", "you")
-        name, rest = noun_phrase(filler.words, filler.head, self.lexicon)
-        text = " ".join((*name, *rest))
-        found = Value(text, with_article(text), mention.things, known_place(name, self.known))
-        self.last_person = found
+            if isinstance(made, Ask):
+                return made
+            found += made
+        self.last_thing = several
         return found
 
-    def _thing(self, frame: str, filler: Filler, mention: Mention) -> Value | Ask:
-        if mention.kind == "pronoun":
-            before = self.last_person if mention.text in self.lexicon.classes["persons"] else self.last_thing
-            return before or Ask(f"What do you mean by “{filler.text}”?")
-        if mention.kind in ("speaker", "here"):
-            return Value("operator", "you")
-        name, rest = noun_phrase(filler.words, filler.head, self.lexicon)
-        if mention.kind == "one":
-            thing = mention.things[0]
-            return Value(thing.description, with_article(thing.description), mention.things)
-        if mention.kind == "part":
-            return Value(mention.text, with_article(mention.text), mention.things)
-        if mention.kind in ("several", "unclear"):
-            names = tuple(dict.fromkeys(thing.description for thing in mention.things))
-            rest = () if mention.kind == "unclear" else rest
-            marked = {word for thing in self.situation.objects for word in thing.description.lower().split()}
-            rest = tuple(word for word in rest if word in marked or word in self.lexicon.classes["parts"])
-            if not rest and not self._finds_out() and len(names) > 1:
-                return Ask(
-                    f"Which one do you mean: {' or '.join(with_article(n) for n in names[:6])}?", names[:6]
-                )
-            if not rest and not self._finds_out():
-                return Ask(
-                    f"There are {len(mention.things)} things called “{names[0]}”. Which one do you mean?"
-                )
-            return Value(mention.text, with_article(mention.text), mention.things)
-        place = known_place(name, self.known)
-        if place is not None:
-            return Value(place.thing, with_article(place.thing), (), place)
-        if (
-            frame in _MOVABLE
-            and filler.role == "T"
-            and (frame in ("FIND", "COUNT", "DO", "MAKE") or rest or not self.situation.objects)
-        ):
-            return Value(mention.text, with_article(mention.text))
-        if frame in ("PHOTO", "BELOC"):
-            return Value(mention.text, with_article(mention.text))
-        return Ask(f"I do not know any “{mention.text}” here. Which thing or place do you mean?")
+    def _times(self, wish: Wish) -> int | Ask:
+        """How often a wish is to be done."""
+        often = wish.all("O")
+        if not often:
+            return 1
+        words = [word for word in often[0].words if word not in ("times", "rounds", "time", "for")]
+        count = 2 if words == ["twice"] else 3 if words == ["thrice"] else 0
+        amount = amount_of(words) if words else None
+        count = count or (int(amount.value) if amount is not None and amount.kind == "number" else 0)
+        if len(often) > 1 or not 1 <= count <= _MOST_TIMES:
+            return Ask(f"I cannot do that “{often[0].text}” by myself. Shall I do it once, now?")
+        return count
 
-    def _finds_out(self) -> bool:
-        """Whether an action of the robot asks which of several things is meant, when it comes to that."""
-        return "LOCATE" in self.skills
+    def _beyond(self, filler: Filler) -> str:
+        """What in a role cannot be planned yet: a place between two, an alternative."""
+        if filler.role in "XKMAP":
+            return ""
+        if "between" in filler.words and not self.is_placed(filler):
+            return "“between”"
+        return "“or”" if "or" in filler.words else ""
 
-    # -- steps --
+    def check(self, part: Part) -> Look | Ask:
+        """The deeds that find out whether a condition holds."""
+        return check(self, part.low, part.text)
 
     def _planned(self, wish: Wish, values: dict[str, Value]) -> list[Deed] | Ask:
-        if wish.frame in ("MOVE", "TURN"):
-            missing = self._steering(wish, values)
-            if missing is not None:
-                return missing
-        if wish.frame == "GO" and "N" in values and "G" in values:
-            return Ask(f"Shall I go to {values['G'].said}, or only {values['N'].said} in that direction?")
-        if wish.frame == "BRING" and not {"R", "G"} & set(values) and wish.verb.split()[0] not in _TO_ME:
-            return Ask("Where shall I bring it?")
+        missing = self._missing(wish, values)
+        if missing is not None:
+            return missing
         if wish.frame == "GO":
-            return self._way(values.get("G") or values.get("L"))
-        if wish.frame == "FACE" and "G" in values:
-            values["T"] = values.pop("G")
-        if wish.frame == "FACE" and "H" in values:
-            values["T"] = values.pop("H")
+            leads_back = not values and {*wish.verb.split()} & {"back", "return"}
+            return self.way_back() if leads_back else self.way(values.get("G") or values.get("L"))
+        if wish.frame == "WAIT":
+            return self.wait(wish, values)
+        if wish.frame == "LOOK" and "K" in values and wish.all("K")[0].words[0] in ("if", "whether", "that"):
+            return self._checked(wish, values)
+        for role in "GH":
+            if wish.frame == "FACE" and role in values:
+                values["T"] = values.pop(role)
         skill = self.skills.get(wish.frame)
         if skill is not None:
             return self._direct(wish, skill, values)
         other = _WAYS.get(wish.frame)
         if other is not None:
             return other(self, values)
-        gloss = self.lexicon.frames[wish.frame].gloss
-        return Ask(f"I have no action to {gloss}. What else can I do for you?")
+        return Ask(
+            f"I have no action to {self.lexicon.frames[wish.frame].gloss}. What else can I do for you?"
+        )
+
+    def _missing(self, wish: Wish, values: dict[str, Value]) -> Ask | None:
+        """What has to be said before a wish is certain."""
+        if wish.frame in ("MOVE", "TURN"):
+            return self._steering(wish, values)
+        if wish.frame == "GO" and "N" in values and "G" in values:
+            return Ask(f"Shall I go to {values['G'].said}, or only {values['N'].said} in that direction?")
+        if wish.frame == "BRING" and not {"R", "G"} & set(values) and wish.verb.split()[0] not in _TO_ME:
+            return Ask("Where shall I bring it?")
+        return None
+
+    def _checked(self, wish: Wish, values: dict[str, Value]) -> list[Deed] | Ask:
+        """Looking whether something is so."""
+        thing = values.get("T") or values.get("L")
+        way = self.way_to_thing(thing)
+        self.last_thing = thing or self.last_thing
+        looked = check(self, wish.all("K")[0].words[1:], values["K"].argument.partition(" ")[2])
+        return looked if isinstance(looked, Ask) else [*way, *looked.deeds]
 
     def _steering(self, wish: Wish, values: dict[str, Value]) -> Ask | None:
         """What has to be said of a movement; "forward" and "back" may be in the verb."""
@@ -301,12 +289,12 @@ class Builder:
         for role, value in values.items():
             slot = _slot(skill, role, values)
             if slot is not None and slot not in arguments:
-                given = _typed(value, skill.action.inputs[slot])
+                given = typed(value, skill.action.inputs[slot])
                 if given is None:
                     return Ask(f"I cannot {gloss} with “{value.said}”. Please say it otherwise.")
                 arguments[slot], said[role] = given, value.said
                 continue
-            way = self._way(value) if role in "SL" and "GO" in self.skills else None
+            way = self.nearing(value) if role in "SL" and "GO" in self.skills else None
             if isinstance(way, list):
                 before += way
             elif wish.frame in _LOOSE:
@@ -316,43 +304,13 @@ class Builder:
         if set(skill.action.inputs) - set(arguments) - set(skill.action.optional):
             return Ask(f"I can {gloss}, but I need to know more: what, or where?")
         if "looks" in skill.action.effects and "GO" in self.skills:
-            before += self._way_to_thing(values.get("T") or self._spoken_of(wish.one("K")))
-        return [*before, Deed(wish.frame, skill, arguments, said)]
+            before += self.way_to_thing(values.get("T") or self._named_in(wish.one("K")))
+        deed = Deed(wish.frame, skill, arguments, said)
+        if "looks" in skill.action.effects or wish.frame in ("LOOK", "FIND"):
+            self.last_check = deed
+        return [*before, deed]
 
-    def _way(self, goal: Value | None) -> list[Deed] | Ask:
-        skill = self.skills.get("GO")
-        if skill is None or goal is None:
-            return Ask("Where to?" if skill else "I cannot drive anywhere.")
-        if goal.place is not None:
-            self._used(goal.place)
-            text = " ".join(goal.place.where)
-            mention = link(goal.place.where, goal.place.head, self.situation.objects, self.lexicon)
-            if mention.kind == "one":
-                text = mention.things[0].description
-            goal = Value(text, with_article(text), mention.things)
-        said = {"G": goal.said}
-        if not skill.takes_pose:
-            slot = skill.roles.get("G")
-            return [Deed("GO", skill, {slot: goal.argument}, said)] if slot else Ask("Where to?")
-        locate = self.skills.get("LOCATE")
-        if locate is None or not locate.roles:
-            return Ask("I cannot find out where that is.")
-        if goal.argument == "operator" or not goal.things:
-            unknown = "you are" if goal.argument == "operator" else f"{goal.said} is"
-            return Ask(f"I do not know where {unknown}. Which place is it near?")
-        return [
-            Deed("GO", locate, {next(iter(locate.roles.values())): goal.argument}, said, hidden=True),
-            Deed("GO", skill, {}, said),
-        ]
-
-    def _way_to_thing(self, thing: Value | None) -> list[Deed]:
-        """The way to what is to be looked at, if it is known where that is."""
-        if thing is None or not (thing.things or thing.place):
-            return []
-        way = self._way(thing)
-        return [] if isinstance(way, Ask) else way
-
-    def _spoken_of(self, filler: Filler | None) -> Value | None:
+    def _named_in(self, filler: Filler | None) -> Value | None:
         """The one thing of the map that a statement names, if it names one."""
         said = {stem(word) for word in filler.words} if filler else set()
         names = [(item, (item.description, *item.aliases)) for item in self.situation.objects]
@@ -361,28 +319,22 @@ class Builder:
             return None
         return Value(found[0].description, with_article(found[0].description), tuple(found))
 
-    def _used(self, place: Place) -> None:
-        note = Note(f"I remember: {place.memory.data.rstrip('.')}.", place.memory.name)
-        if note not in self.notes:
-            self.notes.append(note)
-
     def _look_for(self, values: dict[str, Value]) -> list[Deed] | Ask:
         thing, look = values.get("T"), self.skills.get("LOOK")
         if thing is None or look is None:
             return Ask("I cannot look for things." if look is None else "What shall I look for?")
         way: list[Deed] | Ask = []
         if "L" in values or "S" in values:
-            way = self._way(values.get("L") or values["S"])
+            way = self.nearing(values.get("L") or values["S"])
         elif thing.place is not None or thing.things:
-            way = self._way(thing)
+            way = self.nearing(thing)
         else:
             return Ask(f"I do not know where {thing.said} is. Where shall I look?")
         if isinstance(way, Ask):
             return way
-        return [
-            *way,
-            Deed("FIND", look, {next(iter(look.roles.values())): thing.argument}, {"T": thing.said}),
-        ]
+        deed = Deed("FIND", look, {next(iter(look.roles.values())): thing.argument}, {"T": thing.said})
+        self.last_check = deed
+        return [*way, deed]
 
     def _take(self, values: dict[str, Value]) -> list[Deed] | Ask:
         thing, ask = values.get("T"), self.skills.get("ASK")
@@ -402,7 +354,7 @@ class Builder:
             return taken
         if goal is None:
             return Ask("Where shall I bring it?")
-        way = self._way(goal)
+        way = self.way(goal)
         return way if isinstance(way, Ask) else [*taken, *way]
 
 
@@ -412,10 +364,10 @@ _CLAUSE = frozenset(
 """Words with which a description begins that is more than a name."""
 _TO_ME = frozenset({"bring", "fetch", "get", "retrieve", "go", "give", "want", "find"})
 """Verbs of bringing that mean the speaker if nobody is named."""
+_ONCE = frozenset({"SAY", "ASK", "WAIT", "TURN", "MOVE", "CONNECT", "DISC", "MIX", "ANSWER", "FOLLOW"})
+"""What is not done to one thing after the other."""
 _LOOSE = frozenset({"FOLLOW", "PHOTO"})
 """What is done all the same if a part of it has no place in the action; that is said."""
-_METRES = {"m": 1.0, "cm": 0.01, "mm": 0.001, "feet": 0.3048, "inches": 0.0254, "yards": 0.9144}
-_SECONDS = {"s": 1.0, "min": 60.0, "h": 3600.0}
 
 
 def _slot(skill: Skill, role: str, values: dict[str, Value]) -> str | None:
@@ -424,16 +376,6 @@ def _slot(skill: Skill, role: str, values: dict[str, Value]) -> str | None:
         return skill.roles[role]
     like = (other for other in _ALIKE.get(role, "") if other in skill.roles and other not in values)
     return next((skill.roles[other] for other in like), None)
-
-
-def _typed(value: Value, kind: str) -> str | float | None:
-    """What is given to a parameter of a type; None if it cannot be: numbers are metres, degrees, seconds."""
-    if kind == "string":
-        return value.argument
-    if kind != "number" or value.amount is None:
-        return None
-    scale = (_METRES | _SECONDS).get(value.amount.unit, 1.0)
-    return round(value.amount.value * scale, 4)
 
 
 _ALIKE = {"G": "RL", "R": "G", "K": "T", "T": "KX", "S": "G", "L": "S", "H": "T"}

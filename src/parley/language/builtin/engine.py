@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Sequence
+from dataclasses import replace
 from functools import lru_cache
 
 from parley.language.base import (
@@ -14,6 +15,7 @@ from parley.language.base import (
     Situation,
 )
 from parley.language.builtin import pictures, recovery
+from parley.language.builtin.clauses import Clause, clauses
 from parley.language.builtin.deciding import decide
 from parley.language.builtin.decision import Ask, Decision
 from parley.language.builtin.lexicon import lexicon
@@ -22,6 +24,7 @@ from parley.language.builtin.reading import Reading, read
 from parley.language.builtin.reply import to_chat
 from parley.language.builtin.skills import SkillTable
 from parley.language.builtin.spans import Parse, parse
+from parley.language.builtin.structure import Part
 from parley.language.builtin.tagger import shipped_tagger
 from parley.language.builtin.things import link
 from parley.language.builtin.tokens import spoken, tokenize
@@ -44,6 +47,7 @@ class BuiltinLanguage:
         self._skills: SkillTable | None = None
         self._own: OwnActions | None = None
         self._read = lru_cache(maxsize=256)(self._read_text)
+        self._parts = lru_cache(maxsize=64)(self._parted)
 
     @property
     def label(self) -> str:
@@ -66,14 +70,15 @@ class BuiltinLanguage:
             return Ask("That is too much at once. Please say it in shorter pieces.")
         if not any(token.is_word for token in tokenize(situation.message)):
             return Ask("I did not understand that. Please say what I should do.")
-        parsed, reading = self._read(situation.message)
+        parts = self._parts(situation.message)
         if self._skills is None or self._own is None:
             self._skills = SkillTable(shipped_tagger(), self._lexicon)
             self._own = OwnActions(shipped_tagger(), self._lexicon)
         skills = self._skills.of(situation.catalogue)
         framed = frozenset(skill.action.name for skill in skills.values())
-        reading = self._own.applied(parsed, reading, situation.catalogue, framed)
-        return decide(situation, parsed, reading, skills, self._lexicon, self.reading)
+        own = self._own.applied
+XX
+        return decide(situation, parts, skills, self._lexicon, self.reading)
 
     def reading(self, text: str) -> Reading:
         """What a text says, whatever the situation."""
@@ -83,6 +88,24 @@ class BuiltinLanguage:
         tokens = spoken(tokenize(text)) or tokenize(text)
         parsed = parse(tokens, shipped_tagger().tag([token.text for token in tokens]))
         return parsed, read(parsed, self._lexicon)
+
+    def _parted(self, text: str) -> tuple[Part, ...]:
+        """The clauses of a message, each read by itself."""
+        parsed, reading = self._read(text)
+        found = clauses(parsed, self._lexicon)
+        if len(found) == 1:
+            return (Part(found[0], parsed, reading, text),)
+        return tuple(self._part(text, clause, parsed) for clause in found)
+
+    def _part(self, text: str, clause: Clause, whole: Parse) -> Part:
+        tokens = whole.tokens[clause.start : clause.end]
+        if not tokens:
+            nothing = Parse((), (), (), (), ())
+            return Part(clause, nothing, Reading(frozenset(), (), (), ()), "")
+        parsed = parse(tokens, shipped_tagger().tag([token.text for token in tokens]))
+        if not parsed.verbs and any(clause.start <= verb.start < clause.end for verb in whole.verbs):
+            parsed = whole.part(clause.start, clause.end)
+        return Part(clause, parsed, read(parsed, self._lexicon), text[tokens[0].start : tokens[-1].end])
 
     async def select_memories(self, query: str, index: Sequence[MemoryEntry]) -> list[str]:
         """See `Language.select_memories`."""

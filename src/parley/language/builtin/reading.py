@@ -69,14 +69,17 @@ def _merged(parse: Parse) -> list[Span]:
 
 def _without_openers(wishes: list[Wish], parse: Parse) -> list[Wish]:
     """Without a bare "go" or "turn" that only opens the next wish ("go get a box", "turn and face it")."""
-    kept = []
+    kept: list[Wish] = []
     for wish, behind in zip(wishes, [*wishes[1:], None], strict=False):
         near = behind is not None and behind.start - wish.start <= len(wish.verb.split()) + 1
-        bare = not wish.fillers and not wish.negated and wish.frame in ("GO", "TURN", "MOVE")
+        opens = wish.frame in ("GO", "TURN", "MOVE") or wish.verb in ("go", "come")
+        bare = not wish.fillers and not wish.negated and opens
         between = parse.tokens[wish.start : behind.start] if behind is not None else ()
         apart = any(token.low in ("then", ",", ".") for token in between)
-        if not (near and bare and not apart and behind is not None and behind.act == wish.act):
-            kept.append(wish)
+        reports = kept and kept[-1].frame == wish.frame == "LOOK" and not wish.fillers
+        if reports or (near and bare and not apart and behind is not None and behind.act == wish.act):
+            continue
+        kept.append(wish)
     return kept
 
 
@@ -93,7 +96,7 @@ def _filler(parse: Parse, span: Span, lexicon: Lexicon) -> Filler:
         stop = next(behind, len(words))
         if words[head] in small or head >= stop:
             head = stop - 1
-    return Filler(span.role, span.start, span.end, head, words, span.share)
+    return Filler(span.role, span.start, span.end, head, words, span.share, parse.said(span.start, end))
 
 
 def _wish(parse: Parse, verb: Verb, mine: list[Filler], lexicon: Lexicon) -> Wish:
@@ -105,10 +108,30 @@ def _wish(parse: Parse, verb: Verb, mine: list[Filler], lexicon: Lexicon) -> Wis
     known = longer or lexicon.frames_of(words, particles)
     known |= {general for special, general in _KIND_OF.items() if special in known}
     witness: Witness = "agrees" if verb.frame in known else "differs" if known else "unknown"
+    negated = _negated(parse, verb, lexicon)
+    if negated is None:
+        witness = "differs"
     act = parse.acts[verb.start]
     said = " ".join([*words, *particles])
-    share = min([verb.share, *(filler.share for filler in mine)])
-    return Wish(verb.frame, verb.start, said, tuple(mine), share, witness, act, verb.negated, verb.otherwise)
+    return Wish(
+        verb.frame, verb.start, said, tuple(mine), verb.share, witness, act, bool(negated), verb.otherwise
+    )
+
+
+def _negated(parse: Parse, verb: Verb, lexicon: Lexicon) -> bool | None:
+    """Whether a verb is forbidden; None if the tagger and the small words before it do not agree."""
+    low = [token.low for token in parse.tokens]
+    marks = [at for at in range(verb.start) if low[at] in _BREAKS]
+    start = marks[-1] + 1 if marks else 0
+    said = any(word in lexicon.classes["negations"] for word in low[start : verb.end])
+    if said == verb.negated:
+        return said
+    if verb.negated and marks and low[marks[-1]] == "or":
+        return True
+    return False if verb.negated and marks and low[marks[-1]] != "and" else None
+
+
+_BREAKS = frozenset({",", ";", ".", ":", "then", "but", "and", "or"})
 
 
 def _reach(parse: Parse, verb: Verb, lexicon: Lexicon) -> tuple[int, frozenset[str]]:
@@ -197,11 +220,26 @@ def _about(parse: Parse, lexicon: Lexicon) -> tuple[str, ...]:
     return words if end and len(words) < 4 else ()
 
 
+def _leading(parse: Parse, verb: Verb, lexicon: Lexicon) -> set[int]:
+    """The words right before a verb that forbid it or only join it: "but do not", "and never"."""
+    found: set[int] = set()
+    for at in range(verb.start - 1, -1, -1):
+        word = parse.tokens[at].low
+        if word in lexicon.classes["negations"] and verb.negated and _negated(parse, verb, lexicon):
+            found.add(at)
+        elif word == "but":
+            return found | {at}
+        elif word not in lexicon.classes["small"]:
+            return found
+    return found
+
+
 def _left_over(parse: Parse, lexicon: Lexicon) -> tuple[str, ...]:
     taken: set[int] = set()
     for verb in parse.verbs:
         end, _ = _reach(parse, verb, lexicon)
         taken |= {*range(verb.start, end), *verb.particles}
+        taken |= _leading(parse, verb, lexicon)
     for span in parse.spans:
         taken |= set(range(span.start, span.end))
     low = [token.low for token in parse.tokens]

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import itertools
 import re
 from collections.abc import Sequence
 
@@ -23,10 +24,10 @@ def to_chat(decision: Decision, lexicon: Lexicon) -> ChatAction:
     match decision:
         case Do(deeds, notes, told):
             words = [note.text for note in notes] + [_remembered(fact) for fact in told]
-            words.append(f"I will {_listed([said(deed, lexicon) for deed in deeds if not deed.hidden])}.")
+            words.append(f"I will {_plan([deed for deed in deeds if not deed.hidden], lexicon)}.")
             return ChatAction(
                 message_response=" ".join(words),
-                queue=tuple(_call(deed, lexicon) for deed in deeds),
+                queue=tuple(_call(deed, deeds[:place], lexicon) for place, deed in enumerate(deeds)),
                 system_cmd=_memories(told),
                 sources=tuple(note.source for note in notes if note.source),
             )
@@ -70,7 +71,23 @@ def _listed(parts: Sequence[str]) -> str:
     return parts[0] if len(parts) == 1 else f"{', '.join(parts[:-1])} and then {parts[-1]}"
 
 
-def _call(deed: Deed, lexicon: Lexicon) -> ActionCall:
+def _plan(deeds: Sequence[Deed], lexicon: Lexicon) -> str:
+    """Deeds in words, with what they depend on: "check whether ...; if so, go to ...; if not, wait"."""
+    parts: list[str] = []
+    for (check, holds), group in itertools.groupby(deeds, lambda deed: (id(deed.check), deed.holds)):
+        listed = _listed([said(deed, lexicon) for deed in group])
+        plain = check == id(None)
+        parts.append(
+            listed
+            if plain and not parts
+            else f"then {listed}"
+            if plain
+            else f"if {'so' if holds else 'not'}, {listed}"
+        )
+    return "; ".join(parts)
+
+
+def _call(deed: Deed, before: Sequence[Deed], lexicon: Lexicon) -> ActionCall:
     inputs = {
         name: {"pvf_type": _type(deed.skill.action.inputs.get(name, ""), value), "pvf_value": value}
         for name, value in deed.arguments.items()
@@ -81,9 +98,18 @@ def _call(deed: Deed, lexicon: Lexicon) -> ActionCall:
                 "input_parameters": inputs,
                 "output_parameters": {},
                 "reason": said(deed, lexicon),
+                **_flow(deed, before),
             }
         }
     )
+
+
+def _flow(deed: Deed, before: Sequence[Deed]) -> dict[str, object]:
+    """On which earlier deed it depends, in the words of a plan."""
+    if deed.check is None:
+        return {}
+    place = max(at for at, other in enumerate(before) if other is deed.check)
+    return {"flow": {"if": {"step": place, "result": deed.holds}}}
 
 
 def _type(declared: str, value: str | float | bool) -> str:

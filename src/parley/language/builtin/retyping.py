@@ -39,6 +39,9 @@ def retyped(wish: Wish, lexicon: Lexicon) -> Wish:
 def _gone(wish: Wish) -> Wish:
     """Going with somebody is following, by an angle turning, without a goal moving."""
     amount = next((amount_of(filler.words) for filler in wish.all("N")), None)
+    verb = wish.verb.split()
+    if {*verb} & {"come", "return"} and [filler.words for filler in wish.fillers] == [("back",)]:
+        return replace(wish, verb="come back", fillers=())
     company = [filler for filler in wish.all("G") if filler.words[0] == "with"]
     if company:
         return replace(_renamed(wish, "G", "T", company), frame="FOLLOW")
@@ -46,7 +49,7 @@ def _gone(wish: Wish) -> Wish:
         return wish
     if amount is not None and amount.kind == "angle":
         return replace(wish, frame="TURN")
-    backing = not wish.fillers and any(word in BACKING for word in wish.verb.split())
+    backing = not wish.fillers and any(word in BACKING for word in verb) and verb[0] not in ("come", "get")
     return replace(wish, frame="MOVE") if wish.has("HN") or backing else wish
 
 

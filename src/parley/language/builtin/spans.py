@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from functools import lru_cache
 
 import numpy as np
@@ -55,6 +55,38 @@ class Parse:
     def text(self, start: int, end: int) -> str:
         """The words from one to another, as they were said."""
         return " ".join(token.text for token in self.tokens[start:end] if token.is_word)
+
+    def said(self, start: int, end: int) -> str:
+        """The words and marks from one to another, as they were said."""
+        found = ""
+        for at in range(start, end):
+            apart = at > start and self.tokens[at].start > self.tokens[at - 1].end
+            found += f"{' ' if apart else ''}{self.tokens[at].text}"
+        return found
+
+    def part(self, start: int, end: int) -> Parse:
+        """What is said of the words from one place to another."""
+        mine = [n for n, verb in enumerate(self.verbs) if start <= verb.start < end]
+        spans = (span for span in self.spans if start <= span.start and span.end <= end)
+        return Parse(
+            self.tokens[start:end],
+            self.acts[start:end],
+            tuple(_moved(self.verbs[n], start, end) for n in mine),
+            tuple(
+                replace(
+                    span, start=span.start - start, end=span.end - start, head=span.head - start,
+                    owner=mine.index(span.owner) if span.owner in mine else None,
+                )
+                for span in spans
+            ),
+            self.shares[start:end],
+        )  # fmt: skip
+
+
+def _moved(verb: Verb, start: int, end: int) -> Verb:
+    """A verb as a part of the row of words has it."""
+    particles = tuple(at - start for at in verb.particles if at < end)
+    return replace(verb, start=verb.start - start, end=min(verb.end, end) - start, particles=particles)
 
 
 def parse(tokens: tuple[Token, ...], scores: Scores) -> Parse:

@@ -12,7 +12,7 @@ from parley.language.builtin.amounts import is_compass
 from parley.language.builtin.lexicon import Lexicon, stem
 from parley.world.object_map import MapObject
 
-__all__ = ["Mention", "link", "noun_phrase"]
+__all__ = ["Mention", "link", "main_word", "noun_phrase", "stems"]
 
 Kind = Literal["one", "part", "several", "unclear", "none", "speaker", "pronoun", "person", "here"]
 
@@ -66,6 +66,13 @@ def link(words: Sequence[str], head: int, objects: Sequence[MapObject], lexicon:
     if words[head] in lexicon.classes["pronouns"] and len(bare) <= 1:
         return Mention("pronoun", words[head])
     name, rest = noun_phrase(words, head, lexicon)
+    if name and name[-1] in ("one", "ones"):
+        told = [item for item in objects if set(stems(name[:-1])) <= set(stems(item.description.split()))]
+        return (
+            Mention("one", told[0].description, tuple(told))
+            if len(told) == 1
+            else Mention("none", " ".join(name))
+        )
     best = _best(name, objects)
     if best and any(is_compass(word) for word in name) and _rank_of(name, best[0]) > 1:
         return Mention("none", " ".join((*name, *rest)))
@@ -82,13 +89,14 @@ def link(words: Sequence[str], head: int, objects: Sequence[MapObject], lexicon:
         return Mention("none", " ".join((*name, *rest)))
     if len(best) > 1 and rest:
         nearer = [
-            item for item in best if set(_stems(item.description.split())) & set(_content(rest, lexicon))
+            item for item in best if set(stems(item.description.split())) & set(_content(rest, lexicon))
         ]
         best = nearer or best
     return Mention("one" if len(best) == 1 else "several", " ".join((*name, *rest)), tuple(best))
 
 
-def _stems(words: Sequence[str]) -> tuple[str, ...]:
+def stems(words: Sequence[str]) -> tuple[str, ...]:
+    """The words of a name, each without its plural; parts of ids and of words with a hyphen apart."""
     return tuple(stem(part) for word in words for part in word.replace("_", " ").replace("-", " ").split())
 
 
@@ -99,12 +107,12 @@ def _content(words: Sequence[str], lexicon: Lexicon) -> list[str]:
 
 def _best(name: Sequence[str], objects: Sequence[MapObject]) -> list[MapObject]:
     """The things that fit best: called so; by more words; by fewer; mistyped; as the end of a word."""
-    wanted = _stems(name)
+    wanted = stems(name)
     if not wanted:
         return []
     ranked: dict[int, list[MapObject]] = {}
     for item in objects:
-        names = [_stems(text.split()) for text in (item.description, item.id, *item.aliases)]
+        names = [stems(text.split()) for text in (item.description, item.id, *item.aliases)]
         rank = min((_rank(wanted, known) for known in names if known), default=9)
         if rank < 9:
             ranked.setdefault(rank, []).append(item)
@@ -112,15 +120,13 @@ def _best(name: Sequence[str], objects: Sequence[MapObject]) -> list[MapObject]:
 
 
 def _rank_of(name: Sequence[str], item: MapObject) -> int:
-    return min(
-        _rank(_stems(name), _stems(text.split())) for text in (item.description, item.id, *item.aliases)
-    )
+    return min(_rank(stems(name), stems(text.split())) for text in (item.description, item.id, *item.aliases))
 
 
 def _rank(wanted: tuple[str, ...], known: tuple[str, ...]) -> int:
     if wanted == known or set(wanted) == set(known) or "".join(wanted) == "".join(known):
         return 0
-    if known[-len(wanted) :] == wanted or (set(wanted) <= set(known) and wanted[-1] == _main(known)):
+    if known[-len(wanted) :] == wanted or (set(wanted) <= set(known) and wanted[-1] == main_word(known)):
         return 1
     if wanted[-len(known) :] == known:
         return 2
@@ -133,13 +139,29 @@ def _rank(wanted: tuple[str, ...], known: tuple[str, ...]) -> int:
     return 9
 
 
-def _main(known: tuple[str, ...]) -> str:
+_PLACING = frozenset(
+    {
+        "in",
+        "of",
+        "by",
+        "at",
+        "near",
+        "next",
+        "on",
+        "with",
+        "beside",
+        "behind",
+        "under",
+        "above",
+        "between",
+        "opposite",
+    }
+)
+
+
+def main_word(known: tuple[str, ...]) -> str:
     """The word that names the thing: the last one before "in", "of", "by" ..."""
-    marks = [
-        at
-        for at, word in enumerate(known)
-        if word in ("in", "of", "by", "at", "near", "next", "on", "with", "beside")
-    ]
+    marks = [at for at, word in enumerate(known) if word in _PLACING]
     return known[marks[0] - 1] if marks and marks[0] else known[-1]
 
 

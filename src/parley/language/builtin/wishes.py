@@ -24,11 +24,13 @@ class Filler:
     words: tuple[str, ...]
     """From start to end, in small letters."""
     share: float = 1.0
+    said: str = ""
+    """As it was said."""
 
     @property
     def text(self) -> str:
-        """Its words."""
-        return " ".join(self.words)
+        """Its words, as they were said."""
+        return self.said or " ".join(self.words)
 
 
 @dataclass(frozen=True, slots=True)

@@ -1,0 +1,48 @@
+"""Why an order is not certain enough to be carried out."""
+
+from __future__ import annotations
+
+from collections.abc import Callable
+
+from parley.language.builtin.decision import Ask
+from parley.language.builtin.reading import Reading
+from parley.language.builtin.wishes import Filler, Wish
+
+__all__ = ["AGREED", "ALONE", "doubt"]
+
+AGREED = 0.3
+"""So much the tagger must believe in the least certain part of a wish that the lexicon agrees with."""
+ALONE = 0.75
+"""So much where the lexicon does not know the verb."""
+
+NAMED = 0.1
+"""So much in a role whose words name something of the map."""
+
+
+def doubt(reading: Reading, orders: tuple[Wish, ...], knows: Callable[[Filler], bool]) -> Ask | None:
+    """What is to be asked before these orders of a reading are carried out; None if they are certain.
+
+    Args:
+        reading: Of the clause.
+        orders: The wishes among it that are to be carried out.
+        knows: Whether all words of a role name something of the map: another witness that it is one.
+    """
+    if reading.left_over:
+        return Ask(
+            f"I do not understand “{' '.join(reading.left_over)}” in this. Please say it in other words."
+        )
+    if reading.acts & {"alarm", "question", "control", "edit"}:
+        return Ask("I am not sure what you want me to do. Please say one thing at a time.")
+    for wish in orders:
+        least = AGREED if wish.witness == "agrees" else ALONE
+        shares = [
+            f.share for f in wish.fillers if wish.witness != "agrees" or not knows(f) or f.share < NAMED
+        ]
+        weak = min([wish.share, *shares]) < least
+        if weak or wish.witness == "differs":
+            what = f"“{wish.verb}”" if wish.verb else f"“{wish.fillers[0].text}”"
+            return Ask(f"I am not sure what you mean by {what}. Please say it in other words.")
+    for filler in reading.loose:
+        if filler.role not in ("A", "T", "L", "M"):
+            return Ask(f"I do not understand what “{filler.text}” belongs to. Please say it in other words.")
+    return None

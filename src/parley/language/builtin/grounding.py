@@ -1,0 +1,222 @@
+"""Roles grounded by their types: things and sets of the map, persons, amounts, directions, texts."""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from dataclasses import dataclass, field
+
+from parley.language.base import Situation
+from parley.language.builtin.amounts import Amount, amount_of, direction_of
+from parley.language.builtin.decision import Ask, Deed, Note
+from parley.language.builtin.facts import Place, known_place
+from parley.language.builtin.lexicon import Lexicon
+from parley.language.builtin.saying import with_article
+from parley.language.builtin.sets import Group, group
+from parley.language.builtin.skills import Skills
+from parley.language.builtin.spatial import picked
+from parley.language.builtin.things import Mention, link, noun_phrase
+from parley.language.builtin.wishes import Filler, Wish
+from parley.world.object_map import MapObject
+
+__all__ = ["Grounder", "Value"]
+
+_MOVABLE = frozenset(
+    {"TAKE", "BRING", "GIVE", "PUT", "FIND", "COUNT", "POUR", "CUT", "MIX", "COOK", "DO", "MAKE"}
+)
+
+
+@dataclass(frozen=True, slots=True)
+class Value:
+    """What a role holds: the argument, how the reply says it, and which things of the map it may be."""
+
+    argument: str
+    said: str
+    things: tuple[MapObject, ...] = ()
+    place: Place | None = None
+    """Where it is remembered to be."""
+    amount: Amount | None = None
+    each: tuple[Value, ...] = ()
+    """One for each of several, if it is a set."""
+
+
+@dataclass(slots=True)
+class Grounder:
+    """Says what the roles of one message hold; knows what was spoken of before."""
+
+    situation: Situation
+    skills: Skills
+    lexicon: Lexicon
+    known: Sequence[Place]
+    last_thing: Value | None = None
+    last_person: Value | None = None
+    notes: list[Note] = field(default_factory=list)
+    last_check: Deed | None = None
+    """What was to be looked at last."""
+    at: str = ""
+    """Where the robot is after the deeds so far; empty: nobody knows."""
+    left_out: tuple[str, ...] = ()
+    """Words that name the exception from the next set."""
+    bound: Value | None = None
+    """Which one of a set is meant just now, by "it" and "there" and by the set itself."""
+    whole: Value | None = None
+    """The set that was spoken of last."""
+
+    def value(self, wish: Wish, filler: Filler) -> Value | Ask | None:
+        """What a role of a wish holds, by the type that the frame gives it."""
+        kind = self.lexicon.frames[wish.frame].roles.get(filler.role, "text")
+        if kind == "direction" or (kind == "thing" and filler.role == "H"):
+            direction = direction_of(filler.words, self.lexicon)
+            if direction is None:
+                return Ask(f"Which direction is “{filler.text}”?")
+            return Value(direction, direction)
+        if kind in ("distance", "angle", "duration"):
+            amount = amount_of(filler.words)
+            if amount is None or amount.kind not in (kind, "number"):
+                return Ask(f"How much is “{filler.text}”? Please say a number and its unit.")
+            if amount.kind == "number" and kind == "distance":
+                return Ask(f"{amount} of what: metres, feet?")
+            text = str(amount) if amount.unit else f"{amount} degrees"
+            return Value(text, text, amount=amount)
+        if kind == "text":
+            return Value(filler.text, filler.text)
+        mention = link(filler.words, filler.head, self.situation.objects, self.lexicon)
+        if kind == "person":
+            return self._person(filler, mention)
+        return self._thing(wish.frame, filler, mention)
+
+    def _person(self, filler: Filler, mention: Mention) -> Value | Ask:
+        if mention.kind == "pronoun":
+            return self.last_person or Ask(f"Who is “{filler.text}”?")
+        if mention.kind in ("speaker", "here"):
+            return Value("operator", "you")
+        name, rest = noun_phrase(filler.words, filler.head, self.lexicon)
+        text = " ".join((*name, *rest))
+        found = Value(text, with_article(text), mention.things, known_place(name, self.known))
+        self.last_person = found
+        return found
+
+    def _thing(self, frame: str, filler: Filler, mention: Mention) -> Value | Ask:
+        before = self._spoken_of(filler, mention)
+        if before is not None:
+            return before
+        objects, lexicon = self.situation.objects, self.lexicon
+        several = group(filler.words, objects, lexicon, self.left_out)
+        if several is not None:
+            return self._several(several)
+        placed = picked(filler.words, objects, lexicon, self.situation.robot_pose)
+        if placed is not None:
+            return self._one_of(placed.things)
+        if self.left_out or {*filler.words} & lexicon.classes["quantifiers"]:
+            return Ask(f"I do not know which ones you mean by “{filler.text}”. Please name them.")
+        if mention.kind in ("speaker", "here"):
+            return Value("operator", "you")
+        if mention.kind == "part":
+            return Value(mention.text, with_article(mention.text), mention.things)
+        if mention.things:
+            return self._one_of(mention.things)
+        name, rest = noun_phrase(filler.words, filler.head, lexicon)
+        place = known_place(name, self.known)
+        if place is not None:
+            return Value(place.thing, with_article(place.thing), (), place)
+        looked_for = frame in ("FIND", "COUNT", "DO", "MAKE") or rest or not objects
+        movable = frame in _MOVABLE and filler.role == "T" and looked_for
+        if movable or frame in ("PHOTO", "BELOC"):
+            return Value(mention.text, with_article(mention.text))
+        return Ask(f"I do not know any “{mention.text}” here. Which thing or place do you mean?")
+
+    def _spoken_of(self, filler: Filler, mention: Mention) -> Value | Ask | None:
+        """What was spoken of before, if words like "it" and "there" mean that."""
+        small = {*filler.words} <= _BACK_TO | self.lexicon.classes["prepositions"]
+        each = {*filler.words} <= _BACK_TO | self.lexicon.classes["prepositions"] | {"each", "of", "one"}
+        if self.bound is not None and (mention.kind == "pronoun" or each or self.names_set(filler)):
+            return self.bound
+        if mention.kind == "pronoun":
+            before = self.last_person if mention.text in self.lexicon.classes["persons"] else self.last_thing
+            return before or Ask(f"What do you mean by “{filler.text}”?")
+        if small:
+            return self.last_thing or Ask(f"Where is “{filler.text}”?")
+        return None
+
+    def _one_of(self, things: Sequence[MapObject]) -> Value | Ask:
+        """One thing of the map, by its id if others are called the same; or the question which one it is."""
+        if len(things) > 1:
+            return self._which([thing.description for thing in things], len(things))
+        thing = things[0]
+        same = [other for other in self.situation.objects if other.description == thing.description]
+        name = thing.description if len(same) == 1 else thing.id
+        return Value(name, with_article(thing.description), (thing,))
+
+    def _several(self, several: Group) -> Value | Ask:
+        self.left_out = ()
+        if several.doubt or not several.things:
+            return Ask(several.doubt or "Then nothing is left. Which ones do you mean?")
+        each = tuple(Value(one.description, with_article(one.description), (one,)) for one in several.things)
+        if len(each) == 1:
+            return each[0]
+        said = " and ".join([", ".join(one.said for one in each[:-1]), each[-1].said])
+        return Value(said, said, several.things, each=each)
+
+    def _which(self, names: Sequence[str], count: int) -> Ask:
+        """The question which of several things is meant."""
+        names = tuple(dict.fromkeys(names))
+        if len(names) == 1:
+            return Ask(f"There are {count} things called “{names[0]}”. Which one do you mean?")
+        named = [with_article(name) for name in names[:6]]
+        return Ask(f"Which one do you mean: {', '.join(named[:-1])} or {named[-1]}?", tuple(names[:6]))
+
+    def is_placed(self, filler: Filler) -> bool:
+        """Whether a role tells one thing from others by where it is."""
+        placed = picked(filler.words, self.situation.objects, self.lexicon, self.situation.robot_pose)
+        return placed is not None and len(placed.things) == 1
+
+    def names_set(self, filler: Filler) -> bool:
+        """Whether a role holds several things."""
+        return group(filler.words, self.situation.objects, self.lexicon) is not None
+
+    def knows(self, filler: Filler) -> bool:
+        """Whether a role names something of the map, with all of its words."""
+        if filler.role not in "TGLS":
+            return False
+        several = group(filler.words, self.situation.objects, self.lexicon)
+        if several is not None:
+            return not several.doubt
+        named = link(filler.words, filler.head, self.situation.objects, self.lexicon)
+        name, rest = noun_phrase(filler.words, filler.head, self.lexicon)
+        return named.kind == "one" and not rest and len(name) <= len(named.things[0].description.split()) + 1
+
+    def names_same(self, words: Sequence[str], wishes: Sequence[Wish]) -> bool:
+        """Whether words name what one of these wishes is about."""
+        named = link(words, len(words) - 1, self.situation.objects, self.lexicon).things
+        fillers = [filler for wish in wishes for filler in wish.fillers if filler.role in "TGLSR"]
+        others = [link(f.words, f.head, self.situation.objects, self.lexicon).things for f in fillers]
+        return any(thing in things for thing in named for things in others)
+
+    def told_about(self, name: tuple[str, ...]) -> None:
+        """Somebody of whom something was told just now."""
+        if name:
+            text = " ".join(name)
+            self.last_person = Value(text, with_article(text), (), known_place(name, self.known))
+
+    def loose(self, filler: Filler) -> None:
+        """Something that is spoken of before it is wanted."""
+        if filler.role == "T":
+            value = self._thing(
+                "BELOC", filler, link(filler.words, filler.head, self.situation.objects, self.lexicon)
+            )
+            self.last_thing = value if isinstance(value, Value) else self.last_thing
+
+    def unheeded(self, text: str) -> None:
+        """A part that no action takes, such as the manner: it is said."""
+        self.notes.append(Note(f"I cannot take “{text}” into account."))
+
+    def forbidden(self, wish: Wish) -> None:
+        """What is not to be done."""
+        self.left_undone(" ".join([wish.verb, *(filler.text for filler in wish.fillers)]))
+
+    def left_undone(self, text: str) -> None:
+        """Something that is not wanted: it is said."""
+        self.notes.append(Note(f"I leave that out: “{text}”."))
+
+
+_BACK_TO = frozenset({"there", "it", "them", "these", "those", "they", "over"})
+"""Words that mean what was spoken of last."""

@@ -1,0 +1,217 @@
+"""From the logic of a message to deeds: in order, under conditions, so many times, after a while."""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from dataclasses import dataclass, replace
+
+from parley.language.builtin.amounts import amount_of
+from parley.language.builtin.checks import Look
+from parley.language.builtin.decision import Ask, Deed
+from parley.language.builtin.deeds import Builder
+from parley.language.builtin.doubts import doubt
+from parley.language.builtin.reading import Reading
+from parley.language.builtin.structure import If, Node, Orders, Part
+from parley.language.builtin.wishes import Filler, Wish
+
+__all__ = ["NO_DEED", "Planner", "orders_of"]
+
+NO_DEED = frozenset({"BELOC", "BECAT", "REMEMBER", "FORGET"})
+_SPOKEN_OF = frozenset({"it", "them", "there", "they", "each", "one", "these", "those"})
+
+
+def orders_of(reading: Reading) -> tuple[Wish, ...]:
+    """The wishes of a reading that are to be carried out, and those that are forbidden."""
+    return tuple(
+        wish
+        for wish in reading.wishes
+        if wish.act in ("order", "edit", "answer") and wish.frame not in NO_DEED
+    )
+
+
+@dataclass(slots=True)
+class Planner:
+    """Makes the deeds of all that a message wants."""
+
+    builder: Builder
+
+    def planned(self, nodes: Sequence[Node]) -> list[Deed] | Ask:
+        """The deeds of nodes, in order."""
+        deeds: list[Deed] = []
+        for node in nodes:
+            made = self._if(node) if isinstance(node, If) else self._orders(node)
+            if isinstance(made, Ask):
+                return made
+            deeds += made
+        return deeds
+
+    # -- conditions --
+
+    def _if(self, node: If) -> list[Deed] | Ask:
+        condition = node.condition
+        looked = Look([]) if condition.again else self.builder.check(condition.part)
+        if isinstance(looked, Ask):
+            return looked
+        wanted = condition.holds == looked.holds
+        check = self.builder.last_check
+        if check is None:
+            return Ask(f"What does “{condition.part.text}” depend on? Please tell me what I should look at.")
+        place, deeds = self.builder.at, [*looked.deeds]
+        places = [place]
+        for branch, holds in ((node.then, wanted), (node.otherwise, not wanted)):
+            self.builder.at = place
+            made = self.planned(branch)
+            if isinstance(made, Ask):
+                return made
+            if any(deed.check is not None for deed in made):
+                return Ask("Several conditions depend on each other here. Please say one after the other.")
+            deeds += [replace(deed, check=check, holds=holds) for deed in made]
+            places.append(self.builder.at)
+        self.builder.at = place if len(set(places)) == 1 else ""
+        self.builder.last_check = check
+        return deeds
+
+    # -- orders --
+
+    def _orders(self, node: Orders) -> list[Deed] | Ask:
+        reading = node.part.reading
+        if node.is_order:
+            reading = self._as_ordered(node.part)
+        wishes = orders_of(reading)
+        unsure = doubt(reading, wishes, self.builder.knows)
+        if unsure is not None:
+            return unsure
+        limited = self._limited(node, wishes)
+        if isinstance(limited, Ask):
+            return limited
+        wishes, times, before = limited
+        self.builder.told_about(reading.about)
+        if reading.manner:
+            self.builder.unheeded(" ".join(reading.manner))
+        for filler in reading.loose:
+            self.builder.loose(filler)
+        for wish in reading.wishes:
+            if wish.frame == "BELOC":
+                for filler in wish.fillers:
+                    self.builder.loose(filler)
+        deeds: list[Deed] = []
+        for _ in range(times):
+            made = self._done(wishes)
+            if isinstance(made, Ask):
+                return made
+            deeds += made
+        return [*before, *deeds]
+
+    def _as_ordered(self, part: Part) -> Reading:
+        """What is said of an order of time, as what is wanted: "after visiting the yard"."""
+        reading = part.reading
+        wishes = tuple(replace(wish, act="order") for wish in reading.wishes if wish.frame not in NO_DEED)
+        if not wishes:
+            words = part.low
+            size = next((at + 1 for at in reversed(range(len(words))) if words[at].isalnum()), 0)
+            place = Filler("G", 0, size, max(size - 1, 0), words[:size])
+            wishes = (Wish("GO", 0, "", (place,), 1.0, "agrees"),) if size else ()
+            return Reading(frozenset({"order"}), wishes, (), ())
+        return replace(reading, acts=frozenset({"order"}), wishes=wishes)
+
+    def _done(self, wishes: Sequence[Wish]) -> list[Deed] | Ask:
+        deeds: list[Deed] = []
+        rest = list(wishes)
+        while rest:
+            wish = rest.pop(0)
+            if wish.negated:
+                self.builder.forbidden(wish)
+                continue
+            made = self.builder.deeds(wish)
+            if isinstance(made, Ask):
+                return made
+            also = self._also(rest) if self.builder.each else []
+            if also:
+                del rest[: len(also)]
+                together = self._for_each([wish, *also])
+                if isinstance(together, Ask):
+                    return together
+                made = together
+            deeds += _without_way(deeds, made)
+        return deeds
+
+    def _also(self, rest: Sequence[Wish]) -> list[Wish]:
+        """The wishes behind one about a set that are about each of it: "... and take a picture there"."""
+        found = []
+        for wish in rest:
+            words = {word for filler in wish.fillers for word in filler.words if filler.role not in "XE"}
+            if wish.negated or not (
+                words & _SPOKEN_OF or (not wish.fillers and wish.frame in ("PHOTO", "LOOK"))
+            ):
+                break
+            found.append(wish)
+        return found
+
+    def _for_each(self, wishes: Sequence[Wish]) -> list[Deed] | Ask:
+        deeds: list[Deed] = []
+        for one in self.builder.each:
+            self.builder.bound = one
+            for wish in wishes:
+                made = self.builder.deeds(wish)
+                if isinstance(made, Ask):
+                    return made
+                deeds += _without_way(deeds, made)
+        self.builder.bound = None
+        return deeds
+
+    def _limited(
+        self, node: Orders, wishes: tuple[Wish, ...]
+    ) -> tuple[tuple[Wish, ...], int, list[Deed]] | Ask:
+        """What the limits of a clause make of its wishes: how often they are done, and what comes before."""
+        times, before = 1, list[Deed]()
+        for limit in node.limits:
+            words = tuple(word for word in limit.low if word.isalnum() or "-" in word)
+            match limit.clause.link:
+                case "times":
+                    count = 2 if words == ("twice",) else 3 if words == ("thrice",) else 0
+                    amount = amount_of(words[:1])
+                    times = count or (int(amount.value) if amount else 0)
+                    if not 1 <= times <= 10:
+                        return Ask(f"I cannot do that {limit.text} on end. How many times shall I do it?")
+                case "delay":
+                    waited = self.builder.waiting(f"for {' '.join(words[1:])}", words[1:])
+                    if isinstance(waited, Ask):
+                        return waited
+                    before.append(waited)
+                case "except":
+                    self.builder.left_out = words
+                case "not":
+                    if not self._excluded(limit, wishes):
+                        return Ask(
+                            f"I do not see what “not {limit.text}” means. Please say what I should do."
+                        )
+                case "until" if wishes and wishes[-1].frame in ("WAIT", "FOLLOW"):
+                    until = Filler("U", 0, len(words), 0, words, 1.0, limit.text)
+                    last = replace(wishes[-1], fillers=(*wishes[-1].fillers, until))
+                    wishes = (*wishes[:-1], last)
+                case _:
+                    return Ask(f"I cannot tell by myself when “{limit.text}” is. What shall I do now?")
+        return wishes, times, before
+
+    def _excluded(self, limit: Part, wishes: Sequence[Wish]) -> bool:
+        """Take up what is not wanted: a part of a set, another thing, another deed."""
+        reading = limit.reading
+        words = tuple(word for word in limit.low if word.isalnum() or "-" in word)
+        if not words:
+            return False
+        if any(wish.frame not in NO_DEED and wish.verb for wish in reading.wishes):
+            self.builder.left_undone(f"not {limit.text}")
+            return True
+        if any(self.builder.names_set(filler) for wish in wishes for filler in wish.all("T") + wish.all("G")):
+            self.builder.left_out = words
+            return True
+        self.builder.left_undone(f"not {limit.text}")
+        return not self.builder.names_same(words, wishes)
+
+
+def _without_way(deeds: Sequence[Deed], more: list[Deed]) -> list[Deed]:
+    """Without the way to where the last deeds have led already."""
+    ways = [deed for deed in deeds if deed.frame == "GO"]
+    size = len([deed for deed in more if deed.frame == "GO"])
+    there = 0 < size < len(more) and deeds and deeds[-1].frame == "GO" and ways[-size:] == more[:size]
+    return more[size:] if there else more

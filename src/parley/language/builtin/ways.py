@@ -1,0 +1,134 @@
+"""Ways and waits: how the robot comes to a place, and how it stays there."""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from dataclasses import dataclass, replace
+
+from parley.language.builtin.amounts import amount_of
+from parley.language.builtin.decision import Ask, Deed, Note
+from parley.language.builtin.facts import Place
+from parley.language.builtin.grounding import Grounder, Value
+from parley.language.builtin.saying import with_article
+from parley.language.builtin.things import link
+from parley.language.builtin.wishes import Wish
+
+__all__ = ["Ways", "typed"]
+
+
+@dataclass(slots=True)
+class Ways(Grounder):
+    """Makes the deeds that bring the robot somewhere, or keep it there."""
+
+    def way(self, goal: Value | None) -> list[Deed] | Ask:
+        """The deeds that lead to a goal."""
+        skill = self.skills.get("GO")
+        if skill is None or goal is None:
+            return Ask("Where to?" if skill else "I cannot drive anywhere.")
+        if goal.place is not None:
+            self.used(goal.place)
+            text = " ".join(goal.place.where)
+            mention = link(goal.place.where, goal.place.head, self.situation.objects, self.lexicon)
+            if mention.kind == "one":
+                text = mention.things[0].description
+            goal = Value(text, with_article(text), mention.things)
+        self.at = goal.argument
+        said = {"G": goal.said}
+        if not skill.takes_pose:
+            slot = skill.roles.get("G")
+            return [Deed("GO", skill, {slot: goal.argument}, said)] if slot else Ask("Where to?")
+        locate = self.skills.get("LOCATE")
+        if locate is None or not locate.roles:
+            return Ask("I cannot find out where that is.")
+        if goal.argument == "operator" or not goal.things:
+            unknown = "you are" if goal.argument == "operator" else f"{goal.said} is"
+            return Ask(f"I do not know where {unknown}. Which place is it near?")
+        return [
+            Deed("GO", locate, {next(iter(locate.roles.values())): goal.argument}, said, hidden=True),
+            Deed("GO", skill, {}, said),
+        ]
+
+    def way_back(self) -> list[Deed] | Ask:
+        """The way to where the robot is now."""
+        skill, pose = self.skills.get("GO"), self.situation.robot_pose
+        if skill is None or pose is None or not skill.takes_pose:
+            return Ask("Where shall I go back to?")
+        ends = {"position::x": pose.x_m, "position::y": pose.y_m, "orientation::y": pose.yaw_rad}
+        given: dict[str, str | float] = {
+            name: next((value for end, value in ends.items() if name.endswith(end)), 0.0)
+            for name in skill.action.inputs
+        }
+        self.at = ""
+        return [Deed("GO", skill, given, {"G": "where I am now"})]
+
+    def way_to_thing(self, thing: Value | None) -> list[Deed]:
+        """The way to what is to be looked at, if it is known where that is."""
+        if thing is None or not (thing.things or thing.place):
+            return []
+        way = self.nearing(thing)
+        return [] if isinstance(way, Ask) else way
+
+    def nearing(self, thing: Value) -> list[Deed] | Ask:
+        """The way to something, unless the robot is there already."""
+        before = self.at
+        way = self.way(thing)
+        return [] if before and self.at == before else way
+
+    def used(self, place: Place) -> None:
+        """That a memory was used is said."""
+        note = Note(f"I remember: {place.memory.data.rstrip('.')}.", place.memory.name)
+        if note not in self.notes:
+            self.notes.append(note)
+
+    def waiting(self, text: str, words: Sequence[str]) -> Deed | Ask:
+        """Waiting: by an action for it, else until a person says when.
+
+        Args:
+            text: How the reply says it.
+            words: How long; empty if it is no span of time.
+        """
+        skill, ask = self.skills.get("WAIT"), self.skills.get("ASK")
+        amount = amount_of(words) if words else None
+        if skill is not None and amount is not None and amount.kind == "duration" and "D" in skill.roles:
+            slot = skill.roles["D"]
+            given = typed(Value(text, text, amount=amount), skill.action.inputs[slot])
+            if given is not None:
+                return Deed("WAIT", skill, {slot: given}, {"D": text})
+        if ask is None or not ask.roles:
+            return Ask(f"I cannot wait {text} by myself. What shall I do now?")
+        question = f"Please tell me when I may go on: I am to wait {text}."
+        return Deed(
+            "WAIT", ask, {next(iter(ask.roles.values())): question}, {"D": f"{text} (please tell me when)"}
+        )
+
+    def wait(self, wish: Wish, values: dict[str, Value]) -> list[Deed] | Ask:
+        """Being somewhere for a while: the way there, then a wait if there is something to wait for."""
+        place = values.get("L") or values.get("G") or values.get("T")
+        if not values and wish.verb in ("stop", "halt") and not wish.has("U"):
+            return Ask("Shall I drop what I am doing?") if self.situation.queue else []
+        way = self.nearing(place) if place is not None and place.argument != "operator" else []
+        if isinstance(way, Ask):
+            return way
+        until = wish.one("U")
+        words = wish.one("D")
+        text = f"until {until.text}" if until else f"for {values['D'].said}" if "D" in values else ""
+        if until and until.words[0] in ("until", "till"):
+            text = until.text
+        waited = self.waiting(text or "here", words.words if words and not until else ())
+        if isinstance(waited, Ask):
+            return [*way] if way and not text else waited
+        return [*way, waited if text else replace(waited, open_ended=True)]
+
+
+_METRES = {"m": 1.0, "cm": 0.01, "mm": 0.001, "feet": 0.3048, "inches": 0.0254, "yards": 0.9144}
+_SECONDS = {"s": 1.0, "min": 60.0, "h": 3600.0}
+
+
+def typed(value: Value, kind: str) -> str | float | None:
+    """What is given to a parameter of a type; None if it cannot be: numbers are metres, degrees, seconds."""
+    if kind == "string":
+        return value.argument
+    if kind != "number" or value.amount is None:
+        return None
+    scale = (_METRES | _SECONDS).get(value.amount.unit, 1.0)
+    return round(value.amount.value * scale, 4)

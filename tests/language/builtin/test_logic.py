@@ -1,0 +1,134 @@
+"""The logic of orders: conditions, sets, exceptions, counts, waits, what comes first; what is asked about."""
+
+from __future__ import annotations
+
+import pytest
+
+from parley.evaluation.catalogues import CATALOGUES
+from parley.evaluation.steps import read_steps
+from parley.language.base import Situation
+from parley.language.builtin.engine import BuiltinLanguage
+from parley.messages.memory import MemoryEntry
+from parley.world.geometry import Pose2D
+from parley.world.object_map import MapObject
+
+ENGINE = BuiltinLanguage()
+PLACES = (
+    ("gate 1", 2, 0), ("gate 2", 4, 0), ("gate 3", 6, 0), ("gate 4", 8, 0), ("red crate", 1, 5),
+    ("blue crate", 3, 5), ("green crate", 9, 5), ("desk", 3, 7), ("office", -4, 2), ("north ramp", 0, 9),
+    ("south ramp", 0, -9), ("pump", 9, 7),
+)  # fmt: skip
+OBJECTS = tuple(MapObject(f"id{n}", name, x, y) for n, (name, x, y) in enumerate(PLACES))
+MEMORY = (MemoryEntry(name="kim_location", type="text", data="Kim is in the office"),)
+
+
+def situation(message: str, catalogue: str = "thesis") -> Situation:
+    return Situation(
+        message,
+        objects=OBJECTS,
+        memory=MEMORY,
+        catalogue=CATALOGUES[catalogue],
+        robot="Rob",
+        robots=("Rob",),
+        robot_pose=Pose2D(0.0, 0.0, 0.0),
+    )
+
+
+async def plan(message: str) -> list[str]:
+    """The steps that come of a message, in short: "go gate 1", "look ...", "if 2: go desk"."""
+    answer = await ENGINE.interpret(situation(message))
+    steps = read_steps(answer.queue, situation(message).catalogue)
+    flows = [f"{step.flow}: " if step.flow else "" for step in steps]
+    return [
+        f"{flow}{step.verb} {' '.join(step.arguments)}".strip()
+        for flow, step in zip(flows, steps, strict=True)
+    ]
+
+
+def rounds(*names: str) -> list[str]:
+    return [f"go {name}" for name in names]
+
+
+WAIT = "ask Please tell me when I may go on: I am to wait"
+PLANS = {
+    # sets
+    "go to gates 2 to 4": rounds("gate 2", "gate 3", "gate 4"),
+    "go to both ramps": rounds("north ramp", "south ramp"),
+    "visit the last two gates": rounds("gate 3", "gate 4"),
+    "go to all the crates": rounds("red crate", "blue crate", "green crate"),
+    "go to every crate except the blue one": rounds("red crate", "green crate"),
+    "go to all gates apart from gate 2 and gate 3": rounds("gate 1", "gate 4"),
+    "go to gates 1, 2 and 4": rounds("gate 1", "gate 2", "gate 4"),
+    "look at each crate": [
+        step for name in ("red", "blue", "green") for step in (f"go {name} crate", f"look {name} crate")
+    ],
+    # one of several, by where it is
+    "go to the crate next to the desk": rounds("blue crate"),
+    "go to the nearest gate": rounds("gate 1"),
+    "go to the crate between the red crate and the green crate": rounds("blue crate"),
+    # conditions
+    "if the pump is on, go to the desk, otherwise go to the office": [
+        "go pump", "look whether the pump is on", "if 2: go desk", "unless 2: go office",
+    ],
+    "go to the desk unless gate 1 is open": ["go gate 1", "look whether gate 1 is open", "unless 2: go desk"],
+    "check whether gate 2 is shut, and if not go to the desk": [
+        "go gate 2", "look whether gate 2 is shut", "unless 2: go desk",
+    ],
+    "go to the office; if somebody is there come back": [
+        "go office", "look whether somebody is there", "if 2: at",
+    ],
+    "if gate 1 isn't open go to the office and then to the desk": [
+        "go gate 1", "look whether gate 1 is open", "unless 2: go office", "unless 2: go desk",
+    ],
+    # what comes first
+    "before you go to the desk go to the office": rounds("office", "desk"),
+    "go to the desk after visiting the office": rounds("office", "desk"),
+    "go to the desk, but first go to the office": rounds("office", "desk"),
+    "once you have been at the pump, go to the desk": rounds("pump", "desk"),
+    # how often, how long
+    "go to the desk three times": rounds("desk", "desk", "desk"),
+    "in five minutes go to the desk": [f"{WAIT} for five minutes.", "go desk"],
+    "stay at the desk for ten minutes": ["go desk", f"{WAIT} for 10 min."],
+    "wait until Kim comes, then go to the desk": [f"{WAIT} until Kim comes.", "go desk"],
+    # what is not wanted
+    "don't go to gate 1, go to gate 2": rounds("gate 2"),
+    "go to gate 3, not to gate 4": rounds("gate 3"),
+    "go to the desk without stopping at the office": rounds("desk"),
+}  # fmt: skip
+ASKED = """go to the crate; go to the desk or to the office; go to the desk at noon; go to both crates
+go to the desk every morning; go to gates 3 to 9; go to all crates except the yellow one
+if I call you go to the desk; if Kim wants tea go to the desk; go to the desk forty times
+go to the office until somebody comes
+if it is late go to the desk; otherwise go to the desk; when the pump stops go to the desk
+go to the office and to the desk if the pump is on; check the zebras and then go to the desk"""
+
+
+@pytest.mark.parametrize("message", PLANS)
+async def test_logic_becomes_steps(message: str) -> None:
+    assert await plan(message) == PLANS[message]
+
+
+@pytest.mark.parametrize("message", [text.strip() for text in ASKED.replace("\n", ";").split(";")])
+async def test_what_has_no_place_in_a_plan_is_asked_about(message: str) -> None:
+    answer = await ENGINE.interpret(situation(message))
+    assert answer.queue == () and "?" in answer.message_response + "?"
+
+
+async def test_which_of_several_is_asked_with_choices() -> None:
+    answer = await ENGINE.interpret(situation("look at the crate"))
+    assert answer.choices == ("red crate", "blue crate", "green crate")
+
+
+async def test_reply_says_what_depends_on_what() -> None:
+    message = "if the pump is on, go to the desk, otherwise go to the office"
+    answer = await ENGINE.interpret(situation(message))
+    assert answer.message_response == (
+        "I will go to the pump and then check whether the pump is on; if so, go to the desk; if not, "
+        "go to the office."
+    )
+
+
+async def test_waiting_is_done_by_an_action_for_it_where_there_is_one() -> None:
+    answer = await ENGINE.interpret(situation("in five minutes go to the desk", "tools"))
+    assert [call.name for call in answer.queue] == ["Wait", "DriveTo"]
+    assert answer.queue[0].input_parameters["duration_s"].value == 300
