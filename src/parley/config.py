@@ -53,6 +53,11 @@ class ModelSettings(BaseModel):
     top_p: float | None = Field(default=0.6, gt=0, le=1)
     frequency_penalty: float = 0.0
     presence_penalty: float = 0.0
+    reasoning: Literal["off", "minimal", "low", "medium", "high"] | None = None
+    """How much a model thinks before it answers; None leaves it to the model."""
+    small: str = ""
+    """Another model for questions with short answers: `provider:model[@address]`, its key from the
+    environment; what it cannot answer goes to the usual one."""
     max_plan_tokens: int = Field(default=2048, ge=64)
     max_memory_tokens: int = Field(default=1024, ge=64)
     output: Literal["tool", "native", "prompted"] = "tool"
@@ -130,8 +135,10 @@ class SystemConfig(BaseModel, TextFile):
     """Folder with more actions, watched while the system runs."""
     audit_months: int | None = Field(default=24, ge=1, le=1200)
     """How long the log of who did what is kept; None: for good."""
-    language: str = Field(default="offline", pattern=r"^(offline|builtin|[A-Za-z0-9_.-]+:.+)$")
-    """What understands people: `offline`, `builtin`, `provider:model`, `provider:model@address`."""
+    language: str = Field(default="offline", pattern=r"^(auto|offline|builtin|[A-Za-z0-9_.-]+:.+)$")
+    """What understands people: `offline`, `builtin`, `provider:model`, `provider:model@address`, or
+    `auto:provider:model`: the built-in engine where it is certain, that model for the rest (`auto` alone: the
+    first model of `language_fallback`)."""
     language_fallback: tuple[str, ...] = ("offline",)
     """Asked in this order when a model gives no answer."""
     model: ModelSettings = Field(default_factory=ModelSettings)

@@ -45,22 +45,35 @@ async def inspect(ctx: ActionContext, inspect: str) -> Inspection | Outcome:
     image = await ctx.robot.image()
     ctx.display.show(FEED, image, {"request": inspect})
     try:
-        report = await ctx.language.inspect(image, inspect)
+        report = await ctx.language.inspect(image, inspect, await _told(ctx, inspect))
     except LanguageError as error:
         raise ActionFailure(
             FailureCode.UNAVAILABLE, "I took the picture, but I cannot tell what is in it just now."
         ) from error
     ctx.operator.tell(report.text)
+    if report.rules:
+        text = f"{report.text} You told me: “{'” and “'.join(report.rules)}”."
+        raise ActionFailure(FailureCode.ATTENTION, text, {"wanted": report.wanted, "rules": [*report.rules]})
+    if report.found is False and report.unwanted and not ctx.run.result_asked:
+        return Outcome(True, {"inspection_result": report.text}, _facts(image))  # as it should be
     if report.found is False:
         failure = _not_seen(image, report.wanted or inspect, report.text, ctx.world.objects)
         if failure.code is FailureCode.NO_MATCH and ctx.run.result_asked:  # then it is an answer
             return Outcome(False, {"inspection_result": report.text}, _facts(image))
         raise failure
-    if report.attention:
+    if report.attention or (report.found and report.unwanted and not ctx.run.result_asked):
         raise ActionFailure(FailureCode.ATTENTION, report.text, {"wanted": report.wanted})
     if report.found and report.wanted:
         _note_sighting(ctx, report.wanted, image)
     return Outcome(True, {"inspection_result": report.text}, _facts(image))
+
+
+async def _told(ctx: ActionContext, wanted: str) -> list[str]:
+    """What people told the robots, for an engine that can tell what of it applies to a picture."""
+    if not ctx.language.sees_pictures:
+        return []
+    found = await ctx.memory.find(wanted)
+    return [entry.data for entry in found if entry.type == "text" and entry.is_told]
 
 
 def _facts(image: CameraImage) -> dict[str, list[str]]:

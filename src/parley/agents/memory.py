@@ -11,6 +11,7 @@ from parley.agents.base import Node
 from parley.errors import InvalidMessageError, LanguageError, StoreError
 from parley.language.base import Language
 from parley.memory.answer_size import MAX_ANSWER_CHARS, fitting, without_pictures
+from parley.memory.limits import MOST_MEMORIES
 from parley.memory.meanings import Meanings, fused
 from parley.memory.store import MemoryStore
 from parley.messages import topics
@@ -61,7 +62,7 @@ class MemoryNode(Node):
         store: MemoryStore,
         language: Language,
         *,
-        short_list: int = 20,
+        short_list: int = MOST_MEMORIES,
         select_timeout_s: float = 5.0,
         meanings: Meanings | None = None,
     ) -> None:

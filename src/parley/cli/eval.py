@@ -12,10 +12,10 @@ from typing import Annotated, Any
 import typer
 
 from parley.agents.planner.check import plan_problems
-from parley.cli.language import KeyFileOption, language_settings
+from parley.cli.language import ConfigOption, KeyFileOption, chosen_settings
 from parley.cli.output import emit_json, quiet_logs
 from parley.clock import WallClock
-from parley.config import ModelSettings
+from parley.config import SystemConfig
 from parley.errors import ConfigError
 from parley.evaluation.cases import Case
 from parley.evaluation.gpsr import GPSR_SEED
@@ -39,7 +39,7 @@ def register(app: typer.Typer) -> None:
 def evaluate_languages(
     language: Annotated[
         list[str] | None,
-        typer.Option(help="offline, or provider:model; again for each further one. Default: offline."),
+        typer.Option(help="offline, builtin, provider:model, auto:provider:model; repeatable."),
     ] = None,
     set_name: Annotated[
         str, typer.Option("--set", help="development, held-out, blind, gpsr, all, or a file.")
@@ -54,16 +54,15 @@ def evaluate_languages(
     seed: Annotated[int, typer.Option(help="Of the commands that are made by a grammar.")] = GPSR_SEED,
     at_once: Annotated[int, typer.Option(min=1, help="Questions that may be open at a time.")] = 1,
     key_file: KeyFileOption = None,
+    config: ConfigOption = None,
 ) -> None:
     """Say how much of a set each engine understands, what its plans are worth, and what it takes."""
     quiet_logs()
-    names = language or ["offline"]
-    for name in names:
-        language_settings(name, key_file)
+    engines = [chosen_settings(config, name, key_file) for name in language or [""]]
     cases = load_set(set_name, seed)
     if not cases:
         raise ConfigError(f"the set {set_name!r} is empty")
-    runs = asyncio.run(_run_all(names, cases, key_file, at_once))
+    runs = asyncio.run(_run_all(engines, cases, at_once))
     scores, outcomes = [run[0] for run in runs], [run[1] for run in runs]
     report = json_report(set_name, scores, outcomes, reveal=reveal)
     text = markdown_report(set_name, scores, outcomes, reveal=reveal)
@@ -75,15 +74,13 @@ def evaluate_languages(
         typer.echo(text, nl=False)
 
 
-async def _run_all(
-    names: Sequence[str], cases: Sequence[Case], key_file: Path | None, at_once: int
-) -> list[Run]:
-    return [await _run(name, cases, key_file, at_once) for name in names]
+async def _run_all(engines: Sequence[SystemConfig], cases: Sequence[Case], at_once: int) -> list[Run]:
+    return [await _run(engine, cases, at_once) for engine in engines]
 
 
-async def _run(name: str, cases: Sequence[Case], key_file: Path | None, at_once: int) -> Run:
-    usage = Usage()
-    engine = build_language([name], ModelSettings(key_file=key_file), check=plan_problems, usage=usage)
+async def _run(chosen: SystemConfig, cases: Sequence[Case], at_once: int) -> Run:
+    usage, name = Usage(), chosen.language
+    engine = build_language([name], chosen.model, check=plan_problems, usage=usage)
     async with contextlib.AsyncExitStack() as stack:
         if isinstance(engine, contextlib.AbstractAsyncContextManager):
             await stack.enter_async_context(engine)

@@ -12,9 +12,8 @@ import typer
 
 from parley.actions.builtin import BUILTIN_ACTIONS
 from parley.agents.planner.check import plan_problems
-from parley.cli.language import KeyFileOption, LanguageOption, language_settings
+from parley.cli.language import ConfigOption, KeyFileOption, LanguageOption, chosen_settings
 from parley.cli.output import quiet_logs
-from parley.config import ModelSettings
 from parley.errors import ConfigError
 from parley.language.base import Language
 from parley.language.llm import build_language
@@ -34,17 +33,17 @@ def interpret(
     out: Annotated[
         Path, typer.Option(help="Where the answers go, a JSON line each; - for standard output.")
     ] = Path("-"),
-    language: LanguageOption = "offline",
+    language: LanguageOption = "",
     key_file: KeyFileOption = None,
+    config: ConfigOption = None,
     explain: Annotated[
         bool, typer.Option(help="Add to each answer how it came about (offline only).")
     ] = False,
 ) -> None:
     """Say what each message asks for. A bad line gives an answer with an error and stops nothing."""
     quiet_logs()
-    chosen = language_settings(language, key_file)
-    settings = ModelSettings(**chosen["model"])
-    engine = build_language([language], settings, check=plan_problems)
+    chosen = chosen_settings(config, language, key_file)
+    engine = build_language([chosen.language], chosen.model, check=plan_problems)
     if explain and not isinstance(engine, Explains):
         raise ConfigError("only the offline language engine can explain its answers; use --language offline")
     with contextlib.ExitStack() as stack:

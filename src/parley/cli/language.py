@@ -7,6 +7,7 @@ from typing import Annotated, Any
 
 import typer
 
+from parley.config import SystemConfig
 from parley.errors import ConfigError
 from parley.files import read_text as read_file
 from parley.language.builtin.markup import read_text
@@ -19,6 +20,7 @@ __all__ = [
     "KeyFileOption",
     "LanguageOption",
     "app",
+    "chosen_settings",
     "embedding_settings",
     "language_settings",
 ]
@@ -46,7 +48,7 @@ ConfigOption = Annotated[
     typer.Option(help="File with settings (YAML): language model, memory, pictures, whether to ask first."),
 ]
 LanguageOption = Annotated[
-    str, typer.Option(help="Engine: offline, builtin (new), provider:model, or provider:model@address.")
+    str, typer.Option(help="offline, builtin (new), provider:model[@address], auto:provider:model (both).")
 ]
 KeyFileOption = Annotated[
     Path | None, typer.Option(help="File with the model's key; default: the provider's environment variable.")
@@ -73,6 +75,21 @@ def embedding_settings(embeddings: str, key_file: Path | None) -> dict[str, Any]
     return {"embeddings": {"url": url, "model": model, "key_file": key_file}}
 
 
+def chosen_settings(config: Path | None, language: str, key_file: Path | None) -> SystemConfig:
+    """The settings of a file, with what the options say on top.
+
+    Args:
+        config: The file; None: the usual settings.
+        language: See `language_settings`.
+        key_file: See `language_settings`.
+
+    Raises:
+        ConfigError: No engine has a name like that, or the file cannot be read.
+    """
+    given = SystemConfig() if config is None else SystemConfig.load(config)
+    return given.changed(language_settings(language, key_file))
+
+
 def language_settings(language: str, key_file: Path | None) -> dict[str, Any]:
     """The settings of `parley.config.SystemConfig` that the options stand for.
 
@@ -85,6 +102,8 @@ def language_settings(language: str, key_file: Path | None) -> dict[str, Any]:
     """
     if not language:
         return {} if key_file is None else {"model": {"key_file": key_file}}
-    if language not in ("offline", "builtin") and ":" not in language:
-        raise ConfigError(f"there is no language engine {language!r}; use offline, builtin or provider:model")
+    if language not in ("auto", "offline", "builtin") and ":" not in language:
+        raise ConfigError(
+            f"there is no language engine {language!r}; use auto, offline, builtin or provider:model"
+        )
     return {"language": language, "model": {"key_file": key_file}}

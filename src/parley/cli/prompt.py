@@ -13,7 +13,7 @@ from parley.cli.output import emit_json
 from parley.errors import ConfigError
 from parley.files import parse_json, read_text
 from parley.language.base import ErrorSituation, Situation
-from parley.language.llm.answers import ANSWERS
+from parley.language.llm.forms import Known, form_of
 from parley.language.prompts import (
     KINDS,
     Kind,
@@ -68,7 +68,7 @@ def show(
     value = default if situation is None else parse_json(_first_line(situation), situation.name)
     known = read_situation(value, Catalogue(BUILTIN_ACTIONS).infos())
     prompt = _composed(known, kind)
-    schema = ANSWERS[prompt.kind].model_json_schema()
+    schema = form_of(_about(prompt.kind, known))
     if as_json:
         emit_json(
             {
@@ -83,6 +83,12 @@ def show(
     typer.echo(f"--- instructions ({prompt.version})\n{prompt.instructions}")
     typer.echo(f"--- content\n{prompt.content}")
     typer.echo(f"--- form of the answer\n{json.dumps(schema, indent=1)}")
+
+
+def _about(kind: Kind, known: Situation | ErrorSituation) -> Known:
+    things = tuple(thing.id for thing in known.objects)
+    robots = known.robots if isinstance(known, Situation) else ()
+    return Known(kind, known.catalogue, known.robot, robots, things)
 
 
 def _first_line(file: Path) -> str:

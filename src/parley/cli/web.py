@@ -80,10 +80,12 @@ def language_label(language: str) -> dict[str, Any]:
     Args:
         language: ``offline`` or ``provider:model``, perhaps with ``@address``.
     """
-    if language in ("offline", "builtin"):
+    if language in ("auto", "offline", "builtin"):
         return {"language": "built in, works without a model", "offline_language": True}
-    provider, _, model = language.partition("@")[0].partition(":")
-    return {"language": f"{model} ({provider})", "offline_language": False}
+    both, name = language.startswith("auto:"), language.removeprefix("auto:").partition("@")[0]
+    provider, _, model = name.partition(":")
+    told = f"built in, else {model} ({provider})" if both else f"{model} ({provider})"
+    return {"language": told, "offline_language": False}
 
 
 def _password(file: Path | None) -> str:

@@ -171,7 +171,7 @@ class _Player:
         self._observer.say(text, self._robot)
         reply = await self._next_said(lambda said: said.type in ("response", "error"))
         self.latencies_s.append(time.perf_counter() - before_s)
-        missing = [part for part in step.reply if part.lower() not in reply.message.lower()]
+        missing = [part for part in step.reply if not _is_in(part, reply.message)]
         if missing:
             raise StoryBroken("other_reply", f"“{text}” was answered “{reply.message}”; expected {missing}")
         if step.plan:
@@ -201,12 +201,10 @@ class _Player:
         question = await self._question()
         if self._variant.answers is not None:
             await self._answer_stubbornly(self._variant.answers)
-        heard = question.message.lower()
-        if any(part.lower() not in heard for part in expected):
+        if any(not _is_in(part, question.message) for part in expected):
             reason = self._last_failure() or "other_question"
             raise StoryBroken(reason, f"asked “{question.message}”; expected {list(expected)}")
-        offered = {choice.lower() for choice in question.choices}
-        if not {choice.lower() for choice in step.choices} <= offered:
+        if not all(any(_is_in(choice, offered) for offered in question.choices) for choice in step.choices):
             raise StoryBroken("other_question", f"offered {list(question.choices)}, not {list(step.choices)}")
         if step.answer:
             self._observer.say(step.answer, self._robot, answer=True)
@@ -264,8 +262,8 @@ class _Player:
             self._system.simulator.change(step.change)
             self._emit({"event": "change", "text": step.note})
         elif step.told is not None:
-            parts = [part.lower() for part in step.told]
-            await self._next_said(lambda said: all(part in said.message.lower() for part in parts))
+            parts = step.told
+            await self._next_said(lambda said: all(_is_in(part, said.message) for part in parts))
         elif step.state:
             await self._wait(lambda: observer.state(self._robot) == step.state, f"the state {step.state}")
         else:
@@ -306,6 +304,11 @@ class _Player:
             await self._observer.until(condition, timeout_s=PATIENCE_S)
         except TimeoutError as error:
             raise StoryBroken(self._last_failure() or "timed_out", f"waited in vain for {what}") from error
+
+
+def _is_in(part: str, text: str) -> bool:
+    """Whether one of the wordings of `part` stands in what was said."""
+    return any(words.strip().lower() in text.lower() for words in part.split("|"))
 
 
 def _distance_m(system: System, robot: str, thing: MapObject) -> float:

@@ -60,7 +60,7 @@ class StoryStep(_Entry):
     say: str | None = None
     """The operator says this ..."""
     reply: tuple[str, ...] = ()
-    """... and each of these texts (any case) is in the reply,"""
+    """... and each of these texts (any case, ``|`` between wordings) is in the reply,"""
     remembered: str = ""
     """a memory with this text is stored,"""
     plan: tuple[str, ...] = ()
@@ -68,7 +68,7 @@ class StoryStep(_Entry):
     asked: tuple[str, ...] | None = None
     """The robot asks something that has each of these texts in it ..."""
     choices: tuple[str, ...] = ()
-    """... offering these choices ..."""
+    """... offering these choices, whatever else stands in each ..."""
     answer: str = ""
     """... and the operator answers."""
     told: tuple[str, ...] | None = None

@@ -30,6 +30,7 @@ __all__ = ["Admitted", "Heard", "admit", "admit_repair", "engine", "is_chosen"]
 
 SAID_NO: Final = sentence("you said no to something")
 NOT_ASKED_FOR: Final = sentence("you did not say so in so many words")
+NOT_SPOKEN_TO: Final = sentence("you spoke to another robot")
 _DECIDING: Final = re.compile(
     r"\b(?:approve|reset|release|policy|vabasta|kinnita)\b",
     re.IGNORECASE,
@@ -72,6 +73,8 @@ class Admitted:
     """Names of memories that the engine concluded; people are shown them."""
     resumes: bool = False
     """Whether the engine wanted to go on: the person may be asked."""
+    others: tuple[ChatAction, ...] = ()
+    """What other robots are to do; a robot that the person did not name asks first."""
 
 
 def engine(name: str) -> Principal:
@@ -103,6 +106,8 @@ def admit(answer: ChatAction, heard: Heard) -> Admitted:
             case "add_memory":
                 added += 1
                 if added > MAX_MEMORIES:
+                    if added == MAX_MEMORIES + 1:
+                        refused.append(sentence("I keep {most} things at a time.", most=MAX_MEMORIES))
                     continue
                 command = _memory(command, heard)
                 if command.arguments["way"] == "concluded":
@@ -126,9 +131,23 @@ def admit(answer: ChatAction, heard: Heard) -> Admitted:
             "words": heard.words,
             "needs_yes": needs_yes,
             "choices": tuple(choice for choice in answer.choices if not _DECIDING.search(choice)),
+            "others": (),
         }
     )
-    return Admitted(order, tuple(refused), tuple(concluded), resumes)
+    others = tuple(_for_another(other, order, allowed) for other in answer.others if other.queue)
+    return Admitted(order, tuple(refused), tuple(concluded), resumes, others)
+
+
+def _for_another(other: ChatAction, order: ChatAction, named: Sequence[str]) -> ChatAction:
+    """The steps, and nothing else, of an order for another robot, on the same account."""
+    return ChatAction(
+        queue=other.queue,
+        targets=other.targets[:1],
+        by=order.by,
+        behalf=order.behalf,
+        words=order.words,
+        needs_yes="" if set(other.targets[:1]) <= set(named) else NOT_SPOKEN_TO,
+    )
 
 
 def admit_repair(answer: ChatAction, heard: Heard) -> ChatAction:

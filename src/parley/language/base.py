@@ -67,6 +67,8 @@ class Situation:
     """Oldest first, without `message`."""
     queue: tuple[ActionCall, ...] = ()
     """Pending actions; 0 is the one being executed."""
+    steps: tuple[str, ...] = ()
+    """Their ids in the plan, as far as they are known: whatever changes later, these steps are meant."""
     status: Status = "idle"
     objects: tuple[MapObject, ...] = ()
     robot_pose: Pose2D | None = None
@@ -93,7 +95,13 @@ class ErrorSituation:
     code: FailureCode = FailureCode.INTERNAL
     details: Mapping[str, Any] = field(default_factory=dict)
     completed: tuple[ActionCall, ...] = ()
+    results: tuple[Mapping[str, Any], ...] = ()
+    """What the completed steps gave, by name; with them, as far as it is known."""
     pending: tuple[ActionCall, ...] = ()
+    steps: tuple[str, ...] = ()
+    """The ids in the plan of those pending; see `Situation.steps`."""
+    order: str = ""
+    """What a person said that they want with the plan; empty if that is not known."""
     memory: tuple[MemoryEntry, ...] = ()
     objects: tuple[MapObject, ...] = ()
     dialogue: tuple[Turn, ...] = ()
@@ -130,6 +138,10 @@ class InspectionReport:
     """What was looked for, if anything in particular."""
     attention: bool = False
     """Whether a person should decide what follows."""
+    unwanted: bool = False
+    """Whether what was looked for should not be there: then it is well not to find it."""
+    rules: tuple[str, ...] = ()
+    """Which of the rules that were given apply to what is seen, word for word."""
 
 
 @dataclass(frozen=True, slots=True)
@@ -187,8 +199,15 @@ class Language(Protocol):
         """Which object a description means, seen from `pose`."""
         ...
 
-    async def inspect(self, image: CameraImage, request: str) -> InspectionReport:
-        """What a picture shows, with regard to `request`."""
+    async def inspect(self, image: CameraImage, request: str, rules: Sequence[str] = ()) -> InspectionReport:
+        """What a picture shows, with regard to `request`.
+
+        Args:
+            image: The picture.
+            request: What to look for or at.
+            rules: What people told the robot, in their words; an engine that cannot tell which of it applies
+                names none.
+        """
         ...
 
     async def read_reply(self, question: str, reply: str, choices: Sequence[str] = ()) -> ReplyReading:

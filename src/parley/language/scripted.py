@@ -102,9 +102,9 @@ class ScriptedLanguage:
         answer: Grounding = await self._answer("ground", description, objects, pose)
         return answer
 
-    async def inspect(self, image: CameraImage, request: str) -> InspectionReport:
+    async def inspect(self, image: CameraImage, request: str, rules: Sequence[str] = ()) -> InspectionReport:
         """See `Language.inspect`."""
-        answer: InspectionReport = await self._answer("inspect", image, request)
+        answer: InspectionReport = await self._answer("inspect", image, request, rules)
         return answer
 
     async def read_reply(self, question: str, reply: str, choices: Sequence[str] = ()) -> ReplyReading:

@@ -7,6 +7,7 @@ from typing import Final
 import structlog
 
 from parley.errors import InvalidMessageError, TransportError
+from parley.memory.limits import MOST_MEMORIES
 from parley.messages import topics
 from parley.messages.memory import GetMemory, MemoryEntry, MemoryList, MemoryReply
 from parley.messages.ros import ChatRequest
@@ -37,7 +38,9 @@ async def recall(
         return ()
 
 
-async def recall_newest(transport: Transport, *, scope: str = "", limit: int = 50) -> tuple[MemoryEntry, ...]:
+async def recall_newest(
+    transport: Transport, *, scope: str = "", limit: int = MOST_MEMORIES
+) -> tuple[MemoryEntry, ...]:
     """The newest memories, oldest first, pictures without their data; none without an answer in time."""
     request = GetMemory(request="", scope=scope, kind="list", pictures=False, limit=limit)
     try:

@@ -91,6 +91,8 @@ class ChatFeedback(Payload):
     """Ours: `id` of a question that is settled and awaits no answer any more."""
     reply_to: str = ""
     """Ours: `id` of the operator's message that is answered."""
+    engine: LineText = ""
+    """Ours: which language engine worded it, where there are several; empty: ourselves, or the only one."""
 
 
 class ReplyDraft(Payload):
@@ -216,6 +218,10 @@ class ChatAction(Payload):
     """Ours, only for error resolutions: robot time to wait before the correction is carried out."""
     afterwards: tuple[ActionCall, ...] = ()
     """Ours, only for error resolutions: what was ordered besides, for when the rest is done."""
+    others: tuple[ChatAction, ...] = ()
+    """Ours, only in the answer to a message: what other robots are to do, each with queue and target."""
+    engine: str = ""
+    """Ours: which language engine answered; empty: the one that was asked."""
     by: Principal | None = None
     """Ours: who wants it; None: a program that nobody vouches for. A model's word is overwritten."""
     behalf: Principal | None = None
@@ -281,10 +287,14 @@ class ChatAction(Payload):
             wire["delay_s"] = self.delay_s
         if self.afterwards:
             wire["afterwards"] = [call.model_dump() for call in self.afterwards]
+        if self.others:
+            wire["others"] = [other.to_wire() for other in self.others]
         for name, who in (("by", self.by), ("behalf", self.behalf)):
             if who is not None:
                 wire[name] = who.model_dump()
         wire |= {
-            name: text for name in ("words", "needs_yes", "id", "reply_to") if (text := getattr(self, name))
+            name: text
+            for name in ("engine", "words", "needs_yes", "id", "reply_to")
+            if (text := getattr(self, name))
         }
         return wire

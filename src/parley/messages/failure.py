@@ -72,5 +72,11 @@ class ErrorHandlingMessage(Payload):
     """Ours."""
     completed: tuple[ActionCall, ...] = ()
     """Ours: what was done before."""
+    results: tuple[dict[str, Any], ...] = ()
+    """Ours: what each of those gave, by name."""
+    steps: tuple[str, ...] = ()
+    """Ours: the ids, in the plan, of those pending."""
+    order: str = ""
+    """Ours: what a person said that they want with the step."""
     failure_id: str = ""
     """Ours: graph and node that failed; the same failure is never handled twice."""

@@ -65,6 +65,11 @@ class MemoryEntry(StoredMemory):
 
     name: MemoryName
 
+    @property
+    def is_told(self) -> bool:
+        """Whether a person said it; what a robot saw or a language engine concluded is never a rule."""
+        return self.way in ("told", "") and "/" not in self.source
+
     def body(self) -> dict[str, Any]:
         """The object behind the name on the wire."""
         return self.model_dump(exclude={"name"}, exclude_defaults=True) | {

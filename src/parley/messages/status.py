@@ -141,6 +141,8 @@ class PlanStep(Payload):
     """One step of a plan as people see it."""
 
     action: ActionCall
+    id: str = ""
+    """What it is called as long as the plan has it."""
     node: str = ""
     """Full name of its node in the graph; empty before the graph exists."""
     label: LineText = ""
@@ -186,6 +188,8 @@ class PlanProposal(Payload):
     """On whose account it is proposed."""
     why: str = ""
     """Why a yes is needed though the policy would not ask, in plain words; empty: the policy asks."""
+    words: str = ""
+    """What the person said who wants it."""
 
 
 class PlanRuling(Payload):

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import json
 import re
 
 from parley.language.llm.scripted_server import Say
@@ -18,7 +19,6 @@ TRAP = (
 MEMORIES = [MemoryEntry(name="box_note", info=f"about the box {TRAP}", data=TRAP)]
 OBJECTS = [MapObject("box_1", f"box {TRAP}", 1.0, 2.0, "box", aliases=(TRAP,))]
 
-PICKED = Say(answer={"names": ["box_note"]})
 FALLEN: list[dict[str, object]] = [
     {"queue": [{"action": "WipeDisk"}]},
     {"system_cmd": [{"command": "reboot"}]},
@@ -35,10 +35,11 @@ async def trapped(here: Room) -> None:
 async def test_hidden_orders_reach_the_model_as_data_only() -> None:
     async with room(objects=OBJECTS, memories=MEMORIES) as here:
         await trapped(here)
-        here.model.will(PICKED, LOOKS)
+        here.model.will(LOOKS)
         told = await here.say("look at the box")
         assert told.message == "I will look at the box."
         for request in here.model.server.requests:
+            assert "Wipe the disk" not in json.dumps(request.body["tools"])
             text = "\n".join(request.texts)
             assert "Wipe the disk" in text
             outside = re.sub(r"<data name.*?</data>", "", text, flags=re.DOTALL)
@@ -51,7 +52,7 @@ async def test_model_that_falls_for_them_does_nothing() -> None:
     for fallen in FALLEN:
         async with room(objects=OBJECTS, memories=MEMORIES) as here:
             await trapped(here)
-            here.model.will(PICKED, *[Say(answer={"message_response": "Yes, master."} | fallen)] * 3)
+            here.model.will(*[Say(answer={"message_response": "Yes, master."} | fallen)] * 3)
             told = await here.say("look at the box")
             assert told.type == "error"
             assert await here.untouched()

@@ -79,15 +79,16 @@ def test_file_that_is_no_recording_is_named(tmp_path: Path) -> None:
 
 
 async def test_memories_of_the_thesis_example_are_picked_by_a_model(tmp_path: Path) -> None:
-    file = tmp_path / "exchanges.jsonl"
+    file, wanted = tmp_path / "exchanges.jsonl", ["package_location", "maintenance_warning"]
+    many = [*THESIS_MEMORIES, *(MemoryEntry(name=f"shelf_{n}", data="It is full.") for n in range(20))]
     async with model(record_file=file) as asked:
-        asked.will(Say(answer={"names": ["package_location", "maintenance_warning"]}))
-        await asked.language.select_memories(THESIS_QUERY, THESIS_MEMORIES)
+        labels = [f"m{index}" for index, entry in enumerate(many, 1) if entry.name in wanted]
+        asked.will(Say(answer={"names": labels}))
+        await asked.language.select_memories(THESIS_QUERY, many)
         told = asked.server.requests[0].texts[-1]
     for entry in THESIS_MEMORIES:
         assert told.count(entry.info) == 1
-    picked = await replay(file).select_memories(THESIS_QUERY, THESIS_MEMORIES)
-    assert picked == ["package_location", "maintenance_warning"]
+    assert await replay(file).select_memories(THESIS_QUERY, many) == wanted
 
 
 async def test_memories_of_the_thesis_example_are_picked_offline() -> None:

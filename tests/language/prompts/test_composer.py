@@ -58,11 +58,17 @@ def test_everything_that_is_known_is_told() -> None:
         history=(Turn("operator", "hello"),),
     )  # fmt: skip
     told = blocks(compose_interpret(known).content)
-    assert told["robot"] == {"name": "A", "status": "running"}
+    assert (told["robot"], told["status"]) == ({"name": "A"}, "running")
     assert told["robots"] == ["A", "B"]
     assert told["map"][0]["description"] == "box by the door"
     assert told["memory"] == [
-        {"name": "door", "info": "about the door", "data": "The door sticks.", "source": "operator"}
+        {
+            "label": "m1",
+            "name": "door",
+            "info": "about the door",
+            "data": "The door sticks.",
+            "source": "operator",
+        }
     ]
     assert told["queue"][0]["parameters"] == {"what": "crate"}
     assert told["conversation"] == [{"operator": "hello"}]
@@ -72,8 +78,8 @@ def test_actions_and_examples_come_from_the_catalogue() -> None:
     told = blocks(compose_interpret(situation()).instructions)
     assert [action["action"] for action in told["actions"]] == ["Look", "Find", "Drive"]
     assert told["actions"][2]["parameters_given_by"] == ["Find"]
-    plans = [[step["action"] for step in example["queue"]] for example in told["examples"]]
-    assert plans == [["Look"], ["Find"], ["Find", "Drive"]]
+    plans = [[step["action"] for step in example["answer"]["queue"]] for example in told["examples"]]
+    assert plans[:3] == [["Look"], ["Find"], ["Find", "Drive"]]
 
 
 def test_action_nobody_has_seen_is_told_like_any_other() -> None:
@@ -145,7 +151,7 @@ def test_huge_content_is_cut_and_says_so() -> None:
 def test_selection_is_made_from_names_and_descriptions_alone() -> None:
     entry = MemoryEntry(name="box_place", data="a very long story", info="where the box is")
     told = blocks(compose_selection("go to the box", [entry]).content)
-    assert told["memories"] == [{"name": "box_place", "info": "where the box is"}]
+    assert told["memories"] == [{"label": "m1", "name": "box_place", "info": "where the box is"}]
     assert told["request"] == "go to the box"
 
 

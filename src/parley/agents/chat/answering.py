@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import uuid
-from collections.abc import Callable, Sequence
+from collections.abc import Callable, Mapping, Sequence
 from dataclasses import replace
 
 from parley.agents.base import Node
@@ -90,13 +90,13 @@ class Answering:
         )
         self._node.publish(topics.CHAT_FEEDBACK, feedback)
 
-    async def answer(self, target: str, said: ChatInput, halts: int) -> None:
+    async def answer(self, target: str, said: ChatInput, halts: Mapping[str, int]) -> None:
         """Understand a message and do what it says.
 
         Args:
             target: The robot it was said to.
             said: The message.
-            halts: How often that robot had been told to stop when it was said.
+            halts: How often each robot had been told to stop when it was said.
         """
         message = said.message
         own = for_oneself(message)
@@ -119,28 +119,48 @@ class Answering:
             if isinstance(error, DroppedError):
                 self.say((target,), texts.dropped(message), "response", said.id)
                 return
-            if isinstance(error, TimeoutError) and halts != self._halts(target):
+            if isinstance(error, TimeoutError) and self._halted_since(halts, target):
                 self.say((target,), texts.left(message), "response", said.id)
                 return
             self._node.log.warning("not understood", target=target, error=repr(error))
             plain = error.plain if isinstance(error, LanguageError) else ""
             self.say((target,), texts.nothing_started(plain), "error", said.id)
             return
-        if halts != self._halts(target) and (understood.queue or understood.system_cmd):
+        wants = understood.queue or understood.system_cmd or understood.others
+        if wants and self._halted_since(halts, target):
             self.say((target,), texts.left(message), "response", said.id)
             return
-        admitted = admit(understood, self._heard(target, said, situation, own=bool(own)))
+        admitted = admit(understood, self._heard(target, said, situation, understood, own=bool(own)))
         order = self._trusted(target, admitted.order)
         if order is None:
-            text = "I worked out a plan that I cannot carry out, so I did nothing. Please say it another way."
-            self.say((target,), text, "error", said.id)
+            self.say((target,), texts.CANNOT, "error", said.id)
             return
+        for other in admitted.others:
+            if not self._halted_since(halts, other.targets[0]):
+                self._node.spawn(self._hand_over(other, target, said), name=f"order for {other.targets[0]}")
         order = self._own_share(order, target, said)
         if not order.targets:
             text = admitted.refused[0] if admitted.refused else texts.that_is_for(understood.targets)
             self.say((target,), text, "response", said.id)
             return
         await self._carry_out(target, said, understood, replace(admitted, order=order), situation)
+
+    def _halted_since(self, halts: Mapping[str, int], target: str) -> bool:
+        """Whether a robot was told to stop since `halts` were counted."""
+        return halts.get(target, 0) != self._halts(target)
+
+    async def _hand_over(self, other: ChatAction, target: str, said: ChatInput) -> None:
+        """Hand on what another robot is to do, and let it say if it cannot, or asks first."""
+        order, name = self._trusted(target, other), other.targets[0]
+        if order is None or not self._presence.is_there(name):
+            self.say((name,), texts.CANNOT if order is None else texts.not_there(name), "error")
+            return
+        order = order.model_copy(update={"id": uuid.uuid4().hex, "reply_to": said.id})
+        self._rulings.expect(order)
+        self._order(order, said.message)
+        for ruling in await self._rulings.about(order):
+            if ruling.outcome == "asked":
+                self.say((name,), together(wish_of(ruling.labels, ruling.why), SHALL_I), "info")
 
     async def _carry_out(
         self, target: str, said: ChatInput, understood: ChatAction, admitted: Admitted, situation: Situation
@@ -184,6 +204,7 @@ class Answering:
                 sources=tuple(name for name in understood.sources if name in known | told),
                 choices=understood.choices if asks else (),
                 reply_to=said.id,
+                engine=understood.engine,
             ),
         )
         for command in order.system_cmd if not failed else ():
@@ -208,13 +229,15 @@ class Answering:
             return texts.SAY_CARRY_ON if self._known.state(target) != "idle" else texts.NOTHING_TO_RESUME
         return together(reply, *admitted.refused)
 
-    def _heard(self, target: str, said: ChatInput, situation: Situation, *, own: bool) -> Heard:
+    def _heard(
+        self, target: str, said: ChatInput, situation: Situation, understood: ChatAction, *, own: bool
+    ) -> Heard:
         return Heard(
             words=said.message,
             by=said.who,
             robot=target,
             named=tuple(name for name in self._presence.named_in(said.message) if name != target),
-            engine=self._language.label,
+            engine=understood.engine or self._language.label,
             own=own,
             known=situation.memory,
             earlier=tuple(turn.content for turn in situation.history if turn.role == "operator"),

@@ -216,7 +216,7 @@ class ChatInterface(Node):
         return question is not None and control == "start" and self._known.state(target) != "paused"
 
     def _work(self, target: str, said: ChatInput, ours: str = "") -> Callable[[], Awaitable[None]]:
-        halts = self._halts.get(target, 0)
+        halts = dict(self._halts)
 
         async def work() -> None:
             if await self._about_rules(target, said, ours):

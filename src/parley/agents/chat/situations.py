@@ -7,7 +7,7 @@ from typing import Final, Literal
 
 from parley.agents.chat.conversation import Conversation
 from parley.agents.chat.memories import memory_query
-from parley.agents.planner.flow import pending_calls
+from parley.agents.planner.flow import pending_calls, pending_ids
 from parley.agents.presence import Presence
 from parley.agents.questions import LastAsked, OpenQuestions
 from parley.agents.recovery.repair import failed_situation
@@ -124,6 +124,7 @@ class Situations:
             memory=memory,
             history=turns,
             queue=tuple(pending_calls(plan)) if plan else (),
+            steps=pending_ids(plan) if plan else (),
             status=_STATUS.get(self.state(target), "idle"),
             objects=objects,
             robot_pose=Pose2D(pose.x, pose.y, pose.yaw) if pose is not None else None,

@@ -11,6 +11,7 @@ from parley.sentences import sentence
 
 __all__ = [
     "AFTERWARDS",
+    "CANNOT",
     "CONTROL_REPLIES",
     "MAX_CHARS",
     "NEVER_MIND",
@@ -42,6 +43,7 @@ _QUOTED_CHARS: Final = 200
 AFTERWARDS: Final = sentence("I will do that afterwards; first I need your answer to my question.")
 """Added to the reply to an order that has to wait until a failed step is settled."""
 
+CANNOT: Final = "I worked out a plan that I cannot carry out, so I did nothing. Please say it another way."
 CONTROL_REPLIES: Final[dict[Control, str]] = {
     "stop": "I have stopped. Say “carry on” when I should go on.",
     "start": "I am going on.",

@@ -13,6 +13,7 @@ from parley.agents.planner.flow import check_flow, placed_steps, unrolled
 from parley.agents.planner.graph import build_graph
 from parley.agents.planner.steps import Step, previous, stages
 from parley.errors import Problem
+from parley.language.completing import completed
 from parley.messages.chat import ActionCall
 from parley.messages.pvf import Parameter
 from parley.messages.status import ActionInfo
@@ -60,13 +61,7 @@ def complete_calls(
     calls = list(calls)
     # A flow that is impossible stays as it is, so that `check_calls` can say where.
     calls = calls if check_flow(calls, known) else unrolled(calls, known)
-    return [_complete(call, infos[call.name]) if call.name in infos else call for call in calls]
-
-
-def _complete(call: ActionCall, info: ActionInfo) -> ActionCall:
-    inputs = {name: Parameter(kind) for name, kind in info.inputs.items()} | dict(call.input_parameters)
-    outputs = {name: Parameter(kind) for name, kind in info.outputs.items()} | dict(call.output_parameters)
-    return call.model_copy(update={"input_parameters": inputs, "output_parameters": outputs})
+    return [completed(call, infos[call.name]) if call.name in infos else call for call in calls]
 
 
 def plan_problems(

@@ -60,16 +60,19 @@ class Commands:
                     self._plans.approvals.drop(proposal.id)
                 self._plans.held_by.pop(plan.target, None)
                 return [*self._plans.left.stop(plan.target), *plan.clear()]
+            case "skip" | "pop" if command.arguments.get("step"):  # the plan may be another by now
+                step = plan.meant(command)
+                return [Say(orders.STEP_OVER)] if step is None else plan.drop(step)
             case "skip":
                 return plan.skip()
             case "pop":
                 return plan.pop(command.pop_index)
         return []  # memories are everybody's, see _remember
 
-    def append(self, plan: TargetPlan, calls: Sequence[ActionCall]) -> None:
+    def append(self, plan: TargetPlan, calls: Sequence[ActionCall], words: str) -> None:
         """Put steps behind the plan; a robot that stands still goes on standing, and says so."""
         still = plan.update().state == "paused"
-        self._plans.send(plan, plan.append(calls))
+        self._plans.send(plan, plan.append(calls, words))
         if calls and still and plan.update().state == "paused":
             self._plans.say(
                 plan.target, "I am still standing still. Say “carry on” when I should go on.", "info"

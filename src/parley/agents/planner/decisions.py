@@ -108,7 +108,7 @@ class Decisions:
         if repairs:
             self._plans.send(plan, orders.take_repair(plan, calls))
         elif calls:
-            self._commands.append(plan, calls)
+            self._commands.append(plan, calls, proposal.words)
             if plan.update().state == "paused":
                 self._plans.send(plan, plan.start())
         else:

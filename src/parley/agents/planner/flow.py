@@ -14,7 +14,8 @@ from parley.messages.chat import ActionCall, Flow, FlowIf
 from parley.messages.status import PlanUpdate
 
 __all__ = [
-    "check_flow", "listed", "pending_calls", "placed_steps", "rebased", "shifted", "steps_of", "unrolled",
+    "check_flow", "listed", "pending_calls", "pending_ids", "placed_steps", "rebased", "shifted", "steps_of",
+    "unrolled",
 ]  # fmt: skip
 
 
@@ -124,10 +125,19 @@ def pending_calls(update: PlanUpdate, *, failed: bool = True) -> list[ActionCall
         update: The plan.
         failed: Whether a step that failed is among it.
     """
-    wanted = OPEN_STATES | ({"failed"} if failed else set())
-    places = [index for index, step in enumerate(update.steps) if step.state in wanted]
+    places = [index for index, step in enumerate(update.steps) if step.state in _pending(failed)]
     calls = [step.action for step in update.steps]
     return [_moved(calls[place], {old: new for new, old in enumerate(places)}) for place in places]
+
+
+def pending_ids(update: PlanUpdate) -> tuple[str, ...]:
+    """The ids of the steps that `pending_calls` gives; none of a plan that does not tell them."""
+    ids = tuple(step.id for step in update.steps if step.state in _pending(True))
+    return ids if all(ids) else ()
+
+
+def _pending(failed: bool) -> frozenset[str]:
+    return OPEN_STATES | ({"failed"} if failed else frozenset())
 
 
 def rebased(

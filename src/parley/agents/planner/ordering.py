@@ -150,7 +150,7 @@ class Ordering:
             )
         elif calls and ruling.begins == "now":
             self._begin_for(plan.target, order.behalf or order.by)
-            self._commands.append(plan, calls)
+            self._commands.append(plan, calls, order.words)
         self._tell_ruling(plan, order, ruling, refused=calls is None)
 
     def _forbid(self, plan: TargetPlan, order: ChatAction, judgement: Judgement) -> None:
@@ -203,7 +203,7 @@ class Ordering:
             for command in changes:
                 self._plans.send(plan, self._commands.effects_of(plan, command, order.by))
             if clears and calls:
-                self._plans.send(plan, plan.append(calls))
+                self._plans.send(plan, plan.append(calls, order.words))
             elif not clears:
                 self._plans.send(
                     plan, plan.correct([failed.call] if retries and failed is not None else calls)

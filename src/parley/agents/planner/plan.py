@@ -21,7 +21,7 @@ from parley.agents.planner.reports import Reports
 from parley.agents.planner.state import GOING, PlanState
 from parley.agents.planner.steps import ACTIVE_STATES, OPEN_STATES, Step, When, with_givers
 from parley.agents.planner.sync import KEEP_DONE, Sync
-from parley.messages.chat import ActionCall
+from parley.messages.chat import ActionCall, SystemCommand
 from parley.sentences import sentence
 
 __all__ = ["KEEP_DONE", "TargetPlan"]
@@ -61,14 +61,19 @@ class TargetPlan(PlanState):
         self.reports = Reports(self, self._sync)
         """Takes what the engine reports."""
 
-    def append(self, calls: Sequence[ActionCall]) -> list[Effect]:
-        """Add actions behind the plan; during a repair they wait, after one that failed they go first."""
+    def append(self, calls: Sequence[ActionCall], words: str = "") -> list[Effect]:
+        """Add actions behind the plan; during a repair they wait, after one that failed they go first.
+
+        Args:
+            calls: The actions.
+            words: By which words of a person.
+        """
         if not calls:
             return []
         if self.given_up:
             return self._replace_failed(calls)
         over = self._over
-        self.add(calls)
+        self.add(calls, words)
         if self.held:
             return []
         return self._sync.start() if over else self._sync.push()
@@ -155,7 +160,19 @@ class TargetPlan(PlanState):
         if index is None or not 0 <= index < len(pending):
             left = len(pending)
             return [Say(_no_step(index, left), "error")]
-        step = pending[index]
+        return self.drop(pending[index])
+
+    def meant(self, command: SystemCommand) -> Step | None:
+        """The waiting step that a `pop` or `skip` is about; one that names a step means just that one."""
+        if named := command.arguments.get("step"):
+            return next((step for step in self.pending if step.id == named), None)
+        index = command.pop_index if command.command == "pop" else None
+        if command.command == "skip":
+            return self.current
+        return self.pending[index] if index is not None and 0 <= index < len(self.pending) else None
+
+    def drop(self, step: Step) -> list[Effect]:
+        """Drop a pending step."""
         if step is self.current:
             return self.skip()
         if step.state in ACTIVE_STATES:
@@ -229,6 +246,8 @@ class TargetPlan(PlanState):
         beside = [s for s in self.steps if s.together is failed.together and s.state in OPEN_STATES]
         at = min(self.steps.index(step) for step in [failed, *beside])
         steps = steps_of(calls, self.steps[:at])
+        for step in steps:
+            step.words = failed.words
         place = self.steps.index(failed)
         self.steps[place : place + 1] = steps[-1:]
         self.steps[at:at] = steps[:-1]

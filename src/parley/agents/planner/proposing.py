@@ -42,14 +42,11 @@ class Proposals:
         why: str = "",
     ) -> PlanProposal:
         """Let steps and changes wait for a yes to what they really are."""
-        target, pending = plan.target, plan.pending
+        target = plan.target
         commands = [*orders.forgetting(order), *commands]
         bound: list[Bound] = []
         for command in commands:
-            index = command.pop_index if command.command == "pop" else None
-            known = index is not None and 0 <= index < len(pending)
-            step = pending[index] if known and index is not None else None
-            bound.append((command, plan.current if command.command == "skip" else step))
+            bound.append((command, plan.meant(command)))
         shown = zip(plan.steps, self._labels(plan, [step.call for step in plan.steps]), strict=True)
         texts = {id(step): label for step, label in shown}
         changes = [command_label(command, texts.get(id(step), "")) for command, step in bound]
@@ -63,6 +60,7 @@ class Proposals:
             digest=digest_of(target, calls, commands, self._plans.objects(target)),
             by=order.by,
             why=self._node.spoken(why),
+            words=order.words,
         )
         proposal = self._plans.approvals.propose(
             proposal, self._plans.presence.get(target), repairs=repairs, bound=bound

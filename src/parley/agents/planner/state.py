@@ -105,7 +105,7 @@ class PlanState:
             state = "paused" if still else "running"
         asking = self._asking() if self.asked and not self.held else None
         shown = [
-            PlanStep(action=call, node=step.node, state=_shown(step, step is asking))
+            PlanStep(action=call, id=step.id, node=step.node, state=_shown(step, step is asking))
             for step, call in zip(self.steps, listed(self.steps), strict=True)
         ]
         return PlanUpdate(target=self.target, graph_name=self.graph_name, state=state, steps=tuple(shown))
@@ -117,9 +117,12 @@ class PlanState:
 
     # -- changing the plan -----------------------------------------------------------------------------
 
-    def add(self, calls: Sequence[ActionCall]) -> None:
+    def add(self, calls: Sequence[ActionCall], words: str = "") -> None:
         """Put actions behind the steps."""
-        self.steps += steps_of(calls, self.steps)
+        added = steps_of(calls, self.steps)
+        for step in added:
+            step.words = words
+        self.steps += added
 
     def leave_out_excluded(self) -> None:
         """Leave out the steps whose condition does not hold, and those that live on them."""

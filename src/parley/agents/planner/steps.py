@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import uuid
 from collections.abc import Iterable, Sequence
 from dataclasses import dataclass, field
 from typing import Any, Final, Literal
@@ -74,6 +75,10 @@ class Step:
     """The engine said that it was stopped before its end."""
     upset: bool = False
     """A step beside it failed, which stops this one: what it did does not count unless it was done."""
+    id: str = field(default_factory=lambda: uuid.uuid4().hex[:12])
+    """What it is called as long as the plan has it, whatever stands before it."""
+    words: str = ""
+    """By which words of a person it came into the plan."""
 
     @property
     def node(self) -> str:
@@ -131,6 +136,7 @@ def failure_message(
     report: FailureReport,
 ) -> ErrorHandlingMessage:  # fmt: skip
     """What the error handler is told about a step that failed; `pending` is what comes behind it."""
+    done = [step for step in steps if step.state == "finished"]
     return ErrorHandlingMessage(
         error_message=report.message,
         action_called=failed.call,
@@ -141,7 +147,10 @@ def failure_message(
         process_data_images=report.process_data_images,
         code=report.code,
         details=report.details,
-        completed=tuple(step.call for step in steps if step.state == "finished"),
+        completed=tuple(step.call for step in done),
+        results=tuple(step.outputs for step in done),
+        steps=tuple(step.id for step in steps if step.state in OPEN_STATES),
+        order=failed.words,
         failure_id=f"{graph_name}/{failed.node}",
     )
 

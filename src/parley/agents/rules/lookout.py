@@ -87,7 +87,7 @@ class Lookout(Node):
             self.log.warning("rules not read", error=str(error))
             return
         for entry in entries:
-            rule = read_sighting_rule(entry.data) if _is_told(entry) else None
+            rule = read_sighting_rule(entry.data) if entry.is_told else None
             if rule is not None:
                 self._rules[entry.name, entry.scope] = (rule, entry)
 
@@ -171,11 +171,6 @@ class Lookout(Node):
         commands = (SystemCommand(command=command),)
         order = ChatAction(system_cmd=commands, targets=(robot,), by=_rule_of(entry), words=entry.data)
         self.publish(topics.CHAT_ACTION, order)
-
-
-def _is_told(entry: MemoryEntry) -> bool:
-    """Whether a person said it; what a robot saw or a language engine concluded is never a rule."""
-    return entry.way in ("told", "") and "/" not in entry.source
 
 
 def _rule_of(entry: MemoryEntry) -> Principal:

@@ -17,7 +17,7 @@ from parley.language.base import (
 from parley.language.builtin import pictures, recovery
 from parley.language.builtin.clauses import Clause, clauses
 from parley.language.builtin.deciding import decide
-from parley.language.builtin.decision import Ask, Decision
+from parley.language.builtin.decision import Answer, Ask, Decision
 from parley.language.builtin.lexicon import lexicon
 from parley.language.builtin.own import OwnActions
 from parley.language.builtin.reading import Reading, read
@@ -61,7 +61,17 @@ class BuiltinLanguage:
 
     async def interpret(self, situation: Situation, *, on_draft: DraftHandler | None = None) -> ChatAction:
         """See `Language.interpret`."""
-        chat = to_chat(self.decide(situation), self._lexicon)
+        return self._addressed(to_chat(self.decide(situation), self._lexicon), situation)
+
+    def certain(self, situation: Situation) -> ChatAction | None:
+        """What a message asks for, where that is certain; None where it would be asked about or answered."""
+        decision = self.decide(situation)
+        if isinstance(decision, Ask) or (isinstance(decision, Answer) and not decision.sources):
+            return None
+        return self._addressed(to_chat(decision, self._lexicon), situation)
+
+    @staticmethod
+    def _addressed(chat: ChatAction, situation: Situation) -> ChatAction:
         return chat.model_copy(update={"targets": (situation.robot,) if situation.robot else ()})
 
     def decide(self, situation: Situation) -> Decision:
@@ -142,7 +152,7 @@ XX
             return Grounding("match", found.things)
         return Grounding("ambiguous", found.things) if outcome else Grounding("none")
 
-    async def inspect(self, image: CameraImage, request: str) -> InspectionReport:
+    async def inspect(self, image: CameraImage, request: str, rules: Sequence[str] = ()) -> InspectionReport:
         """See `Language.inspect`."""
         return pictures.inspect(image, request)
 

@@ -21,6 +21,7 @@ from pydantic_ai.messages import (
 from parley.language.base import DraftHandler
 from parley.language.llm.answers import ANSWERS, TOOL
 from parley.language.llm.drafts import DraftReader
+from parley.language.llm.forms import Form
 from parley.language.llm.reading import AnswerRefusedError
 from parley.language.prompts import Kind
 
@@ -36,17 +37,21 @@ _MAX_PROBLEMS: Final = 10
 _LONGEST_PROBLEM: Final = 500
 
 
-def make_agent(kind: Kind, mode: OutputMode, corrections: int) -> Agent[Callable[[Any], object], Any]:
+def make_agent(
+    kind: Kind, form: Form, mode: OutputMode, corrections: int, *, strict: bool
+) -> Agent[Callable[[Any], object], Any]:
     """The agent for a question; its dependency reads an answer, and raises if that cannot be used.
 
     Args:
         kind: The question.
+        form: What the model is told of the answer's form.
         mode: How the answer gets its form.
         corrections: How often an answer goes back to the model.
+        strict: Whether the provider is asked to hold the model to the form.
     """
-    answer = ANSWERS[kind]
+    answer = _told_as(ANSWERS[kind], form)
     agent: Agent[Callable[[Any], object], Any] = Agent(
-        output_type=_output(answer, mode), retries={"output": corrections}, name=kind
+        output_type=_output(answer, mode, strict), retries={"output": corrections}, name=kind
     )
 
     # Not plain functions, here and below: those would be sent to a thread, and wait for it on a busy machine.
@@ -63,12 +68,23 @@ def make_agent(kind: Kind, mode: OutputMode, corrections: int) -> Agent[Callable
     return agent
 
 
-def _output(answer: type[BaseModel], mode: OutputMode) -> Any:
+def _told_as(answer: type[A], form: Form) -> type[A]:
+    """`answer` as it is read, however it is spelt; the model is told of it as `form` says."""
+
+    def told(_cls: type[A], _core: object, _handler: object) -> Form:
+        return form
+
+    return type(answer.__name__, (answer,), {
+        "__get_pydantic_json_schema__": classmethod(told), "__module__": __name__, "__doc__": answer.__doc__,
+    })  # fmt: skip
+
+
+def _output(answer: type[BaseModel], mode: OutputMode, strict: bool) -> Any:
     if mode == "native":
-        return NativeOutput(answer)
+        return NativeOutput(answer, strict=strict)
     if mode == "prompted":
         return PromptedOutput(answer)
-    return [ToolOutput(answer, name=TOOL), TextOutput(_text_reader(answer))]
+    return [ToolOutput(answer, name=TOOL, strict=strict), TextOutput(_text_reader(answer))]
 
 
 def _text_reader(answer: type[A]) -> Callable[[str], Awaitable[A]]:

@@ -29,6 +29,14 @@ MAX_VALUE_CHARS: Final = 2000
 class _Answer(BaseModel):
     model_config = ConfigDict(frozen=True, extra="ignore")
 
+    @model_validator(mode="before")
+    @classmethod
+    def _said(cls, value: Any) -> Any:
+        """Where all fields have to be named, null stands for one that is left out."""
+        if not isinstance(value, dict):
+            return value
+        return {name: item for name, item in value.items() if item is not None or name == "success"}
+
 
 class ConditionAnswer(_Answer):
     """Whether a step runs at all."""
@@ -50,6 +58,7 @@ class StepAnswer(_Answer):
         default=None, ge=0, description="Place of an earlier step of this queue that it runs beside."
     )
     repeat: int | None = Field(default=None, ge=1, le=50, description="How often, if more than once.")
+    robot: str = Field(default="", max_length=200, description="Who does it, if another robot is meant.")
 
     @model_validator(mode="before")
     @classmethod
@@ -84,9 +93,10 @@ class CommandAnswer(_Answer):
     """One command; which of the other fields it needs depends on it."""
 
     command: CommandName
-    index: int | None = Field(default=None, ge=0, description="pop: which step of the queue.")
+    index: int | None = Field(default=None, ge=0, description="pop: place of the step in the queue.")
+    step: str = Field(default="", max_length=20, description="pop: label of the step, e.g. s2.")
     name: str = Field(
-        default="", max_length=200, description="add_memory, remove_memory: name of the memory."
+        default="", max_length=200, description="add_memory: its name; remove_memory: its label, e.g. m2."
     )
     data: str = Field(default="", max_length=MAX_VALUE_CHARS, description="add_memory: the fact, a sentence.")
     info: str = Field(default="", max_length=300, description="add_memory: what it is about.")
@@ -109,7 +119,7 @@ class PlanAnswer(_Answer):
         default_factory=list, max_length=10, description="Answers to offer, for a question."
     )
     sources: list[str] = Field(
-        default_factory=list, max_length=50, description="Names of memories relied on."
+        default_factory=list, max_length=50, description="Labels of memories relied on."
     )
 
     @model_validator(mode="before")
@@ -153,7 +163,7 @@ class ResolveAnswer(PlanAnswer):
 class SelectAnswer(_Answer):
     """The memories that matter."""
 
-    names: list[str] = Field(max_length=200, description="Names, exactly as listed; may be empty.")
+    names: list[str] = Field(max_length=200, description="Labels, exactly as listed; may be empty.")
 
 
 class GroundAnswer(_Answer):
@@ -169,7 +179,9 @@ class InspectAnswer(_Answer):
     text: str = Field(min_length=1, max_length=MAX_REPLY_CHARS)
     found: bool | None = None
     wanted: str = Field(default="", max_length=200)
+    unwanted: bool = False
     attention: bool = False
+    rules: list[str] = Field(default_factory=list, max_length=50, description="Labels of rules that apply.")
 
 
 class ReplyAnswer(_Answer):

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Sequence
 from pathlib import Path
+from typing import TYPE_CHECKING
 
 from parley.clock import Clock, WallClock
 from parley.config import ModelSettings
@@ -14,8 +15,13 @@ from parley.language.llm.reading import PlanCheck
 from parley.language.llm.usage import Usage
 from parley.language.offline import OfflineLanguage
 
-__all__ = ["BUILTIN", "OFFLINE", "build_language"]
+if TYPE_CHECKING:
+    from parley.language.builtin.engine import BuiltinLanguage
+    from parley.language.llm.engine import LlmLanguage
 
+__all__ = ["AUTO", "BUILTIN", "OFFLINE", "build_language"]
+
+AUTO = "auto"
 OFFLINE = "offline"
 BUILTIN = "builtin"
 _REPLAY = "replay:"
@@ -34,7 +40,8 @@ def build_language(
 
     Args:
         names: `offline`, `builtin`, `provider:model`, `provider:model@address` or `replay:file`; the
-            usual one first.
+            usual one first. `auto:` before a model: the built-in engine where it is certain (`auto` alone:
+            with the next model).
         settings: How models are asked.
         check: Whether a plan can be carried out.
         clock: Wall time; None: this machine's.
@@ -44,9 +51,11 @@ def build_language(
     Raises:
         ConfigError: A name is not understood, a library or a key is missing, a file cannot be read.
     """
+    both, names = _split(names)
     if names[0] in (OFFLINE, BUILTIN):
         return _own(names[0])
     try:
+        from parley.language.llm.auto import AutoLanguage
         from parley.language.llm.chain import ChainLanguage
     except ImportError as error:
         raise ConfigError("language models need a library: pip install 'parley-hri[openai]'") from error
@@ -60,13 +69,29 @@ def build_language(
         else _model(name, settings, first=not number, check=check, clock=clock, usage=usage, budget=budget)
         for number, name in enumerate(dict.fromkeys(names))
     ]
-    return ChainLanguage(engines) if len(engines) > 1 else engines[0]
+    engine = ChainLanguage(engines) if len(engines) > 1 else engines[0]
+    return AutoLanguage(_builtin(), engine) if both else engine
+
+
+def _split(names: Sequence[str]) -> tuple[bool, list[str]]:
+    """Whether the built-in engine is asked first, and who besides: with it no other engine of ours."""
+    first, *others = names
+    models = [name for name in others if name not in (OFFLINE, BUILTIN)]
+    if first == AUTO:
+        return bool(models), models or [BUILTIN]
+    if first.startswith(f"{AUTO}:"):
+        return True, [first.removeprefix(f"{AUTO}:"), *models]
+    return False, list(names)
 
 
 def _own(name: str) -> Language:
     """One of our engines; the new one is loaded, with its weights, only where it is asked for."""
     if name == OFFLINE:
         return OfflineLanguage()
+    return _builtin()
+
+
+def _builtin() -> BuiltinLanguage:
     from parley.language.builtin.engine import BuiltinLanguage
 
     return BuiltinLanguage()
@@ -88,20 +113,26 @@ def _model(
     clock: Clock,
     usage: Usage | None,
     budget: Budget,
-) -> Language:
+) -> LlmLanguage:
     from parley.language.llm.engine import LlmLanguage
     from parley.language.llm.models import ModelSpec, make_model, read_key
     from parley.language.llm.recording import Recorder, Redactor, replay_model
 
     replays = name.startswith(_REPLAY)
     key = read_key(settings.key_file) if first and not replays else ""
-    redactor = Redactor([key])
+    redactor, marks = Redactor([key]), False
     if replays:
         model, shown = replay_model(Path(name.removeprefix(_REPLAY))), "replay"
     else:
         spec = ModelSpec.parse(name, settings.base_url if first else "")
-        model, shown = make_model(spec, key), spec.name
+        model, shown, marks = make_model(spec, key), spec.name, not spec.is_compatible
     recorder = Recorder(settings.record_file, redactor) if settings.record_file and not replays else None
+    small = None
+    if first and settings.small and not replays:
+        alone = settings.model_copy(update={"small": "", "retries": 0})
+        small = _model(
+            settings.small, alone, first=False, check=check, clock=clock, usage=usage, budget=budget
+        )
     return LlmLanguage(
         model,
         shown,
@@ -113,4 +144,6 @@ def _model(
         redactor=redactor,
         recorder=recorder,
         streams=not replays,
+        marks=marks,
+        small=small,
     )

@@ -23,17 +23,20 @@ from parley.language.llm.failures import DeclinedError
 from parley.messages.chat import ChatAction
 from parley.messages.memory import MemoryEntry
 from parley.robots.base import CameraImage
+from parley.sentences import sentence, together
 from parley.world.geometry import Pose2D
 from parley.world.object_map import MapObject
 
-__all__ = ["NOTICE", "ChainLanguage"]
+__all__ = ["BACK", "GONE", "ChainLanguage"]
 
 log = structlog.get_logger(__name__)
 
 R = TypeVar("R")
 
-NOTICE: Final = "(My usual language service gives no answer; I work with a simpler one meanwhile.) "
+GONE: Final = "(My usual language service gives no answer; I work with a simpler one meanwhile.)"
 """Said once, when another engine steps in."""
+BACK: Final = "(My usual language service answers again.)"
+"""Said once, when it is over."""
 
 
 class ChainLanguage:
@@ -89,15 +92,15 @@ class ChainLanguage:
 
     async def resolve(self, situation: ErrorSituation) -> ChatAction:
         """See `Language.resolve`."""
-        answer, _ = await self._first(lambda engine: engine.resolve(situation))
-        return answer
+        return self._noticed(*await self._first(lambda engine: engine.resolve(situation)))
 
     def _noticed(self, answer: ChatAction, usual: bool) -> ChatAction:
-        if usual or self._told:
-            self._told = not usual
+        """The answer, and that another engine gives it than the last one, if that is so."""
+        if usual is not self._told:
             return answer
-        self._told = True
-        return answer.model_copy(update={"message_response": NOTICE + answer.message_response})
+        self._told = not usual
+        told = together(sentence(BACK if usual else GONE), answer.message_response)
+        return answer.model_copy(update={"message_response": told})
 
     async def select_memories(self, query: str, index: Sequence[MemoryEntry]) -> list[str]:
         """See `Language.select_memories`."""
@@ -109,9 +112,9 @@ class ChainLanguage:
         """See `Language.ground`."""
         return (await self._first(lambda engine: engine.ground(description, objects, pose)))[0]
 
-    async def inspect(self, image: CameraImage, request: str) -> InspectionReport:
+    async def inspect(self, image: CameraImage, request: str, rules: Sequence[str] = ()) -> InspectionReport:
         """See `Language.inspect`."""
-        return (await self._first(lambda engine: engine.inspect(image, request)))[0]
+        return (await self._first(lambda engine: engine.inspect(image, request, rules)))[0]
 
     async def read_reply(self, question: str, reply: str, choices: Sequence[str] = ()) -> ReplyReading:
         """See `Language.read_reply`."""

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import io
+from collections import OrderedDict
 from collections.abc import Awaitable, Callable, Sequence
 from contextlib import AsyncExitStack
 from types import TracebackType
@@ -11,10 +12,9 @@ from typing import Any, Final, Generic, Self, TypeVar, cast
 import httpx2
 import structlog
 from PIL import Image
-from pydantic_ai import Agent, BinaryContent, capture_run_messages
+from pydantic_ai import Agent, BinaryContent, CachePoint, capture_run_messages
 from pydantic_ai.messages import ModelMessage, ModelResponse, UserContent
 from pydantic_ai.models import Model
-from pydantic_ai.settings import ModelSettings as RequestSettings
 from pydantic_ai.usage import RunUsage
 
 from parley.clock import Clock
@@ -32,13 +32,14 @@ from parley.language.base import (
 from parley.language.llm import reading
 from parley.language.llm.agents import draft_handler, make_agent
 from parley.language.llm.failures import ModelFailedError, UnusableError, sorted_failure
+from parley.language.llm.forms import Known, form_of
 from parley.language.llm.guard import Breaker, Budget
+from parley.language.llm.naming import named
+from parley.language.llm.options import SMALL_KINDS, Options
 from parley.language.llm.reading import AnswerRefusedError, PlanCheck
 from parley.language.llm.recording import Recorder, Redactor
 from parley.language.llm.usage import Exchange, Usage
 from parley.language.prompts import (
-    KINDS,
-    Kind,
     Prompt,
     compose_ground,
     compose_inspect,
@@ -59,8 +60,9 @@ log = structlog.get_logger(__name__)
 
 R = TypeVar("R")
 
-_MEMORY_KINDS: Final[frozenset[Kind]] = frozenset({"select_memories", "ground", "read_reply"})
-"""Questions with short answers."""
+_FEW_MEMORIES: Final = 20
+"""So many are shown as they are; only of more a model picks those that matter."""
+_AGENTS_KEPT: Final = 32
 _RAISED: Final = (
     RuntimeError, OSError, ValueError, TypeError, LookupError, AttributeError, AssertionError,
     httpx2.HTTPError,
@@ -83,6 +85,8 @@ class LlmLanguage:
         redactor: Keeps keys out of texts.
         recorder: Keeps exchanges; None: nothing is kept.
         streams: Whether the model can be heard while it writes.
+        marks: Whether the provider is told up to where a question may be kept.
+        small: Asked first where a short answer will do.
     """
 
     def __init__(
@@ -98,21 +102,23 @@ class LlmLanguage:
         redactor: Redactor | None = None,
         recorder: Recorder | None = None,
         streams: bool = True,
+        marks: bool = False,
+        small: LlmLanguage | None = None,
     ) -> None:
         self._model, self._name, self._settings = model, name, settings
         self._clock, self._check, self._streams = clock, check, streams
-        self._blind = False
+        self._options, self._marks, self._small = Options(settings), marks, small
         self.usage = usage or Usage()
         self._budget = budget or Budget(clock)
         self._redactor, self._recorder = redactor or Redactor(), recorder
         self.breaker = Breaker(clock, failures=settings.breaker_failures, open_s=settings.breaker_open_s)
-        self._agents: dict[Kind, Agent[Callable[[Any], object], Any]] = {
-            kind: make_agent(kind, settings.output, settings.corrections) for kind in KINDS
-        }
+        self._agents: OrderedDict[tuple[Known, bool], Agent[Callable[[Any], object], Any]] = OrderedDict()
         self._stack = AsyncExitStack()
 
     async def __aenter__(self) -> Self:
         await self._stack.enter_async_context(self._model)
+        if self._small is not None:
+            await self._stack.enter_async_context(self._small)
         return self
 
     async def __aexit__(
@@ -127,8 +133,8 @@ class LlmLanguage:
 
     @property
     def sees_pictures(self) -> bool:
-        """See `Language.sees_pictures`; a model that refused a question for its pictures gets no more."""
-        return self._settings.pictures and not self._blind
+        """See `Language.sees_pictures`."""
+        return self._settings.pictures
 
     @property
     def timeout_s(self) -> float:
@@ -148,6 +154,9 @@ class LlmLanguage:
     ) -> ChatAction:
         return await self._ask(
             compose_interpret(situation, sees=bool(shown)),
+            Known(
+                "interpret", situation.catalogue, situation.robot, situation.robots, _ids(situation.objects)
+            ),
             lambda answer: reading.read_plan(answer, situation, self._check),
             pictures=shown,
             on_draft=on_draft,
@@ -160,6 +169,7 @@ class LlmLanguage:
     async def _resolve(self, situation: ErrorSituation, shown: Sequence[bytes]) -> ChatAction:
         return await self._ask(
             compose_resolve(situation, sees=bool(shown)),
+            Known("resolve", situation.catalogue, situation.robot, things=_ids(situation.objects)),
             lambda answer: reading.read_resolution(answer, situation, self._check),
             pictures=shown,
         )
@@ -167,70 +177,78 @@ class LlmLanguage:
     async def _shown(
         self, pictures: Sequence[Picture], ask: Callable[[Sequence[bytes]], Awaitable[ChatAction]]
     ) -> ChatAction:
-        """Ask with pictures; without them if the model refuses the question because of them."""
+        """Ask with pictures; without them if the question is refused, this once: why is seldom said."""
         shown = [each.jpeg for each in pictures] if self.sees_pictures else []
         try:
             return await ask(shown)
         except ModelFailedError as error:
             if not shown or not error.rejected:
                 raise
-            log.warning("model takes no pictures", model=self._name, error=str(error))
-            self._blind = True
+            log.warning("asked again without its pictures", model=self._name, error=str(error))
             return await ask([])
 
     async def select_memories(self, query: str, index: Sequence[MemoryEntry]) -> list[str]:
         """See `Language.select_memories`."""
-        if not index:
-            return []
-        prompt = compose_selection(query, index)
-        return await self._ask(prompt, lambda answer: reading.read_selection(answer, index))
+        if len(index) <= _FEW_MEMORIES:
+            return [entry.name for entry in index]
+        prompt, known = compose_selection(query, index), Known("select_memories")
+        return await self._ask(prompt, known, lambda answer: reading.read_selection(answer, index))
 
     async def ground(
         self, description: str, objects: Sequence[MapObject], pose: Pose2D | None = None
     ) -> Grounding:
-        """See `Language.ground`."""
+        """See `Language.ground`; what is named word for word is found without asking."""
         if not objects:
             return Grounding("none")
+        if (found := named(description, objects)) is not None:
+            return found
+        known = Known("ground", things=_ids(objects))
         prompt = compose_ground(description, objects, pose)
-        return await self._ask(prompt, lambda answer: reading.read_grounding(answer, objects))
+        return await self._ask(prompt, known, lambda answer: reading.read_grounding(answer, objects))
 
-    async def inspect(self, image: CameraImage, request: str) -> InspectionReport:
+    async def inspect(self, image: CameraImage, request: str, rules: Sequence[str] = ()) -> InspectionReport:
         """See `Language.inspect`."""
         seen = None if image.detections is None else [found.label for found in image.detections]
-        prompt = compose_inspect(request, seen)
         return await self._ask(
-            prompt,
-            lambda a: InspectionReport(a.text, a.found, a.wanted, a.attention),
+            compose_inspect(request, seen, rules),
+            Known("inspect", rules=len(rules)),
+            lambda answer: reading.read_report(answer, rules),
             pictures=[_jpeg(image)],
         )
 
     async def read_reply(self, question: str, reply: str, choices: Sequence[str] = ()) -> ReplyReading:
         """See `Language.read_reply`."""
-        prompt = compose_reply(question, reply, choices)
-        return await self._ask(prompt, lambda answer: reading.read_reading(answer, choices))
+        prompt, known = compose_reply(question, reply, choices), Known("read_reply", choices=tuple(choices))
+        return await self._ask(prompt, known, lambda answer: reading.read_reading(answer, choices))
 
     # -- asking ----------------------------------------------------------------------------------------
 
     async def _ask(
         self,
         prompt: Prompt,
+        known: Known,
         read: Callable[[Any], R],
         *,
         pictures: Sequence[bytes] = (),
         on_draft: DraftHandler | None = None,
     ) -> R:
-        """Ask, within time, budget and breaker.
+        """Ask, within time, budget and breaker; a smaller model first, where that will do.
 
         Raises:
             LanguageError: There is no answer that can be used.
         """
+        if self._small is not None and prompt.kind in SMALL_KINDS:
+            try:
+                return await self._small._ask(prompt, known, read)
+            except LanguageError as error:
+                log.warning("the smaller model gave no answer", kind=prompt.kind, error=str(error))
         self._budget.admit()
         self.breaker.admit()
         short = prompt.kind == "select_memories"
         limit_s = self._settings.memory_timeout_s if short else self._settings.timeout_s
         try:
             async with self._clock.timeout(limit_s):
-                answer = await self._tries(prompt, read, pictures, on_draft)
+                answer = await self._tries(prompt, known, read, pictures, on_draft)
         except TimeoutError:
             self.breaker.failed()
             text = f"{self._name} gave no answer within {limit_s:g} s"
@@ -250,26 +268,32 @@ class LlmLanguage:
     async def _tries(
         self,
         prompt: Prompt,
+        known: Known,
         read: Callable[[Any], R],
         pictures: Sequence[bytes],
         on_draft: DraftHandler | None,
     ) -> R:
-        wait_s = self._settings.backoff_s
-        for left in reversed(range(self._settings.retries + 1)):
+        wait_s, left = self._settings.backoff_s, self._settings.retries
+        while True:
             try:
-                return await self._once(prompt, read, pictures, on_draft)
+                return await self._once(prompt, known, read, pictures, on_draft)
             except ModelFailedError as error:
+                if error.rejected and (option := self._options.refused(str(error))) is not None:
+                    log.warning("asked again without what is refused", model=self._name, option=option)
+                    continue
                 if not error.may_help or not left:
                     raise
                 log.warning("model is asked again", model=self._name, error=str(error))
-                await self._clock.sleep(max(wait_s, error.wait_s or 0.0))
-                wait_s *= 2
-                self._budget.admit()
-        raise AssertionError("the last try returns or raises")
+                pause_s = max(wait_s, error.wait_s or 0.0)
+            left -= 1
+            await self._clock.sleep(pause_s)
+            wait_s *= 2
+            self._budget.admit()
 
     async def _once(
         self,
         prompt: Prompt,
+        known: Known,
         read: Callable[[Any], R],
         pictures: Sequence[bytes],
         on_draft: DraftHandler | None,
@@ -280,12 +304,12 @@ class LlmLanguage:
         refused = _Refusals(read)
         with capture_run_messages() as messages:
             try:
-                result = await self._agents[prompt.kind].run(
-                    _content(prompt, pictures),
+                result = await self._agent(known).run(
+                    _content(prompt, pictures, marks=self._marks),
                     model=self._model,
                     deps=refused,
                     instructions=prompt.instructions,
-                    model_settings=self._request_settings(prompt.kind),
+                    model_settings=self._options.of(prompt.kind),
                     usage=usage,
                     event_stream_handler=draft_handler(on_draft) if on_draft and self._streams else None,
                 )
@@ -310,22 +334,16 @@ class LlmLanguage:
             return UnusableError(f"{text}: {problems}", plain=_NOT_FEASIBLE)
         return failure
 
-    def _request_settings(self, kind: Kind) -> RequestSettings:
-        own = self._settings
-        settings = RequestSettings(
-            max_tokens=own.max_memory_tokens if kind in _MEMORY_KINDS else own.max_plan_tokens,
-            timeout=own.timeout_s,
-            max_retries=0,
-        )
-        if own.temperature is not None:
-            settings["temperature"] = own.temperature
-        if own.top_p is not None:
-            settings["top_p"] = own.top_p
-        if own.frequency_penalty:
-            settings["frequency_penalty"] = own.frequency_penalty
-        if own.presence_penalty:
-            settings["presence_penalty"] = own.presence_penalty
-        return settings
+    def _agent(self, known: Known) -> Agent[Callable[[Any], object], Any]:
+        """The agent for a question; those that were asked last are kept, as their forms take time to make."""
+        key, own = (known, self._options.strict), self._settings
+        if key not in self._agents:
+            form = form_of(known)
+            self._agents[key] = make_agent(known.kind, form, own.output, own.corrections, strict=key[1])
+            if len(self._agents) > _AGENTS_KEPT:
+                self._agents.popitem(last=False)
+        self._agents.move_to_end(key)
+        return self._agents[key]
 
     # -- accounting ------------------------------------------------------------------------------------
 
@@ -391,10 +409,18 @@ class _Refusals(Generic[R]):
         return self(answer)
 
 
-def _content(prompt: Prompt, pictures: Sequence[bytes]) -> str | list[UserContent]:
-    if not pictures:
+def _ids(things: Sequence[MapObject]) -> tuple[str, ...]:
+    return tuple(thing.id for thing in things)
+
+
+def _content(prompt: Prompt, pictures: Sequence[bytes], *, marks: bool) -> str | list[UserContent]:
+    marked = marks and prompt.lasting
+    if not pictures and not marked:
         return prompt.content
-    return [prompt.content, *(BinaryContent(each, media_type="image/jpeg") for each in pictures)]
+    text: list[UserContent] = [prompt.content]
+    if marked:
+        text = [prompt.content[: prompt.lasting], CachePoint(), prompt.content[prompt.lasting :]]
+    return [*text, *(BinaryContent(each, media_type="image/jpeg") for each in pictures)]
 
 
 def _jpeg(image: CameraImage) -> bytes:

@@ -61,6 +61,11 @@ class ModelSpec:
         return cls(provider, model, url)
 
     @property
+    def is_compatible(self) -> bool:
+        """Whether it is asked over the protocol that servers of all kinds imitate, some of them poorly."""
+        return bool(self.base_url) and self.provider in _COMPATIBLE
+
+    @property
     def name(self) -> str:
         """For people and reports: without the address, which may hold a secret."""
         return f"{self.provider}:{self.model}"
@@ -93,7 +98,7 @@ def make_model(spec: ModelSpec, key: str) -> Model[Any]:
     try:
         with warnings.catch_warnings():
             warnings.simplefilter("ignore", DeprecationWarning)  # of libraries, while they are loaded
-            if spec.base_url and spec.provider in _COMPATIBLE:
+            if spec.is_compatible:
                 # A key from the environment goes to nobody but the provider it is named after.
                 named = os.environ.get("OPENAI_API_KEY", "") if spec.provider == "openai" else ""
                 return _compatible(spec, key or named or _NO_KEY)

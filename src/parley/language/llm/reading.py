@@ -6,20 +6,24 @@ What does not hold is said in sentences that go back to the model.
 from __future__ import annotations
 
 from collections.abc import Callable, Mapping, Sequence
+from dataclasses import dataclass
 from typing import Any
 
 from parley.errors import LanguageError, Problem
-from parley.language.base import ErrorSituation, Grounding, ReplyReading, Situation
+from parley.language.base import ErrorSituation, Grounding, InspectionReport, ReplyReading, Situation
+from parley.language.completing import completed
 from parley.language.llm.answers import (
     MAX_VALUE_CHARS,
     CommandAnswer,
     GroundAnswer,
+    InspectAnswer,
     PlanAnswer,
     ReplyAnswer,
     ResolveAnswer,
     SelectAnswer,
     StepAnswer,
 )
+from parley.language.prompts.labels import memory_of, step_label, step_of
 from parley.messages.chat import ActionCall, ChatAction, Flow, FlowIf, SystemCommand
 from parley.messages.memory import MemoryEntry
 from parley.messages.pvf import Parameter, fits_type
@@ -32,6 +36,7 @@ __all__ = [
     "read_grounding",
     "read_plan",
     "read_reading",
+    "read_report",
     "read_resolution",
     "read_selection",
 ]
@@ -59,12 +64,16 @@ def read_plan(answer: PlanAnswer, situation: Situation, check: PlanCheck) -> Cha
         AnswerRefusedError: It cannot be carried out as it is.
     """
     problems: list[str] = []
-    calls = _calls(answer.queue, situation.catalogue, problems)
-    names = {entry.name for entry in situation.memory}
-    commands = _commands(answer.system_cmd, len(situation.queue), names, problems)
+    mine, theirs = _shared_out(answer.queue, situation, problems)
+    known = _Known(situation.catalogue, situation.objects)
+    calls = _calls(mine, known, problems)
+    others = {name: _calls(steps, known, problems, name) for name, steps in theirs.items()}
+    waiting = _Waiting(situation.queue, situation.steps, runs=True)
+    commands = _commands(answer.system_cmd, waiting, situation.memory, problems)
     targets = _targets(answer.targets, situation.robots, problems)
-    if calls and not problems:
-        problems += [str(problem) for problem in check(calls, situation.catalogue, ())]
+    if not problems:
+        for share in filter(None, (calls, *others.values())):
+            problems += [str(problem) for problem in check(share, situation.catalogue, ())]
     if problems:
         raise AnswerRefusedError(problems)
     return ChatAction(
@@ -72,8 +81,9 @@ def read_plan(answer: PlanAnswer, situation: Situation, check: PlanCheck) -> Cha
         queue=tuple(calls),
         system_cmd=tuple(commands),
         targets=tuple(targets),
+        others=tuple(ChatAction(queue=tuple(steps), targets=(name,)) for name, steps in others.items()),
         choices=_choices(answer),
-        sources=tuple(name for name in answer.sources if name in names),
+        sources=_sources(answer.sources, situation.memory),
     )
 
 
@@ -84,10 +94,11 @@ def read_resolution(answer: ResolveAnswer, situation: ErrorSituation, check: Pla
         AnswerRefusedError: It cannot be carried out as it is.
     """
     problems: list[str] = []
-    calls = _calls(answer.queue, situation.catalogue, problems)
-    names = {entry.name for entry in situation.memory}
-    commands = _commands(answer.system_cmd, len(situation.pending), names, problems)
-    later = _calls(answer.afterwards, situation.catalogue, problems, "afterwards")
+    known = _Known(situation.catalogue, situation.objects)
+    calls = _calls(answer.queue, known, problems)
+    waiting = _Waiting(situation.pending, situation.steps)
+    commands = _commands(answer.system_cmd, waiting, situation.memory, problems)
+    later = _calls(answer.afterwards, known, problems, "afterwards")
     if calls and answer.success is None:  # nothing takes the failed step's place: it can only be for later
         calls, later = [], [*calls, *later]
     if calls and not answer.success:
@@ -106,14 +117,27 @@ def read_resolution(answer: ResolveAnswer, situation: ErrorSituation, check: Pla
         delay_s=answer.delay_s if answer.success else 0.0,
         afterwards=tuple(later),
         choices=() if answer.success else _choices(answer),
-        sources=tuple(name for name in answer.sources if name in names),
+        sources=_sources(answer.sources, situation.memory),
     )
 
 
 def read_selection(answer: SelectAnswer, index: Sequence[MemoryEntry]) -> list[str]:
-    """The picked names that there are, in the order of the list; a name that is not on it is dropped."""
-    chosen = set(answer.names)
+    """The picked names that there are, in the order of the list; what is not on it is dropped."""
+    chosen = set(_sources(answer.names, index))
     return [entry.name for entry in index if entry.name in chosen]
+
+
+def read_report(answer: InspectAnswer, rules: Sequence[str]) -> InspectionReport:
+    """What a picture shows; rules that were not given are dropped."""
+    applies = {f"r{number}": rule for number, rule in enumerate(rules, 1)}
+    return InspectionReport(
+        answer.text,
+        answer.found,
+        answer.wanted,
+        answer.attention,
+        answer.unwanted,
+        tuple(applies[label] for label in dict.fromkeys(answer.rules) if label in applies),
+    )
 
 
 def read_grounding(answer: GroundAnswer, objects: Sequence[MapObject]) -> Grounding:
@@ -154,6 +178,12 @@ def _choices(answer: PlanAnswer) -> tuple[str, ...]:
     return tuple(choice[:200] for choice in answer.choices if choice.strip()) if not answer.queue else ()
 
 
+def _sources(labels: Sequence[str], shown: Sequence[MemoryEntry]) -> tuple[str, ...]:
+    """The names of memories that are spoken of by label or by name, without those that there are not."""
+    found = [entry.name for label in labels if (entry := memory_of(label, shown)) is not None]
+    return tuple(dict.fromkeys(found))
+
+
 def _targets(named: Sequence[str], robots: Sequence[str], problems: list[str]) -> list[str]:
     known = {robot.casefold(): robot for robot in robots}
     problems += [f"there is no robot called {name!r}" for name in named if name.casefold() not in known]
@@ -163,25 +193,80 @@ def _targets(named: Sequence[str], robots: Sequence[str], problems: list[str]) -
 # -- steps -----------------------------------------------------------------------------------------
 
 
+def _shared_out(
+    steps: Sequence[StepAnswer], situation: Situation, problems: list[str]
+) -> tuple[list[StepAnswer], dict[str, list[StepAnswer]]]:
+    """The steps of the robot that is spoken to, and those of others, each counting its own."""
+    known = {robot.casefold(): robot for robot in situation.robots}
+    shares: dict[str, list[StepAnswer]] = {situation.robot: []}
+    places: list[tuple[str, int]] = []
+    for index, step in enumerate(steps):
+        robot = known.get(step.robot.casefold()) if step.robot else situation.robot
+        if robot is None:
+            problems.append(f"queue[{index}]: there is no robot called {step.robot!r}")
+            robot = situation.robot
+        share = shares.setdefault(robot, [])
+        named = [step.only_if.step] if step.only_if else []
+        named += [step.together_with] if step.together_with is not None else []
+        moved: dict[int, int] = {}
+        for other in named:
+            if other < index and places[other][0] == robot:
+                moved[other] = places[other][1]
+            elif other < index or robot != situation.robot:
+                problems.append(f"queue[{index}]: it can only depend on an earlier step of the same robot")
+            else:
+                moved[other] = other  # the check of the plan says what is wrong
+        places.append((robot, len(share)))
+        share.append(_with_places(step, moved))
+    return shares.pop(situation.robot), shares
+
+
+def _with_places(step: StepAnswer, places: Mapping[int, int]) -> StepAnswer:
+    condition, beside = step.only_if, step.together_with
+    if condition is not None:
+        condition = condition.model_copy(update={"step": places.get(condition.step, condition.step)})
+    beside = places.get(beside, beside) if beside is not None else None
+    return step.model_copy(update={"only_if": condition, "together_with": beside})
+
+
+class _Known:
+    """What steps can be about.
+
+    Args:
+        catalogue: What the robot can do.
+        objects: What stands on the map.
+    """
+
+    def __init__(self, catalogue: Sequence[ActionInfo], objects: Sequence[MapObject]) -> None:
+        self.actions = {info.name: info for info in catalogue}
+        self._names = {thing.id: thing.description for thing in objects}
+        said = [thing.description.casefold() for thing in objects]
+        self._unique = {name for name in said if name and said.count(name) == 1}
+
+    def in_words(self, value: Any) -> Any:
+        """A thing's description in place of its id, if no other is called so: people read it."""
+        name = self._names.get(value, "") if isinstance(value, str) else ""
+        return name if name.casefold() in self._unique else value
+
+
 def _calls(
-    steps: Sequence[StepAnswer], catalogue: Sequence[ActionInfo], problems: list[str], place: str = "queue"
+    steps: Sequence[StepAnswer], known: _Known, problems: list[str], place: str = "queue"
 ) -> list[ActionCall]:
-    known = {info.name: info for info in catalogue}
     calls: list[ActionCall] = []
     for index, step in enumerate(steps):
-        info = known.get(step.action)
+        info = known.actions.get(step.action)
         if info is None:
-            names = ", ".join(known) or "none"
+            names = ", ".join(known.actions) or "none"
             problems.append(f"{place}[{index}]: there is no action {step.action!r}; there are: {names}")
             continue
-        calls.append(
-            ActionCall(
-                name=info.name,
-                input_parameters=_values(f"{place}[{index}]", step.parameters, info, problems),
-                reason=step.reason,
-                flow=_flow(step),
-            )
+        given = {name: known.in_words(value) for name, value in step.parameters.items()}
+        call = ActionCall(
+            name=info.name,
+            input_parameters=_values(f"{place}[{index}]", given, info, problems),
+            reason=step.reason,
+            flow=_flow(step),
         )
+        calls.append(completed(call, info))
     return calls
 
 
@@ -202,12 +287,12 @@ def _values(
     flat = _flattened(given)
     values: dict[str, Parameter] = {}
     for name, raw in flat.items():
+        if raw is None:
+            continue
         kind = info.inputs.get(name)
         if kind is None:
             names = ", ".join(info.inputs) or "none"
             problems.append(f"{where}: {info.name} has no parameter {name!r}; its parameters are: {names}")
-            continue
-        if raw is None:
             continue
         value = _converted(kind, raw)
         if not fits_type(kind, value):
@@ -249,36 +334,62 @@ def _converted(kind: str, raw: Any) -> Any:
 # -- commands --------------------------------------------------------------------------------------
 
 
+@dataclass(frozen=True, slots=True)
+class _Waiting:
+    """The steps as they were shown."""
+
+    calls: Sequence[ActionCall]
+    ids: Sequence[str]
+    runs: bool = False
+    """Whether the first of them is the one that is being carried out."""
+
+    def place(self, answer: CommandAnswer) -> int | None:
+        """Which of them is meant."""
+        if answer.step:
+            return step_of(answer.step, len(self.calls))
+        return answer.index if answer.index is not None and answer.index < len(self.calls) else None
+
+    def bound(self, place: int) -> dict[str, Any]:
+        """What says, whatever happens meanwhile, that this step is meant."""
+        return {"step": self.ids[place]} if place < len(self.ids) else {}
+
+
 def _commands(
-    answers: Sequence[CommandAnswer], queued: int, memories: set[str], problems: list[str]
+    answers: Sequence[CommandAnswer], waiting: _Waiting, memory: Sequence[MemoryEntry], problems: list[str]
 ) -> list[SystemCommand]:
     commands: list[SystemCommand] = []
     for index, answer in enumerate(answers):
-        problem = _command_problem(answer, queued, memories)
+        problem = _command_problem(answer, waiting, memory)
         if problem:
             problems.append(f"system_cmd[{index}]: {problem}")
         else:
-            commands.append(SystemCommand(command=answer.command, arguments=_arguments(answer)))
+            arguments = _arguments(answer, waiting, memory)
+            commands.append(SystemCommand(command=answer.command, arguments=arguments))
     return commands
 
 
-def _command_problem(answer: CommandAnswer, queued: int, memories: set[str]) -> str:
+def _command_problem(answer: CommandAnswer, waiting: _Waiting, memory: Sequence[MemoryEntry]) -> str:
     match answer.command:
-        case "pop" if answer.index is None or answer.index >= queued:
-            return f"pop needs the index of a step in the queue, which has {queued}"
+        case "pop" if waiting.place(answer) is None:
+            labels = ", ".join(map(step_label, range(len(waiting.calls)))) or "none"
+            return f"pop needs the label of a waiting step; there are: {labels}"
         case "add_memory" if not answer.data.strip():
             return "add_memory needs data"
-        case "remove_memory" if answer.name not in memories:
+        case "remove_memory" if memory_of(answer.name, memory) is None:
             return f"there is no memory called {answer.name!r}"
     return ""
 
 
-def _arguments(answer: CommandAnswer) -> dict[str, Any]:
+def _arguments(answer: CommandAnswer, waiting: _Waiting, memory: Sequence[MemoryEntry]) -> dict[str, Any]:
     match answer.command:
         case "pop":
-            return {"parameters": answer.index}
+            place = waiting.place(answer) or 0
+            return {"parameters": place, **waiting.bound(place)}
+        case "skip" if waiting.runs:
+            return waiting.bound(0)
         case "remove_memory":
-            return {"name": answer.name}
+            entry = memory_of(answer.name, memory)
+            return {"name": entry.name if entry is not None else answer.name}
         case "add_memory":
             named = {"name": answer.name} if answer.name.strip() else {}
             return {**named, "type": "text", "data": answer.data, "info": answer.info}

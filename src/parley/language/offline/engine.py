@@ -90,7 +90,7 @@ class OfflineLanguage:
         """See `Language.ground`."""
         return grounding.ground(description, objects, pose)
 
-    async def inspect(self, image: CameraImage, request: str) -> InspectionReport:
+    async def inspect(self, image: CameraImage, request: str, rules: Sequence[str] = ()) -> InspectionReport:
         """See `Language.inspect`.
 
         Raises:

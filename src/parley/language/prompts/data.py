@@ -11,6 +11,8 @@ from collections.abc import Iterable, Mapping, Sequence
 from typing import Any, Final
 
 from parley.language.base import Picture, Turn
+from parley.language.prompts.labels import MOST_STEPS, memory_label, step_label
+from parley.memory.limits import MOST_MEMORIES
 from parley.messages.chat import ActionCall
 from parley.messages.memory import MemoryEntry
 from parley.messages.status import ActionInfo
@@ -23,11 +25,13 @@ __all__ = [
     "attempts",
     "block",
     "called",
+    "completed",
     "memories",
     "objects",
     "pictures",
     "place",
     "queue",
+    "rules",
     "tagged",
     "turns",
 ]
@@ -37,10 +41,10 @@ QUEUE_CHARS: Final = 1000
 TEXT_CHARS: Final = 2000
 """Of one memory, turn or description."""
 MAX_OBJECTS: Final = 400
-MAX_MEMORIES: Final = 50
 MAX_TURNS: Final = 40
 MAX_PHRASES: Final = 6
 MAX_ATTEMPTS: Final = 10
+MAX_COMPLETED: Final = 10
 
 
 def tagged(tag: str, value: Any, attributes: str = "") -> str:
@@ -86,19 +90,36 @@ def queue(calls: Sequence[ActionCall], most_chars: int = QUEUE_CHARS) -> list[di
     shown: list[dict[str, Any]] = []
     left = most_chars
     for index, call in enumerate(calls):
-        item = {"index": index, **called(call)}
+        item = {"step": step_label(index), **called(call)}
         left -= len(_json(item))
-        if left < 0:
+        if left < 0 or index == MOST_STEPS:
             return [*shown, {"left_out": len(calls) - index}]
         shown.append(item)
     return shown
 
 
+def completed(calls: Sequence[ActionCall], results: Sequence[Mapping[str, Any]]) -> list[dict[str, Any]]:
+    """The last steps that were done, each with what it gave, as far as `results` say."""
+    given = [*results[: len(calls)], *({} for _ in calls[len(results) :])]
+    done = list(zip(calls, given, strict=True))[-MAX_COMPLETED:]
+    shown = [called(call) | ({"gave": dict(gave)} if gave else {}) for call, gave in done]
+    return [item if len(_json(item)) <= TEXT_CHARS else item | {"gave": "(too long)"} for item in shown]
+
+
+def rules(told: Sequence[str]) -> list[dict[str, Any]]:
+    """What operators taught, each with a label."""
+    return [{"rule": f"r{number}", "text": _cut(text)} for number, text in enumerate(told, 1)]
+
+
 def memories(entries: Sequence[MemoryEntry], *, whole: bool = True) -> list[dict[str, Any]]:
     """Oldest first; without `whole` only what is needed to pick (thesis 4.3.8.4)."""
     shown: list[dict[str, Any]] = []
-    for entry in entries:
-        item: dict[str, Any] = {"name": entry.name, "info": _cut(entry.info, 300)}
+    for index, entry in enumerate(entries):
+        item: dict[str, Any] = {
+            "label": memory_label(index),
+            "name": _cut(entry.name, 200),
+            "info": _cut(entry.info, 300),
+        }
         if entry.type == "image":
             item["type"] = "image"
         elif whole:
@@ -108,7 +129,7 @@ def memories(entries: Sequence[MemoryEntry], *, whole: bool = True) -> list[dict
         if whole and entry.source:
             item["source"] = entry.source
         shown.append(item)
-    return _capped(shown, MAX_MEMORIES, newest=True)
+    return _capped(shown, MOST_MEMORIES, newest=True)
 
 
 def pictures(shown: Sequence[Picture], sees: bool) -> list[dict[str, Any]]:
@@ -172,11 +193,18 @@ def _givers(info: ActionInfo, catalogue: Sequence[ActionInfo]) -> list[str]:
     ]
 
 
+def _parameter(info: ActionInfo, name: str) -> object:
+    """The type, and what else is told: what it means, its unit, what it may be."""
+    about = info.parameters.get(name)
+    told = about.model_dump(exclude_defaults=True) if about is not None else {}
+    return {"type": info.inputs[name], **told} if told else info.inputs[name]
+
+
 def _action(info: ActionInfo, givers: Sequence[str]) -> dict[str, Any]:
     shown: dict[str, Any] = {
         "action": info.name,
         "description": _cut(info.description),
-        "parameters": info.inputs,
+        "parameters": {name: _parameter(info, name) for name in info.inputs},
     }
     extras: Mapping[str, Any] = {
         "optional": list(info.optional),

@@ -1,0 +1,223 @@
+"""Local first: the built-in engine where it is certain, a model for what it would ask about or decline.
+
+Both see the same situation, so there is one conversation. Who answered stands in each answer. What could do
+harm is put to both; where they disagree, the person is asked.
+"""
+
+from __future__ import annotations
+
+import re
+from collections.abc import Mapping, Sequence
+from contextlib import AbstractAsyncContextManager, AsyncExitStack
+from types import TracebackType
+from typing import Final, Protocol, Self
+
+import structlog
+
+from parley.errors import LanguageError
+from parley.gate.risk import always_asks
+from parley.language.base import (
+    DraftHandler,
+    ErrorSituation,
+    Grounding,
+    InspectionReport,
+    Language,
+    ReplyReading,
+    Situation,
+)
+from parley.language.llm.failures import DeclinedError
+from parley.language.llm.naming import named
+from parley.messages.chat import ActionCall, ChatAction
+from parley.messages.memory import MemoryEntry
+from parley.robots.base import CameraImage
+from parley.sentences import sentence
+from parley.world.geometry import Pose2D
+from parley.world.object_map import MapObject
+
+__all__ = ["AutoLanguage", "SaysWhenCertain"]
+
+log = structlog.get_logger(__name__)
+
+_ARTICLE: Final = re.compile(r"^(?:the|a|an)\s+")
+
+
+class SaysWhenCertain(Language, Protocol):
+    """A language engine that knows when it has understood."""
+
+    def certain(self, situation: Situation) -> ChatAction | None:
+        """What a message asks for; None where it would ask, decline or guess."""
+        ...
+
+
+class AutoLanguage:
+    """Two engines as one. Use as ``async with``.
+
+    Args:
+        local: Asked first; costs nothing.
+        model: Asked for the rest.
+    """
+
+    def __init__(self, local: SaysWhenCertain, model: Language) -> None:
+        self._local, self._model = local, model
+        self._stack = AsyncExitStack()
+
+    async def __aenter__(self) -> Self:
+        for engine in (self._local, self._model):
+            if isinstance(engine, AbstractAsyncContextManager):
+                await self._stack.enter_async_context(engine)
+        return self
+
+    async def __aexit__(
+        self, kind: type[BaseException] | None, error: BaseException | None, trace: TracebackType | None
+    ) -> None:
+        await self._stack.aclose()
+
+    @property
+    def label(self) -> str:
+        """See `Language.label`."""
+        return f"{self._local.label}; for what it is not certain of: {self._model.label}"
+
+    @property
+    def sees_pictures(self) -> bool:
+        """See `Language.sees_pictures`."""
+        return self._model.sees_pictures
+
+    async def interpret(self, situation: Situation, *, on_draft: DraftHandler | None = None) -> ChatAction:
+        """See `Language.interpret`."""
+        sure = None if _is_beyond(situation) else self._local.certain(situation)
+        weighty = sure is not None and _is_weighty(sure, situation)
+        if sure is not None and not weighty:
+            return _by(sure, self._local)
+        try:
+            answer = await self._model.interpret(situation, on_draft=None if weighty else on_draft)
+        except DeclinedError:
+            raise
+        except LanguageError as error:
+            log.warning("the model gave no answer", error=str(error))
+            return _by(sure or await self._local.interpret(situation), self._local)
+        if sure is None:
+            return _by(answer, self._model)
+        return _by(sure, self._local) if _agree(sure, answer, situation.objects) else _which(sure, answer)
+
+    async def resolve(self, situation: ErrorSituation) -> ChatAction:
+        """See `Language.resolve`; a choice that was offered is taken as it is."""
+        if situation.reply is not None and not situation.pictures and _is_candidate(situation):
+            return _by(await self._local.resolve(situation), self._local)
+        try:
+            return _by(await self._model.resolve(situation), self._model)
+        except DeclinedError:
+            raise
+        except LanguageError as error:
+            log.warning("the model gave no answer", error=str(error))
+            return _by(await self._local.resolve(situation), self._local)
+
+    async def select_memories(self, query: str, index: Sequence[MemoryEntry]) -> list[str]:
+        """See `Language.select_memories`."""
+        try:
+            return await self._model.select_memories(query, index)
+        except LanguageError:
+            return await self._local.select_memories(query, index)
+
+    async def ground(
+        self, description: str, objects: Sequence[MapObject], pose: Pose2D | None = None
+    ) -> Grounding:
+        """See `Language.ground`."""
+        if (found := named(description, objects)) is not None:
+            return found
+        try:
+            return await self._model.ground(description, objects, pose)
+        except LanguageError:
+            return await self._local.ground(description, objects, pose)
+
+    async def inspect(self, image: CameraImage, request: str, rules: Sequence[str] = ()) -> InspectionReport:
+        """See `Language.inspect`."""
+        if self._model.sees_pictures:
+            try:
+                return await self._model.inspect(image, request, rules)
+            except LanguageError as error:
+                log.warning("the model gave no answer", error=str(error))
+        return await self._local.inspect(image, request, rules)
+
+    async def read_reply(self, question: str, reply: str, choices: Sequence[str] = ()) -> ReplyReading:
+        """See `Language.read_reply`; a choice word for word needs no model."""
+        chosen = next((choice for choice in choices if _plain(choice) == _plain(reply)), None)
+        if chosen is not None:
+            return ReplyReading("choice", chosen)
+        try:
+            return await self._model.read_reply(question, reply, choices)
+        except LanguageError:
+            return await self._local.read_reply(question, reply, choices)
+
+
+def _by(answer: ChatAction, engine: Language) -> ChatAction:
+    return answer if answer.engine else answer.model_copy(update={"engine": engine.label})
+
+
+def _is_beyond(situation: Situation) -> bool:
+    """Whether a message is about more than the local engine looks at: a failure, a question, a picture."""
+    sent = any(picture.sent for picture in situation.pictures)
+    return situation.failure is not None or bool(situation.question) or sent
+
+
+def _is_weighty(answer: ChatAction, situation: Situation) -> bool:
+    """Whether steps do more than look and move: two understand it alike, or a person is asked."""
+    infos = {info.name: info for info in situation.catalogue}
+    return any(always_asks(infos.get(call.name)) for call in answer.queue)
+
+
+def _agree(first: ChatAction, second: ChatAction, objects: Sequence[MapObject]) -> bool:
+    """Whether both would do the same; what they say about it does not count."""
+    return _deeds(first, objects) == _deeds(second, objects)
+
+
+def _deeds(answer: ChatAction, objects: Sequence[MapObject]) -> object:
+    steps = [(call.name, _arguments(call, objects), call.flow) for call in answer.queue]
+    commands = [command.command for command in answer.system_cmd if command.command != "add_memory"]
+    return steps, commands, [_deeds(other, objects) for other in answer.others]
+
+
+def _arguments(call: ActionCall, objects: Sequence[MapObject]) -> Mapping[str, object]:
+    return {
+        name: _meant(item.value, objects) for name, item in call.input_parameters.items() if item.has_data
+    }
+
+
+def _meant(value: object, objects: Sequence[MapObject]) -> object:
+    """The things that words name, or the words without what does not matter; numbers as they are."""
+    if not isinstance(value, str):
+        return value
+    found = named(value, objects)
+    return _plain(value) if found is None else tuple(sorted(thing.id for thing in found.candidates))
+
+
+def _which(first: ChatAction, second: ChatAction) -> ChatAction:
+    """Ask which of two readings is meant; nothing is done yet."""
+    ways = (_in_words(first), _in_words(second))
+    if ways[0] == ways[1] or not all(ways):  # their words do not tell them apart
+        return ChatAction(
+            message_response=sentence("I am not sure what you mean. Please say it another way.")
+        )
+    asked = sentence(
+        "I read that in two ways: {first}, or {second}. Which one do you mean?", first=ways[0], second=ways[1]
+    )
+    return ChatAction(message_response=asked, choices=ways, engine="both")
+
+
+def _in_words(answer: ChatAction) -> str:
+    told = [call.reason for call in answer.queue if call.reason]
+    return ", then ".join(dict.fromkeys(told)) or answer.message_response
+
+
+def _is_candidate(situation: ErrorSituation) -> bool:
+    """Whether the reply names one of the candidates in just its words."""
+    listed = situation.details.get("candidates")
+    names = (
+        [item.get("description") for item in listed if isinstance(item, dict)]
+        if isinstance(listed, list)
+        else []
+    )
+    return [_plain(str(name)) for name in names].count(_plain(situation.reply or "")) == 1
+
+
+def _plain(text: str) -> str:
+    return _ARTICLE.sub("", text.casefold().strip(" .,!?“”\"'"))
