@@ -44,7 +44,7 @@ class Session:
 
     robots: PlayedRobots
     client: TerminalClient
-    task: asyncio.Task[None]
+    task: asyncio.Task[bool]
     screen: io.StringIO
     keyboard: TextIO
     transport: LocalTransport

@@ -37,7 +37,7 @@ class Terminal:
     """The far end of a pseudo terminal, and who plays the robots."""
 
     robots: PlayedRobots
-    task: asyncio.Task[None]
+    task: asyncio.Task[bool]
     fd: int
     screen: Screen = field(default_factory=lambda: Screen(COLUMNS))
 

@@ -166,8 +166,8 @@ async def measure_web(
         keys = [{"robot": robot_name(n % robots), "name": feed_name(n)} for n in range(feeds)]
         gc.freeze()  # as `parley demo` does
         before_s, began_s, starved_s = time.process_time(), time.perf_counter(), -_starved_s()
-        page = await _process("web_page", server.url, str(seconds + WARM_UP_S), json.dumps(keys))
-        out, _ = await page.communicate()
+        async with _process("web_page", server.url, str(seconds + WARM_UP_S), json.dumps(keys)) as page:
+            out, _ = await page.communicate()
         starved_s += _starved_s()
         wall_s, cpu_s = time.perf_counter() - began_s, time.process_time() - before_s
         load_average, stages = os.getloadavg()[0], probe.take()
@@ -225,11 +225,19 @@ def _ages(pairs: list[tuple[int, int]]) -> tuple[float, ...]:
     return tuple((came_ns - made_ns) / 1e6 for made_ns, came_ns in pairs) or (0.0,)
 
 
-async def _process(module: str, *arguments: str) -> asyncio.subprocess.Process:
-    return await asyncio.create_subprocess_exec(
+@contextlib.asynccontextmanager
+async def _process(module: str, *arguments: str) -> AsyncIterator[asyncio.subprocess.Process]:
+    """A process that ends with what it is for, and hears of Ctrl-C from nobody else."""
+    process = await asyncio.create_subprocess_exec(
         sys.executable, "-m", f"parley.bench.{module}", *arguments,
-        stdout=asyncio.subprocess.PIPE, limit=8 * 1024 * 1024,
+        stdout=asyncio.subprocess.PIPE, limit=8 * 1024 * 1024, start_new_session=True,
     )  # fmt: skip
+    try:
+        yield process
+    finally:
+        with contextlib.suppress(ProcessLookupError):  # it has ended already
+            process.kill()
+        await process.wait()
 
 
 @contextlib.asynccontextmanager
@@ -237,16 +245,14 @@ async def _load(
     transport: LocalTransport, probe: _Probe, robots: int, feedback_hz: float, feeds: int, feed_hz: float
 ) -> AsyncIterator[None]:
     """Publish what the robots' process sends."""
-    process = await _process("web_load", str(robots), str(feedback_hz), str(feeds), str(feed_hz))
-    assert process.stdout is not None
-    hearing = asyncio.create_task(_hear(process.stdout, transport, probe), name="robots of the bench")
-    try:
-        yield
-    finally:
-        process.kill()
-        await process.wait()
-        hearing.cancel()
-        await asyncio.gather(hearing, return_exceptions=True)
+    async with _process("web_load", str(robots), str(feedback_hz), str(feeds), str(feed_hz)) as process:
+        assert process.stdout is not None
+        hearing = asyncio.create_task(_hear(process.stdout, transport, probe), name="robots of the bench")
+        try:
+            yield
+        finally:
+            hearing.cancel()
+            await asyncio.gather(hearing, return_exceptions=True)
 
 
 async def _hear(lines: asyncio.StreamReader, transport: LocalTransport, probe: _Probe) -> None:

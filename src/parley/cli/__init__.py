@@ -1,7 +1,7 @@
 """The command line: one file per group of commands (design section 9).
 
 Exit codes: 0 it worked, 1 it ran but the outcome is "no" (a story that broke, a graph that failed), 2 the
-command, a setting or a file was wrong, 130 interrupted.
+command, a setting or a file was wrong, 130 ended by Ctrl-C, 143 by SIGTERM.
 """
 
 from __future__ import annotations

@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-import asyncio
 import os
 from collections.abc import Callable, Sequence
 from typing import Annotated, Any
@@ -15,6 +14,7 @@ from parley.bench.engine import Figures, chain, fan_out, run_chain, run_graphs, 
 from parley.bench.language import measure_language
 from parley.bench.memory import VECTOR_LENGTH, measure_memory
 from parley.bench.story import measure_demo
+from parley.cli.on_loop import on_loop
 from parley.cli.output import emit_json, quiet_logs
 from parley.umrf.model import Graph
 
@@ -34,17 +34,17 @@ def engine(json: JsonOption = False) -> None:
     """Chains, a fan-out, a hundred graphs at once, latencies; async and threaded, every event checked."""
     quiet_logs()
     for threaded in (False, True):
-        asyncio.run(run_chain(LENGTHS[0], threaded=threaded))  # so that first-time imports are not measured
+        on_loop(run_chain(LENGTHS[0], threaded=threaded))  # so that first-time imports are not measured
         for length in LENGTHS:
-            _show_run("chain", asyncio.run(run_chain(length, threaded=threaded)), json)
-        journaled = asyncio.run(run_journaled(LENGTHS[-1], threaded=threaded))
+            _show_run("chain", on_loop(run_chain(length, threaded=threaded)), json)
+        journaled = on_loop(run_journaled(LENGTHS[-1], threaded=threaded))
         _show_run("chain_with_journal", journaled, json)
-        _show_run("fan_out", asyncio.run(run_graphs([fan_out("fan", AT_ONCE)], threaded=threaded)), json)
+        _show_run("fan_out", on_loop(run_graphs([fan_out("fan", AT_ONCE)], threaded=threaded)), json)
         many = [chain(f"g{index}", 10) for index in range(AT_ONCE)]
-        _show_run("graphs_at_once", asyncio.run(run_graphs(many, threaded=threaded)), json)
+        _show_run("graphs_at_once", on_loop(run_graphs(many, threaded=threaded)), json)
         slow = run_graphs([chain("slow", 100)], threaded=threaded, seconds=0.01, feedback=True)
-        _show_run("actions_of_10_ms", asyncio.run(slow), json)
-        control = asyncio.run(measure_control(CONTROL_TIMES, threaded=threaded))
+        _show_run("actions_of_10_ms", on_loop(slow), json)
+        control = on_loop(measure_control(CONTROL_TIMES, threaded=threaded))
         for command, taken_ms in control.items():
             kind = "threaded" if threaded else "async"
             _show({"case": f"{command}_to_action", "kind": kind, **_latency("", taken_ms)}, json)
@@ -53,7 +53,7 @@ def engine(json: JsonOption = False) -> None:
         "a_hundred_graphs": lambda index: [chain(f"g{index}_{number}", 10) for number in range(AT_ONCE)],
     }
     for what, others in crowds.items():
-        crowd = asyncio.run(measure_crowd(others, CROWD_TIMES))
+        crowd = on_loop(measure_crowd(others, CROWD_TIMES))
         facts = _latency("pause_", crowd.pause_ms) | _latency("stop_", crowd.stop_ms)
         facts |= _latency("longest_step_", crowd.longest_step_ms)
         facts |= _latency("longest_collection_", crowd.longest_collection_ms)
@@ -104,7 +104,7 @@ def memory(
 ) -> None:
     """Searches among many memories, rare and common words, before any model is asked."""
     quiet_logs()
-    figures = asyncio.run(measure_memory(memories))
+    figures = on_loop(measure_memory(memories))
     _show(
         {
             "case": "file",
@@ -140,7 +140,7 @@ def display(
 ) -> None:
     """Pictures of 640 x 480 through the display interface: passed on untouched, and encoded anew."""
     quiet_logs()
-    for figures in asyncio.run(measure_display(frames)):
+    for figures in on_loop(measure_display(frames)):
         facts = {
             "case": figures.kind,
             "frames": figures.frames,
@@ -157,7 +157,7 @@ def language(
 ) -> None:
     """From message to plan: offline, and what is added to a language model's own time."""
     quiet_logs()
-    for figures in asyncio.run(measure_language(times)):
+    for figures in on_loop(measure_language(times)):
         facts = {"case": figures.case, "messages": times, "cpu_ms": round(figures.cpu_ms, 2)}
         _show(facts | _latency("", figures.latency_ms), json)
     _show_machine(json)
@@ -179,7 +179,7 @@ def stop(
             facts |= _latency("drive_", figures.drive_ms) | _latency("rest_", figures.rest_ms)
             _show(facts, json)
 
-    asyncio.run(measure())
+    on_loop(measure())
     _show_machine(json)
 
 
@@ -190,7 +190,7 @@ def demo(
 ) -> None:
     """Start-up, latency of replies, speed of the simulation and memory of a demonstration."""
     quiet_logs()
-    figures = asyncio.run(measure_demo(name))
+    figures = on_loop(measure_demo(name))
     facts = {
         "ready_s": round(figures.ready_s, 2),
         "reply_p50_ms": round(figures.reply_p50_ms, 1),
@@ -222,6 +222,6 @@ def web(
     from parley.bench.web_report import report
 
     quiet_logs()
-    figures = asyncio.run(measure_web(robots=robots, feeds=feeds, seconds=seconds, browser=browser))
+    figures = on_loop(measure_web(robots=robots, feeds=feeds, seconds=seconds, browser=browser))
     for facts in report(figures):
         _show(facts, json)

@@ -2,8 +2,8 @@
 
 from __future__ import annotations
 
-import asyncio
 import os
+import signal
 import tempfile
 from pathlib import Path
 from typing import Annotated, Any
@@ -19,6 +19,7 @@ from parley.cli.language import (
     embedding_settings,
     language_settings,
 )
+from parley.cli.on_loop import on_loop
 from parley.cli.output import emit_json, fail, quiet_logs
 from parley.cli.web import PORT, language_label, page_settings, serve_until_interrupted
 from parley.config import SystemConfig
@@ -106,13 +107,14 @@ def demo(
     given = SystemConfig() if config is None else SystemConfig.load(config)
     chosen = given.changed(settings)
     if script:
-        raise typer.Exit(_script(loaded, story, variant, chosen.changed({"speed": speed}), data, json))
+        played = _script(loaded, story, variant, chosen.changed({"speed": speed}), data, json)
+        raise typer.Exit(on_loop(played))
     if story is not None or variant:
         raise ConfigError("a story file and --variant go with --script")
     folder = data or chosen.data_dir or data_folder(loaded.folder_name)
     chosen = chosen.changed({"data_dir": folder} | ({} if speed is None else {"speed": speed}))
     if terminal:
-        asyncio.run(_chat(loaded, chosen, lang))
+        on_loop(_chat(loaded, chosen, lang))
         return
     page = page_settings(
         port=port,
@@ -127,10 +129,10 @@ def demo(
     page |= {"examples": loaded.examples, "data_dir": folder, "fresh_robots": True}
     page |= {"unattended": chosen.unattended, "unattended_after_s": chosen.unattended_after_s}
     page |= language_label(chosen.language)
-    asyncio.run(_serve(loaded, chosen, page, port_is_wish=port is None, opens=not no_open))
+    on_loop(_serve(loaded, chosen, page, port_is_wish=port is None, opens=not no_open))
 
 
-def _script(
+async def _script(
     demo: Demo, file: Path | None, variant: str, settings: SystemConfig, data: Path | None, as_json: bool
 ) -> int:
     story = Story.load(file) if file is not None else demo.story
@@ -142,7 +144,7 @@ def _script(
             return demo.system_for(story, config, different)
 
         emit = emit_json if as_json else _tell
-        result = asyncio.run(play(story, make_system, variant=variant, emit=emit))
+        result = await play(story, make_system, variant=variant, emit=emit)
     if not result.held:
         return fail(_verdict(result), code=1)
     if not as_json:
@@ -178,7 +180,9 @@ def data_folder(name: str) -> Path:
 async def _chat(demo: Demo, config: SystemConfig, lang: str) -> None:
     async with demo.system(config) as system:
         client = TerminalClient(system.transport, lang=lang or _language())
-        await client.run(greeting=list(demo.examples), engine=system.language.label)
+        broken_off = await client.run(greeting=list(demo.examples), engine=system.language.label)
+    if broken_off:
+        raise typer.Exit(128 + signal.SIGINT)
 
 
 async def _serve(

@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-import asyncio
 import contextlib
 import json
 from collections.abc import Sequence
@@ -13,6 +12,7 @@ import typer
 
 from parley.agents.planner.check import plan_problems
 from parley.cli.language import ConfigOption, KeyFileOption, chosen_settings
+from parley.cli.on_loop import on_loop
 from parley.cli.output import emit_json, quiet_logs
 from parley.clock import WallClock
 from parley.config import SystemConfig
@@ -62,7 +62,7 @@ def evaluate_languages(
     cases = load_set(set_name, seed)
     if not cases:
         raise ConfigError(f"the set {set_name!r} is empty")
-    runs = asyncio.run(_run_all(engines, cases, at_once))
+    runs = on_loop(_run_all(engines, cases, at_once))
     scores, outcomes = [run[0] for run in runs], [run[1] for run in runs]
     report = json_report(set_name, scores, outcomes, reveal=reveal)
     text = markdown_report(set_name, scores, outcomes, reveal=reveal)

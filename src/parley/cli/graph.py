@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-import asyncio
 from collections.abc import Sequence
 from dataclasses import asdict
 from enum import StrEnum
@@ -12,6 +11,7 @@ from typing import Annotated, Any
 import typer
 
 from parley.actions.builtin import BUILTIN_ACTIONS
+from parley.cli.on_loop import on_loop
 from parley.cli.output import emit_json, fail, quiet_logs
 from parley.config import SystemConfig
 from parley.demos.catalogue import DEMOS, load_demo
@@ -152,7 +152,7 @@ def run(
     except GraphRefusedError as error:
         _tell_problems(error.problems, as_json=json, err=not json)
         raise typer.Exit(1) from error
-    raise typer.Exit(asyncio.run(_run(text, graph, demo, robot, json, timeout)))
+    raise typer.Exit(on_loop(_run(text, graph, demo, robot, json, timeout)))
 
 
 async def _run(text: str, graph: Graph, demo: str, robot: str, as_json: bool, timeout_s: float) -> int:

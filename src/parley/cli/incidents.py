@@ -2,13 +2,13 @@
 
 from __future__ import annotations
 
-import asyncio
 from datetime import UTC, datetime
 from pathlib import Path
 from typing import Annotated
 
 import typer
 
+from parley.cli.on_loop import on_loop
 from parley.cli.output import emit_json
 from parley.clock import WallClock
 from parley.errors import ConfigError
@@ -39,7 +39,7 @@ def incidents(
     json: Annotated[bool, typer.Option("--json", help="One JSON object per incident.")] = False,
 ) -> None:
     """List what went wrong, newest first: what was tried, what was said, how it ended."""
-    for incident in asyncio.run(_newest(data, robot, limit)):
+    for incident in on_loop(_newest(data, robot, limit)):
         if json:
             emit_json(incident.model_dump(mode="json"))
         else:

@@ -2,9 +2,9 @@
 
 from __future__ import annotations
 
-import asyncio
 import contextlib
 import sys
+from collections.abc import Iterator
 from pathlib import Path
 from typing import Annotated, TextIO
 
@@ -13,6 +13,7 @@ import typer
 from parley.actions.builtin import BUILTIN_ACTIONS
 from parley.agents.planner.check import plan_problems
 from parley.cli.language import ConfigOption, KeyFileOption, LanguageOption, chosen_settings
+from parley.cli.on_loop import interruptible, on_loop
 from parley.cli.output import quiet_logs
 from parley.errors import ConfigError
 from parley.language.base import Language
@@ -49,7 +50,7 @@ def interpret(
     with contextlib.ExitStack() as stack:
         source = _open(stack, situations, "r")
         target = _open(stack, out, "w")
-        asyncio.run(_interpret(source, target, engine, explain))
+        on_loop(_interpret(source, target, engine, explain))
 
 
 def _open(stack: contextlib.ExitStack, path: Path, mode: str) -> TextIO:
@@ -61,11 +62,21 @@ def _open(stack: contextlib.ExitStack, path: Path, mode: str) -> TextIO:
         raise ConfigError(f"{path.name} cannot be opened: {error.strerror}") from error
 
 
+def _lines(source: TextIO) -> Iterator[str]:
+    """One after the other; waiting for one holds up the loop, which has nothing else to do."""
+    while True:
+        with interruptible():
+            line = source.readline()
+        if not line:
+            return
+        yield line
+
+
 async def _interpret(source: TextIO, target: TextIO, engine: Language, explain: bool) -> None:
     infos = Catalogue(BUILTIN_ACTIONS).infos()
     async with contextlib.AsyncExitStack() as stack:
         if isinstance(engine, contextlib.AbstractAsyncContextManager):
             await stack.enter_async_context(engine)
-        async for line in interpret_lines(source, engine, infos, explain=explain):
+        async for line in interpret_lines(_lines(source), engine, infos, explain=explain):
             target.write(line.rstrip("\n") + "\n")
             target.flush()

@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-import asyncio
 import base64
 import os
 import sys
@@ -12,6 +11,7 @@ from typing import Annotated, TypeVar
 
 import typer
 
+from parley.cli.on_loop import interruptible, on_loop
 from parley.cli.output import emit_json, fail, quiet_logs
 from parley.clock import WallClock
 from parley.errors import ConfigError
@@ -202,7 +202,7 @@ def _with_store(
                 raise ConfigError(store.notice)
             return await work(store)
 
-    return asyncio.run(run())
+    return on_loop(run())
 
 
 def _show(entry: MemoryEntry, as_json: bool) -> None:
@@ -219,7 +219,9 @@ def _confirm(question: str, yes: bool) -> None:
         return
     if not sys.stdin.isatty():
         raise ConfigError(f"{question} There is nobody to ask; repeat with --yes")
-    if not typer.confirm(question):
+    with interruptible():
+        agreed = typer.confirm(question)
+    if not agreed:
         raise typer.Exit(1)
 
 

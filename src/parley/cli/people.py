@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-import asyncio
 import getpass
 from collections.abc import Awaitable, Callable
 from pathlib import Path
@@ -10,6 +9,7 @@ from typing import Annotated, TypeVar
 
 import typer
 
+from parley.cli.on_loop import interruptible, on_loop
 from parley.cli.output import emit_json, quiet_logs
 from parley.clock import WallClock
 from parley.errors import ConfigError
@@ -141,7 +141,8 @@ def _password(file: Path | None) -> str:
         except (OSError, UnicodeDecodeError) as error:
             raise ConfigError(f"--password-file: {file} cannot be read: {error}") from error
     else:
-        text = typer.prompt("Password", hide_input=True, confirmation_prompt="Again")
+        with interruptible():  # the terminal goes on showing what is typed
+            text = typer.prompt("Password", hide_input=True, confirmation_prompt="Again")
     if problem := password_problem(text):
         raise ConfigError(problem)
     return text
@@ -157,4 +158,4 @@ def _with_store(data: Path, work: Callable[[PeopleStore], Awaitable[T]], *, make
         async with await PeopleStore.open(file, WallClock()) as store:
             return await work(store)
 
-    return asyncio.run(run())
+    return on_loop(run())

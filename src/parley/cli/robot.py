@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-import asyncio
 import importlib
 import inspect
 import sys
@@ -12,6 +11,7 @@ from typing import Annotated, Any
 
 import typer
 
+from parley.cli.on_loop import interruptible, on_loop
 from parley.cli.output import emit_json, fail, quiet_logs
 from parley.clock import WallClock
 from parley.errors import ConfigError
@@ -52,9 +52,12 @@ def check(
     """Try out whether a robot stops, lets commands expire, knows where it is, and can be held. It moves!"""
     quiet_logs()
     made = _made(_found(robot), name)
-    if not yes and not typer.confirm(f"{made.name} will drive forward, at most two metres. Is there room?"):
+    if not yes:
+        with interruptible():
+            yes = typer.confirm(f"{made.name} will drive forward, at most two metres. Is there room?")
+    if not yes:
         raise typer.Exit(fail("nothing was done", code=1))
-    broken = asyncio.run(_check(made, world, json))
+    broken = on_loop(_check(made, world, json))
     raise typer.Exit(1 if broken else 0)
 
 

@@ -2,13 +2,13 @@
 
 from __future__ import annotations
 
-import asyncio
 from importlib import resources
 from pathlib import Path
 from typing import Annotated
 
 import typer
 
+from parley.cli.on_loop import on_loop
 from parley.cli.output import fail, quiet_logs
 from parley.demos.catalogue import DEMOS, load_demo
 from parley.demos.transcripts import Dialogues, page, played
@@ -33,7 +33,7 @@ def transcripts(
     if not file.exists():
         raise ConfigError(f"the demonstration {name} has no dialogues to write down")
     dialogues = Dialogues.load(file)
-    results = [asyncio.run(played(demo, story)) for story in dialogues.dialogues.values()]
+    results = [on_loop(played(demo, story)) for story in dialogues.dialogues.values()]
     text = page(dialogues, [transcript for _, transcript in results])
     if out is None:
         typer.echo(text, nl=False)

@@ -5,7 +5,6 @@ from __future__ import annotations
 import asyncio
 import gc
 import shlex
-import signal
 import sys
 from collections.abc import Sequence
 from pathlib import Path
@@ -108,7 +107,7 @@ def _role(text: str) -> Role:
 
 
 async def serve_until_interrupted(server: WebServer, *, opens: bool) -> None:
-    """Say where the page is, open it, and wait for Ctrl-C.
+    """Say where the page is, open it, and wait until somebody ends it.
 
     Args:
         server: Open.
@@ -146,13 +145,7 @@ async def serve_until_interrupted(server: WebServer, *, opens: bool) -> None:
         await asyncio.to_thread(_open_page, server.url)
     # What was loaded stays to the end; looking through it for garbage again and again held everything up.
     gc.freeze()
-    ended = asyncio.Event()
-    loop = asyncio.get_running_loop()
-    loop.add_signal_handler(signal.SIGTERM, ended.set)
-    try:
-        await ended.wait()
-    finally:
-        loop.remove_signal_handler(signal.SIGTERM)
+    await asyncio.Event().wait()
 
 
 def _show_code(server: WebServer, code: str) -> None:

@@ -2,13 +2,13 @@
 
 from __future__ import annotations
 
-import asyncio
 from pathlib import Path
 from typing import Annotated
 
 import typer
 from PIL import Image
 
+from parley.cli.on_loop import on_loop
 from parley.clock import SimClock
 from parley.errors import ConfigError
 from parley.sim.export import export_maps
@@ -52,7 +52,7 @@ def picture(
 ) -> None:
     """Take a picture of a world from above, or with a robot's camera."""
     world = WorldFile.load(file)
-    asyncio.run(_picture(world, out, _robot(world, robot) if camera else "", width))
+    on_loop(_picture(world, out, _robot(world, robot) if camera else "", width))
 
 
 async def _picture(world: WorldFile, out: Path, robot: str, width: int) -> None:

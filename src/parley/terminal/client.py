@@ -67,6 +67,7 @@ class TerminalClient:
         self._console = console(self)
         self._changed = asyncio.Event()
         self._interrupted_s = float("-inf")
+        self._broken_off = False
         self._commands: dict[str, Callable[[str], None]] = {
             "help": self._help,
             "plan": self._plan,
@@ -77,8 +78,8 @@ class TerminalClient:
             "robot": self._robot,
         }
 
-    async def run(self, greeting: Sequence[str] = (), engine: str = "") -> None:
-        """Talk until the operator leaves.
+    async def run(self, greeting: Sequence[str] = (), engine: str = "") -> bool:
+        """Talk until the operator leaves; whether that was by Ctrl-C.
 
         Args:
             greeting: Sentences the operator may want to try.
@@ -92,6 +93,7 @@ class TerminalClient:
             stack.push_async_callback(_cancel, ticker)
             await self._converse()
             self._note("goodbye")
+        return self._broken_off
 
     # What the console asks (see `ConsoleEvents`).
 
@@ -113,7 +115,8 @@ class TerminalClient:
         is_second = now_s - self._interrupted_s <= _SECOND_INTERRUPT_S
         self._interrupted_s = now_s
         robot = self._view.current
-        if is_second or (is_empty and (robot is None or not robot.may_move)):
+        self._broken_off = is_second or (is_empty and (robot is None or not robot.may_move))
+        if self._broken_off:
             return True
         self.emergency_stop()
         self._note("interrupt_hint")

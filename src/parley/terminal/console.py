@@ -17,7 +17,7 @@ from rich.text import Text
 
 from parley.terminal.lines import Fragments, Line
 
-__all__ = ["Console", "ConsoleEvents", "PlainConsole", "coloured", "rendered"]
+__all__ = ["Console", "ConsoleEvents", "PlainConsole", "coloured", "on_sigint", "rendered"]
 
 _STYLES = {"problem": "red", "note": "dim", "heading": "bold"}
 
@@ -124,7 +124,7 @@ class PlainConsole:
     async def __aenter__(self) -> Self:
         """Start to listen."""
         loop = asyncio.get_running_loop()
-        self._stack.enter_context(_on_sigint(loop, self._interrupted))
+        self._stack.enter_context(on_sigint(loop, self._interrupted))
         # A thread that waits for input cannot be told to stop, so it must not keep the process alive: daemon.
         threading.Thread(target=self._listen, args=(loop,), name="terminal-input", daemon=True).start()
         return self
@@ -176,15 +176,16 @@ def _standard_output() -> TextIO:
 
 
 @contextlib.contextmanager
-def _on_sigint(loop: asyncio.AbstractEventLoop, handler: Callable[[], None]) -> Iterator[None]:
-    """Ctrl-C calls `handler` meanwhile, where this is the main thread; elsewhere signals are not ours."""
+def on_sigint(loop: asyncio.AbstractEventLoop, handler: Callable[[], None]) -> Iterator[None]:
+    """Ctrl-C calls `handler` meanwhile, where this is the main thread; elsewhere signals are not ours.
+
+    Not by `add_signal_handler`: it gives Ctrl-C back to Python first, which raises it anywhere.
+    """
     if threading.current_thread() is not threading.main_thread():
         yield
         return
-    before = signal.getsignal(signal.SIGINT)
-    loop.add_signal_handler(signal.SIGINT, handler)
+    before = signal.signal(signal.SIGINT, lambda *_: loop.call_soon_threadsafe(handler))
     try:
         yield
     finally:
-        loop.remove_signal_handler(signal.SIGINT)
         signal.signal(signal.SIGINT, before)

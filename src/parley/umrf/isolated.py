@@ -30,7 +30,7 @@ import pickle
 import signal
 import sys
 import threading
-from collections.abc import Callable, Mapping
+from collections.abc import Callable, Iterator, Mapping
 from dataclasses import dataclass, replace
 from multiprocessing.connection import Connection
 from pathlib import Path
@@ -161,7 +161,8 @@ class _Worker:
                 target=_work, args=(self._theirs, self._order), name=self._order.node, daemon=True
             )
             try:
-                process.start()
+                with _ctrl_c_held():
+                    process.start()
             finally:
                 self._theirs.close()  # so that the end of the process is the end of what it tells
             self._process = process
@@ -212,6 +213,19 @@ class _Worker:
         if code is not None and code < 0:
             return f"{self._name} crashed: its process was ended by {signal.Signals(-code).name}."
         return f"{self._name} crashed: its process ended with exit code {code}."
+
+
+@contextlib.contextmanager
+def _ctrl_c_held() -> Iterator[None]:
+    """What this thread starts meanwhile hears Ctrl-C when it says how it takes it, not while it loads."""
+    if not hasattr(signal, "pthread_sigmask"):
+        yield
+        return
+    before = signal.pthread_sigmask(signal.SIG_BLOCK, {signal.SIGINT})
+    try:
+        yield
+    finally:
+        signal.pthread_sigmask(signal.SIG_SETMASK, before)
 
 
 # -- in the other process -----------------------------------------------------------------------------------
@@ -282,6 +296,8 @@ class IsolatedContext:
 
 def _work(connection: Connection, order: _Order) -> None:
     signal.signal(signal.SIGINT, signal.SIG_IGN)  # Ctrl-C is the engine's to handle
+    if hasattr(signal, "pthread_sigmask"):
+        signal.pthread_sigmask(signal.SIG_UNBLOCK, {signal.SIGINT})
     context = IsolatedContext(order, connection)
     threading.Thread(target=context.listen, name="stop", daemon=True).start()
     try:

@@ -2,7 +2,7 @@ import { act, render, screen, within } from '@testing-library/react';
 import userEvent from '@testing-library/user-event';
 import { beforeEach, describe, expect, it, vi } from 'vitest';
 
-import { entry, robot, snapshot } from '@/live/samples';
+import { entry, robot, snapshot, step } from '@/live/samples';
 import { useLive } from '@/live/store';
 import type { Snapshot } from '@/live/types';
 import { useDrafts } from '@/state/drafts';
@@ -42,6 +42,17 @@ describe('the chat', () => {
     const user = show({});
     await user.click(screen.getByRole('button', { name: 'Go to the door.' }));
     expect(sent).toMatchObject([{ text: 'Go to the door.', targets: ['Ada'], reply_to: '' }]);
+  });
+
+  it('lets what waits for a yes be answered where the talk is, and marks the robot', async () => {
+    const steps = [step({ id: 'a', label: 'find out where “door” is', only_finds: true }), step({ id: 'b', label: 'go to “door”' })];
+    const proposal = { id: 'p1', robot: 'Ada', message: '', changes: ['Forget “box”'], steps, digest: 'd1', why: '' };
+    const user = show({ proposals: [proposal] });
+    expect(tab('Ada').textContent).toContain('Ada is waiting for your answer');
+    const ask = screen.getByRole('region', { name: 'Ada waits for your yes' });
+    within(ask).getByText('Forget “box” · Go to “door”');
+    await user.click(within(ask).getByRole('button', { name: 'No' }));
+    expect(sent).toEqual([{ id: 'p1', digest: 'd1', decision: 'reject' }]);
   });
 
   it('talks to one robot by a click and to several by a click with Shift', async () => {

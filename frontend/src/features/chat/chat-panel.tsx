@@ -13,6 +13,7 @@ import { Panel } from '@/ui/panel';
 import { useIsLow } from '@/ui/use-media';
 import { useShortcut } from '@/ui/use-shortcut';
 
+import { Asks } from './asks';
 import css from './chat-panel.module.css';
 import { useMay } from '@/state/me';
 import { Composer } from './composer';
@@ -93,6 +94,7 @@ export function ChatPanel() {
         onEdit={edit}
         empty={<Welcome chosen={chosen} onSay={say} />}
       />
+      <Asks chosen={chosen} />
       {maySpeak && <Composer chosen={chosen} answering={answer} lastSaid={lastSaid} input={input} />}
     </Panel>
   );

@@ -61,6 +61,8 @@ export function RobotTabs({ questions, tools = null }: { questions: Questions; t
   const names = useRobotNames();
   const chosen = useSelection();
   const { only, toggle } = useSelectionStore();
+  const proposals = useWorld((world) => world.proposals);
+  const asking = new Set(Object.values(proposals).map((proposal) => proposal.robot));
   const open = useOverlays((state) => state.set);
   const [several, setSeveral] = useState(false);
   return (
@@ -72,7 +74,7 @@ export function RobotTabs({ questions, tools = null }: { questions: Questions; t
             key={name}
             name={name}
             chosen={chosen.includes(name)}
-            awaitsAnswer={questions.has(name)}
+            awaitsAnswer={questions.has(name) || asking.has(name)}
             onOnly={() => (several ? toggle(name, names) : only(name))}
             onToggle={() => toggle(name, names)}
           />
