@@ -12,6 +12,8 @@ from pathlib import Path
 
 import pytest
 import structlog
+import typer
+from typer.core import TyperGroup
 from typer.testing import CliRunner
 
 import parley.api
@@ -81,3 +83,31 @@ def test_the_page_for_programs_names_what_the_door_has() -> None:
 def test_the_reference_leads_to_every_page() -> None:
     linked = set(re.findall(r"\]\(([a-z-]+)\.md", page("reference") + page("first-hour") + page("install")))
     assert {path.stem for path in DOCS.glob("*.md")} - linked - {"install", "reference"} == set()
+
+
+SHOWN = [
+    (path.name, words)
+    for path in (
+        *DOCS.glob("*.md"),
+        ROOT / "README.md",
+        ROOT / "SECURITY.md",
+        ROOT / "examples" / "README.md",
+    )
+    for words in re.findall(
+        r"(?:^    |`)(?:\.venv/bin/)?parley ((?!-)[a-z][^`\n]*)", path.read_text("utf-8"), re.MULTILINE
+    )
+]
+
+
+def test_every_command_that_any_page_shows_exists_with_its_options() -> None:
+    whole = typer.main.get_command(command_line())
+    wrong = []
+    for where, shown in SHOWN:
+        command, words = whole, re.split(r" {2,}| #", shown)[0].split()
+        while isinstance(command, TyperGroup) and words and words[0] in command.commands:
+            command = command.commands[words.pop(0)]
+        known = {name for option in command.params for name in (*option.opts, *option.secondary_opts)}
+        asked = {word.split("=")[0] for word in words if word.startswith("--")} - {"--help"}
+        if command is whole or not asked <= known:
+            wrong.append(f"{where}: parley {shown}")
+    assert wrong == []
