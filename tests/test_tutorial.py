@@ -11,7 +11,7 @@ from parley.umrf.discovery import ActionFolder
 from tests.demos.house import running
 
 EXAMPLES = Path(__file__).parent.parent / "examples"
-PAGE = (Path(__file__).parent.parent / "docs" / "tutorial-action.md").read_text(encoding="utf-8")
+PAGE = (Path(__file__).parent.parent / "docs" / "own-action.md").read_text(encoding="utf-8")
 
 
 def written(folder: Path) -> Path:
