@@ -86,8 +86,8 @@ class BuiltinLanguage:
             self._own = OwnActions(shipped_tagger(), self._lexicon)
         skills = self._skills.of(situation.catalogue)
         framed = frozenset(skill.action.name for skill in skills.values())
-        own = self._own.applied
-XX
+        own, known = self._own.applied, situation.catalogue
+        parts = tuple(replace(one, reading=own(one.parse, one.reading, known, framed)) for one in parts)
         return decide(situation, parts, skills, self._lexicon, self.reading)
 
     def reading(self, text: str) -> Reading:
