@@ -28,7 +28,7 @@ describe.skipIf(!hasBrowser)('an operator', () => {
     const page = await stage.open(sizes.desktop);
     await steps(page).getByText(/Working on it|Done/).first().waitFor();
     await steps(page).getByRole('button', { name: /^1\. / }).first().click();
-    await steps(page).getByText('Given').waitFor();
+    await steps(page).getByText('Given', { exact: true }).waitFor();
   });
 
   it('stops the robot by pressing Escape twice and releases it deliberately', async () => {

@@ -2,8 +2,9 @@ import { describe, expect, it } from 'vitest';
 
 import { step } from '@/live/samples';
 
-import { editable, moved, newStep, nudged, pendingSteps, putBack, setInput, toDraft } from './editing';
+import { callsOf, editable, inputsOf, moved, newStep, nudged, pendingSteps, putBack, setInput, toDrafts, type DraftStep } from './editing';
 
+const toDraft = (one: ReturnType<typeof step>) => toDrafts([one])[0] as DraftStep;
 const drafts = ['a', 'b', 'c'].map((id) => toDraft(step({ id })));
 const ids = (steps: readonly { id: string }[]) => steps.map((one) => one.id).join('');
 
@@ -23,6 +24,21 @@ describe('changing a plan', () => {
     expect(ids(nudged(drafts, 'b', -1))).toBe('bac');
     expect(ids(nudged(drafts, 'a', -1))).toBe('abc');
     expect(ids(nudged(drafts, 'c', 1))).toBe('abc');
+  });
+
+  it('keeps the search for a place with the step that goes there', () => {
+    const place = [{ name: 'pose::position::x', type: 'number', value: null }];
+    const named = [{ name: 'name', type: 'string', value: 'box' }];
+    const find = { Find: { input_parameters: { name: { pvf_type: 'string', pvf_value: 'box' } } } };
+    const steps = [
+      step({ id: 'find', only_finds: true, inputs: named, outputs: place, call: find }),
+      step({ id: 'go', inputs: place, call: { Go: {} } }),
+      step({ id: 'say', call: { Say: {} } }),
+    ];
+    const [go, say] = toDrafts(steps) as [DraftStep, DraftStep];
+    expect(inputsOf(go).map((input) => input.value)).toEqual(['box']);
+    const sent = callsOf(moved([setInput(go, 'name', 'door'), say], new Set(['say']), 'go', 'before'));
+    expect(sent).toEqual([{ Say: {} }, { Find: { input_parameters: { name: { pvf_type: 'string', pvf_value: 'door' } } } }, { Go: {} }]);
   });
 
   it('writes a new value where the wire expects it and leaves the rest alone', () => {

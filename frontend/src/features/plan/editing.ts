@@ -2,6 +2,7 @@
 import type { ActionCall, AbilityView, ParameterView, StepView } from '@/live/types';
 import { inWords } from '@/ui/words';
 
+import { linesOf } from './lines';
 import { emptyTree, withInput } from './parameters';
 
 export interface DraftStep {
@@ -10,14 +11,26 @@ export interface DraftStep {
   action: string;
   inputs: readonly ParameterView[];
   call: ActionCall;
+  /** Searches that are made only for its sake, right before it. */
+  finding: readonly DraftStep[];
 }
 
 /** Steps that may still be changed: those that have not begun. */
 export const pendingSteps = (steps: readonly StepView[]) => steps.filter((step) => step.state === 'queued');
 
-export function toDraft(step: StepView): DraftStep {
-  return { id: step.id, label: step.label, action: step.action, inputs: step.inputs, call: step.call ?? {} };
+export const toDrafts = (steps: readonly StepView[]): readonly DraftStep[] =>
+  linesOf(steps).map(({ step, finding }) => ({ ...toDraft(step), finding: finding.map(toDraft) }));
+
+function toDraft(step: StepView): DraftStep {
+  return { id: step.id, label: step.label, action: step.action, inputs: step.inputs, call: step.call ?? {}, finding: [] };
 }
+
+/** The steps as they are sent. */
+export const callsOf = (steps: readonly DraftStep[]): readonly ActionCall[] =>
+  steps.flatMap((step) => [...step.finding.map((one) => one.call), step.call]);
+
+/** What a person can change of a step, that of its searches first. */
+export const inputsOf = (step: DraftStep) => [...step.finding.flatMap((one) => one.inputs), ...step.inputs].filter(editable);
 
 /** A new step, its inputs still empty. */
 export function newStep(action: AbilityView, id: string): DraftStep {
@@ -33,10 +46,15 @@ export function newStep(action: AbilityView, id: string): DraftStep {
         output_parameters: emptyTree(action.outputs ?? {}),
       },
     },
+    finding: [],
   };
 }
 
 export function setInput(step: DraftStep, name: string, value: string | number | boolean): DraftStep {
+  const searched = step.finding.find((one) => one.inputs.some((input) => input.name === name && editable(input)));
+  if (searched) {
+    return { ...step, finding: step.finding.map((one) => (one === searched ? setInput(one, name, value) : one)) };
+  }
   const input = step.inputs.find((one) => one.name === name);
   if (!input) return step;
   return {

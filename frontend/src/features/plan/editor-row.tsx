@@ -7,7 +7,7 @@ import { Icon } from '@/ui/icon';
 import { TextField } from '@/ui/text-field';
 import { inWords, sentence } from '@/ui/words';
 
-import { editable, type DraftStep } from './editing';
+import { inputsOf, type DraftStep } from './editing';
 import css from './plan-editor.module.css';
 
 interface Props {
@@ -22,7 +22,7 @@ interface Props {
 /** One step that can be moved, changed and removed. */
 export function EditorRow({ step, isFirst, isLast, onMove, onRemove, onChange }: Props) {
   const { t } = useTranslation('plan');
-  const inputs = step.inputs.filter(editable);
+  const inputs = inputsOf(step);
   return (
     <GridListItem id={step.id} textValue={step.label} className={css.row ?? ''}>
       <div className={css.head}>

@@ -5,7 +5,7 @@ import { describe, expect, it, vi } from 'vitest';
 import type { DraftStep } from './editing';
 import { PlanEditor } from './plan-editor';
 
-const draft = (label: string): DraftStep => ({ id: label, label, action: label, inputs: [], call: { [label]: {} } });
+const draft = (label: string): DraftStep => ({ id: label, label, action: label, inputs: [], call: { [label]: {} }, finding: [] });
 
 const edit = (...labels: string[]) => {
   const onSave = vi.fn(() => Promise.resolve());

@@ -8,7 +8,7 @@ import { Button } from '@/ui/button';
 import { Choice } from '@/ui/choice';
 import { inWords } from '@/ui/words';
 
-import { moved, newStep, nudged, setInput, type DraftStep } from './editing';
+import { callsOf, moved, newStep, nudged, setInput, type DraftStep } from './editing';
 import { EditorRow } from './editor-row';
 import css from './plan-editor.module.css';
 
@@ -66,7 +66,7 @@ export function PlanEditor({ robot, steps: initial, saveLabel, onSave, onCancel 
 
   const save = async () => {
     setBusy(true);
-    await onSave(steps.map((step) => step.call));
+    await onSave(callsOf(steps));
     setBusy(false);
   };
 

@@ -9,7 +9,7 @@ import { Choice } from '@/ui/choice';
 import { Icon } from '@/ui/icon';
 import { Empty, Panel } from '@/ui/panel';
 
-import { pendingSteps, toDraft } from './editing';
+import { pendingSteps, toDrafts } from './editing';
 import { PlanControls } from './plan-controls';
 import { PlanEditor } from './plan-editor';
 import { isEarlier, linesOf, type Line } from './lines';
@@ -87,7 +87,7 @@ function PlanOf({ plan }: { plan: PlanView }) {
           <PlanEditor
             key={editing.revision}
             robot={plan.robot}
-            steps={pendingSteps(editing.steps).map(toDraft)}
+            steps={toDrafts(pendingSteps(editing.steps))}
             saveLabel={t('common:save')}
             onSave={async (calls) => {
               const outcome = await save(plan.robot, calls, editing.revision);

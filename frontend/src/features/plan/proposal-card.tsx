@@ -7,7 +7,7 @@ import { attempt } from '@/state/do';
 import { Button } from '@/ui/button';
 import { quoted } from '@/ui/words';
 
-import { toDraft } from './editing';
+import { toDrafts } from './editing';
 import { linesOf } from './lines';
 import { PlanEditor } from './plan-editor';
 import css from './proposal-card.module.css';
@@ -31,7 +31,7 @@ export function ProposalCard({ proposal }: { proposal: ProposalView }) {
       {editing ? (
         <PlanEditor
           robot={proposal.robot}
-          steps={proposal.steps.map(toDraft)}
+          steps={toDrafts(proposal.steps)}
           saveLabel={t('approveChanged')}
           onSave={(steps) => decide({ decision: 'edit', steps })}
           onCancel={() => setEditing(false)}
