@@ -18,7 +18,7 @@ OUTPUTS = st.dictionaries(
     st.from_regex(r"[a-z]{1,3}(::[A-Z]{1,3})?", fullmatch=True),
     st.builds(Parameter, st.just("string"), TEXTS) | st.builds(Parameter, st.just("number"), NUMBERS),
     max_size=3,
-)
+).filter(lambda found: not any("::" in name and name.partition("::")[0] in found for name in found))
 TRANSITIONS = st.builds(
     Transition,
     sequence=st.integers(0, 10**9),

@@ -7,6 +7,7 @@ from collections.abc import Callable, Generator
 
 import pytest
 
+from parley.engine import inbox as room
 from parley.engine.inbox import Inbox, Work
 from tests.umrf.spec_actions import chain, node
 
@@ -31,8 +32,16 @@ async def turns(until: Callable[[], bool]) -> int:
     return count
 
 
-async def test_heavy_work_is_done_in_slices_one_each_turn_of_the_loop() -> None:
+async def test_heavy_work_is_done_in_slices_and_each_turn_of_the_loop_does_as_many_as_it_has_time_for(
+    monkeypatch: pytest.MonkeyPatch,
+) -> None:
     done: list[str] = []
+    inbox = Inbox()
+    for index in range(50):
+        inbox.put("g", steps(done, f"{index}_"))
+    assert await turns(lambda: len(done) == 50) < 25
+    monkeypatch.setattr(room, "TURN_S", 0.0)
+    done.clear()
     inbox = Inbox()
     inbox.put("g", steps(done, "a", 3))
     inbox.put("h", steps(done, "b", 2))
@@ -41,7 +50,8 @@ async def test_heavy_work_is_done_in_slices_one_each_turn_of_the_loop() -> None:
     assert done == ["a0", "a1", "a2", "b0", "b1"]
 
 
-async def test_a_light_command_overtakes_those_for_other_graphs_only() -> None:
+async def test_a_light_command_overtakes_those_for_other_graphs_only(monkeypatch: pytest.MonkeyPatch) -> None:
+    monkeypatch.setattr(room, "TURN_S", 0.0)
     done: list[str] = []
     inbox = Inbox()
     inbox.put("g", steps(done, "start_g", 2))
@@ -55,7 +65,8 @@ async def test_a_light_command_overtakes_those_for_other_graphs_only() -> None:
     assert done[-1] == "pause_h0", "nothing waits any more"
 
 
-async def test_what_waits_is_dropped_at_the_end() -> None:
+async def test_what_waits_is_dropped_at_the_end(monkeypatch: pytest.MonkeyPatch) -> None:
+    monkeypatch.setattr(room, "TURN_S", 0.0)
     done: list[str] = []
     inbox = Inbox()
     inbox.put("g", steps(done, "a", 2))

@@ -42,6 +42,8 @@ def engine(json: JsonOption = False) -> None:
         _show_run("fan_out", on_loop(run_graphs([fan_out("fan", AT_ONCE)], threaded=threaded)), json)
         many = [chain(f"g{index}", 10) for index in range(AT_ONCE)]
         _show_run("graphs_at_once", on_loop(run_graphs(many, threaded=threaded)), json)
+        paced = run_graphs(many, threaded=threaded, seconds=0.02)
+        _show_run("graphs_at_once_of_20_ms_actions", on_loop(paced), json)
         slow = run_graphs([chain("slow", 100)], threaded=threaded, seconds=0.01, feedback=True)
         _show_run("actions_of_10_ms", on_loop(slow), json)
         control = on_loop(measure_control(CONTROL_TIMES, threaded=threaded))

@@ -5,6 +5,7 @@ from __future__ import annotations
 import asyncio
 from collections import Counter, deque
 from collections.abc import Callable, Generator
+from typing import Final
 
 import structlog
 
@@ -16,8 +17,12 @@ Work = Callable[[], Generator[None, None, None]]
 """Carries out one command; yields where others may have a turn."""
 
 
+TURN_S: Final = 0.002
+"""Wall time in a turn of the loop after which no more is begun in it."""
+
+
 class Inbox:
-    """One slice of work per turn of the loop, the first one at once.
+    """Slices of work for `TURN_S` per turn of the loop, and at least one.
 
     Commands for the same graph keep their order. A light one for a graph that nothing waits for is carried
     out at once, so it overtakes heavy ones for other graphs.
@@ -47,12 +52,19 @@ class Inbox:
         self._names.clear()
 
     def _slice(self) -> None:
-        """Do one slice; the turn is used up even if nothing is left, as more may come in it."""
+        """Do what this turn has time for; it is used up even if nothing is left, as more may come in it."""
         self._turn = None
         if not self._waiting:
             return
+        loop = asyncio.get_running_loop()
+        until_s = loop.time() + TURN_S
+        self._turn = loop.call_soon(self._slice)
+        self._step()
+        while self._waiting and loop.time() < until_s:
+            self._step()
+
+    def _step(self) -> None:
         name, work = self._waiting[0]
-        self._turn = asyncio.get_running_loop().call_soon(self._slice)
         try:
             next(work)
         except StopIteration:

@@ -1,9 +1,9 @@
 """What ran, written down as it happens, so that after a crash it can be gone on with.
 
-One SQLite file holds each run of each graph: the graph as it was started and as it is now, every transition,
-and what `parley.umrf.saved` keeps of it. Signs of progress are left out. Recording only puts a change on a
-list; the list is written in batches in the file's own thread (`journal_file`), the first at once and then one
-each `BATCH_S`. A batch is one transaction and holds all graphs as they were at one moment.
+One SQLite file holds each run of each graph: the graph as it was started and as it is now, and what
+`parley.umrf.saved` keeps of its state. Recording only notes that a run has changed; it is written in batches
+in the file's own thread (`journal_file`), the first at once and then one each `BATCH_S`. A batch is one
+transaction and holds all graphs as they were at one moment.
 """
 
 from __future__ import annotations
@@ -67,7 +67,8 @@ class Journal:
         self._ids: weakref.WeakKeyDictionary[GraphRun, int] = weakref.WeakKeyDictionary()
         self._batch = Batch()
         self._text: GraphText | None = None
-        self._changed: dict[GraphRun, int] = {}
+        self._changed: dict[GraphRun, tuple[int, int]] = {}
+        """Runs that are to be written -> number, and time of the newest change."""
         self._unsaved: weakref.WeakSet[GraphRun] = weakref.WeakSet()
         """Runs of a batch that could not be written."""
         self._writer: asyncio.Task[None] | None = None
@@ -117,12 +118,7 @@ class Journal:
             self._batch.begun.append((number, run.actor, run.outer, shared, graph, transition.unix_ms))
         elif transition.kind == "graph" and transition.cause == "modify":
             self._batch.modified.append((number, run.snapshot()))
-        told = self._batch.told.get(number)
-        if told is not None:
-            told.append(transition)
-            return
-        self._batch.told[number] = [transition]
-        self._changed[run] = number
+        self._changed[run] = (number, transition.unix_ms)
         if self._writer is None:
             self._writer = asyncio.get_running_loop().create_task(self._write(), name="journal")
 
@@ -165,20 +161,20 @@ class Journal:
         """Everything since the last batch, with the graphs as they are now."""
         batch, self._batch = self._batch, Batch()
         changed, self._changed = self._changed, {}
-        for run, number in changed.items():
-            batch.saved.append((number, *run.save(everything=run in self._unsaved)))
+        for run, (number, unix_ms) in changed.items():
+            batch.saved.append((number, unix_ms, *run.save(everything=run in self._unsaved)))
             self._unsaved.discard(run)
         return batch
 
     def _put_back(self, batch: Batch, changed: Iterable[GraphRun]) -> None:
-        """A batch could not be written: its transitions are lost, but what is needed to go on is not."""
+        """A batch could not be written: what is in it is written with the next change."""
         self._batch.begun[:0] = batch.begun[-KEPT_RUNS:]
         self._batch.modified[:0] = batch.modified[-KEPT_RUNS:]
         self._unsaved.update(changed)
 
     async def _write(self) -> None:
         try:
-            while self._batch.told:
+            while self._changed:
                 changed = list(self._changed)
                 batch = self._take()
                 try:

@@ -1,15 +1,13 @@
 """The journal's file: tables, writing one batch, reading what was left. Runs in the file's own thread.
 
-The interpreter is shared with the loop, so as little as possible is done in it: transitions of a run become
-one JSON text per hundred, which the view `transition` takes apart for whoever reads them; the nodes of a
-batch become one JSON text that SQLite takes apart itself.
+The interpreter is shared with the loop, so as little as possible is done in it: the nodes of a batch become
+one JSON text that SQLite takes apart itself.
 """
 
 from __future__ import annotations
 
 import json
 import sqlite3
-from collections.abc import Iterator
 from dataclasses import dataclass, field
 from typing import Any, Final
 
@@ -18,15 +16,12 @@ from pydantic_core import to_json
 
 from parley.engine.interrupted import Interrupted
 from parley.errors import GraphRefusedError
-from parley.messages.pvf import fits_type
 from parley.umrf.io import graph_to_json, read_graph
 from parley.umrf.model import Graph, GraphState
 from parley.umrf.saved import SavedRun
-from parley.umrf.transition import Transition
 
 __all__ = [
     "KEPT_RUNS",
-    "KEPT_TRANSITIONS",
     "TIDY_EVERY",
     "VERSION",
     "Batch",
@@ -43,10 +38,8 @@ log = structlog.get_logger(__name__)
 
 KEPT_RUNS: Final = 1000
 """Older runs are dropped."""
-KEPT_TRANSITIONS: Final = 10_000
-"""Of one run; a graph that goes in circles for days must not fill the disk."""
 TIDY_EVERY: Final = 100
-"""Runs, and transitions of a run, between two looks for what is too old; and so many transitions to a row."""
+"""Runs between two looks for what is too old."""
 
 VERSION: Final = 4
 """Of the form of the file; one of another form is put aside, see `journal_older`."""
@@ -68,20 +61,8 @@ _SCHEMA: Final = """
         run INTEGER NOT NULL, node TEXT NOT NULL, state TEXT NOT NULL, saved TEXT NOT NULL,
         PRIMARY KEY (run, node)
     ) WITHOUT ROWID;
-    CREATE TABLE IF NOT EXISTS told (
-        id INTEGER PRIMARY KEY, run INTEGER NOT NULL, last_sequence INTEGER NOT NULL, rows TEXT NOT NULL
-    );
-    CREATE INDEX IF NOT EXISTS told_of_run ON told (run, last_sequence);
-    CREATE VIEW IF NOT EXISTS transition AS SELECT
-        run, json_extract(row.value, '$[0]') AS sequence, json_extract(row.value, '$[1]') AS kind,
-        json_extract(row.value, '$[2]') AS state, json_extract(row.value, '$[3]') AS node,
-        json_extract(row.value, '$[4]') AS cause, json_extract(row.value, '$[5]') AS result,
-        json_extract(row.value, '$[6]') AS outputs, json_extract(row.value, '$[7]') AS message,
-        json_extract(row.value, '$[8]') AS robot_time_s, json_extract(row.value, '$[9]') AS unix_ms
-    FROM told, json_each(told.rows) AS row;
 """
 
-_ADD_TOLD: Final = "INSERT INTO told (run, last_sequence, rows) VALUES (?, ?, ?)"
 _ADD_NODES: Final = """
     INSERT OR REPLACE INTO node
     SELECT json_extract(value, '$[0]'), json_extract(value, '$[1]'), json_extract(value, '$[2].state'),
@@ -105,9 +86,10 @@ class Batch:
     begun: list[tuple[int, str, str, bool, Graph | GraphText, int]] = field(default_factory=list)
     """Number, actor, graph inside of which it runs, whether others take part, graph, time."""
     modified: list[tuple[int, Graph]] = field(default_factory=list)
-    told: dict[int, list[Transition]] = field(default_factory=dict)
-    saved: list[tuple[int, dict[str, Any], list[tuple[str, dict[str, Any]]]]] = field(default_factory=list)
-    """See `GraphRun.save`."""
+    saved: list[tuple[int, int, dict[str, Any], list[tuple[str, dict[str, Any]]]]] = field(
+        default_factory=list
+    )
+    """Number, time, and what `GraphRun.save` gave."""
 
 
 def prepare(connection: sqlite3.Connection) -> None:
@@ -137,7 +119,6 @@ def write(connection: sqlite3.Connection, *, batch: Batch, first: int) -> None:
             _write_begun(connection, *begun, first=first)
         for number, graph in batch.modified:
             connection.execute("UPDATE run SET graph_now = ? WHERE id = ?", (_text(graph), number))
-        connection.executemany(_ADD_TOLD, _told(batch))
         _write_saved(connection, batch)
         _tidy(connection, batch)
         connection.execute("COMMIT")
@@ -180,31 +161,10 @@ def _write_begun(
     )
 
 
-def _told(batch: Batch) -> Iterator[tuple[int, int, str]]:
-    for number, items in batch.told.items():
-        for begin in range(0, len(items), TIDY_EVERY):
-            part = items[begin : begin + TIDY_EVERY]
-            yield number, part[-1].sequence, _json(list(map(_row, part)))
-
-
-def _row(told: Transition) -> tuple[Any, ...]:
-    values = {}
-    if told.outputs:
-        outputs = told.outputs.items()
-        values = {name: item.value for name, item in outputs if fits_type(item.type, item.value)}
-    return (
-        told.sequence, told.kind, told.state, told.node, told.cause, told.result or "", values,
-        told.message, told.robot_time_s, told.unix_ms,
-    )  # fmt: skip
-
-
 def _write_saved(connection: sqlite3.Connection, batch: Batch) -> None:
-    frames = [
-        (frame["state"], _json(frame), batch.told[number][-1].unix_ms, number)
-        for number, frame, _ in batch.saved
-    ]
+    frames = [(frame["state"], _json(frame), unix_ms, number) for number, unix_ms, frame, _ in batch.saved]
     connection.executemany("UPDATE run SET state = ?, frame = ?, changed_unix_ms = ? WHERE id = ?", frames)
-    rows = [(number, name, kept) for number, _, nodes in batch.saved for name, kept in nodes]
+    rows = [(number, name, kept) for number, _, _, nodes in batch.saved for name, kept in nodes]
     connection.execute(_ADD_NODES, (_json(rows),))
 
 
@@ -212,14 +172,7 @@ def _tidy(connection: sqlite3.Connection, batch: Batch) -> None:
     if newest := [number for number, *_ in batch.begun if number % TIDY_EVERY == 0]:
         oldest = newest[-1] - KEPT_RUNS
         connection.execute("DELETE FROM run WHERE id <= ?", (oldest,))
-        for table in ("node", "told"):
-            connection.execute(f"DELETE FROM {table} WHERE run <= ?", (oldest,))
-    for number, told in batch.told.items():
-        last = told[-1].sequence
-        if last > KEPT_TRANSITIONS and last // TIDY_EVERY != (told[0].sequence - 1) // TIDY_EVERY:
-            connection.execute(
-                "DELETE FROM told WHERE run = ? AND last_sequence <= ?", (number, last - KEPT_TRANSITIONS)
-            )
+        connection.execute("DELETE FROM node WHERE run <= ?", (oldest,))
 
 
 def settle_all(connection: sqlite3.Connection) -> None:

@@ -209,6 +209,8 @@ def _told(spec: ActionSpec, name: str, derived: ParameterInfo) -> ParameterInfo:
 
 def merge(node: Node, spec: ActionSpec) -> Node:
     """The node with what the descriptor knows about its inputs; allowed values are the graph's (7.3)."""
+    if not node.input_parameters:
+        return node
     merged: dict[str, Parameter] = {}
     for name, given in node.input_parameters.items():
         known = spec.inputs.get(name)

@@ -174,6 +174,9 @@ class _Checker:
     def _unreachable(self) -> Iterator[Problem]:
         if not self.graph.entry:  # accepted: such a graph halts at once, and a modify may continue it
             return
+        runs = self._followed(lambda child, came: _can_follow(child, self.nodes, came))
+        if len(runs) == len(self.nodes):
+            return
         reached = self._followed(lambda child, came: True)
         runs = self._followed(lambda child, came: _can_follow(child, reached, came))
         for index, node in enumerate(self.graph.nodes):
@@ -367,10 +370,14 @@ def _can_follow(node: Node, reached: Collection[NodeRef], came: Collection[NodeR
 
     What happens when something fails is left out: a way that only a failure opens is none.
     """
-    parents = [parent for parent in node.parents if parent.node in reached]
-    return all(parent.node in came for parent in parents if parent.required) or any(
+    for parent in node.parents:
+        if parent.required and parent.node not in came and parent.node in reached:
+            break
+    else:
+        return True
+    return any(
         parent.node in came and Response.BYPASS in map(parent.response, (Result.ON_TRUE, Result.ON_FALSE))
-        for parent in parents
+        for parent in node.parents
     )
 
 

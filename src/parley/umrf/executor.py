@@ -22,9 +22,10 @@ from parley.umrf.action import RunHandle
 from parley.umrf.admission import check_entry, check_removed, values_to_continue
 from parley.umrf.catalogue import Catalogue
 from parley.umrf.flow import Effect, Flow, FlowNode
+from parley.umrf.graph_index import GraphSpec
 from parley.umrf.model import ENDED, Graph, GraphState, NodeState, Result
 from parley.umrf.node_run import Ended, NodeRun
-from parley.umrf.other_runs import InnerRuns, RemoteRun, run_of
+from parley.umrf.other_runs import RemoteRun, run_of
 from parley.umrf.remote import Peers, RemoteEnd
 from parley.umrf.reports import failure_lines, stop_timed_out_text
 from parley.umrf.resolve import resolve
@@ -106,9 +107,13 @@ class GraphRun:
         like_this = functools.partial(
             GraphRun, catalogue=catalogue, actor=actor, clock=clock, make_context=make_context
         )
-        self._inner = InnerRuns(
-            make_inner or functools.partial(like_this, stop_timeout_s=stop_timeout_s, peers=peers)
+        self._make_inner: Callable[..., GraphRun] = make_inner or functools.partial(
+            like_this, stop_timeout_s=stop_timeout_s, peers=peers
         )
+        self._inner: dict[str, GraphRun] = {}
+        """Node -> the newest run of the graph behind it, also if that has ended and left an action behind."""
+        self._begun: dict[str, SavedRun] = {}
+        """Sub-graphs that an earlier process had begun, by graph name."""
         self._rounds = Rounds()
         self._later = Later()
         self._holding = self._stop_failed = False
@@ -134,7 +139,8 @@ class GraphRun:
             self._holding = True
         for item in self._active():
             self._pause_node(item, "pause")
-        self._inner.pause()
+        for inner in self._inner.values():
+            inner.pause()
         self._settle()
 
     def resume(self, continue_from: str = "") -> None:
@@ -161,7 +167,8 @@ class GraphRun:
         for item in active:
             self._runs[item.name].motion.revoke()  # no drive waits for its turn
         in_slices(active, lambda item: self._stop_node(item, "stop"))
-        self._inner.stop()
+        for inner in self._inner.values():
+            inner.stop()
         self._settle()
 
     def end_node(self, name: str) -> None:
@@ -210,7 +217,7 @@ class GraphRun:
             GraphRefusedError: Something that is still needed could not be kept.
         """
         load(saved, self._flow, self._later)
-        self._inner.saved = saved
+        self._begun = {name: saved.inner[name] for name in saved.frame["inner"] if name in saved.inner}
         self._set_graph(saved.state, "restore", saved.result)
         for item in self._flow.nodes.values():
             if item.state is not NodeState.UNINITIALIZED:
@@ -240,7 +247,8 @@ class GraphRun:
         for name, run in list(self._runs.items()):
             if not await run.abandon():
                 log.error("action cannot be ended", graph=self.name, node=name)
-        await self._inner.close()
+        for inner in self._inner.values():
+            await inner.close()
 
     # -- what can be seen -----------------------------------------------------------------------------------
 
@@ -283,8 +291,8 @@ class GraphRun:
         self._set_node(item, NodeState.RUNNING, cause)
         run = self._runs[item.name] = run_of(
             item,
-            self._inner,
             self.peers,
+            begin=self._begin_inner,
             attempt=attempt,
             on_state=lambda state: self._inner_changed(self._flow.nodes[item.name], state),
             actor=self.actor,
@@ -295,6 +303,24 @@ class GraphRun:
             on_still=lambda: self._inner_changed(self._flow.nodes[item.name], GraphState.PAUSED),
         )
         run.begin(self._make_context, self._run_ended)
+
+    def _begin_inner(self, item: FlowNode, values: Mapping[str, Any]) -> GraphRun:
+        """Run the graph behind `item` under the name of section 1, or go on with what is left of it."""
+        assert isinstance(item.spec, GraphSpec)
+        name = f"{self.name}__{item.node.name}__{item.node.instance_id}"
+        left = self._begun.pop(name, None)
+        if left is None:
+            run = self._make_inner(replace(item.spec.graph, name=name), parameters=values)
+        else:
+            run = self._make_inner(left.graph, parameters={})
+        self._inner[item.name], run.outer = run, self.name
+        if left is None:
+            run.start()
+        else:
+            run.restore(left)
+            if run.holding:
+                run.resume()
+        return run
 
     def _inner_changed(self, item: FlowNode, state: GraphState) -> None:
         """A sub-graph or a plain action came to stand still, or goes on."""
@@ -461,7 +487,9 @@ class GraphRun:
                 self._runs[item.name].resume()
                 if item.state in _STILL:  # a sub-graph has said already that it goes on
                     self._set_node(item, NodeState.RUNNING, cause)
-        self._inner.resume()
+        for inner in self._inner.values():
+            if inner.holding:
+                inner.resume()
         again, held = self._later.take()
         for name in again:
             self._run_node(self._flow.nodes[name], "restore")

@@ -3,11 +3,9 @@
 from __future__ import annotations
 
 import asyncio
-import functools
 import math
 from collections.abc import Callable, Mapping
-from dataclasses import replace
-from typing import TYPE_CHECKING, Any, Final
+from typing import Any, Final, Protocol
 
 from parley.errors import ActionFailure, FailureCode
 from parley.messages.failure import FailureReport
@@ -17,83 +15,55 @@ from parley.umrf.graph_index import GraphSpec
 from parley.umrf.model import GraphState, Result
 from parley.umrf.node_run import Ended, NodeRun
 from parley.umrf.remote import Peers, RemoteSpec
-from parley.umrf.saved import SavedRun
 
-if TYPE_CHECKING:
-    from parley.umrf.executor import GraphRun
-
-__all__ = ["InnerRuns", "RemoteRun", "SubgraphRun", "run_of"]
+__all__ = ["Inside", "RemoteRun", "SubgraphRun", "run_of"]
 
 _MARGIN_S: Final = 0.1
 """A sub-graph has so much longer to stop than its own nodes, so that it can say itself what did not."""
 
 
-class InnerRuns:
-    """The runs of the sub-graphs of one graph, also of those that ended and left a node behind.
+class Inside(Protocol):
+    """What a node needs to know of the graph that runs in its place; a `GraphRun`."""
 
-    Args:
-        make: Makes the run of a graph with its `parameters`.
-    """
+    name: str
+    state: GraphState
+    on_state: Callable[[GraphState], None] | None
 
-    def __init__(self, make: Callable[..., GraphRun]) -> None:
-        self._make = make
-        self._runs: dict[str, GraphRun] = {}
-        self.saved: SavedRun | None = None
-        """What an earlier process left of the graph whose sub-graphs these are."""
+    @property
+    def holding(self) -> bool:
+        """See `GraphRun.holding`."""
+        ...
 
-    def start(self, outer: str, item: FlowNode, values: Mapping[str, Any]) -> GraphRun:
-        """Run the graph that stands behind `item` under the name of section 1."""
-        assert isinstance(item.spec, GraphSpec)
-        name = f"{outer}__{item.node.name}__{item.node.instance_id}"
-        left = self._left(name)
-        if left is None:
-            run = self._make(replace(item.spec.graph, name=name), parameters=values)
-        else:
-            run = self._make(left.graph, parameters={})
-        self._runs[item.name], run.outer = run, outer
-        if left is None:
-            run.start()
-        else:
-            run.restore(left)
-            if run.holding:
-                run.resume()
-        return run
-
-    def _left(self, name: str) -> SavedRun | None:
-        """What is to be gone on with instead of begun; once, as the next run of the node is another one."""
-        saved = self.saved
-        found = saved.begun(name) if saved is not None else None
-        if saved is not None and found is not None:
-            self.saved = replace(saved, inner={key: item for key, item in saved.inner.items() if key != name})
-        return found
+    def exit_values(self) -> Mapping[str, Any]:
+        """See `GraphRun.exit_values`."""
+        ...
 
     def pause(self) -> None:
-        """Pause all."""
-        for run in self._runs.values():
-            run.pause()
+        """See `GraphRun.pause`."""
+        ...
 
     def resume(self) -> None:
-        """Let go on what stands still."""
-        for run in self._runs.values():
-            if run.holding:
-                run.resume()
+        """See `GraphRun.resume`."""
+        ...
 
     def stop(self) -> None:
-        """Stop all."""
-        for run in self._runs.values():
-            run.stop()
+        """See `GraphRun.stop`."""
+        ...
+
+    async def wait(self) -> Result:
+        """See `GraphRun.wait`."""
+        ...
 
     async def close(self) -> None:
-        """Close all."""
-        for run in self._runs.values():
-            await run.close()
+        """See `GraphRun.close`."""
+        ...
 
 
 class SubgraphRun(NodeRun):
     """The node waits for an indexed graph that runs in its place.
 
     Args:
-        start: Makes and starts that run with the node's inputs.
+        begin: Makes and starts that run with the node's inputs.
         on_state: Told when the inner graph stands still and when it goes on.
         **rest: See `NodeRun`.
     """
@@ -101,18 +71,18 @@ class SubgraphRun(NodeRun):
     def __init__(
         self,
         *,
-        start: Callable[[Mapping[str, Any]], GraphRun],
+        begin: Callable[[FlowNode, Mapping[str, Any]], Inside],
         on_state: Callable[[GraphState], None],
         **rest: Any,
     ) -> None:
         super().__init__(**rest)
-        self._start, self._on_state = start, on_state
-        self._inner: GraphRun | None = None
+        self._begin, self._on_state = begin, on_state
+        self._inner: Inside | None = None
         self._timed_out: Callable[[], None] | None = None
 
     async def _call(self, make_context: Callable[[RunHandle], Any]) -> Ended:
         await self.wait_while_paused()
-        inner = self._inner = self._start(self._values)
+        inner = self._inner = self._begin(self.item, self._values)
         inner.on_state = self._on_state
         try:
             result = await self._limited(inner.wait())
@@ -210,26 +180,23 @@ class RemoteRun(NodeRun):
 
 def run_of(
     item: FlowNode,
-    inner: InnerRuns,
     peers: Peers | None,
     *,
+    begin: Callable[[FlowNode, Mapping[str, Any]], Inside],
     on_state: Callable[[GraphState], None],
-    graph_name: str,
     **rest: Any,
 ) -> NodeRun:
     """What carries out `item`: an action of this actor, a sub-graph, or another actor.
 
     Args:
         item: The node.
-        inner: The runs of the sub-graphs of its graph.
         peers: The other actors, if there are any.
+        begin: See `SubgraphRun`.
         on_state: See `SubgraphRun`.
-        graph_name: See `NodeRun`.
         **rest: See `NodeRun`.
     """
     if isinstance(item.spec, GraphSpec):
-        start = functools.partial(inner.start, graph_name, item)
-        return SubgraphRun(start=start, on_state=on_state, item=item, graph_name=graph_name, **rest)
+        return SubgraphRun(begin=begin, on_state=on_state, item=item, **rest)
     if isinstance(item.spec, RemoteSpec) and peers is not None:
-        return RemoteRun(peers=peers, item=item, graph_name=graph_name, **rest)
-    return NodeRun(item, graph_name=graph_name, **rest)
+        return RemoteRun(peers=peers, item=item, **rest)
+    return NodeRun(item, **rest)

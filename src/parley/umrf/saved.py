@@ -50,10 +50,6 @@ class SavedRun:
         result = self.frame.get("result")
         return Result(result) if result and self.state is not GraphState.PAUSED else None
 
-    def begun(self, graph_name: str) -> SavedRun | None:
-        """The sub-graph of that name if it was going on, else None: then it begins anew."""
-        return self.inner.get(graph_name) if graph_name in self.frame.get("inner", ()) else None
-
 
 class Later:
     """What a graph that stands still will do when it goes on."""
