@@ -30,6 +30,10 @@ from parley.api import (
     program,
     step,
 )
+from parley.messages.audit import AuditList
+from parley.messages.ros import ChatRequest
+from parley.messages.topics import GET_AUDIT
+from parley.messages.wire import decode
 from parley.system import System
 from tests.sim.worlds import two_rooms
 
@@ -109,6 +113,15 @@ async def test_a_stop_comes_from_any_thread_and_is_released_by_a_person() -> Non
         assert p._opened.stop_line.latched("A")
         p.reset("A")
         assert not p._opened.stop_line.latched("A")
+        wanted = {("stop", BOT, "done"), ("reset", BOT, "refused"), ("reset", ADA, "done")}
+        async with asyncio.timeout(20):
+            while not wanted <= await logged(p):
+                pass  # it is written behind
+
+
+async def logged(p: Parley) -> set[tuple[str, Principal | None, str]]:
+    reply = await p._opened.transport.call(GET_AUDIT, ChatRequest("{}"), timeout_s=5)
+    return {(entry.effect, entry.by, entry.outcome) for entry in decode(AuditList, reply.response).entries}
 
 
 async def test_going_on_is_a_persons_to_say() -> None:

@@ -42,6 +42,7 @@ from parley.messages.status import (
     PlanRuling,
     PlanUpdate,
     Rejection,
+    StopCommand,
 )
 from parley.messages.wire import decode, encode
 
@@ -115,11 +116,13 @@ class Parley:
         self._stack = AsyncExitStack()
         self._system: System | None = None
         self._door: Listener | None = None
+        self._loop: asyncio.AbstractEventLoop | None = None
 
     async def __aenter__(self) -> Self:
         from parley.agents.chat.rulings import Rulings
         from parley.api.listening import Listener
 
+        self._loop = asyncio.get_running_loop()
         async with AsyncExitStack() as stack:
             system = self._system = await stack.enter_async_context(await asyncio.to_thread(self._make))
             self._rulings = Rulings(system.transport)
@@ -202,7 +205,7 @@ class Parley:
         question = self.question(name)
         if question is None:
             raise ParleyError(f"{name} asks nothing at the moment")
-        _allow(who, Effect.ANSWER)
+        self._allow(who, Effect.ANSWER, name)
         said = ChatInput(
             message=text, targets=(name,), type="response", reply_to=question.id, id=_new_id(), by=who
         )
@@ -261,10 +264,9 @@ class Parley:
         Raises:
             ParleyError: A drive could not be told; says whose. The others are stopped.
         """
-        names = tuple(map(self._named, robots))
-        outcomes = self._opened.stop_line.pull(
-            names, by=self._who(by), id=_new_id(), words="stop()", wait_s=0.0
-        )
+        names, who, id = tuple(map(self._named, robots)), self._who(by), _new_id()
+        outcomes = self._opened.stop_line.pull(names, by=who, id=id, words="stop()", wait_s=0.0)
+        self._tell(topics.STOP, StopCommand(targets=names, id=id, by=who, words="stop()"))
         failed = [f"{item.robot}: {item.problem}" for item in outcomes if item.state == "failed"]
         if failed:
             raise ParleyError(f"not stopped: {'; '.join(failed)}")
@@ -276,12 +278,12 @@ class Parley:
             NotAllowedError: Who releases is no person, or one who only looks.
             ParleyError: A drive could not be told; it stays stopped.
         """
-        names = tuple(map(self._named, robots))
-        problems = self._opened.stop_line.reset(names, by=self._who(by), id=_new_id())
-        if any(problem.code == "reset_refused" for problem in problems):
-            raise NotAllowedError(f"{self._who(by)} may not release a stop: a person decides that")
+        names, who, id = tuple(map(self._named, robots)), self._who(by), _new_id()
+        self._allow(who, Effect.RESET, *names)
+        problems = self._opened.stop_line.reset(names, by=who, id=id)
         if problems:
             raise ParleyError("; ".join(problem.message for problem in problems))
+        self._tell(topics.STOP, StopCommand(command="reset", targets=names, id=id, by=who))
 
     # -- memory ------------------------------------------------------------------------------------------
 
@@ -298,7 +300,7 @@ class Parley:
             ParleyError: It was not remembered; says why.
         """
         who = self._who(by)
-        _allow(who, Effect.REMEMBER)
+        self._allow(who, Effect.REMEMBER)
         way: Literal["told", ""] = "told" if who.is_person else ""
         body = MemoryBody(
             data=text, info=info, source=who.name or who.kind, way=way, words=text if way else ""
@@ -312,7 +314,7 @@ class Parley:
             NotAllowedError: Who wants it may not.
             ParleyError: There is no such memory.
         """
-        _allow(self._who(by), Effect.FORGET)
+        self._allow(self._who(by), Effect.FORGET)
         await self._changed(topics.REMOVE_MEMORY, RemoveMemory({name: {}}), name)
 
     async def memories(self, about: str = "", *, limit: int = 0) -> list[MemoryEntry]:
@@ -375,6 +377,7 @@ class Parley:
             risky=any(always_asks(infos.get(action)) for action in actions),
         )
         if ruling.begins != "now":
+            self._tell(topics.AUDIT, AuditEvent(effect=Effect.BEGIN, by=who, robot=robot, outcome="refused"))
             why = "needs a person's yes" if ruling.begins == "ask" else "is not theirs to start"
             raise NotAllowedError(f"a graph of {who} for {robot} {why}; say by=person(..)")
 
@@ -392,6 +395,19 @@ class Parley:
         if self._door is None:
             raise ParleyError("this Parley is not open yet")
         return self._door
+
+    def _allow(self, who: Principal, effect: Effect, *robots: str) -> None:
+        """Let the gate say whether somebody may; that they may not is written down."""
+        if verdict(who, effect) == "allow":
+            return
+        for robot in robots or ("",):
+            self._tell(topics.AUDIT, AuditEvent(effect=effect, by=who, robot=robot, outcome="refused"))
+        raise NotAllowedError(f"{who} may not {effect.value}: say by=person(..) for a person who does")
+
+    def _tell(self, topic: topics.Topic[Any], message: Any) -> None:
+        """Publish from any thread."""
+        assert self._loop is not None
+        self._loop.call_soon_threadsafe(self._listener.publish, topic, message)
 
     def _who(self, by: Principal | None) -> Principal:
         return self._by if by is None else by
@@ -432,7 +448,7 @@ class Parley:
         by: Principal | None,
     ) -> ChatFeedback:
         who = self._who(by)
-        _allow(who, effect)
+        self._allow(who, effect, proposal.target)
         decided = PlanDecision(
             id=proposal.id, target=proposal.target, decision=decision, digest=proposal.digest, by=who
         )
@@ -541,11 +557,6 @@ def _about(event: Event) -> tuple[str, ...]:
         case Incident():
             return (event.robot,)
     return (event.actor,)
-
-
-def _allow(who: Principal, effect: Effect) -> None:
-    if verdict(who, effect) != "allow":
-        raise NotAllowedError(f"{who} may not {effect.value}: say by=person(..) for a person who does")
 
 
 def _new_id() -> str:
