@@ -11,6 +11,7 @@ from pathlib import Path
 from typing import Any
 
 import pytest
+from httpx import AsyncClient
 
 from parley.api import (
     ConfigError,
@@ -245,6 +246,15 @@ async def test_a_listener_that_is_too_slow_is_told(monkeypatch: pytest.MonkeyPat
         with pytest.raises(ParleyError, match="lost"):
             await anext(events)
         await anext(events)
+
+
+async def test_the_page_shows_the_same_robots() -> None:
+    async with parley() as p, p.page(port=0) as page, AsyncClient(base_url=page.address) as browser:
+        for _ in range(200):
+            if robots := (await browser.get("/api/robots")).json():
+                break
+        assert [robot["name"] for robot in robots] == ["A"]
+        assert page.code == ""
 
 
 def test_without_await_it_does_the_same_and_leaves_no_thread() -> None:

@@ -9,14 +9,15 @@ from __future__ import annotations
 import asyncio
 import json
 import uuid
-from collections.abc import Iterable, Mapping, Sequence
-from contextlib import AsyncExitStack
+from collections.abc import AsyncIterator, Iterable, Mapping, Sequence
+from contextlib import AsyncExitStack, asynccontextmanager
 from pathlib import Path
 from types import TracebackType
 from typing import TYPE_CHECKING, Any, Final, Literal, Self
 
 from parley.config import SystemConfig
 from parley.errors import ConfigError, GraphRefusedError, NotAllowedError, ParleyError, Problem
+from parley.extras import needs
 from parley.gate.ruling import rule
 from parley.gate.table import Effect, verdict
 from parley.messages import topics
@@ -53,8 +54,9 @@ if TYPE_CHECKING:  # loaded when it is opened
     from parley.site import Site
     from parley.system import System
     from parley.umrf.action import Action, ActionSpec
+    from parley.web.server import WebServer
 
-__all__ = ["GraphRun", "Parley", "step"]
+__all__ = ["GraphRun", "Page", "Parley", "step"]
 
 NOBODY: Final = Principal()
 """A program that nobody vouches for: it may look, stop, speak, and propose."""
@@ -381,6 +383,37 @@ class Parley:
             why = "needs a person's yes" if ruling.begins == "ask" else "is not theirs to start"
             raise NotAllowedError(f"a graph of {who} for {robot} {why}; say by=person(..)")
 
+    # -- the page ----------------------------------------------------------------------------------------
+
+    @asynccontextmanager
+    async def page(self, *, port: int | None = None, lan: bool = False) -> AsyncIterator[Page]:
+        """Serve the page for operators: ``async with parley.page() as page: print(page.address)``.
+
+        Whoever is at this computer may do everything there, unless there are accounts in the data folder.
+
+        Args:
+            port: Where; None: the usual one, or a free one where that is taken.
+            lan: Let other devices in, over HTTPS, with `Page.code`.
+
+        Raises:
+            MissingExtraError: The page is not installed.
+            ConfigError: The port is taken.
+        """
+        with needs("web"):
+            from parley.web.config import WebConfig
+            from parley.web.server import WebServer
+
+        system = self._opened
+        given = {"lan": lan} | ({} if port is None else {"port": port})
+        async with WebServer(
+            system.transport,
+            WebConfig.of(system.config, **given),
+            port_is_wish=port is None,
+            stop_line=system.stop_line,
+            at_rest=system.at_rest,
+        ) as server:
+            yield Page(server)
+
     # -- inside ------------------------------------------------------------------------------------------
 
     @property
@@ -473,6 +506,23 @@ class Parley:
             event = await anext(heard)
         if isinstance(event, MemoryEvent) and event.kind == "failed":
             raise ParleyError(event.message)
+
+
+class Page:
+    """The page for operators, while it is served."""
+
+    def __init__(self, server: WebServer) -> None:
+        self._server = server
+
+    @property
+    def address(self) -> str:
+        """Where it is on this computer."""
+        return self._server.url
+
+    @property
+    def code(self) -> str:
+        """What the next device signs in with; empty where nobody has to."""
+        return self._server.pairing_code
 
 
 class GraphRun:
