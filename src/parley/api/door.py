@@ -7,6 +7,7 @@ about it as about what comes from the page: there is no way round it here.
 from __future__ import annotations
 
 import asyncio
+import importlib
 import json
 import uuid
 from collections.abc import AsyncIterator, Iterable, Mapping, Sequence
@@ -399,9 +400,9 @@ class Parley:
             MissingExtraError: The page is not installed.
             ConfigError: The port is taken.
         """
-        with needs("web"):
-            from parley.web.config import WebConfig
-            from parley.web.server import WebServer
+        await asyncio.to_thread(_load_web)  # takes a while, and robots stand while the loop is blocked
+        from parley.web.config import WebConfig
+        from parley.web.server import WebServer
 
         system = self._opened
         given = {"lan": lan} | ({} if port is None else {"port": port})
@@ -621,6 +622,11 @@ def _graph_text(graph: str | Path | Mapping[str, Any]) -> str:
     from parley.files import read_text
 
     return read_text(Path(graph))
+
+
+def _load_web() -> None:
+    with needs("web"):
+        importlib.import_module("parley.web.server")
 
 
 def _system(
