@@ -493,7 +493,7 @@ class Parley:
         wanted = order.model_copy(update={"targets": (robot,), "id": _new_id(), "by": self._who(by)})
         self._rulings.expect(wanted)
         self._listener.publish(topics.CHAT_ACTION, wanted)
-        rulings = await self._rulings.about(wanted)
+        rulings = await self._rulings.about(wanted, ANSWERS_WITHIN_S)
         if not rulings:
             raise ParleyError(f"nobody says what became of the order to {robot}; look at its plan")
         return rulings[0]

@@ -13,6 +13,7 @@ from typing import TYPE_CHECKING, Any, Final
 import typer
 
 from parley.errors import ConfigError
+from parley.extras import needs
 from parley.messages.principal import ROLES, Role
 
 if TYPE_CHECKING:
@@ -33,7 +34,8 @@ def _web() -> None:
 @app.command("openapi")
 def openapi() -> None:
     """Print the description of the page's interface (OpenAPI)."""
-    from parley.web.app import openapi_text
+    with needs("web"):
+        from parley.web.app import openapi_text
 
     typer.echo(openapi_text(), nl=False)
 
