@@ -250,9 +250,9 @@ async def test_a_listener_that_is_too_slow_is_told(monkeypatch: pytest.MonkeyPat
 
 async def test_the_page_shows_the_same_robots() -> None:
     async with parley() as p, p.page(port=0) as page, AsyncClient(base_url=page.address) as browser:
-        for _ in range(200):
-            if robots := (await browser.get("/api/robots")).json():
-                break
+        async with asyncio.timeout(20):
+            while not (robots := (await browser.get("/api/robots")).json()):
+                pass  # until its next heartbeat is heard
         assert [robot["name"] for robot in robots] == ["A"]
         assert page.code == ""
 
