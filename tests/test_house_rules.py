@@ -6,6 +6,7 @@ import ast
 import json
 import re
 import subprocess
+import tomllib
 from functools import cache
 from pathlib import Path
 
@@ -215,3 +216,19 @@ def test_every_link_inside_the_documents_leads_somewhere() -> None:
         if not (path.parent / target).exists()
     ]
     assert dead == []
+
+
+def test_the_locked_versions_are_those_of_all_that_is_asked_for() -> None:
+    project = tomllib.loads((ROOT / "pyproject.toml").read_text("utf-8"))["project"]
+    extras = project["optional-dependencies"]
+    asked = {plain(item) for item in (*project["dependencies"], *extras["sim"], *extras["web"])}
+    pins = re.compile(r"^([\w.-]+)==(\S+)", re.MULTILINE)
+    locked = {plain(name): v for name, v in pins.findall((ROOT / "requirements.lock").read_text("utf-8"))}
+    tested = {plain(name): v for name, v in pins.findall((ROOT / "constraints.txt").read_text("utf-8"))}
+    assert asked - locked.keys() == set()
+    assert {name: version for name, version in locked.items() if tested.get(name, version) != version} == {}
+
+
+def plain(requirement: str) -> str:
+    """The name of a package as registries compare it."""
+    return re.sub(r"[-_.]+", "-", re.split(r"[^\w.-]", requirement, maxsplit=1)[0]).lower()

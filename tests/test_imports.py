@@ -33,9 +33,19 @@ NEVER = {
 }
 """What a room must not know although its height would allow it, or so that it never will."""
 
-AGENTS = ("base", "display", "planner", "recovery", "chat")
-"""Rooms of `agents` by height: planning knows nothing of repairs, nor these of talk. Rooms that are not named
-(rules, the single files) are known by none of the others."""
+INSIDE: dict[str, tuple[str, ...]] = {
+    # Planning knows nothing of repairs, nor these of talk.
+    "agents": ("base", "display", "planner", "recovery", "chat"),
+    # Words and dialogue know no engine; models fall back on what is built in.
+    "language": ("lexicon", "dialogue", "prompts", "builtin", "offline", "llm"),
+    "umrf": ("bt",),
+    "web": ("people", "routes"),
+    "api": (),
+}
+"""Rooms inside rooms by height: one knows those before it. One that is not named is known by none of them."""
+
+CLOSED = {"language": {"offline", "builtin", "llm", "prompts"}, "umrf": {"bt"}}
+"""What the single files of a room, which all others in it use, do not know."""
 
 ONLY_IN = {
     "rclpy": {"transport/ros2.py"},
@@ -118,20 +128,33 @@ def test_a_room_does_not_know_what_it_must_not_know(room: str) -> None:
     assert told(known) == []
 
 
-def test_inside_agents_no_room_imports_a_higher_one() -> None:
-    height = {room: at for at, room in enumerate(AGENTS)}
-    rooms = {path.parent.name for path in SOURCE.glob("agents/*/__init__.py")}
-    top = len(AGENTS)
+def inside(room: str) -> list[tuple[str, str, Import]]:
+    """Who imports whom inside a room: folders, and single files by their name."""
+    rooms = {path.parent.name for path in SOURCE.glob(f"{room}/*/__init__.py")}
+    pairs = [
+        (found.where.split("/")[1].removesuffix(".py"), ".".join(found.module.split(".")[2:3]), found)
+        for found in IMPORTS
+        if found.where.startswith(f"{room}/") and found.module.startswith(f"parley.{room}.")
+    ]
+    return [(own, other, found) for own, other, found in pairs if other in rooms and own != other]
+
+
+@pytest.mark.parametrize("room", INSIDE)
+def test_inside_a_room_none_imports_a_higher_one(room: str) -> None:
+    height = {name: at for at, name in enumerate(INSIDE[room])}
+    top = len(height)
+    files = {path.stem for path in SOURCE.glob(f"{room}/*.py")} - height.keys()
     upwards = [
         found
-        for found in IMPORTS
-        if found.where.startswith("agents/")
-        and (inner := ".".join(found.module.split(".")[2:3])) in rooms
-        and found.module.startswith("parley.agents.")
-        and (own := found.where.split("/")[1]) != inner
-        and height.get(inner, top) >= height.get(own, top)
+        for own, other, found in inside(room)
+        if (own in files and (other in CLOSED.get(room, ()) or other not in height))
+        or (own not in files and height.get(other, top) >= height.get(own, top))
     ]
     assert told(upwards) == []
+
+
+def test_every_room_with_rooms_inside_has_their_order() -> None:
+    assert {path.parent.parent.name for path in SOURCE.glob("*/*/__init__.py")} <= INSIDE.keys()
 
 
 @pytest.mark.parametrize("package", ONLY_IN)

@@ -11,6 +11,7 @@ from pathlib import Path
 from typing import Any
 
 import pytest
+from httpx import AsyncClient
 
 from parley.api import (
     ConfigError,
@@ -30,6 +31,10 @@ from parley.api import (
     program,
     step,
 )
+from parley.messages.audit import AuditList
+from parley.messages.ros import ChatRequest
+from parley.messages.topics import GET_AUDIT
+from parley.messages.wire import decode
 from parley.system import System
 from tests.sim.worlds import two_rooms
 
@@ -109,6 +114,15 @@ async def test_a_stop_comes_from_any_thread_and_is_released_by_a_person() -> Non
         assert p._opened.stop_line.latched("A")
         p.reset("A")
         assert not p._opened.stop_line.latched("A")
+        wanted = {("stop", BOT, "done"), ("reset", BOT, "refused"), ("reset", ADA, "done")}
+        async with asyncio.timeout(20):
+            while not wanted <= await logged(p):
+                pass  # it is written behind
+
+
+async def logged(p: Parley) -> set[tuple[str, Principal | None, str]]:
+    reply = await p._opened.transport.call(GET_AUDIT, ChatRequest("{}"), timeout_s=5)
+    return {(entry.effect, entry.by, entry.outcome) for entry in decode(AuditList, reply.response).entries}
 
 
 async def test_going_on_is_a_persons_to_say() -> None:
@@ -232,6 +246,15 @@ async def test_a_listener_that_is_too_slow_is_told(monkeypatch: pytest.MonkeyPat
         with pytest.raises(ParleyError, match="lost"):
             await anext(events)
         await anext(events)
+
+
+async def test_the_page_shows_the_same_robots() -> None:
+    async with parley() as p, p.page(port=0) as page, AsyncClient(base_url=page.address) as browser:
+        async with asyncio.timeout(20):
+            while not (robots := (await browser.get("/api/robots")).json()):
+                pass  # until its next heartbeat is heard
+        assert [robot["name"] for robot in robots] == ["A"]
+        assert page.code == ""
 
 
 def test_without_await_it_does_the_same_and_leaves_no_thread() -> None:

@@ -14,9 +14,11 @@ from typing import Any
 import httpx
 import pytest
 
-from parley.cli.web import language_label, page_settings
+from parley.cli.web import page_settings
+from parley.config import SystemConfig
 from parley.errors import ConfigError
 from parley.web.app import openapi_text
+from parley.web.config import WebConfig
 
 ENDS_WITHIN_S = 15
 STEPS = "1. Find out where “dining table” is, 2. Go to “dining table”"
@@ -161,7 +163,8 @@ def test_a_password_file_that_is_missing_or_too_short_is_named(tmp_path: Path) -
     ],
 )
 def test_people_are_told_which_language_engine_there_is(language: str, label: str, offline: bool) -> None:
-    assert language_label(language) == {"language": label, "offline_language": offline}
+    page = WebConfig.of(SystemConfig(language=language))
+    assert (page.language, page.offline_language) == (label, offline)
 
 
 def test_the_interface_is_described_always_the_same() -> None:

@@ -17,7 +17,7 @@ from typing import TYPE_CHECKING, Any, Final
 
 if TYPE_CHECKING:
     from parley.actions.context import ActionContext
-    from parley.api.door import GraphRun, Parley, step
+    from parley.api.door import GraphRun, Page, Parley, step
     from parley.api.listening import Events
     from parley.api.sync import SyncParley
     from parley.config import ModelSettings, SystemConfig
@@ -54,7 +54,7 @@ if TYPE_CHECKING:
 
 _WHERE: Final = {
     "actions.context": ("ActionContext",),
-    "api.door": ("GraphRun", "Parley", "step"),
+    "api.door": ("GraphRun", "Page", "Parley", "step"),
     "api.listening": ("Events",),
     "api.sync": ("SyncParley",),
     "config": ("ModelSettings", "SystemConfig"),
@@ -83,13 +83,13 @@ _WHERE: Final = {
 """Module -> the names it gives to the door."""
 
 __all__ = [
-    "ActionCall", "ActionContext", "ActionFailure", "CameraImage", "ChatFeedback", "ConfigError", "Detection",
-    "DriveLimits", "Events", "FailureCode", "GraphEvent", "GraphRefusedError", "GraphRun", "Incident", "Kept",
-    "LaserScan", "MapObject", "MemoryEntry", "MemoryEvent", "MissingExtraError", "ModelSettings",
-    "NavigationControl", "NotAllowedError", "ObjectMap", "OccupancyMap", "Outcome", "Parley", "ParleyError",
-    "PlanProposal", "PlanRuling", "PlanUpdate", "Pose2D", "Principal", "Rejection", "Robot", "RobotBase",
-    "Site", "StopReport", "SyncParley", "SystemConfig", "Velocity", "action", "check_robot", "person",
-    "program", "step",
+    "ActionCall", "ActionContext", "ActionFailure", "CameraImage", "ChatFeedback", "ConfigError",
+    "Detection", "DriveLimits", "Events", "FailureCode", "GraphEvent", "GraphRefusedError", "GraphRun",
+    "Incident", "Kept", "LaserScan", "MapObject", "MemoryEntry", "MemoryEvent", "MissingExtraError",
+    "ModelSettings", "NavigationControl", "NotAllowedError", "ObjectMap", "OccupancyMap", "Outcome", "Page",
+    "Parley", "ParleyError", "PlanProposal", "PlanRuling", "PlanUpdate", "Pose2D", "Principal", "Rejection",
+    "Robot", "RobotBase", "Site", "StopReport", "SyncParley", "SystemConfig", "Velocity", "action",
+    "check_robot", "person", "program", "step",
 ]  # fmt: skip
 
 

@@ -7,16 +7,18 @@ about it as about what comes from the page: there is no way round it here.
 from __future__ import annotations
 
 import asyncio
+import importlib
 import json
 import uuid
-from collections.abc import Iterable, Mapping, Sequence
-from contextlib import AsyncExitStack
+from collections.abc import AsyncIterator, Iterable, Mapping, Sequence
+from contextlib import AsyncExitStack, asynccontextmanager
 from pathlib import Path
 from types import TracebackType
 from typing import TYPE_CHECKING, Any, Final, Literal, Self
 
 from parley.config import SystemConfig
 from parley.errors import ConfigError, GraphRefusedError, NotAllowedError, ParleyError, Problem
+from parley.extras import needs
 from parley.gate.ruling import rule
 from parley.gate.table import Effect, verdict
 from parley.messages import topics
@@ -42,6 +44,7 @@ from parley.messages.status import (
     PlanRuling,
     PlanUpdate,
     Rejection,
+    StopCommand,
 )
 from parley.messages.wire import decode, encode
 
@@ -52,8 +55,9 @@ if TYPE_CHECKING:  # loaded when it is opened
     from parley.site import Site
     from parley.system import System
     from parley.umrf.action import Action, ActionSpec
+    from parley.web.server import WebServer
 
-__all__ = ["GraphRun", "Parley", "step"]
+__all__ = ["GraphRun", "Page", "Parley", "step"]
 
 NOBODY: Final = Principal()
 """A program that nobody vouches for: it may look, stop, speak, and propose."""
@@ -115,11 +119,13 @@ class Parley:
         self._stack = AsyncExitStack()
         self._system: System | None = None
         self._door: Listener | None = None
+        self._loop: asyncio.AbstractEventLoop | None = None
 
     async def __aenter__(self) -> Self:
         from parley.agents.chat.rulings import Rulings
         from parley.api.listening import Listener
 
+        self._loop = asyncio.get_running_loop()
         async with AsyncExitStack() as stack:
             system = self._system = await stack.enter_async_context(await asyncio.to_thread(self._make))
             self._rulings = Rulings(system.transport)
@@ -202,7 +208,7 @@ class Parley:
         question = self.question(name)
         if question is None:
             raise ParleyError(f"{name} asks nothing at the moment")
-        _allow(who, Effect.ANSWER)
+        self._allow(who, Effect.ANSWER, name)
         said = ChatInput(
             message=text, targets=(name,), type="response", reply_to=question.id, id=_new_id(), by=who
         )
@@ -261,10 +267,9 @@ class Parley:
         Raises:
             ParleyError: A drive could not be told; says whose. The others are stopped.
         """
-        names = tuple(map(self._named, robots))
-        outcomes = self._opened.stop_line.pull(
-            names, by=self._who(by), id=_new_id(), words="stop()", wait_s=0.0
-        )
+        names, who, id = tuple(map(self._named, robots)), self._who(by), _new_id()
+        outcomes = self._opened.stop_line.pull(names, by=who, id=id, words="stop()", wait_s=0.0)
+        self._tell(topics.STOP, StopCommand(targets=names, id=id, by=who, words="stop()"))
         failed = [f"{item.robot}: {item.problem}" for item in outcomes if item.state == "failed"]
         if failed:
             raise ParleyError(f"not stopped: {'; '.join(failed)}")
@@ -276,12 +281,12 @@ class Parley:
             NotAllowedError: Who releases is no person, or one who only looks.
             ParleyError: A drive could not be told; it stays stopped.
         """
-        names = tuple(map(self._named, robots))
-        problems = self._opened.stop_line.reset(names, by=self._who(by), id=_new_id())
-        if any(problem.code == "reset_refused" for problem in problems):
-            raise NotAllowedError(f"{self._who(by)} may not release a stop: a person decides that")
+        names, who, id = tuple(map(self._named, robots)), self._who(by), _new_id()
+        self._allow(who, Effect.RESET, *names)
+        problems = self._opened.stop_line.reset(names, by=who, id=id)
         if problems:
             raise ParleyError("; ".join(problem.message for problem in problems))
+        self._tell(topics.STOP, StopCommand(command="reset", targets=names, id=id, by=who))
 
     # -- memory ------------------------------------------------------------------------------------------
 
@@ -298,7 +303,7 @@ class Parley:
             ParleyError: It was not remembered; says why.
         """
         who = self._who(by)
-        _allow(who, Effect.REMEMBER)
+        self._allow(who, Effect.REMEMBER)
         way: Literal["told", ""] = "told" if who.is_person else ""
         body = MemoryBody(
             data=text, info=info, source=who.name or who.kind, way=way, words=text if way else ""
@@ -312,7 +317,7 @@ class Parley:
             NotAllowedError: Who wants it may not.
             ParleyError: There is no such memory.
         """
-        _allow(self._who(by), Effect.FORGET)
+        self._allow(self._who(by), Effect.FORGET)
         await self._changed(topics.REMOVE_MEMORY, RemoveMemory({name: {}}), name)
 
     async def memories(self, about: str = "", *, limit: int = 0) -> list[MemoryEntry]:
@@ -375,8 +380,40 @@ class Parley:
             risky=any(always_asks(infos.get(action)) for action in actions),
         )
         if ruling.begins != "now":
+            self._tell(topics.AUDIT, AuditEvent(effect=Effect.BEGIN, by=who, robot=robot, outcome="refused"))
             why = "needs a person's yes" if ruling.begins == "ask" else "is not theirs to start"
             raise NotAllowedError(f"a graph of {who} for {robot} {why}; say by=person(..)")
+
+    # -- the page ----------------------------------------------------------------------------------------
+
+    @asynccontextmanager
+    async def page(self, *, port: int | None = None, lan: bool = False) -> AsyncIterator[Page]:
+        """Serve the page for operators: ``async with parley.page() as page: print(page.address)``.
+
+        Whoever is at this computer may do everything there, unless there are accounts in the data folder.
+
+        Args:
+            port: Where; None: the usual one, or a free one where that is taken.
+            lan: Let other devices in, over HTTPS, with `Page.code`.
+
+        Raises:
+            MissingExtraError: The page is not installed.
+            ConfigError: The port is taken.
+        """
+        await asyncio.to_thread(_load_web)  # takes a while, and robots stand while the loop is blocked
+        from parley.web.config import WebConfig
+        from parley.web.server import WebServer
+
+        system = self._opened
+        given = {"lan": lan} | ({} if port is None else {"port": port})
+        async with WebServer(
+            system.transport,
+            WebConfig.of(system.config, **given),
+            port_is_wish=port is None,
+            stop_line=system.stop_line,
+            at_rest=system.at_rest,
+        ) as server:
+            yield Page(server)
 
     # -- inside ------------------------------------------------------------------------------------------
 
@@ -392,6 +429,19 @@ class Parley:
         if self._door is None:
             raise ParleyError("this Parley is not open yet")
         return self._door
+
+    def _allow(self, who: Principal, effect: Effect, *robots: str) -> None:
+        """Let the gate say whether somebody may; that they may not is written down."""
+        if verdict(who, effect) == "allow":
+            return
+        for robot in robots or ("",):
+            self._tell(topics.AUDIT, AuditEvent(effect=effect, by=who, robot=robot, outcome="refused"))
+        raise NotAllowedError(f"{who} may not {effect.value}: say by=person(..) for a person who does")
+
+    def _tell(self, topic: topics.Topic[Any], message: Any) -> None:
+        """Publish from any thread."""
+        assert self._loop is not None
+        self._loop.call_soon_threadsafe(self._listener.publish, topic, message)
 
     def _who(self, by: Principal | None) -> Principal:
         return self._by if by is None else by
@@ -432,7 +482,7 @@ class Parley:
         by: Principal | None,
     ) -> ChatFeedback:
         who = self._who(by)
-        _allow(who, effect)
+        self._allow(who, effect, proposal.target)
         decided = PlanDecision(
             id=proposal.id, target=proposal.target, decision=decision, digest=proposal.digest, by=who
         )
@@ -443,7 +493,7 @@ class Parley:
         wanted = order.model_copy(update={"targets": (robot,), "id": _new_id(), "by": self._who(by)})
         self._rulings.expect(wanted)
         self._listener.publish(topics.CHAT_ACTION, wanted)
-        rulings = await self._rulings.about(wanted)
+        rulings = await self._rulings.about(wanted, ANSWERS_WITHIN_S)
         if not rulings:
             raise ParleyError(f"nobody says what became of the order to {robot}; look at its plan")
         return rulings[0]
@@ -457,6 +507,23 @@ class Parley:
             event = await anext(heard)
         if isinstance(event, MemoryEvent) and event.kind == "failed":
             raise ParleyError(event.message)
+
+
+class Page:
+    """The page for operators, while it is served."""
+
+    def __init__(self, server: WebServer) -> None:
+        self._server = server
+
+    @property
+    def address(self) -> str:
+        """Where it is on this computer."""
+        return self._server.url
+
+    @property
+    def code(self) -> str:
+        """What the next device signs in with; empty where nobody has to."""
+        return self._server.pairing_code
 
 
 class GraphRun:
@@ -543,11 +610,6 @@ def _about(event: Event) -> tuple[str, ...]:
     return (event.actor,)
 
 
-def _allow(who: Principal, effect: Effect) -> None:
-    if verdict(who, effect) != "allow":
-        raise NotAllowedError(f"{who} may not {effect.value}: say by=person(..) for a person who does")
-
-
 def _new_id() -> str:
     return uuid.uuid4().hex
 
@@ -560,6 +622,11 @@ def _graph_text(graph: str | Path | Mapping[str, Any]) -> str:
     from parley.files import read_text
 
     return read_text(Path(graph))
+
+
+def _load_web() -> None:
+    with needs("web"):
+        importlib.import_module("parley.web.server")
 
 
 def _system(

@@ -16,6 +16,7 @@ from parley.bench.memory import VECTOR_LENGTH, measure_memory
 from parley.bench.story import measure_demo
 from parley.cli.on_loop import on_loop
 from parley.cli.output import emit_json, quiet_logs
+from parley.extras import needs
 from parley.umrf.model import Graph
 
 __all__ = ["app"]
@@ -220,8 +221,9 @@ def web(
     ] = True,
 ) -> None:
     """The page's server: feedback at 10 Hz of many robots and pictures at 10 a second, over real sockets."""
-    from parley.bench.web import measure_web
-    from parley.bench.web_report import report
+    with needs("web"):
+        from parley.bench.web import measure_web
+        from parley.bench.web_report import report
 
     quiet_logs()
     figures = on_loop(measure_web(robots=robots, feeds=feeds, seconds=seconds, browser=browser))

@@ -21,7 +21,7 @@ from parley.cli.language import (
 )
 from parley.cli.on_loop import on_loop
 from parley.cli.output import emit_json, fail, quiet_logs
-from parley.cli.web import PORT, language_label, page_settings, serve_until_interrupted
+from parley.cli.web import PORT, page_settings, serve_until_interrupted
 from parley.config import SystemConfig
 from parley.demos.catalogue import DEMOS, Demo, load_demo
 from parley.demos.runner import StoryResult, play
@@ -127,8 +127,6 @@ def demo(
         without=without,
     )
     page |= {"examples": loaded.examples, "data_dir": folder, "fresh_robots": True}
-    page |= {"unattended": chosen.unattended, "unattended_after_s": chosen.unattended_after_s}
-    page |= language_label(chosen.language)
     on_loop(_serve(loaded, chosen, page, port_is_wish=port is None, opens=not no_open))
 
 
@@ -192,7 +190,7 @@ async def _serve(
         from parley.web.config import WebConfig
         from parley.web.server import WebServer
 
-    settings = WebConfig.model_validate(page)
+    settings = WebConfig.of(config, **page)
     async with (
         demo.system(config) as system,
         WebServer(

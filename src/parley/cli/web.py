@@ -13,12 +13,13 @@ from typing import TYPE_CHECKING, Any, Final
 import typer
 
 from parley.errors import ConfigError
+from parley.extras import needs
 from parley.messages.principal import ROLES, Role
 
 if TYPE_CHECKING:
     from parley.web.server import WebServer
 
-__all__ = ["PORT", "app", "language_label", "page_settings", "serve_until_interrupted"]
+__all__ = ["PORT", "app", "page_settings", "serve_until_interrupted"]
 
 PORT: Final = 8400
 
@@ -33,7 +34,8 @@ def _web() -> None:
 @app.command("openapi")
 def openapi() -> None:
     """Print the description of the page's interface (OpenAPI)."""
-    from parley.web.app import openapi_text
+    with needs("web"):
+        from parley.web.app import openapi_text
 
     typer.echo(openapi_text(), nl=False)
 
@@ -71,20 +73,6 @@ def page_settings(
         "origins": tuple(origins),
         "without": frozenset(left_out),
     }
-
-
-def language_label(language: str) -> dict[str, Any]:
-    """What the page tells of the language engine.
-
-    Args:
-        language: ``offline`` or ``provider:model``, perhaps with ``@address``.
-    """
-    if language in ("auto", "offline", "builtin"):
-        return {"language": "built in, works without a model", "offline_language": True}
-    both, name = language.startswith("auto:"), language.removeprefix("auto:").partition("@")[0]
-    provider, _, model = name.partition(":")
-    told = f"built in, else {model} ({provider})" if both else f"{model} ({provider})"
-    return {"language": told, "offline_language": False}
 
 
 def _password(file: Path | None) -> str:

@@ -3,10 +3,11 @@
 from __future__ import annotations
 
 from pathlib import Path
-from typing import Literal
+from typing import Any, Literal, Self
 
 from pydantic import BaseModel, ConfigDict, Field
 
+from parley.config import SystemConfig
 from parley.messages.attendance import Unattended
 from parley.messages.principal import Role
 
@@ -61,6 +62,24 @@ class WebConfig(BaseModel):
     """Wall time without any byte of a body that is still to come; then the connection is closed."""
     fresh_robots: bool = False
     """The robots start together with this server: what they asked before is void."""
+
+    @classmethod
+    def of(cls, system: SystemConfig, **given: Any) -> Self:
+        """Settings for the page of a system; what is not given follows from the system's own settings.
+
+        Raises:
+            pydantic.ValidationError: One of them cannot be.
+        """
+        built_in = ":" not in system.language
+        provider, _, model = system.language.partition("@")[0].partition(":")
+        known = {
+            "language": cls.model_fields["language"].default if built_in else f"{model} ({provider})",
+            "offline_language": built_in,
+            "unattended": system.unattended,
+            "unattended_after_s": system.unattended_after_s,
+            "data_dir": system.data_dir,
+        }
+        return cls.model_validate(known | given)
 
     @property
     def modules(self) -> dict[str, bool]:

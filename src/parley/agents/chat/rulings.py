@@ -44,13 +44,13 @@ class Rulings:
             loop = asyncio.get_running_loop()
             self._waits |= {(order.id, target): loop.create_future() for target in order.targets}
 
-    async def about(self, order: ChatAction) -> Sequence[PlanRuling]:
-        """What became of an order, robot by robot; empty where nobody rules, or not in time."""
+    async def about(self, order: ChatAction, within_s: float = _WITHIN_S) -> Sequence[PlanRuling]:
+        """What became of an order, robot by robot; empty where nobody rules, or not within that wall time."""
         keys = [(order.id, target) for target in order.targets]
         waits = [self._waits[key] for key in keys if key in self._waits]
         try:
             if waits:
-                async with asyncio.timeout(_WITHIN_S):
+                async with asyncio.timeout(within_s):
                     await asyncio.wait(waits)
         except TimeoutError:
             pass  # the reply is then the engine's own; what waits for a yes is shown by the plan all the same
