@@ -115,7 +115,7 @@ class Ordering:
             if halts == self._weighing.get(target, 0):
                 do(plan, order, judgement)
             else:  # somebody told the robot to stand still meanwhile
-                self._tell_ruling(plan, order, Ruling(begins="refuse"), refused=True)
+                self._tell_ruling(plan, order, Ruling(begins="refuse"), asked=False, refused=True)
 
         self._mailboxes.post(target, work)
 
@@ -144,14 +144,18 @@ class Ordering:
         ruling = self._rule(plan, order, calls or (), commands, judgement=judgement)
         for command in ruling.do:
             self._plans.send(plan, self._commands.effects_of(plan, command, order.by))
-        if ruling.ask or ruling.begins == "ask":
+        asks = bool(ruling.ask) or ruling.begins == "ask"
+        crowded = asks and len(self._plans.approvals.of(plan.target)) >= orders.MOST_WAITING
+        if crowded:
+            self._plans.say(plan.target, orders.TOO_MANY_WAIT, "error")
+        elif asks:
             self._proposals.propose(
                 plan, order, calls or (), ruling.ask, why=self._why(plan, order, judgement)
             )
         elif calls and ruling.begins == "now":
             self._begin_for(plan.target, order.behalf or order.by)
             self._commands.append(plan, calls, order.words)
-        self._tell_ruling(plan, order, ruling, refused=calls is None)
+        self._tell_ruling(plan, order, ruling, asked=asks and not crowded, refused=calls is None or crowded)
 
     def _forbid(self, plan: TargetPlan, order: ChatAction, judgement: Judgement) -> None:
         """Say which rules a plan would break."""
@@ -249,10 +253,12 @@ class Ordering:
             begin=begin,
         )
 
-    def _tell_ruling(self, plan: TargetPlan, order: ChatAction, ruling: Ruling, *, refused: bool) -> None:
+    def _tell_ruling(
+        self, plan: TargetPlan, order: ChatAction, ruling: Ruling, *, asked: bool, refused: bool
+    ) -> None:
         """Say what became of an order, to whoever sent it and to the log."""
         outcome: Literal["done", "asked", "refused"] = "done"
-        if ruling.ask or ruling.begins == "ask":
+        if asked:
             outcome = "asked"
         elif refused or ruling.refused or ruling.begins == "refuse":
             outcome = "refused"
