@@ -15,7 +15,7 @@ import parley
 SOURCE = Path(parley.__file__).parent
 
 LAYERS: tuple[frozenset[str], ...] = (
-    frozenset({"errors", "extras", "logs", "clock", "messages", "config", "files", "sentences"}),
+    frozenset({"errors", "extras", "logs", "clock", "messages", "config", "files", "latest", "sentences"}),
     frozenset({"transport", "umrf", "memory", "world"}),
     frozenset({"sim"}),
     frozenset({"gate", "language", "robots", "engine", "actions"}),

@@ -14,6 +14,7 @@ from parley.errors import StoreError
 from parley.memory.embedding_server import EmbeddingServer
 from parley.memory.meanings import GONE
 from parley.umrf.threads import IDLE
+from parley.world.object_map import MapObject, ObjectMap
 from tests.demos.house import running
 
 
@@ -84,3 +85,13 @@ async def test_unreadable_record_of_stops_means_that_everybody_is_stopped_and_is
         )
         await home.observer.until(lambda: any(item.state == "at_rest" for item in home.observer.stop_reports))
         assert all(home.system.stop_line.latched(name) for name in home.system.robot_names)
+
+
+async def test_a_robot_asks_before_it_drives_past_somebody_whom_the_map_knows(tmp_path: Path) -> None:
+    system = load_demo("nursing-home").system(SystemConfig(data_dir=tmp_path, approval="ask_when_risky"))
+    async with running(system) as home:
+        (robot,) = system.robots.values()
+        somebody = MapObject("1", "Ada", robot.pose().x_m, robot.pose().y_m, "person")
+        system.objects = ObjectMap((*system.objects.objects, somebody))
+        said = await home.say("go to the fridge")
+        assert "Somebody stands in the way" in said.message

@@ -415,7 +415,9 @@ class System:
             self.language.ground, view.objects.objects, view.occupancy, radius_m=radius_m, clock=self.clock
         )
         steps = await resolver.resolve(calls, catalogue, pose)
-        return await judge_with_ways(self.rules, robot, steps, view.occupancy, by=by, pose=pose)
+        return await judge_with_ways(
+            self.rules, robot, steps, view.occupancy, by=by, pose=pose, people=view.objects.people
+        )
 
     def _objects_of(self, _robot: str) -> Sequence[MapObject]:
         return self.objects.objects

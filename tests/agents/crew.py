@@ -12,6 +12,7 @@ from typing import Any, cast
 
 from parley.agents.base import Node
 from parley.agents.chat.chat_interface import ChatInterface
+from parley.agents.planner.ordering import Judge
 from parley.agents.planner.sending import Patience
 from parley.agents.planner.umrf_planner import UmrfPlanner
 from parley.agents.recovery.error_handler import ErrorHandler
@@ -327,7 +328,7 @@ def decide(party: Crew, **decision: Any) -> None:
 @asynccontextmanager
 async def crew(
     *robots: str, talking: bool = False, heartless: Sequence[str] = (), ask_first: Sequence[str] = (),
-    patience: Patience | None = None, proposals: ProposalStore | None = None,
+    patience: Patience | None = None, proposals: ProposalStore | None = None, judge: Judge | None = None,
 ) -> AsyncIterator[Crew]:  # fmt: skip
     """A planner and engines for `robots`; at the end no handler may have failed.
 
@@ -338,6 +339,7 @@ async def crew(
         ask_first: Robots whose plans wait for approval.
         patience: How long the planner waits.
         proposals: Where it keeps what waits for a yes.
+        judge: What rules say about steps.
     """
     async with AsyncExitStack() as stack:
         transport = await stack.enter_async_context(LocalTransport())
@@ -348,6 +350,7 @@ async def crew(
             UmrfPlanner(
                 transport, clock, known_robots=heartless, policies=dict.fromkeys(ask_first, "ask_first"),
                 patience=patience or Patience(answer_s=1.0, progress_s=1.0, end_s=2.0), proposals=proposals,
+                judge=judge,
             )
         )  # fmt: skip
         if talking:

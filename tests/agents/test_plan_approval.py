@@ -2,13 +2,20 @@
 
 from __future__ import annotations
 
+import asyncio
 import json
+from collections.abc import Sequence
 from typing import Any
 
 import pytest
 
+from parley.clock import WallClock
+from parley.gate.book import RuleBook
+from parley.gate.judge import Judgement, PlannedStep
 from parley.messages import topics
 from parley.messages.chat import ActionCall, ChatAction, ChatFeedback, ChatInput, Flow, FlowIf, SystemCommand
+from parley.messages.rules import Rule, RuleSet
+from parley.messages.status import ActionInfo
 from tests.agents.crew import ENGINE, KIM, Crew, crew, decide, drive, find, look, proposals
 
 
@@ -363,3 +370,33 @@ async def test_plan_of_a_robot_that_goes_while_it_is_held_is_kept_and_told() -> 
         party.command("start")
         await party.state("idle")
         assert party.body.did == ["look box", "look box", "look door"]
+
+
+@pytest.mark.parametrize("waits", [False, True])
+async def test_an_edit_that_the_rules_forbid_is_refused_when_it_is_made(waits: bool) -> None:
+    book = RuleBook(WallClock(), RuleSet(rules=(Rule(id="r", kind="action", actions=("Drive",)),)))
+
+    async def judged(
+        robot: str, calls: Sequence[ActionCall], infos: Sequence[ActionInfo], *_: object
+    ) -> Judgement:
+        await asyncio.sleep(0)
+        known = {info.name: info for info in infos}
+        steps = [PlannedStep(call, known[call.name]) for call in calls]
+        return book.judge_plan(robot=robot, steps=steps, by=KIM)
+
+    async with crew("A", ask_first=["A"] if waits else [], judge=judged) as party:
+        identity = ""
+        if waits:
+            party.order(look("box"))
+            await party.until(lambda: proposals(party))
+            identity = proposals(party)[0]["id"]
+        else:
+            await begun(party, look("door"))
+        decide(party, decision="edit", id=identity, steps=[drive(2.0).model_dump()])
+        await party.hears("must not do")
+        assert party.observer.refusals[-1].problems[0].code == "forbidden"
+        decide(party, decision="edit", id=identity, steps=[look("lid").model_dump()])
+        party.body.gate("box").set()
+        await party.until(lambda: "look lid" in party.body.did)
+        await party.state("idle")
+        assert not party.body.way

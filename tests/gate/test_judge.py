@@ -142,6 +142,8 @@ def test_what_is_risky_is_told_with_its_reason() -> None:
     assert [item.code for item in judged(book(slow), go(5, 0)).risky] == ["near_zone"]
     near = book().judge_plan(robot="Ada", steps=[go(5, 0)], by=None, pose=Pose2D(0, 0), people=[(3, 0.5)])
     assert [item.code for item in near.risky] == ["person_near"]
+    sent_to = book().judge_plan(robot="Ada", steps=[go(5, 0)], by=None, pose=Pose2D(0, 0), people=[(5, 0.5)])
+    assert sent_to.risky == ()
 
 
 def test_an_action_that_begins_is_judged_with_its_arguments() -> None:

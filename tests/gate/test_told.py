@@ -7,6 +7,7 @@ from typing import Any
 import pytest
 
 from parley.gate.told import DraftRule, NotUnderstood, told_rule
+from parley.gate.told_hours import hours_in
 from parley.messages.rules import Rule
 from parley.messages.status import ActionInfo
 from parley.world.object_map import MapObject
@@ -54,6 +55,13 @@ def fields(rule: Rule) -> dict[str, Any]:
         ("Bob must not go into the storeroom", STORE | {"robots": ("Bob",)}),
         ("Ada and Bob must never enter the storeroom on weekends",
          STORE | {"robots": ("Ada", "Bob"), "when": {"days": ("sat", "sun")}}),
+        ("never go into the storeroom after 1 am",
+         STORE | {"robots": ("Ada",), "when": {"start": "01:00", "end": "06:00"}}),
+        ("nobody may drive before 6:00",
+         {"kind": "action", "classes": ("moves",), "when": {"start": "00:00", "end": "06:00"}}),
+        ("ära kunagi sõida saali pärast kella 22",
+         {"kind": "keep_out", "name": "saali", "when": NIGHT, "robots": ("Ada",),
+          "rectangle": HALL["rectangle"]}),
         ("stay out of the storeroom at night", STORE | {"when": NIGHT}),
         ("always ask me before you drive at night",
          {"kind": "action", "verdict": "ask", "classes": ("moves",), "robots": ("Ada",), "when": NIGHT}),
@@ -119,6 +127,10 @@ def test_everything_else_is_no_rule(text: str) -> None:
 )
 def test_a_rule_that_cannot_be_made_says_what_is_missing(text: str, said: str) -> None:
     assert told(text) == NotUnderstood(said)
+
+
+def test_a_number_of_things_is_no_hour() -> None:
+    assert hours_in("never open a door after two knocks") == ((None,), "never open a door after two knocks")
 
 
 def test_what_can_be_meant_in_two_ways_is_offered_in_both() -> None:

@@ -3,23 +3,21 @@
 from __future__ import annotations
 
 import re
-from collections import OrderedDict
 from typing import Final
 
+from parley.latest import KEPT, Latest
 from parley.messages.chat import ChatFeedback, ChatInput
 
 __all__ = ["LastAsked", "OpenQuestions", "SeenIds"]
 
-_KEPT: Final = 500
 _KEPT_QUESTIONS: Final = 100
 
 
 class SeenIds:
     """The last ids of messages, to recognise one that is sent twice, e.g. after a reconnect."""
 
-    def __init__(self, kept: int = _KEPT) -> None:
-        self._kept = kept
-        self._ids: OrderedDict[str, None] = OrderedDict()
+    def __init__(self, kept: int = KEPT) -> None:
+        self._ids: Latest[str, None] = Latest(kept)
 
     def __contains__(self, message_id: str) -> bool:
         return message_id in self._ids
@@ -31,8 +29,6 @@ class SeenIds:
         if message_id in self._ids:
             return False
         self._ids[message_id] = None
-        if len(self._ids) > self._kept:
-            self._ids.popitem(last=False)
         return True
 
 
@@ -40,20 +36,21 @@ class OpenQuestions:
     """Open questions per robot, oldest first."""
 
     def __init__(self) -> None:
-        self._open: dict[str, list[ChatFeedback]] = {}
-        self._names: dict[str, str] = {}
+        self._open: Latest[str, list[ChatFeedback]] = Latest()
+        self._names: Latest[str, str] = Latest()
         self._settled = SeenIds()
 
     def on_feedback(self, feedback: ChatFeedback) -> None:
         """Take over what robots say."""
         for target in feedback.targets:
             self._names[_key(target)] = target
-            waiting = self._open.setdefault(_key(target), [])
+            waiting = self._open[_key(target)] = self._open.get(_key(target), [])
             if feedback.closes:
                 self._settled.is_new(feedback.closes)
                 waiting[:] = [question for question in waiting if question.id != feedback.closes]
             if feedback.type == "request":
                 waiting.append(feedback)
+                del waiting[:-_KEPT_QUESTIONS]
 
     def on_input(self, said: ChatInput) -> None:
         """Take over what the operator answers; what it answers is settled."""
@@ -114,14 +111,12 @@ class LastAsked:
     """The words of the last questions of robots."""
 
     def __init__(self) -> None:
-        self._words: OrderedDict[str, str] = OrderedDict()
+        self._words: Latest[str, str] = Latest(_KEPT_QUESTIONS)
 
     def on_feedback(self, feedback: ChatFeedback) -> None:
         """A robot speaks, and may ask."""
         if feedback.type == "request" and feedback.id:
             self._words[feedback.id] = feedback.message
-            while len(self._words) > _KEPT_QUESTIONS:
-                self._words.popitem(last=False)
 
     def words(self, identity: str) -> str:
         """The question of that id; empty if it is too long ago or there is none."""

@@ -16,6 +16,7 @@ from PIL import Image
 
 from parley.errors import InvalidMessageError
 from parley.gate.table import Effect, verdict
+from parley.latest import Latest
 from parley.memory.client import recall
 from parley.messages import topics
 from parley.messages.chat import ChatFeedback, ChatInput
@@ -40,7 +41,7 @@ class ContextServices:
     def __init__(self, actor: str, transport: Transport) -> None:
         self._actor, self._transport = actor, transport
         self._questions: OrderedDict[str, asyncio.Future[ChatInput]] = OrderedDict()
-        self._answers: OrderedDict[str, ChatInput] = OrderedDict()
+        self._answers: Latest[str, ChatInput] = Latest(_KEPT_ANSWERS)
         """The last answers by their words, each naming its question, in case it turns out to be none."""
         self._publishers: dict[str, Publisher[String]] = {}
         self._subscription: Subscription | None = None
@@ -96,8 +97,6 @@ class ContextServices:
         finally:
             del self._questions[question_id]
         self._answers[said.message] = said.model_copy(update={"reply_to": question_id})
-        while len(self._answers) > _KEPT_ANSWERS:
-            self._answers.popitem(last=False)
         return said.message
 
     async def refer(self, reply: str) -> None:

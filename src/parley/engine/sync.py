@@ -15,6 +15,7 @@ from typing import Final
 
 from parley.clock import Clock
 from parley.errors import ActionFailure, FailureCode, Problem
+from parley.latest import Latest
 from parley.messages.status import ActorStatus, SyncNotice
 from parley.umrf.model import GraphState, Node, Result
 from parley.umrf.remote import RemoteEnd
@@ -373,7 +374,7 @@ class Sync:
         self.timeout_s = timeout_s
         self._sessions: dict[str, Session] = {}
         self._statuses: dict[str, ActorStatus] = {}
-        self._at_work_s: dict[tuple[str, str], float] = {}
+        self._at_work_s: Latest[tuple[str, str], float] = Latest()
 
     def open(self, graph_name: str, actors: Iterable[str]) -> Session:
         """Begin a run of a graph with others; a session of an older run of it is closed."""

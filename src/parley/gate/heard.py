@@ -7,12 +7,12 @@ on another topic anyway is read off there, so that no node can forget to write i
 from __future__ import annotations
 
 import re
-from collections import OrderedDict
 from collections.abc import Iterable, Sequence
-from typing import Any, Final, Generic, TypeVar
+from typing import Any, Final
 
 from parley.gate.ruling import EFFECT_OF
 from parley.gate.table import Effect, verdict
+from parley.latest import Latest
 from parley.messages.audit import AuditEvent
 from parley.messages.chat import ActionCall, ChatAction, ChatInput
 from parley.messages.memory import AddToMemory, MemoryEvent
@@ -30,9 +30,6 @@ from parley.messages.status import (
 
 __all__ = ["Heard"]
 
-T = TypeVar("T")
-
-_KEPT: Final = 500
 _REFUSED: Final = {
     "chat_interface_input": Effect.SPEAK, "chat_action": Effect.BEGIN, "umrf_correction": Effect.REPAIR,
     "umrf_graph_start": Effect.BEGIN, "umrf_graph_modify": Effect.EDIT, "umrf_graph_pause": Effect.PAUSE,
@@ -43,39 +40,20 @@ _REFUSED: Final = {
 _ENDS: Final = {"FINISHED": "done", "STOPPED": "done", "ERROR": "failed"}
 
 
-class _Last(Generic[T]):
-    """The newest few of something, by key."""
-
-    def __init__(self) -> None:
-        self._items: OrderedDict[str, T] = OrderedDict()
-
-    def __setitem__(self, key: str, value: T) -> None:
-        self._items[key] = value
-        self._items.move_to_end(key)
-        while len(self._items) > _KEPT:
-            self._items.popitem(last=False)
-
-    def get(self, key: str) -> T | None:
-        return self._items.get(key)
-
-    def pop(self, key: str) -> T | None:
-        return self._items.pop(key, None)
-
-
 class Heard:
     """Makes events of messages, and remembers as much as is needed to say on whose account they come."""
 
     def __init__(self) -> None:
         self.robots: set[str] = set()
         """Robots that were heard of."""
-        self._said: _Last[ChatInput] = _Last()
-        self._proposals: _Last[PlanProposal] = _Last()
-        self._orders: _Last[dict[str, Any]] = _Last()
+        self._said: Latest[str, ChatInput] = Latest()
+        self._proposals: Latest[str, PlanProposal] = Latest()
+        self._orders: Latest[str, dict[str, Any]] = Latest()
         """What made each robot's newest plan, as facts of an event."""
-        self._plans: _Last[PlanUpdate] = _Last()
-        self._running: _Last[dict[str, Any]] = _Last()
-        self._memories: _Last[tuple[Principal | None, str]] = _Last()
-        self._stops: _Last[StopCommand] = _Last()
+        self._plans: Latest[str, PlanUpdate] = Latest()
+        self._running: Latest[str, dict[str, Any]] = Latest()
+        self._memories: Latest[str, tuple[Principal | None, str]] = Latest()
+        self._stops: Latest[str, StopCommand] = Latest()
 
     def on_input(self, said: ChatInput) -> list[AuditEvent]:
         """Words of a person; what is passed on by those who asked is no new message."""
@@ -166,7 +144,7 @@ class Heard:
             return []
         if event.kind == "graph" and event.state == "RUNNING" and self._running.get(key) is None:
             return [self._began(event, key)]
-        if event.kind == "graph" and event.state in _ENDS and (facts := self._running.pop(key)):
+        if event.kind == "graph" and event.state in _ENDS and (facts := self._running.pop(key, None)):
             return [self._ended(event, facts)]
         return []
 

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import math
 from collections.abc import Callable, Iterable, Iterator, Sequence
 from dataclasses import dataclass, field, replace
 from datetime import datetime, timedelta
@@ -183,7 +184,8 @@ class _Walk:
         for rule in self._zones("keep_out", "ask_zone", "slow"):
             if _holds_during(rule, began, self.at):
                 self._zone(index, rule, way)
-        if any(_nearest(way, person) < _PERSON_NEAR_M for person in self.people):
+        passed = [person for person in self.people if math.dist(goal, person) >= _PERSON_NEAR_M]
+        if any(_nearest(way, person) < _PERSON_NEAR_M for person in passed):  # it may be sent to somebody
             text = sentence("Somebody stands in the way of step {number}.", number=index + 1)
             self.risky.append(Finding(index, "", "person_near", text))
         return tuple((float(x), float(y)) for x, y in way)

@@ -14,6 +14,7 @@ from parley.gate.rules import RuleKeeper
 from parley.gate.table import Effect, verdict
 from parley.gate.told import DraftRule, NotUnderstood, told_rule
 from parley.gate.wording import rule_text
+from parley.latest import Latest
 from parley.messages.principal import Principal
 from parley.messages.rules import Rule
 from parley.messages.status import ActionInfo
@@ -61,7 +62,7 @@ class RuleConfirmations:
     """Changes of rules that wait for a person's yes, by the question about them."""
 
     def __init__(self) -> None:
-        self._waiting: dict[str, _Pending] = {}
+        self._waiting: Latest[str, _Pending] = Latest(_KEPT)
 
     def asked(self, question: str) -> bool:
         """Whether this question is one of ours."""
@@ -80,8 +81,6 @@ class RuleConfirmations:
     def _asked(self, text: str, pending: _Pending) -> RuleReply:
         question = uuid.uuid4().hex
         self._waiting[question] = pending
-        while len(self._waiting) > _KEPT:
-            del self._waiting[next(iter(self._waiting))]
         return RuleReply(text, question, (*(label for label, _ in pending.choices), sentence("no")))
 
     def answered(self, question: str, text: str) -> tuple[Rule | None, bool] | None:

@@ -35,6 +35,14 @@ _SPANS: Final = tuple(
         r"\b{a} kuni {b}(?!\w)",
     )
 )
+_OPEN: Final = tuple(
+    (re.compile(rf"\b{word} {_TIME.format('a')}(?!\w)(?!\s+(?!on\b|at\b|in\b|nobody\b)\w)"), is_start)
+    for word, is_start in (
+        (r"(?:after|past)", True), (r"before", False), (r"pärast kella", True), (r"enne kella", False),
+    )
+)  # fmt: skip
+"""With one end; "after two knocks" is no hour."""
+_MORNING, _EVENING, _DAY = 6 * 60, 18 * 60, 24 * 60
 _PARTS: Final[tuple[tuple[str, str, str], ...]] = (
     (r"at night|during the night|by night|overnight|öösel|öösiti", "22:00", "06:00"),
     (r"in the mornings?|hommikul|hommikuti", "06:00", "12:00"),
@@ -67,6 +75,11 @@ def hours_in(text: str) -> tuple[tuple[Hours | None, ...], str]:
         if found := pattern.search(text):
             rest = text[: found.start()] + text[found.end() :]
             return tuple(_hours(start, end, days) for start, end in _meant(found)), _tidy(rest)
+    for pattern, is_start in _OPEN:
+        if found := pattern.search(text):
+            rest = text[: found.start()] + text[found.end() :]
+            meant = _one_ended(found, is_start=is_start)
+            return tuple(_hours(start, end, days) for start, end in meant), _tidy(rest)
     for words, start, end in _PARTS:
         if found := re.search(rf"(?:\b(?:{words})\b)", text):
             rest = text[: found.start()] + text[found.end() :]
@@ -99,6 +112,16 @@ def _meant(found: re.Match[str]) -> list[tuple[str, str]]:
     early, late = (start, end), ((start + 720) % 1440, end + 720 if end < 720 else end)
     pair = [late, early] if start < 7 * 60 else [early, late]
     return [(_text(a), _text(b)) for a, b in pair]
+
+
+def _one_ended(found: re.Match[str], *, is_start: bool) -> list[tuple[str, str]]:
+    """From an hour to the end of the night or of the day, or from midnight to it; the likelier first."""
+    half = (found["ahalf"] or "").replace(".", "")
+    minute, plain = _minute(found["a"], half)
+    minutes = [minute % _DAY] if half or not plain else [(minute + 720) % _DAY, minute % _DAY]
+    if not is_start:
+        return [("00:00", _text(minute)) for minute in reversed(minutes)]
+    return [(_text(minute), _text(_DAY if _MORNING <= minute < _EVENING else _MORNING)) for minute in minutes]
 
 
 def _minute(text: str, half: str) -> tuple[int, bool]:

@@ -3,10 +3,10 @@
 from __future__ import annotations
 
 import re
-from collections import OrderedDict
 from collections.abc import Callable, Sequence
 from typing import Any, Final, Literal
 
+from parley.latest import Latest
 from parley.messages.chat import ActionCall
 from parley.messages.rules import RiskClass
 from parley.messages.status import GraphEvent, PlanDecision, PlanProposal, PlanUpdate, Rejection
@@ -50,7 +50,7 @@ class PlanBook:
         self._updates: dict[str, PlanUpdate] = {}
         self._free_since: dict[str, int] = {}
         self._graphs: dict[tuple[str, str], GraphTold] = {}
-        self._past: OrderedDict[tuple[str, str], None] = OrderedDict()
+        self._past: Latest[tuple[str, str], None] = Latest(PAST_KEPT)
         """Graphs of plans that were replaced: what comes late about them is dropped."""
         self.decided: set[str] = set()
         """Proposals that were approved or edited, but may yet be refused and then go on waiting."""
@@ -270,8 +270,6 @@ class PlanBook:
     def _drop(self, robot: str, graph_name: str) -> None:
         if graph_name:
             self._past[robot, graph_name] = None
-            if len(self._past) > PAST_KEPT:
-                self._past.popitem(last=False)
         self._graphs.pop((robot, graph_name), None)
         if self.views.pop((robot, graph_name), None) is not None:
             self._emit(PlanGone(seq=0, robot=robot, graph_name=graph_name))

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Callable, Iterable
 
+from parley.latest import Latest
 from parley.messages.incident import Incident
 from parley.messages.map import MapView
 from parley.messages.memory import MemoryEvent
@@ -60,7 +61,7 @@ class WebState:
         self.chat = ChatBook(self._on_entry, new_id, entries)
         self.plans = PlanBook(self.log.add, self.ability_of)
         self.feeds = FeedBook(self.log.add)
-        self.incidents: dict[str, Incident] = {}
+        self.incidents: Latest[str, Incident] = Latest(INCIDENTS_KEPT)
         self.views: dict[str, MapView] = {}
 
     def show(self, entry: ChatEntry) -> None:
@@ -82,8 +83,6 @@ class WebState:
     def on_incident(self, incident: Incident) -> None:
         """A failure happened, or its record changed."""
         self.incidents[incident.id] = incident
-        while len(self.incidents) > INCIDENTS_KEPT:
-            del self.incidents[next(iter(self.incidents))]
         self.log.add(IncidentChange(seq=0, incident=incident))
 
     def on_memory(self, event: MemoryEvent) -> None:

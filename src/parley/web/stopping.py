@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 import threading
-from collections import OrderedDict
 from collections.abc import Callable, Iterable, Mapping
 from concurrent.futures import Future
 from dataclasses import dataclass
@@ -11,6 +10,7 @@ from typing import Final
 
 from parley.clock import Clock
 from parley.gate.stop_line import StopLine
+from parley.latest import Latest
 from parley.messages.principal import Principal
 from parley.messages.status import StopCommand
 from parley.web.bodies import RobotStop
@@ -55,7 +55,7 @@ class Stopper:
     ) -> None:
         self._line, self._robots, self._send = line, robots, send
         self._clock, self._at_rest = clock, at_rest
-        self._held: OrderedDict[str, None] = OrderedDict()
+        self._held: Latest[str, None] = Latest(REMEMBERED)
         self._lock = threading.Lock()
 
     def stop(self, targets: Iterable[str], *, by: Principal | None, id: str) -> Stop:
@@ -86,8 +86,6 @@ class Stopper:
             if id in self._held:
                 return
             self._held[id] = None
-            if len(self._held) > REMEMBERED:
-                self._held.popitem(last=False)
         named = self._named(targets)
         if self._line is not None:
             self._line.hold(named, id=id, by=by, words=words)

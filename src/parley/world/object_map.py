@@ -14,7 +14,7 @@ faces, radians in the map frame: stand there to use it).
 from __future__ import annotations
 
 from dataclasses import dataclass, field
-from typing import Any, Self
+from typing import Any, Final, Self
 
 from pydantic import BaseModel, ConfigDict, Field
 
@@ -23,6 +23,8 @@ from parley.files import TextFile, parse_json, validated
 from parley.world.geometry import Extent, Metres
 
 __all__ = ["MapObject", "ObjectMap"]
+
+_PERSON: Final = "person"
 
 
 @dataclass(frozen=True, slots=True)
@@ -80,6 +82,11 @@ class ObjectMap(TextFile):
     def get(self, object_id: str) -> MapObject | None:
         """The object of that id, or None."""
         return next((item for item in self.objects if item.id == object_id), None)
+
+    @property
+    def people(self) -> tuple[tuple[float, float], ...]:
+        """Where somebody is: things of the class `person`."""
+        return tuple((item.x_m, item.y_m) for item in self.objects if item.class_name == _PERSON)
 
     @classmethod
     def parse(cls, text: str, file: str = "object map") -> Self:

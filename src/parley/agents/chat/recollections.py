@@ -7,7 +7,7 @@ from __future__ import annotations
 
 import asyncio
 import uuid
-from collections import OrderedDict, deque
+from collections import deque
 from collections.abc import Awaitable, Callable, Sequence
 from datetime import datetime
 from typing import Final
@@ -17,6 +17,7 @@ import structlog
 from parley.agents.base import Node
 from parley.clock import Clock
 from parley.errors import InvalidMessageError, TransportError
+from parley.latest import Latest
 from parley.memory.because import OPERATOR, because, origin, reasons, when
 from parley.memory.client import ask_memory
 from parley.memory.pictures import MAX_PICTURES, PictureError, modest_jpeg
@@ -56,9 +57,9 @@ class Recollections:
         robots: Callable[[], Sequence[str]],
     ) -> None:
         self._node, self._clock, self._remember, self._robots = node, clock, remember, robots
-        self._founded: dict[str, tuple[MemoryEntry, ...]] = {}
+        self._founded: Latest[str, tuple[MemoryEntry, ...]] = Latest()
         """The memories on which each robot's last reply was founded."""
-        self._unnamed: OrderedDict[str, tuple[MemoryEntry, ...]] = OrderedDict()
+        self._unnamed: Latest[str, tuple[MemoryEntry, ...]] = Latest(_KEPT_QUESTIONS)
         """Pictures that wait for a name, by the question about them; they are stored already."""
         self._taken: deque[ChatInput] = deque(maxlen=20)
 
@@ -139,8 +140,6 @@ class Recollections:
             return bool(name) or not said.message.strip()
         question = uuid.uuid4().hex
         self._unnamed[question] = entries
-        while len(self._unnamed) > _KEPT_QUESTIONS:
-            self._unnamed.popitem(last=False)
         text = f"I have kept it. {_WHAT if len(entries) == 1 else _WHICH}"
         self._node.publish(
             topics.CHAT_FEEDBACK,

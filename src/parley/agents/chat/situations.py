@@ -13,6 +13,7 @@ from parley.agents.questions import LastAsked, OpenQuestions
 from parley.agents.recovery.repair import failed_situation
 from parley.agents.shown_pictures import remembered_pictures, sent_pictures
 from parley.language.base import Situation
+from parley.latest import Latest
 from parley.memory.client import recall, recall_newest
 from parley.memory.sayings import asks_for_all
 from parley.messages.chat import ChatFeedback, ChatInput
@@ -54,8 +55,8 @@ class Situations:
         self._history_exchanges = history_exchanges
         self.plans: dict[str, PlanUpdate] = {}
         self.questions = OpenQuestions()
-        self._failures: dict[str, ErrorHandlingMessage] = {}
-        self._conversations: dict[str, Conversation] = {}
+        self._failures: Latest[str, ErrorHandlingMessage] = Latest()
+        self._conversations: Latest[str, Conversation] = Latest()
         self._asked = LastAsked()
 
     def on_feedback(self, feedback: ChatFeedback) -> None:

@@ -7,6 +7,7 @@ from collections.abc import Sequence
 from typing import Final
 
 from parley.gate.assent import assent_of
+from parley.latest import Latest
 from parley.messages.chat import ChatFeedback, ChatInput
 from parley.messages.status import PlanDecision, PlanProposal, PlanUpdate, PoseInfo
 from parley.sentences import Sentence, listed, sentence, together
@@ -91,7 +92,7 @@ class Offered:
 
     def __init__(self) -> None:
         self._waiting: dict[str, list[PlanProposal]] = {}
-        self._asked: dict[str, bool] = {}
+        self._asked: Latest[str, bool] = Latest()
 
     def on_proposal(self, proposal: PlanProposal) -> None:
         """Steps wait for a yes."""

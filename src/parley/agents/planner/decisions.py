@@ -11,15 +11,17 @@ from parley.agents.planner.asking import CHANGED, REFUSED, begun
 from parley.agents.planner.check import check_calls, complete_calls
 from parley.agents.planner.commands import Commands
 from parley.agents.planner.flow import listed, rebased
-from parley.agents.planner.ordering import BeginFor
+from parley.agents.planner.ordering import BeginFor, Ordering
 from parley.agents.planner.proposing import Proposals
 from parley.agents.planner.robot_plans import RobotPlans
 from parley.errors import Problem
+from parley.gate.judge import Judgement
 from parley.gate.table import Effect, verdict
 from parley.messages import topics
 from parley.messages.audit import AuditEvent
 from parley.messages.chat import ActionCall
 from parley.messages.status import PlanDecision
+from parley.sentences import together
 
 __all__ = ["Decisions"]
 
@@ -36,6 +38,7 @@ class Decisions:
         plans: What is known of each robot.
         proposals: What waits for a yes.
         commands: Does what a command says.
+        ordering: Has the steps of an edit weighed, in turn with orders.
         begin_for: Told on whose account a robot acts from now on.
     """
 
@@ -45,10 +48,11 @@ class Decisions:
         plans: RobotPlans,
         proposals: Proposals,
         commands: Commands,
+        ordering: Ordering,
         begin_for: BeginFor,
     ) -> None:
         self._node, self._plans, self._proposals, self._commands = node, plans, proposals, commands
-        self._begin_for = begin_for
+        self._ordering, self._begin_for = ordering, begin_for
 
     async def open(self) -> None:
         """Take decisions; closed with the node."""
@@ -67,10 +71,28 @@ class Decisions:
             )
         elif decision.decision == "policy":
             self._set_policy(target, decision.policy)
-        elif decision.decision == "edit" and not decision.id:
-            self._edit(target, decision)
+        elif decision.decision == "edit":
+            self._ordering.weighed(
+                target,
+                decision.steps,
+                decision.by,
+                lambda found: self._take_edit(target, decision, found),
+                lambda: self._plans.say(target, orders.NOTHING_DONE, "error"),
+            )
         else:
             self._decide(target, decision)
+
+    def _take_edit(self, target: str, decision: PlanDecision, judgement: Judgement | None) -> None:
+        """Take up an edit unless the rules forbid what it says."""
+        if judgement is not None and judgement.forbidden:
+            texts = dict.fromkeys(finding.sentence for finding in judgement.forbidden)
+            problems = [Problem("steps", text, "leave that out", "forbidden") for text in texts]
+            self._plans.refuse(topics.PLAN_DECISION.name, target, problems)
+            self._plans.say(target, together(*texts), "error")
+        elif decision.id:
+            self._decide(target, decision)
+        else:
+            self._edit(target, decision)
 
     def _decide(self, target: str, decision: PlanDecision) -> None:
         proposal = self._plans.approvals.get(decision.id)

@@ -103,32 +103,61 @@ class Ordering:
     ) -> None:
         """Do what an order says once its steps are weighed; orders to one robot keep their order."""
         plan = self._plans.plan(target)
-        weighs = self._judge is not None and bool(order.queue)
-        halts = self._weighing.get(target, 0)
-        stops = any(EFFECT_OF[item.command] is Effect.PAUSE for item in orders.of_plans(order))
-        if stops or (not weighs and target not in self._mailboxes.busy):
+        if any(EFFECT_OF[item.command] is Effect.PAUSE for item in orders.of_plans(order)):
             do(plan, order, None)
             return
 
+        def halted() -> None:
+            self._tell_ruling(plan, order, Ruling(begins="refuse"), asked=False, refused=True)
+
+        self.weighed(
+            target, order.queue, order.behalf or order.by, lambda found: do(plan, order, found), halted
+        )
+
+    def weighed(
+        self,
+        target: str,
+        calls: Sequence[ActionCall],
+        by: Principal | None,
+        do: Callable[[Judgement | None], None],
+        halted: Callable[[], None],
+    ) -> None:
+        """Go on once steps are weighed, in turn with everything else that is told to the robot.
+
+        Args:
+            target: The robot.
+            calls: The steps.
+            by: On whose account.
+            do: Gets what the rules say; None: nothing.
+            halted: Called instead if somebody told the robot to stand still meanwhile.
+        """
+        weighs = self._judge is not None and bool(calls)
+        halts = self._weighing.get(target, 0)
+        if not weighs and target not in self._mailboxes.busy:
+            do(None)
+            return
+
         async def work() -> None:
-            judgement = await self._weigh(target, order) if weighs else None
+            judgement = await self._weigh(target, calls, by) if weighs else None
             if halts == self._weighing.get(target, 0):
-                do(plan, order, judgement)
-            else:  # somebody told the robot to stand still meanwhile
-                self._tell_ruling(plan, order, Ruling(begins="refuse"), refused=True)
+                do(judgement)
+            else:
+                halted()
 
         self._mailboxes.post(target, work)
 
-    async def _weigh(self, target: str, order: ChatAction) -> Judgement | None:
+    async def _weigh(
+        self, target: str, steps: Sequence[ActionCall], by: Principal | None
+    ) -> Judgement | None:
         assert self._judge is not None
         catalogue, status = self._plans.catalogue(target), self._plans.presence.get(target)
         pose = status.pose if status is not None else None
         here = Pose2D(pose.x, pose.y, pose.yaw) if pose is not None else None
-        calls = complete_calls(order.queue, catalogue)
+        calls = complete_calls(steps, catalogue)
         asks = self._plans.approvals.policy(target) == "ask_when_risky"
         try:
             async with asyncio.timeout(WEIGHED_WITHIN_S):
-                return await self._judge(target, calls, catalogue, here, order.behalf or order.by, asks)
+                return await self._judge(target, calls, catalogue, here, by, asks)
         except (LanguageError, TimeoutError) as error:
             self._node.log.warning("not weighed", target=target, error=repr(error))
             return Judgement(ask=(Finding(-1, "", "way_unknown", NOT_WEIGHED),))
@@ -144,14 +173,18 @@ class Ordering:
         ruling = self._rule(plan, order, calls or (), commands, judgement=judgement)
         for command in ruling.do:
             self._plans.send(plan, self._commands.effects_of(plan, command, order.by))
-        if ruling.ask or ruling.begins == "ask":
+        asks = bool(ruling.ask) or ruling.begins == "ask"
+        crowded = asks and len(self._plans.approvals.of(plan.target)) >= orders.MOST_WAITING
+        if crowded:
+            self._plans.say(plan.target, orders.TOO_MANY_WAIT, "error")
+        elif asks:
             self._proposals.propose(
                 plan, order, calls or (), ruling.ask, why=self._why(plan, order, judgement)
             )
         elif calls and ruling.begins == "now":
             self._begin_for(plan.target, order.behalf or order.by)
             self._commands.append(plan, calls, order.words)
-        self._tell_ruling(plan, order, ruling, refused=calls is None)
+        self._tell_ruling(plan, order, ruling, asked=asks and not crowded, refused=calls is None or crowded)
 
     def _forbid(self, plan: TargetPlan, order: ChatAction, judgement: Judgement) -> None:
         """Say which rules a plan would break."""
@@ -249,10 +282,12 @@ class Ordering:
             begin=begin,
         )
 
-    def _tell_ruling(self, plan: TargetPlan, order: ChatAction, ruling: Ruling, *, refused: bool) -> None:
+    def _tell_ruling(
+        self, plan: TargetPlan, order: ChatAction, ruling: Ruling, *, asked: bool, refused: bool
+    ) -> None:
         """Say what became of an order, to whoever sent it and to the log."""
         outcome: Literal["done", "asked", "refused"] = "done"
-        if ruling.ask or ruling.begins == "ask":
+        if asked:
             outcome = "asked"
         elif refused or ruling.refused or ruling.begins == "refuse":
             outcome = "refused"

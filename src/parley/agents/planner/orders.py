@@ -11,8 +11,9 @@ from parley.messages.chat import ActionCall, ChatAction, SystemCommand
 from parley.sentences import sentence
 
 __all__ = [
-    "LEFT", "NOTHING_DONE", "NOT_AS_SHOWN", "PLAN_CHANGED", "STEP_OVER", "WAITING", "WAITING_HELPLESS",
-    "bare", "forgetting", "in_order", "no_robot", "of_memory", "of_plans", "take_repair",
+    "LEFT", "MOST_WAITING", "NOTHING_DONE", "NOT_AS_SHOWN", "PLAN_CHANGED", "STEP_OVER", "TOO_MANY_WAIT",
+    "WAITING", "WAITING_HELPLESS", "bare", "forgetting", "in_order", "no_robot", "of_memory", "of_plans",
+    "take_repair",
 ]  # fmt: skip
 
 _HELP: Final = sentence("Say “try again”, “skip it” or “cancel everything”, or give me another order.")
@@ -24,6 +25,11 @@ NOTHING_DONE: Final = "I worked out a plan that I cannot carry out, so I did not
 LEFT: Final = "I cannot carry out these steps, so I left everything as it is."
 NOT_AS_SHOWN: Final = sentence("That is not what waits for your yes by now, so I have not begun.")
 STEP_OVER: Final = "That step is over by now, so there was nothing to leave out."
+MOST_WAITING: Final = 20
+"""Proposals of a robot that wait for a yes at once."""
+TOO_MANY_WAIT: Final = sentence(
+    "Too much waits for your yes already, so I have not taken that up. Say no to what you no longer want."
+)
 PLAN_CHANGED: Final = "The plan has changed in the meantime, so I left it as it is. Please look at it again."
 
 

@@ -82,7 +82,7 @@ class UmrfPlanner(Node):
         waiting, commands = Proposals(self, self._plans), Commands(self, self._plans)
         self._commands = commands
         self._orders = Ordering(self, self._plans, waiting, commands, judge, begin_for)
-        self._decisions = Decisions(self, self._plans, waiting, commands, begin_for)
+        self._decisions = Decisions(self, self._plans, waiting, commands, self._orders, begin_for)
         self.restore, self.adopt = self._plans.restore, self._plans.adopt
         self.hold_graph, self.offer_again = self._plans.hold_graph, self._plans.offer_again
 

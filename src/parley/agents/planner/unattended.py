@@ -7,6 +7,7 @@ from typing import Any, ClassVar, Final
 
 from parley.agents.base import Node
 from parley.clock import Clock
+from parley.latest import Latest
 from parley.messages import topics
 from parley.messages.attendance import Attendance, Unattended
 from parley.messages.chat import ActionCall, ChatAction, ChatFeedback, ChatInput, CommandName, SystemCommand
@@ -67,10 +68,10 @@ class UnattendedPlans(Node):
         super().__init__(transport)
         self._clock, self._choice, self._after_s = clock, choice, after_s
         self._absence = Absence()
-        self._choices: dict[str, Unattended] = {}
+        self._choices: Latest[str, Unattended] = Latest()
         """As the newest order of each robot says."""
         self._running: set[str] = set()
-        self._homes: dict[str, PoseInfo] = {}
+        self._homes: Latest[str, PoseInfo] = Latest()
         """Where each robot stood when it was heard of first."""
         self._settled: set[str] = set()
         """Robots that did their part in this absence."""

@@ -16,6 +16,7 @@ from parley.agents.planner.steps import OPEN_STATES
 from parley.clock import Clock
 from parley.errors import InvalidMessageError, TransportError
 from parley.language.offline.facts.protocols import Protocol, read_sighting_rule, sighted
+from parley.latest import Latest
 from parley.memory.client import ask_memory
 from parley.messages import topics
 from parley.messages.chat import ChatAction, ChatFeedback, ChatInput, CommandName, SystemCommand
@@ -52,7 +53,7 @@ class Lookout(Node):
         super().__init__(transport)
         self._clock = clock
         self._rules: dict[_Key, tuple[Protocol, MemoryEntry]] = {}
-        self._fired: dict[str, set[_Key]] = {}
+        self._fired: Latest[str, set[_Key]] = Latest()
         """What was done already in the steps that run, by robot."""
         self._plans: dict[str, PlanUpdate] = {}
         self._waits: dict[str, asyncio.Task[None]] = {}
