@@ -26,7 +26,7 @@ from parley.language.base import (
     Situation,
 )
 from parley.language.llm.failures import DeclinedError
-from parley.language.llm.naming import named
+from parley.language.llm.naming import chosen, named
 from parley.messages.chat import ActionCall, ChatAction
 from parley.messages.memory import MemoryEntry
 from parley.robots.base import CameraImage
@@ -139,10 +139,9 @@ class AutoLanguage:
         return await self._local.inspect(image, request, rules)
 
     async def read_reply(self, question: str, reply: str, choices: Sequence[str] = ()) -> ReplyReading:
-        """See `Language.read_reply`; a choice word for word needs no model."""
-        chosen = next((choice for choice in choices if _plain(choice) == _plain(reply)), None)
-        if chosen is not None:
-            return ReplyReading("choice", chosen)
+        """See `Language.read_reply`; a choice that is given word for word needs no model."""
+        if (choice := chosen(reply, choices)) is not None:
+            return ReplyReading("choice", choice)
         try:
             return await self._model.read_reply(question, reply, choices)
         except LanguageError:
@@ -211,12 +210,8 @@ def _in_words(answer: ChatAction) -> str:
 def _is_candidate(situation: ErrorSituation) -> bool:
     """Whether the reply names one of the candidates in just its words."""
     listed = situation.details.get("candidates")
-    names = (
-        [item.get("description") for item in listed if isinstance(item, dict)]
-        if isinstance(listed, list)
-        else []
-    )
-    return [_plain(str(name)) for name in names].count(_plain(situation.reply or "")) == 1
+    items = [item for item in listed if isinstance(item, dict)] if isinstance(listed, list) else []
+    return chosen(situation.reply or "", [str(item.get("description")) for item in items]) is not None
 
 
 def _plain(text: str) -> str:
