@@ -65,6 +65,9 @@ async def test_what_cannot_be_undone_is_put_to_both_and_to_the_person_if_they_di
         other = await language.interpret(situation("look at the red box", **known))
         assert (other.queue, len(other.choices)) == ((), 2)
         assert all(choice in other.message_response for choice in other.choices)
+        server.will(Say(answer={"message_response": "Which box do you mean?"}))
+        asks = await language.interpret(situation("look at the red box", **known))
+        assert (asks.queue, asks.message_response) == ((), "Which box do you mean?")
 
 
 async def test_model_that_is_gone_leaves_the_local_question() -> None:

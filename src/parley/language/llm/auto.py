@@ -95,7 +95,7 @@ class AutoLanguage:
         except LanguageError as error:
             log.warning("the model gave no answer", error=str(error))
             return _by(sure or await self._local.interpret(situation), self._local)
-        if sure is None:
+        if sure is None or not _does(answer):  # a question is better than a deed that one is not sure of
             return _by(answer, self._model)
         return _by(sure, self._local) if _agree(sure, answer, situation.objects) else _which(sure, answer)
 
@@ -162,6 +162,11 @@ def _is_weighty(answer: ChatAction, situation: Situation) -> bool:
     """Whether steps do more than look and move: two understand it alike, or a person is asked."""
     infos = {info.name: info for info in situation.catalogue}
     return any(always_asks(infos.get(call.name)) for call in answer.queue)
+
+
+def _does(answer: ChatAction) -> bool:
+    """Whether something would be done or changed."""
+    return bool(answer.queue or answer.system_cmd or answer.others)
 
 
 def _agree(first: ChatAction, second: ChatAction, objects: Sequence[MapObject]) -> bool:
