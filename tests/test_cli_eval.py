@@ -30,11 +30,17 @@ async def test_engines_are_measured_side_by_side_with_what_they_take(tmp_path: P
         model = f"local:m@{server.url}"
         code, out, err = await parley(
             "eval", "--set", written(tmp_path, blind=False), "--language", "offline", "--language", model,
+            "--language", f"auto:{model}",
             "--out", str(tmp_path / "report"), "--json",
         )  # fmt: skip
     assert (code, err) == (0, "")
     report = json.loads(out)
-    offline, asked = report["backends"]
+    offline, asked, both = report["backends"]
+    assert {name: part["answered"]["count"] for name, part in both["engines"].items()} == dict.fromkeys(
+        both["engines"], 2
+    )
+    assert sum(part["answered"]["right"] for part in both["engines"].values()) == 2
+    assert (offline["engines"], asked["wrong_deeds"]["right"]) == ({}, 2)
     assert (offline["language"], offline["usage"]) == ("offline", None)
     assert (offline["accuracy"]["right"], offline["accuracy"]["count"]) == (1, 2)
     assert [item["case"] for item in offline["failing"]] == ["going: go to the secret gate"]

@@ -53,11 +53,16 @@ def situations(tmp_path: Path) -> Path:
     return file
 
 
-async def test_situations_are_answered_by_the_model_that_is_named(situations: Path) -> None:
+@pytest.mark.parametrize("in_a_file", [False, True])
+async def test_situations_are_answered_by_the_model_that_is_named(situations: Path, in_a_file: bool) -> None:
     async with ScriptedServer() as server:
         server.will(Say(answer=LOOK_PLAN))
         name = f"local:m@{server.url}"
-        code, out, err = await parley("interpret", "--situations", str(situations), "--language", name)
+        settings = situations.with_name("parley.yaml")
+        settings.write_text(f"language: {name}\nmodel: {{temperature: 0.7}}\n", encoding="utf-8")
+        chosen = ["--config", str(settings)] if in_a_file else ["--language", name]
+        code, out, err = await parley("interpret", "--situations", str(situations), *chosen)
+        assert server.requests[0].body["temperature"] == (0.7 if in_a_file else 0.1)
     assert code == 0, err
     line = json.loads(out)
     assert line["id"] == "one"

@@ -236,12 +236,12 @@ def _memory(subject: Subject) -> Finding:
 
 
 def _language(subject: Subject) -> Finding:
-    if subject.language in ("offline", "builtin"):
+    if subject.language in ("auto", "offline", "builtin"):
         return Finding("language", "ok", "built in; needs no model, key or network")
     from parley.language.llm.models import ModelSpec, make_model, read_key
 
     try:
-        spec = ModelSpec.parse(subject.language, subject.base_url)
+        spec = ModelSpec.parse(subject.language.removeprefix("auto:"), subject.base_url)
         model = make_model(spec, read_key(subject.key_file))
     except ConfigError as error:
         return Finding("language", "missing", str(error), "Or use --language offline.", needed=True)

@@ -11,6 +11,7 @@ import pytest
 from parley.actions.inspect import FEED, inspect
 from parley.errors import ActionFailure, FailureCode, LanguageError
 from parley.language.base import InspectionReport
+from parley.messages.memory import MemoryEntry
 from parley.robots.base import CameraImage, Detection
 from parley.umrf.action import Outcome
 from tests.actions.room import Room, room
@@ -165,3 +166,28 @@ async def test_language_engine_that_fails_leaves_the_picture_on_the_screen() -> 
             await inspect(here.context, "the crate")
         assert caught.value.code is FailureCode.UNAVAILABLE
         assert len(here.person.shown) == 1
+
+
+async def test_nothing_found_of_what_should_not_be_there_is_as_it_should_be() -> None:
+    leak = InspectionReport("There is no leak.", found=False, wanted="leak", unwanted=True)
+    async with room() as here:
+        here.script.will("inspect", leak, replace(leak, found=True, text="There is a leak."))
+        assert await inspect(here.context, "leaks") == Outcome(
+            True, {"inspection_result": "There is no leak."}, {"seen": ["green crate"]}
+        )
+        with pytest.raises(ActionFailure) as caught:
+            await inspect(here.context, "leaks")
+        assert caught.value.code is FailureCode.ATTENTION
+
+
+async def test_what_people_told_goes_along_and_a_rule_that_applies_needs_attention() -> None:
+    rule = "Kui näed pragu, jää seisma."
+    async with room() as here:
+        here.person.memories[:] = [
+            MemoryEntry(name="crack", data=rule, way="told"),
+            MemoryEntry(name="seen", data="I saw a crack.", source="A/Inspect"),
+        ]
+        here.script.will("inspect", replace(SEEN, rules=(rule,)))
+        with pytest.raises(ActionFailure, match="Kui näed pragu") as caught:
+            await inspect(here.context, "the crate")
+        assert caught.value.code is FailureCode.ATTENTION

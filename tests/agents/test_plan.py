@@ -22,7 +22,7 @@ from parley.agents.planner.effects import (
 )
 from parley.agents.planner.plan import KEEP_DONE, TargetPlan
 from parley.errors import FailureCode
-from parley.messages.chat import ActionCall, Flow
+from parley.messages.chat import ActionCall, Flow, SystemCommand
 from parley.messages.failure import FailureReport
 from parley.messages.pvf import Parameter
 from parley.umrf.model import Graph, GraphState, LogMessage, Node, NodeState
@@ -416,6 +416,20 @@ def test_pop_drops_the_named_step(plan: TargetPlan, engine: Engine) -> None:
     (modify,) = plan.pop(1)
     assert isinstance(modify, ModifyGraph)
     assert [n.input_parameters["what"].value for n in modify.graph.nodes] == ["1", "3"]
+
+
+def test_step_is_dropped_by_what_it_is_whatever_ended_meanwhile(plan: TargetPlan, engine: Engine) -> None:
+    engine.take(list(plan.append([look("1"), look("2"), look("3")])))
+    engine.report()
+    shown = plan.update().steps
+    pop = SystemCommand(command="pop", arguments={"parameters": 2, "step": shown[2].id})
+    engine.finish()
+    step = plan.meant(pop)
+    assert step is not None
+    assert step.call.input_parameters["what"].value == "3"
+    plan.drop(step)
+    assert plan.meant(pop) is None
+    assert [item.call.input_parameters["what"].value for item in plan.pending] == ["2"]
 
 
 @pytest.mark.parametrize("index", [None, -1, 5])

@@ -44,3 +44,5 @@ async def test_story_holds_with_what_a_model_answers(telling: str, tmp_path: Pat
             (one["kind"], "answered") for one in script
         ]
         assert len(server.requests) == len(script) <= 8
+        assert "John is thirsty" in kept[-1]["content"]  # what was wanted, and what the looking gave
+        assert '"gave": {"inspection_result"' in kept[-1]["content"]

@@ -112,3 +112,19 @@ def test_a_repair_is_a_persons_choice_only_if_it_is_just_what_they_chose(
 ) -> None:
     answer = ChatAction(queue=(call,), success=True)
     assert is_chosen(look("box"), answer, words, ["large box", "small box"]) is chosen
+
+
+def test_robot_that_was_not_named_asks_before_it_does_its_share() -> None:
+    share = {"queue": [{"Look": {}}], "targets": ["Bo"], "system_cmd": [{"clear": {}}], "needs_yes": ""}
+    (asks,) = admitted("go", others=[share]).others
+    assert asks.needs_yes
+    assert (asks.by, asks.behalf, asks.system_cmd) == (Principal(kind="engine", name="model"), KIM, ())
+    (does,) = admitted("Bo, go", named=("Bo",), others=[share]).others
+    assert (does.needs_yes, does.targets) == ("", ("Bo",))
+    assert admitted("go", others=[share]).order.others == ()
+
+
+def test_more_memories_than_anybody_tells_are_left_out_and_that_is_said() -> None:
+    many = [{"add_memory": {"name": f"n{n}", "data": f"fact {n}"}} for n in range(25)]
+    found = admitted("keep these", system_cmd=many)
+    assert (len(found.order.system_cmd), len(found.refused)) == (20, 1)

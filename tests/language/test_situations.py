@@ -12,6 +12,7 @@ from parley.language.base import DraftHandler, ErrorSituation, Situation
 from parley.language.offline import OfflineLanguage
 from parley.language.situations import interpret_lines, read_situation
 from parley.messages.chat import ChatAction
+from parley.messages.pvf import read_parameters
 from tests.language.dev_set import CATALOGUES
 
 OBJECTS = [
@@ -35,6 +36,11 @@ async def test_a_situation_gives_a_chat_action_with_its_id() -> None:
     assert names == ["GetCoordinates", "NavigateTo"]
     target = answer["output"]["queue"][0]["GetCoordinates"]["input_parameters"]["target"]
     assert target == {"pvf_type": "string", "pvf_value": "red box"}
+    for step in answer["output"]["queue"]:  # a graph of them can be carried out as it stands
+        ((name, call),) = step.items()
+        info = next(info for info in CATALOGUES["thesis"] if info.name == name)
+        assert read_parameters(call["input_parameters"]).keys() == info.inputs.keys()
+        assert read_parameters(call["output_parameters"]).keys() == info.outputs.keys()
 
 
 async def test_a_catalogue_of_its_own_is_used() -> None:

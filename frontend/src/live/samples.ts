@@ -39,6 +39,7 @@ export const entry = (part: Partial<ChatEntry> & { id: string }): ChatEntry => (
   images: [],
   choices: [],
   sources: [],
+  engine: '',
   question: '',
   answer_id: '',
   reply_to: '',

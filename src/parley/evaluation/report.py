@@ -42,10 +42,17 @@ def markdown_report(
     lines += _row(["", *(f"`{one.language}`" for one in scores)])
     lines += _row(["---", *("---" for _ in scores)])
     lines += _row(["**right**", *(f"**{_shown(one.accuracy)}**" for one in scores)])
+    lines += _row(["wrong deeds", *(_shown(one.wrong_deeds) for one in scores)])
     lines += _row(["executable plans", *(_shown(one.executable) for one in scores)])
     lines += _row(["latency p50 / p99", *(_latency(one) for one in scores)])
     lines += _row(["tokens in / out", *(_tokens(one) for one in scores)])
     lines += _row(["cost", *(_cost(one) for one in scores)])
+    for one in scores:
+        if one.engines:
+            lines += ["", f"## Who answered: `{one.language}`", ""]
+            lines += [*_row(["engine", "answered", "right", "wrong deeds"]), *_row(["---"] * 4)]
+        for name, part in one.engines.items():
+            lines += _row([name, *map(_shown, (part.answered, part.right, part.wrong_deeds))])
     for title, groups in (("parts", [s.parts for s in scores]), ("phenomena", [s.phenomena for s in scores])):
         lines += ["", f"## {title.capitalize()}", ""]
         lines += _row([title, *(f"`{one.language}`" for one in scores)])

@@ -28,6 +28,15 @@ class Outcome:
     """Wall time until the answer."""
     executable: bool | None
     """Whether a robot could carry the plan out as it is; None where nothing is planned."""
+    acts: bool = False
+    """Whether something would be done or changed."""
+    engine: str = ""
+    """Who answered, where there are several."""
+
+    @property
+    def is_wrong_deed(self) -> bool:
+        """Whether something wrong would be done."""
+        return self.acts and not self.right
 
     @property
     def right(self) -> bool:
@@ -68,7 +77,9 @@ async def _evaluate(case: Case, language: Language, clock: Clock) -> Outcome:
     except LanguageError as error:
         return Outcome(case, (f"no answer: {error}",), clock.wall_s() - start_s, None)
     latency_s = clock.wall_s() - start_s
-    return Outcome(case, tuple(wrong(case, situation, action)), latency_s, executable(situation, action))
+    problems, acts = tuple(wrong(case, situation, action)), bool(action.queue or action.system_cmd)
+    plain = executable(situation, action)
+    return Outcome(case, problems, latency_s, plain, acts, action.engine)
 
 
 def executable(situation: Situation | ErrorSituation, action: ChatAction) -> bool | None:

@@ -53,11 +53,25 @@ def share(flags: Iterable[bool]) -> Share:
     return Share(right=sum(listed), count=len(listed), low=low, high=high)
 
 
+class EngineScore(_Frozen):
+    """What one of several engines answered of a set."""
+
+    answered: Share
+    """Of all cases."""
+    right: Share
+    """Of those it answered; so is what follows."""
+    wrong_deeds: Share
+
+
 class BackendScore(_Frozen):
     """The figures of one engine on one set."""
 
     language: str
     accuracy: Share
+    wrong_deeds: Share
+    """Something is done, and it is not what was wanted."""
+    engines: dict[str, EngineScore]
+    """By who answered, where there are several."""
     executable: Share
     """Of the plans that were made, those that a robot could carry out as they are."""
     parts: dict[str, Share]
@@ -82,6 +96,15 @@ def score(language: str, outcomes: Sequence[Outcome], usage: dict[str, Any] | No
     return BackendScore(
         language=language,
         accuracy=share(outcome.right for outcome in outcomes),
+        wrong_deeds=share(outcome.is_wrong_deed for outcome in outcomes),
+        engines={
+            name: EngineScore(
+                answered=share(outcome.engine == name for outcome in outcomes),
+                right=share(outcome.right for outcome in outcomes if outcome.engine == name),
+                wrong_deeds=share(outcome.is_wrong_deed for outcome in outcomes if outcome.engine == name),
+            )
+            for name in sorted({outcome.engine for outcome in outcomes if outcome.engine})
+        },
         executable=share(o.executable for o in outcomes if o.executable is not None),
         parts=_grouped(outcomes, lambda o: o.case.part),
         phenomena=_grouped(outcomes, lambda o: f"{o.case.part}: {o.case.phenomenon}"),

@@ -2,11 +2,13 @@
 
 from __future__ import annotations
 
-from parley.messages.chat import ActionCall
+from collections.abc import Iterable
+
+from parley.messages.chat import ActionCall, ChatAction
 from parley.messages.pvf import Parameter
 from parley.messages.status import ActionInfo
 
-__all__ = ["completed"]
+__all__ = ["completed", "completed_answer"]
 
 
 def completed(call: ActionCall, info: ActionInfo) -> ActionCall:
@@ -19,3 +21,13 @@ def completed(call: ActionCall, info: ActionInfo) -> ActionCall:
     inputs = {name: Parameter(kind) for name, kind in info.inputs.items()} | dict(call.input_parameters)
     outputs = {name: Parameter(kind) for name, kind in info.outputs.items()} | dict(call.output_parameters)
     return call.model_copy(update={"input_parameters": inputs, "output_parameters": outputs})
+
+
+def completed_answer(answer: ChatAction, catalogue: Iterable[ActionInfo]) -> ChatAction:
+    """The answer with all its calls completed; an action that is not in the catalogue stays as it is."""
+    infos = {info.name: info for info in catalogue}
+
+    def whole(calls: Iterable[ActionCall]) -> tuple[ActionCall, ...]:
+        return tuple(completed(call, infos[call.name]) if call.name in infos else call for call in calls)
+
+    return answer.model_copy(update={"queue": whole(answer.queue), "afterwards": whole(answer.afterwards)})

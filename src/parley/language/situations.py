@@ -15,6 +15,7 @@ from pydantic import BaseModel, BeforeValidator, ConfigDict, Field, ValidationEr
 
 from parley.errors import FailureCode, InvalidMessageError, LanguageError
 from parley.language.base import ErrorSituation, Language, Situation, Turn
+from parley.language.completing import completed_answer
 from parley.messages.chat import ActionCall, ChatAction
 from parley.messages.memory import MemoryEntry
 from parley.messages.status import ActionInfo
@@ -227,9 +228,11 @@ async def _answer(
             output = await language.resolve(situation)
         elif explain and isinstance(language, Explains):
             output, decisions = language.explain(situation)
+            output = completed_answer(output, situation.catalogue)
             return write_output(output, time.perf_counter() - start_s, identifier, decisions)
         else:
             output = await language.interpret(situation)
+        output = completed_answer(output, situation.catalogue)
         return write_output(output, time.perf_counter() - start_s, identifier)
     except (InvalidMessageError, LanguageError) as error:
         return _error(identifier, str(error))

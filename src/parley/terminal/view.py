@@ -136,7 +136,8 @@ class OperatorView:
         for name in feedback.targets:
             _hear(self._robot(name), feedback)
         sources = ", ".join(name.replace("_", " ") for name in feedback.sources)
-        footnote = self.texts("sources", names=sources) if sources else ""
+        told = [self.texts("sources", names=sources) if sources else "", feedback.engine.partition(" (")[0]]
+        footnote = " · ".join(filter(None, told))
         return [
             Line(
                 "asked" if feedback.choices else _KINDS[feedback.type],

@@ -177,6 +177,7 @@ class ChatBook:
                 message=feedback.message,
                 choices=feedback.choices,
                 sources=feedback.sources,
+                engine=_short(feedback.engine),
                 question="open" if feedback.type == "request" else "",
                 reply_to=self._said_as.get(feedback.reply_to, feedback.reply_to),
             )
@@ -266,6 +267,11 @@ class ChatBook:
             kept = set(self.entries)
             self._said_as = {wire: key for wire, key in self._said_as.items() if key in kept}
         self._emit(entry)
+
+
+def _short(engine: str) -> str:
+    """A language engine's name without what is said about it."""
+    return engine.partition(" (")[0]
 
 
 def _draft_key(reply_to: str, targets: Sequence[str]) -> str:

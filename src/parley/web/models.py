@@ -107,6 +107,8 @@ class ChatEntry(WebModel):
     choices: tuple[str, ...] = ()
     sources: tuple[str, ...] = ()
     """Names of the memories it is founded on."""
+    engine: str = ""
+    """Which language engine worded it, where there are several."""
     question: Literal["", "open", "answered", "closed"] = ""
     """For a `request` of a robot: whether it awaits an answer."""
     answer_id: str = ""

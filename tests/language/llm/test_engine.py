@@ -13,6 +13,7 @@ import pytest
 
 from parley.errors import FailureCode, LanguageError
 from parley.language.base import ErrorSituation, InspectionReport, Picture, ReplyReading
+from parley.language.llm.chain import BACK, GONE
 from parley.language.llm.scripted_server import Say
 from parley.messages.memory import MemoryEntry
 from parley.robots.base import CameraImage, Detection
@@ -140,6 +141,17 @@ async def test_chain_answers_with_the_first_engine_that_can() -> None:
         order = await asked.language.interpret(situation(objects=(BOX,)))
         assert order.queue[-1].name == "Look"
         assert "offline" in asked.language.label
+
+
+async def test_change_of_engine_is_told_when_it_comes_and_when_it_is_over() -> None:
+    async with model("offline", retries=0, breaker_failures=9) as asked:
+        gone = Say(body="oops", status=500)
+        asked.will(LOOKS, gone, gone, LOOKS, LOOKS)
+        told = [
+            (await asked.language.interpret(situation(objects=(BOX,)))).message_response for _ in range(5)
+        ]
+    assert [GONE in text for text in told] == [False, True, False, False, False]
+    assert [BACK in text for text in told] == [False, False, False, True, False]
 
 
 async def test_failure_of_every_engine_is_that_of_the_first() -> None:

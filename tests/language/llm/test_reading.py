@@ -8,12 +8,20 @@ from pydantic import ValidationError
 from parley.agents.planner.check import plan_problems
 from parley.errors import FailureCode
 from parley.language.base import ErrorSituation, ReplyReading
-from parley.language.llm.answers import GroundAnswer, PlanAnswer, ReplyAnswer, ResolveAnswer, SelectAnswer
+from parley.language.llm.answers import (
+    GroundAnswer,
+    InspectAnswer,
+    PlanAnswer,
+    ReplyAnswer,
+    ResolveAnswer,
+    SelectAnswer,
+)
 from parley.language.llm.reading import (
     AnswerRefusedError,
     read_grounding,
     read_plan,
     read_reading,
+    read_report,
     read_resolution,
     read_selection,
 )
@@ -193,3 +201,73 @@ def test_choice_is_one_of_those_offered() -> None:
     assert read_reading(answer, ["red box", "blue box"]) == ReplyReading("choice", "red box")
     with pytest.raises(AnswerRefusedError):
         read_reading(answer, ["blue box"])
+
+
+def test_steps_are_meant_by_what_they_are_and_not_by_their_place() -> None:
+    known = situation(queue=(find("box"), drive()), steps=("id-a", "id-b"), status="running")
+    commands = [{"command": "pop", "step": "s2"}, {"command": "skip"}]
+    order = read_plan(plan(queue=[], system_cmd=commands), known, plan_problems)
+    assert [command.arguments.get("step") for command in order.system_cmd] == ["id-b", "id-a"]
+    with pytest.raises(AnswerRefusedError, match="s1, s2"):
+        read_plan(plan(queue=[], system_cmd=[{"command": "pop", "step": "s3"}]), known, plan_problems)
+
+
+def test_waiting_step_is_dropped_while_a_failure_is_resolved_and_the_failed_one_is_skipped() -> None:
+    known = failure(pending=(find("box"), drive()), steps=("id-a", "id-b"))
+    commands = [{"command": "pop", "step": "s1"}, {"command": "skip"}]
+    order = read_resolution(resolution(queue=[], system_cmd=commands), known, plan_problems)
+    assert [command.arguments.get("step") for command in order.system_cmd] == ["id-a", None]
+
+
+def test_calls_leave_as_a_graph_needs_them() -> None:
+    steps = [
+        {"action": "Find", "parameters": {"target": "box"}},
+        {"action": "Drive", "parameters": {"x": None}},
+    ]
+    order = read_plan(plan(queue=steps), situation(), plan_problems)
+    found, driven = order.queue
+    assert (found.output_parameters, driven.input_parameters) == (
+        {"x": Parameter("number")}, {"x": Parameter("number")},
+    )  # fmt: skip
+
+
+def test_level_that_is_left_out_is_no_parameter() -> None:
+    steps = [{"action": "Look", "parameters": {"what": "box", "pose": None}}]
+    assert read_plan(plan(queue=steps), situation(), plan_problems).queue[0].name == "Look"
+
+
+def test_one_answer_may_hold_orders_for_several_robots() -> None:
+    look = {"action": "Look", "parameters": {"what": "box"}}
+    steps = [
+        look,
+        look | {"robot": "B"},
+        look | {"robot": "B", "only_if": {"step": 1}},
+        look | {"only_if": {"step": 0}},
+    ]
+    order = read_plan(plan(queue=steps), situation(), plan_problems)
+    (other,) = order.others
+    assert (len(order.queue), len(other.queue), other.targets) == (2, 2, ("B",))
+    assert other.queue[1].flow == Flow(if_=FlowIf(step=0))
+    assert order.queue[1].flow == Flow(if_=FlowIf(step=0))
+    across = [look, look | {"robot": "B", "only_if": {"step": 0}}]
+    with pytest.raises(AnswerRefusedError, match="same robot"):
+        read_plan(plan(queue=across), situation(), plan_problems)
+
+
+def test_thing_named_by_its_id_is_shown_in_words() -> None:
+    steps = [{"action": "Look", "parameters": {"what": "box_1"}}]
+    order = read_plan(plan(queue=steps), situation(objects=(BOX,)), plan_problems)
+    assert order.queue[0].input_parameters["what"].value == "box by the door"
+
+
+def test_memories_are_named_by_label_or_name() -> None:
+    known = situation(memory=(MemoryEntry(name="box", data="It is red."), MemoryEntry(name="m1", data="x")))
+    forgets = [{"command": "remove_memory", "name": "m1"}]
+    order = read_plan(plan(queue=[], sources=["m2", "box", "m9"], system_cmd=forgets), known, plan_problems)
+    assert order.sources == ("m1", "box")
+    assert order.system_cmd[0].arguments == {"name": "box"}
+
+
+def test_rules_that_apply_are_those_that_were_given() -> None:
+    report = read_report(InspectAnswer(text="A crack.", rules=["r2", "r7"]), ["one", "two"])
+    assert report.rules == ("two",)

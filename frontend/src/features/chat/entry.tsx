@@ -37,7 +37,7 @@ export const Entry = memo(function Entry({ entry, showName, offers, onChoose, on
       data-draft={entry.draft || undefined}
       aria-live={entry.draft ? 'off' : undefined}
     >
-      {(showName || debug || entry.question !== '') && <Head entry={entry} debug={debug} />}
+      {(showName || debug || entry.question !== '' || entry.engine !== '') && <Head entry={entry} debug={debug} />}
       <div className={css.said}>
         <Said entry={entry} />
       </div>
@@ -90,6 +90,7 @@ function Head({ entry, debug }: { entry: ChatEntry; debug: boolean }) {
           {entry.question === 'open' && <span className={css.badge}>{t('asks')}</span>}
           {entry.question === 'answered' && <span>{t('answered')}</span>}
           {entry.question === 'closed' && <span>{t('closed')}</span>}
+          {entry.engine && <span data-engine>{entry.engine}</span>}
         </>
       )}
       {debug && (

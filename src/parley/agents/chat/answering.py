@@ -22,10 +22,11 @@ from parley.clock import Clock
 from parley.errors import LanguageError
 from parley.gate.orders import Admitted, Heard, admit
 from parley.language.base import Language, Situation
+from parley.language.completing import completed_answer
 from parley.memory.sayings import for_oneself
 from parley.messages import topics
 from parley.messages.chat import ChatAction, ChatFeedback, ChatInput, SystemCommand
-from parley.messages.status import PlanRuling
+from parley.messages.status import ActionInfo, PlanRuling
 from parley.sentences import together
 
 __all__ = ["Answering"]
@@ -272,8 +273,10 @@ class Answering:
         targets = tuple(name for name in named if name is not None) or (target,)
         if None in named:
             return None
+        catalogue: tuple[ActionInfo, ...] = ()
         for name in targets:
             status = self._presence.get(name)
+            catalogue = catalogue or (status.catalogue if status is not None else ())
             if status is None or not status.catalogue or not understood.queue:
                 continue
             problems = check_calls(complete_calls(understood.queue, status.catalogue), status.catalogue)
@@ -282,7 +285,8 @@ class Answering:
                     "plan refused", target=name, problems=[str(problem) for problem in problems]
                 )
                 return None
-        return understood.model_copy(update={"targets": targets})
+        whole = completed_answer(understood, catalogue)
+        return whole.model_copy(update={"targets": targets})
 
     def _own_share(self, order: ChatAction, target: str, said: ChatInput) -> ChatAction:
         """The order without the other robots that got the same message: each of them reads it for itself."""

@@ -26,7 +26,7 @@ from parley.language.base import (
     Situation,
 )
 from parley.language.llm.failures import DeclinedError
-from parley.language.llm.naming import named
+from parley.language.llm.naming import chosen, named
 from parley.messages.chat import ActionCall, ChatAction
 from parley.messages.memory import MemoryEntry
 from parley.robots.base import CameraImage
@@ -95,7 +95,7 @@ class AutoLanguage:
         except LanguageError as error:
             log.warning("the model gave no answer", error=str(error))
             return _by(sure or await self._local.interpret(situation), self._local)
-        if sure is None:
+        if sure is None or not _does(answer):  # a question is better than a deed that one is not sure of
             return _by(answer, self._model)
         return _by(sure, self._local) if _agree(sure, answer, situation.objects) else _which(sure, answer)
 
@@ -139,10 +139,9 @@ class AutoLanguage:
         return await self._local.inspect(image, request, rules)
 
     async def read_reply(self, question: str, reply: str, choices: Sequence[str] = ()) -> ReplyReading:
-        """See `Language.read_reply`; a choice word for word needs no model."""
-        chosen = next((choice for choice in choices if _plain(choice) == _plain(reply)), None)
-        if chosen is not None:
-            return ReplyReading("choice", chosen)
+        """See `Language.read_reply`; a choice that is given word for word needs no model."""
+        if (choice := chosen(reply, choices)) is not None:
+            return ReplyReading("choice", choice)
         try:
             return await self._model.read_reply(question, reply, choices)
         except LanguageError:
@@ -163,6 +162,11 @@ def _is_weighty(answer: ChatAction, situation: Situation) -> bool:
     """Whether steps do more than look and move: two understand it alike, or a person is asked."""
     infos = {info.name: info for info in situation.catalogue}
     return any(always_asks(infos.get(call.name)) for call in answer.queue)
+
+
+def _does(answer: ChatAction) -> bool:
+    """Whether something would be done or changed."""
+    return bool(answer.queue or answer.system_cmd or answer.others)
 
 
 def _agree(first: ChatAction, second: ChatAction, objects: Sequence[MapObject]) -> bool:
@@ -211,12 +215,8 @@ def _in_words(answer: ChatAction) -> str:
 def _is_candidate(situation: ErrorSituation) -> bool:
     """Whether the reply names one of the candidates in just its words."""
     listed = situation.details.get("candidates")
-    names = (
-        [item.get("description") for item in listed if isinstance(item, dict)]
-        if isinstance(listed, list)
-        else []
-    )
-    return [_plain(str(name)) for name in names].count(_plain(situation.reply or "")) == 1
+    items = [item for item in listed if isinstance(item, dict)] if isinstance(listed, list) else []
+    return chosen(situation.reply or "", [str(item.get("description")) for item in items]) is not None
 
 
 def _plain(text: str) -> str:

@@ -34,7 +34,7 @@ from parley.language.llm.agents import draft_handler, make_agent
 from parley.language.llm.failures import ModelFailedError, UnusableError, sorted_failure
 from parley.language.llm.forms import Known, form_of
 from parley.language.llm.guard import Breaker, Budget
-from parley.language.llm.naming import named
+from parley.language.llm.naming import chosen, named
 from parley.language.llm.options import SMALL_KINDS, Options
 from parley.language.llm.reading import AnswerRefusedError, PlanCheck
 from parley.language.llm.recording import Recorder, Redactor
@@ -217,7 +217,9 @@ class LlmLanguage:
         )
 
     async def read_reply(self, question: str, reply: str, choices: Sequence[str] = ()) -> ReplyReading:
-        """See `Language.read_reply`."""
+        """See `Language.read_reply`; a choice that is given word for word is found without asking."""
+        if (choice := chosen(reply, choices)) is not None:
+            return ReplyReading("choice", choice)
         prompt, known = compose_reply(question, reply, choices), Known("read_reply", choices=tuple(choices))
         return await self._ask(prompt, known, lambda answer: reading.read_reading(answer, choices))
 

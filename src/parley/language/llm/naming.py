@@ -9,7 +9,7 @@ from typing import Final
 from parley.language.base import Grounding
 from parley.world.object_map import MapObject
 
-__all__ = ["named"]
+__all__ = ["chosen", "named"]
 
 _ARTICLES: Final = frozenset({"the", "a", "an"})
 
@@ -27,6 +27,13 @@ def named(description: str, objects: Sequence[MapObject]) -> Grounding | None:
     if not found:
         return None
     return Grounding("match" if len(found) == 1 else "ambiguous", tuple(found))
+
+
+def chosen(reply: str, choices: Sequence[str]) -> str | None:
+    """The offered choice that a reply gives word for word."""
+    words = _words(reply)
+    found = [choice for choice in choices if words and _words(choice) == words]
+    return found[0] if len(found) == 1 else None
 
 
 def _of_kind(words: tuple[str, ...], objects: Sequence[MapObject]) -> list[MapObject]:
