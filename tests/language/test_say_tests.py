@@ -15,7 +15,7 @@ LANGUAGE = BuiltinLanguage()
     examples=("sound the horn",),
     tests={
         "sound the horn three times": {"times": 3},
-        "sound the horn twice as loud": None,
+        "don't sound the horn now": None,
         "please sound the horn 2 times": {"times": 3},
         "don't sound the horn": {},
         "frobnicate": {},
@@ -33,7 +33,7 @@ async def problems_of(spec: ActionSpec) -> dict[str, str]:
 async def test_a_sentence_has_to_lead_to_its_action_with_its_inputs() -> None:
     problems = await problems_of(toot.spec)
     assert [say for say, problem in problems.items() if not problem] == [
-        "sound the horn three times", "sound the horn twice as loud", "sound the horn",
+        "sound the horn three times", "don't sound the horn now", "sound the horn",
     ]  # fmt: skip
     assert problems["please sound the horn 2 times"] == "times is 2.0, not 3"
     assert problems["frobnicate"].startswith("not understood so: ")

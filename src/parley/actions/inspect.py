@@ -37,7 +37,7 @@ class Inspection:
     pausable=False,
     kinds={"inspect": "text"},
     tests={
-        "check whether the gate is shut": {"inspect": "whether the gate is shut"},
+        "look at the pump": {"inspect": "pump"},
         "don't look at the pump": None,
     },
 )

@@ -17,6 +17,9 @@ from parley.world.object_map import MapObject
 __all__ = ["SayResult", "run_say_tests"]
 
 
+_NAME_WORDS = 3
+
+
 @dataclass(frozen=True, slots=True)
 class SayResult:
     """What came of one sentence."""
@@ -49,7 +52,9 @@ async def run_say_tests(
 
 def _objects(info: ActionInfo, test: SayTest) -> tuple[MapObject, ...]:
     told = parameters_of(info)
-    named = [str(v) for k, v in (test.inputs or {}).items() if told[k].kind in ("place", "thing")]
+    taken = ("place", "thing", "text")
+    given = [str(value) for name, value in (test.inputs or {}).items() if told[name].kind in taken]
+    named = [text for text in given if len(text.split()) <= _NAME_WORDS]
     return tuple(MapObject(f"thing_{at}", name, float(at), 1.0) for at, name in enumerate(named, 1))
 
 

@@ -36,6 +36,15 @@ class Slots:
     words: frozenset[str]
     """Stems of all that is said of the action and its inputs."""
 
+    @property
+    def counting(self) -> str:
+        """The input that says how often it is done; empty if there is none."""
+        names = [name for name, told in self.parameters.items() if told.kind == "number" and not told.unit]
+        texts = {name: {*words_of_name(name), *self.parameters[name].help.lower().split()} for name in names}
+        return next(
+            (name for name in names if texts[name] & {"times", "often", "repeats", "repetitions"}), ""
+        )
+
 
 @dataclass(frozen=True, slots=True)
 class Fill:

@@ -17,14 +17,15 @@ from typing import NamedTuple
 
 import numpy as np
 
-from parley.language.builtin.orders import Clause, clauses_of
+from parley.language.builtin.amounts import Amount
 from parley.language.builtin.filling import Fill, Filling, Slots, fill, filled_by
 from parley.language.builtin.lexicon import Lexicon, lemmas, stem
+from parley.language.builtin.orders import Clause, clauses_of
 from parley.language.builtin.reading import Reading
 from parley.language.builtin.spans import Parse
 from parley.language.builtin.tagger import Matrix, Tagger
 from parley.language.builtin.tokens import tokenize
-from parley.language.builtin.wishes import Wish
+from parley.language.builtin.wishes import Filler, Wish
 from parley.messages.status import ActionInfo
 from parley.umrf.kinds import parameters_of, words_of_name
 
@@ -53,8 +54,7 @@ class OwnAction:
 
     action: ActionInfo
     fills: tuple[Fill, ...]
-    words: frozenset[str]
-    """Stems of all that is said of it."""
+    slots: Slots
     certain: bool
     """Whether it is done without asking."""
     missing: tuple[str, ...] = ()
@@ -66,6 +66,16 @@ class OwnAction:
         first = self.action.description.partition(". ")[0].rstrip(".").partition(";")[0].partition(":")[0]
         text = first if " " in first else " ".join(words_of_name(self.action.name))
         return text[:1].lower() + text[1:]
+
+    def done(self, times: int) -> OwnAction | None:
+        """The same so many times, if it has an input for that."""
+        name = self.slots.counting
+        if not name or name in {fill.name for fill in self.fills}:
+            return None
+        said = Filler("O", -1, -1, 0, (str(times), "times"))
+        often = Fill(name, self.slots.parameters[name], said, Amount(times, ""))
+        missing = tuple(other for other in self.missing if other != name)
+        return replace(self, fills=(*self.fills, often), missing=missing)
 
 
 @dataclass(frozen=True, slots=True)
@@ -183,14 +193,15 @@ class OwnActions:
         )
         told = [rank for rank in ranked if rank.item.told]
         if told and self._is_sure(told) and not (agreed and told[0].item.action.name in framed):
-            return OwnAction(told[0].item.action, told[0].filled.fills, told[0].item.slots.words, True)
+            best = told[0]
+            return OwnAction(best.item.action, best.filled.fills, best.item.slots, True, best.filled.missing)
         best = ranked[0]
         if agreed or best.item.action.name in framed:
             return None
         hinted = best.word > 0 or best.shared > 0 or _ahead(ranked) >= _MARGIN
         if best.worth >= _OFFERED and hinted:
             missing = best.filled.missing if best.filled.accounted else ()
-            return OwnAction(best.item.action, best.filled.fills, best.item.slots.words, False, missing)
+            return OwnAction(best.item.action, best.filled.fills, best.item.slots, False, missing)
         return None
 
     def _ranked(self, clause: Clause, item: _Known, likeness: Matrix) -> _Rank:
@@ -206,7 +217,8 @@ class OwnActions:
         best = ranked[0]
         read = all(one.filler.share >= _READ for one in best.filled.fills)
         both = best.meaning >= _NEAR and best.word > 0 and _ahead(ranked) >= _MARGIN
-        return both and best.filled.whole and read
+        missing = {*best.filled.missing} - {best.item.slots.counting}  # how often may be said behind it
+        return both and best.filled.accounted and not missing and read
 
     def _shared(self, clause: Clause, item: _Known) -> float:
         """Which share of the words besides the verb stands in what is said of an action."""
@@ -229,7 +241,7 @@ class OwnActions:
             missing = set(item.slots.parameters) - set(given) - item.slots.optional
             if not missing and all(one is not None for one in fills):
                 kept = tuple(one for one in fills if one is not None)
-                return OwnAction(item.action, kept, item.slots.words, True)
+                return OwnAction(item.action, kept, item.slots, True)
         return None
 
     def _word(self, clause: Clause, item: _Known) -> float:

@@ -52,7 +52,7 @@ def _value(one: Fill, own: OwnAction, grounds: Grounds) -> tuple[str | float | b
     if one.word:
         return (one.word == "yes" if own.action.inputs[one.name].startswith("bool") else one.word), one.word
     if one.parameter.kind in ("place", "thing", "person"):
-        return grounds(one.filler, one.parameter.kind, own.words)
+        return grounds(one.filler, one.parameter.kind, own.slots.words)
     if '"' in one.filler.words or "“" in one.filler.words:
         return Ask(f"What exactly is the text in {one.filler.text}? Please say it alone.")
     return one.filler.text, f"“{one.filler.text}”"
