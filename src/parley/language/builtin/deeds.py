@@ -289,7 +289,7 @@ class Builder(Ways):
         for role, value in values.items():
             slot = _slot(skill, role, values)
             if slot is not None and slot not in arguments:
-                given = typed(value, skill.action.inputs[slot])
+                given = typed(value, skill.action, slot)
                 if given is None:
                     return Ask(f"I cannot {gloss} with “{value.said}”. Please say it otherwise.")
                 arguments[slot], said[role] = given, value.said
