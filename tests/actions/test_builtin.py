@@ -1,4 +1,4 @@
-"""What the built-in actions tell others about themselves: the names and parameters are the thesis's."""
+"""What the built-in actions tell others about themselves; the first five are the thesis's."""
 
 from __future__ import annotations
 
@@ -25,13 +25,18 @@ def test_parameters_are_those_of_the_thesis() -> None:
         "Inspect": ({"inspect": "string"}, {"inspection_result": "string"}),
         "AskOperator": ({"question": "string"}, {"answer": "string"}),
         "KeepPicture": ({"name": "string"}, {}),
+        "MoveBy": ({"distance": "number", "direction": "string"}, {}),
+        "TurnBy": ({"angle": "number", "direction": "string"}, {}),
+        "TakePicture": ({"target": "string"}, {}),
+        "Wait": ({"duration": "number"}, {}),
     }
 
 
 def test_effects_say_who_moves_and_who_asks() -> None:
     assert {spec.name: spec.effects for spec in BUILTIN_ACTIONS} == {
         "GetCoordinates": ("locates",), "NavigateTo": ("moves",), "Inspect": ("looks",),
-        "AskOperator": ("asks_operator",), "KeepPicture": ("remembers",),
+        "AskOperator": ("asks_operator",), "KeepPicture": ("remembers",), "MoveBy": ("moves",),
+        "TurnBy": ("turns",), "TakePicture": ("looks", "shows"), "Wait": ("waits",),
     }  # fmt: skip
 
 

@@ -44,7 +44,8 @@ def test_the_built_in_actions_say_what_they_do() -> None:
     found = {info.name: str(risk_of(info)) for info in Catalogue(BUILTIN_ACTIONS).infos()}
     assert found == {
         "GetCoordinates": "looks_and_speaks", "NavigateTo": "moves", "Inspect": "looks_and_speaks",
-        "AskOperator": "looks_and_speaks", "KeepPicture": "looks_and_speaks",
+        "AskOperator": "looks_and_speaks", "KeepPicture": "looks_and_speaks", "MoveBy": "moves",
+            "TurnBy": "moves", "TakePicture": "looks_and_speaks", "Wait": "looks_and_speaks",
     }  # fmt: skip
 
 

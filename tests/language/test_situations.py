@@ -5,12 +5,13 @@ from __future__ import annotations
 import json
 from typing import Any
 
+import jsonschema_rs
 import pytest
 
 from parley.errors import FailureCode, InvalidMessageError
 from parley.language.base import DraftHandler, ErrorSituation, Situation
 from parley.language.offline import OfflineLanguage
-from parley.language.situations import interpret_lines, read_situation
+from parley.language.situations import interpret_lines, read_situation, schema
 from parley.messages.chat import ChatAction
 from parley.messages.pvf import read_parameters
 from tests.language.dev_set import CATALOGUES
@@ -132,3 +133,33 @@ async def test_a_line_on_which_the_engine_breaks_down_does_not_end_the_run() -> 
     first, second = [json.loads(line) async for line in interpret_lines(lines, Breaking())]
     assert "a defect" in first["error"] and first["id"] == 1
     assert "output" in second
+
+
+@pytest.mark.parametrize(
+    ("line", "place"),
+    [
+        ({"mesage": "go"}, "mesage"),
+        ({"objects": [{"id": "a", "colour": "red"}]}, "objects.0.colour"),
+        ({"catalogue": [{"name": "a", "phrase": []}]}, "catalogue.0.phrase"),
+        ({"memory": [{"name": "a", "data": "b", "type": "text", "when": 1}]}, "memory.0.when"),
+    ],
+)
+def test_a_key_that_nobody_knows_is_refused_with_its_place(line: dict[str, Any], place: str) -> None:
+    with pytest.raises(InvalidMessageError, match=f"{place}: unknown key"):
+        read_situation({"message": "go"} | line)
+
+
+async def test_what_is_read_and_answered_is_as_the_schema_says() -> None:
+    whole = schema()
+    asked, answered = (jsonschema_rs.validator_for({"$ref": f"#/{part}", **whole}) for part in whole)
+    message = {"id": 7, "message": "go to the red box", "objects": OBJECTS, "robot": "A"}
+    failure = {"kind": "error", "error_message": "no way", "failed_action": FAILED}
+    for line in (message, failure):
+        assert asked.is_valid(line)
+        (answer,) = await answers(line)
+        assert answered.is_valid(answer)
+    assert not asked.is_valid(message | {"mesage": ""})
+    assert answered.is_valid((await answers({"message": 1}))[0])
+    assert not answered.is_valid(
+        {"output": {"queue": [{"Go": {"input_parameters": {"a": {"pvf_type": "x"}}}}]}}
+    )

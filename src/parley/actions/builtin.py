@@ -6,11 +6,26 @@ from parley.actions.ask_operator import ask_operator
 from parley.actions.get_coordinates import get_coordinates
 from parley.actions.inspect import inspect
 from parley.actions.keep_picture import keep_picture
+from parley.actions.move_by import move_by
 from parley.actions.navigate_to import navigate_to
+from parley.actions.take_picture import take_picture
+from parley.actions.turn_by import turn_by
+from parley.actions.wait import wait
 from parley.umrf.action import ActionSpec
 
 __all__ = ["BUILTIN_ACTIONS"]
 
 BUILTIN_ACTIONS: tuple[ActionSpec, ...] = tuple(
-    action.spec for action in (get_coordinates, navigate_to, inspect, ask_operator, keep_picture)
+    action.spec
+    for action in (
+        get_coordinates,
+        navigate_to,
+        inspect,
+        ask_operator,
+        keep_picture,
+        move_by,
+        turn_by,
+        take_picture,
+        wait,
+    )
 )

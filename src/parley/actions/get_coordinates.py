@@ -24,7 +24,16 @@ class Coordinates:
     """In the map frame, facing the object."""
 
 
-@action(label="Find out where {target} is", effects=("locates",), pausable=False)
+@action(
+    label="Find out where {target} is",
+    effects=("locates",),
+    pausable=False,
+    kinds={"target": "place"},
+    tests={
+        "go to the yard": {"target": "yard"},
+        "drive over to the loading gate": {"target": "loading gate"},
+    },
+)
 async def get_coordinates(ctx: ActionContext, target: str) -> Coordinates:
     """Find where to stand to be at a thing or place that is described in words.
 

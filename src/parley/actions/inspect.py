@@ -35,6 +35,11 @@ class Inspection:
     effects=("looks",),
     capabilities=("camera",),
     pausable=False,
+    kinds={"inspect": "text"},
+    tests={
+        "look at the pump": {"inspect": "pump"},
+        "don't look at the pump": None,
+    },
 )
 async def inspect(ctx: ActionContext, inspect: str) -> Inspection | Outcome:
     """Take a picture of what is in front, show it, and say what can be seen.

@@ -2,15 +2,24 @@
 
 from __future__ import annotations
 
+import asyncio
+import contextlib
+from collections.abc import Sequence
 from pathlib import Path
 from typing import Annotated
 
 import typer
 
 from parley.actions.builtin import BUILTIN_ACTIONS
-from parley.cli.output import emit_json, fail
+from parley.agents.planner.check import plan_problems
+from parley.cli.language import KeyFileOption, LanguageOption, language_settings
+from parley.cli.output import emit_json, fail, quiet_logs
+from parley.config import ModelSettings
+from parley.language.base import Language
+from parley.language.llm import build_language
+from parley.language.say_tests import SayResult, run_say_tests
 from parley.umrf.action import ActionSpec
-from parley.umrf.catalogue import Catalogue
+from parley.umrf.catalogue import Catalogue, fully_described
 from parley.umrf.discovery import ActionFolder, export_descriptors, installed_actions
 from parley.umrf.io import write_descriptor
 
@@ -67,7 +76,40 @@ def show(
         near = catalogue.suggestions(name)
         hint = f" Did you mean {', '.join(near)}?" if near else ""
         raise typer.Exit(fail(f"there is no action {name!r}.{hint}"))
-    typer.echo(write_descriptor(spec))
+    typer.echo(write_descriptor(fully_described(spec)))
+
+
+@app.command("check")
+def check(
+    name: Annotated[str, typer.Argument(help="The action's name; all of them if left out.")] = "",
+    actions: FolderOption = None,
+    language: LanguageOption = "builtin",
+    key_file: KeyFileOption = None,
+) -> None:
+    """Say the test sentences and examples of actions. Exit code 1 if one does not lead to its action."""
+    quiet_logs()
+    catalogue, problems = _catalogue(actions)
+    if name and catalogue.get(name) is None:
+        raise typer.Exit(fail(f"there is no action {name!r}"))
+    chosen = language_settings(language, key_file)
+    engine = build_language([language], ModelSettings(**chosen["model"]), check=plan_problems)
+    specs = [spec for spec in catalogue if name in ("", spec.name)]
+    results = asyncio.run(_say(specs, catalogue, engine))
+    for result in results:
+        if result.problem:
+            problems = (*problems, f"{result.action}: “{result.say}”: {result.problem}")
+    typer.echo(f"{sum(not result.problem for result in results)} of {len(results)} sentences are understood")
+    for problem in problems:
+        fail(problem)
+    if problems:
+        raise typer.Exit(1)
+
+
+async def _say(specs: Sequence[ActionSpec], catalogue: Catalogue, engine: Language) -> list[SayResult]:
+    async with contextlib.AsyncExitStack() as stack:
+        if isinstance(engine, contextlib.AbstractAsyncContextManager):
+            await stack.enter_async_context(engine)
+        return await run_say_tests(specs, catalogue.infos(), engine)
 
 
 @app.command("export")
@@ -77,7 +119,7 @@ def export(
 ) -> None:
     """Write the descriptor (`*.umrf.json`) of every action, for other UMRF programs."""
     catalogue, problems = _catalogue(actions)
-    for file in export_descriptors(catalogue, folder):
+    for file in export_descriptors(map(fully_described, catalogue), folder):
         typer.echo(file.name)
     for problem in problems:
         fail(problem)

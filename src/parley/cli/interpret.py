@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import contextlib
+import json
 import sys
 from collections.abc import Iterator
 from pathlib import Path
@@ -19,6 +20,7 @@ from parley.errors import ConfigError
 from parley.language.base import Language
 from parley.language.llm import build_language
 from parley.language.situations import Explains, interpret_lines
+from parley.language.situations import schema as schema_of_lines
 from parley.umrf.catalogue import Catalogue
 
 __all__ = ["register"]
@@ -30,7 +32,9 @@ def register(app: typer.Typer) -> None:
 
 
 def interpret(
-    situations: Annotated[Path, typer.Option(help="JSON lines, one situation each; - for standard input.")],
+    situations: Annotated[
+        Path, typer.Option(help="JSON lines, one situation each; - for standard input.")
+    ] = Path("-"),
     out: Annotated[
         Path, typer.Option(help="Where the answers go, a JSON line each; - for standard output.")
     ] = Path("-"),
@@ -40,8 +44,15 @@ def interpret(
     explain: Annotated[
         bool, typer.Option(help="Add to each answer how it came about (offline only).")
     ] = False,
+    schema: Annotated[
+        bool,
+        typer.Option("--schema", help="Print the JSON schema of situations and answers, and nothing else."),
+    ] = False,
 ) -> None:
     """Say what each message asks for. A bad line gives an answer with an error and stops nothing."""
+    if schema:
+        typer.echo(json.dumps(schema_of_lines(), indent=2, ensure_ascii=False))
+        return
     quiet_logs()
     chosen = chosen_settings(config, language, key_file)
     engine = build_language([chosen.language], chosen.model, check=plan_problems)

@@ -11,18 +11,19 @@ import time
 from collections.abc import AsyncIterator, Iterable, Sequence
 from typing import Annotated, Any, Literal, Protocol, runtime_checkable
 
-from pydantic import BaseModel, BeforeValidator, ConfigDict, Field, ValidationError
+from pydantic import BaseModel, BeforeValidator, ConfigDict, Field, TypeAdapter, ValidationError
 
 from parley.errors import FailureCode, InvalidMessageError, LanguageError
 from parley.language.base import ErrorSituation, Language, Situation, Turn
 from parley.language.completing import completed_answer
-from parley.messages.chat import ActionCall, ChatAction
+from parley.messages.chat import SYSTEM_COMMANDS, ActionCall, ChatAction
 from parley.messages.memory import MemoryEntry
-from parley.messages.status import ActionInfo
+from parley.messages.pvf import NATIVE_TYPES
+from parley.messages.status import ActionInfo, ParameterInfo
 from parley.world.geometry import Pose2D
 from parley.world.object_map import MapObject
 
-__all__ = ["Explained", "Explains", "interpret_lines", "read_situation", "write_output"]
+__all__ = ["Explained", "Explains", "interpret_lines", "read_situation", "schema", "write_output"]
 
 
 class Explained(Protocol):
@@ -43,7 +44,23 @@ class Explains(Protocol):
 
 
 class _Line(BaseModel):
-    model_config = ConfigDict(extra="ignore")
+    """A misspelt key would be a situation that nobody meant."""
+
+    model_config = ConfigDict(extra="forbid")
+
+
+class _Parameter(ParameterInfo):
+    model_config = ConfigDict(extra="forbid")
+
+
+class _Action(ActionInfo):
+    model_config = ConfigDict(extra="forbid")
+
+    parameters: dict[str, _Parameter] = Field(default_factory=dict)  # type: ignore[assignment]
+
+
+class _Memory(MemoryEntry):
+    model_config = ConfigDict(extra="forbid")
 
 
 class _Turn(_Line):
@@ -69,19 +86,38 @@ class _Pose(_Line):
 
 
 class _Common(_Line):
-    memory: list[MemoryEntry] = Field(default_factory=list)
+    id: Any = None
+    """Given back with the answer."""
+    memory: list[_Memory] = Field(default_factory=list)
     objects: list[_Object] = Field(default_factory=list)
     robot_pose: _Pose | None = None
     robot: str = ""
-    catalogue: list[ActionInfo] | None = None
+    catalogue: list[_Action] | None = None
 
 
 class _Situation(_Common):
+    kind: Literal["message"] = "message"
     message: str
     history: list[_Turn] = Field(default_factory=list)
     queue: list[ActionCall] = Field(default_factory=list)
     status: Literal["idle", "running", "paused"] = "idle"
     robots: list[str] = Field(default_factory=list)
+
+
+class _Answered(_Line):
+    """What comes of a line."""
+
+    id: Any = None
+    output: ChatAction
+    latency_s: float
+    explanation: list[dict[str, Any]] | None = None
+
+
+class _Refused(_Line):
+    """A line that could not be answered."""
+
+    id: Any = None
+    error: str
 
 
 def _code(value: object) -> object:
@@ -93,6 +129,7 @@ def _code(value: object) -> object:
 
 
 class _ErrorSituation(_Common):
+    kind: Literal["error"]
     error_message: str
     failed_action: ActionCall
     code: Annotated[FailureCode, BeforeValidator(_code)] = FailureCode.INTERNAL
@@ -125,7 +162,59 @@ def read_situation(
         return _situation(_Situation.model_validate(value), default_catalogue)
     except ValidationError as error:
         first = error.errors(include_url=False, include_input=False)[0]
-        raise InvalidMessageError(what, ".".join(str(part) for part in first["loc"]), first["msg"]) from error
+        told = "unknown key" if first["type"] == "extra_forbidden" else first["msg"]
+        raise InvalidMessageError(what, ".".join(str(part) for part in first["loc"]), told) from error
+
+
+def schema() -> dict[str, Any]:
+    """The JSON schema of a line that is read, and of one that is answered."""
+    return {
+        "input": _schema(_Situation | _ErrorSituation, "#/input/$defs/{model}"),
+        "output": _schema(_Answered | _Refused, "#/output/$defs/{model}"),
+    }
+
+
+def _schema(kinds: Any, template: str) -> dict[str, Any]:
+    """With actions and commands as they are written: an object whose one key is the name."""
+    found: dict[str, Any] = TypeAdapter(kinds).json_schema(ref_template=template)
+    defined = found["$defs"]
+    defined["ActionCall"] = {
+        "description": "An action: its name, and behind it what is given to it.",
+        "type": "object",
+        "minProperties": 1,
+        "maxProperties": 1,
+        "additionalProperties": {
+            "type": "object",
+            "properties": {
+                "input_parameters": {"$ref": template.format(model="Parameters")},
+                "output_parameters": {"$ref": template.format(model="Parameters")},
+                "reason": {"type": "string", "description": "Why this step."},
+                "flow": {"$ref": template.format(model="Flow")},
+            },
+        },
+    }
+    defined["Parameters"] = {
+        "description": "A tree: what has a `pvf_type` is a value, what has none a level of names.",
+        "type": "object",
+        "additionalProperties": {
+            "anyOf": [{"$ref": template.format(model=name)} for name in ("Parameter", "Parameters")]
+        },
+    }
+    defined["Parameter"] = {
+        "type": "object",
+        "properties": {"pvf_type": {"enum": [*NATIVE_TYPES]}, "pvf_value": {}},
+        "required": ["pvf_type"],
+    }
+    if "SystemCommand" in defined:
+        defined["SystemCommand"] = {
+            "description": "A command: its name, and behind it its arguments.",
+            "type": "object",
+            "minProperties": 1,
+            "maxProperties": 1,
+            "properties": {name: {} for name in SYSTEM_COMMANDS},
+            "additionalProperties": False,
+        }
+    return found
 
 
 def _situation(read: _Situation, default: Sequence[ActionInfo]) -> Situation:

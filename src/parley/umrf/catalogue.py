@@ -22,7 +22,7 @@ from parley.umrf.kinds import parameters_of
 from parley.umrf.model import Graph, Node
 from parley.umrf.remote import actors_of
 
-__all__ = ["DESCRIPTOR_MARK", "Catalogue", "descriptor_file_name", "merge"]
+__all__ = ["DESCRIPTOR_MARK", "Catalogue", "descriptor_file_name", "fully_described", "info_of", "merge"]
 
 log = structlog.get_logger(__name__)
 
@@ -190,6 +190,13 @@ def info_of(spec: ActionSpec) -> ActionInfo:
     )
     told = {name: _told(spec, name, found) for name, found in parameters_of(info).items()}
     return info.model_copy(update={"parameters": told})
+
+
+def fully_described(spec: ActionSpec) -> ActionSpec:
+    """With the kinds and units that are derived where its maker does not say them."""
+    told = info_of(spec).parameters
+    kinds = {name: item.kind for name, item in told.items()}
+    return replace(spec, kinds=kinds, units={name: item.unit for name, item in told.items() if item.unit})
 
 
 def _told(spec: ActionSpec, name: str, derived: ParameterInfo) -> ParameterInfo:

@@ -17,6 +17,7 @@ from typing import Any, Final
 from parley.errors import GraphRefusedError, Problem
 from parley.messages.pvf import SEPARATOR, Parameters, write_parameters
 from parley.umrf.action import ActionSpec
+from parley.umrf.extras import read_extras, write_extras
 from parley.umrf.model import (
     DEFAULT_CONDITIONS,
     ChildRelation,
@@ -41,9 +42,6 @@ __all__ = [
     "write_descriptor",
     "write_graph",
 ]
-
-_TEXTS: Final = ("phrases", "examples", "effects", "capabilities")
-_TIMES: Final = ("duration_s", "timeout_s")
 
 
 class UnreadableGraphError(GraphRefusedError):
@@ -89,31 +87,17 @@ def read_descriptor(source: str | Mapping[str, Any]) -> ActionSpec:
     """
     reader, raw = Reader(), load_object(source, "descriptor")
     node = reader.node(raw, "")
-    if node is None or reader.problems:
-        raise GraphRefusedError("", reader.problems)
+    extras, problems = read_extras(raw.get(EXTRAS), node.input_parameters if node is not None else ())
+    if node is None or reader.problems or problems:
+        raise GraphRefusedError("", [*reader.problems, *problems])
     return ActionSpec(
         name=node.name,
         inputs=node.input_parameters,
         outputs=node.output_parameters,
         description=node.description,
         type=node.type,
-        **_read_extras(raw.get(EXTRAS)),
+        **extras,
     )
-
-
-def _read_extras(raw: Any) -> dict[str, Any]:
-    """What a descriptor of ours says besides UMRF; what does not fit is left out, as for any unknown key."""
-    extras: dict[str, Any] = {}
-    for key, value in raw.items() if isinstance(raw, dict) else ():
-        if key in _TEXTS and isinstance(value, list) and all(isinstance(item, str) for item in value):
-            extras[key] = tuple(value)
-        elif key in _TIMES and isinstance(value, int | float) and value > 0:
-            extras[key] = float(value)
-        elif (key == "label" and isinstance(value, str)) or (
-            key == "risk" and value in ("none", "low", "high")
-        ):
-            extras[key] = value
-    return extras
 
 
 def write_graph(graph: Graph, *, faithful: bool = False) -> str:
@@ -318,11 +302,7 @@ def write_descriptor(spec: ActionSpec) -> str:
     for key, parameters in (("input_parameters", spec.inputs), ("output_parameters", spec.outputs)):
         if parameters:
             written[key] = _parameters(parameters, with_required=True)
-    extras = {key: getattr(spec, key) for key in (*_TEXTS, *_TIMES) if getattr(spec, key)}
-    if spec.risk:
-        extras["risk"] = spec.risk
-    if spec.label:
-        extras["label"] = spec.label
+    extras = write_extras(spec)
     if extras:
         written[EXTRAS] = extras
     return dump(written)

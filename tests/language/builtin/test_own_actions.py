@@ -25,7 +25,14 @@ TRADE = (
         inputs={"depth": "number"},
         parameters={"depth": ParameterInfo(kind="distance", unit="millimetres")},
         description="Drill a hole.",
-        phrases=("drill {depth} deep",),
+    ),
+    ActionInfo(name="h", description="End the shift.", phrases=("call it a day",)),
+    ActionInfo(
+        name="i",
+        inputs={"entry": "string"},
+        parameters={"entry": ParameterInfo(kind="text")},
+        description="Write into the log.",
+        phrases=("log that {entry}",),
     ),
 )
 MEANT = {
@@ -36,11 +43,14 @@ MEANT = {
     "set the fan to full": ("d", {"mode": "full"}),
     "sterilise the chamber for half an hour": ("f", {"minutes": 30.0}),
     "drill a hole 2 cm deep": ("g", {"depth": 20.0}),
+    "please call it a day": ("h", {}),
+    "log that the pump leaks": ("i", {"entry": "the pump leaks"}),
 }
 NOT_MEANT = (
     "weld it", "don't sound the horn", "set the fan to medium", "dispense 500 litres of feed into pen 4",
     "sterilise the chamber", "weld every part", "drill a hole in the desk", "vote for what Kim likes",
     "weld the bracket unless it rains", "honk", "sterilise the chamber for three metres",
+    "don't call it a day", "will Kim call it a day?",
 )  # fmt: skip
 
 
@@ -59,8 +69,8 @@ def test_an_order_is_an_action_of_the_robots_own(message: str) -> None:
 
 
 @pytest.mark.parametrize("message", NOT_MEANT)
-def test_an_order_that_fits_no_action_whole_is_asked_about(message: str) -> None:
-    assert isinstance(decide(message), Ask)
+def test_what_fits_no_action_whole_is_not_done(message: str) -> None:
+    assert not done(decide(message))
 
 
 def test_names_decide_nothing() -> None:

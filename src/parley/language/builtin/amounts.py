@@ -8,7 +8,7 @@ from dataclasses import dataclass
 
 from parley.language.builtin.lexicon import Lexicon
 
-__all__ = ["UNITS", "Amount", "amount_of", "direction_of", "is_compass"]
+__all__ = ["UNITS", "Amount", "amount_of", "direction_of", "in_unit", "is_compass"]
 
 _SMALL = """zero one two three four five six seven eight nine ten eleven twelve thirteen fourteen fifteen
 sixteen seventeen eighteen nineteen"""
@@ -54,6 +54,24 @@ class Amount:
 
     def __str__(self) -> str:
         return f"{self.value:g} {self.unit}".strip()
+
+
+_SCALE = {
+    "m": 1.0, "cm": 0.01, "mm": 0.001, "feet": 0.3048, "inches": 0.0254, "yards": 0.9144, "metres": 1.0,
+    "centimetres": 0.01, "millimetres": 0.001, "s": 1.0, "min": 60.0, "h": 3600.0, "seconds": 1.0,
+    "minutes": 60.0, "hours": 3600.0, "degrees": 1.0, "radians": 57.29578,
+}  # fmt: skip
+
+
+def in_unit(amount: Amount, unit: str) -> float:
+    """The number of an amount in a unit; of one without a unit, or in one that is not known, its number.
+
+    Args:
+        amount: What was said.
+        unit: Metres, seconds or degrees if empty.
+    """
+    to = _SCALE.get(unit, 1.0)
+    return round(amount.value * _SCALE.get(amount.unit, to) / to, 4)
 
 
 def amount_of(words: Sequence[str]) -> Amount | None:

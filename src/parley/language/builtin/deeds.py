@@ -152,7 +152,7 @@ class Builder(Ways):
         return found.argument, found.said
 
     def _within(self, filler: Filler, about: frozenset[str]) -> Filler:
-        """What remains where the first part says again what the action is about: "the door of crate 2"."""
+        """What remains without a part that says again what the action is about: "the door of crate 2"."""
         at = filler.words.index("of") if "of" in filler.words[:-1] else 0
         small = self.lexicon.classes["determiners"]
         if not at or not all(stem(word) in about for word in filler.words[:at] if word not in small):
@@ -289,7 +289,7 @@ class Builder(Ways):
         for role, value in values.items():
             slot = _slot(skill, role, values)
             if slot is not None and slot not in arguments:
-                given = typed(value, skill.action.inputs[slot])
+                given = typed(value, skill.action, slot)
                 if given is None:
                     return Ask(f"I cannot {gloss} with “{value.said}”. Please say it otherwise.")
                 arguments[slot], said[role] = given, value.said

@@ -14,7 +14,7 @@ from parley.language.builtin.wishes import Filler
 from parley.messages.status import ParameterInfo
 from parley.umrf.kinds import words_of_name
 
-__all__ = ["Fill", "Filling", "Slots", "fill"]
+__all__ = ["Fill", "Filling", "Slots", "fill", "filled_by"]
 
 _ROLES: Mapping[str, Mapping[str, float]] = {
     "place": {"G": 2, "L": 2, "S": 2, "T": 1, "P": 1, "R": 0.5, "I": 0.3},
@@ -35,6 +35,15 @@ class Slots:
     optional: frozenset[str]
     words: frozenset[str]
     """Stems of all that is said of the action and its inputs."""
+
+    @property
+    def counting(self) -> str:
+        """The input that says how often it is done; empty if there is none."""
+        names = [name for name, told in self.parameters.items() if told.kind == "number" and not told.unit]
+        texts = {name: {*words_of_name(name), *self.parameters[name].help.lower().split()} for name in names}
+        return next(
+            (name for name in names if texts[name] & {"times", "often", "repeats", "repetitions"}), ""
+        )
 
 
 @dataclass(frozen=True, slots=True)
@@ -112,6 +121,21 @@ def fill(
     logic = {at for filler in fillers if filler.role in _LOGIC for at in range(filler.start, filler.end)}
     missing = tuple(name for name in names if name not in filled and name not in slots.optional)
     return Filling(tuple(found.values()), missing, not [at for at in loose if at not in logic])
+
+
+def filled_by(name: str, words: tuple[str, ...], slots: Slots, lexicon: Lexicon) -> Fill | None:
+    """An input filled with words that stand in its place; None if they are none of its kind."""
+    kind = slots.parameters[name].kind if name in slots.parameters else None
+    if kind is None:
+        return None
+    small = lexicon.classes["prepositions"]
+    behind = (at - 1 for at, word in enumerate(words) if at and word in small)
+    filler = Filler(_ROLE_OF.get(kind, "N"), -1, -1, next(behind, len(words) - 1), words)
+    worth, found = _fit(filler, name, slots, lexicon, 0)
+    return found if worth > 0 or kind in ("text", "place", "thing", "person") else None
+
+
+_ROLE_OF = {"place": "G", "person": "R", "thing": "T", "text": "X", "direction": "H"}
 
 
 def _parted(fillers: Sequence[Filler], slots: Slots) -> list[Filler]:

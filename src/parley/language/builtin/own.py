@@ -9,14 +9,18 @@ from __future__ import annotations
 
 import itertools
 import json
+import re
 from collections import OrderedDict
 from collections.abc import Iterable, Sequence
 from dataclasses import dataclass, replace
+from typing import NamedTuple
 
 import numpy as np
 
-from parley.language.builtin.filling import Fill, Slots, fill
+from parley.language.builtin.amounts import Amount
+from parley.language.builtin.filling import Fill, Filling, Slots, fill, filled_by
 from parley.language.builtin.lexicon import Lexicon, lemmas, stem
+from parley.language.builtin.orders import Clause, clauses_of
 from parley.language.builtin.reading import Reading
 from parley.language.builtin.spans import Parse
 from parley.language.builtin.tagger import Matrix, Tagger
@@ -33,14 +37,15 @@ _MARGIN = 0.15
 """So far ahead of the next action one must be."""
 _LEADS, _STANDS, _FITS = 0.3, 0.15, 0.15
 """What it is worth that the verb opens what is said of an action; stands in it; that all words fit."""
+_SHARES = 0.15
+"""That all other words stand in it, too."""
 _READ = 0.1
 """So much the tagger must believe in what fills an input."""
-_OFFERED = 0.35
+_OFFERED = 0.5
 """From so much on an action is offered in a question."""
 _KEPT = 64
 _TEXTS = 2000
 _LOGIC = frozenset("CUWE")
-_ACTS = frozenset({"order", "answer", "social"})
 
 
 @dataclass(frozen=True, slots=True)
@@ -49,8 +54,7 @@ class OwnAction:
 
     action: ActionInfo
     fills: tuple[Fill, ...]
-    words: frozenset[str]
-    """Stems of all that is said of it."""
+    slots: Slots
     certain: bool
     """Whether it is done without asking."""
     missing: tuple[str, ...] = ()
@@ -62,6 +66,16 @@ class OwnAction:
         first = self.action.description.partition(". ")[0].rstrip(".").partition(";")[0].partition(":")[0]
         text = first if " " in first else " ".join(words_of_name(self.action.name))
         return text[:1].lower() + text[1:]
+
+    def done(self, times: int) -> OwnAction | None:
+        """The same so many times, if it has an input for that."""
+        name = self.slots.counting
+        if not name or name in {fill.name for fill in self.fills}:
+            return None
+        said = Filler("O", -1, -1, 0, (str(times), "times"))
+        often = Fill(name, self.slots.parameters[name], said, Amount(times, ""))
+        missing = tuple(other for other in self.missing if other != name)
+        return replace(self, fills=(*self.fills, often), missing=missing)
 
 
 @dataclass(frozen=True, slots=True)
@@ -75,21 +89,23 @@ class _Known:
     """Words that open a sentence or phrase of it."""
     rows: tuple[int, ...]
     slots: Slots
+    patterns: tuple[re.Pattern[str], ...]
+    """Its phrases and examples."""
     told: bool
     """Whether its maker says what it does; else its name hints at it, and it is only offered."""
 
 
-@dataclass(frozen=True, slots=True)
-class _Clause:
-    """One order of a message."""
+class _Rank(NamedTuple):
+    """How much speaks for an action."""
 
-    start: int
-    end: int
-    verb: tuple[str, ...]
-    content: tuple[int, ...]
-    """Places of the words that carry something."""
-    text: str
-    fillers: tuple[Filler, ...]
+    worth: float
+    meaning: float
+    word: float
+    """What the verb of the order is worth in what is said of it."""
+    shared: float
+    """Which share of the other words stands in it."""
+    item: _Known
+    filled: Filling
 
 
 class OwnActions:
@@ -115,7 +131,7 @@ class OwnActions:
         known, vectors = self._prepared(catalogue)
         if not known:
             return reading
-        clauses = _clauses(parse, reading, self._lexicon)
+        clauses = clauses_of(parse, reading, self._lexicon)
         found = [self._meant(clause, known, vectors, framed, reading) for clause in clauses]
         meant = [(clause, own) for clause, own in zip(clauses, found, strict=True) if own is not None]
         return _replaced(parse, reading, meant, len(meant) == len(clauses)) if meant else reading
@@ -142,7 +158,8 @@ class OwnActions:
             texts += plain
             named = frozenset(stem(word) for name in info.inputs for word in words_of_name(name))
             slots = Slots(parameters_of(info), frozenset(info.optional), words | named)
-            known.append(_Known(info, words, leading, rows, slots, bool(said)))
+            patterns = tuple(map(_pattern, (*info.phrases, *info.examples)))
+            known.append(_Known(info, words, leading, rows, slots, patterns, bool(said)))
         return tuple(known), self._meanings(texts)
 
     def _meanings(self, texts: Sequence[str]) -> Matrix:
@@ -156,44 +173,78 @@ class OwnActions:
 
     def _meant(
         self,
-        clause: _Clause,
+        clause: Clause,
         known: Sequence[_Known],
         vectors: Matrix,
         framed: frozenset[str],
         reading: Reading,
     ) -> OwnAction | None:
         """The action that an order means; None if it means none, or one that its frame leads to."""
+        phrased = [own for item in known if (own := self._phrased(clause, item, framed)) is not None]
+        if phrased or not clause.orders:
+            return phrased[0] if len(phrased) == 1 else None
         agreed = _is_framed(clause, reading)
         rivals = [item for item in known if item.action.name not in framed]
         if not clause.verb or (agreed and not any(self._word(clause, item) for item in rivals)):
             return None
         likeness = vectors @ self._tagger.meanings([clause.text])[0]
-        ranked = []
-        for item in known:
-            meaning = max(float(likeness[row]) for row in item.rows)
-            word = self._word(clause, item)
-            filled = fill(clause.fillers, clause.content, clause.verb, item.slots, self._lexicon)
-            worth = meaning + word + (_FITS if filled.whole else 0.0)
-            ranked.append((worth, meaning, word, item, filled))
-        ranked.sort(key=lambda row: row[0], reverse=True)
-        told = [row for row in ranked if row[3].told]
-        if told:
-            worth, meaning, word, item, filled = told[0]
-            ahead = worth - told[1][0] if len(told) > 1 else worth
-            sure = meaning >= _NEAR and word > 0 and ahead >= _MARGIN and filled.whole
-            sure = sure and all(one.filler.share >= _READ for one in filled.fills)
-            if sure and not (agreed and item.action.name in framed):
-                return OwnAction(item.action, filled.fills, item.slots.words, True)
-        worth, meaning, word, item, filled = ranked[0]
-        if agreed or item.action.name in framed:
+        ranked = sorted(
+            (self._ranked(clause, item, likeness) for item in known), key=lambda rank: -rank.worth
+        )
+        told = [rank for rank in ranked if rank.item.told]
+        if told and self._is_sure(told) and not (agreed and told[0].item.action.name in framed):
+            best = told[0]
+            return OwnAction(best.item.action, best.filled.fills, best.item.slots, True, best.filled.missing)
+        best = ranked[0]
+        if agreed or best.item.action.name in framed:
             return None
-        ahead = worth - ranked[1][0] if len(ranked) > 1 else worth
-        if worth >= _OFFERED + _FITS and (word > 0 or ahead >= _MARGIN):
-            missing = filled.missing if filled.accounted else ()
-            return OwnAction(item.action, filled.fills, item.slots.words, False, missing)
+        hinted = best.word > 0 or best.shared > 0 or _ahead(ranked) >= _MARGIN
+        if best.worth >= _OFFERED and hinted:
+            missing = best.filled.missing if best.filled.accounted else ()
+            return OwnAction(best.item.action, best.filled.fills, best.item.slots, False, missing)
         return None
 
-    def _word(self, clause: _Clause, item: _Known) -> float:
+    def _ranked(self, clause: Clause, item: _Known, likeness: Matrix) -> _Rank:
+        meaning = max(float(likeness[row]) for row in item.rows)
+        word, shared = self._word(clause, item), self._shared(clause, item)
+        filled = fill(clause.fillers, clause.content, clause.verb, item.slots, self._lexicon)
+        worth = meaning + word + _SHARES * shared + (_FITS if filled.whole else 0.0)
+        return _Rank(worth, meaning, word, shared, item, filled)
+
+    @staticmethod
+    def _is_sure(ranked: Sequence[_Rank]) -> bool:
+        """Whether both witnesses speak for the first one, and every word of the order has a place in it."""
+        best = ranked[0]
+        read = all(one.filler.share >= _READ for one in best.filled.fills)
+        both = best.meaning >= _NEAR and best.word > 0 and _ahead(ranked) >= _MARGIN
+        missing = {*best.filled.missing} - {best.item.slots.counting}  # how often may be said behind it
+        return both and best.filled.accounted and not missing and read
+
+    def _shared(self, clause: Clause, item: _Known) -> float:
+        """Which share of the words besides the verb stands in what is said of an action."""
+        words = [word for filler in clause.fillers for word in filler.words]
+        small = self._lexicon.classes["prepositions"] | self._lexicon.classes["determiners"]
+        carrying = {stem(word) for word in words if word not in small and word.isalpha()}
+        return len(carrying & item.words) / len(carrying) if carrying else 0.0
+
+    def _phrased(self, clause: Clause, item: _Known, framed: frozenset[str]) -> OwnAction | None:
+        """The action, if just these words are one of its phrases or examples."""
+        if item.action.name in framed or not clause.may_order:
+            return None
+        said = " ".join(_words(clause.text))
+        for pattern in item.patterns:
+            match = pattern.fullmatch(said)
+            if match is None:
+                continue
+            given = {name: tuple(text.split()) for name, text in match.groupdict().items()}
+            fills = tuple(filled_by(name, words, item.slots, self._lexicon) for name, words in given.items())
+            missing = set(item.slots.parameters) - set(given) - item.slots.optional
+            if not missing and all(one is not None for one in fills):
+                kept = tuple(one for one in fills if one is not None)
+                return OwnAction(item.action, kept, item.slots, True)
+        return None
+
+    def _word(self, clause: Clause, item: _Known) -> float:
         forms = lemmas(clause.verb[0]) if clause.verb else ()
         beside = all(stem(word) in item.words for word in clause.verb[1:])
         if beside and any(form in item.leading for form in forms):
@@ -201,9 +252,27 @@ class OwnActions:
         return _STANDS if beside and any(stem(form) in item.words for form in forms) else 0.0
 
 
+def _ahead(ranked: Sequence[_Rank]) -> float:
+    return ranked[0].worth - (ranked[1].worth if len(ranked) > 1 else 0.0)
+
+
 def _without_holes(text: str) -> str:
     """A phrase without what stands for values."""
     return " ".join(part for part in text.replace("{", " {").split() if not part.startswith("{"))
+
+
+def _pattern(phrase: str) -> re.Pattern[str]:
+    """What a phrase looks like in a message; a hole is a name that only stands once."""
+    parts = re.split(r"\{(\w+)\}", phrase)
+    names = parts[1::2]
+    if len({*names}) < len(names) or not any(part.strip() for part in parts[::2]):
+        return re.compile(r"(?!)")
+    texts = [" ".join(_words(part)) for part in parts[::2]]
+    holes = [f"(?P<{name}>.+)" for name in names]
+    woven = [
+        piece for pair in itertools.zip_longest(map(re.escape, texts), holes, fillvalue="") for piece in pair
+    ]
+    return re.compile(" ".join(piece for piece in woven if piece))
 
 
 def _words(text: str) -> list[str]:
@@ -216,67 +285,14 @@ def _opening(text: str) -> Iterable[str]:
     return [word for at, word in enumerate(words) if at == 0 or words[at - 1] in (".", "and", "or", "then")]
 
 
-def _clauses(parse: Parse, reading: Reading, lexicon: Lexicon) -> list[_Clause]:
-    """The orders of a message: each from one verb to the next."""
-    size = len(parse.tokens)
-    starts = [verb.start for verb in parse.verbs if _opens(parse, verb.start, lexicon)]
-    bounds = [0, *(start for start in starts if _content(parse, 0, start, lexicon)), size]
-    fillers = [filler for wish in reading.wishes for filler in wish.fillers] + [*reading.loose]
-    found = []
-    for start, end in itertools.pairwise(bounds):
-        called = {at for f in fillers if f.role == "A" for at in range(f.start, f.end)}
-        content = [at for at in _content(parse, start, end, lexicon) if at not in called]
-        if not {parse.acts[at] for at in content} <= _ACTS:
-            return []
-        verb = next((verb for verb in parse.verbs if start <= verb.start < end), None)
-        places = (
-            [*range(verb.start, verb.end), *verb.particles]
-            if verb is not None and content and verb.start <= content[0]
-            else content[:1]
-        )
-        words = tuple(parse.tokens[at].low for at in places)
-        inside = {f.start: f for f in fillers if start <= f.start < end and f.role != "A"}
-        text = parse.text(content[0], end) if content else ""
-        rest = tuple(at for at in content if at not in places)
-        found.append(_Clause(start, end, words, (*rest,), text, _sorted(inside, parse, rest, places)))
-    return found
-
-
-def _sorted(
-    inside: dict[int, Filler], parse: Parse, rest: Sequence[int], places: Sequence[int]
-) -> tuple[Filler, ...]:
-    """The roles of a clause, and as roles unknown the words that are in none."""
-    taken = {at for filler in inside.values() for at in range(filler.start, filler.end)} | {*places}
-    for at in rest:
-        if at not in taken:
-            inside[at] = Filler("?", at, at + 1, 0, (parse.tokens[at].low,))
-    return tuple(inside[at] for at in sorted(inside))
-
-
-def _opens(parse: Parse, at: int, lexicon: Lexicon) -> bool:
-    """Whether a verb begins a clause: behind a mark or a linking word."""
-    while (
-        at
-        and parse.tokens[at - 1].is_word
-        and parse.tokens[at - 1].low in lexicon.classes["small"] - {"and", "then"}
-    ):
-        at -= 1
-    return not at or not parse.tokens[at - 1].is_word or parse.tokens[at - 1].low in ("and", "then")
-
-
-def _content(parse: Parse, start: int, end: int, lexicon: Lexicon) -> list[int]:
-    small = lexicon.classes["small"]
-    return [at for at in range(start, end) if parse.tokens[at].is_word and parse.tokens[at].low not in small]
-
-
-def _is_framed(clause: _Clause, reading: Reading) -> bool:
+def _is_framed(clause: Clause, reading: Reading) -> bool:
     """Whether tagger and lexicon agree on what a clause wants."""
     inside = [wish for wish in reading.wishes if clause.start <= wish.start < clause.end]
     return bool(inside) and all(wish.witness == "agrees" for wish in inside)
 
 
 def _replaced(
-    parse: Parse, reading: Reading, meant: Sequence[tuple[_Clause, OwnAction]], all_of_it: bool
+    parse: Parse, reading: Reading, meant: Sequence[tuple[Clause, OwnAction]], all_of_it: bool
 ) -> Reading:
     wishes, loose, left = list(reading.wishes), list(reading.loose), list(reading.left_over)
     for clause, own in meant:

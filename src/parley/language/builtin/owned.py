@@ -4,8 +4,8 @@ from __future__ import annotations
 
 import re
 from collections.abc import Callable
-from typing import Final
 
+from parley.language.builtin.amounts import in_unit
 from parley.language.builtin.decision import Ask, Deed
 from parley.language.builtin.filling import Fill
 from parley.language.builtin.own import OwnAction
@@ -17,12 +17,6 @@ __all__ = ["Grounds", "owned"]
 
 Grounds = Callable[[Filler, Kind, frozenset[str]], "tuple[str, str] | Ask"]
 """From words for a place, thing or person to the argument and how the reply says it, or a question."""
-
-_SCALE: Final = {
-    "m": 1.0, "cm": 0.01, "mm": 0.001, "feet": 0.3048, "inches": 0.0254, "yards": 0.9144, "s": 1.0,
-    "min": 60.0, "h": 3600.0, "metres": 1.0, "centimetres": 0.01, "millimetres": 0.001, "seconds": 1.0,
-    "minutes": 60.0, "hours": 3600.0, "radians": 57.29578,
-}  # fmt: skip
 
 
 def owned(own: OwnAction, grounds: Grounds) -> list[Deed] | Ask:
@@ -46,13 +40,12 @@ def owned(own: OwnAction, grounds: Grounds) -> list[Deed] | Ask:
 
 def _value(one: Fill, own: OwnAction, grounds: Grounds) -> tuple[str | float | bool, str] | Ask:
     if one.amount is not None:
-        to = _SCALE.get(one.parameter.unit, 1.0)
-        value = round(one.amount.value * _SCALE.get(one.amount.unit, to) / to, 4)
+        value = in_unit(one.amount, one.parameter.unit)
         return value, str(one.amount)
     if one.word:
         return (one.word == "yes" if own.action.inputs[one.name].startswith("bool") else one.word), one.word
     if one.parameter.kind in ("place", "thing", "person"):
-        return grounds(one.filler, one.parameter.kind, own.words)
+        return grounds(one.filler, one.parameter.kind, own.slots.words)
     if '"' in one.filler.words or "“" in one.filler.words:
         return Ask(f"What exactly is the text in {one.filler.text}? Please say it alone.")
     return one.filler.text, f"“{one.filler.text}”"

@@ -173,6 +173,9 @@ class Planner:
                     times = count or (int(amount.value) if amount else 0)
                     if not 1 <= times <= 10:
                         return Ask(f"I cannot do that {limit.text} on end. How many times shall I do it?")
+                    own = wishes[0].own.done(times) if len(wishes) == 1 and wishes[0].own else None
+                    if own is not None:
+                        wishes, times = (replace(wishes[0], own=own),), 1
                 case "delay":
                     waited = self.builder.waiting(f"for {' '.join(words[1:])}", words[1:])
                     if isinstance(waited, Ask):

@@ -18,6 +18,7 @@ from parley.language.builtin.labels import OTHER
 from parley.language.builtin.lexicon import Lexicon
 from parley.language.builtin.tagger import Tagger
 from parley.messages.status import ActionInfo
+from parley.umrf.kinds import parameters_of
 
 __all__ = ["Skill", "SkillTable", "Skills"]
 
@@ -40,6 +41,7 @@ _ROLES = {
 }  # fmt: skip
 
 
+_STEERED = frozenset({"distance", "angle", "direction", "number", "duration"})
 _BARE = frozenset({OTHER, "PHOTO", "WAIT", "CHARGE", "LOOK", "FOLLOW"})
 """What an action without inputs may be; any other frame says of what."""
 
@@ -114,7 +116,7 @@ class SkillTable:
     def _belief(self, action: ActionInfo) -> dict[str, float]:
         """How much each frame fits an action, of one."""
         said = next((frame for effect, frame in _EFFECTS.items() if effect in action.effects), None)
-        if said is not None:
+        if said is not None and self._has_core(action, said):
             return {said: 1.0}
         if not action.description:
             return {}
@@ -128,6 +130,14 @@ class SkillTable:
             else share * (_TOO_MANY if many > len(_ROLES.get(frame, "TRGSL")) else 1.0)
             for frame, share in found.items()
         }
+
+    @staticmethod
+    def _has_core(action: ActionInfo, frame: str) -> bool:
+        """Whether an effect tells the frame: going needs a place, looking something to look at."""
+        needed = {name for name in action.inputs if name not in action.optional}
+        kinds = {parameters_of(action)[name].kind for name in needed if "::" not in name}
+        posed = any("::" in name for name in action.inputs)
+        return posed or (bool(needed) if frame == "LOOK" else frame != "GO" or not kinds <= _STEERED)
 
     def _roles(self, action: ActionInfo, frame: str) -> dict[str, str]:
         """Which parameter takes which role: names hint, the order decides between equals."""

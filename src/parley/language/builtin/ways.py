@@ -5,13 +5,15 @@ from __future__ import annotations
 from collections.abc import Sequence
 from dataclasses import dataclass, replace
 
-from parley.language.builtin.amounts import amount_of
+from parley.language.builtin.amounts import amount_of, in_unit
 from parley.language.builtin.decision import Ask, Deed, Note
 from parley.language.builtin.facts import Place
 from parley.language.builtin.grounding import Grounder, Value
 from parley.language.builtin.saying import with_article
 from parley.language.builtin.things import link
 from parley.language.builtin.wishes import Wish
+from parley.messages.status import ActionInfo
+from parley.umrf.kinds import parameters_of
 
 __all__ = ["Ways", "typed"]
 
@@ -91,7 +93,7 @@ class Ways(Grounder):
         amount = amount_of(words) if words else None
         if skill is not None and amount is not None and amount.kind == "duration" and "D" in skill.roles:
             slot = skill.roles["D"]
-            given = typed(Value(text, text, amount=amount), skill.action.inputs[slot])
+            given = typed(Value(text, text, amount=amount), skill.action, slot)
             if given is not None:
                 return Deed("WAIT", skill, {slot: given}, {"D": text})
         if ask is None or not ask.roles:
@@ -120,15 +122,12 @@ class Ways(Grounder):
         return [*way, waited if text else replace(waited, open_ended=True)]
 
 
-_METRES = {"m": 1.0, "cm": 0.01, "mm": 0.001, "feet": 0.3048, "inches": 0.0254, "yards": 0.9144}
-_SECONDS = {"s": 1.0, "min": 60.0, "h": 3600.0}
-
-
-def typed(value: Value, kind: str) -> str | float | None:
-    """What is given to a parameter of a type; None if it cannot be: numbers are metres, degrees, seconds."""
+def typed(value: Value, action: ActionInfo, slot: str) -> str | float | None:
+    """What is given to an input, in its unit; None if it is none of its type, or not among its choices."""
+    kind, told = action.inputs[slot], parameters_of(action)[slot]
     if kind == "string":
-        return value.argument
+        named = {choice.lower(): choice for choice in told.choices}
+        return named.get(value.argument.lower()) if named else value.argument
     if kind != "number" or value.amount is None:
         return None
-    scale = (_METRES | _SECONDS).get(value.amount.unit, 1.0)
-    return round(value.amount.value * scale, 4)
+    return in_unit(value.amount, told.unit)

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Sequence
+from dataclasses import replace
 
 from parley.language.base import (
     DraftHandler,
@@ -23,6 +24,7 @@ from parley.language.offline.words.explaining import Decision, Trace
 from parley.language.offline.words.proper import Proper, unmarked
 from parley.messages.chat import ChatAction
 from parley.messages.memory import MemoryEntry
+from parley.messages.status import ActionInfo
 from parley.robots.base import CameraImage
 from parley.world.geometry import Pose2D
 from parley.world.object_map import MapObject
@@ -31,6 +33,11 @@ __all__ = ["OfflineLanguage"]
 
 
 _BLIND = "I cannot see what is in a picture that you send; I only keep it."
+
+
+def _is_steered(info: ActionInfo) -> bool:
+    """Whether it drives by a distance: this engine would take any "go" for it. The new one tells them apart."""
+    return "moves" in info.effects and any(told.kind == "distance" for told in info.parameters.values())
 
 
 class OfflineLanguage:
@@ -55,6 +62,8 @@ class OfflineLanguage:
 
     def explain(self, situation: Situation) -> tuple[ChatAction, tuple[Decision, ...]]:
         """As `interpret`, with what was decided on the way, in order."""
+        known = tuple(info for info in situation.catalogue if not _is_steered(info))
+        situation = replace(situation, catalogue=known)
         proper = Proper.of(situation)
         if proper is not None:
             situation = proper.situation(situation)
