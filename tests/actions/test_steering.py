@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import asyncio
 import math
-from collections.abc import Awaitable
+from collections.abc import Awaitable, Callable
 
 import pytest
 
@@ -70,11 +70,12 @@ async def test_a_pause_a_taken_permission_and_a_cancel_hold_it() -> None:
         start = at(here)
         task = asyncio.create_task(_run(turn_by(here.context, 700.0)))
         await eventually(lambda: abs(here.robot.pose().yaw_rad - start[2]) > 0.3)
-        for hold, let_go in (
+        holds: list[tuple[Callable[[], object], Callable[[], object]]] = [
             (lambda: setattr(here.run, "paused", True), lambda: setattr(here.run, "paused", False)),
             (here.run.motion.pause, here.run.motion.resume),
             (here.robot.halt, here.robot.release),
-        ):
+        ]
+        for hold, let_go in holds:
             hold()
             await here.simulator.clock.sleep(1.0)
             rests = here.robot.pose().yaw_rad

@@ -81,6 +81,26 @@ async def test_stop_pauses_stands_still_keeps_the_plan_and_carry_on_resumes(part
     assert party.body.did == ["drive 1", "look door"]
 
 
+async def test_a_correction_that_opens_with_wait_is_carried_out_and_stops_nothing(party: Crew) -> None:
+    pops = [{"pop": {"parameters": index}} for index in (0, 1)]
+    change = {"message_response": "Then the box.", "queue": [look("box")], "system_cmd": pops}
+    party.language.will("interpret", ChatAction.model_validate(change))
+    party.observer.say("no wait, not the door, the box", "A")
+    await party.hears("Then the box.")
+    await party.state("idle")
+    assert party.body.did == ["drive 1", "look box"]
+    assert "pause" not in party.wire.commands()
+
+
+async def test_a_correction_of_which_nothing_comes_leaves_the_robot_standing(party: Crew) -> None:
+    party.language.will("interpret", ChatAction(message_response="Which one do you mean?"))
+    party.observer.say("no wait, not that one", "A")
+    await party.hears("Which one do you mean?")
+    await party.hears("I have stopped")
+    await party.state("paused")
+    assert dropped(party) == []
+
+
 async def test_page_button_pause_is_the_same_as_stop(party: Crew) -> None:
     party.command("pause")
     await party.state("paused")

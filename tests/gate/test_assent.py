@@ -7,20 +7,49 @@ import pytest
 from parley.gate.assent import assent_of, begins_with_no
 
 
-@pytest.mark.parametrize("said", ["yes", "Yes, please!", "OK", "do it", "yes, Ada", "Jah", "please do"])
+@pytest.mark.parametrize(
+    "said",
+    [
+        "yes",
+        "Yes, please!",
+        "OK",
+        "do it",
+        "yes, Ada",
+        "Jah",
+        "please do",
+        "yes, like that",
+        "fine by me",
+        "ok do it then",
+    ],
+)
 def test_a_yes_is_a_yes(said: str) -> None:
     assert assent_of(said, ["Ada"]) is True
 
 
 @pytest.mark.parametrize(
     "said",
-    ["no", "No, thanks.", "don't", "please don't do it", "Ei", "not yet", "No, wait!", "NO NO NO", "ära tee"],
+    [
+        "no",
+        "No, thanks.",
+        "don't",
+        "please don't do it",
+        "Ei",
+        "not yet",
+        "No, wait!",
+        "NO NO NO",
+        "ära tee",
+        "nah, leave it",
+        "no, I changed my mind",
+    ],
 )
 def test_a_no_is_a_no(said: str) -> None:
     assert assent_of(said, ["Ada"]) is False
 
 
-@pytest.mark.parametrize("said", ["yes?", "yes, but go to the chair first", "no, the other one", "", "Ada"])
+@pytest.mark.parametrize(
+    "said",
+    ["yes?", "ok, no", "fine, but later", "yes, but go to the chair first", "no, the other one", "", "Ada"],
+)
 def test_everything_else_is_neither(said: str) -> None:
     assert assent_of(said, ["Ada"]) is None
 

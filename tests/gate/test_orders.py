@@ -30,7 +30,14 @@ def test_whatever_an_answer_says_of_itself_it_is_the_engines() -> None:
     }
     order = admitted("go", **claims).order
     assert order.by == Principal(kind="engine", name="model")
-    assert (order.behalf, order.words, order.needs_yes) == (KIM, "go", "")
+    assert (order.behalf, order.words) == (KIM, "go")
+
+
+@pytest.mark.parametrize(("doubt", "why"), [("", ""), ("go\nyes", "go yes"), ("…", "not sure")])
+def test_an_engine_may_want_a_yes_but_does_not_word_the_question(doubt: str, why: str) -> None:
+    asked = admitted("go", needs_yes=doubt).order.needs_yes
+    assert why in asked and bool(asked) is bool(doubt)
+    assert asked != doubt or not doubt
 
 
 def test_only_robots_that_were_addressed_or_named_act() -> None:

@@ -10,19 +10,21 @@ from parley.gate.rule_talk import RuleReply, RuleTalk
 from parley.gate.rules import RuleKeeper
 from parley.messages.principal import Principal, person
 from parley.messages.rules import Rule
+from parley.world.object_map import MapObject
 
 KIM = person("Kim")
 
 
 class Talk:
-    def __init__(self) -> None:
+    def __init__(self, *places: MapObject) -> None:
+        self._places = places
         self.book = RuleBook(SimClock())
         self.keeper = RuleKeeper(self.book)
         self._talk = RuleTalk(self.book, self.keeper)
 
     async def say(self, text: str, by: Principal = KIM, answers: str = "") -> RuleReply | None:
         return await self._talk.reply(
-            text, by, robot="Ada", robots=("Ada",), places=(), catalogue=(), answers=answers
+            text, by, robot="Ada", robots=("Ada",), places=self._places, catalogue=(), answers=answers
         )
 
     @property
@@ -79,3 +81,26 @@ async def test_of_several_rules_the_one_that_is_chosen_is_dropped() -> None:
     assert talk.held == []
     nothing = await talk.say("drop the rule about the cellar")
     assert nothing is not None and nothing.text == "There is no such rule."
+
+
+async def test_a_closed_place_is_closed_until_the_answer_and_opened_by_a_word() -> None:
+    talk = Talk(MapObject("s", "store", 5.0, 0.0, "store", 1.0, 1.0))
+    asked = await talk.say("never go into the store, it is wet")
+    assert asked is not None and asked.id and talk.held == ["keep-out-store"]
+    assert await talk.say("go to the desk and wait", answers=asked.id) is None, "an order is no answer"
+    await talk.say("no", answers=asked.id)
+    assert talk.held == []
+    await talk.say("never go into the store")
+    lifted = await talk.say("it is dry now, you may go into the store again")
+    assert lifted is not None and not lifted.id and talk.held == []
+
+
+async def test_a_rule_that_was_agreed_to_is_not_lifted_without_a_yes() -> None:
+    talk = Talk(MapObject("s", "store", 5.0, 0.0, "store", 1.0, 1.0))
+    asked = await talk.say("never go into the store")
+    assert asked is not None
+    await talk.say("yes, like that", answers=asked.id)
+    lifting = await talk.say("you may go into the store again")
+    assert lifting is not None and lifting.id and talk.held == ["keep-out-store"]
+    await talk.say("yes", answers=lifting.id)
+    assert talk.held == []

@@ -6,7 +6,7 @@ from typing import Any
 
 import pytest
 
-from parley.gate.told import DraftRule, NotUnderstood, told_rule
+from parley.gate.told import DraftRule, NotUnderstood, lifted_place, told_rule
 from parley.gate.told_hours import hours_in
 from parley.messages.rules import Rule
 from parley.messages.status import ActionInfo
@@ -152,3 +152,32 @@ def test_a_zone_that_was_drawn_is_a_place_too_and_ids_stay_apart() -> None:
     )
     assert isinstance(again, DraftRule)
     assert again.rule.id == "keep-out-lab-3"
+
+
+@pytest.mark.parametrize(
+    ("text", "name"),
+    [
+        ("don't go into the storeroom today, it is wet", "storeroom"),
+        ("never drive into the storeroom because it is wet", "storeroom"),
+        ("do not go to the storeroom for now", "storeroom"),
+        ("don't worry", ""),
+        ("don't open the door", ""),
+    ],
+)
+def test_of_a_robot_with_nothing_to_do_a_dont_is_a_rule_whatever_its_reason(text: str, name: str) -> None:
+    found = told_rule(text, places=PLACES, catalogue=CATALOGUE, robots=("Ada",), robot="Ada", busy=False)
+    assert (found.rule.name if isinstance(found, DraftRule) and found.rule.kind == "keep_out" else "") == name
+
+
+@pytest.mark.parametrize(
+    ("text", "place"),
+    [
+        ("Kim is awake now, you may go to the storeroom again", "storeroom"),
+        ("ok the floor is dry, the storeroom is fine again", "storeroom"),
+        ("the storeroom is open", ""),
+        ("may you go into the storeroom?", ""),
+        ("you must not go into the storeroom", ""),
+    ],
+)
+def test_a_place_is_free_again(text: str, place: str) -> None:
+    assert lifted_place(text) == place

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import pytest
 
-from parley.language.stop_words import calls_to_stop, has_stop_word, is_no
+from parley.language.stop_words import calls_to_stop, has_stop_word, is_no, only_takes_back
 
 
 @pytest.mark.parametrize(
@@ -44,3 +44,19 @@ def test_other_words_hold_nobody(said: str) -> None:
 def test_a_no_is_one_only_if_nothing_else_is_said() -> None:
     assert all(map(is_no, ("no", "No!", "no no no", "nope", "not there!", "Ei.")))
     assert not any(map(is_no, ("", "no problem", "no, go to the box", "go on", "not yet")))
+
+
+@pytest.mark.parametrize(
+    ("text", "moves", "only"),
+    [
+        ("no wait, not the box, the door", True, True),
+        ("hold on, I meant the door", True, True),
+        ("wait, there is a child", True, False),
+        ("stop, not the box, the door", True, False),
+        ("wait", False, False),
+        ("wait, the key is on the desk by now", False, True),
+        ("not the box, the door", True, False),
+    ],
+)
+def test_a_word_of_waiting_may_only_open_a_correction(text: str, moves: bool, only: bool) -> None:
+    assert only_takes_back(text, moves=moves) is only

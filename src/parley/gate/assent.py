@@ -27,6 +27,38 @@ _NO: Final = frozenset({
     "kindlasti mitte", "vale", "ei taha", "ära",
 })  # fmt: skip
 
+_YES_PARTS: Final = frozenset({
+    "like that", "that way", "just like that", "go for it", "go on", "fine by me", "fine with me", "good",
+    "great", "perfect", "lovely", "works for me", "that works", "good idea", "why not", "be my guest",
+    "i agree", "i approve", "i am fine with that", "i am ok with that", "make it so", "let us do it",
+    "let us do that", "let us go", "very good", "that is good", "that is ok", "that is okay",
+    "that is what i want", "that is what i meant", "that sounds good", "sounds great", "sounds fine",
+    "you can", "you can do that", "you can do it", "start", "proceed", "carry on", "begin", "absolutely",
+    "definitely", "certainly", "indeed", "confirmed", "go", "aye", "you have my ok", "all good",
+    "it is fine", "it is ok", "please go ahead", "yes yes", "go ahead",
+})  # fmt: skip
+_NO_PARTS: Final = frozenset({
+    "i changed my mind", "changed my mind", "i have changed my mind", "i do not want that",
+    "i do not want it", "i would rather not", "let us not", "do not bother", "drop it", "drop that",
+    "scrap that", "scrap it", "leave that", "leave it be", "not today", "not any more", "not anymore",
+    "no need", "not necessary", "that is not necessary", "that is not needed", "not needed", "forget that",
+    "cancel that", "cancel it", "cancel", "stay", "stay here", "stay there", "stay where you are", "stop",
+    "maybe later", "later", "another time", "some other time", "not like that", "i do not think so",
+    "better not do that", "skip it", "i said no", "you may not", "you must not",
+})  # fmt: skip
+_FILLERS: Final = frozenset({
+    "please", "thanks", "thank you", "then", "now", "well", "oh", "um", "uh", "so", "sorry", "actually",
+    "hm", "hmm", "dear", "mate", "buddy", "just", "man", "palun", "aitäh",
+})  # fmt: skip
+_IN_FULL: Final = (
+    (r"\bdon'?t\b", "do not"), (r"\b(that|it)'?s\b", r"\1 is"), (r"\bi'?m\b", "i am"),
+    (r"\bi'd\b", "i would"),
+    (r"\blet'?s\b", "let us"), (r"\bi've\b", "i have"), (r"\bnever ?mind\b", "never mind"),
+)  # fmt: skip
+_LONGEST: Final = 8
+"""So many words such phrases put together have at most."""
+
+
 _NEGATION: Final = re.compile(
     r"\W*(?:no|nope|nah|not|never|neither|none|nothing|nowhere|don['’]?t|do not|ei|mitte|ära|pole)\b",
     re.IGNORECASE,
@@ -42,14 +74,35 @@ def assent_of(text: str, names: Sequence[str] = ()) -> bool | None:
     """
     if "?" in text:
         return None
-    low = re.sub(r"\bdon['’]?t\b", "do not", unicodedata.normalize("NFC", text).casefold())
-    words = [word for word in re.split(r"\W+", re.sub(r"\bthat['’]s\b", "that is", low)) if word]
+    low = unicodedata.normalize("NFC", text).casefold().replace("’", "'")
+    for short, full in _IN_FULL:
+        low = re.sub(short, full, low)
+    words = [word for word in re.split(r"\W+", low) if word]
     called = {part for name in names for part in name.casefold().split()}
     said = " ".join(word for word in words if word not in called)
     bare = said.removeprefix("please ").removesuffix(" please").removesuffix(" thanks")
     if said in _YES or bare in _YES:
         return True
-    return False if said in _NO or bare in _NO else None
+    if said in _NO or bare in _NO:
+        return False
+    return _put_together(said.split())
+
+
+def _put_together(words: Sequence[str]) -> bool | None:
+    """A yes or a no of several such phrases ("yes, like that", "nah, leave it"); one word more is neither."""
+    found: set[bool] = set()
+    at = 0
+    while at < len(words) <= _LONGEST:
+        for end in range(len(words), at, -1):
+            phrase = " ".join(words[at:end])
+            if phrase in _FILLERS or phrase in _YES | _YES_PARTS or phrase in _NO | _NO_PARTS:
+                if phrase not in _FILLERS:
+                    found.add(phrase in _YES | _YES_PARTS)
+                at = end
+                break
+        else:
+            return None
+    return found.pop() if len(found) == 1 else None
 
 
 def begins_with_no(text: str) -> bool:

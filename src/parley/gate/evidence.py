@@ -15,16 +15,19 @@ from typing import Final
 __all__ = ["is_about", "is_said", "speaks_of_all", "speaks_of_change", "speaks_of_forgetting"]
 
 _CHANGE: Final = re.compile(
-    r"\b(?:cancel|abort|scrap|drop|skip|leave|omit|remove|delete|forget|discard|abandon|ditch|undo|end|stop|"
+    r"\b(?:cancel|abort|scrap|drop|skip|leave|omit|remove|delete|forget|discard|abandon|ditch|undo|"
+    r"scratch|strike|better|on\s+the\s+way|end|stop|"
     r"without|not|no|never|nope|don['’]?t|won['’]?t|needn['’]?t|isn['’]?t|doesn['’]?t|instead|rather|except|"
-    r"actually|change|changed|replace|swap|other|another|different|anymore|unnecessary|enough|wrong|only|just|"
+    r"actually|change|changed|replace|swap|other|another|different|anymore|unnecessary|enough|wrong|only|"
+    r"just|"
     r"first|before|next|but|wait|call\s+off|get\s+rid|mind|mean|meant|correction|sorry|unless|until|done|"
     r"jäta|tühista|loobu|ära|mitte|ei|pole|asemel|hoopis|unusta|kustuta|muuda|teine|lõpeta|välja|ainult|"
     r"vahele|vale)\b",
     re.IGNORECASE,
 )
 _FORGETTING: Final = re.compile(
-    r"\b(?:forget|unlearn|erase|delete|remove|discard|drop|clear|wipe|scrap|take\s+back|no\s+longer|any\s?more|"
+    r"\b(?:forget|unlearn|erase|delete|remove|discard|drop|clear|wipe|scrap|take\s+back|no\s+longer|"
+    r"any\s?more|"
     r"isn['’]?t|aren['’]?t|is\s+not|are\s+not|was\s+wrong|not\s+true|wrong|gone|lift|undo|"
     r"don['’]?t\s+(?:remember|keep)|do\s+not\s+(?:remember|keep)|need\s+not\s+(?:remember|keep)|"
     r"unusta|kustuta|eemalda|tühista|enam|ei\s+ole|pole|vale)\b",

@@ -37,6 +37,8 @@ _DECIDING: Final = re.compile(
 )
 """What a person says with their own words or by a press of ours; no engine offers it to be tapped."""
 _REFERRING: Final = re.compile(r"\b(?:it|that|this|those|them|seda|see|selle)\b", re.IGNORECASE)
+UNSURE_OF_ALL: Final = "…"
+"""What an engine gives as the words it did not understand where it doubts the whole."""
 MAX_MEMORIES: Final = 20
 """More than this in one answer nobody told."""
 
@@ -97,7 +99,7 @@ def admit(answer: ChatAction, heard: Heard) -> Admitted:
         refused.append(sentence("I only act where I was spoken to, so I leave the other robot alone."))
     commands: list[SystemCommand] = []
     concluded: list[str] = []
-    needs_yes, resumes, added = "", False, 0
+    needs_yes, resumes, added = _doubted(answer.needs_yes), False, 0
     for command in answer.system_cmd:
         match command.command:
             case "start":
@@ -148,6 +150,15 @@ def _for_another(other: ChatAction, order: ChatAction, named: Sequence[str]) -> 
         words=order.words,
         needs_yes="" if set(other.targets[:1]) <= set(named) else NOT_SPOKEN_TO,
     )
+
+
+def _doubted(words: str) -> str:
+    """Why an engine wants a yes itself; it may always ask for one."""
+    if not words:
+        return ""
+    if words == UNSURE_OF_ALL:
+        return sentence("I am not sure that I understood you")
+    return sentence("I did not understand “{words}”", words=one_line(words)[:80])
 
 
 def admit_repair(answer: ChatAction, heard: Heard) -> ChatAction:

@@ -9,10 +9,11 @@ from dataclasses import dataclass, replace
 from typing import Final
 
 from parley.errors import ConfigError
+from parley.gate.assent import assent_of
 from parley.gate.book import RuleBook
 from parley.gate.rules import RuleKeeper
 from parley.gate.table import Effect, verdict
-from parley.gate.told import DraftRule, NotUnderstood, told_rule
+from parley.gate.told import DraftRule, NotUnderstood, lifted_place, told_rule
 from parley.gate.wording import rule_text
 from parley.latest import Latest
 from parley.messages.principal import Principal
@@ -24,6 +25,8 @@ from parley.world.object_map import MapObject
 __all__ = ["RuleConfirmations", "RuleReply", "RuleTalk"]
 
 _KEPT: Final = 100
+_SHORT: Final = 2
+"""So many words are meant as an answer, even if they fit no choice."""
 _YES: Final = frozenset({"yes", "y", "ok", "okay", "sure", "yes please", "jah", "ja", "jaa", "olgu"})
 _NO: Final = frozenset({"no", "n", "nope", "no thanks", "never mind", "ei", "ära"})
 _LIST: Final = re.compile(
@@ -68,6 +71,11 @@ class RuleConfirmations:
         """Whether this question is one of ours."""
         return question in self._waiting
 
+    def rules(self, question: str) -> tuple[Rule, ...]:
+        """What is asked about."""
+        pending = self._waiting.get(question)
+        return tuple(rule for _, rule in pending.choices) if pending is not None else ()
+
     def put(self, text: str, rules: Sequence[Rule], *, drops: bool = False) -> RuleReply:
         """Ask about a change; the first of `rules` is meant by a plain yes if it is the only one."""
         labels = [sentence("yes") if len(rules) == 1 else rule_text(rule) for rule in rules]
@@ -91,9 +99,10 @@ class RuleConfirmations:
         chosen = next((rule for label, rule in pending.choices if said in _forms(label)), None)
         if chosen is None and said.isdigit() and 0 < int(said) <= len(pending.choices):
             chosen = pending.choices[int(said) - 1][1]
-        if chosen is None and said in _YES and len(pending.choices) == 1:
+        literal = True if said in _YES else False if said in _NO else assent_of(text)
+        if chosen is None and literal and len(pending.choices) == 1:
             chosen = pending.choices[0][1]
-        if chosen is None and said not in _NO:
+        if chosen is None and literal is not False:
             return None
         del self._waiting[question]
         return chosen, pending.drops
@@ -133,6 +142,7 @@ class RuleTalk:
         places: Sequence[MapObject],
         catalogue: Sequence[ActionInfo],
         answers: str = "",
+        busy: bool = True,
     ) -> RuleReply | None:
         """What to say to a message that is about rules; None for every other message.
 
@@ -144,17 +154,23 @@ class RuleTalk:
             places: What is on the map.
             catalogue: What the robot can do.
             answers: The question that it answers, if it does.
+            busy: Whether the robot has something to do.
         """
         if answers and self.asked(answers):
-            return await self._answer(answers, text, by)
+            reply = await self._answer(answers, text, by)
+            if reply is not None:
+                return reply
         said = _plain(text).rstrip("?")
         if _LIST.match(said):
             return RuleReply(self._listed())
         if found := _DROP.match(said):
             return self._drop(found["about"] or found["kohta"] or "", by)
+        if (place := lifted_place(text)) and (lifted := await self._lift(place, by)) is not None:
+            return lifted
         told = told_rule(
-            text, places=places, catalogue=catalogue, robots=robots, robot=robot, zones=self._book.rules.rules
-        )
+            text, places=places, catalogue=catalogue, robots=robots, robot=robot, busy=busy,
+            zones=self._book.rules.rules,
+        )  # fmt: skip
         if told is None:
             return None
         if not _may(by):
@@ -164,9 +180,13 @@ class RuleTalk:
         return self._proposed(told)
 
     def _proposed(self, told: DraftRule) -> RuleReply:
+        at_once = told.rule.kind == "keep_out"
+        if at_once:  # it takes nothing away from anybody's safety
+            self._keeper.try_out(told.rule)
         shown = together(
             sentence("I understand this as a rule: {rule}", rule=rule_text(told.rule)),
             _area_text(told.rule),
+            sentence("I keep to it until you answer.") if at_once else "",
             sentence("Shall it hold from now on?"),
         )
         return self._confirmations.put(shown, (told.rule, *told.others))
@@ -176,6 +196,19 @@ class RuleTalk:
         if not rules:
             return sentence("There are no rules.")
         return together(*(rule_text(rule) for rule in rules))
+
+    async def _lift(self, place: str, by: Principal) -> RuleReply | None:
+        """A place is free again: what was only asked about holds no longer, a rule is dropped after a yes."""
+        words = set(re.findall(r"\w+", place))
+        rules = [rule for rule in self._book.rules.rules if rule.kind == "keep_out"]
+        fitting = [rule for rule in rules if words and words == set(re.findall(r"\w+", rule.name.casefold()))]
+        if not fitting or not _may(by):
+            return None
+        if not all(self._keeper.is_tried(rule.id) for rule in fitting):
+            return self._drop(place, by)
+        for rule in fitting:
+            self._keeper.let_go(rule.id)
+        return RuleReply(sentence("The rule does not hold any more."))
 
     def _drop(self, about: str, by: Principal) -> RuleReply:
         if not _may(by):
@@ -189,13 +222,17 @@ class RuleTalk:
         text = sentence("Shall I drop this rule: {rule}", rule=rule_text(fitting[0]))
         return self._confirmations.put(text, fitting, drops=True)
 
-    async def _answer(self, question: str, text: str, by: Principal) -> RuleReply:
+    async def _answer(self, question: str, text: str, by: Principal) -> RuleReply | None:
+        """What becomes of an answer; None if it is none, but something else that somebody wants."""
         if not _may(by):
             return RuleReply(sentence("You may not change rules."))
+        tried = self._confirmations.rules(question)
         answered = self._confirmations.answered(question, text)
         if answered is None:
-            return self._confirmations.again(question)
+            return self._confirmations.again(question) if len(text.split()) <= _SHORT else None
         rule, drops = answered
+        for other in tried if not drops else ():
+            self._keeper.let_go(other.id)
         if rule is None:
             return RuleReply(sentence("All right, the rules stay as they are."), closes=question)
         try:

@@ -17,7 +17,7 @@ from parley.messages.status import ActionInfo
 from parley.sentences import sentence
 from parley.world.object_map import MapObject
 
-__all__ = ["DraftRule", "NotUnderstood", "told_rule"]
+__all__ = ["DraftRule", "NotUnderstood", "lifted_place", "told_rule"]
 
 
 @dataclass(frozen=True, slots=True)
@@ -40,6 +40,8 @@ class NotUnderstood:
 _MAX_CHARS: Final = 300
 _MARGIN_M: Final = 0.3
 _AROUND_M: Final = 1.0
+_BEFORE_M: Final = 0.7
+"""Around a thing that is not to be gone to: where one stands who is there."""
 
 _BEGIN: Final = re.compile(
     r"^(?:(?:please|from now on|remember|note|rule|palun|edaspidi|reegel)\b[:,]?\s*(?:that\s+)?)+"
@@ -69,8 +71,9 @@ _NEVER: Final = re.compile(
 _UNASKED: Final = re.compile(r" without (?:asking|my permission|permission)(?: \w+)*$")
 _INTO: Final = re.compile(
     r"^(?:(?:go|goes|drive|drives|come|comes|move|moves|be|sõita|sõida|minna|mine|minema|tulla)\s+)?"
-    r"(?:in|into|inside|to|through|near|enter|enters)\s+(?P<place>.+)$"
+    r"(?:(?:in|into|inside|to|through|near|on|at|by|enter|enters)\s+)+(?P<place>.+)$"
 )
+_TO: Final = re.compile(r"(?:\w+\s+)?(?:to|near|by|at)\s")
 _INTO_ET: Final = re.compile(r"^(?:(?:sõita|sõida|sõitke|minna|mine|minge|siseneda|sisene)\s+)(?P<place>.+)$")
 _DRIVE: Final = frozenset({
     "drive", "go", "move", "drives", "moves", "goes", "driving", "moving", "going",
@@ -109,6 +112,7 @@ def told_rule(
     robots: Sequence[str],
     robot: str = "",
     zones: Sequence[Rule] = (),
+    busy: bool = True,
 ) -> DraftRule | NotUnderstood | None:
     """What a person told as a rule; None if it is no rule.
 
@@ -119,20 +123,59 @@ def told_rule(
         robots: Names of all robots.
         robot: Who is spoken to; "you" means it.
         zones: Zones that there are already: their names are places, too.
+        busy: Whether the robot has something to do: then "don't go there" is about that, and no rule.
     """
     if len(text) > _MAX_CHARS or text.rstrip().endswith("?"):
         return None
     said = re.sub(r"\s+", " ", text.replace("’", "'").casefold()).strip(" .!")
     said = _BEGIN.sub("", said).replace("don't ever", "never").replace("do not ever", "never")
-    meant, plain = hours_in(said)
+    said = said if busy else _DONT.sub("never ", said)
     world = _World(places, catalogue, robots, robot, zones)
-    for form in (_asked, _slowed, _forbidden):
-        found = form(plain, world)
-        if isinstance(found, NotUnderstood):
-            return found
-        if found is not None:
-            return _drafted(found, meant, text, world)
-    return None
+    missed: NotUnderstood | None = None
+    for tried in dict.fromkeys((said, _REASON.sub("", said))):  # why it holds may stand behind it
+        meant, plain = hours_in(tried)
+        for form in (_asked, _slowed, _forbidden):
+            found = form(_FOR_NOW.sub("", plain), world)
+            if isinstance(found, NotUnderstood):
+                missed = found
+            elif found is not None:
+                return _drafted(found, meant, text, world)
+    return missed
+
+
+_DONT: Final = re.compile(
+    r"^(?:(?:you )?(?:don't|do not)|stop) (?=(?:go|drive|come|move|going|driving|enter)\b)"
+)
+_REASON: Final = re.compile(r"(?:\s*(?:,|;|:|\.|\s-|–)\s*|\s+(?:because|since|as|sest)\s+).*$")
+_FOR_NOW: Final = re.compile(
+    r"(?: (?:today|tonight|for now|for the moment|at the moment|right now|now|any ?more|until further notice|"
+    r"this (?:morning|afternoon|evening)|for a while|please|täna|praegu))+$"
+)
+_LIFTED: Final = (
+    re.compile(
+        r"(?:you|robots?|everybody|he|she|sa) (?:may|can|could|are allowed to|is allowed to|võid|"
+        r"tohid) (?:now |again )?"
+        r"(?:go |drive |come |move |be |sõita |minna )?(?:back )?(?:(?:in|into|inside|to|through|near|"
+        r"at) )?(?P<place>.+?)"
+        r"(?: again| now| now again|,? if you like)*"
+    ),
+    re.compile(
+        r"(?P<place>.+?) (?:is|are) (?:fine|ok|okay|open|free|clear|dry|safe|allowed|accessible|all right|"
+        r"available|"
+        r"yours)(?: again| now| to enter| for you)+"
+    ),
+)
+
+
+def lifted_place(text: str) -> str:
+    """The place that a person says a robot may go to again; empty if they say nothing of the kind."""
+    said = re.sub(r"\s+", " ", text.replace("’", "'").casefold()).strip(" .!")
+    parts = [part.strip() for part in re.split(r"[,.;]|\band\b|\bso\b|\bnow\b(?= you)", said) if part.strip()]
+    for part in reversed(parts if not said.endswith("?") else []):
+        for form in _LIFTED:
+            if found := form.fullmatch(re.sub(r"^(?:ok|okay|well|and|then|so|now) ", "", part)):
+                return re.sub(r"^(?:the|a|an) ", "", found["place"])
+    return ""
 
 
 def _drafted(fields: dict[str, Any], meant: Sequence[Hours | None], text: str, world: _World) -> DraftRule:
@@ -208,7 +251,7 @@ def _forbidden(said: str, world: _World) -> dict[str, Any] | NotUnderstood | Non
             return None  # "Kim must not lift boxes" is about a person
     place = found["rest"] if found["keep"] else _goes_into(found["rest"])
     if place is not None:
-        area = _area(place, world)
+        area = _area(place, world, _BEFORE_M if _TO.match(found["rest"]) else _MARGIN_M)
         if isinstance(area, NotUnderstood):
             return area
         return {"kind": "keep_out", "robots": who} | area
@@ -285,7 +328,7 @@ def _stem(word: str) -> str:
     return re.sub(r"(?:ing|es|s)$", "", word.casefold().strip(".,")) if len(word) > 3 else word.casefold()
 
 
-def _area(words: str, world: _World) -> dict[str, Any] | NotUnderstood:
+def _area(words: str, world: _World, margin_m: float = _MARGIN_M) -> dict[str, Any] | NotUnderstood:
     """The place on the map that words mean."""
     words = re.sub(r"^(?:the|a|an)\s+|^(?:läbi)\s+", "", words.strip(" ,."))
     for zone in world.zones:
@@ -295,7 +338,7 @@ def _area(words: str, world: _World) -> dict[str, Any] | NotUnderstood:
         item for item in world.places if any(words == n + end for n in _names(item) for end in _ENDINGS)
     ]
     if len(named) == 1:
-        return _box(words, named, _MARGIN_M)
+        return _box(words, named, margin_m)
     inside = [item for item in world.places if re.search(rf"\b(?:in|of) (?:the )?{re.escape(words)}$",
                                                          item.description.casefold())]  # fmt: skip
     if inside and not named:

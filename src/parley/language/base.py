@@ -12,6 +12,7 @@ from dataclasses import dataclass, field
 from typing import Any, Literal, Protocol
 
 from parley.errors import FailureCode
+from parley.language.dialogue.state import Dialogue
 from parley.messages.chat import ActionCall, ChatAction
 from parley.messages.memory import MemoryEntry
 from parley.messages.status import ActionInfo
@@ -84,6 +85,8 @@ class Situation:
     """What the robot asked, if its question is open or `message` was said instead of an answer to it."""
     pictures: tuple[Picture, ...] = ()
     """Pictures sent with the message, and those among `memory`."""
+    dialogue: Dialogue = field(default_factory=Dialogue)
+    """What runs, what waits, what was done and seen, on whose words."""
 
 
 @dataclass(frozen=True, slots=True)

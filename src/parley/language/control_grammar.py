@@ -138,6 +138,8 @@ def _is_talk(words: Words, *, weak: bool) -> bool:
     if not words:
         return True
     tells = any(words[: len(lead)] == lead for lead in _phrases("tells"))
+    if words in _phrases("tells") or (words[0] in {"only", "just"} and 1 < len(words) <= _LONGEST_NAME):
+        return True  # "false alarm", "only the toaster"
     if _goes_on(words):
         return True
     called = not weak and words[0] in {"a", "an"}

@@ -11,17 +11,19 @@ import re
 import unicodedata
 from typing import Final
 
-__all__ = ["calls_to_stop", "has_stop_word", "is_no"]
+__all__ = ["calls_to_stop", "has_stop_word", "is_no", "only_takes_back"]
 
 _WORDS: Final = (
     r"s+t+o+p+p*|stp+|sto|sotp|stpo|tsop|stpp|stopp?it|h+a+l+t+|w+a+i+t+|f+r+e+e+z+e+|w+h?o+a+h?|brake|"
-    r"careful|emergency|enough|"
-    r"s+e+i+s+|seisa|seiske|p+e+a+t+u+|peatuge|peata|oota|oodake|stopp+i*|pidurda|ettevaatust|hädaolukord|aitab|"
+    r"careful|emergency|enough|o+u+c+h+|o+w+|a+r+g+h+|autsch|"
+    r"s+e+i+s+|seisa|seiske|p+e+a+t+u+|peatuge|peata|oota|oodake|stopp+i*|pidurda|ettevaatust|hädaolukord|"
+    r"aitab|"
     r"anhalten|warte|warten|vorsicht|achtung|arr[eê]tez?|attendez|attention|alto|par[ae]|cuidado|espera|"
     r"fermati|ferma|aspetta|attento|stanna|vänta|pysähdy|seis|odota|varo|стой|стоп|стойте|осторожно|подожди"
 )
 _PHRASES: Final = (
-    r"hold\s+(?:it|on|still|your)|hang\s+on|stand\s+still|stay\s+(?:there|where|put|still)|watch\s+(?:out|it)|"
+    r"hold\s+(?:it|on|still|your)|hang\s+on|stand\s+still|stay\s+(?:there|where|put|still)|watch\s+(?:out|"
+    r"it)|"
     r"look\s+out|heads\s+up|back\s+off|knock\s+it\s+off|(?:don['’]?t|do\s+not)\s+(?:you\s+)?(?:dare\s+)?"
     r"(?:move|drive|go\s+any|come\s+any)|no\s+further|not\s+(?:another|one)\s+(?:step|inch|centimet\w+)|"
     r"pea\s+kinni|jää\s+(?:seisma|paigale)|ära\s+(?:liigu|sõida)|paigal|kohe\s+seisma"
@@ -37,7 +39,8 @@ _THING: Final = (
     r"this|that|which|one|a|an|the|any|another|tour|truck|fuel|your|my|our|his|her|their|two|three|four)"
 )
 _AUXILIARY: Final = (
-    r"(?:did|does|do|has|have|had|will|would|why|when|where|who|what|which|how|if|once|until|till|before|after|"
+    r"(?:did|does|do|has|have|had|will|would|why|when|where|who|what|which|how|if|once|until|till|before|"
+    r"after|"
     r"unless|whether|cannot|can['’]?t|could\s+not|couldn['’]?t|going\s+to|it|he|she|they)"
 )
 _NONE: Final = tuple(
@@ -45,24 +48,28 @@ _NONE: Final = tuple(
     for text in (
         # no stopping at all, or only of something else
         r"\b(?:don['’]?t|do\s+not|never|not|without|no\s+need\s+to|needn['’]?t|non|won['’]?t|"
-        r"shouldn['’]?t|must\s+not|mustn['’]?t|isn['’]?t|ära|mitte)\s+(?:\w+\s+)?(?:stop(?:ping)?|halt|wait|peatu|"
+        r"shouldn['’]?t|must\s+not|mustn['’]?t|isn['’]?t|ära|mitte)\s+(?:\w+\s+)?(?:stop(?:ping)?|halt|"
+        r"wait|peatu|"
         r"oota|seisa)\b(?!\s*[!.,;]*\s*(?:stop|halt|wait)\b)",
         r"\bnon-?stop\b",
         r"\b(?:bussi|rongi|trammi)?peatus\w*\b",
         # a thing that is called so
         rf"\b{_THING}\s+(?:\w+\s+)?(?:stops?|halt|wait|emergency|brake)\b",
-        r"\b(?:stop|emergency|wait|brake|freeze)\s+(?:button|sign|switch|exit|door|light|room|list|time|lever|"
+        r"\b(?:stop|emergency|wait|brake|freeze)\s+(?:button|sign|switch|exit|door|light|room|list|time|"
+        r"lever|"
         r"pedal|frame|kit|number|plan)\b",
         # told, asked, or for later
         r"\b(?:tell|told|ask|asked|remind)\s+\w+\s+to\s+(?:stop|halt|wait)\b",
         rf"\b{_AUXILIARY}\s+(?:\w+\s+)?(?:stop|halt|wait|freeze|brake)\b(?!\s*[!])",
-        r"\b(?:stop|wait|halt)\s+(?:smiling|smoking|talking|asking|laughing|crying|worrying|raining|joking)\b",
+        r"\b(?:stop|wait|halt)\s+(?:smiling|smoking|talking|asking|laughing|crying|worrying|raining|"
+        r"joking)\b",
         # an order of where to go and then to stand
         r"\b(?:stop|halt|wait|peatu|oota|seisa)\s+(?:at|by|in\s+(?:the|front)|near|next\s+to|beside|behind|"
         r"opposite|under|outside|inside|between|on\s+the|off\s+at|over\s+at|there\s+(?:for|until|till)|"
         r"until|till|for\s+(?:him|her|them|us|me\s+(?:at|by|in|near|there))|when|once|after)\b(?!\s+once\b)",
         r"\b(?:and|then|,)\s+(?:stop|halt|wait)\s+(?:and|there|then|for)\b",
-        r"\b(?:peatu|oota|seisa)\s+(?:\w+\s+)?\w*(?:s|l|juures|ees|taga|kõrval|juurde|ääres|äärde)\b(?=[^!]*$)",
+        r"\b(?:peatu|oota|seisa)\s+(?:\w+\s+)?\w*(?:s|l|juures|ees|taga|kõrval|juurde|ääres|"
+        r"äärde)\b(?=[^!]*$)",
         r"\b(?:careful|enough|freeze|wait)\s+(?:with|of|for|about|the|to)\b",
         r"\b(?:be|more|very|was|is|are|good|well|fast|big|old|warm|long|far)\s+(?:careful|enough)\b(?!\s*!)",
         r"\benough\s+\w+\b",
@@ -83,6 +90,32 @@ def calls_to_stop(text: str) -> bool:
         not any(start <= found.start() and found.end() <= end for start, end in taken)
         for found in _STOP.finditer(plain)
     )
+
+
+def only_takes_back(text: str, *, moves: bool = True) -> bool:
+    """Whether the words of stopping in a message only open a correction: "wait, not that one, the other".
+
+    Such a message is read to its end while the robot stands; if nothing comes of it, it goes on standing.
+
+    Args:
+        text: The message.
+        moves: Whether the robot is under way; of one that stands any word more is read.
+    """
+    plain = _plain(text)
+    words = [found[0] for found in _STOP.finditer(plain)]
+    weak = all(_WEAK.fullmatch(word) is not None for word in words)
+    rest = _STOP.sub(" ", plain)
+    more = _BEHIND.search(rest) if moves else len(re.findall(r"\w+", rest)) > _FEW
+    return bool(words) and weak and bool(more)
+
+
+_FEW: Final = 3
+_WEAK: Final = re.compile(r"w+a+i+t+|hang\s+on|hold\s+on|oota", re.IGNORECASE)
+_BEHIND: Final = re.compile(
+    r"\b(?:not|instead|rather|i\s+mean|i\s+meant|actually|sorry|first|forget|skip|leave\s+out|change|"
+    r"go\s+to|drive\s+to|wrong|asemel|hoopis|mitte)\b",
+    re.IGNORECASE,
+)
 
 
 def is_no(text: str) -> bool:

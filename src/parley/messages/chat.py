@@ -234,6 +234,13 @@ class ChatAction(Payload):
     """Ours: whoever gives one hears on `/parley/ruling` what became of it."""
     reply_to: str = ""
     """Ours: `id` of the operator's message that it follows from."""
+    offer: tuple[ActionCall, ...] = ()
+    """Ours: steps of which a language engine is not certain: they are proposed. `needs_yes` says which words
+    it did not understand."""
+    replaces: str = ""
+    """Ours: the proposal in whose place these steps are proposed."""
+    alarm: bool = False
+    """Ours: a person speaks of danger, so everybody who is connected is told."""
 
     @model_validator(mode="before")
     @classmethod
@@ -248,7 +255,7 @@ class ChatAction(Payload):
             value["targets"] = [value["target"]]
         return value
 
-    @field_validator("queue", "afterwards", mode="before")
+    @field_validator("queue", "afterwards", "offer", mode="before")
     @classmethod
     def _split_items(cls, value: Any) -> Any:
         """A queue item may hold several actions; each becomes one of its own, in order."""
@@ -285,6 +292,8 @@ class ChatAction(Payload):
             wire["sources"] = list(self.sources)
         if self.delay_s:
             wire["delay_s"] = self.delay_s
+        if self.offer:
+            wire["offer"] = [call.model_dump() for call in self.offer]
         if self.afterwards:
             wire["afterwards"] = [call.model_dump() for call in self.afterwards]
         if self.others:
@@ -294,7 +303,7 @@ class ChatAction(Payload):
                 wire[name] = who.model_dump()
         wire |= {
             name: text
-            for name in ("engine", "words", "needs_yes", "id", "reply_to")
+            for name in ("engine", "words", "needs_yes", "id", "reply_to", "replaces")
             if (text := getattr(self, name))
         }
         return wire

@@ -26,7 +26,7 @@ from parley.language.completing import completed_answer
 from parley.memory.sayings import for_oneself
 from parley.messages import topics
 from parley.messages.chat import ChatAction, ChatFeedback, ChatInput, SystemCommand
-from parley.messages.status import ActionInfo, PlanRuling
+from parley.messages.status import ActionInfo, PlanProposal, PlanRuling
 from parley.sentences import together
 
 __all__ = ["Answering"]
@@ -46,6 +46,7 @@ class Answering:
         recollections: Says why something is so.
         confirmations: Hears what the memory kept.
         halts: How often a robot was told to stop: what was asked for before that is dropped.
+        offered: What of a robot waits for a yes.
     """
 
     def __init__(
@@ -61,10 +62,12 @@ class Answering:
         recollections: Recollections,
         confirmations: Confirmations,
         halts: Callable[[str], int],
+        offered: Callable[[str], PlanProposal | None],
     ) -> None:
         self._node, self._language, self._clock = node, language, clock
         self._known, self._presence, self._thinking = known, presence, thinking
         self._finishing, self._recollections, self._confirmations = finishing, recollections, confirmations
+        self._offered = offered
         self._halts, self._rulings = halts, Rulings(node.transport)
 
     async def open(self) -> None:
@@ -111,8 +114,9 @@ class Answering:
         try:
             async with self._thinking.about(target, lambda: self.still_thinking(target, message), message):
                 situation = await self._known.of(
-                    target, own or message, said, sees_pictures=self._language.sees_pictures
-                )
+                    target, own or message, said, sees_pictures=self._language.sees_pictures,
+                    proposal=self._offered(target),
+                )  # fmt: skip
                 understood = keeping_order(situation) or await self._language.interpret(
                     situation, on_draft=drafts
                 )
@@ -127,6 +131,8 @@ class Answering:
             plain = error.plain if isinstance(error, LanguageError) else ""
             self.say((target,), texts.nothing_started(plain), "error", said.id)
             return
+        if understood.offer and not understood.queue:  # the gate asks for a yes: it is not certain
+            understood = understood.model_copy(update={"queue": understood.offer})
         wants = understood.queue or understood.system_cmd or understood.others
         if wants and self._halted_since(halts, target):
             self.say((target,), texts.left(message), "response", said.id)
@@ -158,7 +164,7 @@ class Answering:
             return
         order = order.model_copy(update={"id": uuid.uuid4().hex, "reply_to": said.id})
         self._rulings.expect(order)
-        self._order(order, said.message)
+        self._order(order, said)
         for ruling in await self._rulings.about(order):
             if ruling.outcome == "asked":
                 self.say((name,), together(wish_of(ruling.labels, ruling.why), SHALL_I), "info")
@@ -175,8 +181,8 @@ class Answering:
         ]
         confirmations = [self._confirmations.wait_for(str(c.arguments["name"])) for c in wanted]
         self._rulings.expect(order)
-        if order.queue or order.system_cmd:
-            self._order(order, said.message)
+        if order.queue or order.system_cmd or order.replaces:
+            self._order(order, said)
         failed = await self._confirmations.confirmed(confirmations)
         rulings = await self._rulings.about(order)
         asked = next((ruling for ruling in rulings if ruling.outcome == "asked"), None)
@@ -185,15 +191,17 @@ class Answering:
             reply = self._honest(target, reply, order, admitted, rulings)
         if not failed and self._waits_behind_a_question(target, order):
             reply = together(reply, texts.AFTERWARDS)
-        conversation = self._known.conversation(target)
-        conversation.operator(said.message)
-        conversation.assistant(reply)
+        self._known.note(target, said.message, reply)
+        if order.alarm:
+            self.say(self._presence.names(), texts.alarm(target, said.message), "error")
         told = {str(command.arguments.get("name")) for command in order.system_cmd}
         known = {entry.name for entry in situation.memory}
         sources = tuple(name for name in understood.sources if name in known and name not in told)
         why = "" if failed else self._recollections.why(target, said, sources, situation.memory)
         reply = together(reply, why, SHALL_I if asked is not None and not failed else "")
         asks = bool(understood.choices) and not understood.queue and asked is None
+        if asks:
+            self._known.log(target).on_asked(said.message, understood.choices)
         if not order.queue:
             self._finishing.on_answer(target, said.message, asks_back=asks)
         self._node.publish(
@@ -257,9 +265,10 @@ class Answering:
         )
         self._node.publish(topics.CHAT_FEEDBACK, feedback)
 
-    def _order(self, order: ChatAction, words: str) -> None:
+    def _order(self, order: ChatAction, said: ChatInput) -> None:
         for name in order.targets if order.queue else ():
-            self._finishing.on_order(name, words, instead=self._known.gave_up(name))
+            self._finishing.on_order(name, said.message, instead=self._known.gave_up(name))
+        self._known.on_order(said, order)
         self._node.publish(topics.CHAT_ACTION, order)
 
     def _waits_behind_a_question(self, target: str, order: ChatAction) -> bool:

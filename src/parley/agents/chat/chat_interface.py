@@ -29,13 +29,14 @@ from parley.gate.rule_talk import RuleTalk
 from parley.gate.table import Effect, verdict
 from parley.language.base import Language
 from parley.language.control import Control, control_of
-from parley.language.stop_words import calls_to_stop, is_no
+from parley.language.stop_words import calls_to_stop, is_no, only_takes_back
 from parley.messages import topics
 from parley.messages.chat import ChatAction, ChatFeedback, ChatInput, SystemCommand
 from parley.messages.failure import ErrorHandlingMessage
 from parley.messages.memory import AddToMemory, MemoryBody, MemoryEntry, MemoryEvent, RemoveMemory
 from parley.messages.status import (
     ActorStatus,
+    GraphEvent,
     PlanDecision,
     PlanProposal,
     PlanUpdate,
@@ -91,7 +92,7 @@ class ChatInterface(Node):
         self._presence = Presence(clock, tuple(known_robots), linked=linked_to(transport))
         self._halts: dict[str, int] = {}
         """How often each robot was told to stop."""
-        self._known = Situations(transport, self._presence, objects, history_exchanges)
+        self._known = Situations(transport, self._presence, objects, history_exchanges, clock)
         self._questions = self._known.questions
         self._mailboxes: Mailboxes[str] = Mailboxes(self._on_defect)
         self._offered, self._finishing = Offered(), Finishing(clock.now_s)
@@ -110,6 +111,7 @@ class ChatInterface(Node):
             recollections=self._recollections,
             confirmations=self._confirmations,
             halts=lambda target: self._halts.get(target, 0),
+            offered=self._offered.newest,
         )
         self._say = self._answering.say
 
@@ -122,6 +124,7 @@ class ChatInterface(Node):
         await self.subscribe(topics.STOP, StopCommand, self._on_emergency)
         await self.subscribe(topics.ERROR_HANDLING, ErrorHandlingMessage, self._known.on_failure)
         await self.subscribe_plans(self._on_plan)
+        await self.subscribe(topics.GRAPH_EVENTS, GraphEvent, self._known.on_event)
         await self.subscribe(topics.PLAN_DECISION, PlanDecision, self._on_decision)
         await self._answering.open()
         await self.subscribe(topics.CHAT_INPUT, ChatInput, self._on_input)
@@ -161,7 +164,11 @@ class ChatInterface(Node):
         for target in targets:
             question = self._questions.first(target) if said.type == "response" else None
             halts = calls or (refuses and question is None and self._offered.newest(target) is None)
-            if halts and control not in _HALTING and self._known.moves(target, self._presence.get(target)):
+            moves = self._known.moves(target, self._presence.get(target))
+            turns = question is None and control in (None, "stop")
+            if turns and only_takes_back(said.message, moves=moves):
+                self._mailboxes.post(target, self._correction(target, said, moves=moves))
+            elif halts and control not in _HALTING and moves:
                 self._control(target, "stop", said, more=control is None)
             elif control is not None and not self._answers(target, question, control):
                 self._control(target, control, said)
@@ -221,12 +228,29 @@ class ChatInterface(Node):
         async def work() -> None:
             if await self._about_rules(target, said, ours):
                 return
-            if not ours and (answer := await log_answer(self.transport, self._clock, target, said)):
+            mine = ours if self._recollections.asked(ours) else ""
+            if not mine and (answer := await log_answer(self.transport, self._clock, target, said)):
                 self._say((target,), answer, "response", said.id)
-            elif not await self._recollections.handles(target, said, ours):
+            elif not await self._recollections.handles(target, said, mine):
                 await self._answering.answer(target, said, halts)
 
         return work
+
+    def _correction(self, target: str, said: ChatInput, *, moves: bool) -> Callable[[], Awaitable[None]]:
+        """Of "wait, not that one": it is read while the robot stands, and it goes on standing in doubt."""
+        work = self._work(target, said)
+        held = self._holds.begin(said, (target,), "reading") if moves else ""
+
+        async def correct() -> None:
+            before = self._known.changes(target)
+            try:
+                await work()
+                if moves and self._known.changes(target) == before:
+                    self._control(target, "stop", said)
+            finally:
+                self._holds.end(held)
+
+        return correct
 
     async def _about_rules(self, target: str, said: ChatInput, ours: str) -> bool:
         """Whether a message was about rules; what becomes one is decided by code and a person's yes."""
@@ -234,6 +258,7 @@ class ChatInterface(Node):
         reply = self._rules and await self._rules.reply(
             said.message, said.who, robot=target, robots=self._presence.names(),
             places=self._known.objects(target), catalogue=status.catalogue if status else (), answers=ours,
+            busy=self._known.state(target) != "idle",
         )  # fmt: skip
         if not reply:
             return False
@@ -243,6 +268,7 @@ class ChatInterface(Node):
             reply_to=said.id,
         )  # fmt: skip
         self.publish(topics.CHAT_FEEDBACK, feedback)
+        self._known.note(target, said.message, reply.text)
         return True
 
     def _keep_pictures(self, target: str, said: ChatInput, question: str) -> Callable[[], Awaitable[None]]:
@@ -284,7 +310,7 @@ class ChatInterface(Node):
             self._offered.on_proposal(told)
             self._finishing.on_proposal(told)
             return
-        self._known.plans[told.target] = told
+        self._known.on_plan(told)
         self._offered.on_update(told)
         self._holds.on_update(told)
         status = self._presence.get(told.target)
@@ -311,6 +337,7 @@ class ChatInterface(Node):
         """Act at once, ahead of anything that is still being understood."""
         if control in _HALTING:
             self._halt(target)
+            self._known.on_stop(target, said)
             if control == "stop" and self._known.moves(target, self._presence.get(target)):
                 self._holds.keep(target, said)
         self._finishing.on_answer(target, said.message, asks_back=False)
@@ -343,8 +370,7 @@ class ChatInterface(Node):
         reply = reply or texts.CONTROL_REPLIES[control]
         if more and len(said.message.split()) > _SHORT_WORDS:  # there may be an order in it
             reply = together(sentence(reply), texts.REST_LEFT)
-        self._known.conversation(target).operator(said.message)
-        self._known.conversation(target).assistant(reply)
+        self._known.note(target, said.message, reply)
         asked = self._questions.first(target) if state == "held" else None
         self.publish(
             topics.CHAT_FEEDBACK,

@@ -29,11 +29,14 @@ class Holds:
         self._kept: dict[str, tuple[str, bool]] = {}
         """By robot: the id of its hold, and whether its plan was seen to be held since."""
 
-    def begin(self, said: ChatInput, targets: tuple[str, ...]) -> str:
-        """Let robots stand while a message is read, if there is a word of stopping in it; its id, or none."""
+    def begin(self, said: ChatInput, targets: tuple[str, ...], why: str = "") -> str:
+        """Let robots stand while a message is read, if there is a word of stopping in it; its id, or none.
+
+        `why` tells holds for one message apart.
+        """
         if not has_stop_word(said.message):
             return ""
-        identity = said.id.partition("~")[0] or uuid.uuid4().hex
+        identity = f"{said.id.partition('~')[0] or uuid.uuid4().hex}{why and f'/{why}'}"
         self._send(StopCommand(command="hold", targets=targets, id=identity, by=said.who, words=said.message))
         return identity
 

@@ -12,14 +12,16 @@ from parley.agents.presence import Presence
 from parley.agents.questions import LastAsked, OpenQuestions
 from parley.agents.recovery.repair import failed_situation
 from parley.agents.shown_pictures import remembered_pictures, sent_pictures
+from parley.clock import Clock
 from parley.language.base import Situation
+from parley.language.dialogue.log import Log
 from parley.latest import Latest
 from parley.memory.client import recall, recall_newest
 from parley.memory.sayings import asks_for_all
-from parley.messages.chat import ChatFeedback, ChatInput
+from parley.messages.chat import ChatAction, ChatFeedback, ChatInput
 from parley.messages.failure import ErrorHandlingMessage
 from parley.messages.memory import MemoryEntry
-from parley.messages.status import ActorStatus, PlanUpdate
+from parley.messages.status import ActorStatus, GraphEvent, PlanProposal, PlanUpdate
 from parley.transport.base import Transport
 from parley.world.geometry import Pose2D
 from parley.world.object_map import MapObject
@@ -42,6 +44,7 @@ class Situations:
         presence: Which robots there are.
         objects: The things a robot's map knows, by the robot's name.
         history_exchanges: How many exchanges are remembered as context.
+        clock: Its wall time is written down with what was done.
     """
 
     def __init__(
@@ -50,19 +53,62 @@ class Situations:
         presence: Presence,
         objects: Callable[[str], Sequence[MapObject]],
         history_exchanges: int,
+        clock: Clock,
     ) -> None:
         self._transport, self._presence, self.objects = transport, presence, objects
-        self._history_exchanges = history_exchanges
+        self._history_exchanges, self._clock = history_exchanges, clock
         self.plans: dict[str, PlanUpdate] = {}
         self.questions = OpenQuestions()
         self._failures: Latest[str, ErrorHandlingMessage] = Latest()
         self._conversations: Latest[str, Conversation] = Latest()
         self._asked = LastAsked()
+        self._logs: Latest[str, Log] = Latest()
+        self._changes: Latest[str, int] = Latest()
 
     def on_feedback(self, feedback: ChatFeedback) -> None:
         """Something was said to an operator; it may be a question."""
         self.questions.on_feedback(feedback)
         self._asked.on_feedback(feedback)
+        for target in feedback.targets if feedback.type == "info" else ():
+            self.log(target).on_said(feedback.message)
+        for target in feedback.targets if feedback.type == "error" else ():
+            self.log(target).on_refused(feedback.message)
+
+    def on_plan(self, update: PlanUpdate) -> None:
+        """A robot's plan changed."""
+        status = self._presence.get(update.target)
+        self.plans[update.target] = update
+        self.log(update.target).on_plan(update, self._clock.unix_ms(), status.catalogue if status else ())
+
+    def on_event(self, event: GraphEvent) -> None:
+        """A robot's step began, came further or ended."""
+        self.log(event.actor).on_event(event)
+
+    def on_order(self, said: ChatInput, order: ChatAction) -> None:
+        """Somebody's words became steps for robots, or changes of what they do."""
+        plans = [item for item in order.system_cmd if item.command not in ("add_memory", "remove_memory")]
+        for target in order.targets if order.queue or plans else ():
+            self._changes[target] = self.changes(target) + 1
+        for target in order.targets if order.queue else ():
+            self.log(target).on_order(said.message, said.who.name, self._clock.unix_ms(), order.queue)
+
+    def changes(self, target: str) -> int:
+        """How often words have changed what a robot does."""
+        return self._changes.get(target, 0)
+
+    def note(self, target: str, words: str, reply: str) -> None:
+        """Something was said and answered."""
+        self.log(target).on_turn()
+        self.conversation(target).operator(words)
+        self.conversation(target).assistant(reply)
+
+    def on_stop(self, target: str, said: ChatInput) -> None:
+        """Somebody told a robot to stand still."""
+        self.log(target).on_stop(said.message, said.who.name, self._clock.unix_ms())
+
+    def log(self, target: str) -> Log:
+        """What a robot was asked, did and saw."""
+        return self._logs.setdefault(target, Log())
 
     def on_failure(self, failure: ErrorHandlingMessage) -> None:
         """A step failed; it is what later questions are about."""
@@ -98,7 +144,15 @@ class Situations:
         """Whether a robot stands with a failed step and nothing more is asked about it."""
         return self.state(target) == "held" and self.questions.first(target) is None
 
-    async def of(self, target: str, message: str, said: ChatInput, *, sees_pictures: bool) -> Situation:
+    async def of(
+        self,
+        target: str,
+        message: str,
+        said: ChatInput,
+        *,
+        sees_pictures: bool,
+        proposal: PlanProposal | None = None,
+    ) -> Situation:
         """Everything a language engine is told about one message.
 
         Args:
@@ -106,6 +160,7 @@ class Situations:
             message: What is to be understood of what was said.
             said: The whole message, with its pictures and what it replies to.
             sees_pictures: Whether remembered pictures are of use.
+            proposal: What waits for a yes.
         """
         turns = self.conversation(target).turns
         memory = await self._recalled(target, message)
@@ -137,6 +192,7 @@ class Situations:
             else None,
             question=asked.message if asked is not None else self._asked.words(said.reply_to),
             pictures=pictures,
+            dialogue=self.log(target).state(status, proposal, self._clock.unix_ms()),
         )
 
     async def _recalled(self, target: str, message: str) -> tuple[MemoryEntry, ...]:

@@ -20,6 +20,7 @@ __all__ = [
     "ONLY_LOOKS",
     "REST_LEFT",
     "SAY_CARRY_ON",
+    "alarm",
     "concluded",
     "dropped",
     "forgotten",
@@ -76,6 +77,11 @@ NOT_DONE: Final = sentence("I have not done that.")
 SAY_CARRY_ON: Final = "I go on when you say “carry on”."
 NOTHING_TO_RESUME: Final = "There is nothing left to go on with."
 _UNDO: Final = re.compile(r"(?:forget|unusta)\s+“(.+)”\W*", re.IGNORECASE)
+
+
+def alarm(robot: str, words: str) -> str:
+    """To everybody: somebody speaks of danger."""
+    return sentence("Emergency! Somebody told {robot}: “{words}”", robot=robot, words=_short(words))
 
 
 def concluded(data: str) -> str:

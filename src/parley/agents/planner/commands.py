@@ -69,10 +69,22 @@ class Commands:
                 return plan.pop(command.pop_index)
         return []  # memories are everybody's, see _remember
 
-    def append(self, plan: TargetPlan, calls: Sequence[ActionCall], words: str) -> None:
-        """Put steps behind the plan; a robot that stands still goes on standing, and says so."""
+    def append(
+        self, plan: TargetPlan, calls: Sequence[ActionCall], words: str, *, goes_on: bool = False
+    ) -> None:
+        """Put steps behind the plan; a robot that stands still goes on standing, and says so.
+
+        Args:
+            plan: Of the robot.
+            calls: The steps.
+            words: The person's.
+            goes_on: Whether who orders it holds the robot, and no person has held it since.
+        """
         still = plan.update().state == "paused"
         self._plans.send(plan, plan.append(calls, words))
+        if still and goes_on:
+            self._plans.held_by.pop(plan.target, None)
+            self._plans.send(plan, plan.start())
         if calls and still and plan.update().state == "paused":
             self._plans.say(
                 plan.target, "I am still standing still. Say “carry on” when I should go on.", "info"

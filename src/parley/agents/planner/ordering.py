@@ -168,6 +168,10 @@ class Ordering:
             self._forbid(plan, order, judgement)
             calls = None
         commands = orders.in_order(orders.of_plans(order))
+        replaced = self._plans.approvals.get(order.replaces) if order.replaces and calls is not None else None
+        if replaced is not None and replaced.target == plan.target:
+            self._plans.approvals.drop(replaced.id)
+            self._plans.send(plan, [])
         if calls is None:  # nothing of such an order is done, but stopping is never refused
             commands = [item for item in commands if EFFECT_OF[item.command] is Effect.PAUSE]
         ruling = self._rule(plan, order, calls or (), commands, judgement=judgement)
@@ -183,7 +187,8 @@ class Ordering:
             )
         elif calls and ruling.begins == "now":
             self._begin_for(plan.target, order.behalf or order.by)
-            self._commands.append(plan, calls, order.words)
+            own = order.by is not None and self._plans.held_by.get(plan.target) == order.by
+            self._commands.append(plan, calls, order.words, goes_on=own)
         self._tell_ruling(plan, order, ruling, asked=asks and not crowded, refused=calls is None or crowded)
 
     def _forbid(self, plan: TargetPlan, order: ChatAction, judgement: Judgement) -> None:

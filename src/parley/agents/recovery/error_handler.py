@@ -113,6 +113,8 @@ class ErrorHandler(Node):
         """Corrections under way, to see whether they help."""
         self._latched: set[str] = set()
         """Robots that were stopped for safety and may not move before a person releases that."""
+        self._referred: dict[str, tuple[Repair, ChatAction]] = {}
+        """What was asked and has to be asked again, by the message that is answered elsewhere meanwhile."""
 
     async def open(self) -> None:
         """See `Node.open`."""
@@ -125,7 +127,7 @@ class ErrorHandler(Node):
         self.opened.push_async_callback(self._log.flush)
         await self.opened.enter_async_context(self._mailboxes)
         await self.subscribe(topics.ACTOR_STATUS, ActorStatus, self._presence.on_status)
-        await self.subscribe(topics.CHAT_FEEDBACK, ChatFeedback, self._questions.on_feedback)
+        await self.subscribe(topics.CHAT_FEEDBACK, ChatFeedback, self._on_said)
         await self.subscribe(topics.ERROR_HANDLING, ErrorHandlingMessage, self._on_failure)
         await self.subscribe(topics.CHAT_INPUT, ChatInput, self._on_input)
         await self.subscribe(topics.STOP, StopCommand, self._on_stop)
@@ -158,6 +160,13 @@ class ErrorHandler(Node):
         self._repairs[target] = repair
         self._record(repair)
         self._mailboxes.post(target, lambda: self._attempt(repair, None))
+
+    def _on_said(self, feedback: ChatFeedback) -> None:
+        self._questions.on_feedback(feedback)
+        if feedback.type != "info" and feedback.reply_to in self._referred:
+            repair, question = self._referred.pop(feedback.reply_to)
+            if self._is_current(repair) and not repair.question_id:
+                self._put(repair, question)
 
     def _on_input(self, said: ChatInput) -> None:
         if not self._seen_ids.is_new(said.id):
@@ -288,8 +297,11 @@ class ErrorHandler(Node):
             resolution = _plain_question(repair.failure)
         if resolution.success:
             self._solve(repair, resolution, alone=reply is None)
-        elif resolution.success is None and reply is not None and repair.question is not None:
-            self._answer_aside(repair, resolution, repair.question)
+        elif resolution.success is None and answer is not None and repair.question is not None:
+            if not (resolution.message_response or resolution.queue or resolution.system_cmd):
+                self._refer(repair, answer, repair.question)
+            else:
+                self._answer_aside(repair, resolution, repair.question)
         elif repair.attempts >= self._max_attempts:
             self._give_up(repair)
         else:
@@ -410,6 +422,13 @@ class ErrorHandler(Node):
             self.publish(topics.CHAT_ACTION, order.model_copy(update={"system_cmd": resolution.system_cmd}))
         self._say(target, resolution.message_response, "response", sources=resolution.sources)
         self._put(repair, question)
+
+    def _refer(self, repair: Repair, said: ChatInput, question: ChatAction) -> None:
+        """Let what is no answer be understood like any message; then the question is put again."""
+        identity = f"{said.id or uuid.uuid4().hex}~aside"
+        self._referred[identity] = (repair, question)
+        changes = {"type": "request", "targets": (repair.failure.target,), "id": identity}
+        self.publish(topics.CHAT_INPUT, said.model_copy(update=changes))
 
     def _ask(self, repair: Repair, resolution: ChatAction) -> None:
         repair.attempts += 1

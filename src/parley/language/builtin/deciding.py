@@ -15,8 +15,9 @@ from parley.language.builtin.planner import Planner, orders_of
 from parley.language.builtin.reading import Reading
 from parley.language.builtin.skills import Skills
 from parley.language.builtin.structure import Part, Unclear, arranged
-from parley.language.builtin.tokens import tokenize
+from parley.language.builtin.tokens import spoken, tokenize
 from parley.language.control import control_of
+from parley.language.dialogue import policy
 
 __all__ = ["decide"]
 
@@ -27,8 +28,9 @@ def decide(
     skills: Skills,
     lexicon: Lexicon,
     reader: Callable[[str], Reading],
+    again: policy.Again,
 ) -> Decision:
-    """What to do, ask, remember or say.
+    """What to do, ask, change, remember or say.
 
     Args:
         situation: What is known.
@@ -36,27 +38,55 @@ def decide(
         skills: What the robot can do.
         lexicon: Words.
         reader: Reads what is remembered.
+        again: Decides about a part of the message, or about what was said before.
     """
-    told = _told(situation, parts, lexicon)
+
+    def told_in(text: str) -> tuple[Told, ...]:
+        starts = [token.start for token in spoken(tokenize(text)) or tokenize(text)]
+        return told_of(reader(text), text, starts, lexicon)
+
+    tokens = spoken(tokenize(situation.message)) or tokenize(situation.message)
+    whole = reader(situation.message)
+    early = policy.beforehand(situation, whole, tokens, lexicon, told_in, again)
+    if early is not None:
+        return early
+    made = _alone(situation, parts, skills, lexicon, reader)
+    return policy.afterwards(made, situation, whole, tokens, lexicon)
+
+
+def _alone(
+    situation: Situation,
+    parts: tuple[Part, ...],
+    skills: Skills,
+    lexicon: Lexicon,
+    reader: Callable[[str], Reading],
+) -> Decision:
+    """What a message says by itself."""
+    told = policy.no_facts(_told(situation, parts, lexicon), situation)
     orders = [wish for part in parts for wish in orders_of(part.reading)]
     if not orders:
         whole = _whole([part.reading for part in parts if part.clause.link == "main"])
         return _without_order(situation, whole, told, lexicon, reader)
-    doubt = _amends(situation, lexicon) or _for_another(situation, parts)
+    doubt = _for_another(situation, parts)
     nodes = arranged(parts, lexicon)
     if isinstance(nodes, Unclear):
         doubt = doubt or Ask(nodes.question)
     if doubt is not None or isinstance(nodes, Unclear):
-        return replace(doubt or Ask("Please say it in other words."), told=told)
-    builder = Builder(situation, skills, lexicon, places(situation.memory, reader, lexicon))
+        return replace(doubt or Ask("Can you say it in other words?"), told=told)
+    known = places(situation.memory, reader, lexicon)
+    builder = Builder(situation, skills, lexicon, known)
+    builder.recall(*policy.spoken_of(situation, known, lexicon))
     deeds = Planner(builder).planned(nodes)
     if isinstance(deeds, Ask):
-        return replace(deeds, told=told)
+        return replace(builder.doubts[0] if builder.doubts else deeds, told=told)
     while deeds and deeds[-1].open_ended:
         deeds.pop()
     if not deeds:
         left = " ".join(note.text for note in builder.notes)
         return Answer(f"All right. {left}") if left else Ask("I stay here. What shall I do?", told=told)
+    if builder.doubts is not None:
+        asked, unclear = builder.doubts
+        return replace(asked, told=told, offer=tuple(deeds), unclear=unclear)
     return Do(tuple(deeds), tuple(builder.notes), told)
 
 
@@ -83,17 +113,6 @@ def _whole(readings: list[Reading]) -> Reading:
     )
 
 
-def _amends(situation: Situation, lexicon: Lexicon) -> Ask | None:
-    """A change of the plan that runs is not an order behind it."""
-    tokens = tokenize(situation.message)
-    words = [token.text for token in tokens if token.low in lexicon.classes["amending"]]
-    if not situation.queue or not words:
-        return None
-    return Ask(
-        f"Is “{words[0]}” meant to change my plan? I cannot do that yet: cancel it, then say all anew."
-    )
-
-
 def _for_another(situation: Situation, parts: tuple[Part, ...]) -> Ask | None:
     """An order to somebody else is not carried out by this robot."""
     called = {word for part in parts for f in part.reading.loose if f.role == "A" for word in f.words}
@@ -113,11 +132,6 @@ def _without_order(
     command = control_of(situation.message, situation.robots)
     if command is not None:
         return Control("stop" if command == "emergency_stop" else command)
-    if "alarm" in reading.acts:
-        return Answer(
-            "That sounds like an emergency. I cannot help with my own hands: please call somebody who can. "
-            "Shall I go somewhere or tell somebody something?"
-        )
     if facts:
         return Remember(facts)
     if "question" in reading.acts:
@@ -128,4 +142,4 @@ def _without_order(
         return Answer("Hello. Tell me what I can do for you.")
     if "told" in reading.acts:
         return Ask("I did not understand that as a fact about where something is. What shall I do with it?")
-    return Ask("I did not understand that. Please say what I should do, and with what.")
+    return Ask("I did not understand that. What shall I do, and with what?")

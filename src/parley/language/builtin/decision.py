@@ -4,11 +4,15 @@ from __future__ import annotations
 
 from collections.abc import Mapping
 from dataclasses import dataclass, field
+from typing import TYPE_CHECKING
 
 from parley.language.builtin.skills import Skill
 from parley.messages.chat import CommandName
 
-__all__ = ["Answer", "Ask", "Control", "Decision", "Deed", "Do", "Note", "Remember", "Told"]
+if TYPE_CHECKING:
+    from parley.language.dialogue.changes import Change
+
+__all__ = ["Answer", "Ask", "Control", "Decision", "Deed", "Do", "Edit", "Forget", "Note", "Remember", "Told"]
 
 
 @dataclass(frozen=True, slots=True)
@@ -70,6 +74,12 @@ class Ask:
     told: tuple[Told, ...] = ()
     offer: tuple[Deed, ...] = ()
     """What a yes would do."""
+    unclear: str = ""
+    """Of an offer the words that were not understood, or "…" where it is the whole that is doubtful."""
+    stops: bool = False
+    """Whether the robot stands still until it is answered."""
+    alarms: bool = False
+    """Whether everybody is told of it: somebody is in danger."""
 
 
 @dataclass(frozen=True, slots=True)
@@ -77,6 +87,26 @@ class Remember:
     """Facts to be remembered, and nothing to be done."""
 
     told: tuple[Told, ...]
+
+
+@dataclass(frozen=True, slots=True)
+class Edit:
+    """A change of what runs or waits, perhaps with deeds that were ordered in place of it."""
+
+    change: Change
+    do: Do | None = None
+    proposal: str = ""
+    """What waits for a yes and is changed."""
+    steps: tuple[str, ...] = ()
+    """The ids in the plan of what is still to be done, as far as they are known."""
+
+
+@dataclass(frozen=True, slots=True)
+class Forget:
+    """Memories to be forgotten."""
+
+    names: tuple[str, ...]
+    texts: tuple[str, ...]
 
 
 @dataclass(frozen=True, slots=True)
@@ -94,4 +124,4 @@ class Answer:
     sources: tuple[str, ...] = field(default=())
 
 
-Decision = Do | Ask | Remember | Control | Answer
+Decision = Do | Ask | Remember | Forget | Edit | Control | Answer

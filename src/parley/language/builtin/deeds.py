@@ -76,11 +76,11 @@ class Builder(Ways):
         strange = next((filler for filler in wish.fillers if filler.role not in known), None)
         if frame is None or strange is not None:
             unclear = strange.text if strange else wish.verb
-            return Ask(f"I do not understand what “{unclear}” is in this. Please say it otherwise.")
+            return Ask(f"I do not understand what “{unclear}” is in this. Can you say it otherwise?")
         twice = next((f for f in wish.fillers if len(wish.all(f.role)) > 1 and f.role not in "AMPE"), None)
         if twice is not None:
             both = " and ".join(f"“{filler.text}”" for filler in wish.all(twice.role))
-            return Ask(f"I do not understand how {both} go together here. Please say it otherwise.")
+            return Ask(f"I do not understand how {both} go together here. Can you say it otherwise?")
         return None
 
     def _values(self, wish: Wish) -> dict[str, Value] | Ask:
@@ -103,7 +103,7 @@ class Builder(Ways):
                 values[filler.role] = value
         if self.left_out:
             return Ask(
-                f"I do not know what “{' '.join(self.left_out)}” is left out of. Please say it otherwise."
+                f"I do not know what “{' '.join(self.left_out)}” is left out of. Can you say it otherwise?"
             )
         return values
 
@@ -291,7 +291,7 @@ class Builder(Ways):
             if slot is not None and slot not in arguments:
                 given = typed(value, skill.action, slot)
                 if given is None:
-                    return Ask(f"I cannot {gloss} with “{value.said}”. Please say it otherwise.")
+                    return Ask(f"I cannot {gloss} with “{value.said}”. Can you say it otherwise?")
                 arguments[slot], said[role] = given, value.said
                 continue
             way = self.nearing(value) if role in "SL" and "GO" in self.skills else None

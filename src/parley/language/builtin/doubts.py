@@ -2,13 +2,14 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable
+from collections.abc import Callable, Sequence
 
 from parley.language.builtin.decision import Ask
+from parley.language.builtin.lexicon import Lexicon
 from parley.language.builtin.reading import Reading
 from parley.language.builtin.wishes import Filler, Wish
 
-__all__ = ["AGREED", "ALONE", "doubt"]
+__all__ = ["AGREED", "ALONE", "doubt", "may_be_offered"]
 
 AGREED = 0.3
 """So much the tagger must believe in the least certain part of a wish that the lexicon agrees with."""
@@ -17,6 +18,10 @@ ALONE = 0.75
 
 NAMED = 0.1
 """So much in a role whose words name something of the map."""
+OFFERED = 0.1
+"""So much in what is shown for a yes."""
+_FEW = 2
+"""So many words at most may be left over of what is shown for a yes."""
 
 
 def doubt(reading: Reading, orders: tuple[Wish, ...], knows: Callable[[Filler], bool]) -> Ask | None:
@@ -29,10 +34,10 @@ def doubt(reading: Reading, orders: tuple[Wish, ...], knows: Callable[[Filler], 
     """
     if reading.left_over:
         return Ask(
-            f"I do not understand “{' '.join(reading.left_over)}” in this. Please say it in other words."
+            f"I do not understand “{' '.join(reading.left_over)}” in this. Can you say it in other words?"
         )
     if reading.acts & {"alarm", "question", "control", "edit"}:
-        return Ask("I am not sure what you want me to do. Please say one thing at a time.")
+        return Ask("I am not sure what you want me to do. Can you say one thing at a time?")
     for wish in orders:
         least = AGREED if wish.witness == "agrees" else ALONE
         shares = [
@@ -41,8 +46,19 @@ def doubt(reading: Reading, orders: tuple[Wish, ...], knows: Callable[[Filler], 
         weak = min([wish.share, *shares]) < least
         if weak or wish.witness == "differs":
             what = f"“{wish.verb}”" if wish.verb else f"“{wish.fillers[0].text}”"
-            return Ask(f"I am not sure what you mean by {what}. Please say it in other words.")
+            return Ask(f"I am not sure what you mean by {what}. Can you say it in other words?")
     for filler in reading.loose:
         if filler.role not in ("A", "T", "L", "M"):
-            return Ask(f"I do not understand what “{filler.text}” belongs to. Please say it in other words.")
+            return Ask(f"I do not understand what “{filler.text}” belongs to. Can you say it in other words?")
     return None
+
+
+def may_be_offered(reading: Reading, orders: Sequence[Wish], lexicon: Lexicon) -> bool:
+    """Whether orders that are not certain are sensible enough to be shown, for a person to say yes to."""
+    if reading.acts & {"alarm", "question", "control", "edit"} or len(reading.left_over) > _FEW:
+        return False
+    if {word.lower() for word in reading.left_over} & lexicon.classes["logic"]:
+        return False
+    if any(filler.role not in ("A", "T", "L", "M") for filler in reading.loose):
+        return False
+    return all(wish.witness != "differs" and wish.share >= OFFERED for wish in orders)

@@ -28,6 +28,8 @@ from parley.language.builtin.structure import Part
 from parley.language.builtin.tagger import shipped_tagger
 from parley.language.builtin.things import link
 from parley.language.builtin.tokens import spoken, tokenize
+from parley.language.dialogue.mentions import head_of
+from parley.language.dialogue.replies import read_reply
 from parley.messages.chat import ChatAction
 from parley.messages.memory import MemoryEntry
 from parley.robots.base import CameraImage
@@ -88,7 +90,12 @@ class BuiltinLanguage:
         framed = frozenset(skill.action.name for skill in skills.values())
         own, known = self._own.applied, situation.catalogue
         parts = tuple(replace(one, reading=own(one.parse, one.reading, known, framed)) for one in parts)
-        return decide(situation, parts, skills, self._lexicon, self.reading)
+
+        def again(text: str, without: Sequence[str] = ()) -> Decision:
+            objects = tuple(item for item in situation.objects if item.description not in without)
+            return self.decide(replace(situation, message=text, history=(), objects=objects))
+
+        return decide(situation, parts, skills, self._lexicon, self.reading, again)
 
     def reading(self, text: str) -> Reading:
         """What a text says, whatever the situation."""
@@ -129,7 +136,7 @@ class BuiltinLanguage:
 
     async def resolve(self, situation: ErrorSituation) -> ChatAction:
         """See `Language.resolve`."""
-        return recovery.resolve(situation, self._lexicon)
+        return recovery.resolve(situation)
 
     async def ground(
         self, description: str, objects: Sequence[MapObject], pose: Pose2D | None = None
@@ -145,7 +152,7 @@ class BuiltinLanguage:
         ]
         if len(exact) == 1:
             return Grounding("match", tuple(exact))
-        found = link(words, recovery.head_of(words, self._lexicon), objects, self._lexicon)
+        found = link(words, head_of(words, self._lexicon), objects, self._lexicon)
         kinds = {"one": "match", "several": "ambiguous"}
         outcome = kinds.get(found.kind)
         if outcome == "match":
@@ -159,4 +166,4 @@ class BuiltinLanguage:
     async def read_reply(self, question: str, reply: str, choices: Sequence[str] = ()) -> ReplyReading:
         """See `Language.read_reply`."""
         said = any(token.is_word for token in tokenize(reply))
-        return recovery.read_reply(reply, choices, self.reading(reply).acts if said else frozenset())
+        return read_reply(question, reply, choices, self.reading(reply) if said else None)

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import math
 from collections.abc import Sequence
 from dataclasses import dataclass, field
 
@@ -9,13 +10,14 @@ from parley.language.base import Situation
 from parley.language.builtin.amounts import Amount, amount_of, direction_of
 from parley.language.builtin.decision import Ask, Deed, Note
 from parley.language.builtin.facts import Place, known_place
-from parley.language.builtin.lexicon import Lexicon
+from parley.language.builtin.lexicon import Lexicon, stem
 from parley.language.builtin.saying import with_article
 from parley.language.builtin.sets import Group, group
 from parley.language.builtin.skills import Skills
 from parley.language.builtin.spatial import picked
 from parley.language.builtin.things import Mention, link, noun_phrase
 from parley.language.builtin.wishes import Filler, Wish
+from parley.language.dialogue.places import in_room
 from parley.world.object_map import MapObject
 
 __all__ = ["Grounder", "Value"]
@@ -60,6 +62,10 @@ class Grounder:
     """Which one of a set is meant just now, by "it" and "there" and by the set itself."""
     whole: Value | None = None
     """The set that was spoken of last."""
+    before: MapObject | None = None
+    """What was spoken of last before this message."""
+    doubts: tuple[Ask, str] | None = None
+    """What is not certain, and the words that were not understood: the deeds are only offered then."""
 
     def value(self, wish: Wish, filler: Filler) -> Value | Ask | None:
         """What a role of a wish holds, by the type that the frame gives it."""
@@ -100,6 +106,12 @@ class Grounder:
         if before is not None:
             return before
         objects, lexicon = self.situation.objects, self.lexicon
+        inside = self._in_room(frame, filler) if mention.kind != "one" else None
+        if inside is not None:
+            return self._one_of((inside,))
+        near = self._beside(filler, mention.things) if mention.kind == "several" else None
+        if near is not None:
+            return self._one_of((near,))
         several = group(filler.words, objects, lexicon, self.left_out)
         if several is not None:
             return self._several(several)
@@ -130,12 +142,39 @@ class Grounder:
         each = {*filler.words} <= _BACK_TO | self.lexicon.classes["prepositions"] | {"each", "of", "one"}
         if self.bound is not None and (mention.kind == "pronoun" or each or self.names_set(filler)):
             return self.bound
+        if mention.kind == "pronoun" and filler.words[0] in _BESIDE and self.last_thing is not None:
+            near = self._beside(filler, self.last_thing.things)
+            return (
+                Value(near.description, with_article(near.description), (near,)) if near else self.last_thing
+            )
         if mention.kind == "pronoun":
             before = self.last_person if mention.text in self.lexicon.classes["persons"] else self.last_thing
             return before or Ask(f"What do you mean by “{filler.text}”?")
         if small:
             return self.last_thing or Ask(f"Where is “{filler.text}”?")
         return None
+
+    def _beside(self, filler: Filler, things: Sequence[MapObject]) -> MapObject | None:
+        """Of several things the one beside what was spoken of before the message: "the chair next to it"."""
+        it = self.before
+        if it is None or it in things or not {*filler.words} & self.lexicon.classes["pronouns"]:
+            return None
+        main = {stem(word) for word in it.description.split()[:2]} - self.lexicon.classes["prepositions"]
+        told = [one for one in things if main & {stem(word) for word in one.description.split()}]
+        if len(told) == 1:
+            return told[0]
+        far_m = sorted((math.hypot(one.x_m - it.x_m, one.y_m - it.y_m), n) for n, one in enumerate(things))
+        alone = len(far_m) > 1 and far_m[0][0] < _BESIDE_M and far_m[0][0] < far_m[1][0] / 2
+        return things[far_m[0][1]] if alone else None
+
+    def _in_room(self, frame: str, filler: Filler) -> MapObject | None:
+        """Of a room as a goal the nearest thing that stands in it: a room is no thing of its own."""
+        if frame not in ("GO", "BRING") or filler.role not in "GL":
+            return None
+        small = self.lexicon.classes["prepositions"] | self.lexicon.classes["determiners"]
+        room = " ".join(word for word in filler.words if word not in small)
+        inside = in_room(room, self.situation.objects, self.situation.robot_pose)
+        return inside[0] if inside and len(room) > 1 else None
 
     def _one_of(self, things: Sequence[MapObject]) -> Value | Ask:
         """One thing of the map, by its id if others are called the same; or the question which one it is."""
@@ -191,9 +230,17 @@ class Grounder:
         others = [link(f.words, f.head, self.situation.objects, self.lexicon).things for f in fillers]
         return any(thing in things for thing in named for things in others)
 
+    def recall(self, thing: MapObject | None, person: Place | None) -> None:
+        """What was spoken of before this message."""
+        if thing is not None:
+            self.before = thing
+            self.last_thing = Value(thing.description, with_article(thing.description), (thing,))
+        if person is not None:
+            self.last_person = Value(person.thing, with_article(person.thing), (), person)
+
     def told_about(self, name: tuple[str, ...]) -> None:
         """Somebody of whom something was told just now."""
-        if name:
+        if name and name[-1] not in self.lexicon.classes["persons"] | self.lexicon.classes["pronouns"]:
             text = " ".join(name)
             self.last_person = Value(text, with_article(text), (), known_place(name, self.known))
 
@@ -218,5 +265,7 @@ class Grounder:
         self.notes.append(Note(f"I leave that out: “{text}”."))
 
 
+_BESIDE = frozenset({"next", "near", "beside", "by", "behind", "opposite", "close"})
+_BESIDE_M = 2.0
 _BACK_TO = frozenset({"there", "it", "them", "these", "those", "they", "over"})
 """Words that mean what was spoken of last."""

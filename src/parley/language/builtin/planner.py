@@ -9,7 +9,7 @@ from parley.language.builtin.amounts import amount_of
 from parley.language.builtin.checks import Look
 from parley.language.builtin.decision import Ask, Deed
 from parley.language.builtin.deeds import Builder
-from parley.language.builtin.doubts import doubt
+from parley.language.builtin.doubts import doubt, may_be_offered
 from parley.language.builtin.reading import Reading
 from parley.language.builtin.structure import If, Node, Orders, Part
 from parley.language.builtin.wishes import Filler, Wish
@@ -64,7 +64,7 @@ class Planner:
             if isinstance(made, Ask):
                 return made
             if any(deed.check is not None for deed in made):
-                return Ask("Several conditions depend on each other here. Please say one after the other.")
+                return Ask("Several conditions depend on each other here. Can you say one after the other?")
             deeds += [replace(deed, check=check, holds=holds) for deed in made]
             places.append(self.builder.at)
         self.builder.at = place if len(set(places)) == 1 else ""
@@ -80,7 +80,9 @@ class Planner:
         wishes = orders_of(reading)
         unsure = doubt(reading, wishes, self.builder.knows)
         if unsure is not None:
-            return unsure
+            if not may_be_offered(reading, wishes, self.builder.lexicon):
+                return unsure
+            self.builder.doubts = (unsure, " ".join(reading.left_over) or "…")
         limited = self._limited(node, wishes)
         if isinstance(limited, Ask):
             return limited

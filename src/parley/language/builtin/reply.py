@@ -6,7 +6,18 @@ import itertools
 import re
 from collections.abc import Sequence
 
-from parley.language.builtin.decision import Answer, Ask, Control, Decision, Deed, Do, Remember, Told
+from parley.language.builtin.decision import (
+    Answer,
+    Ask,
+    Control,
+    Decision,
+    Deed,
+    Do,
+    Edit,
+    Forget,
+    Remember,
+    Told,
+)
 from parley.language.builtin.lexicon import Lexicon
 from parley.messages.chat import ActionCall, ChatAction, SystemCommand
 from parley.messages.pvf import NATIVE_TYPES, native_type
@@ -27,14 +38,29 @@ def to_chat(decision: Decision, lexicon: Lexicon) -> ChatAction:
             words.append(f"I will {_plan([deed for deed in deeds if not deed.hidden], lexicon)}.")
             return ChatAction(
                 message_response=" ".join(words),
-                queue=tuple(_call(deed, deeds[:place], lexicon) for place, deed in enumerate(deeds)),
+                queue=_calls(deeds, lexicon),
                 system_cmd=_memories(told),
                 sources=tuple(note.source for note in notes if note.source),
             )
         case Ask(question, choices, told):
             words = [_remembered(fact) for fact in told]
+            stop = (SystemCommand(command="stop"),) if decision.stops else ()
             return ChatAction(
-                message_response=" ".join([*words, question]), choices=choices, system_cmd=_memories(told)
+                message_response=" ".join([*words, question]),
+                choices=choices,
+                system_cmd=(*stop, *_memories(told)),
+                alarm=decision.alarms,
+                offer=_calls(decision.offer, lexicon),
+                needs_yes=decision.unclear,
+            )
+        case Edit():
+            return _changed(decision, lexicon)
+        case Forget(names, texts):
+            return ChatAction(
+                message_response=f"I forget this: {'; '.join(texts)}.",
+                system_cmd=tuple(
+                    SystemCommand(command="remove_memory", arguments={"name": name}) for name in names
+                ),
             )
         case Remember(told):
             return ChatAction(
@@ -47,6 +73,33 @@ def to_chat(decision: Decision, lexicon: Lexicon) -> ChatAction:
             )
         case Answer(text, sources):
             return ChatAction(message_response=text, sources=sources)
+
+
+def _calls(deeds: Sequence[Deed], lexicon: Lexicon) -> tuple[ActionCall, ...]:
+    return tuple(_call(deed, deeds[:place], lexicon) for place, deed in enumerate(deeds))
+
+
+def _changed(edit: Edit, lexicon: Lexicon) -> ChatAction:
+    """A change of a plan: steps that are left out, the last first, and what comes in their place."""
+    made = to_chat(edit.do, lexicon) if edit.do is not None else ChatAction()
+    change = edit.change
+    drops = () if edit.proposal else change.drop
+    return ChatAction(
+        message_response=" ".join(text for text in (change.said, made.message_response) if text),
+        queue=(*change.kept, *change.add, *made.queue, *change.rest),
+        system_cmd=(
+            *(SystemCommand(command="pop", arguments=_meant(place, edit.steps)) for place in drops),
+            *made.system_cmd,
+        ),
+        sources=made.sources,
+        replaces=edit.proposal,
+    )
+
+
+def _meant(place: int, steps: Sequence[str]) -> dict[str, object]:
+    """Which step is meant: that one, whatever stands in its place later."""
+    known = {"step": steps[place]} if place < len(steps) and steps[place] else {}
+    return {"parameters": place, **known}
 
 
 def said(deed: Deed, lexicon: Lexicon) -> str:

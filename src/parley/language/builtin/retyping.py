@@ -23,6 +23,10 @@ def retyped(wish: Wish, lexicon: Lexicon) -> Wish:
     """With the frame that its roles ask for."""
     if wish.frame in ("GO", "TURN"):
         wish = _renamed(wish, "G", "H", [f for f in wish.all("G") if _is_direction(f, lexicon)])
+    if wish.frame == "WAIT" and wish.has("L") and not wish.has("DU"):
+        return replace(_renamed(wish, "L", "G", list(wish.all("L"))), frame="GO")  # "stop at the gate"
+    if wish.frame == "GUIDE" and not wish.has("T"):
+        return _renamed(wish, "R", "T", list(wish.all("R")))
     if wish.frame == "GO":
         return _gone(wish)
     if wish.frame == "TURN" and not wish.has("N"):

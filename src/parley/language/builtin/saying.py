@@ -8,7 +8,8 @@ __all__ = ["with_article"]
 def with_article(text: str) -> str:
     """A noun phrase with "the", unless it is a name or has a word like that already."""
     first = text.split(" ", 1)[0]
-    bare = text[:1].isupper() or first in _OWN or not text or text[-1].isdigit()
+    name = text[:1].isupper() and not (first.isupper() and len(first) > 1)
+    bare = name or first in _OWN or not text or text[-1].isdigit()
     return text if bare else f"the {text}"
 
 

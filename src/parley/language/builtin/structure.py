@@ -143,7 +143,7 @@ class _Arranger:
             return self._branch(part, holds != negative)
         if self.target is not self.nodes and not self._apart(part):
             return Unclear(
-                f"Does “{part.text}” matter only if the other thing holds? Please say one after the other."
+                f"Does “{part.text}” matter only if the other thing holds? Can you say one after the other?"
             )
         self.target = self.nodes
         self._open(Condition(part, holds))

@@ -126,7 +126,9 @@ def _rank_of(name: Sequence[str], item: MapObject) -> int:
 def _rank(wanted: tuple[str, ...], known: tuple[str, ...]) -> int:
     if wanted == known or set(wanted) == set(known) or "".join(wanted) == "".join(known):
         return 0
-    if known[-len(wanted) :] == wanted or (set(wanted) <= set(known) and wanted[-1] == main_word(known)):
+    if _naming(known)[-len(wanted) :] == wanted or (
+        set(wanted) <= set(known) and wanted[-1] == main_word(known)
+    ):
         return 1
     if wanted[-len(known) :] == known:
         return 2
@@ -161,8 +163,13 @@ _PLACING = frozenset(
 
 def main_word(known: tuple[str, ...]) -> str:
     """The word that names the thing: the last one before "in", "of", "by" ..."""
-    marks = [at for at, word in enumerate(known) if word in _PLACING]
-    return known[marks[0] - 1] if marks and marks[0] else known[-1]
+    return _naming(known)[-1]
+
+
+def _naming(known: tuple[str, ...]) -> tuple[str, ...]:
+    """What names the thing, without what says where it is."""
+    end = next((at for at, word in enumerate(known) if word in _PLACING and at), len(known))
+    return known[:end]
 
 
 def _alike(one: str, other: str) -> bool:

@@ -36,7 +36,7 @@ _BLIND = "I cannot see what is in a picture that you send; I only keep it."
 
 
 def _is_steered(info: ActionInfo) -> bool:
-    """Whether it drives by a distance: this engine would take any "go" for it. The new one tells them apart."""
+    """Whether it drives by a distance: this engine would take any "go" for it."""
     return "moves" in info.effects and any(told.kind == "distance" for told in info.parameters.values())
 
 

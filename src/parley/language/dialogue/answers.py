@@ -1,0 +1,407 @@
+"""Answers to questions about the robot itself, from the state of the dialogue."""
+
+from __future__ import annotations
+
+import re
+from collections.abc import Callable, Sequence
+from datetime import datetime
+from typing import Final
+
+from parley.language.base import Situation
+from parley.language.builtin.lexicon import stem
+from parley.language.builtin.saying import with_article
+from parley.language.dialogue.places import room_of, whereabouts
+from parley.language.dialogue.questions import Question
+from parley.language.dialogue.state import Deed, Dialogue, Order
+from parley.messages.status import ActionInfo, PlanStep
+from parley.world.geometry import Pose2D
+from parley.world.object_map import MapObject
+
+__all__ = ["answer", "deed_words", "differences", "listed", "step_words"]
+
+_OPEN: Final = ("queued", "running", "waiting", "paused")
+_MOST: Final = 5
+_IDLE: Final = "I have nothing to do at the moment."
+
+
+def answer(question: Question, situation: Situation) -> str:
+    """What is known about it; empty if nothing is."""
+    found = _TOPICS.get(question.topic)
+    return found(situation, question.about) if found is not None else ""
+
+
+# -- words --------------------------------------------------------------------------------------------
+
+
+def listed(parts: Sequence[str], last: str = "and") -> str:
+    """Several parts of a sentence as one."""
+    return parts[0] if len(parts) == 1 else f"{', '.join(parts[:-1])} {last} {parts[-1]}"
+
+
+def step_words(label: str) -> str:
+    """What a step does, inside a sentence."""
+    label = re.sub(r"“([^”]*)”", lambda found: with_article(found[1]), label)
+    first, _, rest = label.partition(" ")
+    return f"{first.lower()} {rest}".strip() if first.istitle() else label
+
+
+def deed_words(deed: Deed) -> str:
+    """What was done, and what came of it."""
+    words = step_words(deed.label)
+    told = f" – {deed.told[-1].rstrip('.')}" if deed.told else ""
+    ends = {"failed": " (it did not work)", "stopped": " (given up)", "left out": " (left out)"}
+    return f"{words}{ends.get(deed.ending, '')}{told}"
+
+
+def _at(unix_ms: int) -> str:
+    return f"at {datetime.fromtimestamp(unix_ms / 1000):%H:%M}"
+
+
+def _visible(deeds: Sequence[Deed]) -> list[Deed]:
+    return [deed for deed in deeds if tuple(deed.effects) != ("locates",)]
+
+
+def _steps_left(situation: Situation) -> list[PlanStep]:
+    hidden = {info.name for info in situation.catalogue if tuple(info.effects) == ("locates",)}
+    return [
+        step for step in situation.dialogue.steps if step.state in _OPEN and step.action.name not in hidden
+    ]
+
+
+def _wanted(order: Order) -> str:
+    who = f"{order.by} asked" if order.by else "you asked"
+    return f"Because {who} me {_at(order.unix_ms)}: “{order.words.strip()}”"
+
+
+# -- topics -------------------------------------------------------------------------------------------
+
+
+def _where(situation: Situation, about: str) -> str:
+    here = f"I am {whereabouts(situation.objects, situation.robot_pose)}."
+    running = [step for step in _steps_left(situation) if step.state == "running"]
+    return f"{here} I am on it: {step_words(running[0].label)}." if running else here
+
+
+def _where_going(situation: Situation, about: str) -> str:
+    moving = {info.name for info in situation.catalogue if "moves" in info.effects}
+    left = [step for step in _steps_left(situation) if step.action.name in moving]
+    if left:
+        still = situation.dialogue.plan in ("paused", "held")
+        return f"{'I stand still at the moment, but I was to' if still else 'I'} {step_words(left[0].label)}."
+    last = [deed for deed in situation.dialogue.deeds if deed.moved]
+    if last:
+        return f"I am not going anywhere now. The last thing was: {deed_words(last[-1])}."
+    return "I am not going anywhere now."
+
+
+def _going_before(situation: Situation, about: str) -> str:
+    orders = situation.dialogue.orders
+    if len(orders) < 2:
+        return "You have not asked me for anything before that."
+    before = orders[-2]
+    what = listed(
+        list(dict.fromkeys(call.reason for call in before.calls if call.reason)) or ["something else"]
+    )
+    return f"Before that, {_at(before.unix_ms)}, I was to {what}: you said “{before.words.strip()}”."
+
+
+def _doing(situation: Situation, about: str) -> str:
+    dialogue, left = situation.dialogue, _steps_left(situation)
+    if dialogue.latched:
+        return "I stand still: my emergency stop is on. Somebody has to release it."
+    if situation.question:
+        return f"I wait for an answer to this: {situation.question}"
+    if not left:
+        return f"{_IDLE} I am {whereabouts(situation.objects, situation.robot_pose)}."
+    what = step_words(left[0].label)
+    if dialogue.plan == "paused":
+        return f"I stand still, as I was told. Say “carry on” and I {what}."
+    return f"I am about this: {what}.{_left_time(dialogue)}"
+
+
+def _left(situation: Situation, about: str) -> str:
+    left, proposal = _steps_left(situation), situation.dialogue.proposal
+    if not left and proposal is not None:
+        return (
+            f"Nothing is begun. This waits for your yes: {listed([step_words(x) for x in proposal.labels])}."
+        )
+    if not left:
+        return "Nothing is left to do."
+    return f"Left to do: {'; '.join(step_words(step.label) for step in left)}."
+
+
+def _did(situation: Situation, about: str) -> str:
+    done = _visible(situation.dialogue.deeds)
+    if not done:
+        return "I have not done anything yet since I was started."
+    parts = [
+        deed_words(deed) if deed.ending != "running" else f"now: {step_words(deed.label)}" for deed in done
+    ]
+    more = f"{len(parts) - _MOST} other things before that; " if len(parts) > _MOST else ""
+    return f"I did this: {more}{'; '.join(parts[-_MOST:])}."
+
+
+def _there_yet(situation: Situation, about: str) -> str:
+    left = _steps_left(situation)
+    if left:
+        still = " I stand still at the moment." if situation.dialogue.plan in ("paused", "held") else ""
+        todo = "; ".join(step_words(step.label) for step in left)
+        return f"Not yet. Left to do: {todo}.{still}{_left_time(situation.dialogue)}"
+    done = _visible(situation.dialogue.deeds)
+    if not done:
+        return "I was not asked to do anything yet."
+    last = done[-1]
+    if last.ending in ("done", "no"):
+        here = whereabouts(situation.objects, situation.robot_pose)
+        return f"Yes, that is done: {deed_words(last)}. I am {here}."
+    return f"No: {deed_words(last)}."
+
+
+def _been(situation: Situation, about: str) -> str:
+    wanted = _stems(about)
+    ways = [deed for deed in situation.dialogue.deeds if deed.moved and deed.ending in ("done", "no")]
+    named = {item.description: item for item in situation.objects}
+    found = [deed for deed in ways if wanted <= _stems(deed.label) | _stems(_room(deed.label, named))]
+    if found:
+        return f"Yes, {_at(found[-1].unix_ms)}: {deed_words(found[-1])}."
+    running = [step for step in _steps_left(situation) if wanted <= _stems(step.label)]
+    if running:
+        return f"Not yet, but it is in my plan: {step_words(running[0].label)}."
+    been = f" I have been here: {'; '.join(deed_words(deed) for deed in ways[-_MOST:])}." if ways else ""
+    return f"No, not since I was started.{been}"
+
+
+def _room(label: str, named: dict[str, MapObject]) -> str:
+    item = next((item for name, item in named.items() if name in label), None)
+    return room_of(item) if item is not None else ""
+
+
+def _stems(text: str) -> set[str]:
+    return {stem(word) for word in re.findall(r"[^\W_]+", text.lower())} - _SMALL
+
+
+_SMALL: Final = frozenset(
+    {"the", "a", "an", "to", "in", "at", "of", "my", "your", "any", "some", "there", "there's"}
+)
+
+
+def _why_stopped(situation: Situation, about: str) -> str:
+    dialogue = situation.dialogue
+    if situation.question:
+        return f"I wait for an answer to this: {situation.question}"
+    if dialogue.stopped is not None:
+        who = f"{dialogue.stopped.by} told" if dialogue.stopped.by else "you told"
+        return f"Because {who} me to, {_at(dialogue.stopped.unix_ms)}: “{dialogue.stopped.words.strip()}”."
+    if dialogue.latched:
+        return "Because my emergency stop is on."
+    if dialogue.plan == "running":
+        return f"I have not stopped. {_doing(situation, about)}"
+    return f"I am done. {_did(situation, about)}"
+
+
+def _waiting(situation: Situation, about: str) -> str:
+    dialogue = situation.dialogue
+    if situation.question:
+        return f"I wait for your answer to this: {situation.question}"
+    if dialogue.proposal is not None:
+        waits = listed([step_words(label) for label in dialogue.proposal.labels])
+        return f"I wait for your yes to this: {waits}."
+    if dialogue.plan == "paused":
+        return _why_stopped(situation, about)
+    return _doing(situation, about) if _steps_left(situation) else f"For nothing but your next order. {_IDLE}"
+
+
+def _why(situation: Situation, about: str) -> str:
+    dialogue = situation.dialogue
+    if dialogue.refused:
+        return _why_not(situation, about)
+    if dialogue.plan in ("paused", "held"):
+        return _why_stopped(situation, about)
+    if dialogue.orders:
+        return f"{_wanted(dialogue.orders[-1])}."
+    return "Nobody has asked me to do anything yet."
+
+
+def _why_not(situation: Situation, about: str) -> str:
+    if situation.failure is not None:
+        return f"Because of what I was told, or found: {situation.failure.error_message}"
+    if situation.dialogue.refused:
+        return f"Because of what I was told: {situation.dialogue.refused}"
+    said = next((turn.content for turn in reversed(situation.history) if turn.role == "assistant"), "")
+    return f"As I said: {said}" if said else "There is nothing that I refused."
+
+
+def _why_not_go(situation: Situation, about: str) -> str:
+    wanted = _stems(about)
+    out = [
+        deed
+        for deed in situation.dialogue.deeds
+        if wanted <= _stems(deed.label) and deed.ending == "left out"
+    ]
+    if out:
+        looks = [deed for deed in situation.dialogue.deeds if deed.looked and deed.ending in ("no", "done")]
+        seen = f" When I looked: {looks[-1].told[-1]}" if looks and looks[-1].told else ""
+        return f"Because that was only to be done in another case.{seen}"
+    if situation.dialogue.refused:
+        return _why_not(situation, about)
+    asked = [order for order in situation.dialogue.orders if wanted <= _stems(order.words)]
+    if not asked:
+        return "Nobody asked me to."
+    looks = [deed for deed in situation.dialogue.deeds if deed.looked and deed.told]
+    seen = f" When I looked: {looks[-1].told[-1]}" if looks else ""
+    return f"You asked me: “{asked[-1].words.strip()}”, and it was not to be done in this case.{seen}"
+
+
+def _looks(situation: Situation) -> list[Deed]:
+    return [deed for deed in situation.dialogue.deeds if deed.looked and (deed.told or deed.seen)]
+
+
+def _seen(situation: Situation, about: str) -> str:
+    looks = _looks(situation)
+    here = f"I am {whereabouts(situation.objects, situation.robot_pose)}."
+    if not looks:
+        return f"I have not looked at anything with my camera yet, so I have seen nothing to tell. {here}"
+    last = looks[-1]
+    lead = "Yes: " if last.ending == "done" else "No: " if last.ending == "no" else ""
+    told = last.told[-1] if last.told else f"I saw {listed(last.seen)}."
+    return f"{lead}{told} That was {_at(last.unix_ms)}, when I was to {step_words(last.label)}."
+
+
+def _seen_labels(situation: Situation) -> tuple[Deed | None, list[str]]:
+    """The last look, and what was seen that is on no map: what stands there all the time is nothing new."""
+    looks = [deed for deed in _looks(situation) if deed.seen]
+    if not looks:
+        return None, []
+    known = {
+        name.lower()
+        for item in situation.objects
+        for name in (item.description, item.class_name, *item.aliases)
+    }
+    return looks[-1], [label for label in dict.fromkeys(looks[-1].seen) if label.lower() not in known]
+
+
+def _else(situation: Situation, about: str) -> str:
+    look, labels = _seen_labels(situation)
+    if look is None:
+        return _seen(situation, about)
+    others = [label for label in labels if not _stems(label) <= _stems(look.label)]
+    return f"I also saw {listed(others)}." if others else "I saw nothing else there that is not on my map."
+
+
+def _seen_thing(situation: Situation, about: str) -> str:
+    look, labels = _seen_labels(situation)
+    if look is None:
+        return ""
+    wanted = _stems(about)
+    hits = [label for label in look.seen if wanted & _stems(label)]
+    if hits:
+        return f"Yes, I saw {listed(hits)} there {_at(look.unix_ms)}."
+    rest = f" I saw {listed(labels)}." if labels else ""
+    return f"I did not see any there, when I looked {_at(look.unix_ms)}.{rest}"
+
+
+def _left_time(dialogue: Dialogue) -> str:
+    if dialogue.left_s is None:
+        return f" {dialogue.left_text}." if dialogue.left_text else ""
+    seconds = max(1, round(dialogue.left_s))
+    words = f"{seconds} seconds" if seconds < 90 else f"{round(seconds / 60)} minutes"
+    return f" About {words} more for this step."
+
+
+def _how_long(situation: Situation, about: str) -> str:
+    dialogue, left = situation.dialogue, _steps_left(situation)
+    if not left and dialogue.proposal is not None:
+        return "I have not begun, so I cannot tell yet. I wait for your yes."
+    if not left:
+        return "Nothing is left to do."
+    if dialogue.plan in ("paused", "held"):
+        return "I stand still at the moment, so I cannot tell."
+    more = f" Then {len(left) - 1} more steps." if len(left) > 1 else ""
+    return f"{_left_time(dialogue).strip() or 'I have only just begun: I can tell in a moment.'}{more}"
+
+
+def _battery(situation: Situation, about: str) -> str:
+    battery = situation.dialogue.battery
+    return (
+        "I cannot tell how full my battery is."
+        if battery is None
+        else f"My battery is {battery * 100:.0f} % full."
+    )
+
+
+def abilities(catalogue: Sequence[ActionInfo]) -> str:
+    """What can be asked for, in the words of the actions' makers."""
+    shown = [info for info in catalogue if tuple(info.effects) != ("locates",)]
+    parts = [(info.description.split(".")[0] or info.label or info.name) for info in shown]
+    return listed([f"{part[:1].lower()}{part[1:]}" for part in parts]) if parts else ""
+
+
+def _able(situation: Situation, about: str) -> str:
+    parts = abilities(situation.catalogue)
+    if not parts:
+        return "I do not know yet what I can do: my robot has not told me."
+    return (
+        f"I can {parts}. I remember what you tell me, keep to what you forbid me, and tell where I am, "
+        f"what I did "
+        "and what I saw. Say “stop” at any time."
+    )
+
+
+def _name(situation: Situation, about: str) -> str:
+    return f"I am {situation.robot}, a robot." if situation.robot else "I am a robot."
+
+
+def _time(situation: Situation, about: str) -> str:
+    now = situation.dialogue.now_unix_ms
+    return (
+        f"By my clock it is {datetime.fromtimestamp(now / 1000):%H:%M}." if now else "I cannot tell the time."
+    )
+
+
+def _told_about(situation: Situation, about: str) -> str:
+    wanted = _stems(about)
+    facts = [
+        entry
+        for entry in situation.memory
+        if entry.type == "text" and wanted & _stems(f"{entry.name} {entry.data}")
+    ]
+    if facts:
+        return f"I remember: {'; '.join(entry.data.rstrip('.') for entry in facts[-3:])}."
+    said = [
+        t.content
+        for t in situation.history
+        if t.role == "operator" and wanted & _stems(t.content) and not t.content.rstrip().endswith("?")
+    ]
+    return (
+        f"You told me: “{said[-1].strip()}”"
+        if said
+        else f"You have not told me anything about {about or 'that'}."
+    )
+
+
+def differences(names: Sequence[str], objects: Sequence[MapObject]) -> str:
+    """Where each of several things is, so that a person can tell them apart."""
+    others = [item for item in objects if item.description not in names]
+    at = {item.description: Pose2D(item.x_m, item.y_m, 0.0) for item in objects}
+    parts = [f"the {name} is {whereabouts(others, at[name])}" for name in names if name in at and others]
+    text = "; ".join(parts) or f"I know them as {listed([f'the {name}' for name in names])}"
+    return f"{text[:1].upper()}{text[1:]}."
+
+
+def _difference(situation: Situation, about: str) -> str:
+    choices = situation.question
+    return f"{choices}" if choices else ""
+
+
+_TOPICS: Final[dict[str, Callable[[Situation, str], str]]] = {
+    "where_are_you": _where, "been": _been, "there_yet": _there_yet, "going_before": _going_before,
+    "where_going": _where_going, "why_stopped": _why_stopped, "waiting_for": _waiting, "why_not": _why_not,
+    "why_not_go": _why_not_go, "why": _why, "what_doing": _doing, "what_left": _left, "what_did": _did,
+    "what_seen": _seen, "what_else_seen": _else, "seen_thing": _seen_thing, "how_long": _how_long,
+    "battery": _battery, "able": _able, "name": _name, "time": _time, "told_about": _told_about,
+    "difference": _difference,
+    "hear": lambda situation, about: "Yes, I hear you: I read every word.",
+    "how_are_you": lambda situation, about: f"I am well, thank you. {_doing(situation, about)}",
+    "joke": lambda situation, about: "I am no good at that, sorry: I drive, look and remember.",
+}  # fmt: skip
+"""What answers which topic."""

@@ -1,0 +1,344 @@
+"""Corrections of what runs or waits: which steps are taken back, what comes in their place, and where.
+
+A correction is bound to the steps it is about when it is read: a step is left out as the one that it was
+then, not as the one that stands in its place later.
+"""
+
+from __future__ import annotations
+
+import re
+from collections.abc import Sequence
+from dataclasses import dataclass, replace
+from typing import Final, Literal
+
+from parley.language.base import Situation
+from parley.language.builtin.lexicon import Lexicon
+from parley.language.builtin.tokens import Token
+from parley.language.dialogue.answers import step_words
+from parley.language.dialogue.mentions import Named, named
+from parley.messages.chat import ActionCall
+from parley.messages.status import PlanStep
+from parley.world.object_map import MapObject
+
+__all__ = ["Change", "Visit", "before_all", "change_of", "texts_of", "visits"]
+
+_OPEN: Final = ("queued", "running", "waiting", "paused", "failed")
+_ORDINALS: Final = {
+    "first": 0, "1st": 0, "second": 1, "2nd": 1, "third": 2, "3rd": 2, "fourth": 3, "4th": 3, "fifth": 4,
+    "5th": 4, "last": -1, "final": -1, "next": 1,
+}  # fmt: skip
+_AGAINST: Final = re.compile(
+    r"\b(?:not|no|without|skip(?:ping)?|leave(?: \w+)? out|leaving out|drop|omit|forget(?: about)?|except|"
+    r"but not|"
+    r"instead of|rather than|cancel|remove|delete|scratch|never mind|don't(?: \w+){0,3}|"
+    r"do not(?: \w+){0,3}|no need "
+    r"(?:to|for)(?: \w+){0,2}|cut out|strike|spare)(?: (?:the|a|an|my|to|at|by|about|going|to go|for|"
+    r"go to|going to|visit|"
+    r"visiting|that|this|trip|bit|part|stop|step|of|with))*$"
+)
+_TAKING_BACK: Final = re.compile(
+    r"\b(?:no|nope|not|wait|sorry|oops|actually|instead|rather|scratch|forget (?:it|that|this|about)|"
+    r"i (?:mean|meant)|"
+    r"make (?:it|that)|never ?mind|on second thoughts?|changed? my mind|correction|better|hang on|hold on|"
+    r"leave (?:it|that)|drop (?:it|that)|cancel (?:it|that)|change of plan)\b"
+)
+_FRONT: Final = re.compile(
+    r"\b(?:first|before that|before you (?:do|go)|beforehand|on the way|on your way)\b"
+)
+_ADDING: Final = re.compile(
+    r"\b(?:also|add|too|as well|and then|then|after (?:that|this|wards?)|afterwards|at the end|finally|"
+    r"besides|plus|"
+    r"include|append|on top|later|when you are done|when done|next)\b"
+)
+_ALL: Final = re.compile(
+    r"\b(?:all|everything|forget (?:it|that|this)|scratch|cancel|drop (?:it|that)|never ?mind)\b"
+)
+_LEAVING_OUT: Final = re.compile(
+    r"^(?:please |just |you can |you may |we can |let's |can you |could you |i said )*(?:skip|leave out|"
+    r"drop|omit|cancel|remove|forget(?: about)?|without|"
+    r"delete|strike|scratch|cut|no need|don't|do not|not)\b"
+)
+
+
+@dataclass(frozen=True, slots=True)
+class Visit:
+    """Steps of a plan that belong together: the way to a place, or one deed."""
+
+    steps: tuple[int, ...]
+    """Places among what is still to be done."""
+    things: tuple[MapObject, ...]
+    said: str
+    """In words, for the reply."""
+    calls: tuple[ActionCall, ...]
+    """All of it, those that are over already among them."""
+    words: str
+
+
+@dataclass(frozen=True, slots=True)
+class Change:
+    """What becomes of a plan."""
+
+    drop: tuple[int, ...] = ()
+    """Places among what is still to be done."""
+    add: tuple[ActionCall, ...] = ()
+    where: Literal["end", "instead", "front"] = "end"
+    rest: tuple[ActionCall, ...] = ()
+    """What was behind and is to come after what is added."""
+    kept: tuple[ActionCall, ...] = ()
+    """What comes before it, where the whole is proposed anew."""
+    said: str = ""
+    """In words, for the reply."""
+    question: str = ""
+    """What has to be asked first; nothing is changed then."""
+    choices: tuple[str, ...] = ()
+
+
+def visits(situation: Situation) -> list[Visit]:
+    """What a plan, or what waits for a yes, still consists of."""
+    dialogue = situation.dialogue
+    finding = {info.name for info in situation.catalogue if tuple(info.effects) == ("locates",)}
+    if dialogue.proposal is not None and not any(step.state in _OPEN for step in dialogue.steps):
+        labels = dialogue.proposal.labels[len(dialogue.proposal.commands) :]
+        steps = [
+            PlanStep(action=call, label=labels[at] if at < len(labels) else call.reason)
+            for at, call in enumerate(dialogue.proposal.steps)
+        ]
+    else:
+        steps = list(dialogue.steps)
+    found: list[Visit] = []
+    before: list[PlanStep] = []
+    places: list[int] = []
+    left = 0
+    for step in steps:
+        is_open = step.state in _OPEN
+        place, left = (left, left + 1) if is_open else (-1, left)
+        if step.action.name in finding:
+            before, places = [step], [place] if is_open else []
+            continue
+        if is_open:
+            whole = [*before, step]
+            words = " ".join(
+                [step.label, step.action.reason, *(text for one in whole for text in texts_of(one.action))]
+            )
+            things = _things_in(whole, situation.objects)
+            calls = tuple(one.action for one in whole)
+            found.append(Visit((*places, place), things, step_words(step.label), calls, words.lower()))
+        before, places = [], []
+    return found
+
+
+def texts_of(call: ActionCall) -> list[str]:
+    """The words that an action is given."""
+    return [
+        str(item.value) for item in call.input_parameters.values() if item.type == "string" and item.has_data
+    ]
+
+
+def _things_in(steps: Sequence[PlanStep], objects: Sequence[MapObject]) -> tuple[MapObject, ...]:
+    """The things that steps are about: named in full in their labels or arguments."""
+    text = " ".join(
+        [*(step.label for step in steps), *(text for step in steps for text in texts_of(step.action))]
+    ).lower()
+    hits = [
+        item
+        for item in objects
+        if any(
+            re.search(rf"\b{re.escape(n.lower())}\b", text)
+            for n in (item.description, item.id, *item.aliases)
+        )
+    ]
+    longest = max((len(item.description) for item in hits if item.description.lower() in text), default=0)
+    exact = [item for item in hits if len(item.description) == longest and item.description.lower() in text]
+    return tuple(exact or hits)
+
+
+def change_of(
+    situation: Situation, tokens: Sequence[Token], lexicon: Lexicon, *, orders: bool
+) -> Change | None:
+    """What a message changes of what runs or waits; None if it changes nothing.
+
+    Args:
+        situation: The plan among it.
+        tokens: Of the message.
+        lexicon: Words.
+        orders: Whether an order was read in it that can be carried out as it stands: its steps are put into
+            the change by whoever read it.
+    """
+    plan = visits(situation)
+    if not plan:
+        return None
+    names = named(tokens, situation.objects, lexicon)
+    low = [token.low for token in tokens]
+    text = " ".join(low)
+    against: list[Named] = []
+    for at, name in enumerate(names):
+        joined = names[at - 1] in against and _is_joined(low[names[at - 1].end : name.start]) if at else False
+        if joined or _is_against(low, name):
+            against.append(name)
+    for_ = [name for name in names if name not in against]
+    takes_back = _TAKING_BACK.search(text) is not None
+    if orders:
+        return _with_order(plan, against, text, takes_back=takes_back)
+    if not _is_bare(tokens, names, lexicon):
+        return None
+    if against and not for_:
+        return _left_out(plan, against)
+    if not names:
+        return _by_number(plan, low)
+    if takes_back or against:
+        return _replaced(plan, against, for_[-1])
+    return _put_in(plan, for_, text)
+
+
+def _is_bare(tokens: Sequence[Token], names: Sequence[Named], lexicon: Lexicon) -> bool:
+    """Whether there is nothing in a message but what is named and the words of changing a plan."""
+    taken = {at for name in names for at in range(name.start, name.end)}
+    small = lexicon.classes["small"] | lexicon.classes["logic"] | lexicon.classes["prepositions"]
+    small = small | lexicon.classes["determiners"] | lexicon.classes["changing"] | set(_ORDINALS)
+    return all(at in taken or not token.is_word or token.low in small for at, token in enumerate(tokens))
+
+
+def _with_order(
+    plan: Sequence[Visit], against: Sequence[Named], text: str, *, takes_back: bool
+) -> Change | None:
+    """What an order takes the place of: what it names, what runs, or nothing."""
+    old = [visit for name in against for visit in _meant(plan, name)]
+    if not old and _FRONT.search(text) is not None and not takes_back:
+        return _reordered(plan, [], plan, "front")
+    if not old and takes_back:
+        old = list(plan) if _ALL.search(text) is not None else list(plan[:1])
+    return _reordered(plan, old, _behind(plan, old), "instead") if old else None
+
+
+def before_all(situation: Situation) -> Change:
+    """What is ordered comes before all that is planned."""
+    plan = visits(situation)
+    return _reordered(plan, [], plan, "front")
+
+
+def _behind(plan: Sequence[Visit], old: Sequence[Visit]) -> list[Visit]:
+    last = max((place for visit in old for place in visit.steps), default=-1)
+    return [visit for visit in plan if min(visit.steps) > last]
+
+
+def _reordered(
+    plan: Sequence[Visit], old: Sequence[Visit], behind: Sequence[Visit], where: Literal["instead", "front"],
+    calls: tuple[ActionCall, ...] = (), said: str = "",
+) -> Change:  # fmt: skip
+    """Some steps are left out, and those behind come after what is put there."""
+    rest = tuple(call for visit in behind for call in visit.calls)
+    if any(call.flow is not None for call in rest):
+        return Change(question="My plan has conditions, so I cannot put that into it. Shall I drop it all?")
+    drop = (place for visit in (*old, *behind) for place in visit.steps)
+    return Change(tuple(sorted(drop)), calls, where, rest, said=said)
+
+
+def _is_joined(between: Sequence[str]) -> bool:
+    """Whether nothing but "and the" stands between two names."""
+    return {"and"} <= {*between} <= {"and", "the", "a", "an", ",", "or", "also"}
+
+
+def _is_against(low: Sequence[str], name: Named) -> bool:
+    before: list[str] = []
+    for word in reversed(low[: name.start]):
+        if not (word[0].isalnum() or word[0] == "'") or word in ("and", "then"):
+            break
+        before.insert(0, word)
+    return _AGAINST.search(" ".join(before)) is not None
+
+
+def _meant(plan: Sequence[Visit], name: Named) -> list[Visit]:
+    ids = {item.id for item in name.things}
+    found = [visit for visit in plan if ids & {item.id for item in visit.things}]
+    return found or [visit for visit in plan if all(word in visit.words for word in name.words)]
+
+
+def _left_out(plan: Sequence[Visit], against: Sequence[Named]) -> Change | None:
+    out: list[Visit] = []
+    for name in against:
+        meant = _meant(plan, name)
+        if not meant:
+            return None
+        out += [visit for visit in meant if visit not in out]
+    return _dropping(out)
+
+
+def _dropping(out: Sequence[Visit]) -> Change:
+    said = ", nor ".join(visit.said for visit in out)
+    return Change(
+        tuple(sorted(place for visit in out for place in visit.steps)), said=f"All right, I will not {said}."
+    )
+
+
+def _by_number(plan: Sequence[Visit], low: Sequence[str]) -> Change | None:
+    """For "skip the second one", "drop the last two steps"."""
+    text = " ".join(low)
+    if _LEAVING_OUT.search(text) is None:
+        return None
+    places = [_ORDINALS[word] for word in low if word in _ORDINALS]
+    if not places or not re.search(r"\b(?:one|step|stop|thing|part|item|place|point|task|bit)s?\b", text):
+        return None
+    if not all(-len(plan) <= place < len(plan) for place in places):
+        return Change(question=f"I have only {len(plan)} things left to do. Which one do you mean?")
+    return _dropping([plan[place] for place in dict.fromkeys(places)])
+
+
+def _replaced(plan: Sequence[Visit], against: Sequence[Named], wanted: Named) -> Change | None:
+    """Another thing in the place of one that is under way."""
+    old = [visit for name in against for visit in _meant(plan, name)]
+    if not old and not against:
+        old = [visit for visit in plan if visit.things][:1]
+    if not old:
+        return None
+    if len(wanted.things) > 1:
+        names = tuple(item.description for item in wanted.things)
+        asked = " or ".join(f"the {name}" for name in names)
+        return Change(question=f"Which one do you mean: {asked}?", choices=names)
+    target = wanted.things[0]
+    calls = _moved(old[0], target)
+    if calls is None or target in old[0].things:
+        return None
+    said = f"I do not {old[0].said}. Instead I take the {target.description}."
+    return _reordered(plan, old[:1], _behind(plan, old[:1]), "instead", calls, said)
+
+
+def _moved(old: Visit, target: MapObject) -> tuple[ActionCall, ...] | None:
+    """The same deed about another thing; None if it is not about one thing."""
+    names = {n.lower() for item in old.things for n in (item.description, item.id, *item.aliases)}
+    calls, changed = [], False
+    for call in old.calls:
+        inputs = {}
+        for name, parameter in call.input_parameters.items():
+            if "::" in name and len(old.calls) > 1:
+                continue  # found out anew by the step before
+            value = str(parameter.value).lower() if parameter.has_data else ""
+            if parameter.type == "string" and value in names:
+                parameter, changed = replace(parameter, value=target.description), True
+            inputs[name] = parameter
+        reason = _reason(call.reason, names, target)
+        calls.append(call.model_copy(update={"input_parameters": inputs, "reason": reason, "flow": None}))
+    return tuple(calls) if changed else None
+
+
+def _reason(reason: str, names: set[str], target: MapObject) -> str:
+    low = reason.lower()
+    hit = next((known for known in sorted(names, key=len, reverse=True) if known in low), None)
+    if hit is None:
+        return f"go to the {target.description}" if reason.startswith("go to") else reason
+    at = low.index(hit)
+    return reason[:at] + target.description + reason[at + len(hit) :]
+
+
+def _put_in(plan: Sequence[Visit], wanted: Sequence[Named], text: str) -> Change | None:
+    """A further place, at the end or before everything."""
+    front = _FRONT.search(text) is not None
+    if not front and _ADDING.search(text) is None:
+        return None
+    like = next((visit for visit in plan if _moved(visit, wanted[0].things[0]) is not None), None)
+    if like is None or any(len(name.things) > 1 for name in wanted):
+        return None
+    calls = tuple(call for name in wanted for call in _moved(like, name.things[0]) or ())
+    names = " and ".join(f"the {name.things[0].description}" for name in wanted)
+    if front:
+        return _reordered(plan, [], plan, "front", calls, f"First {names}, then on with the rest.")
+    return Change((), calls, "end", said=f"I add {names}.")

@@ -1,0 +1,173 @@
+"""What is told about the world beyond where something is: corrections of facts, other facts, forgetting."""
+
+from __future__ import annotations
+
+import re
+from collections.abc import Callable, Sequence
+from typing import Final
+
+from parley.language.base import Situation
+from parley.language.builtin.decision import Told
+from parley.language.builtin.lexicon import Lexicon, stem
+from parley.language.builtin.reading import Reading
+from parley.language.builtin.tokens import Token
+from parley.language.control import control_of
+from parley.language.dialogue.mentions import named
+from parley.language.dialogue.questions import asks
+from parley.language.stop_words import calls_to_stop, has_stop_word
+from parley.messages.memory import MemoryEntry
+
+__all__ = ["forgotten", "moved_fact", "other_fact", "worth_keeping"]
+
+_PRONOUNS: Final = frozenset({"he", "she", "they", "it", "this", "that", "these", "those", "they're", "it's"})
+_FIRST: Final = frozenset(
+    {"i", "i'm", "you", "we", "you're", "we're", "let", "let's", "who", "what", "there"}
+)
+_AT: Final = {"to": "at", "into": "in", "onto": "on", "towards": "at", "over": "at"}
+_WHERE: Final = frozenset(
+    {"to", "into", "onto", "at", "on", "in", "by", "near", "beside", "behind", "under", "next", "inside"}
+)
+_TURNS: Final = 8
+_BEING: Final = re.compile(
+    r"\b(?:is|are|was|were|has|have|had|'s|likes?|needs?|wants?|hates?|prefers?|eats?|drinks?|takes?|"
+    r"sleeps?|sits?|"
+    r"lives?|works?|comes?|closes?|opens?|starts?|ends?|stands?|lies|hangs?|belongs?|means|costs?|must|"
+    r"may|should|"
+    r"will|can|cannot|can't|isn't|aren't|doesn't|does|smells?|runs?|calls?|\w{3,}ed)\b"
+)
+_FORGET: Final = re.compile(
+    r"(?:please |you can |you may |can you |could you )*forget (?:about |all about |what (?:i|"
+    r"we) (?:told you|said) about |"
+    r"everything about |that |where |who |what |how |when )*(?P<about>.+)"
+)
+_NAME: Final = re.compile(
+    r"(?!(?:It|There|The|This|That|I|He|She|They|We|You|My|Here|Ok|Okay|Yes|No|All|Everything|Done|Now|"
+    r"Sorry|Your)\b)"
+    r"(?:(?:Mr|Mrs|Ms|Dr)\.? )?[A-Z][a-z]+ (?!$)"
+)
+"""Somebody by name: what is said of them is no answer to what a robot asked."""
+_KEEP: Final = re.compile(
+    r"(?:please )?(?:remember|note|keep in mind|don't forget|do not forget|memorise|memorize)\b"
+)
+
+
+def worth_keeping(situation: Situation, bare: str) -> bool:
+    """Whether a message can be a fact at all: no stop, no question, no answer to one, no order to go on."""
+    message = situation.message
+    return not (
+        asks(message, bare)
+        or calls_to_stop(message)
+        or has_stop_word(" ".join(message.split()[:2]))
+        or control_of(message, situation.robots) is not None
+        or (situation.question and _KEEP.match(bare) is None and _NAME.match(message.strip()) is None)
+    )
+
+
+def moved_fact(
+    situation: Situation, reading: Reading, tokens: Sequence[Token], lexicon: Lexicon,
+    told_in: Callable[[str], tuple[Told, ...]],
+) -> Told | None:  # fmt: skip
+    """Where something is now of which it was told just before where it is: "no, she is at the desk by now".
+
+    Args:
+        situation: What was said before among it.
+        reading: Of the message.
+        tokens: Of the message.
+        lexicon: Words.
+        told_in: The facts of a text.
+    """
+    if "told" not in reading.acts:
+        return None
+    low = [token.low for token in tokens]
+    places = named(tokens, situation.objects, lexicon)
+    before = _last_fact(situation, told_in)
+    if before is None or not places:
+        return None
+    place = places[-1]
+    at = next((n for n in range(place.start - 1, 0, -1) if low[n] in _WHERE), 0)
+    subject = next((n for n in range(at - 1, -1, -1) if low[n] in _PRONOUNS), None)
+    if subject is None or {"not", "n't"} & {*low[subject:at]}:
+        return None
+    owner = before.about.removeprefix("Where ").removesuffix(" is")
+    be = "are" if low[subject] in ("they", "these", "those", "they're") else "is"
+    start, end = tokens[place.start].start, tokens[place.end - 1].end
+    article = (
+        "the "
+        if low[place.start - 1] not in ("my", "your", "his", "her", "our", "a")
+        else f"{low[place.start - 1]} "
+    )
+    where = " ".join([_AT.get(low[at], low[at]), *(["to"] if low[at] == "next" else [])])
+    text = f"{owner} {be} {where} {article}{situation.message[start:end]}"
+    return Told(before.name, text, before.about)
+
+
+def _last_fact(situation: Situation, told_in: Callable[[str], tuple[Told, ...]]) -> Told | None:
+    for turn in reversed(situation.history[-_TURNS:]):
+        found = told_in(turn.content) if turn.role == "operator" and len(turn.content) < 300 else ()
+        if found:
+            return found[-1]
+    return None
+
+
+def other_fact(situation: Situation, reading: Reading, bare: str) -> Told | None:
+    """Something else that is told about somebody or something, in the person's own words."""
+    words = bare.split()
+    asked = _KEEP.match(bare) is not None
+    if asked:
+        words = re.sub(r"^(?:that|,)\s*", "", bare[_KEEP.match(bare).end() :].strip()).split()  # type: ignore[union-attr]
+    told = reading.acts <= {"told", "social"} and "told" in reading.acts
+    if len(words) < 3 or not (asked or told) or not worth_keeping(situation, bare):
+        return None
+    if not asked and (words[0] in _FIRST | _PRONOUNS or _BEING.search(" ".join(words[1:])) is None):
+        return None
+    text = _own_words(situation.message)
+    name = "_".join(re.findall(r"\w+", " ".join(words[:6])))[:150]
+    return Told(name, text, text) if name and text else None
+
+
+def _own_words(message: str) -> str:
+    text = message.strip().rstrip(".!")
+    text = re.sub(
+        r"^(?:(?:please|and|so|ok|okay|also|well|oh|hey|remember|note|keep in mind|"
+        r"don't forget)(?: that)?[,:]? )+",
+        "", text, flags=re.IGNORECASE,
+    )  # fmt: skip
+    return re.sub(r",? (?:by the way|you know|please|btw)$", "", text, flags=re.IGNORECASE)
+
+
+def forgotten(situation: Situation, bare: str) -> tuple[MemoryEntry, ...] | None:
+    """The memories that a message asks to forget; None if it asks for nothing of the kind."""
+    found = _FORGET.fullmatch(bare)
+    if found is None:
+        return None
+    small = {
+        "is",
+        "are",
+        "was",
+        "the",
+        "a",
+        "my",
+        "i",
+        "told",
+        "you",
+        "said",
+        "about",
+        "that",
+        "location",
+        "place",
+        "sits",
+    }
+    wanted = {stem(word.removesuffix("'s")) for word in re.findall(r"[\w']+", found["about"])} - small
+    hits = [
+        entry
+        for entry in situation.memory
+        if wanted
+        and wanted
+        <= {
+            stem(word)
+            for word in re.findall(
+                r"\w+", f"{entry.name} {entry.data} {entry.info}".lower().replace("_", " ")
+            )
+        }
+    ]
+    return tuple(hits)

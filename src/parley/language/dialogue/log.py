@@ -1,0 +1,151 @@
+"""What one robot was asked, did and saw, taken from what crosses the topics. Pure; the time is handed in."""
+
+from __future__ import annotations
+
+from collections import OrderedDict
+from collections.abc import Sequence
+from dataclasses import dataclass, field, replace
+from typing import Final, TypeVar
+
+from parley.language.dialogue.state import Asked, Deed, Dialogue, Ending, Order, Stop
+from parley.messages.chat import ActionCall
+from parley.messages.status import ActionInfo, ActorStatus, GraphEvent, PlanProposal, PlanStep, PlanUpdate
+
+__all__ = ["Log"]
+
+_T = TypeVar("_T")
+_Key = tuple[str, str]
+"""Graph and node."""
+_KEPT: Final = 200
+_KEPT_ORDERS: Final = 20
+_ASKED_TURNS: Final = 6
+_ENDINGS: Final[dict[str, Ending]] = {
+    "finished": "done", "failed": "failed", "stopped": "stopped", "skipped": "left out", "running": "running",
+}  # fmt: skip
+_LEAST_SHARE: Final = 0.05
+"""Of a step that has come less far nobody knows yet how long it takes."""
+
+
+@dataclass(slots=True)
+class _Facts:
+    """What the engine tells of one node."""
+
+    began_s: float = 0.0
+    left_s: float | None = None
+    left_text: str = ""
+    over: bool = False
+    is_false: bool = False
+    seen: tuple[str, ...] = ()
+    told: tuple[str, ...] = ()
+
+
+@dataclass(slots=True)
+class Log:
+    """Of one robot; forgets the oldest."""
+
+    _deeds: OrderedDict[tuple[str, str], Deed] = field(default_factory=OrderedDict)
+    _orders: list[Order] = field(default_factory=list)
+    _stopped: Stop | None = None
+    _refused: str = ""
+    _asked: tuple[Asked, int] | None = None
+    """With the number of turns for which it may still be answered."""
+    _plan: PlanUpdate | None = None
+    _facts: OrderedDict[_Key, _Facts] = field(default_factory=OrderedDict)
+    """What the engine tells of each node; the last is the newest that began."""
+
+    def on_order(self, words: str, by: str, unix_ms: int, calls: Sequence[ActionCall]) -> None:
+        """Somebody's words became steps."""
+        self._orders.append(Order(words, by, unix_ms, tuple(calls)))
+        del self._orders[:-_KEPT_ORDERS]
+        self._refused, self._asked = "", None
+
+    def on_asked(self, words: str, choices: Sequence[str]) -> None:
+        """An order has to be asked about first."""
+        self._asked = (Asked(words, tuple(choices)), _ASKED_TURNS)
+
+    def on_turn(self) -> None:
+        """Something was said; after a while nobody means what was asked long ago."""
+        if self._asked is not None:
+            asked, left = self._asked
+            self._asked = (asked, left - 1) if left > 1 else None
+
+    def on_refused(self, why: str) -> None:
+        """What was asked for last is not done."""
+        self._refused = why
+
+    def on_stop(self, words: str, by: str, unix_ms: int) -> None:
+        """Somebody told the robot to stand still."""
+        self._stopped = Stop(words, by, unix_ms)
+
+    def on_plan(self, update: PlanUpdate, unix_ms: int, catalogue: Sequence[ActionInfo]) -> None:
+        """The plan changed."""
+        self._plan = update
+        effects = {info.name: info.effects for info in catalogue}
+        for place, step in enumerate(update.steps):
+            ending = _ENDINGS.get(step.state)
+            if ending is None:
+                continue
+            key = (update.graph_name, step.node or f"{place} {step.label}")
+            known = self._deeds.get(key)
+            if known is None:
+                order = self._orders[-1] if self._orders else None
+                known = Deed(step.label, step.action, effects.get(step.action.name, ()), order)
+            if known.ending == "running":
+                _put(self._deeds, key, replace(known, ending=ending, unix_ms=unix_ms, label=step.label))
+
+    def on_event(self, event: GraphEvent) -> None:
+        """A step began, came further or ended."""
+        key = (event.graph_name, event.node)
+        if event.kind == "node" and event.state == "RUNNING" and key not in self._facts:
+            _put(self._facts, key, _Facts(event.robot_time_s))
+        facts = self._facts.get(key)
+        if facts is None:
+            return
+        if event.progress is not None:
+            gone_s, share = max(0.0, event.robot_time_s - facts.began_s), event.progress
+            facts.left_s = gone_s * (1.0 - share) / share if share > _LEAST_SHARE else None
+            facts.left_text = event.progress_text
+        if event.result:
+            found = event.outputs.get("seen")
+            facts.seen = tuple(map(str, found.value)) if found is not None and found.has_data else ()
+            facts.over, facts.is_false = True, event.result == "on_false"
+
+    def on_said(self, text: str) -> None:
+        """The robot said something of its own accord: it belongs to the step that runs."""
+        key = next(reversed(self._facts), None)
+        if key is not None and not self._facts[key].over:
+            self._facts[key].told += (text,)
+
+    def state(self, status: ActorStatus | None, proposal: PlanProposal | None, now_unix_ms: int) -> Dialogue:
+        """What is known at this moment."""
+        plan = self._plan
+        steps: tuple[PlanStep, ...] = plan.steps if plan is not None else ()
+        newest = next(reversed(self._facts.values()), _Facts(over=True))
+        return Dialogue(
+            plan=plan.state if plan is not None else "idle",
+            steps=steps,
+            proposal=proposal,
+            deeds=tuple(self._deed(key) for key in self._deeds),
+            orders=tuple(self._orders),
+            asked=self._asked[0] if self._asked is not None else None,
+            stopped=self._stopped,
+            refused=self._refused,
+            left_s=None if newest.over else newest.left_s,
+            left_text="" if newest.over else newest.left_text,
+            battery=status.battery if status is not None else None,
+            latched=status is not None and status.state == "stopped",
+            now_unix_ms=now_unix_ms,
+        )
+
+    def _deed(self, key: _Key) -> Deed:
+        deed, facts = self._deeds[key], self._facts.get(key)
+        if facts is None:
+            return deed
+        ending: Ending = "no" if facts.is_false and deed.ending == "done" else deed.ending
+        return replace(deed, ending=ending, seen=facts.seen, told=facts.told)
+
+
+def _put(kept: OrderedDict[_Key, _T], key: _Key, value: _T) -> None:
+    kept[key] = value
+    while len(kept) > _KEPT:
+        kept.popitem(last=False)

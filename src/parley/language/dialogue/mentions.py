@@ -1,0 +1,86 @@
+"""Which things of the map a message names, wherever they stand in it, by the words of the message."""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from dataclasses import dataclass
+
+from rapidfuzz.distance import OSA
+
+from parley.language.builtin.lexicon import Lexicon, stem
+from parley.language.builtin.things import link
+from parley.language.builtin.tokens import Token
+from parley.world.object_map import MapObject
+
+__all__ = ["Named", "head_of", "named", "same_word"]
+
+_LONGEST = 8
+
+
+@dataclass(frozen=True, slots=True)
+class Named:
+    """Words that name something on the map."""
+
+    start: int
+    end: int
+    things: tuple[MapObject, ...]
+    """One, or several that are called so."""
+    words: tuple[str, ...]
+
+    @property
+    def text(self) -> str:
+        """The words."""
+        return " ".join(self.words)
+
+
+def head_of(words: Sequence[str], lexicon: Lexicon) -> int:
+    """Which word of a description names the thing: the last one before a preposition."""
+    small = lexicon.classes["prepositions"]
+    first = next(
+        (at for at, word in enumerate(words) if word not in small | lexicon.classes["determiners"]), 0
+    )
+    stop = next((at for at in range(first + 1, len(words)) if words[at] in small), len(words))
+    return stop - 1
+
+
+def same_word(one: str, other: str) -> bool:
+    """Whether two words are the same but for plural or one slip in a long word."""
+    one, other = stem(one), stem(other)
+    return one == other or (min(len(one), len(other)) > 4 and OSA.distance(one, other) == 1)
+
+
+def named(tokens: Sequence[Token], objects: Sequence[MapObject], lexicon: Lexicon) -> list[Named]:
+    """What is named, from left to right; of words that overlap the longest run counts."""
+    low = [token.low for token in tokens]
+    words = {
+        part
+        for item in objects
+        for name in (item.description, item.class_name, *item.aliases)
+        for part in name.lower().replace("_", " ").replace("-", " ").split()
+    }
+    found: list[Named] = []
+    start = 0
+    while start < len(low):
+        best = _longest(low, start, objects, words, lexicon) if tokens[start].is_word else None
+        if best is not None:
+            found.append(best)
+        start = best.end if best is not None else start + 1
+    return found
+
+
+def _longest(
+    low: Sequence[str], start: int, objects: Sequence[MapObject], words: set[str], lexicon: Lexicon
+) -> Named | None:
+    small = lexicon.classes["prepositions"] | lexicon.classes["determiners"]
+    if low[start] in small or not any(same_word(low[start], word) for word in words):
+        return None
+    for end in range(min(len(low), start + _LONGEST), start, -1):
+        window = low[start:end]
+        if window[-1] in small or not all(
+            word in small or any(same_word(word, known) for known in words) for word in window
+        ):
+            continue
+        mention = link(window, head_of(window, lexicon), objects, lexicon)
+        if mention.kind in ("one", "several"):
+            return Named(start, end, mention.things, tuple(window))
+    return None

@@ -1,0 +1,61 @@
+"""Where things and the robot are, in words of the map; rooms as far as the map's words tell of them."""
+
+from __future__ import annotations
+
+import math
+import re
+from collections.abc import Sequence
+
+from parley.world.geometry import Pose2D
+from parley.world.object_map import MapObject
+
+__all__ = ["distance_m", "in_room", "room_of", "rooms", "whereabouts"]
+
+_IN: re.Pattern[str] = re.compile(r"\b(?:in|of) the ([\w -]+?)$", re.IGNORECASE)
+_AT_M = 1.3
+_IN_ROOM_M = 2.5
+
+
+def distance_m(item: MapObject, pose: Pose2D) -> float:
+    """From a robot to the outline of a thing."""
+    beside = max(abs(item.x_m - pose.x_m) - item.width_m / 2, 0.0)
+    along = max(abs(item.y_m - pose.y_m) - item.height_m / 2, 0.0)
+    return math.hypot(beside, along)
+
+
+def room_of(item: MapObject, known: Sequence[str] = ()) -> str:
+    """The room that the names of a thing put it in; empty if they tell of none."""
+    for name in (item.description, *item.aliases):
+        if (found := _IN.search(name)) is not None:
+            return found[1].lower()
+    first = item.description.lower().split(" ", 1)[0]
+    return first if first in known else ""
+
+
+def rooms(objects: Sequence[MapObject]) -> tuple[str, ...]:
+    """The rooms that the map's words tell of."""
+    return tuple(dict.fromkeys(room for item in objects if (room := room_of(item))))
+
+
+def in_room(room: str, objects: Sequence[MapObject], pose: Pose2D | None) -> tuple[MapObject, ...]:
+    """What is in a room, the nearest to the robot first."""
+    known = rooms(objects)
+    found = [item for item in objects if room_of(item, known) == room.lower()]
+    return tuple(sorted(found, key=lambda item: distance_m(item, pose) if pose else 0.0))
+
+
+def whereabouts(objects: Sequence[MapObject], pose: Pose2D | None) -> str:
+    """Where a robot is, as the end of "I am …"."""
+    if pose is None:
+        return "somewhere that I cannot tell: I do not know my position"
+    if not objects:
+        return f"at {pose.x_m:.1f}, {pose.y_m:.1f} on the map"
+    nearest = sorted(objects, key=lambda item: distance_m(item, pose))
+    far_m = distance_m(nearest[0], pose)
+    name = nearest[0].description
+    known = rooms(objects)
+    room = next(
+        (r for item in nearest if distance_m(item, pose) < _IN_ROOM_M and (r := room_of(item, known))), ""
+    )
+    near = f"by the {name}" if far_m <= _AT_M else f"about {max(far_m, 1.0):.0f} metres from the {name}"
+    return near if not room or room in name.lower() else f"{near}, in the {room}"

@@ -1,0 +1,316 @@
+"""What the dialogue decides before and after an order is read: answer, correct, remember, help."""
+
+from __future__ import annotations
+
+import re
+from collections.abc import Callable, Sequence
+from dataclasses import replace
+from typing import Final, Protocol
+
+from parley.language.base import Situation
+from parley.language.builtin.decision import Answer, Ask, Decision, Do, Edit, Forget, Remember, Told
+from parley.language.builtin.facts import Place
+from parley.language.builtin.lexicon import Lexicon, lemmas
+from parley.language.builtin.reading import Reading
+from parley.language.builtin.reply import said as words_for
+from parley.language.builtin.tokens import Token, tokenize
+from parley.language.dialogue.answers import answer, differences
+from parley.language.dialogue.changes import Change, before_all, change_of, texts_of, visits
+from parley.language.dialogue.facts import forgotten, moved_fact, other_fact, worth_keeping
+from parley.language.dialogue.later import PROMISE, due, put_off
+from parley.language.dialogue.mentions import named
+from parley.language.dialogue.places import in_room, rooms
+from parley.language.dialogue.questions import plain, question_of
+from parley.language.dialogue.replies import chosen, is_thinking, names_deed
+from parley.world.object_map import MapObject
+
+__all__ = ["Again", "afterwards", "beforehand", "no_facts", "spoken_of"]
+
+
+class Again(Protocol):
+    """Decides about other words in the same situation."""
+
+    def __call__(self, text: str, without: Sequence[str] = ()) -> Decision:
+        """What comes of `text`, as if the things called `without` were not there."""
+        ...
+
+
+_SOCIAL: Final = re.compile(
+    r"(?:good (?:morning|day|evening|night|afternoon)|hello|hi|hey|bye|goodbye|see you(?: later)?|"
+    r"thank(?:s| you)(?: \w+)*|"
+    r"cheers|well done|good (?:job|boy|robot|work)|nice|great|perfect|cool|wow|haha+.*|lol|sorry|"
+    r"you(?: are|'re| r) .+)"
+)
+_TURNS: Final = 8
+_ANSWER: Final = 10
+"""So many words a choice among several things has at most."""
+
+
+def beforehand(
+    situation: Situation,
+    reading: Reading,
+    tokens: Sequence[Token],
+    lexicon: Lexicon,
+    told_in: Callable[[str], tuple[Told, ...]],
+    again: Again,
+) -> Decision | None:
+    """What is decided without reading orders.
+
+    Args:
+        situation: What is known.
+        reading: Of the message.
+        tokens: Of the message.
+        lexicon: Words.
+        told_in: The facts of a text.
+        again: What is decided about a part of the message, or about what was said before.
+    """
+    said = _about_itself(situation, reading, tokens, lexicon)
+    if said is not None:
+        return said
+    chose = _chosen(situation, tokens, again)
+    if chose is not None:
+        return chose
+    meant = _about_what_was_said(situation, reading, tokens, lexicon, again)
+    if meant is not None:
+        return meant
+    moved = moved_fact(situation, reading, tokens, lexicon, told_in)
+    return Remember((moved,)) if moved is not None else None
+
+
+def _chosen(situation: Situation, tokens: Sequence[Token], again: Again) -> Decision | None:
+    """The order that was asked about, with the one of several things that is meant."""
+    asked = situation.dialogue.asked
+    words = [token.low for token in tokens if token.is_word]
+    if asked is None or len(words) > _ANSWER or situation.message.rstrip().endswith("?"):
+        return None
+    also = {item.description: item.aliases for item in situation.objects}
+    choice = chosen(words, asked.choices, also)
+    if choice is None or names_deed(words):
+        return None
+    made = again(asked.words, [name for name in asked.choices if name != choice])
+    return made if isinstance(made, Do | Edit) else None
+
+
+def _about_itself(
+    situation: Situation, reading: Reading, tokens: Sequence[Token], lexicon: Lexicon
+) -> Decision | None:
+    """An alarm, a question about the robot, a wish to forget, a word to wait."""
+    bare = plain(tokens, (situation.robot,))
+    if "alarm" in reading.acts and "question" not in reading.acts:
+        return _alarm(situation, tokens, lexicon)
+    question = question_of(bare)
+    asked = situation.dialogue.asked
+    if question is not None and question.topic == "difference" and asked is not None:
+        return Answer(f"{differences(asked.choices, situation.objects)} Which one do you mean?")
+    if question is not None and (said := answer(question, situation)):
+        return Answer(said)
+    lost = forgotten(situation, bare)
+    if lost:
+        return Forget(tuple(entry.name for entry in lost), tuple(entry.data for entry in lost))
+    if lost is not None and situation.memory and bare.startswith("forget") and not _known_plan(situation):
+        return Answer("I know nothing of that, so there is nothing to forget.")
+    if is_thinking(bare):
+        return Answer("Take your time. I wait.")
+    return None
+
+
+def _about_what_was_said(
+    situation: Situation,
+    reading: Reading,
+    tokens: Sequence[Token],
+    lexicon: Lexicon,
+    again: Again,
+) -> Decision | None:
+    """Something once more, later, instead; or what nobody like this robot can do."""
+    bare = plain(tokens, (situation.robot,))
+    if (repeated := _once_more(situation, bare)) is not None:
+        return repeated
+    if (refused := _beyond(situation, reading, tokens, lexicon)) is not None:
+        return refused
+    if (waits := put_off(situation.message)) is not None and isinstance(do := again(waits[1]), Do):
+        what = " and ".join(words_for(deed, lexicon) for deed in do.deeds if not deed.hidden)
+        return Answer(f"{PROMISE}: {waits[0]}. Then I {what}.")
+    if (order := due(situation.message, situation.history)) and isinstance(do := again(order), Do):
+        return do
+    if (instead := _TAKEN_BACK.match(situation.message)) is not None:
+        do = again(instead["rest"])
+        if isinstance(do, Do):
+            return afterwards(do, situation, reading, tokens, lexicon)
+    change = change_of(situation, tokens, lexicon, orders=False)
+    if change is not None:
+        return _edit(change, situation)
+    return None
+
+
+_ALARMED: Final = "That sounds like an emergency"
+_TAKEN_BACK: Final = re.compile(
+    r"\W*(?:(?:oh|no|ah|ok|okay|well|hm+|please|sorry|actually|wait|ugh)\W+)*(?:forget (?:it|that|this|"
+    r"about (?:it|that))|"
+    r"never ?mind(?: (?:it|that|this))?|scratch (?:that|it)|drop (?:that|it)|leave (?:that|it)|"
+    r"cancel (?:that|it)|"
+    r"change of plans?|on second thoughts?|i(?: have|'ve)? changed my mind|that was wrong|no|not that)"
+    r"\W+(?:(?:and|then|please|just|rather|instead|now|but)\W+)*(?P<rest>\w.+)$",
+    re.IGNORECASE | re.DOTALL,
+)
+_AGAIN: Final = re.compile(
+    r"(?:(?:can|could|will) you )?(?:please )?(?:do|repeat|make)?(?: ?(?:that|it|this|the same|"
+    r"the same thing|the last thing|all of "
+    r"(?:that|it)|the whole thing))?(?: ?(?:again|once more|one more time|another time|over again|twice|"
+    r"anew))?"
+)
+
+
+def _once_more(situation: Situation, bare: str) -> Decision | None:
+    """For "do that again": what was ordered last, as it was understood then."""
+    again = re.search(
+        r"\b(?:again|once more|one more time|another time|repeat|same)\b", situation.message.lower()
+    )
+    if again is None or _AGAIN.fullmatch(bare) is None or situation.question or situation.queue:
+        return None
+    if not situation.dialogue.orders:
+        return Answer("I have not done anything yet that I could do again.")
+    last = situation.dialogue.orders[-1]
+    return Edit(Change(add=last.calls, said=f"I do that again: “{last.words.strip()}”."))
+
+
+def _beyond(
+    situation: Situation, reading: Reading, tokens: Sequence[Token], lexicon: Lexicon
+) -> Decision | None:
+    """What no robot on wheels without hands can do: said so, with the nearest thing that it can."""
+    orders = [wish for wish in reading.wishes if wish.act == "order" and not wish.negated]
+    verbs = {word for wish in orders for word in lemmas(wish.verb.split(" ")[0])} if orders else set()
+    first = next((token.low for token in tokens if token.low not in lexicon.classes["small"]), "")
+    verb = next(
+        iter((verbs | ({first} if "order" in reading.acts else set())) & lexicon.classes["impossible"]), ""
+    )
+    known = {
+        word
+        for info in situation.catalogue
+        for word in re.findall(r"[a-z]+", f"{info.name} {info.description}".lower())
+    }
+    if not verb or verb in known or situation.question:
+        return None
+    places = [name for name in named(tokens, situation.objects, lexicon) if len(name.things) == 1]
+    near = f" I can go to the {places[-1].things[0].description}, if that helps." if places else ""
+    return Answer(
+        f"I am sorry, I cannot {verb}: I have wheels and a camera, but no hands, and no telephone.{near}"
+    )
+
+
+def _is_emergency(situation: Situation) -> bool:
+    """Whether somebody was just told of an emergency and asked what to do."""
+    return any(_ALARMED in turn.content for turn in situation.history[-4:] if turn.role == "assistant")
+
+
+def _known_plan(situation: Situation) -> bool:
+    return bool(situation.queue) or situation.dialogue.proposal is not None
+
+
+def afterwards(
+    made: Decision, situation: Situation, reading: Reading, tokens: Sequence[Token], lexicon: Lexicon
+) -> Decision:
+    """What is made of what was decided about the message alone.
+
+    Args:
+        made: That.
+        situation: What is known.
+        reading: Of the message.
+        tokens: Of the message.
+        lexicon: Words.
+    """
+    if isinstance(made, Do):
+        proposal = situation.dialogue.proposal
+        if proposal is not None and proposal.why and not situation.queue:
+            return Edit(Change(), made, proposal.id)  # what was only offered gives way to an order
+        change = change_of(situation, tokens, lexicon, orders=True)
+        if change is None and situation.queue and _is_emergency(situation):
+            change = before_all(situation)
+        return made if change is None else _edit(change, situation, made)
+    bare = plain(tokens, (situation.robot,))
+    if isinstance(made, Ask | Answer) and (fact := other_fact(situation, reading, bare)) is not None:
+        return Remember((fact,))
+    if isinstance(made, Ask | Answer) and _SOCIAL.fullmatch(bare):
+        return Answer(
+            "You are welcome." if bare.startswith(("thank", "cheers")) else "Hello. What can I do for you?"
+        )
+    return made
+
+
+def no_facts(told: tuple[Told, ...], situation: Situation) -> tuple[Told, ...]:
+    """The facts of a message, unless it is a stop, an order to go on, a question or an answer."""
+    bare = plain(tokenize(situation.message), (situation.robot,))
+    return told if told and worth_keeping(situation, bare) else ()
+
+
+def _edit(change: Change, situation: Situation, do: Do | None = None) -> Decision:
+    if change.question:
+        return Ask(change.question, change.choices)
+    proposal = situation.dialogue.proposal
+    if proposal is None or situation.queue:
+        return Edit(change, do, steps=situation.steps)
+    gone = set(change.drop)
+    kept = tuple(call for visit in visits(situation) if not gone & {*visit.steps} for call in visit.calls)
+    return Edit(replace(change, kept=kept), do, proposal.id)
+
+
+# -- emergencies --------------------------------------------------------------------------------------
+
+
+def _alarm(situation: Situation, tokens: Sequence[Token], lexicon: Lexicon) -> Decision:
+    """Somebody is in need or something is on fire: say what can be done, stand still, ask; never a fact."""
+    low = [token.low for token in tokens]
+    places = named(tokens, situation.objects, lexicon)
+    room = next((room for room in rooms(situation.objects) if set(room.split()) <= set(low)), "")
+    where = f"the {room}" if room else f"the {places[-1].things[0].description}" if places else ""
+    moving = situation.status == "running"
+    still = "I have stopped. " if moving else ""
+    offer = f"Shall I go to {where}, or stay here?" if where else "Where is it? Shall I go there?"
+    choices = (f"Go to {where}", "Stay here") if where else ()
+    return Ask(
+        f"{still}{_ALARMED}, and I cannot help with hands, nor call anybody by phone: "
+        f"please "
+        f"get help at once. I tell everybody who is connected to me. {offer}",
+        choices,
+        stops=moving,
+        alarms=True,
+    )
+
+
+# -- what was spoken of -------------------------------------------------------------------------------
+
+
+def spoken_of(
+    situation: Situation, known: Sequence[Place], lexicon: Lexicon
+) -> tuple[MapObject | None, Place | None]:
+    """What "it", "there" and "her" mean when a message begins: what was named last, who was told of last."""
+    orders = {order.words: order for order in situation.dialogue.orders}
+    thing, person = None, None
+    for turn in reversed(situation.history[-_TURNS:]):
+        if turn.role != "operator":
+            continue
+        order = orders.get(turn.content)
+        texts = [words for call in order.calls for words in texts_of(call)] if order is not None else []
+        low = {token.low for token in tokenize(turn.content)}
+        if person is None:
+            person = next((p for p in known if _is_called(p) and {*p.thing.lower().split()} <= low), None)
+        if thing is None:
+            thing = _thing_in([*reversed(texts), turn.content], low, situation, lexicon)
+    return thing, person
+
+
+def _is_called(place: Place) -> bool:
+    """Whether what is remembered to be somewhere has a name of its own, as people have."""
+    return place.thing.split(" ")[0].capitalize() in re.findall(r"\w+", place.memory.data)
+
+
+def _thing_in(
+    texts: Sequence[str], low: set[str], situation: Situation, lexicon: Lexicon
+) -> MapObject | None:
+    for text in texts:
+        names = named(tokenize(text), situation.objects, lexicon)
+        single = [name.things[0] for name in names if len(name.things) == 1]
+        if single:
+            return single[-1]
+    room = next((room for room in rooms(situation.objects) if set(room.split()) <= low), "")
+    inside = in_room(room, situation.objects, situation.robot_pose) if room else ()
+    return inside[0] if inside else None

@@ -1,0 +1,147 @@
+"""How an answer to a robot's question is meant: only what fits the question closes it."""
+
+from __future__ import annotations
+
+import re
+from collections.abc import Collection, Mapping, Sequence
+from types import MappingProxyType
+from typing import Final
+
+from parley.gate.assent import assent_of, begins_with_no
+from parley.language.base import ReplyReading
+from parley.language.builtin.lexicon import stem
+from parley.language.builtin.reading import Reading
+from parley.language.builtin.tokens import tokenize
+from parley.language.builtin.wishes import Wish
+from parley.language.control import control_of
+from parley.language.dialogue.questions import asks, plain
+from parley.language.stop_words import calls_to_stop
+
+__all__ = ["chosen", "is_done", "is_thinking", "names_deed", "read_reply", "words_of"]
+
+_ORDINALS: Final = {
+    "first": 0,
+    "second": 1,
+    "third": 2,
+    "fourth": 3,
+    "one": 0,
+    "two": 1,
+    "three": 2,
+    "last": -1,
+}
+_NOT: Final = frozenset(
+    {"not", "no", "don't", "dont", "never", "can't", "cannot", "didn't", "haven't", "isn't", "nope", "nah",
+     "without", "neither", "none", "hasn't", "won't", "aren't", "couldn't"}
+)  # fmt: skip
+_DONE: Final = re.compile(
+    r"(?:(?:there|here) (?:you (?:go|are)|it is|they are|we go|we are)|voila|all (?:set|done|yours|good)|"
+    r"good to go|(?:you are|you're) "
+    r"(?:good|all set|ready|loaded)|(?:you (?:can|may) )?(?:go on|carry on|continue|go ahead|drive on|"
+    r"move on|go|drive|leave)(?: now)?|(?:i|we|he|she|it|"
+    r"that|they|everything|all|somebody|someone|you|the \w+)?(?:'s|'ve|'re|s| is| are| has| have| was|"
+    r" were| did| just| now| already| been| all)*"
+    r" ?(?:done|did|loaded|ready|finished|put|placed|set|given|gave|handed|got|taken|took|moved|cleared|"
+    r"opened|fixed|"
+    r"removed|complete|completed|over|sorted|in place|on (?:you|your|it|board|the tray|top)|aboard|brought|"
+    r"laid|left|packed|stowed|in (?:your|the) (?:tray|basket|box)|shut|closed|plugged|freed|pushed|pulled|"
+    r"gone|away|settled)\b.*)"
+)  # fmt: skip
+_THINKING: Final = re.compile(
+    r"(?:let me (?:think|see|check|look)(?: .*)?|(?:hang on|hold on|wait|just|give me|one|a|half a|only|"
+    r"in)?(?: ?(?:just|a|one|me))*"
+    r" ?(?:moment|minute|second|sec|while|tick|mo)(?: please| .*full.*| .*busy.*)?|i(?:'m|"
+    r" am) (?:thinking|not sure|busy|coming|on my way|on it)"
+    r"(?: .*)?|i(?:'ll| will) (?:think|be right (?:there|back)|come|do it (?:later|soon|in)).*|i (?:don't|"
+    r"do not) know(?: yet)?|not sure(?: yet)?|"
+    r"good question|.*\bmy hands are (?:full|busy|wet|dirty).*|busy|coming|not ready(?: yet)?|"
+    r"wait(?: a .*)?|later|soon|be patient)"
+)
+_FEW: Final = 2
+_SURE: Final = 0.3
+_OPEN: Final = re.compile(r"\b(?:what|which|who|whom|where|when|how|why)\b[^.?]*\?\s*$", re.IGNORECASE)
+
+
+def _is_sure(wish: Wish) -> bool:
+    """Whether something is really ordered."""
+    return wish.act == "order" and not wish.negated and wish.witness == "agrees" and wish.share > _SURE
+
+
+def words_of(text: str) -> list[str]:
+    """The words of a text in small letters, in order."""
+    return [token.low for token in tokenize(text) if token.is_word]
+
+
+def names_deed(words: Sequence[str]) -> bool:
+    """Whether somebody orders something rather than telling which one they mean."""
+    return (
+        bool({"go", "drive", "bring", "come", "check", "look", "take"} & {*words[:4]}) and "one" not in words
+    )
+
+
+def is_done(bare: str) -> bool:
+    """Whether somebody says that what was asked of them is done."""
+    return not _NOT & set(bare.split()) and _DONE.fullmatch(bare) is not None
+
+
+def is_thinking(bare: str) -> bool:
+    """Whether somebody asks for time."""
+    return _THINKING.fullmatch(bare) is not None
+
+
+def chosen(
+    words: Collection[str], names: Sequence[str], also: Mapping[str, Sequence[str]] = MappingProxyType({})
+) -> str | None:
+    """The one of several names that words tell from the others, by what it is or by what it is not.
+
+    Args:
+        words: What was said.
+        names: What is offered.
+        also: What else each is called.
+    """
+    said = {stem(word) for word in words}
+    called = [" ".join([name, *also.get(name, ())]) for name in names]
+    own = [{stem(word) for word in text.lower().split()} for text in called]
+    shared = set.intersection(*own) if own else set()
+    scores = [len(said & (mine - shared)) for mine in own]
+    best = max(scores, default=0)
+    if best and not _NOT & set(words) and scores.count(best) == 1:
+        return names[scores.index(best)]
+    if _NOT & set(words) and scores:
+        left = [name for name, score in zip(names, scores, strict=True) if not score]
+        return left[0] if len(left) == 1 and best else None
+    place = next((_ORDINALS[word] for word in words if word in _ORDINALS and word != "one"), None)
+    return names[place] if place is not None and names and place < len(names) else None
+
+
+def read_reply(question: str, reply: str, choices: Sequence[str], reading: Reading | None) -> ReplyReading:
+    """How an answer to a question is meant.
+
+    Args:
+        question: What was asked.
+        reply: What was said.
+        choices: What was offered.
+        reading: Of the reply; None if there is no word in it.
+    """
+    bare, words = plain(tokenize(reply)), words_of(reply)
+    if reading is None or not words:
+        return ReplyReading("unclear")
+    literal = assent_of(reply)
+    if is_thinking(bare) and len(words) > _FEW:
+        return ReplyReading("aside")
+    if control_of(reply) is not None and not (literal and not choices):
+        return ReplyReading("control" if control_of(reply) != "start" else "yes")
+    if choices and (choice := chosen(words, choices)) is not None:
+        return ReplyReading("choice", choice)
+    if literal is not None:
+        return ReplyReading("yes" if literal else "no")
+    if asks(reply, bare) or is_thinking(bare) or "alarm" in reading.acts or calls_to_stop(reply):
+        return ReplyReading("aside")
+    if is_done(bare):
+        return ReplyReading("yes")
+    if any(_is_sure(wish) for wish in reading.wishes) or ("need" in reading.acts and len(words) > _FEW):
+        return ReplyReading("aside")
+    if begins_with_no(reply) or _NOT & set(words[:3]):
+        return ReplyReading("no")
+    if _OPEN.search(question) and not choices:
+        return ReplyReading("answer")
+    return ReplyReading("aside" if "told" in reading.acts and len(words) > 2 else "unclear")

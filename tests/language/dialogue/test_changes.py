@@ -1,0 +1,114 @@
+"""Corrections: exactly the steps that are meant go, and what stays is what was there."""
+
+from __future__ import annotations
+
+import pytest
+
+from parley.language.base import Situation
+from parley.language.builtin.engine import BuiltinLanguage
+from parley.language.dialogue.state import Dialogue, Order
+from parley.messages.chat import ActionCall, ChatAction
+from parley.messages.status import ActionInfo, PlanProposal, PlanStep
+from parley.world.object_map import MapObject
+
+ENGINE = BuiltinLanguage()
+FIND = ActionInfo(name="Locate", description="Find out where something is.", inputs={"what": "string"},
+                  outputs={"pose::x": "number"}, effects=("locates",))  # fmt: skip
+GO = ActionInfo(name="Way", description="Drive.", inputs={"pose::x": "number"}, effects=("moves",))
+NAMES = ("box", "gate", "desk", "lamp", "red crate", "blue crate")
+THINGS = tuple(MapObject(name.replace(" ", "_"), name, float(at), 0.0) for at, name in enumerate(NAMES))
+
+
+def way(name: str) -> tuple[ActionCall, ActionCall]:
+    find = {"input_parameters": {"what": {"pvf_type": "string", "pvf_value": name}}}
+    return (
+        ActionCall.model_validate({"Locate": find}),
+        ActionCall.model_validate({"Way": {"input_parameters": {"pose::x": {"pvf_type": "number"}}}}),
+    )
+
+
+def steps(*names: str) -> tuple[PlanStep, ...]:
+    """The way to the first is found already, and it is under way."""
+    made = [PlanStep(action=call, label=f"Go to “{name}”") for name in names for call in way(name)]
+    states = ["finished", "running"] + ["queued"] * len(made)
+    return tuple(s.model_copy(update={"state": state}) for s, state in zip(made, states, strict=False))
+
+
+def given(message: str, *names: str) -> Situation:
+    plan = steps(*names)
+    return Situation(
+        message, objects=THINGS, robot="Ada", robots=("Ada",), catalogue=(FIND, GO), status="running",
+        queue=tuple(s.action for s in plan if s.state != "finished"),
+        dialogue=Dialogue("running", plan, orders=(Order("go", calls=tuple(s.action for s in plan)),)),
+    )  # fmt: skip
+
+
+def goals(answer: ChatAction) -> list[str]:
+    return [str(c.input_parameters["what"].value) for c in answer.queue if c.name == "Locate"]
+
+
+def dropped(answer: ChatAction) -> set[int | None]:
+    return {command.pop_index for command in answer.system_cmd if command.command == "pop"}
+
+
+@pytest.mark.parametrize(
+    ("message", "drops", "adds"),
+    [
+        ("no wait, not the box, the lamp", {0}, ["lamp"]),
+        ("sorry, I meant the lamp", {0}, ["lamp"]),
+        ("make it the lamp instead", {0}, ["lamp"]),
+        ("drop that and go to the lamp", {0}, ["lamp"]),
+        ("go to the lamp instead", {0}, ["lamp"]),
+        ("also the lamp", set(), ["lamp"]),
+        ("and add the lamp at the end", set(), ["lamp"]),
+        ("go to the lamp", set(), ["lamp"]),
+    ],
+)
+async def test_of_one_way(message: str, drops: set[int], adds: list[str]) -> None:
+    answer = await ENGINE.interpret(given(message, "box"))
+    assert (dropped(answer), goals(answer)) == (drops, adds), answer.message_response
+
+
+@pytest.mark.parametrize(
+    ("message", "drops", "adds"),
+    [
+        ("skip the gate", {1, 2}, []),
+        ("leave out the gate and the desk", {1, 2, 3, 4}, []),
+        ("skip the second one", {1, 2}, []),
+        ("not the gate, the lamp", {1, 2, 3, 4}, ["lamp", "desk"]),
+        ("first the lamp", {0, 1, 2, 3, 4}, ["lamp", "box", "gate", "desk"]),
+    ],
+)
+async def test_of_three_ways(message: str, drops: set[int], adds: list[str]) -> None:
+    answer = await ENGINE.interpret(given(message, "box", "gate", "desk"))
+    assert (dropped(answer), goals(answer)) == (drops, adds), answer.message_response
+
+
+@pytest.mark.parametrize(
+    "message",
+    ["no, the gate is locked", "the lamp is better lit", "skip the seventh one", "not the crate, the lamp",
+     "sorry, I meant the crate", "what about the gate?", "is the gate after the box?"],
+)  # fmt: skip
+async def test_in_doubt_the_plan_stays(message: str) -> None:
+    answer = await ENGINE.interpret(given(message, "box", "gate"))
+    assert (dropped(answer), answer.queue) == (set(), ())
+
+
+async def test_a_proposal_is_changed_as_a_whole() -> None:
+    calls = (*way("box"), *way("gate"))
+    labels = ("Find out where “box” is", "Go to “box”", "Find out where “gate” is", "Go to “gate”")
+    waits = PlanProposal(id="7", target="Ada", steps=calls, labels=labels)
+    situation = Situation(
+        "without the box please", objects=THINGS, robot="Ada", catalogue=(FIND, GO),
+        dialogue=Dialogue("awaiting_approval", proposal=waits),
+    )  # fmt: skip
+    answer = await ENGINE.interpret(situation)
+    assert (answer.replaces, goals(answer), answer.system_cmd) == ("7", ["gate"], ())
+
+
+async def test_again_means_what_was_ordered_last() -> None:
+    order = Order("go to the gate", calls=way("gate"))
+    situation = Situation(
+        "do that again", objects=THINGS, catalogue=(FIND, GO), dialogue=Dialogue(orders=(order,))
+    )
+    assert (await ENGINE.interpret(situation)).queue == order.calls

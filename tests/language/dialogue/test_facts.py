@@ -1,0 +1,91 @@
+"""What becomes a memory, and what never does."""
+
+from __future__ import annotations
+
+from hypothesis import given, settings
+from hypothesis import strategies as st
+
+from parley.language.base import Situation, Turn
+from parley.language.builtin.engine import BuiltinLanguage
+from parley.messages.chat import ChatAction
+from parley.messages.memory import MemoryEntry
+from tests.language.builtin.worlds import SENTENCES, situation
+
+ENGINE = BuiltinLanguage()
+STOPS = ("stop", "STOP STOP", "halt", "freeze", "wait", "stooop", "don't move", "watch out", "stand still")
+WHY = ("Kim is behind you", "the box is on the floor", "you are at the desk", "there is a cat",
+       "somebody is in the yard", "")  # fmt: skip
+ASKED = (
+    "where is {}",
+    "is {} in the office",
+    "who put {} on the desk",
+    "did you see {}",
+    "why is {} in the yard",
+)
+THINGS = ("the red box", "Kim", "the printer", "my coat", "it")
+TAILS = ("", " now", " please", ", Ada", "!", " and hurry")
+ALARMS = ("somebody fell in the yard", "there is smoke in the office", "help, the printer is on fire")
+
+
+def stored(answer: ChatAction) -> list[str]:
+    return [str(c.arguments.get("data")) for c in answer.system_cmd if c.command == "add_memory"]
+
+
+def messages() -> st.SearchStrategy[str]:
+    stops = st.builds(
+        "{}{} {}".format, st.sampled_from(STOPS), st.sampled_from((",", "!", "")), st.sampled_from(WHY)
+    )
+    asked = st.builds("{}?".format, st.builds(str.format, st.sampled_from(ASKED), st.sampled_from(THINGS)))
+    orders = st.builds("{}{}".format, st.sampled_from(SENTENCES), st.sampled_from(TAILS))
+    return st.one_of(stops, asked, orders, st.sampled_from(ALARMS))
+
+
+@settings(max_examples=150, deadline=None)
+@given(messages())
+def test_no_stop_order_question_or_alarm_is_ever_stored(message: str) -> None:
+    import asyncio
+
+    assert stored(asyncio.run(ENGINE.interpret(situation(message)))) == [], message
+
+
+async def test_a_fact_is_corrected_by_a_pronoun() -> None:
+    before = (Turn("operator", "Kim is in the office"), Turn("assistant", "I will remember that."))
+    answer = await ENGINE.interpret(situation("no sorry, she has moved to the yard", history=before))
+    (command,) = answer.system_cmd
+    assert (command.arguments["name"], command.arguments["data"]) == ("kim_location", "Kim is at the yard")
+
+
+async def test_other_facts_are_kept_in_the_persons_words() -> None:
+    answer = await ENGINE.interpret(situation("Kim is allergic to wool by the way"))
+    assert stored(answer) == ["Kim is allergic to wool"]
+
+
+async def test_an_answer_to_a_question_is_no_fact() -> None:
+    for reply in ("it is on the tray", "my hands are full", "the tray is full"):
+        assert stored(await ENGINE.interpret(situation(reply, question="Is it done?"))) == []
+    aside = await ENGINE.interpret(situation("Kim is allergic to wool", question="Is it done?"))
+    assert stored(aside) == ["Kim is allergic to wool"]
+
+
+async def test_what_is_to_be_forgotten_is_named() -> None:
+    known = (MemoryEntry(name="kim_location", data="Kim is in the office", info="Where Kim is"),)
+    answer = await ENGINE.interpret(situation("forget where Kim is", memory=known))
+    assert [(c.command, c.arguments["name"]) for c in answer.system_cmd] == [
+        ("remove_memory", "kim_location")
+    ]
+
+
+async def test_an_order_may_wait_for_something_that_is_told() -> None:
+    asked = "when Kim is back, go to the office"
+    promise = await ENGINE.interpret(situation(asked))
+    assert promise.queue == () and stored(promise) == []
+    before = (Turn("operator", asked), Turn("assistant", promise.message_response))
+    assert (await ENGINE.interpret(situation("Kim is not back yet", history=before))).queue == ()
+    told: Situation = situation("Kim is back now", history=before)
+    assert [call.name for call in (await ENGINE.interpret(told)).queue] == ["drive_to"]
+
+
+async def test_an_emergency_stands_still_tells_everybody_and_asks() -> None:
+    answer = await ENGINE.interpret(situation("somebody fell in the yard!", status="running"))
+    assert answer.alarm and answer.message_response.endswith("?")
+    assert [command.command for command in answer.system_cmd] == ["stop"]

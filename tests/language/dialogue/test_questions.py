@@ -1,0 +1,93 @@
+"""Questions about the robot itself: each shape is recognised, and answered from the state alone."""
+
+from __future__ import annotations
+
+import pytest
+
+from parley.language.base import Situation
+from parley.language.builtin.engine import BuiltinLanguage
+from parley.language.builtin.tokens import tokenize
+from parley.language.dialogue.questions import plain, question_of, shapes
+from parley.language.dialogue.state import Deed, Dialogue, Order, Stop
+from parley.messages.chat import ActionCall
+from parley.messages.status import PlanStep
+from parley.world.geometry import Pose2D
+from parley.world.object_map import MapObject
+from tests.language.builtin.worlds import CATALOGUE, action
+
+ENGINE = BuiltinLanguage()
+WAY = action("drive_to", "Drive.", "place").model_copy(update={"effects": ("moves",)})
+THINGS = (MapObject("b", "box in the hall", 0.0, 0.0), MapObject("g", "gate", 9.0, 0.0))
+ORDER = Order("go to the gate", "Kim", 1_700_000_000_000)
+
+
+def deed(label: str, **more: object) -> Deed:
+    values: dict[str, object] = {"effects": ("moves",), "order": ORDER, "ending": "done", "unix_ms": 1}
+    return Deed(label, ActionCall(name="drive_to"), **(values | more))  # type: ignore[arg-type]
+
+
+LOOKED = deed(
+    "Look: “crate”", effects=("looks",), told=("I can see the crate.",), seen=("crate", "rope", "gate")
+)
+RUNS = (PlanStep(action=ActionCall(name="drive_to"), label="Go to “gate”", state="running"),)
+
+
+async def said(message: str, dialogue: Dialogue, question: str = "") -> str:
+    situation = Situation(
+        message, objects=THINGS, robot="Ada", robots=("Ada",), catalogue=(*CATALOGUE, WAY), dialogue=dialogue,
+        robot_pose=Pose2D(0.4, 0.0, 0.0), question=question, queue=tuple(s.action for s in dialogue.steps),
+        status="running" if dialogue.plan == "running" else "idle",
+    )  # fmt: skip
+    answer = await ENGINE.interpret(situation)
+    assert not answer.queue and not answer.system_cmd
+    return answer.message_response
+
+
+@pytest.mark.parametrize(("topic", "sentence"), [(s.topic, t) for s in shapes() for t in s.tests])
+def test_each_shape_is_read_as_its_topic(topic: str, sentence: str) -> None:
+    found = question_of(plain(tokenize(f"ok so {sentence} now please?"), ("Bo",)))
+    assert found is not None and found.topic == topic
+
+
+@pytest.mark.parametrize(
+    "sentence", ["where is Kim?", "is the gate open?", "can you clean the desk?", "go there"]
+)
+def test_what_is_about_the_world_is_left_to_others(sentence: str) -> None:
+    assert question_of(plain(tokenize(sentence))) is None
+
+
+@pytest.mark.parametrize(
+    ("message", "dialogue", "words"),
+    [
+        ("where are you?", Dialogue(), "by the box in the hall"),
+        ("which room are you in?", Dialogue(), "hall"),
+        ("where are you going?", Dialogue("running", RUNS), "I go to the gate"),
+        ("where are you going?", Dialogue(), "not going anywhere"),
+        ("how long will that take?", Dialogue("running", RUNS, left_s=12.4), "12 seconds"),
+        ("why are you going there?", Dialogue("running", RUNS, orders=(ORDER,)), "Because Kim asked me"),
+        ("why did you stop?", Dialogue("paused", RUNS, stopped=Stop("whoa", "Kim", 1)), "Kim told me to"),
+        ("why not?", Dialogue(refused="Ada must not go there."), "Ada must not go there"),
+        ("are you there yet?", Dialogue("running", RUNS), "Not yet"),
+        ("are you there yet?", Dialogue(deeds=(deed("Go to “gate”"),)), "Yes"),
+        ("did you get there?", Dialogue(deeds=(deed("Go to “gate”", ending="failed"),)), "No"),
+        ("have you been to the gate?", Dialogue(deeds=(deed("Go to “gate”"),)), "Yes"),
+        ("have you been to the gate?", Dialogue(deeds=(deed("Go to “gate”", ending="stopped"),)), "No"),
+        ("what did you do?", Dialogue(deeds=(deed("Go to “gate”"), LOOKED)), "go to the gate; look: the "
+            "crate"),
+        ("what did you see?", Dialogue(deeds=(LOOKED,)), "I can see the crate"),
+        ("what did you see?", Dialogue(), "not looked"),
+        ("is there a rope in there as well?", Dialogue(deeds=(LOOKED,)), "Yes"),
+        ("is there a cat in there?", Dialogue(deeds=(LOOKED,)), "did not see"),
+        ("what else is in it?", Dialogue(deeds=(LOOKED,)), "I also saw rope."),
+        ("what is left to do?", Dialogue("running", RUNS), "go to the gate"),
+        ("what is left to do?", Dialogue(), "Nothing"),
+        ("how much battery is left?", Dialogue(battery=0.41), "41 %"),
+        ("how much battery is left?", Dialogue(), "cannot tell"),
+    ],
+)  # fmt: skip
+async def test_questions_are_answered_from_the_state(message: str, dialogue: Dialogue, words: str) -> None:
+    assert words in await said(message, dialogue)
+
+
+async def test_what_it_waits_for_is_its_open_question() -> None:
+    assert "Which gate?" in await said("what are you waiting for?", Dialogue("held"), "Which gate?")
