@@ -81,10 +81,15 @@ class Planner:
         unsure = doubt(reading, wishes, self.builder.knows)
         if unsure is not None:
             return unsure
+        whole = self._all_so_often(wishes)
+        if isinstance(whole, Ask):
+            return whole
+        wishes, often = whole
         limited = self._limited(node, wishes)
         if isinstance(limited, Ask):
             return limited
         wishes, times, before = limited
+        times *= often
         self.builder.told_about(reading.about)
         if reading.manner:
             self.builder.unheeded(" ".join(reading.manner))
@@ -101,6 +106,17 @@ class Planner:
                 return made
             deeds += made
         return [*before, *deeds]
+
+    def _all_so_often(self, wishes: tuple[Wish, ...]) -> tuple[tuple[Wish, ...], int] | Ask:
+        """Several wishes that are all done so often, one round after the other; one alone keeps its count."""
+        often = {wish.all("O") for wish in wishes}
+        if len(wishes) < 2 or often == {()}:
+            return wishes, 1
+        times = self.builder.times(wishes[0])
+        if len(often) > 1 or isinstance(times, Ask):
+            return times if isinstance(times, Ask) else Ask("What of it shall I do so often?")
+        without = (replace(w, fillers=tuple(f for f in w.fillers if f.role != "O")) for w in wishes)
+        return tuple(without), times
 
     def _as_ordered(self, part: Part) -> Reading:
         """What is said of an order of time, as what is wanted: "after visiting the yard"."""
