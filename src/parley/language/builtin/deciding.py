@@ -9,7 +9,7 @@ from parley.language.base import Situation
 from parley.language.builtin.answers import answer
 from parley.language.builtin.decision import Answer, Ask, Control, Decision, Do, Remember, Told
 from parley.language.builtin.deeds import Builder
-from parley.language.builtin.facts import places, told_of
+from parley.language.builtin.facts import places, rule_of, told_of
 from parley.language.builtin.lexicon import Lexicon
 from parley.language.builtin.planner import Planner, orders_of
 from parley.language.builtin.reading import Reading
@@ -37,6 +37,9 @@ def decide(
         lexicon: Words.
         reader: Reads what is remembered.
     """
+    rule = rule_of(parts, situation.message, lexicon)
+    if rule is not None:
+        return Remember((rule,))
     told = _told(situation, parts, lexicon)
     orders = [wish for part in parts for wish in orders_of(part.reading)]
     if not orders:

@@ -50,6 +50,8 @@ class Told:
     name: str
     text: str
     about: str
+    is_rule: bool = False
+    """Whether it says what to do when something happens."""
 
 
 @dataclass(frozen=True, slots=True)

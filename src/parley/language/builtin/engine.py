@@ -87,7 +87,12 @@ class BuiltinLanguage:
         skills = self._skills.of(situation.catalogue)
         framed = frozenset(skill.action.name for skill in skills.values())
         own, known = self._own.applied, situation.catalogue
-        parts = tuple(replace(one, reading=own(one.parse, one.reading, known, framed)) for one in parts)
+        parts = tuple(
+            replace(one, reading=own(one.parse, one.reading, known, framed))
+            if one.clause.link == "main" and one.parse.tokens
+            else one
+            for one in parts
+        )
         return decide(situation, parts, skills, self._lexicon, self.reading)
 
     def reading(self, text: str) -> Reading:

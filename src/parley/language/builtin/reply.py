@@ -118,7 +118,7 @@ def _type(declared: str, value: str | float | bool) -> str:
 
 
 def _remembered(fact: Told) -> str:
-    return f"I will remember that {fact.text}."
+    return f"I will remember: {fact.text}." if fact.is_rule else f"I will remember that {fact.text}."
 
 
 def _memories(told: Sequence[Told]) -> tuple[SystemCommand, ...]:

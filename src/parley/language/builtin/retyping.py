@@ -24,6 +24,7 @@ def retyped(wish: Wish, lexicon: Lexicon) -> Wish:
     if wish.frame in ("GO", "TURN"):
         wish = _renamed(wish, "G", "H", [f for f in wish.all("G") if _is_direction(f, lexicon)])
     if wish.frame == "GO":
+        wish = wish if wish.has("G") else _renamed(wish, "T", "G", [*wish.all("T")])
         return _gone(wish)
     if wish.frame == "TURN" and not wish.has("N"):
         direction = next((direction_of(filler.words, lexicon) for filler in wish.all("H")), None)

@@ -112,21 +112,24 @@ def _best(name: Sequence[str], objects: Sequence[MapObject]) -> list[MapObject]:
         return []
     ranked: dict[int, list[MapObject]] = {}
     for item in objects:
-        names = [stems(text.split()) for text in (item.description, item.id, *item.aliases)]
-        rank = min((_rank(wanted, known) for known in names if known), default=9)
+        rank = _rank_of(name, item)
         if rank < 9:
             ranked.setdefault(rank, []).append(item)
     return ranked[min(ranked)] if ranked else []
 
 
 def _rank_of(name: Sequence[str], item: MapObject) -> int:
-    return min(_rank(stems(name), stems(text.split())) for text in (item.description, item.id, *item.aliases))
+    wanted = stems(name)
+    names = [known for text in (item.description, *item.aliases) if (known := stems(text.split()))]
+    rank = min((_rank(wanted, known) for known in names), default=9)
+    known = stems(item.id.split())
+    return min(rank, max(_rank(wanted, known), 1) if known else 9)
 
 
 def _rank(wanted: tuple[str, ...], known: tuple[str, ...]) -> int:
     if wanted == known or set(wanted) == set(known) or "".join(wanted) == "".join(known):
         return 0
-    if known[-len(wanted) :] == wanted or (set(wanted) <= set(known) and wanted[-1] == main_word(known)):
+    if set(wanted) <= set(known) and wanted[-1] == main_word(known):
         return 1
     if wanted[-len(known) :] == known:
         return 2
@@ -134,6 +137,8 @@ def _rank(wanted: tuple[str, ...], known: tuple[str, ...]) -> int:
         _alike(one, other) for one, other in zip(wanted, known, strict=True)
     ):
         return 3
+    if known[-len(wanted) :] == wanted:
+        return 4
     if len(wanted[-1]) > 3 and len(known) == 1 and known[0].endswith(wanted[-1]):
         return 4
     return 9
