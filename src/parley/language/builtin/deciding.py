@@ -6,6 +6,7 @@ from collections.abc import Callable
 from dataclasses import replace
 
 from parley.language.base import Situation
+from parley.language.builtin.addressing import addressed
 from parley.language.builtin.answers import answer
 from parley.language.builtin.decision import Answer, Ask, Control, Decision, Do, Remember, Told
 from parley.language.builtin.deeds import Builder
@@ -45,7 +46,10 @@ def decide(
     if not orders:
         whole = _whole([part.reading for part in parts if part.clause.link == "main"])
         return _without_order(situation, whole, told, lexicon, reader)
-    doubt = _amends(situation, lexicon) or _for_another(situation, parts)
+    robots = addressed(situation, tokenize(situation.message), lexicon)
+    if not isinstance(robots, Ask) and len(situation.robots) > 1:
+        parts = tuple(_without_call(part, situation.robots, robots == situation.robots) for part in parts)
+    doubt = _amends(situation, lexicon) or (robots if isinstance(robots, Ask) else None)
     nodes = arranged(parts, lexicon)
     if isinstance(nodes, Unclear):
         doubt = doubt or Ask(nodes.question)
@@ -60,7 +64,7 @@ def decide(
     if not deeds:
         left = " ".join(note.text for note in builder.notes)
         return Answer(f"All right. {left}") if left else Ask("I stay here. What shall I do?", told=told)
-    return Do(tuple(deeds), tuple(builder.notes), told)
+    return Do(tuple(deeds), tuple(builder.notes), told, () if isinstance(robots, Ask) else robots)
 
 
 def _told(situation: Situation, parts: tuple[Part, ...], lexicon: Lexicon) -> tuple[Told, ...]:
@@ -97,13 +101,13 @@ def _amends(situation: Situation, lexicon: Lexicon) -> Ask | None:
     )
 
 
-def _for_another(situation: Situation, parts: tuple[Part, ...]) -> Ask | None:
-    """An order to somebody else is not carried out by this robot."""
-    called = {word for part in parts for f in part.reading.loose if f.role == "A" for word in f.words}
-    other = next(
-        (name for name in situation.robots if name.lower() in called and name != situation.robot), None
-    )
-    return Ask(f"Is that for {other}? Please say it to {other}.") if other else None
+def _without_call(part: Part, robots: tuple[str, ...], together: bool) -> Part:
+    """A clause in which the words that call the robots are accounted for."""
+    calling = {name.lower() for name in robots}
+    calling |= {"all", "both", "two", "everyone", "everybody"} if together else set()
+    left = tuple(word for word in part.reading.left_over if word.lower() not in calling)
+    loose = tuple(f for f in part.reading.loose if not {*f.words} <= calling | {"and", "of", "you", ","})
+    return replace(part, reading=replace(part.reading, left_over=left, loose=loose))
 
 
 def _without_order(

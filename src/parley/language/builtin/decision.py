@@ -61,6 +61,8 @@ class Do:
     deeds: tuple[Deed, ...]
     notes: tuple[Note, ...] = ()
     told: tuple[Told, ...] = ()
+    robots: tuple[str, ...] = ()
+    """Who is to do it."""
 
 
 @dataclass(frozen=True, slots=True)

@@ -72,7 +72,9 @@ class BuiltinLanguage:
 
     @staticmethod
     def _addressed(chat: ChatAction, situation: Situation) -> ChatAction:
-        return chat.model_copy(update={"targets": (situation.robot,) if situation.robot else ()})
+        return chat.model_copy(
+            update={"targets": chat.targets or ((situation.robot,) if situation.robot else ())}
+        )
 
     def decide(self, situation: Situation) -> Decision:
         """What comes of a message."""

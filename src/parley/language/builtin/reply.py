@@ -22,13 +22,14 @@ _CONTROLLED = {
 def to_chat(decision: Decision, lexicon: Lexicon) -> ChatAction:
     """The message that a decision is."""
     match decision:
-        case Do(deeds, notes, told):
+        case Do(deeds, notes, told, robots):
             words = [note.text for note in notes] + [_remembered(fact) for fact in told]
             words.append(f"I will {_plan([deed for deed in deeds if not deed.hidden], lexicon)}.")
             return ChatAction(
                 message_response=" ".join(words),
                 queue=tuple(_call(deed, deeds[:place], lexicon) for place, deed in enumerate(deeds)),
                 system_cmd=_memories(told),
+                targets=robots,
                 sources=tuple(note.source for note in notes if note.source),
             )
         case Ask(question, choices, told):
