@@ -102,6 +102,15 @@ async def test_what_is_not_there_is_an_answer_where_the_plan_asks_for_it() -> No
         assert here.person.told == ["I cannot see a cup."]
 
 
+async def test_what_nobody_can_tell_from_a_picture_decides_nothing() -> None:
+    async with room() as here:
+        here.run.result_asked = True
+        here.script.will("inspect", InspectionReport("I can see a gate. Please judge whether it is open."))
+        with pytest.raises(ActionFailure) as caught:
+            await inspect(here.context, "whether the gate is open")
+        assert caught.value.code is FailureCode.ATTENTION
+
+
 async def test_what_may_be_hidden_is_no_answer_even_where_the_plan_asks_for_it() -> None:
     async with room() as here:
         here.run.result_asked = True

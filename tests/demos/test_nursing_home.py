@@ -28,9 +28,10 @@ async def home(demo: Demo) -> AsyncIterator[House]:
         yield house
 
 
-async def test_story_holds_and_every_action_ends_finished(demo: Demo, tmp_path: Path) -> None:
+@pytest.mark.parametrize("language", ["offline", "builtin"])
+async def test_story_holds_and_every_action_ends_finished(demo: Demo, tmp_path: Path, language: str) -> None:
     events: list[dict[str, Any]] = []
-    config = SystemConfig(speed=None, data_dir=tmp_path)
+    config = SystemConfig(speed=None, data_dir=tmp_path, language=language)
     result = await play(demo.story, lambda variant: demo.system(config, variant), emit=events.append)
     assert (result.held, result.text) == (True, "The story held.")
     ends = [event for event in events if event["event"] == "transition" and event.get("result")]
@@ -47,6 +48,39 @@ async def test_changed_story_ends_for_its_own_reason(demo: Demo, tmp_path: Path,
     config = SystemConfig(speed=None, data_dir=tmp_path)
     result = await play(demo.story, lambda changed: demo.system(config, changed), variant=variant)
     assert result.reason == demo.story.variant(variant).fails, result.text
+
+
+@pytest.mark.parametrize("variant", ["no_bottle", "one_sofa"])
+async def test_changed_story_ends_for_its_own_reason_with_the_new_engine(
+    demo: Demo, tmp_path: Path, variant: str
+) -> None:
+    config = SystemConfig(speed=None, data_dir=tmp_path, language="builtin")
+    result = await play(demo.story, lambda changed: demo.system(config, changed), variant=variant)
+    assert result.reason == demo.story.variant(variant).fails, result.text
+
+
+@pytest.mark.parametrize(
+    ("text", "actions", "object_id"),
+    [
+        ("Go to both sofas, then to the fridge.", ["GetCoordinates", "NavigateTo"] * 3, "refrigerator_1"),
+        ("After the bookshelf, go to the TV", ["GetCoordinates", "NavigateTo"] * 2, "tv_1"),
+        (
+            "if there is milk in the fridge, go to the TV, otherwise go to the bookshelf",
+            ["GetCoordinates", "NavigateTo", "Inspect", *["GetCoordinates", "NavigateTo"] * 2],
+            "tv_1",
+        ),
+        (
+            "if there is a box at the TV go to the fridge, if not go to the bookshelf",
+            ["GetCoordinates", "NavigateTo", "Inspect", *["GetCoordinates", "NavigateTo"] * 2],
+            "bookshelf_1",
+        ),
+    ],
+)
+async def test_logic_of_an_order_is_driven(demo: Demo, text: str, actions: list[str], object_id: str) -> None:
+    async with running(demo.system(SystemConfig(speed=None, language="builtin"))) as home:
+        await home.say(text)
+        await home.done()
+        assert (home.actions(), home.distance_m(object_id) < 1.0) == (actions, True)
 
 
 async def test_every_variant_is_tested(demo: Demo) -> None:

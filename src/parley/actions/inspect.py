@@ -68,6 +68,8 @@ async def inspect(ctx: ActionContext, inspect: str) -> Inspection | Outcome:
         raise failure
     if report.attention or (report.found and report.unwanted and not ctx.run.result_asked):
         raise ActionFailure(FailureCode.ATTENTION, report.text, {"wanted": report.wanted})
+    if report.found is None and ctx.run.result_asked:  # what depends on it is not done by guessing
+        raise ActionFailure(FailureCode.ATTENTION, report.text, {"wanted": inspect})
     if report.found and report.wanted:
         _note_sighting(ctx, report.wanted, image)
     return Outcome(True, {"inspection_result": report.text}, _facts(image))

@@ -2,6 +2,8 @@
 
 from __future__ import annotations
 
+from dataclasses import replace
+
 import pytest
 
 from parley.evaluation.catalogues import CATALOGUES
@@ -132,3 +134,34 @@ async def test_waiting_is_done_by_an_action_for_it_where_there_is_one() -> None:
     answer = await ENGINE.interpret(situation("in five minutes go to the desk", "tools"))
     assert [call.name for call in answer.queue] == ["Wait", "DriveTo"]
     assert answer.queue[0].input_parameters["duration_s"].value == 300
+
+
+@pytest.mark.parametrize(
+    ("message", "targets"),
+    [
+        ("Kit, go to the desk", ("Kit",)),
+        ("Rob and Kit, go to the desk", ("Rob", "Kit")),
+        ("both of you go to the desk", ("Rob", "Kit")),
+        ("go to the desk", ("Rob",)),
+    ],
+)
+async def test_an_order_is_for_the_robots_that_are_called(message: str, targets: tuple[str, ...]) -> None:
+    answer = await ENGINE.interpret(replace(situation(message), robots=("Rob", "Kit")))
+    assert (answer.targets, [call.name for call in answer.queue][-1:]) == (targets, ["NavigateTo"])
+
+
+@pytest.mark.parametrize(
+    "message", ["it is up to Kit: go to the desk", "Zed! Go to the desk!", "Kip, go to the desk"]
+)
+async def test_an_order_that_may_be_for_another_robot_is_not_carried_out(message: str) -> None:
+    answer = await ENGINE.interpret(replace(situation(message), robots=("Rob", "Kit")))
+    assert answer.queue == ()
+
+
+@pytest.mark.parametrize(
+    "message", ["If you see smoke, stop and tell me.", "when the way is blocked wait a minute"]
+)
+async def test_what_to_do_in_a_case_that_may_come_is_remembered(message: str) -> None:
+    answer = await ENGINE.interpret(situation(message))
+    assert [command.arguments["data"] for command in answer.system_cmd] == [message.rstrip(".")]
+    assert answer.queue == ()

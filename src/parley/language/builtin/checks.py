@@ -155,7 +155,9 @@ def _parted(word: str) -> list[str]:
 def _each(builder: Ways, words: Sequence[str]) -> list[tuple[Value | None, str]] | Ask:
     """The statement for each of a set: "all windows are shut", "any of the boxes is open"."""
     lexicon = builder.lexicon
-    among = {*words} & (lexicon.classes["quantifiers"] - {"everything", "everyone", "everybody"})
+    among = {*_before_verb(words)} & (
+        lexicon.classes["quantifiers"] - {"everything", "everyone", "everybody"}
+    )
     at = next((n for n, word in enumerate(words) if word in ("is", "are", "'s", "has", "have")), 0)
     if not at:
         return Ask(f"I do not understand “{next(iter(among))}” in this. Please name them.") if among else []
@@ -178,6 +180,12 @@ def _each(builder: Ways, words: Sequence[str]) -> list[tuple[Value | None, str]]
         )
         for one in several.things
     ]
+
+
+def _before_verb(words: Sequence[str]) -> Sequence[str]:
+    """What a statement is about, as far as it stands before "is" and the like."""
+    at = next((n for n, word in enumerate(words) if word in ("is", "are", "'s", "has", "have")), len(words))
+    return words[:at]
 
 
 def _place(builder: Ways, words: Sequence[str]) -> Value | Ask | None:

@@ -106,6 +106,8 @@ def _next_word(low: Sequence[str], at: int) -> int | None:
 def _opened(parse: Parse, low: Sequence[str], at: int, lexicon: Lexicon) -> tuple[Link, int] | None:
     """What is opened by the words at a place, and how many words do it."""
     counted = _counted(low, at)
+    if counted is not None and any(span.role == "O" and span.start <= at < span.end for span in parse.spans):
+        return None
     if counted is not None:
         return counted
     best: tuple[Link, int] | None = None

@@ -6,10 +6,11 @@ from collections.abc import Callable
 from dataclasses import replace
 
 from parley.language.base import Situation
+from parley.language.builtin.addressing import addressed
 from parley.language.builtin.answers import answer
 from parley.language.builtin.decision import Answer, Ask, Control, Decision, Do, Remember, Told
 from parley.language.builtin.deeds import Builder
-from parley.language.builtin.facts import places, told_of
+from parley.language.builtin.facts import places, rule_of, told_of
 from parley.language.builtin.lexicon import Lexicon
 from parley.language.builtin.planner import Planner, orders_of
 from parley.language.builtin.reading import Reading
@@ -50,6 +51,9 @@ def decide(
     early = policy.beforehand(situation, whole, tokens, lexicon, told_in, again)
     if early is not None:
         return early
+    rule = rule_of(parts, situation.message, lexicon)
+    if rule is not None:
+        return Remember((rule,))
     made = _alone(situation, parts, skills, lexicon, reader)
     return policy.afterwards(made, situation, whole, tokens, lexicon)
 
@@ -67,7 +71,10 @@ def _alone(
     if not orders:
         whole = _whole([part.reading for part in parts if part.clause.link == "main"])
         return _without_order(situation, whole, told, lexicon, reader)
-    doubt = _for_another(situation, parts)
+    robots = addressed(situation, tokenize(situation.message), lexicon)
+    if not isinstance(robots, Ask) and len(situation.robots) > 1:
+        parts = tuple(_without_call(part, situation.robots, robots == situation.robots) for part in parts)
+    doubt = robots if isinstance(robots, Ask) else None
     nodes = arranged(parts, lexicon)
     if isinstance(nodes, Unclear):
         doubt = doubt or Ask(nodes.question)
@@ -87,7 +94,7 @@ def _alone(
     if builder.doubts is not None:
         asked, unclear = builder.doubts
         return replace(asked, told=told, offer=tuple(deeds), unclear=unclear)
-    return Do(tuple(deeds), tuple(builder.notes), told)
+    return Do(tuple(deeds), tuple(builder.notes), told, () if isinstance(robots, Ask) else robots)
 
 
 def _told(situation: Situation, parts: tuple[Part, ...], lexicon: Lexicon) -> tuple[Told, ...]:
@@ -113,13 +120,13 @@ def _whole(readings: list[Reading]) -> Reading:
     )
 
 
-def _for_another(situation: Situation, parts: tuple[Part, ...]) -> Ask | None:
-    """An order to somebody else is not carried out by this robot."""
-    called = {word for part in parts for f in part.reading.loose if f.role == "A" for word in f.words}
-    other = next(
-        (name for name in situation.robots if name.lower() in called and name != situation.robot), None
-    )
-    return Ask(f"Is that for {other}? Please say it to {other}.") if other else None
+def _without_call(part: Part, robots: tuple[str, ...], together: bool) -> Part:
+    """A clause in which the words that call the robots are accounted for."""
+    calling = {name.lower() for name in robots}
+    calling |= {"all", "both", "two", "everyone", "everybody"} if together else set()
+    left = tuple(word for word in part.reading.left_over if word.lower() not in calling)
+    loose = tuple(f for f in part.reading.loose if not {*f.words} <= calling | {"and", "of", "you", ","})
+    return replace(part, reading=replace(part.reading, left_over=left, loose=loose))
 
 
 def _without_order(

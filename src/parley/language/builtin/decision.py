@@ -54,6 +54,8 @@ class Told:
     name: str
     text: str
     about: str
+    is_rule: bool = False
+    """Whether it says what to do when something happens."""
 
 
 @dataclass(frozen=True, slots=True)
@@ -63,6 +65,8 @@ class Do:
     deeds: tuple[Deed, ...]
     notes: tuple[Note, ...] = ()
     told: tuple[Told, ...] = ()
+    robots: tuple[str, ...] = ()
+    """Who is to do it."""
 
 
 @dataclass(frozen=True, slots=True)

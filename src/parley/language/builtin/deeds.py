@@ -34,7 +34,7 @@ class Builder(Ways):
         self.whole = None
         if wish.own is not None:
             return self._logic(wish) or self._owned(wish, wish.own)
-        times = self._strange(wish) or self._times(wish)
+        times = self._strange(wish) or self.times(wish)
         if isinstance(times, Ask):
             return times
         values = self._values(wish)
@@ -190,7 +190,7 @@ class Builder(Ways):
         self.last_thing = several
         return found
 
-    def _times(self, wish: Wish) -> int | Ask:
+    def times(self, wish: Wish) -> int | Ask:
         """How often a wish is to be done."""
         often = wish.all("O")
         if not often:

@@ -16,7 +16,7 @@ AGREED = 0.3
 ALONE = 0.75
 """So much where the lexicon does not know the verb."""
 
-NAMED = 0.1
+NAMED = 0.03
 """So much in a role whose words name something of the map."""
 OFFERED = 0.1
 """So much in what is shown for a yes."""

@@ -74,7 +74,9 @@ class BuiltinLanguage:
 
     @staticmethod
     def _addressed(chat: ChatAction, situation: Situation) -> ChatAction:
-        return chat.model_copy(update={"targets": (situation.robot,) if situation.robot else ()})
+        return chat.model_copy(
+            update={"targets": chat.targets or ((situation.robot,) if situation.robot else ())}
+        )
 
     def decide(self, situation: Situation) -> Decision:
         """What comes of a message."""
@@ -89,7 +91,12 @@ class BuiltinLanguage:
         skills = self._skills.of(situation.catalogue)
         framed = frozenset(skill.action.name for skill in skills.values())
         own, known = self._own.applied, situation.catalogue
-        parts = tuple(replace(one, reading=own(one.parse, one.reading, known, framed)) for one in parts)
+        parts = tuple(
+            replace(one, reading=own(one.parse, one.reading, known, framed))
+            if one.clause.link == "main" and one.parse.tokens
+            else one
+            for one in parts
+        )
 
         def again(text: str, without: Sequence[str] = ()) -> Decision:
             objects = tuple(item for item in situation.objects if item.description not in without)

@@ -10,10 +10,11 @@ from parley.language.builtin.decision import Told
 from parley.language.builtin.lexicon import Lexicon, stem
 from parley.language.builtin.reading import Reading
 from parley.language.builtin.saying import with_article
+from parley.language.builtin.structure import Part
 from parley.language.builtin.things import noun_phrase
 from parley.messages.memory import MemoryEntry
 
-__all__ = ["Place", "known_place", "places", "told_of"]
+__all__ = ["Place", "known_place", "places", "rule_of", "told_of"]
 
 
 @dataclass(frozen=True, slots=True)
@@ -52,6 +53,34 @@ def told_of(reading: Reading, message: str, starts: Sequence[int], lexicon: Lexi
             shown = plain[0] if plain else " ".join(name)
             found.append(Told(f"{key}_location", _quoted(text), f"Where {with_article(shown)} is"))
     return tuple(found)
+
+
+def rule_of(parts: Sequence[Part], message: str, lexicon: Lexicon) -> Told | None:
+    """What people teach for a case that may come ("if you see smoke, stop"); None if it is no such rule.
+
+    It has one condition, about what the robot may meet on any way: something seen, or something that goes
+    wrong. Nothing is wanted before it.
+    """
+    cases = [part for part in parts if part.clause.link in ("if", "when")]
+    others = [
+        part for part in parts if part.clause.link not in ("if", "when", "main", "not", "times", "delay")
+    ]
+    if len(cases) != 1 or others or (not cases[0].clause.fronted and len(parts) > 2) or len(parts) < 2:
+        return None
+    words = [word for word in cases[0].low if word.isalpha()]
+    sees = (
+        len(words) > 2
+        and words[0] in ("you", "anybody", "somebody")
+        and words[1] in lexicon.classes["meeting"]
+    )
+    wrong = bool({*words} & lexicon.classes["trouble"]) and cases[0].clause.link == "when"
+    if not (sees or wrong) or (parts[0] is not cases[0] and cases[0].clause.fronted):
+        return None
+    name = words[2:] if sees else words
+    small = lexicon.classes["determiners"] | lexicon.classes["small"] | lexicon.classes["prepositions"]
+    key = "_".join(word for word in name if word not in small)[:150]
+    text = message.strip().rstrip(".!")
+    return Told(f"{key}_protocol", text, f"What to do about {' '.join(name)}", is_rule=True) if key else None
 
 
 def _quoted(text: str) -> str:

@@ -83,19 +83,16 @@ class Planner:
             if not may_be_offered(reading, wishes, self.builder.lexicon):
                 return unsure
             self.builder.doubts = (unsure, " ".join(reading.left_over) or "…")
+        whole = self._all_so_often(wishes)
+        if isinstance(whole, Ask):
+            return whole
+        wishes, often = whole
         limited = self._limited(node, wishes)
         if isinstance(limited, Ask):
             return limited
         wishes, times, before = limited
-        self.builder.told_about(reading.about)
-        if reading.manner:
-            self.builder.unheeded(" ".join(reading.manner))
-        for filler in reading.loose:
-            self.builder.loose(filler)
-        for wish in reading.wishes:
-            if wish.frame == "BELOC":
-                for filler in wish.fillers:
-                    self.builder.loose(filler)
+        times *= often
+        self._noted(reading)
         deeds: list[Deed] = []
         for _ in range(times):
             made = self._done(wishes)
@@ -103,6 +100,26 @@ class Planner:
                 return made
             deeds += made
         return [*before, *deeds]
+
+    def _noted(self, reading: Reading) -> None:
+        """What is told besides: of whom, in what manner, where something is."""
+        self.builder.told_about(reading.about)
+        if reading.manner:
+            self.builder.unheeded(" ".join(reading.manner))
+        placed = [filler for wish in reading.wishes if wish.frame == "BELOC" for filler in wish.fillers]
+        for filler in (*reading.loose, *placed):
+            self.builder.loose(filler)
+
+    def _all_so_often(self, wishes: tuple[Wish, ...]) -> tuple[tuple[Wish, ...], int] | Ask:
+        """Several wishes that are all done so often, one round after the other; one alone keeps its count."""
+        often = {wish.all("O") for wish in wishes}
+        if len(wishes) < 2 or often == {()}:
+            return wishes, 1
+        times = self.builder.times(wishes[0])
+        if len(often) > 1 or isinstance(times, Ask):
+            return times if isinstance(times, Ask) else Ask("What of it shall I do so often?")
+        without = (replace(w, fillers=tuple(f for f in w.fillers if f.role != "O")) for w in wishes)
+        return tuple(without), times
 
     def _as_ordered(self, part: Part) -> Reading:
         """What is said of an order of time, as what is wanted: "after visiting the yard"."""

@@ -60,6 +60,10 @@ def _merged(parse: Parse) -> list[Span]:
             head = span.head if span.role in "NH" else last.head
             found[-1] = replace(last, end=span.end, head=head, share=min(last.share, span.share))
             continue
+        loose = last is not None and last.owner is None and span.owner is None and last.end == span.start
+        if last is not None and loose and last.role == "T" and span.role == "L":
+            found[-1] = replace(last, end=span.end)
+            continue
         nearest = max((n for n, verb in enumerate(parse.verbs) if verb.start < span.start), default=None)
         if span.owner is not None and nearest is not None and span.owner < nearest and span.role in "TGSRHN":
             span = replace(span, owner=nearest)

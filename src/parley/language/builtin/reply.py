@@ -33,13 +33,14 @@ _CONTROLLED = {
 def to_chat(decision: Decision, lexicon: Lexicon) -> ChatAction:
     """The message that a decision is."""
     match decision:
-        case Do(deeds, notes, told):
+        case Do(deeds, notes, told, robots):
             words = [note.text for note in notes] + [_remembered(fact) for fact in told]
             words.append(f"I will {_plan([deed for deed in deeds if not deed.hidden], lexicon)}.")
             return ChatAction(
                 message_response=" ".join(words),
                 queue=_calls(deeds, lexicon),
                 system_cmd=_memories(told),
+                targets=robots,
                 sources=tuple(note.source for note in notes if note.source),
             )
         case Ask(question, choices, told):
@@ -171,7 +172,7 @@ def _type(declared: str, value: str | float | bool) -> str:
 
 
 def _remembered(fact: Told) -> str:
-    return f"I will remember that {fact.text}."
+    return f"I will remember: {fact.text}." if fact.is_rule else f"I will remember that {fact.text}."
 
 
 def _memories(told: Sequence[Told]) -> tuple[SystemCommand, ...]:

@@ -28,6 +28,7 @@ def retyped(wish: Wish, lexicon: Lexicon) -> Wish:
     if wish.frame == "GUIDE" and not wish.has("T"):
         return _renamed(wish, "R", "T", list(wish.all("R")))
     if wish.frame == "GO":
+        wish = wish if wish.has("G") else _renamed(wish, "T", "G", [*wish.all("T")])
         return _gone(wish)
     if wish.frame == "TURN" and not wish.has("N"):
         direction = next((direction_of(filler.words, lexicon) for filler in wish.all("H")), None)

@@ -54,17 +54,12 @@ def noun_phrase(words: Sequence[str], head: int, lexicon: Lexicon) -> tuple[tupl
 
 def link(words: Sequence[str], head: int, objects: Sequence[MapObject], lexicon: Lexicon) -> Mention:
     """What words mean among the things of the map."""
-    bare = [
-        word for word in words if word not in lexicon.classes["determiners"] | lexicon.classes["prepositions"]
-    ]
-    if words[head] in lexicon.classes["me"] or any(word in lexicon.classes["me"] for word in bare[:1]):
-        return Mention("speaker", "me")
-    if " ".join(words) in lexicon.classes["here"]:
-        return Mention("here", "here")
-    if words[head] in lexicon.classes["persons"]:
-        return Mention("pronoun", words[head])
-    if words[head] in lexicon.classes["pronouns"] and len(bare) <= 1:
-        return Mention("pronoun", words[head])
+    referring = _referring(words, head, lexicon)
+    if referring is not None:
+        return referring
+    exact = _called(words, objects, lexicon)
+    if len(exact) == 1:
+        return Mention("one", exact[0].description, tuple(exact))
     name, rest = noun_phrase(words, head, lexicon)
     if name and name[-1] in ("one", "ones"):
         told = [item for item in objects if set(stems(name[:-1])) <= set(stems(item.description.split()))]
@@ -95,6 +90,35 @@ def link(words: Sequence[str], head: int, objects: Sequence[MapObject], lexicon:
     return Mention("one" if len(best) == 1 else "several", " ".join((*name, *rest)), tuple(best))
 
 
+def _referring(words: Sequence[str], head: int, lexicon: Lexicon) -> Mention | None:
+    """What "me", "here" and pronouns mean."""
+    small = lexicon.classes["determiners"] | lexicon.classes["prepositions"]
+    bare = [word for word in words if word not in small]
+    if words[head] in lexicon.classes["me"] or any(word in lexicon.classes["me"] for word in bare[:1]):
+        return Mention("speaker", "me")
+    if " ".join(words) in lexicon.classes["here"]:
+        return Mention("here", "here")
+    if words[head] in lexicon.classes["persons"]:
+        return Mention("pronoun", words[head])
+    if words[head] in lexicon.classes["pronouns"] and len(bare) <= 1:
+        return Mention("pronoun", words[head])
+    return None
+
+
+def _called(words: Sequence[str], objects: Sequence[MapObject], lexicon: Lexicon) -> list[MapObject]:
+    """The things that are called by just these words, whatever article or preposition leads to them."""
+    start = 0
+    leads = lexicon.classes["prepositions"] | lexicon.classes["determiners"]
+    while start < len(words) - 1 and words[start] in leads:
+        start += 1
+    said = stems(words[start:])
+    return [
+        item
+        for item in objects
+        if any(stems(name.split()) == said for name in (item.description, *item.aliases))
+    ]
+
+
 def stems(words: Sequence[str]) -> tuple[str, ...]:
     """The words of a name, each without its plural; parts of ids and of words with a hyphen apart."""
     return tuple(stem(part) for word in words for part in word.replace("_", " ").replace("-", " ").split())
@@ -112,15 +136,18 @@ def _best(name: Sequence[str], objects: Sequence[MapObject]) -> list[MapObject]:
         return []
     ranked: dict[int, list[MapObject]] = {}
     for item in objects:
-        names = [stems(text.split()) for text in (item.description, item.id, *item.aliases)]
-        rank = min((_rank(wanted, known) for known in names if known), default=9)
+        rank = _rank_of(name, item)
         if rank < 9:
             ranked.setdefault(rank, []).append(item)
     return ranked[min(ranked)] if ranked else []
 
 
 def _rank_of(name: Sequence[str], item: MapObject) -> int:
-    return min(_rank(stems(name), stems(text.split())) for text in (item.description, item.id, *item.aliases))
+    wanted = stems(name)
+    names = [known for text in (item.description, *item.aliases) if (known := stems(text.split()))]
+    rank = min((_rank(wanted, known) for known in names), default=9)
+    known = stems(item.id.split())
+    return min(rank, max(_rank(wanted, known), 1) if known else 9)
 
 
 def _rank(wanted: tuple[str, ...], known: tuple[str, ...]) -> int:
@@ -136,6 +163,8 @@ def _rank(wanted: tuple[str, ...], known: tuple[str, ...]) -> int:
         _alike(one, other) for one, other in zip(wanted, known, strict=True)
     ):
         return 3
+    if known[-len(wanted) :] == wanted:
+        return 4
     if len(wanted[-1]) > 3 and len(known) == 1 and known[0].endswith(wanted[-1]):
         return 4
     return 9
