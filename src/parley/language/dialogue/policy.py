@@ -176,7 +176,7 @@ def _once_more(situation: Situation, bare: str) -> Decision | None:
 def _beyond(
     situation: Situation, reading: Reading, tokens: Sequence[Token], lexicon: Lexicon
 ) -> Decision | None:
-    """What no robot on wheels without hands can do: said so, with the nearest thing that it can."""
+    """What none of its actions can do: said so, with the nearest thing that it can."""
     orders = [wish for wish in reading.wishes if wish.act == "order" and not wish.negated]
     verbs = {word for wish in orders for word in lemmas(wish.verb.split(" ")[0])} if orders else set()
     first = next((token.low for token in tokens if token.low not in lexicon.classes["small"]), "")
@@ -186,15 +186,13 @@ def _beyond(
     known = {
         word
         for info in situation.catalogue
-        for word in re.findall(r"[a-z]+", f"{info.name} {info.description}".lower())
+        for word in re.findall(r"[a-z]+", f"{info.name} {info.description} {' '.join(info.phrases)}".lower())
     }
     if not verb or verb in known or situation.question:
         return None
     places = [name for name in named(tokens, situation.objects, lexicon) if len(name.things) == 1]
     near = f" I can go to the {places[-1].things[0].description}, if that helps." if places else ""
-    return Answer(
-        f"I am sorry, I cannot {verb}: I have wheels and a camera, but no hands, and no telephone.{near}"
-    )
+    return Answer(f"I am sorry, I cannot {verb}: none of my actions does that.{near}")
 
 
 def _is_emergency(situation: Situation) -> bool:
