@@ -21,7 +21,6 @@ from parley.errors import ConfigError, GraphRefusedError, Problem
 from parley.files import read_text
 from parley.messages import topics
 from parley.messages.ros import UmrfGraphStart
-from parley.umrf.bt import export_tree, import_tree
 from parley.umrf.catalogue import Catalogue
 from parley.umrf.discovery import ActionFolder
 from parley.umrf.io import read_graph, write_graph
@@ -115,6 +114,8 @@ def convert(
     json: Annotated[bool, typer.Option("--json", help="One JSON object per problem.")] = False,
 ) -> None:
     """Convert a graph to a BehaviorTree.CPP 4 tree, or a tree to a graph: all of it, or nothing and why."""
+    from parley.umrf.bt import export_tree, import_tree  # a part that nobody else needs
+
     try:
         if to is ConvertTo.BTCPP:
             text = export_tree(read_graph(read_text(file)))
