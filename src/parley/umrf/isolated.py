@@ -60,7 +60,7 @@ def _processes() -> Any:
     if "forkserver" not in multiprocessing.get_all_start_methods():
         return multiprocessing.get_context("spawn")
     context = multiprocessing.get_context("forkserver")
-    context.set_forkserver_preload(["__main__", "parley.__main__", __name__])
+    context.set_forkserver_preload(["parley.__main__", __name__])  # not the script, which may begin something
     return context
 
 
@@ -139,7 +139,6 @@ class _Worker:
         self._order, self._name, self._handle = order, name, handle
         self._ours, self._theirs = _processes().Pipe()
         self._process: Any = None
-        self._lock = threading.Lock()
         self._killed = False
 
     def converse(self) -> Outcome:
@@ -153,20 +152,21 @@ class _Worker:
             self._reap()
 
     def _start(self) -> bool:
-        with self._lock:
-            if self._killed:
-                self._theirs.close()
-                return False
-            process = _processes().Process(
-                target=_work, args=(self._theirs, self._order), name=self._order.node, daemon=True
-            )
-            try:
-                with _ctrl_c_held():
-                    process.start()
-            finally:
-                self._theirs.close()  # so that the end of the process is the end of what it tells
-            self._process = process
-            return True
+        if self._killed:
+            self._theirs.close()
+            return False
+        process = _processes().Process(
+            target=_work, args=(self._theirs, self._order), name=self._order.node, daemon=True
+        )
+        try:
+            with _ctrl_c_held():
+                process.start()  # the first one may take seconds, and nobody may wait for that to kill it
+        finally:
+            self._theirs.close()  # so that the end of the process is the end of what it tells
+        self._process = process
+        if self._killed:
+            process.kill()
+        return True
 
     def _listen(self) -> Outcome:
         while True:
@@ -192,9 +192,7 @@ class _Worker:
 
     def kill(self) -> None:
         """End the process whatever it does. Idempotent."""
-        with self._lock:
-            self._killed = True
-            process = self._process
+        self._killed, process = True, self._process
         if process is not None and process.is_alive():
             process.kill()
 
