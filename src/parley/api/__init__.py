@@ -17,8 +17,9 @@ from typing import TYPE_CHECKING, Any, Final
 
 if TYPE_CHECKING:
     from parley.actions.context import ActionContext
-    from parley.api.door import GraphRun, Page, Parley, step
+    from parley.api.door import Parley, step
     from parley.api.listening import Events
+    from parley.api.running import GraphRun, Page
     from parley.api.sync import SyncParley
     from parley.config import ModelSettings, SystemConfig
     from parley.errors import (
@@ -54,8 +55,9 @@ if TYPE_CHECKING:
 
 _WHERE: Final = {
     "actions.context": ("ActionContext",),
-    "api.door": ("GraphRun", "Page", "Parley", "step"),
+    "api.door": ("Parley", "step"),
     "api.listening": ("Events",),
+    "api.running": ("GraphRun", "Page"),
     "api.sync": ("SyncParley",),
     "config": ("ModelSettings", "SystemConfig"),
     "errors": (

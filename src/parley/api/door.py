@@ -8,23 +8,23 @@ from __future__ import annotations
 
 import asyncio
 import importlib
-import json
 import uuid
 from collections.abc import AsyncIterator, Iterable, Mapping, Sequence
 from contextlib import AsyncExitStack, asynccontextmanager
+from functools import partial
 from pathlib import Path
 from types import TracebackType
 from typing import TYPE_CHECKING, Any, Final, Literal, Self
 
+from parley.api.running import GraphRun, Page, about, graph_text
 from parley.config import SystemConfig
-from parley.errors import ConfigError, GraphRefusedError, NotAllowedError, ParleyError, Problem
+from parley.errors import ConfigError, NotAllowedError, ParleyError
 from parley.extras import needs
 from parley.gate.ruling import rule
 from parley.gate.table import Effect, verdict
 from parley.messages import topics
 from parley.messages.audit import AuditEvent
 from parley.messages.chat import ActionCall, ChatAction, ChatFeedback, ChatInput, CommandName, SystemCommand
-from parley.messages.incident import Incident
 from parley.messages.memory import (
     AddToMemory,
     GetMemory,
@@ -36,14 +36,12 @@ from parley.messages.memory import (
 )
 from parley.messages.principal import Principal
 from parley.messages.pvf import SEPARATOR, Parameter, native_type
-from parley.messages.ros import ChatRequest, UmrfGraphPause, UmrfGraphStart, UmrfGraphStop
+from parley.messages.ros import ChatRequest, UmrfGraphStart
 from parley.messages.status import (
-    GraphEvent,
     PlanDecision,
     PlanProposal,
     PlanRuling,
     PlanUpdate,
-    Rejection,
     StopCommand,
 )
 from parley.messages.wire import decode, encode
@@ -55,15 +53,13 @@ if TYPE_CHECKING:  # loaded when it is opened
     from parley.site import Site
     from parley.system import System
     from parley.umrf.action import Action, ActionSpec
-    from parley.web.server import WebServer
 
-__all__ = ["GraphRun", "Page", "Parley", "step"]
+__all__ = ["Parley", "step"]
 
 NOBODY: Final = Principal()
 """A program that nobody vouches for: it may look, stop, speak, and propose."""
 OPENS_WITHIN_S: Final = 30.0
 ANSWERS_WITHIN_S: Final = 60.0
-_ENDED: Final = ("FINISHED", "STOPPED", "ERROR")
 _CONTROL: Final[Mapping[str, CommandName]] = {
     "pause": "stop", "resume": "start", "skip": "skip", "clear": "clear",
 }  # fmt: skip
@@ -115,7 +111,7 @@ class Parley:
         by: Principal = NOBODY,
     ) -> None:
         self._by = by
-        self._make = lambda: _system(world, robots, actions, language, config)
+        self._make = partial(_system, world, robots, actions, language, config)
         self._stack = AsyncExitStack()
         self._system: System | None = None
         self._door: Listener | None = None
@@ -169,7 +165,7 @@ class Parley:
             robot: Whose; empty: everybody's.
         """
         name = self._named(robot) if robot else ""
-        return self._listener.stream(lambda event: not name or name in _about(event))
+        return self._listener.stream(lambda event: not name or name in about(event))
 
     async def settled(self, robot: str, *, timeout_s: float | None = None) -> PlanUpdate:
         """Wait until a robot does nothing more by itself: it is done, held, asks, or waits for a yes.
@@ -344,7 +340,7 @@ class Parley:
             GraphRefusedError: It cannot run; with every reason.
             NotAllowedError: Who wants it may not, or not without a person's yes.
         """
-        name, who, text = self._named(robot), self._who(by), _graph_text(graph)
+        name, who, text = self._named(robot), self._who(by), graph_text(graph)
         from parley.umrf.io import read_graph
 
         wanted = read_graph(text)
@@ -509,119 +505,8 @@ class Parley:
             raise ParleyError(event.message)
 
 
-class Page:
-    """The page for operators, while it is served."""
-
-    def __init__(self, server: WebServer) -> None:
-        self._server = server
-
-    @property
-    def address(self) -> str:
-        """Where it is on this computer."""
-        return self._server.url
-
-    @property
-    def code(self) -> str:
-        """What the next device signs in with; empty where nobody has to."""
-        return self._server.pairing_code
-
-
-class GraphRun:
-    """A graph that was started: ``async for event in run`` gives each transition once, in order."""
-
-    def __init__(self, listener: Listener, name: str, robot: str) -> None:
-        self.name, self.robot = name, robot
-        self.state = ""
-        """The newest state of the graph, e.g. ``RUNNING`` or ``FINISHED``."""
-        self._listener = listener
-        self._events = listener.stream(self._concerns)
-        self._kept: list[GraphEvent] = []
-
-    def __aiter__(self) -> Self:
-        return self
-
-    async def __anext__(self) -> GraphEvent:
-        if self._kept:
-            return self._kept.pop(0)
-        if self.state in _ENDED:
-            self.close()
-            raise StopAsyncIteration
-        event = await anext(self._events)
-        if isinstance(event, Rejection):
-            problems = [Problem(item.path, item.message, item.remedy, item.code) for item in event.problems]
-            raise GraphRefusedError(self.name, problems or [Problem("", "it was refused")])
-        assert isinstance(event, GraphEvent)
-        if event.kind == "graph":
-            self.state = event.state
-        return event
-
-    async def begun(self) -> None:
-        """Wait until it has begun.
-
-        Raises:
-            GraphRefusedError: It was refused.
-        """
-        self._kept.append(await anext(self))
-
-    async def wait(self, *, timeout_s: float | None = None) -> str:
-        """Wait until it has ended; its state then.
-
-        Raises:
-            TimeoutError: It has not within `timeout_s` of wall time.
-        """
-        async with asyncio.timeout(timeout_s):
-            async for _ in self:
-                pass
-        return self.state
-
-    def pause(self) -> None:
-        """Hold it. Whoever may look may hold; going on is a person's to say (`Parley.control`)."""
-        self._listener.send(topics.GRAPH_PAUSE, UmrfGraphPause(self.name, (self.robot,)))
-
-    def stop(self) -> None:
-        """End it."""
-        self._listener.send(topics.GRAPH_STOP, UmrfGraphStop(self.name, (self.robot,)))
-
-    def close(self) -> None:
-        """Listen no more; the graph goes on. Idempotent."""
-        self._events.close()
-
-    def _concerns(self, event: Event) -> bool:
-        if isinstance(event, GraphEvent):
-            return event.graph_name == self.name and event.actor == self.robot
-        return (
-            isinstance(event, Rejection)
-            and event.graph_name == self.name
-            and event.what == topics.GRAPH_START.name
-        )
-
-
-def _about(event: Event) -> tuple[str, ...]:
-    """The robots an event is about; a memory of everybody's is about nobody in particular."""
-    match event:
-        case ChatFeedback():
-            return event.targets
-        case PlanUpdate() | PlanProposal() | Rejection():
-            return (event.target,)
-        case MemoryEvent():
-            return (event.scope,)
-        case Incident():
-            return (event.robot,)
-    return (event.actor,)
-
-
 def _new_id() -> str:
     return uuid.uuid4().hex
-
-
-def _graph_text(graph: str | Path | Mapping[str, Any]) -> str:
-    if isinstance(graph, Mapping):
-        return json.dumps(graph)
-    if isinstance(graph, str) and graph.lstrip().startswith("{"):
-        return graph
-    from parley.files import read_text
-
-    return read_text(Path(graph))
 
 
 def _load_web() -> None:
@@ -629,73 +514,8 @@ def _load_web() -> None:
         importlib.import_module("parley.web.server")
 
 
-def _system(
-    world: str | Path | Site | None,
-    robots: Iterable[RobotBase | type[RobotBase]],
-    actions: Iterable[Action[..., Any] | ActionSpec | str | Path],
-    language: str | Language | None,
-    config: SystemConfig | Mapping[str, Any] | str | Path | None,
-) -> System:
+def _system(*given: Any) -> System:
     """Make the system that was described; runs in a thread, as files are read and libraries loaded."""
-    import structlog
+    from parley.api.making import make_system
 
-    from parley.actions.builtin import BUILTIN_ACTIONS
-    from parley.logs import quiet_logs
-    from parley.robots.own import RobotBase
-    from parley.site import Site
-    from parley.system import System
-
-    if not structlog.is_configured():
-        quiet_logs()
-    settings = _settings(config)
-    if isinstance(language, str):
-        settings = settings.changed({"language": language})
-    own = [robot if isinstance(robot, RobotBase) else robot(robot.__name__) for robot in robots]
-    site = world if isinstance(world, Site) else Site() if world is None else Site.load(_folder(world))
-    if not own and site.world is None:
-        raise ConfigError("there are no robots: give robots=[..], or a world with a world.yaml")
-    return System(
-        site.world,
-        settings,
-        robots=own,
-        objects=site.objects,
-        occupancy=site.occupancy,
-        language=None if isinstance(language, str) else language,
-        actions=(*BUILTIN_ACTIONS, *_specs(actions)),
-    )
-
-
-def _settings(config: SystemConfig | Mapping[str, Any] | str | Path | None) -> SystemConfig:
-    if isinstance(config, SystemConfig):
-        return config
-    if isinstance(config, str | Path):
-        return SystemConfig.load(Path(config))
-    from parley.files import validated
-
-    return validated(SystemConfig, dict(config or {}), "config")
-
-
-def _folder(world: str | Path) -> Path:
-    """A demonstration by its name, anything else as a path."""
-    from parley.demos.catalogue import DEMOS, demo_folder
-
-    return demo_folder(str(world)) if str(world) in DEMOS else Path(world)
-
-
-def _specs(actions: Iterable[Action[..., Any] | ActionSpec | str | Path]) -> list[ActionSpec]:
-    from parley.umrf.action import Action, ActionSpec
-    from parley.umrf.discovery import ActionFolder
-
-    specs: list[ActionSpec] = []
-    for each in actions:
-        if isinstance(each, Action):
-            specs.append(each.spec)
-        elif isinstance(each, ActionSpec):
-            specs.append(each)
-        else:
-            folder = ActionFolder(Path(each))
-            folder.scan()
-            if folder.found.problems:
-                raise ConfigError("; ".join(folder.found.problems))
-            specs.extend(folder.found.specs)
-    return specs
+    return make_system(*given)

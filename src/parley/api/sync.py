@@ -8,7 +8,8 @@ from collections.abc import Coroutine, Iterable, Iterator, Mapping
 from pathlib import Path
 from typing import TYPE_CHECKING, Any, Self, TypeVar
 
-from parley.api.door import ANSWERS_WITHIN_S, NOBODY, Command, GraphRun, Parley
+from parley.api.door import ANSWERS_WITHIN_S, NOBODY, Command, Parley
+from parley.api.running import GraphRun
 from parley.config import SystemConfig
 from parley.errors import ParleyError
 from parley.messages.chat import ActionCall, ChatFeedback

@@ -98,7 +98,7 @@ def _about_itself(
     bare = plain(tokens, (situation.robot,))
     if "alarm" in reading.acts and "question" not in reading.acts:
         return _alarm(situation, tokens, lexicon)
-    question = question_of(bare)
+    question = None if _is_promised(bare, situation) else question_of(bare)
     asked = situation.dialogue.asked
     if question is not None and question.topic == "difference" and asked is not None:
         return Answer(f"{differences(asked.choices, situation.objects)} Which one do you mean?")
@@ -112,6 +112,15 @@ def _about_itself(
     if is_thinking(bare):
         return Answer("Take your time. I wait.")
     return None
+
+
+def _is_promised(bare: str, situation: Situation) -> bool:
+    """Whether words are those by which an action of the robot's is asked for."""
+    return any(
+        " ".join(re.findall(r"[\w']+", phrase.lower())) == bare
+        for info in situation.catalogue
+        for phrase in (*info.phrases, *info.examples)
+    )
 
 
 def _about_what_was_said(
