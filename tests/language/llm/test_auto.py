@@ -98,3 +98,11 @@ async def test_choice_that_was_offered_is_taken_without_a_model() -> None:
         solved = await language.resolve(failed)
         assert (solved.success, solved.queue[0].input_parameters["what"].value) == (True, "red box")
         assert server.requests == []
+
+
+async def test_danger_and_standing_still_wait_for_no_model() -> None:
+    async with auto() as (language, server):
+        for words in ("somebody fell down the stairs!", "there is smoke in the hall"):
+            answer = await language.interpret(situation(words, question="Which box?", catalogue=(LOOK,)))
+            assert answer.alarm, words
+        assert server.requests == []

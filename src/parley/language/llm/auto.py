@@ -79,7 +79,10 @@ class AutoLanguage:
 
     async def interpret(self, situation: Situation, *, on_draft: DraftHandler | None = None) -> ChatAction:
         """See `Language.interpret`."""
-        sure = None if _is_beyond(situation) else self._local.certain(situation)
+        sure = self._local.certain(situation)
+        if sure is not None and _is_urgent(sure):
+            return signed(sure, self._local)
+        sure = None if _is_beyond(situation) else sure
         weighty = sure is not None and _is_weighty(sure, situation)
         if sure is not None and not weighty:
             return signed(sure, self._local)
@@ -120,6 +123,11 @@ def _is_beyond(situation: Situation) -> bool:
     """Whether a message is about more than the local engine looks at: a failure, a question, a picture."""
     sent = any(picture.sent for picture in situation.pictures)
     return situation.failure is not None or bool(situation.question) or sent
+
+
+def _is_urgent(answer: ChatAction) -> bool:
+    """Whether a robot is to stand still, or somebody is in danger: that waits for no model."""
+    return answer.alarm or any(command.command in ("stop", "pause") for command in answer.system_cmd)
 
 
 def _is_weighty(answer: ChatAction, situation: Situation) -> bool:
