@@ -128,14 +128,20 @@ async def test_history_reaches_the_next_question(room: Room) -> None:
 
 @pytest.mark.spec("P21")
 async def test_what_is_still_to_be_done_is_known_when_the_next_message_is_understood(room: Room) -> None:
-    steps = (PlanStep(action=look("box"), state="running"), PlanStep(action=look("chair")))
+    steps = (
+        PlanStep(action=look("box"), id="one", state="running"),
+        PlanStep(action=look("chair"), id="two"),
+    )
     room.observer.publish(topics.PLAN, PlanUpdate(target="A", state="running", steps=steps))
-    room.language.will("interpret", ChatAction(message_response="Fine."))
-    room.observer.say("and then the door", "A")
+    pop = SystemCommand(command="pop", arguments={"parameters": 1})
+    room.language.will("interpret", ChatAction(message_response="Fine.", system_cmd=(pop,)))
+    room.observer.say("and not the chair", "A")
     await room.reply()
     situation = room.language.asked[-1][1]
     assert [call.input_parameters["what"].value for call in situation.queue] == ["box", "chair"]
     assert situation.status == "running"
+    (order,) = await room.orders()
+    assert order.system_cmd[0].arguments == {"parameters": 1, "step": "two"}  # whatever ends meanwhile
 
 
 @pytest.mark.parametrize("text", ["", "   ", "\n"])

@@ -11,6 +11,7 @@ from parley.errors import FailureCode
 from parley.language.base import ErrorSituation, ReplyReading
 from parley.language.llm import build_language
 from parley.language.llm.auto import AutoLanguage
+from parley.language.llm.chain import GONE
 from parley.language.llm.scripted_server import Say, ScriptedServer
 from parley.messages.status import ActionInfo
 from parley.world.object_map import MapObject
@@ -78,6 +79,7 @@ async def test_model_that_is_gone_leaves_the_local_question() -> None:
         )
         assert not answer.queue
         assert "no language model" in answer.engine
+        assert answer.message_response.startswith(GONE)
 
 
 async def test_choice_that_was_offered_is_taken_without_a_model() -> None:
@@ -95,4 +97,12 @@ async def test_choice_that_was_offered_is_taken_without_a_model() -> None:
         )  # fmt: skip
         solved = await language.resolve(failed)
         assert (solved.success, solved.queue[0].input_parameters["what"].value) == (True, "red box")
+        assert server.requests == []
+
+
+async def test_danger_and_standing_still_wait_for_no_model() -> None:
+    async with auto() as (language, server):
+        for words in ("somebody fell down the stairs!", "there is smoke in the hall"):
+            answer = await language.interpret(situation(words, question="Which box?", catalogue=(LOOK,)))
+            assert answer.alarm, words
         assert server.requests == []

@@ -22,7 +22,7 @@ from parley.clock import Clock
 from parley.errors import LanguageError
 from parley.gate.orders import Admitted, Heard, admit
 from parley.language.base import Language, Situation
-from parley.language.completing import completed_answer
+from parley.language.completing import bound_to_steps, completed_answer
 from parley.memory.sayings import for_oneself
 from parley.messages import topics
 from parley.messages.chat import ChatAction, ChatFeedback, ChatInput, SystemCommand
@@ -137,7 +137,8 @@ class Answering:
         if wants and self._halted_since(halts, target):
             self.say((target,), texts.left(message), "response", said.id)
             return
-        admitted = admit(understood, self._heard(target, said, situation, understood, own=bool(own)))
+        heard = self._heard(target, said, situation, understood, own=bool(own))
+        admitted = admit(bound_to_steps(understood, situation.steps), heard)
         order = self._trusted(target, admitted.order)
         if order is None:
             self.say((target,), texts.CANNOT, "error", said.id)

@@ -68,7 +68,9 @@ class BuiltinLanguage:
     def certain(self, situation: Situation) -> ChatAction | None:
         """What a message asks for, where that is certain; None where it would be asked about or answered."""
         decision = self.decide(situation)
-        if isinstance(decision, Ask) or (isinstance(decision, Answer) and not decision.sources):
+        if isinstance(decision, Ask) and not (decision.stops or decision.alarms):
+            return None
+        if isinstance(decision, Answer) and not decision.sources:
             return None
         return self._addressed(to_chat(decision, self._lexicon), situation)
 

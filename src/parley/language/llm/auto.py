@@ -12,9 +12,6 @@ from contextlib import AbstractAsyncContextManager, AsyncExitStack
 from types import TracebackType
 from typing import Final, Protocol, Self
 
-import structlog
-
-from parley.errors import LanguageError
 from parley.gate.risk import always_asks
 from parley.language.base import (
     DraftHandler,
@@ -25,7 +22,7 @@ from parley.language.base import (
     ReplyReading,
     Situation,
 )
-from parley.language.llm.failures import DeclinedError
+from parley.language.llm.chain import signed
 from parley.language.llm.naming import chosen, named
 from parley.messages.chat import ActionCall, ChatAction
 from parley.messages.memory import MemoryEntry
@@ -35,8 +32,6 @@ from parley.world.geometry import Pose2D
 from parley.world.object_map import MapObject
 
 __all__ = ["AutoLanguage", "SaysWhenCertain"]
-
-log = structlog.get_logger(__name__)
 
 _ARTICLE: Final = re.compile(r"^(?:the|a|an)\s+")
 
@@ -54,15 +49,15 @@ class AutoLanguage:
 
     Args:
         local: Asked first; costs nothing.
-        model: Asked for the rest.
+        rest: Asked for the rest, and says who answers if it is several.
     """
 
-    def __init__(self, local: SaysWhenCertain, model: Language) -> None:
-        self._local, self._model = local, model
+    def __init__(self, local: SaysWhenCertain, rest: Language) -> None:
+        self._local, self._rest = local, rest
         self._stack = AsyncExitStack()
 
     async def __aenter__(self) -> Self:
-        for engine in (self._local, self._model):
+        for engine in (self._local, self._rest):
             if isinstance(engine, AbstractAsyncContextManager):
                 await self._stack.enter_async_context(engine)
         return self
@@ -75,87 +70,64 @@ class AutoLanguage:
     @property
     def label(self) -> str:
         """See `Language.label`."""
-        return f"{self._local.label}; for what it is not certain of: {self._model.label}"
+        return f"{self._local.label}; for what it is not certain of: {self._rest.label.partition(';')[0]}"
 
     @property
     def sees_pictures(self) -> bool:
         """See `Language.sees_pictures`."""
-        return self._model.sees_pictures
+        return self._rest.sees_pictures
 
     async def interpret(self, situation: Situation, *, on_draft: DraftHandler | None = None) -> ChatAction:
         """See `Language.interpret`."""
-        sure = None if _is_beyond(situation) else self._local.certain(situation)
+        sure = self._local.certain(situation)
+        if sure is not None and _is_urgent(sure):
+            return signed(sure, self._local)
+        sure = None if _is_beyond(situation) else sure
         weighty = sure is not None and _is_weighty(sure, situation)
         if sure is not None and not weighty:
-            return _by(sure, self._local)
-        try:
-            answer = await self._model.interpret(situation, on_draft=None if weighty else on_draft)
-        except DeclinedError:
-            raise
-        except LanguageError as error:
-            log.warning("the model gave no answer", error=str(error))
-            return _by(sure or await self._local.interpret(situation), self._local)
+            return signed(sure, self._local)
+        answer = await self._rest.interpret(situation, on_draft=None if weighty else on_draft)
         if sure is None or not _does(answer):  # a question is better than a deed that one is not sure of
-            return _by(answer, self._model)
-        return _by(sure, self._local) if _agree(sure, answer, situation.objects) else _which(sure, answer)
+            return signed(answer, self._rest)
+        return signed(sure, self._local) if _agree(sure, answer, situation.objects) else _which(sure, answer)
 
     async def resolve(self, situation: ErrorSituation) -> ChatAction:
         """See `Language.resolve`; a choice that was offered is taken as it is."""
         if situation.reply is not None and not situation.pictures and _is_candidate(situation):
-            return _by(await self._local.resolve(situation), self._local)
-        try:
-            return _by(await self._model.resolve(situation), self._model)
-        except DeclinedError:
-            raise
-        except LanguageError as error:
-            log.warning("the model gave no answer", error=str(error))
-            return _by(await self._local.resolve(situation), self._local)
+            return signed(await self._local.resolve(situation), self._local)
+        return signed(await self._rest.resolve(situation), self._rest)
 
     async def select_memories(self, query: str, index: Sequence[MemoryEntry]) -> list[str]:
         """See `Language.select_memories`."""
-        try:
-            return await self._model.select_memories(query, index)
-        except LanguageError:
-            return await self._local.select_memories(query, index)
+        return await self._rest.select_memories(query, index)
 
     async def ground(
         self, description: str, objects: Sequence[MapObject], pose: Pose2D | None = None
     ) -> Grounding:
         """See `Language.ground`."""
-        if (found := named(description, objects)) is not None:
-            return found
-        try:
-            return await self._model.ground(description, objects, pose)
-        except LanguageError:
-            return await self._local.ground(description, objects, pose)
+        return named(description, objects) or await self._rest.ground(description, objects, pose)
 
     async def inspect(self, image: CameraImage, request: str, rules: Sequence[str] = ()) -> InspectionReport:
         """See `Language.inspect`."""
-        if self._model.sees_pictures:
-            try:
-                return await self._model.inspect(image, request, rules)
-            except LanguageError as error:
-                log.warning("the model gave no answer", error=str(error))
-        return await self._local.inspect(image, request, rules)
+        eyes = self._rest if self._rest.sees_pictures else self._local
+        return await eyes.inspect(image, request, rules)
 
     async def read_reply(self, question: str, reply: str, choices: Sequence[str] = ()) -> ReplyReading:
         """See `Language.read_reply`; a choice that is given word for word needs no model."""
         if (choice := chosen(reply, choices)) is not None:
             return ReplyReading("choice", choice)
-        try:
-            return await self._model.read_reply(question, reply, choices)
-        except LanguageError:
-            return await self._local.read_reply(question, reply, choices)
-
-
-def _by(answer: ChatAction, engine: Language) -> ChatAction:
-    return answer if answer.engine else answer.model_copy(update={"engine": engine.label})
+        return await self._rest.read_reply(question, reply, choices)
 
 
 def _is_beyond(situation: Situation) -> bool:
     """Whether a message is about more than the local engine looks at: a failure, a question, a picture."""
     sent = any(picture.sent for picture in situation.pictures)
     return situation.failure is not None or bool(situation.question) or sent
+
+
+def _is_urgent(answer: ChatAction) -> bool:
+    """Whether a robot is to stand still, or somebody is in danger: that waits for no model."""
+    return answer.alarm or any(command.command in ("stop", "pause") for command in answer.system_cmd)
 
 
 def _is_weighty(answer: ChatAction, situation: Situation) -> bool:

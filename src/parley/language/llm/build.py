@@ -69,8 +69,10 @@ def build_language(
         else _model(name, settings, first=not number, check=check, clock=clock, usage=usage, budget=budget)
         for number, name in enumerate(dict.fromkeys(names))
     ]
-    engine = ChainLanguage(engines) if len(engines) > 1 else engines[0]
-    return AutoLanguage(_builtin(), engine) if both else engine
+    if both:
+        own = _builtin()
+        return AutoLanguage(own, ChainLanguage([*engines, own]))
+    return ChainLanguage(engines) if len(engines) > 1 else engines[0]
 
 
 def _split(names: Sequence[str]) -> tuple[bool, list[str]]:

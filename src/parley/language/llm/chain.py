@@ -27,7 +27,7 @@ from parley.sentences import sentence, together
 from parley.world.geometry import Pose2D
 from parley.world.object_map import MapObject
 
-__all__ = ["BACK", "GONE", "ChainLanguage"]
+__all__ = ["BACK", "GONE", "ChainLanguage", "signed"]
 
 log = structlog.get_logger(__name__)
 
@@ -37,6 +37,11 @@ GONE: Final = "(My usual language service gives no answer; I work with a simpler
 """Said once, when another engine steps in."""
 BACK: Final = "(My usual language service answers again.)"
 """Said once, when it is over."""
+
+
+def signed(answer: ChatAction, engine: Language) -> ChatAction:
+    """The answer with who gave it."""
+    return answer if answer.engine else answer.model_copy(update={"engine": engine.label})
 
 
 class ChainLanguage:
@@ -88,11 +93,19 @@ class ChainLanguage:
 
     async def interpret(self, situation: Situation, *, on_draft: DraftHandler | None = None) -> ChatAction:
         """See `Language.interpret`."""
-        return self._noticed(*await self._first(lambda e: e.interpret(situation, on_draft=on_draft)))
+
+        async def ask(engine: Language) -> ChatAction:
+            return signed(await engine.interpret(situation, on_draft=on_draft), engine)
+
+        return self._noticed(*await self._first(ask))
 
     async def resolve(self, situation: ErrorSituation) -> ChatAction:
         """See `Language.resolve`."""
-        return self._noticed(*await self._first(lambda engine: engine.resolve(situation)))
+
+        async def ask(engine: Language) -> ChatAction:
+            return signed(await engine.resolve(situation), engine)
+
+        return self._noticed(*await self._first(ask))
 
     def _noticed(self, answer: ChatAction, usual: bool) -> ChatAction:
         """The answer, and that another engine gives it than the last one, if that is so."""
