@@ -5,6 +5,7 @@ from __future__ import annotations
 import asyncio
 import math
 from collections.abc import Awaitable, Callable
+from functools import partial
 
 import pytest
 
@@ -23,6 +24,10 @@ async def _run(action: Awaitable[Outcome]) -> None:
 def moved_m(here: Room, start: tuple[float, float, float]) -> float:
     pose = here.robot.pose()
     return (pose.x_m - start[0]) * math.cos(start[2]) + (pose.y_m - start[1]) * math.sin(start[2])
+
+
+def has_turned(here: Room, since: float) -> bool:
+    return abs(math.remainder(here.robot.pose().yaw_rad - since, math.tau)) > 0.2
 
 
 def at(here: Room) -> tuple[float, float, float]:
@@ -70,8 +75,8 @@ async def test_a_pause_a_taken_permission_and_a_cancel_hold_it() -> None:
         start = at(here)
         task = asyncio.create_task(_run(turn_by(here.context, 700.0)))
         await eventually(lambda: abs(here.robot.pose().yaw_rad - start[2]) > 0.3)
-        holds: list[tuple[Callable[[], object], Callable[[], object]]] = [
-            (lambda: setattr(here.run, "paused", True), lambda: setattr(here.run, "paused", False)),
+        holds: list[tuple[Callable[[], None], Callable[[], None]]] = [
+            (partial(setattr, here.run, "paused", True), partial(setattr, here.run, "paused", False)),
             (here.run.motion.pause, here.run.motion.resume),
             (here.robot.halt, here.robot.release),
         ]
@@ -82,7 +87,7 @@ async def test_a_pause_a_taken_permission_and_a_cancel_hold_it() -> None:
             await here.simulator.clock.sleep(1.0)
             assert here.robot.pose().yaw_rad == pytest.approx(rests, abs=0.01)
             let_go()
-            await eventually(lambda rests=rests: abs(here.robot.pose().yaw_rad - rests) > 0.2)  # type: ignore[misc]
+            await eventually(partial(has_turned, here, rests))
         task.cancel()
         with pytest.raises(asyncio.CancelledError):
             await task
