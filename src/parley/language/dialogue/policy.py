@@ -234,6 +234,8 @@ def afterwards(
             change = before_all(situation)
         return made if change is None else _edit(change, situation, made)
     bare = plain(tokens, (situation.robot,))
+    if isinstance(made, Ask) and not made.offer and (hands := _handless(situation, reading)):
+        return replace(made, question=f"{hands} {made.question}")
     if isinstance(made, Ask | Answer) and (fact := other_fact(situation, reading, bare)) is not None:
         return Remember((fact,))
     if isinstance(made, Ask | Answer) and _SOCIAL.fullmatch(bare):
@@ -241,6 +243,22 @@ def afterwards(
             "You are welcome." if bare.startswith(("thank", "cheers")) else "Hello. What can I do for you?"
         )
     return made
+
+
+_BY_HAND: Final = {
+    "GIVE": ("give", "hand"),
+    "PUT": ("put", "place", "lay"),
+    "TAKE": ("pick", "take", "grasp"),
+}
+
+
+def _handless(situation: Situation, reading: Reading) -> str:
+    """That the robot has no hands, where an order that is asked about needs some."""
+    words = {word for info in situation.catalogue for word in info.description.lower().split()}
+    needed = [wish for wish in reading.wishes if wish.act == "order" and wish.frame in _BY_HAND]
+    if not situation.catalogue or not needed or words & {*_BY_HAND[needed[0].frame]}:
+        return ""
+    return f"I have no hands, so I cannot {needed[0].verb} anything by myself; a person has to help."
 
 
 def no_facts(told: tuple[Told, ...], situation: Situation) -> tuple[Told, ...]:
