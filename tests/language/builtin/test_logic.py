@@ -68,6 +68,9 @@ PLANS = {
     "go to the crate next to the desk": rounds("blue crate"),
     "go to the nearest gate": rounds("gate 1"),
     "go to the crate between the red crate and the green crate": rounds("blue crate"),
+    "don't go to gate 1, go to the other gates": rounds("gate 2", "gate 3", "gate 4"),
+    "don't go to gate 1 but to gate 2": rounds("gate 2"),
+    "The pallet is at the pump. Go to it.": rounds("pump"),
     # conditions
     "if the pump is on, go to the desk, otherwise go to the office": [
         "go pump", "look whether the pump is on", "if 2: go desk", "unless 2: go office",
@@ -102,7 +105,8 @@ go to the desk every morning; go to gates 3 to 9; go to all crates except the ye
 if I call you go to the desk; if Kim wants tea go to the desk; go to the desk forty times
 go to the office until somebody comes
 if it is late go to the desk; otherwise go to the desk; when the pump stops go to the desk
-go to the office and to the desk if the pump is on; check the zebras and then go to the desk"""
+go to the office and to the desk if the pump is on; check the zebras and then go to the desk
+visit the desk, the zebra and the pump; the box and both ramps are to be inspected"""
 
 
 @pytest.mark.parametrize("message", PLANS)

@@ -19,6 +19,7 @@ from parley.language.builtin.structure import Part, Unclear, arranged
 from parley.language.builtin.tokens import spoken, tokenize
 from parley.language.control import control_of
 from parley.language.dialogue import policy
+from parley.messages.memory import MemoryEntry
 
 __all__ = ["decide"]
 
@@ -80,7 +81,8 @@ def _alone(
         doubt = doubt or Ask(nodes.question)
     if doubt is not None or isinstance(nodes, Unclear):
         return replace(doubt or Ask("Can you say it in other words?"), told=told)
-    known = places(situation.memory, reader, lexicon)
+    now = [MemoryEntry(name=fact.name, data=fact.text) for fact in told]
+    known = places((*situation.memory, *now), reader, lexicon)
     builder = Builder(situation, skills, lexicon, known)
     builder.recall(*policy.spoken_of(situation, known, lexicon))
     deeds = Planner(builder).planned(nodes)

@@ -112,16 +112,17 @@ class Builder(Ways):
         fillers = (one.filler for one in own.fills if one.parameter.kind in ("place", "thing"))
         several = next((f for f in fillers if self.names_set(f)), None)
         value = self._thing("DO", several, Mention("none", several.text)) if several is not None else None
-        if isinstance(value, Ask) or value is None or self.bound is not None:
-            return value if isinstance(value, Ask) else owned(own, self._grounds)
+        if isinstance(value, Ask):
+            return value
         found: list[Deed] = []
-        for one in value.each or (value,):
-            self.bound = one
+        for one in value.each or (value,) if value is not None and self.bound is None else (self.bound,):
+            before, self.bound = self.bound, one
             made = owned(own, self._grounds)
-            self.bound = None
+            self.bound = before
             if isinstance(made, Ask):
                 return made
-            found += made
+            looks = "looks" in own.action.effects and "GO" in self.skills
+            found += [*self.way_to_thing(one or self.last_thing if looks else None), *made]
         return found
 
     def _grounds(self, filler: Filler, kind: Kind, about: frozenset[str]) -> tuple[str, str] | Ask:

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import math
 from collections.abc import Sequence
-from dataclasses import dataclass, field
+from dataclasses import dataclass, field, replace
 
 from parley.language.base import Situation
 from parley.language.builtin.amounts import Amount, amount_of, direction_of
@@ -66,6 +66,8 @@ class Grounder:
     """What was spoken of last before this message."""
     doubts: tuple[Ask, str] | None = None
     """What is not certain, and the words that were not understood: the deeds are only offered then."""
+    mentioned: list[MapObject] = field(default_factory=list)
+    """Things that were named so far, whatever is done with them."""
 
     def value(self, wish: Wish, filler: Filler) -> Value | Ask | None:
         """What a role of a wish holds, by the type that the frame gives it."""
@@ -112,7 +114,7 @@ class Grounder:
         near = self._beside(filler, mention.things) if mention.kind == "several" else None
         if near is not None:
             return self._one_of((near,))
-        several = group(filler.words, objects, lexicon, self.left_out)
+        several = self._others(filler) or group(filler.words, objects, lexicon, self.left_out)
         if several is not None:
             return self._several(several)
         placed = picked(filler.words, objects, lexicon, self.situation.robot_pose)
@@ -148,7 +150,9 @@ class Grounder:
                 Value(near.description, with_article(near.description), (near,)) if near else self.last_thing
             )
         if mention.kind == "pronoun":
-            before = self.last_person if mention.text in self.lexicon.classes["persons"] else self.last_thing
+            person = mention.text in self.lexicon.classes["persons"]
+            told = self.last_thing if self.last_thing is not None and self.last_thing.place else None
+            before = (self.last_person or told) if person else self.last_thing
             return before or Ask(f"What do you mean by “{filler.text}”?")
         if small:
             return self.last_thing or Ask(f"Where is “{filler.text}”?")
@@ -181,12 +185,24 @@ class Grounder:
         if len(things) > 1:
             return self._which([thing.description for thing in things], len(things))
         thing = things[0]
+        self.mentioned.append(thing)
         same = [other for other in self.situation.objects if other.description == thing.description]
         name = thing.description if len(same) == 1 else thing.id
         return Value(name, with_article(thing.description), (thing,))
 
+    def _others(self, filler: Filler) -> Group | None:
+        """For "the other gates", "the rest of the boxes": those of a kind that were not named before."""
+        if not {*filler.words} & {"other", "others", "rest", "remaining"}:
+            return None
+        words = [word for word in filler.words if word not in ("other", "rest", "remaining", "of")]
+        family = group(["all", *words], self.situation.objects, self.lexicon)
+        if family is None or family.doubt or not any(thing in self.mentioned for thing in family.things):
+            return Group(doubt=f"Which ones do you mean by “{filler.text}”?")
+        return Group(tuple(thing for thing in family.things if thing not in self.mentioned))
+
     def _several(self, several: Group) -> Value | Ask:
         self.left_out = ()
+        self.mentioned += several.things
         if several.doubt or not several.things:
             return Ask(several.doubt or "Then nothing is left. Which ones do you mean?")
         each = tuple(Value(one.description, with_article(one.description), (one,)) for one in several.things)
@@ -208,6 +224,25 @@ class Grounder:
         placed = picked(filler.words, self.situation.objects, self.lexicon, self.situation.robot_pose)
         return placed is not None and len(placed.things) == 1
 
+    def joined(self, wish: Wish) -> Wish:
+        """With one role instead of two that touch, where both together tell one thing by where it is."""
+        found: list[Filler] = []
+        for filler in wish.fillers:
+            last = found[-1] if found else None
+            if (
+                last is not None
+                and last.end == filler.start
+                and last.role in "TG"
+                and filler.role in "TGLSRP"
+            ):
+                words, said = (*last.words, *filler.words), f"{last.text} {filler.text}"
+                both = Filler(last.role, last.start, filler.end, last.head, words, last.share, said)
+                if self.is_placed(both):
+                    found[-1] = both
+                    continue
+            found.append(filler)
+        return replace(wish, fillers=tuple(found))
+
     def names_set(self, filler: Filler) -> bool:
         """Whether a role holds several things."""
         return group(filler.words, self.situation.objects, self.lexicon) is not None
@@ -217,8 +252,8 @@ class Grounder:
         if filler.role not in "TGLS":
             return False
         several = group(filler.words, self.situation.objects, self.lexicon)
-        if several is not None:
-            return not several.doubt
+        if several is not None or self.is_placed(filler):
+            return several is None or not several.doubt
         named = link(filler.words, filler.head, self.situation.objects, self.lexicon)
         name, rest = noun_phrase(filler.words, filler.head, self.lexicon)
         return named.kind == "one" and not rest and len(name) <= len(named.things[0].description.split()) + 1
@@ -258,6 +293,10 @@ class Grounder:
 
     def forbidden(self, wish: Wish) -> None:
         """What is not to be done."""
+        for filler in wish.all("T") + wish.all("G"):
+            named = group(filler.words, self.situation.objects, self.lexicon)
+            mention = link(filler.words, filler.head, self.situation.objects, self.lexicon)
+            self.mentioned += named.things if named is not None else mention.things
         self.left_undone(" ".join([wish.verb, *(filler.text for filler in wish.fillers)]))
 
     def left_undone(self, text: str) -> None:

@@ -77,7 +77,7 @@ class Planner:
         reading = node.part.reading
         if node.is_order:
             reading = self._as_ordered(node.part)
-        wishes = orders_of(reading)
+        wishes = tuple(self.builder.joined(wish) for wish in orders_of(reading))
         unsure = doubt(reading, wishes, self.builder.knows)
         if unsure is not None:
             if not may_be_offered(reading, wishes, self.builder.lexicon):
@@ -92,7 +92,9 @@ class Planner:
             return limited
         wishes, times, before = limited
         times *= often
-        self._noted(reading)
+        unused = self._heard(reading, wishes)
+        if unused is not None:
+            return unused
         deeds: list[Deed] = []
         for _ in range(times):
             made = self._done(wishes)
@@ -101,14 +103,27 @@ class Planner:
             deeds += made
         return [*before, *deeds]
 
-    def _noted(self, reading: Reading) -> None:
-        """What is told besides: of whom, in what manner, where something is."""
+    def _heard(self, reading: Reading, wishes: Sequence[Wish]) -> Ask | None:
+        """Take up what is spoken of besides the orders; a question if it is neither used nor said."""
         self.builder.told_about(reading.about)
         if reading.manner:
             self.builder.unheeded(" ".join(reading.manner))
-        placed = [filler for wish in reading.wishes if wish.frame == "BELOC" for filler in wish.fillers]
-        for filler in (*reading.loose, *placed):
+        for filler in reading.loose:
+            if filler.role == "T" and not self._is_referred_to(filler, wishes):
+                return Ask(f"What shall I do with “{filler.text}”? Please say it in other words.")
             self.builder.loose(filler)
+        for wish in reading.wishes:
+            if wish.frame == "BELOC":
+                for filler in wish.fillers:
+                    self.builder.loose(filler)
+        return None
+
+    @staticmethod
+    def _is_referred_to(filler: Filler, wishes: Sequence[Wish]) -> bool:
+        """Whether one of these wishes is about what was spoken of before: "it", "there", or nothing named."""
+        behind = [f for wish in wishes for f in wish.fillers if f.start > filler.start]
+        about = [{*f.words} for f in behind if f.role in "TGLSRK"]
+        return not wishes or any(words & _SPOKEN_OF for words in about) or len(about) < len(wishes)
 
     def _all_so_often(self, wishes: tuple[Wish, ...]) -> tuple[tuple[Wish, ...], int] | Ask:
         """Several wishes that are all done so often, one round after the other; one alone keeps its count."""

@@ -67,8 +67,18 @@ def _merged(parse: Parse) -> list[Span]:
         nearest = max((n for n, verb in enumerate(parse.verbs) if verb.start < span.start), default=None)
         if span.owner is not None and nearest is not None and span.owner < nearest and span.role in "TGSRHN":
             span = replace(span, owner=nearest)
+        later = nearest is not None and span.owner is not None and span.owner > nearest
+        if later and nearest is not None and _apart(parse, span, nearest):
+            span = replace(span, owner=nearest)
         found.append(span)
     return found
+
+
+def _apart(parse: Parse, span: Span, nearest: int) -> bool:
+    """Whether a role stands with the verb before it, parted by a mark from the later one it was given."""
+    verb, owner = parse.verbs[nearest], parse.verbs[span.owner or 0]
+    low = [token.low for token in parse.tokens]
+    return not {*low[verb.end : span.start]} & _BREAKS and bool({*low[span.end : owner.start]} & _BREAKS)
 
 
 def _without_openers(wishes: list[Wish], parse: Parse) -> list[Wish]:
@@ -192,6 +202,10 @@ def _spread(wish: Wish) -> list[Wish]:
     """One wish for each of several goals or things, if that is all that there are several of."""
     for role in _MANY:
         several = wish.all(role)
+        if wish.negated and len(several) == 2 and several[1].start - several[0].end == 1:
+            others = tuple(filler for filler in wish.fillers if filler.role != role)
+            instead = replace(wish, start=several[1].start, negated=False, fillers=(*others, several[1]))
+            return [replace(wish, fillers=(*others, several[0])), instead]
         if len(several) > 1 and wish.frame in _REPEATED:
             others = tuple(filler for filler in wish.fillers if filler.role != role)
             return [
@@ -222,6 +236,20 @@ def _about(parse: Parse, lexicon: Lexicon) -> tuple[str, ...]:
     end = next((at for at, word in enumerate(told) if word in lexicon.classes["being"]), 0)
     words = tuple(word for word in told[:end] if word not in lexicon.classes["small"])
     return words if end and len(words) < 4 else ()
+
+
+def _runs_on(parse: Parse, at: int) -> bool:
+    """Whether something told is no sentence of its own: without a verb, and not parted from an order."""
+    start, end = at, at
+    while start > 0 and parse.acts[start - 1] == parse.acts[at]:
+        start -= 1
+    while end < len(parse.tokens) and parse.acts[end] == parse.acts[at]:
+        end += 1
+    told = any(start <= verb.start < end for verb in parse.verbs)
+    behind = end < len(parse.tokens) and parse.acts[end] == "order" and parse.tokens[end - 1].is_word
+    marked = end < len(parse.tokens) and not parse.tokens[end].is_word
+    joins = end < len(parse.tokens) and parse.tokens[end].low in ("and", "or")
+    return behind and not marked and not told and joins
 
 
 def _leading(parse: Parse, verb: Verb, lexicon: Lexicon) -> set[int]:
@@ -258,10 +286,12 @@ def _left_over(parse: Parse, lexicon: Lexicon) -> tuple[str, ...]:
                 low[at] in small
                 and not (at and len(low[at]) == 1 and token.text.isupper() and low[at] != "i")
             )
-            or parse.acts[at] in ("social", "told", "need")
+            or (parse.acts[at] in ("social", "told", "need") and not _runs_on(parse, at))
         ):
             continue
         if low[at] in _LEADING and at + 1 in starts:
+            continue
+        if low[at] == "but" and at + 1 in starts and any(verb.negated for verb in parse.verbs):
             continue
         if at == 0 and _is_name(token.low, lexicon) and len(low) > 1:
             continue

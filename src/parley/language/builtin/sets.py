@@ -96,7 +96,8 @@ def _listed(parts: Sequence[list[str]], objects: Sequence[MapObject], lexicon: L
         for noun in nouns[:1] + nouns[-1:]:
             if not things and not _noun(part, objects, lexicon):
                 bare = _bare(part, lexicon)
-                things = _one([noun, *bare], objects, lexicon) or _one([*bare, noun], objects, lexicon)
+                tried = _one([noun, *bare], objects, lexicon) or _one([*bare, noun], objects, lexicon)
+                things = tuple(one for one in tried if {*stems(bare)} <= {*stems(one.description.split())})
         if not things:
             return Group(doubt=f"I do not know any “{' '.join(part)}” here.")
         found += things

@@ -183,11 +183,13 @@ def _side(words: Sequence[str]) -> str | None:
     """For "on the far left", "in the south", "on your right"; None if a thing follows."""
     small = {"on", "in", "at", "to", "the", "far", "very", "your", "my", "side", "end", "of", "row", "hand"}
     left = [word for word in words if word not in small]
-    return left[0] if len(left) == 1 and left[0] in ("left", "right", *_AXES) else None
+    leads = bool({"on", "in", "at", "to"} & {*words})
+    return left[0] if leads and len(left) == 1 and left[0] in ("left", "right", *_AXES) else None
 
 
 def _landmark(words: Sequence[str], objects: Sequence[MapObject], lexicon: Lexicon) -> MapObject | None:
-    found = link(words, len(words) - 1, objects, lexicon) if words else None
+    nested = not words or {"between", "one"} & {*words}
+    found = link(words, len(words) - 1, objects, lexicon) if not nested else None
     return found.things[0] if found is not None and found.kind == "one" else None
 
 

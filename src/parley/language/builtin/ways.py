@@ -78,6 +78,8 @@ class Ways(Grounder):
 
     def used(self, place: Place) -> None:
         """That a memory was used is said."""
+        if place.memory not in self.situation.memory:
+            return  # it was told just now
         note = Note(f"I remember: {place.memory.data.rstrip('.')}.", place.memory.name)
         if note not in self.notes:
             self.notes.append(note)
