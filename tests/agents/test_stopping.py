@@ -12,10 +12,10 @@ from collections.abc import AsyncIterator
 import pytest
 
 from parley.messages import ros, topics
-from parley.messages.chat import ChatAction, ChatFeedback
+from parley.messages.chat import ChatAction, ChatFeedback, SystemCommand
 from parley.messages.principal import person
 from parley.messages.status import StopCommand
-from tests.agents.crew import Crew, ask, crew, drive, look
+from tests.agents.crew import Crew, ask, crew, drive, look, proposals
 from tests.engine.rig import DummyRobot
 
 ASK = ChatAction(success=False, message_response="What should I do?", choices=("try again", "stop"))
@@ -99,6 +99,46 @@ async def test_a_correction_of_which_nothing_comes_leaves_the_robot_standing(par
     await party.hears("I have stopped")
     await party.state("paused")
     assert dropped(party) == []
+
+
+@pytest.mark.parametrize("change", [{"clear": {}}, {"pop": {"parameters": 0}}, {"skip": {}}], ids=str)
+async def test_what_a_person_stopped_an_engine_neither_lets_go_on_nor_gives_up(
+    party: Crew, change: dict[str, object]
+) -> None:
+    party.observer.say("stop", "A")
+    await party.state("paused")
+    party.order(commands=[SystemCommand.model_validate(change)])
+    await party.until(lambda: proposals(party))
+    await party.settled()
+    assert dropped(party) == []
+    assert await party.body.stands_still()
+    assert party.observer.state("A") == "paused"
+
+
+async def test_a_step_that_has_not_begun_is_left_out_while_the_robot_stands(party: Crew) -> None:
+    party.observer.say("stop", "A")
+    await party.state("paused")
+    party.order(commands=[SystemCommand.model_validate({"pop": {"parameters": 1}})])
+    await party.until(lambda: len(party.steps()) == 1)
+    assert proposals(party) == []
+    assert party.observer.state("A") == "paused"
+
+
+async def test_an_engine_does_not_go_on_from_its_own_stop(party: Crew) -> None:
+    party.order(commands=[SystemCommand(command="stop")])
+    await party.state("paused")
+    party.order(look("box"))
+    await party.hears("I am still standing still")
+    assert party.observer.state("A") == "paused"
+
+
+async def test_after_a_stop_instead_of_an_answer_new_steps_wait_for_a_yes(failed: Crew) -> None:
+    failed.observer.say("stop", "A")
+    await failed.hears("I have stopped")
+    failed.order(drive(2))
+    await failed.until(lambda: proposals(failed))
+    await failed.settled()
+    assert "drive 2" not in failed.body.did
 
 
 async def test_page_button_pause_is_the_same_as_stop(party: Crew) -> None:

@@ -39,6 +39,9 @@ def test_an_engine_never_lets_a_robot_go_on_and_always_may_hold_it() -> None:
 def test_what_a_person_holds_an_engine_changes_only_after_a_yes() -> None:
     held = rule(ENGINE, "run_at_once", GO, commands("clear"), held_by=KIM)
     assert (held.do, held.ask, held.begins) == ((), commands("clear"), "ask")
+    for command in commands("clear", "skip", "pop"):
+        assert rule(ENGINE, "run_at_once", (), (command,), held_by=KIM).ask == (command,)
+        assert rule(ENGINE, "run_at_once", (), (command,), held_by=KIM, harmless=[command]).do == (command,)
     free = rule(ENGINE, "run_at_once", GO, commands("clear"))
     assert (free.do, free.begins) == (commands("clear"), "now")
 

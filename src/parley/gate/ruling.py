@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Sequence
+from collections.abc import Collection, Sequence
 from dataclasses import dataclass
 from typing import Final, Literal
 
@@ -48,6 +48,7 @@ def rule(
     needs_yes: bool = False,
     risky: bool = False,
     held_by: Principal | None = None,
+    harmless: Collection[SystemCommand] = (),
     begin: Effect = Effect.BEGIN,
 ) -> Ruling:
     """Decide about an order.
@@ -60,6 +61,7 @@ def rule(
         needs_yes: Whether the gate wants a yes whatever the policy.
         risky: Whether the steps are of the kind that `ask_when_risky` asks about.
         held_by: Who holds the robot, if somebody told it to stand still.
+        harmless: Changes after which a robot that was told to stand still goes on standing, with a plan.
         begin: `BEGIN`, or `REPAIR` for steps in the place of one that failed.
     """
     held_by_person = held_by is not None and held_by.is_person
@@ -72,8 +74,7 @@ def rule(
         if found == "own":
             found = "allow" if held_by == by and not held_by_person else "refuse"
         if found == "policy":
-            moves = command.command == "skip" or (command.command == "clear" and bool(calls))
-            found = "yes" if asks or (held_by_person and moves) else "allow"
+            found = "yes" if asks or (held_by_person and command not in harmless) else "allow"
         (do if found == "allow" else ask if found == "yes" else refused).append(command)
     found = verdict(by, begin)
     begins: Literal["now", "ask", "refuse"] = "now"

@@ -47,12 +47,14 @@ class Holds:
 
     def keep(self, target: str, said: ChatInput) -> None:
         """It was a call to stop: the robot stands until somebody lets it go on."""
-        self._release(target)
+        before, _ = self._kept.get(target, ("", False))
         identity = f"{said.id or uuid.uuid4().hex}/{target}"
         self._kept[target] = (identity, False)
         self._send(
             StopCommand(command="hold", targets=(target,), id=identity, by=said.who, words=said.message)
         )
+        if before != identity:  # only now: between two holds it would drive
+            self.end(before)
 
     def on_update(self, update: PlanUpdate) -> None:
         """A plan changed: nobody holds it any more, or there is none."""

@@ -188,7 +188,8 @@ class Ordering:
         elif calls and ruling.begins == "now":
             self._begin_for(plan.target, order.behalf or order.by)
             own = order.by is not None and self._plans.held_by.get(plan.target) == order.by
-            self._commands.append(plan, calls, order.words, goes_on=own)
+            goes_on = own and verdict(order.by, Effect.RESUME) in ("allow", "own")
+            self._commands.append(plan, calls, order.words, goes_on=goes_on)
         self._tell_ruling(plan, order, ruling, asked=asks and not crowded, refused=calls is None or crowded)
 
     def _forbid(self, plan: TargetPlan, order: ChatAction, judgement: Judgement) -> None:
@@ -276,14 +277,19 @@ class Ordering:
         risky = any(call is not SKIPPED and always_asks(infos.get(call.name)) for call in calls)
         # Speaking to an engine gives nobody more than ordering would.
         unknown = order.behalf is not None and verdict(order.behalf, begin) == "yes"
+        held_by = self._plans.held_by.get(target)
+        # New steps would take the place of the failed one at once, behind a plan that waits they wait.
+        goes_on = plan.given_up and held_by is not None and held_by.is_person
+        asks = unknown or goes_on or bool(order.needs_yes)
         return rule(
             order.by,
             self._plans.approvals.policy(target),
             () if known else calls,
             commands,
-            needs_yes=unknown or bool(order.needs_yes) or (judgement is not None and bool(judgement.ask)),
+            needs_yes=asks or (judgement is not None and bool(judgement.ask)),
             risky=risky or (judgement is not None and bool(judgement.risky)),
-            held_by=self._plans.held_by.get(target),
+            held_by=held_by,
+            harmless=[command for command in commands if plan.keeps_still(command)],
             begin=begin,
         )
 

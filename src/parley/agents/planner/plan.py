@@ -171,6 +171,11 @@ class TargetPlan(PlanState):
             return self.current
         return self.pending[index] if index is not None and 0 <= index < len(self.pending) else None
 
+    def keeps_still(self, command: SystemCommand) -> bool:
+        """Whether a plan that stands goes on standing after a command: only what has not begun is dropped."""
+        step = self.meant(command) if command.command == "pop" else None
+        return step is not None and step is not self.current and step.state == "queued"
+
     def drop(self, step: Step) -> list[Effect]:
         """Drop a pending step."""
         if step is self.current:
