@@ -11,9 +11,9 @@ from parley.language.builtin.wishes import Filler, Wish
 
 __all__ = ["AGREED", "ALONE", "doubt", "may_be_offered"]
 
-AGREED = 0.3
+AGREED = 0.2
 """So much the tagger must believe in the least certain part of a wish that the lexicon agrees with."""
-ALONE = 0.75
+ALONE = 0.6
 """So much where the lexicon does not know the verb."""
 
 NAMED = 0.03
@@ -38,6 +38,9 @@ def doubt(reading: Reading, orders: tuple[Wish, ...], knows: Callable[[Filler], 
         )
     if reading.acts & {"alarm", "question", "control", "edit"}:
         return Ask("I am not sure what you want me to do. Can you say one thing at a time?")
+    if reading.unsteady:
+        what = " ".join(reading.unsteady)
+        return Ask(f"I am not sure what you mean by “{what}”. Can you say it in other words?")
     for wish in orders:
         least = AGREED if wish.witness == "agrees" else ALONE
         shares = [

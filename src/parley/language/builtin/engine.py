@@ -23,7 +23,8 @@ from parley.language.builtin.own import OwnActions
 from parley.language.builtin.reading import Reading, read
 from parley.language.builtin.reply import to_chat
 from parley.language.builtin.skills import SkillTable
-from parley.language.builtin.spans import Parse, parse
+from parley.language.builtin.spans import Parse
+from parley.language.builtin.steady import steadily
 from parley.language.builtin.structure import Part
 from parley.language.builtin.tagger import shipped_tagger
 from parley.language.builtin.things import link
@@ -112,8 +113,7 @@ class BuiltinLanguage:
 
     def _read_text(self, text: str) -> tuple[Parse, Reading]:
         tokens = spoken(tokenize(text)) or tokenize(text)
-        parsed = parse(tokens, shipped_tagger().tag([token.text for token in tokens]))
-        return parsed, read(parsed, self._lexicon)
+        return steadily(shipped_tagger(), tokens, self._lexicon)
 
     def _parted(self, text: str) -> tuple[Part, ...]:
         """The clauses of a message, each read by itself."""
@@ -128,10 +128,11 @@ class BuiltinLanguage:
         if not tokens:
             nothing = Parse((), (), (), (), ())
             return Part(clause, nothing, Reading(frozenset(), (), (), ()), "")
-        parsed = parse(tokens, shipped_tagger().tag([token.text for token in tokens]))
+        parsed, reading = steadily(shipped_tagger(), tokens, self._lexicon)
         if not parsed.verbs and any(clause.start <= verb.start < clause.end for verb in whole.verbs):
             parsed = whole.part(clause.start, clause.end)
-        return Part(clause, parsed, read(parsed, self._lexicon), text[tokens[0].start : tokens[-1].end])
+            reading = read(parsed, self._lexicon)
+        return Part(clause, parsed, reading, text[tokens[0].start : tokens[-1].end])
 
     async def select_memories(self, query: str, index: Sequence[MemoryEntry]) -> list[str]:
         """See `Language.select_memories`."""

@@ -3,8 +3,8 @@
 from __future__ import annotations
 
 import re
-from collections.abc import Iterator
-from dataclasses import dataclass
+from collections.abc import Iterator, Mapping
+from dataclasses import dataclass, replace
 from typing import Literal, get_args
 
 from parley.errors import FileFormatError
@@ -13,9 +13,13 @@ from parley.language.builtin.tokens import tokenize
 __all__ = [
     "ACTS",
     "FRAMES",
+    "MODES",
+    "MOVES",
     "ROLES",
     "Act",
     "Annotated",
+    "Mode",
+    "Move",
     "Role",
     "RoleSpan",
     "Trigger",
@@ -26,6 +30,29 @@ __all__ = [
 Act = Literal["order", "question", "told", "need", "control", "answer", "social", "edit", "alarm"]
 ACTS: tuple[Act, ...] = get_args(Act)
 """What a clause does in the conversation."""
+
+Move = Literal["none", "yes", "no", "stop", "pause", "resume", "cancel", "again"]
+MOVES: tuple[Move, ...] = get_args(Move)
+"""Which answer, which control, or the same order once more."""
+
+_MOVES: Mapping[str, tuple[Act, Move]] = {
+    "yes": ("answer", "yes"),
+    "no": ("answer", "no"),
+    "stop": ("control", "stop"),
+    "pause": ("control", "pause"),
+    "resume": ("control", "resume"),
+    "cancel": ("control", "cancel"),
+    "again": ("order", "again"),
+}
+"""What may stand in place of an act, with the act that it is."""
+
+Mode = Literal["plain", "negated", "otherwise", "later", "earlier", "allowed"]
+MODES: tuple[Mode, ...] = get_args(Mode)
+"""How a deed is meant: as it is, forbidden, if a condition fails, behind or before another, let again."""
+
+_SIGNS: Mapping[str, Mode] = {
+    "": "plain", "!": "negated", "~": "otherwise", ">": "later", "<": "earlier", "^": "allowed"
+}  # fmt: skip
 
 Role = Literal[
     "T", "G", "S", "L", "R", "H", "N", "D", "K", "X", "C", "U", "W", "M", "A", "Y", "E", "P", "I", "O"
@@ -42,7 +69,7 @@ FRAMES: tuple[str, ...] = (
 """What may be wanted of somebody, and what may be told."""
 
 _PIECE = re.compile(
-    r"\{(?P<words>[^{}:]+):(?P<mode>[!~]?)(?P<frame>[A-Z]+|\+)\}"
+    r"\{(?P<words>[^{}:]+):(?P<mode>[!~<>^]?)(?P<frame>[A-Z]+|\+)\}"
     r"|\((?P<role>[A-Z])(?:@(?P<owner>\d+))? (?P<span>[^()]+)\)"
     r"|<(?P<act>[a-z]+)>"
     r"|(?P<plain>[^{}()<>]+)"
@@ -59,9 +86,7 @@ class Trigger:
     """Number of its first word."""
     end: int
     """Number of the word behind its last."""
-    negated: bool = False
-    otherwise: bool = False
-    """Whether it is what to do if the condition before does not hold."""
+    mode: Mode = "plain"
     particles: tuple[int, ...] = ()
 
 
@@ -84,6 +109,8 @@ class Annotated:
 
     words: tuple[str, ...]
     acts: tuple[Act, ...]
+    """Of each word."""
+    moves: tuple[Move, ...]
     """Of each word."""
     triggers: tuple[Trigger, ...] = ()
     roles: tuple[RoleSpan, ...] = ()
@@ -112,7 +139,7 @@ def read_line(line: str) -> Annotated:
     act, tab, text = line.partition("\t")
     if not tab:
         raise ValueError("expected an act, a tab and a sentence")
-    reader = _Reader(_act(act))
+    reader = _Reader(*_act(act))
     for piece in _PIECE.finditer(text):
         reader.take(piece)
     if not reader.words:
@@ -120,18 +147,22 @@ def read_line(line: str) -> Annotated:
     return reader.result()
 
 
-def _act(text: str) -> Act:
+def _act(text: str) -> tuple[Act, Move]:
+    if text in _MOVES:
+        return _MOVES[text]
     found = next((act for act in ACTS if act == text), None)
     if found is None:
-        raise ValueError(f"{text!r} is no act; there are {', '.join(ACTS)}")
-    return found
+        raise ValueError(f"{text!r} is no act; there are {', '.join([*ACTS, *_MOVES])}")
+    return found, "none"
 
 
 class _Reader:
-    def __init__(self, act: Act) -> None:
+    def __init__(self, act: Act, move: Move) -> None:
         self._act: Act = act
+        self._move: Move = move
         self.words: list[str] = []
         self._acts: list[Act] = []
+        self._moves: list[Move] = []
         self._triggers: list[Trigger] = []
         self._roles: list[tuple[RoleSpan, int | None]] = []
 
@@ -143,7 +174,7 @@ class _Reader:
                 raise ValueError("a * marks the head of a role, so it stands inside one")
             self._say(piece["plain"])
         elif piece["act"]:
-            self._act = _act(piece["act"])
+            self._act, self._move = _act(piece["act"])
         elif piece["frame"]:
             self._trigger(piece["words"], piece["frame"], piece["mode"])
         else:
@@ -153,6 +184,7 @@ class _Reader:
         start = len(self.words)
         self.words += [token.text for token in tokenize(text)]
         self._acts += [self._act] * (len(self.words) - start)
+        self._moves += [self._move] * (len(self.words) - start)
         return start, len(self.words)
 
     def _trigger(self, text: str, frame: str, mode: str) -> None:
@@ -161,18 +193,11 @@ class _Reader:
             if not self._triggers:
                 raise ValueError(f"the particle {text!r} has no verb before it")
             last = self._triggers[-1]
-            self._triggers[-1] = Trigger(
-                last.frame,
-                last.start,
-                last.end,
-                last.negated,
-                last.otherwise,
-                (*last.particles, *range(start, end)),
-            )
+            self._triggers[-1] = replace(last, particles=(*last.particles, *range(start, end)))
             return
         if frame not in FRAMES:
             raise ValueError(f"{frame!r} is no frame; there are {', '.join(FRAMES)}")
-        self._triggers.append(Trigger(frame, start, end, mode == "!", mode == "~"))
+        self._triggers.append(Trigger(frame, start, end, _SIGNS[mode]))
 
     def _role(self, name: str, text: str, owner: str | None) -> None:
         role = next((role for role in ROLES if role == name), None)
@@ -192,7 +217,9 @@ class _Reader:
 
     def result(self) -> Annotated:
         roles = tuple(self._owned(span, said) for span, said in self._roles)
-        return Annotated(tuple(self.words), tuple(self._acts), tuple(self._triggers), roles)
+        return Annotated(
+            tuple(self.words), tuple(self._acts), tuple(self._moves), tuple(self._triggers), roles
+        )
 
     def _owned(self, span: RoleSpan, said: int | None) -> RoleSpan:
         """With its owner: the one said, else the trigger before, else the first."""

@@ -308,4 +308,6 @@ def _replaced(
         wishes.append(replace(wish, negated=negated, otherwise=any(one.otherwise for one in before)))
     wishes.sort(key=lambda wish: wish.start)
     acts = frozenset({"order"}) if all_of_it else reading.acts
-    return replace(reading, acts=acts, wishes=tuple(wishes), loose=tuple(loose), left_over=tuple(left))
+    return replace(
+        reading, acts=acts, wishes=tuple(wishes), loose=tuple(loose), left_over=tuple(left), unsteady=()
+    )

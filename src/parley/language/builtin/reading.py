@@ -28,6 +28,10 @@ class Reading:
     """Words about how it is to be done."""
     about: tuple[str, ...] = ()
     """Of whom or what something is told that is no frame: "Kim" in "Kim is tired"."""
+    moves: frozenset[str] = frozenset()
+    """Which answers and controls are in it: yes, no, stop, pause, resume, cancel, again."""
+    unsteady: tuple[str, ...] = ()
+    """Words that the tagger is not sure of: a word of courtesy before them changes what they are."""
 
 
 def read(parse: Parse, lexicon: Lexicon) -> Reading:
@@ -48,13 +52,16 @@ def read(parse: Parse, lexicon: Lexicon) -> Reading:
     idle = _left_over(parse, lexicon)
     manner = tuple(word for word in idle if word.lower() in lexicon.classes["manner"])
     left = tuple(word for word in idle if word not in manner)
-    return Reading(frozenset(parse.acts), tuple(spread), rest, left, manner, _about(parse, lexicon))
+    moves = frozenset(parse.moves) - {"none"}
+    return Reading(frozenset(parse.acts), tuple(spread), rest, left, manner, _about(parse, lexicon), moves)
 
 
 def _merged(parse: Parse) -> list[Span]:
     """Spans of one role that touch each other are one; a role behind a later verb belongs to that one."""
     found: list[Span] = []
     for span in parse.spans:
+        if span.end - span.start == 1 and parse.tokens[span.start].low in _BARE:
+            continue
         last = found[-1] if found else None
         if last is not None and last.role == span.role and last.end == span.start and span.role in "NGTSLHX":
             head = span.head if span.role in "NH" else last.head
@@ -79,6 +86,10 @@ def _apart(parse: Parse, span: Span, nearest: int) -> bool:
     verb, owner = parse.verbs[nearest], parse.verbs[span.owner or 0]
     low = [token.low for token in parse.tokens]
     return not {*low[verb.end : span.start]} & _BREAKS and bool({*low[span.end : owner.start]} & _BREAKS)
+
+
+_BARE = frozenset({"to", "for", "at", "of", "by", "from", "with"})
+"""What fills no role alone."""
 
 
 def _without_openers(wishes: list[Wish], parse: Parse) -> list[Wish]:
@@ -118,18 +129,22 @@ def _wish(parse: Parse, verb: Verb, mine: list[Filler], lexicon: Lexicon) -> Wis
     particles = [parse.tokens[at].low for at in verb.particles]
     while words and (words[0] in ("don't", "dont", "not", "never", "do") and len(words) > 1):
         words = words[1:]
-    _, longer = _reach(parse, verb, lexicon)
+    end, longer = _reach(parse, verb, lexicon)
     known = longer or lexicon.frames_of(words, particles)
     known |= {general for special, general in _KIND_OF.items() if special in known}
     witness: Witness = "agrees" if verb.frame in known else "differs" if known else "unknown"
     negated = _negated(parse, verb, lexicon)
-    if negated is None:
+    if negated is None or verb.mode in _NOT_SIMPLY_NOW:
         witness = "differs"
     act = parse.acts[verb.start]
-    said = " ".join([*words, *particles])
+    said = " ".join([*words, *(token.low for token in parse.tokens[verb.end : end]), *particles])
     return Wish(
         verb.frame, verb.start, said, tuple(mine), verb.share, witness, act, bool(negated), verb.otherwise
     )
+
+
+_NOT_SIMPLY_NOW = frozenset({"later", "earlier", "allowed"})
+"""What the tagger sees in a clause by itself: its place is elsewhere, or it is let and not wanted."""
 
 
 def _negated(parse: Parse, verb: Verb, lexicon: Lexicon) -> bool | None:

@@ -7,7 +7,7 @@ from functools import lru_cache
 
 import numpy as np
 
-from parley.language.builtin.labels import ACT_TAGS, FRAME_TAGS, MODE_TAGS, ROLE_TAGS
+from parley.language.builtin.labels import ACT_TAGS, FRAME_TAGS, MODE_TAGS, MOVE_TAGS, ROLE_TAGS
 from parley.language.builtin.tagger import Matrix, Scores
 from parley.language.builtin.tokens import Token
 
@@ -26,6 +26,8 @@ class Verb:
     negated: bool = False
     otherwise: bool = False
     particles: tuple[int, ...] = ()
+    mode: str = "plain"
+    """How it is meant: one of `markup.MODES`."""
 
 
 @dataclass(frozen=True, slots=True)
@@ -51,6 +53,8 @@ class Parse:
     spans: tuple[Span, ...]
     shares: tuple[float, ...]
     """How much the tagger believes in what it says of each word."""
+    moves: tuple[str, ...] = ()
+    """Of each word: yes, no, stop and the like (`markup.MOVES`)."""
 
     def text(self, start: int, end: int) -> str:
         """The words from one to another, as they were said."""
@@ -80,6 +84,7 @@ class Parse:
                 for span in spans
             ),
             self.shares[start:end],
+            self.moves[start:end],
         )  # fmt: skip
 
 
@@ -98,7 +103,8 @@ def parse(tokens: tuple[Token, ...], scores: Scores) -> Parse:
     acts = tuple(ACT_TAGS[int(row.argmax())] for row in scores.act[:size])
     shares = tuple(float(min(scores.frame[at, frames[at]], scores.role[at, roles[at]])) for at in range(size))
     verbs = _verbs(frames, scores)
-    return Parse(tokens, acts, verbs, _spans(roles, scores, verbs), shares)
+    moves = tuple(MOVE_TAGS[int(row.argmax())] for row in scores.move[:size])
+    return Parse(tokens, acts, verbs, _spans(roles, scores, verbs), shares, moves)
 
 
 def _best(shares: Matrix, tags: tuple[str, ...]) -> list[int]:
@@ -149,7 +155,7 @@ def _verbs(path: list[int], scores: Scores) -> tuple[Verb, ...]:
         mode = MODE_TAGS[int(scores.mode[start].argmax())]
         behind = pieces[number + 1][1] if number + 1 < len(pieces) else len(path)
         mine = tuple(at for at in beside if end <= at < behind)
-        verbs.append(Verb(frame, start, end, share, mode == "negated", mode == "otherwise", mine))
+        verbs.append(Verb(frame, start, end, share, mode == "negated", mode == "otherwise", mine, mode))
     return tuple(verbs)
 
 

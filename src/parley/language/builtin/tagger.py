@@ -28,6 +28,7 @@ class Scores:
     role: Matrix
     head: Matrix
     mode: Matrix
+    move: Matrix
     arcs: Matrix
     """Column 0: belongs to nothing; column n: to what begins at word n - 1."""
 
@@ -49,8 +50,7 @@ class Tagger:
             "first": np.array([split.first or (0,)], dtype=np.int64),
         }
         found = self.session.run([*HEADS, "arcs"], given)
-        act, frame, role, head, mode, arcs = (_shares(scores[0]) for scores in found)
-        return Scores(act, frame, role, head, mode, arcs)
+        return Scores(*(_shares(scores[0]) for scores in found))
 
     def describe(self, texts: Sequence[str]) -> list[dict[str, float]]:
         """What each text, said of an action, describes: frames and the belief in them."""

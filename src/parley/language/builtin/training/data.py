@@ -13,7 +13,7 @@ from parley.language.builtin.labels import DESCRIBED
 from parley.language.builtin.markup import Annotated, read_text
 from parley.language.builtin.training.varying import filled
 
-__all__ = ["data_hash", "descriptions", "from_templates", "written"]
+__all__ = ["data_hash", "descriptions", "from_templates", "held_back", "written"]
 
 _HERE = resources.files("parley.language.builtin.training")
 
@@ -25,10 +25,17 @@ def _files(kind: str) -> list[Traversable]:
 
 
 def written() -> list[Annotated]:
-    """The sentences that people wrote."""
-    return [
-        sentence for file in _files("sentences") for sentence in read_text(file.read_text("utf-8"), file.name)
-    ]
+    """The sentences that are learnt from."""
+    return _read("sentences")
+
+
+def held_back() -> list[Annotated]:
+    """Those of writers of whom nothing is learnt: on them is measured, and thresholds are set."""
+    return _read("held_back")
+
+
+def _read(kind: str) -> list[Annotated]:
+    return [sentence for file in _files(kind) for sentence in read_text(file.read_text("utf-8"), file.name)]
 
 
 def from_templates(chance: random.Random, times: int) -> list[Annotated]:

@@ -66,7 +66,7 @@ def _varied(
             roles[number] = replace(grown, head=grown.end - 1)
             sentence = replace(sentence, roles=tuple(roles))
     order = sentence.acts[0] == "order" and bool(sentence.triggers)
-    bare = order and sentence.triggers[0].start == 0 and not sentence.triggers[0].negated
+    bare = order and sentence.triggers[0].start == 0 and sentence.triggers[0].mode == "plain"
     if bare and chance.random() < 0.4:
         sentence = _spliced(sentence, 0, 0, tuple(chance.choice(_BEFORE).split()), "order")
     if order and chance.random() < 0.12:
@@ -77,7 +77,22 @@ def _varied(
     if chance.random() < 0.08:
         at = chance.randrange(len(sentence.words) + 1)
         sentence = _spliced(sentence, at, at, (chance.choice(_FILLERS),), "")
+    if chance.random() < 0.08:
+        sentence = _mistyped(sentence, chance)
     return _spoken(sentence) if chance.random() < 0.5 else sentence
+
+
+def _mistyped(sentence: Annotated, chance: random.Random) -> Annotated:
+    """With two letters of a longer word exchanged, or one left out."""
+    longer = [number for number, word in enumerate(sentence.words) if len(word) > 4 and word.isalpha()]
+    if not longer:
+        return sentence
+    number = chance.choice(longer)
+    word = sentence.words[number]
+    at = chance.randrange(1, len(word) - 1)
+    behind = word[at + 1] + word[at] + word[at + 2 :] if chance.random() < 0.5 else word[at + 1 :]
+    words = (*sentence.words[:number], word[:at] + behind, *sentence.words[number + 1 :])
+    return replace(sentence, words=words)
 
 
 def _spoken(sentence: Annotated) -> Annotated:
@@ -100,9 +115,11 @@ def _spliced(sentence: Annotated, start: int, end: int, words: Sequence[str], ac
 
     neighbour = sentence.acts[min(start, len(sentence.acts) - 1)]
     acts = (*sentence.acts[:start], *((neighbour,) * len(words)), *sentence.acts[end:])
+    moved = sentence.moves[min(start, len(sentence.moves) - 1)]
+    moves = (*sentence.moves[:start], *((moved,) * len(words)), *sentence.moves[end:])
     triggers = tuple(
         Trigger(
-            one.frame, begin(one.start), finish(one.end), one.negated, one.otherwise,
+            one.frame, begin(one.start), finish(one.end), one.mode,
             tuple(begin(place) for place in one.particles),
         )
         for one in sentence.triggers
@@ -111,7 +128,7 @@ def _spliced(sentence: Annotated, start: int, end: int, words: Sequence[str], ac
         RoleSpan(one.role, begin(one.start), finish(one.end), begin(one.head), one.owner)
         for one in sentence.roles
     )
-    return Annotated((*sentence.words[:start], *words, *sentence.words[end:]), acts, triggers, roles)
+    return Annotated((*sentence.words[:start], *words, *sentence.words[end:]), acts, moves, triggers, roles)
 
 
 def filled(

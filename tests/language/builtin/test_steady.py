@@ -1,0 +1,35 @@
+"""Words that would be something else behind a "please" are asked about."""
+
+from __future__ import annotations
+
+from dataclasses import replace
+
+from parley.language.builtin.doubts import doubt
+from parley.language.builtin.lexicon import lexicon
+from parley.language.builtin.planner import orders_of
+from parley.language.builtin.reading import Reading
+from parley.language.builtin.steady import steadily
+from parley.language.builtin.tagger import shipped_tagger
+from parley.language.builtin.tokens import tokenize
+
+
+def reading(text: str) -> Reading:
+    return steadily(shipped_tagger(), tokenize(text), lexicon())[1]
+
+
+def test_a_steady_order_is_not_doubted_and_an_unsteady_one_is_asked_about_by_its_words() -> None:
+    steady = reading("please take the red box")
+    assert steady.unsteady == ()
+    assert doubt(steady, orders_of(steady), lambda filler: True) is None
+    asked = doubt(replace(steady, unsteady=("box",)), orders_of(steady), lambda filler: True)
+    assert asked is not None and "box" in asked.question
+
+
+def test_nonsense_is_not_steady() -> None:
+    said = [
+        "box the if turn",
+        "up gate bring slowly of",
+        "light dark open near run",
+        "to to from please it on",
+    ]
+    assert any(reading(text).unsteady for text in said)
