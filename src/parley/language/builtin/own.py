@@ -133,7 +133,11 @@ class OwnActions:
             return reading
         clauses = clauses_of(parse, reading, self._lexicon)
         found = [self._meant(clause, known, vectors, framed, reading) for clause in clauses]
-        meant = [(clause, own) for clause, own in zip(clauses, found, strict=True) if own is not None]
+        meant = [
+            (clause, own)
+            for clause, own in zip(clauses, found, strict=True)
+            if own is not None and (own.certain or len(clauses) == 1 or _has_verb(clause, parse))
+        ]
         return _replaced(parse, reading, meant, len(meant) == len(clauses)) if meant else reading
 
     def _prepared(self, catalogue: Sequence[ActionInfo]) -> tuple[tuple[_Known, ...], Matrix]:
@@ -195,10 +199,16 @@ class OwnActions:
         if told and self._is_sure(told) and not (agreed and told[0].item.action.name in framed):
             best = told[0]
             return OwnAction(best.item.action, best.filled.fills, best.item.slots, True, best.filled.missing)
-        best = ranked[0]
+        if not _is_framed(clause, reading, other_than="DO"):
+            best = ranked[0]  # a name may be offered where nothing else is understood
+        elif told:
+            best = told[0]
+        else:
+            return None
         if agreed or best.item.action.name in framed:
             return None
-        hinted = best.word > 0 or best.shared > 0 or _ahead(ranked) >= _MARGIN
+        ahead = best.item.told and _ahead(told) >= _MARGIN
+        hinted = best.word > 0 or best.shared > 0 or ahead
         if best.worth >= _OFFERED and hinted:
             missing = best.filled.missing if best.filled.accounted else ()
             return OwnAction(best.item.action, best.filled.fills, best.item.slots, False, missing)
@@ -285,9 +295,15 @@ def _opening(text: str) -> Iterable[str]:
     return [word for at, word in enumerate(words) if at == 0 or words[at - 1] in (".", "and", "or", "then")]
 
 
-def _is_framed(clause: Clause, reading: Reading) -> bool:
-    """Whether tagger and lexicon agree on what a clause wants."""
+def _has_verb(clause: Clause, parse: Parse) -> bool:
+    return any(clause.start <= verb.start < clause.end for verb in parse.verbs)
+
+
+def _is_framed(clause: Clause, reading: Reading, other_than: str = "") -> bool:
+    """Whether a clause is a frame: one that tagger and lexicon agree on, or any other than the one named."""
     inside = [wish for wish in reading.wishes if clause.start <= wish.start < clause.end]
+    if other_than:
+        return any(wish.frame != other_than for wish in inside)
     return bool(inside) and all(wish.witness == "agrees" for wish in inside)
 
 
