@@ -85,7 +85,9 @@ PLANS = {
     "if gate 1 isn't open go to the office and then to the desk": [
         "go gate 1", "look whether gate 1 is open", "unless 2: go office", "unless 2: go desk",
     ],
+    "if gate 1 is open, go to the desk": ["go gate 1", "look whether gate 1 is open", "if 2: go desk"],
     # what comes first
+    "After the pump, go to the desk": rounds("pump", "desk"),
     "before you go to the desk go to the office": rounds("office", "desk"),
     "go to the desk after visiting the office": rounds("office", "desk"),
     "go to the desk, but first go to the office": rounds("office", "desk"),

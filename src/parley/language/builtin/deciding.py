@@ -56,6 +56,8 @@ def decide(
     if rule is not None:
         return Remember((rule,))
     made = _alone(situation, parts, skills, lexicon, reader)
+    if isinstance(made, Ask) and (promise := policy.promised(situation, lexicon, again)) is not None:
+        return promise
     return policy.afterwards(made, situation, whole, tokens, lexicon)
 
 

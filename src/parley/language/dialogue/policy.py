@@ -24,7 +24,7 @@ from parley.language.dialogue.questions import plain, question_of
 from parley.language.dialogue.replies import chosen, is_thinking, names_deed
 from parley.world.object_map import MapObject
 
-__all__ = ["Again", "afterwards", "beforehand", "no_facts", "spoken_of"]
+__all__ = ["Again", "afterwards", "beforehand", "no_facts", "promised", "spoken_of"]
 
 
 class Again(Protocol):
@@ -136,9 +136,6 @@ def _about_what_was_said(
         return repeated
     if (refused := _beyond(situation, reading, tokens, lexicon)) is not None:
         return refused
-    if (waits := put_off(situation.message)) is not None and (do := _ordered(again(waits[1]))) is not None:
-        what = " and ".join(words_for(deed, lexicon) for deed in do.deeds if not deed.hidden)
-        return Answer(f"{PROMISE}: {waits[0]}. Then I {what}.")
     order = due(situation.message, situation.history)
     if order and _ordered(late := again(order)) is not None:
         return late
@@ -219,6 +216,14 @@ def _is_emergency(situation: Situation) -> bool:
 
 def _known_plan(situation: Situation) -> bool:
     return bool(situation.queue) or situation.dialogue.proposal is not None
+
+
+def promised(situation: Situation, lexicon: Lexicon, again: Again) -> Answer | None:
+    """The promise to do an order when somebody tells what it waits for; None if it waits for nothing."""
+    if (waits := put_off(situation.message)) is not None and (do := _ordered(again(waits[1]))) is not None:
+        what = " and ".join(words_for(deed, lexicon) for deed in do.deeds if not deed.hidden)
+        return Answer(f"{PROMISE}: {waits[0]}. Then I {what}.")
+    return None
 
 
 def afterwards(
