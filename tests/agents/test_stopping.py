@@ -141,6 +141,19 @@ async def test_after_a_stop_instead_of_an_answer_new_steps_wait_for_a_yes(failed
     assert "drive 2" not in failed.body.did
 
 
+async def test_what_is_only_offered_waits_for_a_yes_whatever_else_is_said_of_it(party: Crew) -> None:
+    party.observer.say("cancel everything", "A")
+    await party.state("idle")
+    offer = ChatAction.model_validate({"message_response": "Shall I look?", "offer": [look("lid")]})
+    party.language.will("interpret", offer)
+    party.observer.say("go and see", "A")
+    await party.hears("Shall I?")
+    assert "look lid" not in party.body.did
+    party.observer.say("yes", "A")
+    await party.state("idle")
+    assert party.body.did[-1] == "look lid"
+
+
 async def test_page_button_pause_is_the_same_as_stop(party: Crew) -> None:
     party.command("pause")
     await party.state("paused")

@@ -26,7 +26,7 @@ from parley.messages.plain import one_line
 from parley.messages.principal import Principal
 from parley.sentences import Sentence, sentence
 
-__all__ = ["Admitted", "Heard", "admit", "admit_repair", "engine", "is_chosen"]
+__all__ = ["UNSURE_OF_ALL", "Admitted", "Heard", "admit", "admit_repair", "engine", "is_chosen"]
 
 SAID_NO: Final = sentence("you said no to something")
 NOT_ASKED_FOR: Final = sentence("you did not say so in so many words")

@@ -20,7 +20,7 @@ from parley.agents.presence import Presence
 from parley.agents.thinking import DroppedError, Thinking
 from parley.clock import Clock
 from parley.errors import LanguageError
-from parley.gate.orders import Admitted, Heard, admit
+from parley.gate.orders import UNSURE_OF_ALL, Admitted, Heard, admit
 from parley.language.base import Language, Situation
 from parley.language.completing import bound_to_steps, completed_answer
 from parley.memory.sayings import for_oneself
@@ -132,7 +132,8 @@ class Answering:
             self.say((target,), texts.nothing_started(plain), "error", said.id)
             return
         if understood.offer and not understood.queue:  # the gate asks for a yes: it is not certain
-            understood = understood.model_copy(update={"queue": understood.offer})
+            why = understood.needs_yes or UNSURE_OF_ALL
+            understood = understood.model_copy(update={"queue": understood.offer, "needs_yes": why})
         wants = understood.queue or understood.system_cmd or understood.others
         if wants and self._halted_since(halts, target):
             self.say((target,), texts.left(message), "response", said.id)
