@@ -7,8 +7,10 @@ from hypothesis import strategies as st
 
 from parley.language.base import Situation, Turn
 from parley.language.builtin.engine import BuiltinLanguage
+from parley.language.dialogue.state import Dialogue
 from parley.messages.chat import ChatAction
 from parley.messages.memory import MemoryEntry
+from parley.messages.status import PlanProposal
 from tests.language.builtin.worlds import SENTENCES, situation
 
 ENGINE = BuiltinLanguage()
@@ -81,8 +83,10 @@ async def test_an_order_may_wait_for_something_that_is_told() -> None:
     assert promise.queue == () and stored(promise) == []
     before = (Turn("operator", asked), Turn("assistant", promise.message_response))
     assert (await ENGINE.interpret(situation("Kim is not back yet", history=before))).queue == ()
-    told: Situation = situation("Kim is back now", history=before)
-    assert [call.name for call in (await ENGINE.interpret(told)).queue] == ["drive_to"]
+    offered = Dialogue(proposal=PlanProposal(id="7", target="Ada", why="It is not certain."))
+    for dialogue in (Dialogue(), offered):
+        told: Situation = situation("Kim is back now", history=before, dialogue=dialogue)
+        assert [call.name for call in (await ENGINE.interpret(told)).queue] == ["drive_to"]
 
 
 async def test_an_emergency_stands_still_tells_everybody_and_asks() -> None:

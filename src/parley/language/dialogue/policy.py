@@ -136,15 +136,16 @@ def _about_what_was_said(
         return repeated
     if (refused := _beyond(situation, reading, tokens, lexicon)) is not None:
         return refused
-    if (waits := put_off(situation.message)) is not None and isinstance(do := again(waits[1]), Do):
+    if (waits := put_off(situation.message)) is not None and (do := _ordered(again(waits[1]))) is not None:
         what = " and ".join(words_for(deed, lexicon) for deed in do.deeds if not deed.hidden)
         return Answer(f"{PROMISE}: {waits[0]}. Then I {what}.")
-    if (order := due(situation.message, situation.history)) and isinstance(do := again(order), Do):
-        return do
+    order = due(situation.message, situation.history)
+    if order and _ordered(late := again(order)) is not None:
+        return late
     if (instead := _TAKEN_BACK.match(situation.message)) is not None:
-        do = again(instead["rest"])
-        if isinstance(do, Do):
-            return afterwards(do, situation, reading, tokens, lexicon)
+        made = _ordered(again(instead["rest"]))
+        if made is not None:
+            return afterwards(made, situation, reading, tokens, lexicon)
     change = change_of(situation, tokens, lexicon, orders=False)
     if change is not None:
         return _edit(change, situation)
@@ -152,6 +153,13 @@ def _about_what_was_said(
 
 
 _ALARMED: Final = "That sounds like an emergency"
+
+
+def _ordered(made: Decision) -> Do | None:
+    """The deeds of a decision, if it is certain of some."""
+    return made if isinstance(made, Do) else made.do if isinstance(made, Edit) else None
+
+
 _TAKEN_BACK: Final = re.compile(
     r"\W*(?:(?:oh|no|ah|ok|okay|well|hm+|please|sorry|actually|wait|ugh)\W+)*(?:forget (?:it|that|this|"
     r"about (?:it|that))|"
