@@ -74,8 +74,8 @@ class MemoryNode(Node):
         """See `Node.open`."""
         if self._meanings is not None:
             await self.opened.enter_async_context(self._meanings)
-        await self.subscribe(topics.ADD_TO_MEMORY, AddToMemory, self._on_add)
-        await self.subscribe(topics.REMOVE_MEMORY, RemoveMemory, self._on_remove)
+        await self.subscribe(topics.ADD_TO_MEMORY, AddToMemory, self._on_add, in_charge=True)
+        await self.subscribe(topics.REMOVE_MEMORY, RemoveMemory, self._on_remove, in_charge=True)
         await self.subscribe(topics.CHAT_FEEDBACK, ChatFeedback, self._on_feedback)
         server = await self.transport.serve(topics.GET_MEMORY, self._on_get)
         self.opened.push_async_callback(server.close)

@@ -127,7 +127,7 @@ class ChatInterface(Node):
         await self.subscribe(topics.GRAPH_EVENTS, GraphEvent, self._known.on_event)
         await self.subscribe(topics.PLAN_DECISION, PlanDecision, self._on_decision)
         await self._answering.open()
-        await self.subscribe(topics.CHAT_INPUT, ChatInput, self._on_input)
+        await self.subscribe(topics.CHAT_INPUT, ChatInput, self._on_input, in_charge=True)
         self.spawn(self._presence.watch(), name="presence")
 
     # -- from the wire ---------------------------------------------------------------------------------
