@@ -12,7 +12,7 @@ import pytest
 from parley.agents.audit_log import AuditLog
 from parley.clock import WallClock
 from parley.gate.audit_store import AuditStore
-from parley.gate.audit_text import told
+from parley.gate.audit_text import told, who_of
 from parley.messages import topics
 from parley.messages.audit import AuditEntry, AuditEvent, AuditList, GetAudit
 from parley.messages.chat import ActionCall, ChatAction, ChatInput
@@ -196,3 +196,15 @@ async def test_what_came_faster_than_it_was_heard_is_written_down_as_a_gap_and_t
         (gap,) = await r.log(effect="gap")
         assert gap.detail["dropped"] == 5
         assert r.told == ["In the log of who did what 5 entries are missing."]
+
+
+@pytest.mark.parametrize(
+    ("label", "who"),
+    [
+        ("built-in language engine (no language model)", "The built-in language engine"),
+        ("language model m1; if it gives no answer: built-in language engine", "The language model m1"),
+        ("scripted", "The language engine scripted"),
+    ],
+)
+def test_an_engine_is_named_once(label: str, who: str) -> None:
+    assert who_of(Principal(kind="engine", name=label)) == who
