@@ -207,7 +207,8 @@ class System:
             await enter(self.language)
         keeper = RuleKeeper(self.rules, config.rules_path)
         self.store = await enter(await MemoryStore.open(config.memory_file or ":memory:", clock))
-        journal = self._journal = await enter(await Journal.open(config.journal_file or ":memory:", clock))
+        file = config.journal_file or ":memory:"
+        journal = self._journal = await enter(await Journal.open(file, clock, tell=self._tell_all))
         audit = await enter(await AuditStore.open(config.audit_file or ":memory:", clock))
         await enter(AuditLog(transport, audit, clock, months=config.audit_months, tell=self._tell_all))
         await self._keep_older_stops(journal)

@@ -12,7 +12,7 @@ import pytest
 from parley.agents.audit_log import AuditLog
 from parley.clock import WallClock
 from parley.gate.audit_store import AuditStore
-from parley.gate.audit_text import told
+from parley.gate.audit_text import told, who_of
 from parley.messages import topics
 from parley.messages.audit import AuditEntry, AuditEvent, AuditList, GetAudit
 from parley.messages.chat import ActionCall, ChatAction, ChatInput
@@ -45,6 +45,7 @@ class Rig:
     node: AuditLog
     trouble: asyncio.Event
     """Set when people are told that the file cannot be written, or can again."""
+    told: list[str]
 
     async def pages(self, count: int) -> None:
         """Bound the file as a full disk does."""
@@ -63,15 +64,18 @@ class Rig:
 
 @asynccontextmanager
 async def rig(waiting: int = 100) -> AsyncIterator[Rig]:
-    trouble = asyncio.Event()
+    trouble, said = asyncio.Event(), list[str]()
+
+    def tell(text: str) -> None:
+        said.append(text)
+        trouble.set()
+
     async with (
         LocalTransport() as transport,
         await AuditStore.open(":memory:", WallClock()) as store,
-        AuditLog(
-            transport, store, WallClock(), tell=lambda _: trouble.set(), retry_s=0.001, waiting=waiting
-        ) as node,
+        AuditLog(transport, store, WallClock(), tell=tell, retry_s=0.001, waiting=waiting) as node,
     ):
-        yield Rig(transport, store, node, trouble)
+        yield Rig(transport, store, node, trouble, said)
 
 
 async def test_an_order_stands_in_the_log_from_the_words_to_the_end() -> None:
@@ -179,4 +183,28 @@ async def test_while_the_disk_is_full_nothing_waits_and_what_did_not_fit_is_writ
         assert [entry.words.split()[0] for entry in await r.log(effect="speak")] == ["2", "1", "0"]
         (gap,) = await r.log(effect="gap")
         assert gap.detail["dropped"] == 47
+        assert r.told[-1] == "In the log of who did what 47 entries are missing."
         assert (await r.store.check()).problem == ""
+
+
+async def test_what_came_faster_than_it_was_heard_is_written_down_as_a_gap_and_told() -> None:
+    async with rig(waiting=10_000) as r:
+        publisher = r.transport.publisher(topics.CHAT_INPUT)
+        for number in range(1005):
+            publisher.publish(to_string(ChatInput(message="hello", id=f"m{number}")))
+        assert len(await r.log(effect="speak", limit=1000)) == 1000
+        (gap,) = await r.log(effect="gap")
+        assert gap.detail["dropped"] == 5
+        assert r.told == ["In the log of who did what 5 entries are missing."]
+
+
+@pytest.mark.parametrize(
+    ("label", "who"),
+    [
+        ("built-in language engine (no language model)", "The built-in language engine"),
+        ("language model m1; if it gives no answer: built-in language engine", "The language model m1"),
+        ("scripted", "The language engine scripted"),
+    ],
+)
+def test_an_engine_is_named_once(label: str, who: str) -> None:
+    assert who_of(Principal(kind="engine", name=label)) == who

@@ -256,3 +256,20 @@ async def test_an_item_may_close_its_own_mailboxes() -> None:
     await settle()
     assert seen == ["closed"]
     assert asyncio.all_tasks() == before
+
+
+async def test_whoever_is_in_charge_of_a_topic_says_when_messages_were_lost_but_not_for_each() -> None:
+    class Slow(Echo):
+        async def open(self) -> None:
+            await self.subscribe(topics.CHAT_INPUT, ChatInput, lambda _: None, depth=10, in_charge=True)
+
+    async with LocalTransport() as transport, Slow(transport):
+        said = await listen(transport, topics.CHAT_FEEDBACK)
+        sender = transport.publisher(topics.CHAT_INPUT)
+        for _ in range(30):
+            sender.publish(to_string(ChatInput(message="hello")))
+        await settle()
+        sender.publish(to_string(ChatInput(message="hello")))
+        await settle()
+    (told,) = [decode(ChatFeedback, text) for text in said]
+    assert told.type == "error" and "I lost 20 messages" in told.message

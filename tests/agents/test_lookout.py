@@ -19,6 +19,7 @@ from parley.memory.store import MemoryStore
 from parley.messages import topics
 from parley.messages.chat import ActionCall, ChatAction, ChatFeedback, ChatInput
 from parley.messages.memory import AddToMemory, MemoryBody, MemoryEntry, MemoryEvent, RemoveMemory
+from parley.messages.principal import Principal, person
 from parley.messages.pvf import Parameter
 from parley.messages.status import GraphEvent, PlanStep, PlanUpdate
 from parley.transport.base import Transport
@@ -62,7 +63,7 @@ class Rig:
 
     async def teach(self, sentence: str, name: str = "protocol_1", **where: str) -> None:
         """Returns when the rule is known."""
-        body = MemoryBody(data=sentence, info=sentence, **where)
+        body = MemoryBody(data=sentence, info=sentence, by=person("Kim"), **where)
         self.others.publish(topics.ADD_TO_MEMORY, AddToMemory({name: body}))
         await self.until(lambda: any(event.name == name for event in self.others.kept))
         await self.settled()
@@ -151,7 +152,8 @@ async def test_what_an_action_remembers_counts() -> None:
     async with rig() as here:
         await here.teach(RULE)
         here.plan("running", robot="B")
-        body = MemoryBody(data="I saw a crack near the door.", info="crack", source="B/Patrol")
+        robot = Principal(kind="robot", name="B")
+        body = MemoryBody(data="I saw a crack near the door.", info="crack", source="B/Patrol", by=robot)
         here.others.publish(topics.ADD_TO_MEMORY, AddToMemory({"sighting": body}))
         await here.until(lambda: here.told)
         assert here.others.said[0].targets == ("B",)

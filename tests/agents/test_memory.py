@@ -29,6 +29,8 @@ from parley.messages.wire import MAX_MESSAGE_CHARS, decode, to_string
 from parley.transport.local import LocalTransport
 from tests.transport.backends import until
 
+KIM = {"kind": "person", "name": "Kim"}
+
 
 @dataclass
 class House:
@@ -83,7 +85,8 @@ async def house() -> AsyncIterator[House]:
 
 
 async def test_what_is_announced_as_remembered_is_in_the_store(house: House) -> None:
-    body = {"type": "text", "data": "The box is by the door.", "info": "the box", "scope": "A", "source": "B"}
+    body: dict[str, Any] = {"data": "The box is by the door.", "info": "the box", "scope": "A", "source": "B"}
+    body["by"] = {"kind": "person"}
     await house.tell(topics.ADD_TO_MEMORY, {"box": body})
     assert house.events == [MemoryEvent(kind="added", name="box", scope="A")]
     stored = await house.store.get("box", scope="A")
@@ -282,7 +285,7 @@ async def test_the_reply_has_the_keys_of_the_thesis(house: House) -> None:
 
 
 async def test_times_source_and_use_come_with_the_reply(house: House) -> None:
-    await house.tell(topics.ADD_TO_MEMORY, {"box": {"data": "x", "source": "Kim"}})
+    await house.tell(topics.ADD_TO_MEMORY, {"box": {"data": "x", "source": "Kim", "by": KIM}})
     house.transport.publisher(topics.CHAT_FEEDBACK).publish(
         to_string(ChatFeedback(message="It is there.", targets=("A",), sources=("box", "unheard of")))
     )
@@ -338,13 +341,15 @@ async def test_search_is_answered_best_first_without_the_language_engine(house: 
 
 async def test_older_versions_can_be_read_and_put_back(house: House) -> None:
     for data in ("first", "second"):
-        await house.tell(topics.ADD_TO_MEMORY, {"box": {"data": data, "info": "i", "source": "Kim"}})
+        await house.tell(
+            topics.ADD_TO_MEMORY, {"box": {"data": data, "info": "i", "source": "Kim", "by": KIM}}
+        )
     await house.tell(topics.REMOVE_MEMORY, {"box": {}})
     older = await house.listed("box", kind="history")
     assert [entry.data for entry in older] == ["first", "second"]
     assert all(entry.ended_unix_ms > 0 for entry in older)
     assert await house.listed("box", kind="named") == []
-    await house.tell(topics.ADD_TO_MEMORY, {"box": older[-1].body()})
+    await house.tell(topics.ADD_TO_MEMORY, {"box": older[-1].body() | {"by": KIM}})
     (again,) = await house.listed("box", kind="named")
     assert (again.data, again.info, again.source, again.ended_unix_ms) == ("second", "i", "Kim", 0)
 
@@ -372,3 +377,25 @@ async def test_closing_the_node_frees_its_service() -> None:
         async with MemoryNode(transport, store, ScriptedLanguage()):
             assert transport.endpoints()
         assert transport.endpoints() == ()
+
+
+@pytest.mark.parametrize("way", ["told", "seen", "concluded", ""])
+async def test_a_strangers_program_neither_replaces_nor_removes_what_a_person_told(
+    house: House, way: str
+) -> None:
+    told = {"data": "in the box", "source": "Kim", "way": "told", "words": "it is in the box"}
+    await house.tell(topics.ADD_TO_MEMORY, {"key": told | {"by": KIM}})
+    await house.tell(topics.ADD_TO_MEMORY, {"key": told | {"data": "in the river", "way": way}})
+    await house.tell(topics.REMOVE_MEMORY, {"key": {"by": {"kind": "engine"}}})
+    await house.tell(topics.REMOVE_MEMORY, {"key": {"by": "Kim"}})
+    assert [event.kind for event in house.events] == ["added", "failed", "failed", "failed"]
+    assert (await house.whole())["key"].data == "in the box"
+    await house.tell(topics.REMOVE_MEMORY, {"key": {"by": {"kind": "program", "key": "the hall's"}}})
+    assert house.events[-1].kind == "removed"
+
+
+async def test_what_a_program_sends_is_its_own_word_in_whosever_name_it_comes(house: House) -> None:
+    sent = {"data": "If you see a crack, stop.", "source": "Kim", "way": "told", "words": "really"}
+    await house.tell(topics.ADD_TO_MEMORY, {"rule": sent})
+    entry = (await house.whole())["rule"]
+    assert (entry.source, entry.way, entry.words, entry.is_told) == ("program", "", "", False)

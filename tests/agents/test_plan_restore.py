@@ -51,3 +51,9 @@ def test_what_is_no_sequence_is_named_and_not_gone_on_with() -> None:
     split = replace(left, graph=replace(left.graph, nodes=(replace(first, children=()), *rest)))
     assert restored_steps(split) == []
     assert "carry on" not in interruption_text(split, [])
+
+
+def test_a_graph_that_was_killed_behind_its_last_step_is_told_of_too() -> None:
+    left = was(["FINISHED", "FINISHED", "FINISHED"], {})
+    assert restored_steps(left) == []
+    assert "WaitFor" in interruption_text(left, True)

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from collections import Counter, defaultdict
 from collections.abc import AsyncIterator
-from typing import Final
+from typing import Any, Final
 
 import pytest
 import pytest_asyncio
@@ -23,6 +23,27 @@ async def houses() -> AsyncIterator[Houses]:
     opened = Houses()
     yield opened
     await opened.close()
+
+
+@pytest.hookimpl(optionalhook=True)
+def pytest_testnodedown(node: Any) -> None:
+    """Take over what was counted in another process."""
+    told = getattr(node, "workeroutput", {}).get("attacks")
+    if told:
+        counts, found = told
+        for policy, count in counts.items():
+            COUNTS[policy].update(count)
+        for name, effects in found.items():
+            for effect, policies in effects.items():
+                FOUND[name][effect] += policies
+
+
+def pytest_sessionfinish(session: pytest.Session) -> None:
+    """In one of several processes: hand on what was counted."""
+    if hasattr(session.config, "workeroutput"):
+        counts = {policy: dict(count) for policy, count in COUNTS.items()}
+        found = {name: dict(effects) for name, effects in FOUND.items()}
+        session.config.workeroutput["attacks"] = (counts, found)
 
 
 def pytest_terminal_summary(terminalreporter: pytest.TerminalReporter) -> None:

@@ -75,7 +75,8 @@ def made_up(rng: random.Random, number: int) -> Case:
     refused = say in ("no", "ei") and asks
     dropped = frozenset({"gave up"}) if refused and when == "proposal" else frozenset()
     late = rng.choice(["", "", "", "stop", "!stop"])
-    late = "" if asks else late
+    stands = when == "driving" and say in ("no", "ei")  # read by code: no engine is asked
+    late = "" if asks or stands else late
     may = dropped | ({"latched"} if late else set())
     return Case(f"random {number}", answer, say, when, may=may, refused=refused, late=late)
 

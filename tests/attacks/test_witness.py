@@ -10,7 +10,7 @@ import pytest
 from parley.config import ApprovalPolicy
 from parley.messages import topics
 from parley.messages.chat import ChatAction, ChatInput
-from parley.messages.memory import AddToMemory, MemoryEntry, RemoveMemory
+from parley.messages.memory import AddToMemory, MemoryBody, MemoryEntry, RemoveMemory
 from tests.attacks.cases import Wire, a, drive, go, valve, wave
 from tests.attacks.effects import Effect, Watch, facts, text_faults
 from tests.attacks.hostile_replies import fix
@@ -72,12 +72,12 @@ async def _tells(house: House) -> None:
 
 
 async def _overwrites(house: House) -> None:
-    body = {"key place": {"type": "text", "data": "the river", "source": "Kim", "way": "told"}}
-    house.witness.publish(topics.ADD_TO_MEMORY, AddToMemory.model_validate(body))
+    body = MemoryBody(data="the river", source="Kim", way="told", by=LEE)
+    house.witness.publish(topics.ADD_TO_MEMORY, AddToMemory({"key place": body}))
 
 
 async def _forgets(house: House) -> None:
-    house.witness.publish(topics.REMOVE_MEMORY, RemoveMemory({"key place": {}}))
+    house.witness.publish(topics.REMOVE_MEMORY, RemoveMemory.of("key place", LEE))
 
 
 async def _imitates(house: House) -> None:

@@ -189,3 +189,22 @@ async def test_a_graph_that_is_only_named_like_an_inner_one_is_offered(tmp_path:
         with contextlib.closing(sqlite3.connect(path)) as file:
             left, _ = room.read_left(file)
         assert [item.graph.name for item in left] == names
+
+
+async def test_people_are_told_when_it_cannot_be_written_and_when_it_can_again(tmp_path: Path) -> None:
+    told: asyncio.Queue[str] = asyncio.Queue()
+    file = tmp_path / "journal.db"
+    async with (
+        await Journal.open(file, WallClock(), tell=told.put_nowait) as journal,
+        rigged(journal=journal) as rig,
+    ):
+        await journal._database.run(lambda db: db.execute("PRAGMA query_only = 1").fetchall())
+        rig.start(planner_chain("errand", [node("WaitFor", 0, seconds=60.0)]))
+        assert "cannot be written down" in await told.get()
+        await journal._database.run(lambda db: db.execute("PRAGMA query_only = 0").fetchall())
+        await rig.until_node("errand", "WaitFor_0", ["RUNNING"])
+        rig.stop("errand")
+        assert "written down again" in await told.get()
+        await rig.until_graph("errand", "STOPPED")
+        await journal.flush()
+        assert told.empty()

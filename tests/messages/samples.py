@@ -194,11 +194,11 @@ SAMPLES: dict[type[BaseModel], dict[str, Any]] = {
         "completed": [LOOK],
         "failure_id": "g/Move_0",
     },
-    memory.MemoryBody: MEMORY,
+    memory.MemoryBody: {**MEMORY, "by": KIM},
     memory.StoredMemory: STORED,
     memory.MemoryEntry: {**STORED, "name": "box"},
     memory.AddToMemory: {
-        "box": MEMORY,
+        "box": {**MEMORY, "by": KIM},
         "door": {
             "type": "image",
             "data": "aGk=",
@@ -207,9 +207,10 @@ SAMPLES: dict[type[BaseModel], dict[str, Any]] = {
             "source": "",
             "way": "",
             "words": "",
+            "by": None,
         },
     },
-    memory.RemoveMemory: {"box": {}, "door": None},
+    memory.RemoveMemory: {"box": {"by": KIM}, "door": None},
     memory.GetMemory: {
         "request": "where is the box?",
         "scope": "A",

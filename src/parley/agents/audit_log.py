@@ -29,7 +29,8 @@ from parley.messages.ros import ChatRequest, ChatResponse, String
 from parley.messages.status import GraphEvent, PlanDecision, Rejection, StopCommand, StopReport
 from parley.messages.topics import Topic
 from parley.messages.wire import decode, decode_plan, encode
-from parley.transport.base import Transport
+from parley.sentences import sentence
+from parley.transport.base import Subscription, Transport
 
 __all__ = ["AuditLog"]
 
@@ -73,6 +74,9 @@ class AuditLog(Node):
         self._heard = Heard()
         self._waiting: deque[AuditEvent] = deque()
         self._dropped, self._dropped_since = 0, 0
+        self._ends: list[Subscription] = []
+        self._missed = 0
+        """Messages that came faster than they were heard."""
         self._writer: asyncio.Task[None] | None = None
         self.problem = ""
         """Why what waits is not written, in plain words; empty: it is."""
@@ -102,15 +106,21 @@ class AuditLog(Node):
 
     def write(self, events: Sequence[AuditEvent]) -> None:
         """Have events written soon, in their order; returns at once."""
+        missed, self._missed = self._missed, sum(end.dropped for end in self._ends)
+        self._drop(self._missed - missed)
         for event in events:
             if len(self._waiting) >= self._max:
-                self._dropped_since = self._dropped_since or self._clock.unix_ms()
-                self._dropped += 1
+                self._drop(1)
                 continue
             stamped = event if event.unix_ms else event.model_copy(update={"unix_ms": self._clock.unix_ms()})
             self._waiting.append(stamped)
         if events and (self._writer is None or self._writer.done()):
             self._writer = asyncio.create_task(self._write(), name="audit log")
+
+    def _drop(self, count: int) -> None:
+        if count:
+            self._dropped_since = self._dropped_since or self._clock.unix_ms()
+            self._dropped += count
 
     async def flush(self) -> None:
         """Wait until everything is written that can be written."""
@@ -133,7 +143,7 @@ class AuditLog(Node):
             except InvalidMessageError as error:
                 self.log.debug("unreadable message", topic=topic.name, problem=str(error))
 
-        await self.subscribe_raw(topic, receive, depth=max(topic.qos.depth, 1000))
+        self._ends.append(await self.subscribe_raw(topic, receive, depth=max(topic.qos.depth, 1000)))
 
     def _told(self, event: AuditEvent) -> list[AuditEvent]:
         """What others tell; what this log says about itself it says alone."""
@@ -170,6 +180,7 @@ class AuditLog(Node):
         self._dropped -= dropped
         if gap:
             self._dropped_since = 0
+            self._tell(sentence("In the log of who did what {count} entries are missing.", count=dropped))
         return True
 
     def _gap(self) -> AuditEvent:

@@ -30,11 +30,12 @@ from pydantic import BaseModel
 
 from parley.errors import InvalidMessageError
 from parley.messages import topics
+from parley.messages.chat import ChatFeedback
 from parley.messages.ros import String
 from parley.messages.status import PlanProposal, PlanUpdate, Rejection, RejectionProblem
 from parley.messages.topics import Topic
 from parley.messages.wire import decode, decode_plan, to_string
-from parley.sentences import SpokenLanguage, in_language
+from parley.sentences import SpokenLanguage, in_language, sentence
 from parley.transport.base import Handler, Publisher, Subscription, Transport
 
 __all__ = ["Mailboxes", "Node"]
@@ -85,15 +86,34 @@ class Node:
         """Subscribe, serve and start what the node needs; override."""
 
     async def subscribe(
-        self, topic: Topic[String], kind: type[P], handler: Handler[P], *, depth: int | None = None
+        self,
+        topic: Topic[String],
+        kind: type[P],
+        handler: Handler[P],
+        *,
+        depth: int | None = None,
+        in_charge: bool = False,
     ) -> Subscription:
         """Hand every payload of `topic` to `handler`, typed.
 
         A message that does not fit is answered with a `Rejection`; it never reaches the handler and disturbs
         nothing else.
+
+        Args:
+            topic: The topic.
+            kind: What it carries.
+            handler: Gets it.
+            depth: How many may wait; of more the oldest are lost.
+            in_charge: Whether a person would miss what is lost here: then it is said.
         """
+        ends: list[Subscription] = []
+        lost = 0
 
         async def receive(message: String) -> None:
+            nonlocal lost
+            before, lost = lost, sum(end.dropped for end in ends)
+            if in_charge and lost.bit_length() > before.bit_length():  # 1, 2, 4, ...: a flood makes no flood
+                self._tell_lost(lost)
             try:
                 payload = decode(kind, message.data)
             except InvalidMessageError as error:
@@ -103,7 +123,16 @@ class Node:
             if inspect.isawaitable(answer):
                 await answer
 
-        return await self.subscribe_raw(topic, receive, depth=depth)
+        ends.append(await self.subscribe_raw(topic, receive, depth=depth))
+        return ends[0]
+
+    def _tell_lost(self, count: int) -> None:
+        text = sentence(
+            "So much came at once that I lost {count} messages. Look whether all is as you want it, and say "
+            "again what is missing.",
+            count=count,
+        )
+        self.publish(topics.CHAT_FEEDBACK, ChatFeedback(message=self.spoken(text), type="error"))
 
     async def subscribe_raw(
         self, topic: Topic[M], handler: Handler[M], *, depth: int | None = None

@@ -9,6 +9,7 @@ from typing import ClassVar, Final
 
 from parley.agents.base import Node
 from parley.errors import InvalidMessageError, LanguageError, StoreError
+from parley.gate.vouched import may_forget, vouched
 from parley.language.base import Language
 from parley.memory.answer_size import MAX_ANSWER_CHARS, fitting, without_pictures
 from parley.memory.limits import MOST_MEMORIES
@@ -26,6 +27,7 @@ from parley.messages.memory import (
     MemoryReply,
     RemoveMemory,
 )
+from parley.messages.principal import Principal
 from parley.messages.ros import ChatRequest, ChatResponse
 from parley.messages.wire import decode, encode
 from parley.sentences import sentence
@@ -74,8 +76,8 @@ class MemoryNode(Node):
         """See `Node.open`."""
         if self._meanings is not None:
             await self.opened.enter_async_context(self._meanings)
-        await self.subscribe(topics.ADD_TO_MEMORY, AddToMemory, self._on_add)
-        await self.subscribe(topics.REMOVE_MEMORY, RemoveMemory, self._on_remove)
+        await self.subscribe(topics.ADD_TO_MEMORY, AddToMemory, self._on_add, in_charge=True)
+        await self.subscribe(topics.REMOVE_MEMORY, RemoveMemory, self._on_remove, in_charge=True)
         await self.subscribe(topics.CHAT_FEEDBACK, ChatFeedback, self._on_feedback)
         server = await self.transport.serve(topics.GET_MEMORY, self._on_get)
         self.opened.push_async_callback(server.close)
@@ -84,6 +86,7 @@ class MemoryNode(Node):
 
     async def _on_add(self, message: AddToMemory) -> None:
         for entry in message.entries():
+            entry = vouched(entry, message.root[entry.name].by)
             await self._change(entry.name, entry.scope, "remember", self._add(entry))
 
     async def _add(self, entry: MemoryEntry) -> MemoryEvent:
@@ -99,12 +102,16 @@ class MemoryNode(Node):
     async def _on_remove(self, message: RemoveMemory) -> None:
         for name in message.root:
             scope = message.scope_of(name)
-            await self._change(name, scope or "", "forget", self._remove(name, scope))
+            await self._change(name, scope or "", "forget", self._remove(name, scope, message.by_of(name)))
 
-    async def _remove(self, name: str, scope: str | None) -> MemoryEvent:
+    async def _remove(self, name: str, scope: str | None, by: Principal | None) -> MemoryEvent:
+        known = [entry for entry in await self._store.named(name) if scope in (None, entry.scope)]
+        if not all(may_forget(entry, by) for entry in known):
+            said = sentence("a person told me {name}, and only a person has me forget it", name=name)
+            return MemoryEvent(kind="failed", name=name, scope=scope or "", message=said)
         if await self._store.remove(name, scope=scope):
             return MemoryEvent(kind="removed", name=name, scope=scope or "")
-        said = f"I remember nothing under the name {name}."
+        said = sentence("I remember nothing under the name {name}.", name=name)
         return MemoryEvent(kind="failed", name=name, scope=scope or "", message=said)
 
     async def _change(self, name: str, scope: str, verb: str, change: Awaitable[MemoryEvent]) -> None:

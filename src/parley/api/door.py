@@ -302,7 +302,12 @@ class Parley:
         self._allow(who, Effect.REMEMBER)
         way: Literal["told", ""] = "told" if who.is_person else ""
         body = MemoryBody(
-            data=text, info=info, source=who.name or who.kind, way=way, words=text if way else ""
+            data=text,
+            info=info,
+            source=who.name or who.kind,
+            way=way,
+            words=text if way else "",
+            by=who,
         )
         await self._changed(topics.ADD_TO_MEMORY, AddToMemory({name: body}), name)
 
@@ -313,8 +318,9 @@ class Parley:
             NotAllowedError: Who wants it may not.
             ParleyError: There is no such memory.
         """
-        self._allow(self._who(by), Effect.FORGET)
-        await self._changed(topics.REMOVE_MEMORY, RemoveMemory({name: {}}), name)
+        who = self._who(by)
+        self._allow(who, Effect.FORGET)
+        await self._changed(topics.REMOVE_MEMORY, RemoveMemory.of(name, who), name)
 
     async def memories(self, about: str = "", *, limit: int = 0) -> list[MemoryEntry]:
         """What is remembered: everything, oldest first, or what matters for `about`, best first."""

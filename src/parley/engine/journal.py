@@ -11,7 +11,7 @@ from __future__ import annotations
 import asyncio
 import functools
 import weakref
-from collections.abc import Iterable, Iterator, Sequence
+from collections.abc import Callable, Iterable, Iterator, Sequence
 from contextlib import contextmanager
 from pathlib import Path
 from types import TracebackType
@@ -36,6 +36,7 @@ from parley.engine.journal_file import (
 from parley.engine.journal_older import put_aside_other_form
 from parley.errors import StoreError
 from parley.memory.database import Database
+from parley.sentences import sentence
 from parley.umrf.executor import GraphRun
 from parley.umrf.transition import Transition
 
@@ -46,9 +47,15 @@ log = structlog.get_logger(__name__)
 BATCH_S: Final = 0.05
 """Wall time between two batches: how much a crash loses, besides what it takes to write one."""
 
+NOT_WRITTEN: Final = sentence(
+    "What robots are doing cannot be written down now. They go on and can be stopped, but after a crash I "
+    "would not know of it."
+)
+WRITTEN_AGAIN: Final = sentence("What robots are doing is written down again.")
+
 
 class Journal:
-    """See `open`. Recording never raises: a full disk is logged, and no reason for a robot to stop."""
+    """See `open`. Recording never raises: a full disk is told, and no reason for a robot to stop."""
 
     def __init__(
         self,
@@ -57,12 +64,13 @@ class Journal:
         interrupted: Sequence[Interrupted],
         last: int,
         latched: frozenset[str],
+        tell: Callable[[str], None],
     ) -> None:
         self.interrupted = tuple(interrupted)
         """What was under way when an earlier process was killed, oldest first."""
         self.latched = latched
         """Actors whose emergency stop an older version kept in here."""
-        self._database, self._clock = database, clock
+        self._database, self._clock, self._tell = database, clock, tell
         self._first = self._next = last + 1
         self._ids: weakref.WeakKeyDictionary[GraphRun, int] = weakref.WeakKeyDictionary()
         self._batch = Batch()
@@ -76,12 +84,15 @@ class Journal:
         self._broken = False
 
     @classmethod
-    async def open(cls, path: Path | str, clock: Clock) -> Self:
+    async def open(
+        cls, path: Path | str, clock: Clock, *, tell: Callable[[str], None] = lambda _: None
+    ) -> Self:
         """Open or create the journal; use as ``async with await Journal.open(...)``.
 
         Args:
             path: The file, or ``:memory:``.
             clock: For time stamps.
+            tell: Gets a sentence for people when it cannot be written, and when it can again.
 
         Raises:
             StoreError: The file cannot be created, read or written.
@@ -94,7 +105,7 @@ class Journal:
         except BaseException:
             await database.close()
             raise
-        return cls(database, clock, interrupted, last, latched)
+        return cls(database, clock, interrupted, last, latched, tell)
 
     async def __aenter__(self) -> Self:
         return self
@@ -179,10 +190,13 @@ class Journal:
                 batch = self._take()
                 try:
                     await self._database.run(functools.partial(write, batch=batch, first=self._first))
+                    if self._broken:
+                        self._tell(WRITTEN_AGAIN)
                     self._broken = False
                 except StoreError as error:
                     if not self._broken:
                         log.error("journal cannot be written", reason=str(error))
+                        self._tell(NOT_WRITTEN)
                     self._broken = True
                     self._put_back(batch, changed)
                 await self._rest()

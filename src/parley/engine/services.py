@@ -22,6 +22,7 @@ from parley.messages import topics
 from parley.messages.chat import ChatFeedback, ChatInput
 from parley.messages.display import DisplayFeed
 from parley.messages.memory import AddToMemory, MemoryBody, MemoryEntry
+from parley.messages.principal import Principal
 from parley.messages.ros import String
 from parley.messages.wire import decode, to_string
 from parley.robots.base import CameraImage
@@ -169,5 +170,6 @@ class ContextServices:
             scope=entry.scope,
             source=entry.source or self._actor,
             way=entry.way or "seen",
+            by=Principal(kind="robot", name=self._actor),
         )
         self._publishers[topics.ADD_TO_MEMORY.name].publish(to_string(AddToMemory({entry.name: body})))

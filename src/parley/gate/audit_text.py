@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import re
 from datetime import datetime, tzinfo
 from typing import Any, Final
 
@@ -24,12 +25,22 @@ def who_of(by: Principal | None) -> Sentence:
     if by.kind == "robot":
         return sentence("{name}", name=by.name)
     if by.kind == "engine":
-        return sentence("The language engine {name}", name=by.name)
+        return _engine(by.name)
     if by.kind == "rule":
         return sentence("A rule of {name}", name=by.name) if by.name else sentence("A rule")
     if by.kind == "schedule":
         return sentence("A schedule")
     return sentence("The program {name}", name=by.key or by.name)
+
+
+def _engine(label: str) -> Sentence:
+    """Engines call themselves what they are, and say more behind it."""
+    short = re.split(r" \(|;", label, maxsplit=1)[0]
+    if short == "built-in language engine":
+        return sentence("The built-in language engine")
+    if short.startswith("language model "):
+        return sentence("The language model {name}", name=short.removeprefix("language model "))
+    return sentence("The language engine {name}", name=short)
 
 
 def what_of(detail: dict[str, Any]) -> Sentence:

@@ -5,9 +5,10 @@ from __future__ import annotations
 from collections.abc import Iterable
 from typing import Annotated, Any, Literal, Self
 
-from pydantic import Field, RootModel
+from pydantic import Field, RootModel, ValidationError
 
 from parley.messages.base import Payload
+from parley.messages.principal import Principal
 
 __all__ = [
     "AddToMemory",
@@ -27,8 +28,8 @@ RETURN_ALL = "return all memories"
 """The request text that returns everything (thesis)."""
 
 
-class MemoryBody(Payload):
-    """What stands behind a memory's name on the wire."""
+class _Memory(Payload):
+    """What is remembered under a name."""
 
     type: Literal["text", "image"] = "text"
     data: str
@@ -45,7 +46,14 @@ class MemoryBody(Payload):
     """Ours: the person's own words it was taken from; empty where there are none."""
 
 
-class StoredMemory(MemoryBody):
+class MemoryBody(_Memory):
+    """What stands behind a memory's name on the wire, where it is to be remembered."""
+
+    by: Principal | None = None
+    """Ours: who sends it; None: a program that nobody vouches for. Not kept."""
+
+
+class StoredMemory(_Memory):
     """A memory as the store hands it out. Ours: other programs see `type`, `data` and `info`."""
 
     created_unix_ms: int = 0
@@ -68,7 +76,8 @@ class MemoryEntry(StoredMemory):
     @property
     def is_told(self) -> bool:
         """Whether a person said it; what a robot saw or a language engine concluded is never a rule."""
-        return self.way in ("told", "") and "/" not in self.source
+        known = self.way == "told" or (self.way == "" and not self.source.startswith("program"))
+        return known and "/" not in self.source
 
     def body(self) -> dict[str, Any]:
         """The object behind the name on the wire."""
@@ -82,14 +91,30 @@ class AddToMemory(RootModel[dict[MemoryName, MemoryBody]]):
 
     def entries(self) -> list[MemoryEntry]:
         """The entries with their names inside."""
-        return [MemoryEntry(name=name, **body.model_dump()) for name, body in self.root.items()]
+        return [MemoryEntry(name=name, **body.model_dump(exclude={"by"})) for name, body in self.root.items()]
 
 
 class RemoveMemory(RootModel[dict[str, Any]]):
     """`remove_memory`: the keys are the names to forget.
 
-    Ours: an object with `scope` behind a name forgets it in that scope alone; else everywhere.
+    Ours: an object with `scope` behind a name forgets it in that scope alone; else everywhere. Its `by` says
+    who wants that.
     """
+
+    @classmethod
+    def of(cls, name: str, by: Principal | None, scope: str | None = None) -> Self:
+        """Forget one memory, on somebody's account."""
+        where = {} if scope is None else {"scope": scope}
+        who = {} if by is None else {"by": by.model_dump(exclude_defaults=True)}
+        return cls({name: where | who})
+
+    def by_of(self, name: str) -> Principal | None:
+        """Who wants that `name` is forgotten; None: a program that nobody vouches for."""
+        body = self.root.get(name)
+        try:
+            return Principal.model_validate(body["by"]) if isinstance(body, dict) and "by" in body else None
+        except ValidationError:
+            return None
 
     def scope_of(self, name: str) -> str | None:
         """The scope in which `name` is to be forgotten; None for all."""

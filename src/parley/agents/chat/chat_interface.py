@@ -34,6 +34,7 @@ from parley.messages import topics
 from parley.messages.chat import ChatAction, ChatFeedback, ChatInput, SystemCommand
 from parley.messages.failure import ErrorHandlingMessage
 from parley.messages.memory import AddToMemory, MemoryBody, MemoryEntry, MemoryEvent, RemoveMemory
+from parley.messages.principal import Principal
 from parley.messages.status import (
     ActorStatus,
     GraphEvent,
@@ -127,7 +128,7 @@ class ChatInterface(Node):
         await self.subscribe(topics.GRAPH_EVENTS, GraphEvent, self._known.on_event)
         await self.subscribe(topics.PLAN_DECISION, PlanDecision, self._on_decision)
         await self._answering.open()
-        await self.subscribe(topics.CHAT_INPUT, ChatInput, self._on_input)
+        await self.subscribe(topics.CHAT_INPUT, ChatInput, self._on_input, in_charge=True)
         self.spawn(self._presence.watch(), name="presence")
 
     # -- from the wire ---------------------------------------------------------------------------------
@@ -387,16 +388,16 @@ class ChatInterface(Node):
         name = texts.undone(said.message)
         if not name or verdict(said.who, Effect.FORGET) != "allow":
             return False
-        self.publish(topics.REMOVE_MEMORY, RemoveMemory({name: {}}))
+        self.publish(topics.REMOVE_MEMORY, RemoveMemory.of(name, said.who))
         self._say((target,), texts.forgotten(name), "response", said.id)
         return True
 
     # -- memory ----------------------------------------------------------------------------------------
 
-    async def _remember(self, entry: MemoryEntry) -> str:
-        """Store a memory; the plain reason if it is not durable in time."""
+    async def _remember(self, entry: MemoryEntry, by: Principal) -> str:
+        """Store what a person told; the plain reason if it is not durable in time."""
         wait = self._confirmations.wait_for(entry.name)
-        body = MemoryBody.model_validate(entry.model_dump() | {"way": "told"})
+        body = MemoryBody.model_validate(entry.model_dump() | {"way": "told", "by": by})
         self.publish(topics.ADD_TO_MEMORY, AddToMemory({entry.name: body}))
         return await self._confirmations.confirmed([wait])
 

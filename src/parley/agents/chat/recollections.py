@@ -27,6 +27,7 @@ from parley.messages import topics
 from parley.messages.chat import ChatFeedback, ChatInput
 from parley.messages.display import DisplayFeed
 from parley.messages.memory import GetMemory, MemoryEntry, RemoveMemory
+from parley.messages.principal import Principal
 
 __all__ = ["FEED", "Recollections"]
 
@@ -53,7 +54,7 @@ class Recollections:
         self,
         node: Node,
         clock: Clock,
-        remember: Callable[[MemoryEntry], Awaitable[str]],
+        remember: Callable[[MemoryEntry, Principal], Awaitable[str]],
         robots: Callable[[], Sequence[str]],
     ) -> None:
         self._node, self._clock, self._remember, self._robots = node, clock, remember, robots
@@ -173,7 +174,7 @@ class Recollections:
                 way="told",
                 words=said.message,
             )
-            if problem := await self._remember(entry):
+            if problem := await self._remember(entry, said.who):
                 self._tell(said.targets or (target,), problem, said, "error")
                 return None
             kept.append(entry)
@@ -193,7 +194,7 @@ class Recollections:
             return
         for entry in entries:
             if entry.name not in {new.name for new in kept}:
-                self._node.publish(topics.REMOVE_MEMORY, RemoveMemory({entry.name: {"scope": entry.scope}}))
+                self._node.publish(topics.REMOVE_MEMORY, RemoveMemory.of(entry.name, said.who, entry.scope))
         shown = " and ".join(f"“{entry.name}”" for entry in kept)
         self._tell(said.targets or (target,), f"Thank you. I will remember it as {shown}.", said)
 

@@ -122,12 +122,8 @@ class Commands:
                 if not order.needs_yes:
                     self._plans.audit(effect, order, ",".join(targets), "refused")
                 continue
-            if order.by is None or order.by.kind == "program":  # whose word it is cannot be known
-                known = {name: x for name, x in command.arguments.items() if name not in ("way", "words")}
-                command = command.model_copy(
-                    update={"arguments": known | {"source": str(order.by or "program")}}
-                )
-            match memory_change(command):
+            concluded = command.arguments.get("way") == "concluded"
+            match memory_change(command, order.by if concluded else order.behalf or order.by):
                 case AddToMemory() as added:
                     self._node.publish(topics.ADD_TO_MEMORY, added)
                 case RemoveMemory() as removed:

@@ -56,7 +56,7 @@ class Decisions:
 
     async def open(self) -> None:
         """Take decisions; closed with the node."""
-        await self._node.subscribe(topics.PLAN_DECISION, PlanDecision, self._on_decision)
+        await self._node.subscribe(topics.PLAN_DECISION, PlanDecision, self._on_decision, in_charge=True)
 
     def _on_decision(self, decision: PlanDecision) -> None:
         target = self._plans.presence.resolve(decision.target) or decision.target

@@ -72,8 +72,8 @@ class Ordering:
     async def open(self) -> None:
         """Take orders; closed with the node."""
         await self._node.opened.enter_async_context(self._mailboxes)
-        await self._node.subscribe(topics.CHAT_ACTION, ChatAction, self._on_chat_action)
-        await self._node.subscribe(topics.UMRF_CORRECTION, ChatAction, self._on_correction)
+        await self._node.subscribe(topics.CHAT_ACTION, ChatAction, self._on_chat_action, in_charge=True)
+        await self._node.subscribe(topics.UMRF_CORRECTION, ChatAction, self._on_correction, in_charge=True)
 
     def _on_defect(self, target: str, error: Exception) -> None:
         self._plans.say(target, orders.NOTHING_DONE, "error")

@@ -92,7 +92,8 @@ def interruption_text(was: Interrupted, goes_on: Sequence[Step] | bool) -> str:
         was: What was interrupted.
         goes_on: The steps that are left, or whether its engine holds it.
     """
-    current = next(iter(was.going_on or was.remaining))
+    # A graph that was held at its very end is still open, though no step of it is.
+    current = next(iter(was.going_on or was.remaining or reversed(was.graph.nodes)))
     words = current.description or current.name
     if was.shared:
         return sentence(

@@ -98,6 +98,7 @@ async def put_memory(name: Name, put: MemoryPut, web: Web, who: Who) -> Done:
         source=former.source,
         way=former.way,
         words=former.words,
+        by=who.by,
     )
     await _change(web, AddToMemory({name: body}))
     return Done()
@@ -105,10 +106,10 @@ async def put_memory(name: Name, put: MemoryPut, web: Web, who: Who) -> Done:
 
 @router.delete("", dependencies=[may(Effect.FORGET)])
 async def delete_memory(
-    name: Name, web: Web, scope: Annotated[str | None, Query(max_length=100)] = None
+    name: Name, web: Web, who: Who, scope: Annotated[str | None, Query(max_length=100)] = None
 ) -> Done:
     """Forget a memory, everywhere or with `scope` only there; the history keeps it."""
-    await _change(web, RemoveMemory({name: {} if scope is None else {"scope": scope}}))
+    await _change(web, RemoveMemory.of(name, who.by, scope))
     return Done()
 
 
