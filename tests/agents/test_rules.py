@@ -122,10 +122,10 @@ async def test_a_told_rule_is_shown_as_what_it_becomes_and_counts_after_a_yes() 
         )
         assert "On the map it reaches from (4.65, 1.45) to (5.75, 2.55) metres." in asked.message
         assert asked.choices[-1] == "no" and len(asked.choices) == 3
-        assert it.held == []
+        assert "I keep to it until you answer." in asked.message
+        assert it.held == ["keep-out-green-crate"]
         it.observer.say("perhaps", "A", answer=True)
         await it.observer.until(lambda: it.observer.said[-1].closes == asked.id, timeout_s=10)
-        assert it.held == []
         await it.say((await it.question()).choices[1], answer=True)
         assert it.held == ["keep-out-green-crate"]
         assert it.system.rules.rules.rules[0].when == Hours(start="02:00", end="03:00")
@@ -141,6 +141,6 @@ async def test_after_a_no_nothing_holds_and_orders_are_no_rules() -> None:
         it.observer.say("nobody into the green crate", "A")
         await it.question()
         assert "stay as they are" in (await it.say("no", answer=True)).message
-        await it.say("don't go into the green crate")
+        await it.say("where is the green crate?")
         assert it.held == []
         assert (await it.say("what rules are there")).message == "There are no rules."

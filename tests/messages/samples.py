@@ -51,10 +51,18 @@ STORED = {
     "used_unix_ms": 3,
     "used_count": 4,
 }
+PARAMETER: dict[str, Any] = {
+    "kind": "choice",
+    "unit": "m",
+    "default": "fast",
+    "choices": ["fast", "slow"],
+    "help": "How to go.",
+}
 ACTION_INFO: dict[str, Any] = {
     "name": "Move",
     "inputs": {"pose::position::x": "number"},
     "optional": ["way"],
+    "parameters": {"way": PARAMETER},
     "outputs": {"arrived": "bool"},
     "description": "Go there.",
     "label": "Go to {place}",
@@ -150,6 +158,7 @@ SAMPLES: dict[type[BaseModel], dict[str, Any]] = {
         "id": "q",
         "closes": "p",
         "reply_to": "1",
+        "engine": "builtin",
     },
     chat.FlowIf: {"step": 2, "result": False},
     chat.Flow: {"if": {"step": 2, "result": True}, "together_with": 1, "repeat": 2},
@@ -193,6 +202,9 @@ SAMPLES: dict[type[BaseModel], dict[str, Any]] = {
         "details": {"distance_m": 1.5},
         "completed": [LOOK],
         "failure_id": "g/Move_0",
+        "results": [{"arrived": True}],
+        "steps": ["s1"],
+        "order": "go there",
     },
     memory.MemoryBody: {**MEMORY, "by": KIM},
     memory.StoredMemory: STORED,
@@ -223,6 +235,7 @@ SAMPLES: dict[type[BaseModel], dict[str, Any]] = {
     memory.MemoryList: {"memories": [{**STORED, "name": "box"}], "left_out": 2},
     memory.MemoryEvent: {"kind": "failed", "name": "box", "scope": "A", "message": "The disk is full."},
     status.PoseInfo: POSE,
+    status.ParameterInfo: PARAMETER,
     status.ActionInfo: ACTION_INFO,
     attendance.Attendance: {"server": "8c1f", "people": 2},
     status.ActorStatus: {
@@ -284,13 +297,13 @@ SAMPLES: dict[type[BaseModel], dict[str, Any]] = {
         "scan": [[0.5, 0.25]],
         "unix_ms": 1,
     },
-    status.PlanStep: {"action": MOVE, "node": "Move_0", "state": "running", "label": "Go there"},
+    status.PlanStep: {"action": MOVE, "node": "Move_0", "state": "running", "label": "Go there", "id": "s1"},
     status.PlanUpdate: {
         "kind": "update",
         "target": "A",
         "graph_name": "g",
         "state": "paused",
-        "steps": [{"action": MOVE, "node": "Move_0", "state": "paused", "label": ""}],
+        "steps": [{"action": MOVE, "node": "Move_0", "state": "paused", "label": "", "id": "s1"}],
         "revision": 3,
         "policy": "ask_when_risky",
         "held_by": KIM,
@@ -313,6 +326,7 @@ SAMPLES: dict[type[BaseModel], dict[str, Any]] = {
         "digest": "5b1e",
         "by": KIM,
         "why": "It is far.",
+        "words": "go there",
     },
     status.PlanDecision: {
         "id": "1",

@@ -370,7 +370,7 @@ async def test_the_page_is_served_from_its_folder_and_nothing_else_is(tmp_path: 
 
 async def test_where_the_page_is_not_built_it_says_how(tmp_path: Path) -> None:
     async with served(static_dir=tmp_path) as rig:
-        assert "make demo" in (await rig.http.get("/")).text
+        assert "make page" in (await rig.http.get("/")).text
 
 
 async def test_the_address_is_shown_as_a_picture_for_phones() -> None:

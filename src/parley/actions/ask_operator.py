@@ -20,11 +20,11 @@ ATTEMPTS: Final = 3
 
 async def _reading(ctx: ActionContext, question: str, reply: str) -> str:
     """How an answer is meant. A literal yes or no is read by code, and no engine turns a no into a yes."""
+    if calls_to_stop(reply):
+        return "control"
     literal = assent_of(reply, (ctx.actor,))
     if literal is not None:
         return "yes" if literal else "no"
-    if calls_to_stop(reply):
-        return "control"
     kind = (await ctx.language.read_reply(question, reply)).kind
     if kind in ("yes", "choice", "answer") and "?" in reply:
         return "aside"

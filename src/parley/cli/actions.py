@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-import asyncio
 import contextlib
 from collections.abc import Sequence
 from pathlib import Path
@@ -13,6 +12,7 @@ import typer
 from parley.actions.builtin import BUILTIN_ACTIONS
 from parley.agents.planner.check import plan_problems
 from parley.cli.language import KeyFileOption, LanguageOption, language_settings
+from parley.cli.on_loop import on_loop
 from parley.cli.output import emit_json, fail, quiet_logs
 from parley.config import ModelSettings
 from parley.language.base import Language
@@ -94,7 +94,7 @@ def check(
     chosen = language_settings(language, key_file)
     engine = build_language([language], ModelSettings(**chosen["model"]), check=plan_problems)
     specs = [spec for spec in catalogue if name in ("", spec.name)]
-    results = asyncio.run(_say(specs, catalogue, engine))
+    results = on_loop(_say(specs, catalogue, engine))
     for result in results:
         if result.problem:
             problems = (*problems, f"{result.action}: “{result.say}”: {result.problem}")
