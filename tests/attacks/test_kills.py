@@ -101,12 +101,21 @@ class People:
         plans = self._client.get(f"/api/plans/{ROBOT}").raise_for_status().json()
         return str(plans[-1]["state"]) if plans else ""
 
+    def heard(self) -> set[str]:
+        """All that was ever said to the robot, page by page."""
+        found: set[str] = set()
+        page: dict[str, Any] = {"entries": [{"seq": 2**53}], "complete": False}
+        while not page["complete"]:
+            query = {"limit": 500, "before": page["entries"][0]["seq"]}
+            page = self._client.get("/api/chat", params=query).raise_for_status().json()
+            found |= {entry["message"] for entry in page["entries"] if entry["who"] == "operator"}
+        return found
+
     def checks(self) -> None:
         """Nothing that was acknowledged is lost, and nothing goes on that nobody told to go on."""
         until(lambda: any(r["name"] == ROBOT for r in self._client.get("/api/robots").json()))
-        entries = self._client.get("/api/chat?limit=500").json()["entries"]
-        heard = {entry["message"] for entry in entries if entry["who"] == "operator"}
-        assert [text for text in self._promised.texts[-200:] if text not in heard] == []
+        heard = self.heard()
+        assert [text for text in self._promised.texts if text not in heard] == []
         kept = self._client.get("/api/memory").raise_for_status().text
         assert [text for text in self._promised.memories if text not in kept] == []
         if self._promised.latched is not None:
