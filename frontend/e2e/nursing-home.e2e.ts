@@ -31,7 +31,7 @@ describe.skipIf(!hasBrowser)('an operator in the nursing home', () => {
 
     await say(page, 'John is thirsty, get him water.');
     const cards = steps(page).locator('li[data-state]');
-    await cards.nth(5).waitFor();
+    await page.getByText(/, step \d of 4$/).waitFor();
     const question = page.locator('li[data-question="open"]');
     await question.waitFor();
     expect(await question.innerText()).toMatch(/water bottle/);
