@@ -69,7 +69,7 @@ PLANS = {
     "go to the nearest gate": rounds("gate 1"),
     "go to the crate between the red crate and the green crate": rounds("blue crate"),
     "don't go to gate 1, go to the other gates": rounds("gate 2", "gate 3", "gate 4"),
-    "don't go to gate 1 but to gate 2": rounds("gate 2"),
+
     "The pallet is at the pump. Go to it.": rounds("pump"),
     # conditions
     "if the pump is on, go to the desk, otherwise go to the office": [

@@ -37,7 +37,7 @@ class Reading:
 def read(parse: Parse, lexicon: Lexicon) -> Reading:
     """What is wished and told."""
     wishes: list[Wish] = []
-    spans = _merged(parse)
+    spans = _ordered_alone(parse, _merged(parse))
     fillers = [_filler(parse, span, lexicon) for span in spans]
     for number, verb in enumerate(parse.verbs):
         mine = [filler for filler, span in zip(fillers, spans, strict=True) if span.owner == number]
@@ -54,6 +54,23 @@ def read(parse: Parse, lexicon: Lexicon) -> Reading:
     left = tuple(word for word in idle if word not in manner)
     moves = frozenset(parse.moves) - {"none"}
     return Reading(frozenset(parse.acts), tuple(spread), rest, left, manner, _about(parse, lexicon), moves)
+
+
+def _ordered_alone(parse: Parse, spans: list[Span]) -> list[Span]:
+    """Where an order has what it wants, what was only told before it is not wanted as well."""
+    wanted = {(span.owner, span.role) for span in spans if not _only_told(parse, span)}
+    return [
+        span
+        for span in spans
+        if span.owner is None or (span.owner, span.role) not in wanted or not _only_told(parse, span)
+    ]
+
+
+def _only_told(parse: Parse, span: Span) -> bool:
+    """Whether a span stands in what is told besides an order: "Kim" in "Kim is tired, bring her tea"."""
+    acts = {parse.acts[at] for at in range(span.start, span.end)}
+    behind = next((verb.start for verb in parse.verbs if verb.start >= span.end), None)
+    return acts <= {"need", "told"} and behind is not None and parse.acts[behind] == "order"
 
 
 def _merged(parse: Parse) -> list[Span]:
