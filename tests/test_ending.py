@@ -88,7 +88,10 @@ def caught(process: subprocess.Popen[str]) -> int:
 
 
 def ended(process: subprocess.Popen[str], folder: Path, *codes: int) -> None:
-    """It has ended with one of the codes, without a word, and has left nothing behind."""
+    """It has ended with one of the codes, without a word, and has left nothing behind.
+
+    A signal that comes when Python itself is shutting down ends it by the signal; shells call that the same.
+    """
     killer = threading.Timer(ENDS_WITHIN_S, process.kill)
     killer.start()
     output = "" if process.stdout is None else process.stdout.read()
@@ -96,7 +99,8 @@ def ended(process: subprocess.Popen[str], folder: Path, *codes: int) -> None:
     errors = process.stderr.read().strip()  # a question for a password ends with a space
     process.wait()
     killer.cancel()
-    assert process.returncode in codes, (process.args, errors, output[-500:])
+    code = process.returncode
+    assert (128 - code if code < 0 else code) in codes, (process.args, errors, output[-500:])
     assert errors == "" or (len(codes) > 1 and "Traceback" not in errors), (
         process.args,
         errors,

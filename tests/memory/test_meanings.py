@@ -176,7 +176,7 @@ async def test_server_that_is_gone_is_told_once_left_alone_and_used_again(server
         assert told == [GONE], "it is the same trouble still"
         server.status = 200
         clock.wall += 31
-        assert names(await found.alike("crate", 5)) == ["a"]
+        assert "a" in names(await found.alike("crate", 5))
         await settled(found)
         assert set(names(await found.alike("crate", 5))) == {"a", "b"}
         server.status = 500
