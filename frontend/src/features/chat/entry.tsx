@@ -37,19 +37,11 @@ export const Entry = memo(function Entry({ entry, showName, offers, onChoose, on
       data-draft={entry.draft || undefined}
       aria-live={entry.draft ? 'off' : undefined}
     >
-      {(showName || debug || entry.question !== '' || entry.engine !== '') && <Head entry={entry} debug={debug} />}
+      {(showName || debug || hasMarks(entry)) && <Head entry={entry} debug={debug} />}
       <div className={css.said}>
         <Said entry={entry} />
       </div>
-      {offers && (
-        <div className={css.choices} role="group" aria-label={t('choices')}>
-          {entry.choices.map((choice) => (
-            <Button needs="speak" key={choice} onPress={() => onChoose(entry, choice)}>
-              {choice}
-            </Button>
-          ))}
-        </div>
-      )}
+      {offers && <Choices entry={entry} onChoose={onChoose} />}
       {entry.sources.length > 0 && <Sources names={entry.sources} />}
       {mine && maySpeak && entry.message && (
         <button type="button" className={css.edit} aria-label={t('edit')} title={t('edit')} onClick={() => onEdit(entry.message)}>
@@ -59,6 +51,23 @@ export const Entry = memo(function Entry({ entry, showName, offers, onChoose, on
     </li>
   );
 });
+
+/** Whether something stands in its head besides from whom it is. */
+const hasMarks = (entry: ChatEntry) => entry.question !== '' || entry.engine !== '';
+
+/** What can be tapped for an answer. */
+function Choices({ entry, onChoose }: Pick<Props, 'entry' | 'onChoose'>) {
+  const { t } = useTranslation('chat');
+  return (
+    <div className={css.choices} role="group" aria-label={t('choices')}>
+      {entry.choices.map((choice) => (
+        <Button needs="speak" key={choice} onPress={() => onChoose(entry, choice)}>
+          {choice}
+        </Button>
+      ))}
+    </div>
+  );
+}
 
 /** Words and pictures; either may be missing. */
 function Said({ entry }: { entry: ChatEntry }) {
