@@ -8,9 +8,7 @@ from __future__ import annotations
 
 import re
 from collections.abc import Mapping, Sequence
-from contextlib import AbstractAsyncContextManager, AsyncExitStack
-from types import TracebackType
-from typing import Final, Protocol, Self
+from typing import Final, Protocol
 
 from parley.gate.risk import always_asks
 from parley.language.base import (
@@ -24,6 +22,7 @@ from parley.language.base import (
 )
 from parley.language.llm.chain import signed
 from parley.language.llm.naming import chosen, named
+from parley.language.llm.opened import Opened
 from parley.messages.chat import ActionCall, ChatAction
 from parley.messages.memory import MemoryEntry
 from parley.robots.base import CameraImage
@@ -44,7 +43,7 @@ class SaysWhenCertain(Language, Protocol):
         ...
 
 
-class AutoLanguage:
+class AutoLanguage(Opened):
     """Two engines as one. Use as ``async with``.
 
     Args:
@@ -53,19 +52,8 @@ class AutoLanguage:
     """
 
     def __init__(self, local: SaysWhenCertain, rest: Language) -> None:
+        super().__init__((local, rest))
         self._local, self._rest = local, rest
-        self._stack = AsyncExitStack()
-
-    async def __aenter__(self) -> Self:
-        for engine in (self._local, self._rest):
-            if isinstance(engine, AbstractAsyncContextManager):
-                await self._stack.enter_async_context(engine)
-        return self
-
-    async def __aexit__(
-        self, kind: type[BaseException] | None, error: BaseException | None, trace: TracebackType | None
-    ) -> None:
-        await self._stack.aclose()
 
     @property
     def label(self) -> str:

@@ -3,9 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Awaitable, Callable, Sequence
-from contextlib import AbstractAsyncContextManager, AsyncExitStack
-from types import TracebackType
-from typing import Final, Self, TypeVar
+from typing import Final, TypeVar
 
 import structlog
 
@@ -20,6 +18,7 @@ from parley.language.base import (
     Situation,
 )
 from parley.language.llm.failures import DeclinedError
+from parley.language.llm.opened import Opened
 from parley.messages.chat import ChatAction
 from parley.messages.memory import MemoryEntry
 from parley.robots.base import CameraImage
@@ -44,7 +43,7 @@ def signed(answer: ChatAction, engine: Language) -> ChatAction:
     return answer if answer.engine else answer.model_copy(update={"engine": engine.label})
 
 
-class ChainLanguage:
+class ChainLanguage(Opened):
     """Asks the first engine; what it cannot answer goes to the next. A refusal is final.
 
     Args:
@@ -52,20 +51,9 @@ class ChainLanguage:
     """
 
     def __init__(self, engines: Sequence[Language]) -> None:
+        super().__init__(engines)
         self.engines = tuple(engines)
         self._told = False
-        self._stack = AsyncExitStack()
-
-    async def __aenter__(self) -> Self:
-        for engine in self.engines:
-            if isinstance(engine, AbstractAsyncContextManager):
-                await self._stack.enter_async_context(engine)
-        return self
-
-    async def __aexit__(
-        self, kind: type[BaseException] | None, error: BaseException | None, trace: TracebackType | None
-    ) -> None:
-        await self._stack.aclose()
 
     @property
     def label(self) -> str:

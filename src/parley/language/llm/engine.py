@@ -5,9 +5,7 @@ from __future__ import annotations
 import io
 from collections import OrderedDict
 from collections.abc import Awaitable, Callable, Sequence
-from contextlib import AsyncExitStack
-from types import TracebackType
-from typing import Any, Final, Generic, Self, TypeVar, cast
+from typing import Any, Final, Generic, TypeVar, cast
 
 import httpx2
 import structlog
@@ -35,6 +33,7 @@ from parley.language.llm.failures import ModelFailedError, UnusableError, sorted
 from parley.language.llm.forms import Known, form_of
 from parley.language.llm.guard import Breaker, Budget
 from parley.language.llm.naming import chosen, named
+from parley.language.llm.opened import Opened
 from parley.language.llm.options import SMALL_KINDS, Options
 from parley.language.llm.reading import AnswerRefusedError, PlanCheck
 from parley.language.llm.recording import Recorder, Redactor
@@ -71,7 +70,7 @@ _RAISED: Final = (
 _NOT_FEASIBLE: Final = "I found no way to do that with what I can do."
 
 
-class LlmLanguage:
+class LlmLanguage(Opened):
     """Asks one model; checks every answer before anybody else sees it. Use as ``async with``.
 
     Args:
@@ -105,6 +104,7 @@ class LlmLanguage:
         marks: bool = False,
         small: LlmLanguage | None = None,
     ) -> None:
+        super().__init__((model, small))
         self._model, self._name, self._settings = model, name, settings
         self._clock, self._check, self._streams = clock, check, streams
         self._options, self._marks, self._small = Options(settings), marks, small
@@ -113,18 +113,6 @@ class LlmLanguage:
         self._redactor, self._recorder = redactor or Redactor(), recorder
         self.breaker = Breaker(clock, failures=settings.breaker_failures, open_s=settings.breaker_open_s)
         self._agents: OrderedDict[tuple[Known, bool], Agent[Callable[[Any], object], Any]] = OrderedDict()
-        self._stack = AsyncExitStack()
-
-    async def __aenter__(self) -> Self:
-        await self._stack.enter_async_context(self._model)
-        if self._small is not None:
-            await self._stack.enter_async_context(self._small)
-        return self
-
-    async def __aexit__(
-        self, kind: type[BaseException] | None, error: BaseException | None, trace: TracebackType | None
-    ) -> None:
-        await self._stack.aclose()
 
     @property
     def label(self) -> str:
