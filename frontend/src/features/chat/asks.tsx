@@ -2,6 +2,7 @@ import { useState } from 'react';
 import { useTranslation } from 'react-i18next';
 
 import { decidePlan } from '@/live/api';
+import { linesOf } from '@/live/lines';
 import { useWorld } from '@/live/store';
 import type { ProposalView } from '@/live/types';
 import { attempt } from '@/state/do';
@@ -27,7 +28,7 @@ function Ask({ proposal, more }: { proposal: ProposalView; more: number }) {
     setBusy(false);
   };
   const title = t('proposalTitle', { robot: proposal.robot });
-  const wishes = [...proposal.changes, ...proposal.steps.filter((step) => !step.only_finds).map((step) => sentence(step.label))];
+  const wishes = [...proposal.changes, ...linesOf(proposal.steps).map(({ step }) => sentence(step.label))];
   return (
     <section className={css.ask} aria-label={t('chat:asksHere', { robot: proposal.robot })}>
       <p className={css.title}>{title}</p>

@@ -45,7 +45,8 @@ describe('the chat', () => {
   });
 
   it('lets what waits for a yes be answered where the talk is, and marks the robot', async () => {
-    const steps = [step({ id: 'a', label: 'find out where “door” is', only_finds: true }), step({ id: 'b', label: 'go to “door”' })];
+    const place = [{ name: 'pose::position::x', type: 'number', value: null }];
+    const steps = [step({ id: 'a', label: 'find out where “door” is', only_finds: true, outputs: place }), step({ id: 'b', label: 'go to “door”', inputs: place })];
     const proposal = { id: 'p1', robot: 'Ada', message: '', changes: ['Forget “box”'], steps, digest: 'd1', why: '' };
     const user = show({ proposals: [proposal] });
     expect(tab('Ada').textContent).toContain('Ada is waiting for your answer');

@@ -6,7 +6,7 @@ import type { World } from '@/live/world';
 import { clockTime, inWords } from '@/ui/words';
 
 import css from './details.module.css';
-import type { Line } from './lines';
+import type { Line } from '@/live/lines';
 import { rowsOf, type Row } from './parameters';
 
 /** What a step was given, what it found out, and under what circumstances. */

@@ -2,7 +2,7 @@
 import type { ActionCall, AbilityView, ParameterView, StepView } from '@/live/types';
 import { inWords } from '@/ui/words';
 
-import { linesOf } from './lines';
+import { linesOf } from '@/live/lines';
 import { emptyTree, withInput } from './parameters';
 
 export interface DraftStep {

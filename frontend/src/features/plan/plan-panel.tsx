@@ -12,7 +12,7 @@ import { Empty, Panel } from '@/ui/panel';
 import { pendingSteps, toDrafts } from './editing';
 import { PlanControls } from './plan-controls';
 import { PlanEditor } from './plan-editor';
-import { isEarlier, linesOf, type Line } from './lines';
+import { isEarlier, linesOf, type Line } from '@/live/lines';
 import { withReceived } from './parameters';
 import css from './plan-panel.module.css';
 import { PolicyChoice } from '@/ui/policy-choice';

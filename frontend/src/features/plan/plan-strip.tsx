@@ -6,6 +6,7 @@ import { useSelection } from '@/state/selection';
 import { Icon } from '@/ui/icon';
 import { sentence } from '@/ui/words';
 
+import { isEarlier, linesOf } from '@/live/lines';
 import css from './plan-strip.module.css';
 import { pickPlan, shownPlans } from './shown-plans';
 
@@ -27,13 +28,14 @@ export function PlanStrip() {
     );
   }
   if (!plan || plan.state === 'idle' || plan.state === 'ended') return null;
-  const at = plan.steps.findIndex((step) => !['finished', 'skipped'].includes(step.state));
-  const step = plan.steps[at];
+  const lines = linesOf(plan.steps);
+  const at = lines.findIndex((line) => !isEarlier(line));
+  const step = lines[at]?.step;
   return (
     <Link className={css.strip ?? ''} href="/plan">
       <span className={css.text}>
         {t(`state.${plan.state}`)}
-        {step && t('stripStep', { number: at + 1, all: plan.steps.length, step: sentence(step.label) })}
+        {step && t('stripStep', { number: at + 1, all: lines.length, step: sentence(step.label) })}
       </span>
       <Icon name="down" />
     </Link>

@@ -8,7 +8,7 @@ import { Button } from '@/ui/button';
 import { quoted } from '@/ui/words';
 
 import { toDrafts } from './editing';
-import { linesOf } from './lines';
+import { linesOf } from '@/live/lines';
 import { PlanEditor } from './plan-editor';
 import css from './proposal-card.module.css';
 import { StepCard } from './step-card';

@@ -7,7 +7,7 @@ import { needsCare } from '@/ui/risk';
 import { addsTo, inWords, quoted, sentence } from '@/ui/words';
 
 import { Details } from './details';
-import type { Line } from './lines';
+import type { Line } from '@/live/lines';
 import css from './step-card.module.css';
 
 const icons: Record<StepState, IconName> = {

@@ -8,7 +8,7 @@ import { useToasts } from '@/state/toasts';
 import { sentence } from '@/ui/words';
 
 import { pendingSteps, putBack } from './editing';
-import type { Line } from './lines';
+import type { Line } from '@/live/lines';
 
 type Outcome = 'saved' | 'refused' | 'conflict';
 

@@ -1,7 +1,7 @@
 import { describe, expect, it } from 'vitest';
 
-import { step } from '@/live/samples';
-import type { StepState } from '@/live/types';
+import { step } from './samples';
+import type { StepState } from './types';
 
 import { linesOf } from './lines';
 

@@ -1,5 +1,5 @@
 /** The steps of a plan as people see them. Plain functions. */
-import type { StepState, StepView } from '@/live/types';
+import type { StepState, StepView } from './types';
 
 /** One step, with the searches that are made only for its sake. */
 export interface Line {
