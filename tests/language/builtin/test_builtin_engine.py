@@ -13,6 +13,7 @@ from parley.language.base import Situation
 from parley.language.builtin.decision import Ask, Do
 from parley.language.builtin.engine import BuiltinLanguage
 from parley.language.builtin.lexicon import lexicon
+from parley.language.builtin.tagger import shipped_tagger
 from parley.language.builtin.training.data import data_hash
 from parley.messages.status import ActionInfo
 from parley.world.object_map import MapObject
@@ -131,3 +132,9 @@ async def test_no_words_break_it_and_every_deed_is_possible(times: int) -> None:
             info = next(info for info in CATALOGUE if info.name == call.name)
             given = set(call.input_parameters)
             assert set(info.inputs) - set(info.optional) <= given <= set(info.inputs)
+
+
+async def test_an_open_engine_has_loaded_what_its_first_message_needs() -> None:
+    shipped_tagger.cache_clear()
+    async with BuiltinLanguage():
+        assert shipped_tagger.cache_info().currsize == 1

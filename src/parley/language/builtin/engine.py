@@ -2,9 +2,12 @@
 
 from __future__ import annotations
 
+import asyncio
 from collections.abc import Sequence
 from dataclasses import replace
 from functools import lru_cache
+from types import TracebackType
+from typing import Self
 
 from parley.language.base import (
     DraftHandler,
@@ -43,7 +46,11 @@ _LONGEST = 600
 
 
 class BuiltinLanguage:
-    """Understands operators' English by a small tagger and a lexicon; does only what it is certain of."""
+    """Understands operators' English by a small tagger and a lexicon; does only what it is certain of.
+
+    Use as ``async with`` where a loop must not wait: the weights are loaded beside it. Without, the first
+    message waits for them.
+    """
 
     def __init__(self) -> None:
         self._lexicon = lexicon()
@@ -51,6 +58,15 @@ class BuiltinLanguage:
         self._own: OwnActions | None = None
         self._read = lru_cache(maxsize=256)(self._read_text)
         self._parts = lru_cache(maxsize=64)(self._parted)
+
+    async def __aenter__(self) -> Self:
+        await asyncio.to_thread(shipped_tagger)
+        return self
+
+    async def __aexit__(
+        self, kind: type[BaseException] | None, error: BaseException | None, trace: TracebackType | None
+    ) -> None:
+        """Nothing to close: the weights are the process's."""
 
     @property
     def label(self) -> str:
