@@ -448,8 +448,9 @@ async def test_restart_stops_a_running_child_and_runs_it_again() -> None:
 async def test_a_restart_does_not_outlive_a_stop() -> None:
     watched = Watched(triggering("restart", node("ThreadLoop", 0)))
     watched.run.start()
-    await settle()
-    assert watched.state("ThreadLoop_0") is NodeState.STOPPING
+    async with asyncio.timeout(5):
+        while watched.state("ThreadLoop_0") is not NodeState.STOPPING:
+            await asyncio.sleep(0)  # every turn: its thread may end within two
     watched.run.stop()
     assert await watched.run.wait() is Result.ON_STOPPED
     assert watched.states("ThreadLoop_0") == ["RUNNING", "STOPPING", "FINISHED"]
