@@ -135,11 +135,11 @@ class SystemConfig(BaseModel, TextFile):
     """Folder with more actions, watched while the system runs."""
     audit_months: int | None = Field(default=24, ge=1, le=1200)
     """How long the log of who did what is kept; None: for good."""
-    language: str = Field(default="offline", pattern=r"^(auto|offline|builtin|[A-Za-z0-9_.-]+:.+)$")
+    language: str = Field(default="builtin", pattern=r"^(auto|offline|builtin|[A-Za-z0-9_.-]+:.+)$")
     """What understands people: `offline`, `builtin`, `provider:model`, `provider:model@address`, or
     `auto:provider:model`: the built-in engine where it is certain, that model for the rest (`auto` alone: the
     first model of `language_fallback`)."""
-    language_fallback: tuple[str, ...] = ("offline",)
+    language_fallback: tuple[str, ...] = ("builtin",)
     """Asked in this order when a model gives no answer."""
     model: ModelSettings = Field(default_factory=ModelSettings)
     """How language models are asked."""

@@ -69,7 +69,7 @@ class Subject:
     """Where the built page belongs."""
     port: int
     """Where the page is to be served."""
-    language: str = "offline"
+    language: str = "builtin"
     """`offline` or `provider:model`."""
     key_file: Path | None = None
     base_url: str = ""
