@@ -8,9 +8,10 @@ from dataclasses import dataclass
 from parley.language.builtin.decision import Ask, Deed
 from parley.language.builtin.facts import Place, known_place
 from parley.language.builtin.grounding import Value
+from parley.language.builtin.lexicon import stems
 from parley.language.builtin.saying import with_article
 from parley.language.builtin.sets import group
-from parley.language.builtin.things import link, stems
+from parley.language.builtin.things import link
 from parley.language.builtin.tokens import tokenize
 from parley.language.builtin.ways import Ways
 from parley.world.object_map import MapObject

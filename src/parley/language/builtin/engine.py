@@ -30,9 +30,8 @@ from parley.language.builtin.spans import Parse
 from parley.language.builtin.steady import steadily
 from parley.language.builtin.structure import Part
 from parley.language.builtin.tagger import shipped_tagger
-from parley.language.builtin.things import link
+from parley.language.builtin.things import head_of, link
 from parley.language.builtin.tokens import spoken, tokenize
-from parley.language.dialogue.mentions import head_of
 from parley.language.dialogue.replies import read_reply
 from parley.messages.chat import ChatAction
 from parley.messages.memory import MemoryEntry

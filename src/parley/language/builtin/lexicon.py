@@ -9,7 +9,7 @@ from importlib import resources
 
 import yaml
 
-__all__ = ["Frame", "Lexicon", "lemmas", "lexicon", "stem"]
+__all__ = ["Frame", "Lexicon", "lemmas", "lexicon", "stem", "stems"]
 
 _IRREGULAR = {
     "took": "take", "taken": "take", "brought": "bring", "went": "go", "gone": "go", "found": "find",
@@ -49,6 +49,8 @@ class Lexicon:
     classes: Mapping[str, frozenset[str]]
     hints: Mapping[str, frozenset[str]]
     """Role -> words in names of parameters that speak for it."""
+    synonyms: Mapping[tuple[str, ...], frozenset[tuple[str, ...]]]
+    """Name of a thing -> what else it may be called, each word by word."""
 
     def exactly(self, words: Sequence[str]) -> frozenset[str]:
         """What these words together may call up, in any form of the first; none if they are not known."""
@@ -99,6 +101,11 @@ def stem(word: str) -> str:
     )
 
 
+def stems(words: Sequence[str]) -> tuple[str, ...]:
+    """The words of a name, each without its plural; parts of ids and of words with a hyphen apart."""
+    return tuple(stem(part) for word in words for part in word.replace("_", " ").replace("-", " ").split())
+
+
 def _load(name: str) -> dict[str, object]:
     text = (resources.files("parley.language.lexicon") / f"{name}.yaml").read_text(encoding="utf-8")
     read: dict[str, object] = yaml.load(
@@ -120,4 +127,22 @@ def lexicon() -> Lexicon:
             verbs.setdefault(tuple(verb.split()), set()).add(name)
     classes = {name: frozenset(words) for name, words in _load("classes").items() if isinstance(words, list)}
     hints = {name: frozenset(words) for name, words in _load("parameters").items() if isinstance(words, list)}
-    return Lexicon(frames, {words: frozenset(names) for words, names in verbs.items()}, classes, hints)
+    called = {words: frozenset(names) for words, names in verbs.items()}
+    return Lexicon(frames, called, classes, hints, _synonyms())
+
+
+def _synonyms() -> dict[tuple[str, ...], frozenset[tuple[str, ...]]]:
+    """The other names of things; of kinds only upwards: a paperback is a book."""
+    read = _load("synonyms")
+    same, kinds = read["same"], read["kind_of"]
+    if not isinstance(same, list) or not isinstance(kinds, dict):
+        raise TypeError("synonyms.yaml: same is a list of groups, kind_of a table")
+    found: dict[tuple[str, ...], set[tuple[str, ...]]] = {}
+    for group in same:
+        names = [tuple(name.split()) for name in group]
+        for name in names:
+            found.setdefault(name, set()).update(other for other in names if other != name)
+    for general, special in kinds.items():
+        for name in special:
+            found.setdefault(tuple(name.split()), set()).add(tuple(general.split()))
+    return {name: frozenset(others) for name, others in found.items()}

@@ -43,7 +43,11 @@ def read(parse: Parse, lexicon: Lexicon) -> Reading:
         mine = [filler for filler, span in zip(fillers, spans, strict=True) if span.owner == number]
         wishes.append(_wish(parse, verb, mine, lexicon))
     loose = [filler for filler, span in zip(fillers, spans, strict=True) if span.owner is None]
-    implied = [_implied(parse, filler, lexicon) for filler in loose]
+    steered = {filler.role for filler in loose} >= {
+        "H",
+        "N",
+    } and not parse.verbs  # "to the left thirty degrees"
+    implied = [_implied(parse, filler, lexicon, steered) for filler in loose]
     implied_wishes = _joined([wish for wish in implied if wish is not None])
     rest = tuple(filler for filler, wish in zip(loose, implied, strict=True) if wish is None)
     ordered = sorted([*wishes, *implied_wishes], key=lambda wish: wish.start)
@@ -143,7 +147,10 @@ def _filler(parse: Parse, span: Span, lexicon: Lexicon) -> Filler:
 
 def _wish(parse: Parse, verb: Verb, mine: list[Filler], lexicon: Lexicon) -> Wish:
     words = [token.low for token in parse.tokens[verb.start : verb.end]]
-    particles = [parse.tokens[at].low for at in verb.particles]
+    small = lexicon.classes["determiners"]
+    particles = [word for at in verb.particles if (word := parse.tokens[at].low) not in small]
+    while len(words) > 1 and words[-1] in small:
+        words = words[:-1]
     while words and (words[0] in ("don't", "dont", "not", "never", "do") and len(words) > 1):
         words = words[1:]
     end, longer = _reach(parse, verb, lexicon)
@@ -194,9 +201,10 @@ def _reach(parse: Parse, verb: Verb, lexicon: Lexicon) -> tuple[int, frozenset[s
 _KIND_OF = {"FACE": "TURN", "MOVE": "GO"}
 
 
-def _implied(parse: Parse, filler: Filler, lexicon: Lexicon) -> Wish | None:
+def _implied(parse: Parse, filler: Filler, lexicon: Lexicon, steered: bool) -> Wish | None:
     """The frame of a goal, a direction or an angle that stands without a verb."""
-    if parse.acts[filler.start] not in ("order", "edit") or filler.role not in "GHN":
+    acts = ("order", "edit", "answer") if steered else ("order", "edit")
+    if parse.acts[filler.start] not in acts or filler.role not in "GHN":
         return None
     frame = "GO"
     if filler.role == "N":
@@ -321,7 +329,7 @@ def _left_over(parse: Parse, lexicon: Lexicon) -> tuple[str, ...]:
             or (parse.acts[at] in ("social", "told", "need") and not _runs_on(parse, at))
         ):
             continue
-        if low[at] in _LEADING and at + 1 in starts:
+        if (low[at] in _LEADING or low[at : at + 2] == ["close", "to"]) and at + 1 in starts:
             continue
         if low[at] == "but" and at + 1 in starts and any(verb.negated for verb in parse.verbs):
             continue

@@ -10,8 +10,8 @@ from collections.abc import Sequence
 from dataclasses import dataclass
 
 from parley.language.builtin.amounts import amount_of
-from parley.language.builtin.lexicon import Lexicon, stem
-from parley.language.builtin.things import link, main_word, stems
+from parley.language.builtin.lexicon import Lexicon, stem, stems
+from parley.language.builtin.things import head_of, link, main_word
 from parley.world.object_map import MapObject
 
 __all__ = ["Group", "group", "kinds", "number_of"]
@@ -107,7 +107,7 @@ def _listed(parts: Sequence[list[str]], objects: Sequence[MapObject], lexicon: L
 def _one(words: Sequence[str], objects: Sequence[MapObject], lexicon: Lexicon) -> tuple[MapObject, ...]:
     if not words:
         return ()
-    mention = link(words, len(words) - 1, objects, lexicon)
+    mention = link(words, head_of(words, lexicon), objects, lexicon)
     return mention.things if mention.kind == "one" else ()
 
 

@@ -113,6 +113,16 @@ class SkillTable:
         swapped = rival * beliefs[other].get(frame, 0.0)
         return share * beliefs[other].get(opposite, 0.0) > _MARGIN * swapped and share + rival >= _SURE
 
+    def _described_as(self, description: str) -> dict[str, float]:
+        """What a description says to the tagger, but for the opposite of what its verbs say."""
+        words = re.findall("[a-z]+", description.lower())
+        said = {name for word in words for name in self._lexicon.exactly([word])}
+        found = self._tagger.describe([description])[0]
+        return {
+            frame: 0.0 if _OPPOSITES.get(frame) in said and frame not in said else share
+            for frame, share in found.items()
+        }
+
     def _belief(self, action: ActionInfo) -> dict[str, float]:
         """How much each frame fits an action, of one."""
         said = next((frame for effect, frame in _EFFECTS.items() if effect in action.effects), None)
@@ -121,7 +131,7 @@ class SkillTable:
         if not action.description:
             return {}
         if action.description not in self._described:
-            self._described[action.description] = self._tagger.describe([action.description])[0]
+            self._described[action.description] = self._described_as(action.description)
         found = self._described[action.description]
         many = len(action.inputs)
         return {

@@ -6,9 +6,9 @@ import math
 from collections.abc import Callable, Sequence
 from dataclasses import dataclass
 
-from parley.language.builtin.lexicon import Lexicon, stem
+from parley.language.builtin.lexicon import Lexicon, stem, stems
 from parley.language.builtin.sets import kinds
-from parley.language.builtin.things import link, stems
+from parley.language.builtin.things import link
 from parley.world.geometry import Pose2D
 from parley.world.object_map import MapObject
 

@@ -7,6 +7,7 @@ from dataclasses import replace
 
 from parley.language.builtin.lexicon import Lexicon
 from parley.language.builtin.reading import Reading, read
+from parley.language.builtin.requests import requested
 from parley.language.builtin.spans import Parse, parse
 from parley.language.builtin.tagger import Tagger
 from parley.language.builtin.tokens import Token
@@ -17,13 +18,14 @@ __all__ = ["steadily"]
 def steadily(tagger: Tagger, tokens: Sequence[Token], lexicon: Lexicon) -> tuple[Parse, Reading]:
     """What words are and say, with those that would say something else behind a "please"."""
     words = [token.text for token in tokens]
-    found = parse(tuple(tokens), tagger.tag(words))
+    found = requested(parse(tuple(tokens), tagger.tag(words)), lexicon)
     reading = read(found, lexicon)
     opener = "okay" if words[0].lower() == "please" else "please"
-    again = parse((Token(opener, 0, 0), *tokens), tagger.tag([opener, *words]))
+    again = requested(parse((Token(opener, 0, 0), *tokens), tagger.tag([opener, *words])), lexicon)
     other = _said(read(again, lexicon), lexicon, 1)
     unsteady = sorted(_said(reading, lexicon, 0) ^ other)
-    return found, replace(reading, unsteady=tuple(dict.fromkeys(words for _, words, *_ in unsteady)))
+    unsure = dict.fromkeys(words for _, words, *_ in unsteady if words not in lexicon.classes["manner"])
+    return found, replace(reading, unsteady=tuple(unsure))
 
 
 def _said(reading: Reading, lexicon: Lexicon, skipped: int) -> frozenset[tuple[int, str, str]]:
@@ -32,8 +34,12 @@ def _said(reading: Reading, lexicon: Lexicon, skipped: int) -> frozenset[tuple[i
     found = set()
     for wish in reading.wishes:
         found.add((wish.start - skipped, wish.verb, f"{wish.frame} {wish.negated}"))
+        told = sorted((f for f in wish.fillers if f.role in "TL"), key=lambda filler: filler.start)
         for filler in wish.fillers:
             words = " ".join(word for word in filler.words if word not in small)
-            if filler.role not in "AM" and words:
+            if filler.role not in "AMTL" and words:
                 found.add((wish.start - skipped, words, filler.role))
+        whole = " ".join(word for f in told for word in f.words if word not in small)
+        if whole:
+            found.add((wish.start - skipped, whole, "T"))
     return frozenset(found)

@@ -9,10 +9,10 @@ from typing import Literal
 from rapidfuzz.distance import OSA
 
 from parley.language.builtin.amounts import is_compass
-from parley.language.builtin.lexicon import Lexicon, stem
+from parley.language.builtin.lexicon import Lexicon, stem, stems
 from parley.world.object_map import MapObject
 
-__all__ = ["Mention", "link", "main_word", "noun_phrase", "stems"]
+__all__ = ["Mention", "head_of", "link", "main_word", "noun_phrase"]
 
 Kind = Literal["one", "part", "several", "unclear", "none", "speaker", "pronoun", "person", "here"]
 
@@ -52,6 +52,16 @@ def noun_phrase(words: Sequence[str], head: int, lexicon: Lexicon) -> tuple[tupl
     return tuple(name), tuple(words[end:])
 
 
+def head_of(words: Sequence[str], lexicon: Lexicon) -> int:
+    """Which word of a description names the thing: the last one before a preposition."""
+    small = lexicon.classes["prepositions"]
+    first = next(
+        (at for at, word in enumerate(words) if word not in small | lexicon.classes["determiners"]), 0
+    )
+    stop = next((at for at in range(first + 1, len(words)) if words[at] in small), len(words))
+    return stop - 1
+
+
 def link(words: Sequence[str], head: int, objects: Sequence[MapObject], lexicon: Lexicon) -> Mention:
     """What words mean among the things of the map."""
     referring = _referring(words, head, lexicon)
@@ -78,8 +88,10 @@ def link(words: Sequence[str], head: int, objects: Sequence[MapObject], lexicon:
         best = _best(whole if of_whole else name[:part], objects)
         if of_whole and len(best) == 1:
             return Mention("part", " ".join((*name, *rest)), tuple(best))
-        if best and not of_whole and _best(whole, objects) not in ([], best):
+        which = name[part + 1] in lexicon.classes["determiners"]  # "the lid of the jar" is no jar
+        if best and not of_whole and not which and _best(whole, objects) not in ([], best):
             return Mention("unclear", " ".join(name), (*best, *_best(whole, objects)))
+    best = best or _otherwise_called(name, objects, lexicon)
     if not best:
         return Mention("none", " ".join((*name, *rest)))
     if len(best) > 1 and rest:
@@ -119,11 +131,6 @@ def _called(words: Sequence[str], objects: Sequence[MapObject], lexicon: Lexicon
     ]
 
 
-def stems(words: Sequence[str]) -> tuple[str, ...]:
-    """The words of a name, each without its plural; parts of ids and of words with a hyphen apart."""
-    return tuple(stem(part) for word in words for part in word.replace("_", " ").replace("-", " ").split())
-
-
 def _content(words: Sequence[str], lexicon: Lexicon) -> list[str]:
     small = lexicon.classes["prepositions"] | lexicon.classes["determiners"]
     return [stem(word) for word in words if word not in small]
@@ -139,7 +146,30 @@ def _best(name: Sequence[str], objects: Sequence[MapObject]) -> list[MapObject]:
         rank = _rank_of(name, item)
         if rank < 9:
             ranked.setdefault(rank, []).append(item)
-    return ranked[min(ranked)] if ranked else []
+    found = ranked[min(ranked)] if ranked else []
+    return [item for item in found if _ends_as_said(name, item)] or found
+
+
+def _ends_as_said(name: Sequence[str], item: MapObject) -> bool:
+    """Whether a thing is called by just this last word: "glasses" are not the glass."""
+    return any(text.lower().split()[-1:] == [*name[-1:]] for text in (item.description, *item.aliases))
+
+
+def _otherwise_called(name: Sequence[str], objects: Sequence[MapObject], lexicon: Lexicon) -> list[MapObject]:
+    """The things that have another name of what was said; of the longest name in it."""
+    for start in range(len(name)):
+        said = tuple(name[start:])
+        others = lexicon.synonyms.get(said) or lexicon.synonyms.get(stems(said), frozenset())
+        found = [item for item in objects if not others.isdisjoint(_names(item))]
+        if found:
+            return found
+    return []
+
+
+def _names(item: MapObject) -> set[tuple[str, ...]]:
+    """What a thing is called, word by word, as it is written and without plurals."""
+    written = [tuple(text.lower().split()) for text in (item.description, *item.aliases)]
+    return {*written, *(stems(words) for words in written)}
 
 
 def _rank_of(name: Sequence[str], item: MapObject) -> int:

@@ -8,11 +8,11 @@ from dataclasses import dataclass
 from rapidfuzz.distance import OSA
 
 from parley.language.builtin.lexicon import Lexicon, stem
-from parley.language.builtin.things import link
+from parley.language.builtin.things import head_of, link
 from parley.language.builtin.tokens import Token
 from parley.world.object_map import MapObject
 
-__all__ = ["Named", "head_of", "named", "same_word"]
+__all__ = ["Named", "named", "same_word"]
 
 _LONGEST = 8
 
@@ -31,16 +31,6 @@ class Named:
     def text(self) -> str:
         """The words."""
         return " ".join(self.words)
-
-
-def head_of(words: Sequence[str], lexicon: Lexicon) -> int:
-    """Which word of a description names the thing: the last one before a preposition."""
-    small = lexicon.classes["prepositions"]
-    first = next(
-        (at for at, word in enumerate(words) if word not in small | lexicon.classes["determiners"]), 0
-    )
-    stop = next((at for at in range(first + 1, len(words)) if words[at] in small), len(words))
-    return stop - 1
 
 
 def same_word(one: str, other: str) -> bool:
