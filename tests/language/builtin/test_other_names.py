@@ -37,6 +37,11 @@ def test_a_thing_is_found_by_its_other_names(said: str, meant: list[str]) -> Non
     assert linked(said) == meant
 
 
+def test_things_of_one_kind_are_all_meant_wherever_their_name_says_they_stand() -> None:
+    objects = (thing("tall plant", 1), thing("plant by the door", 2))
+    assert len(link(["the", "plant"], 1, objects, lexicon()).things) == 2
+
+
 def test_a_name_on_the_map_comes_before_another_name_of_a_thing() -> None:
     objects = (thing("closet", 1), thing("wardrobe", 2))
     found = link(["the", "wardrobe"], 1, objects, lexicon())

@@ -20,7 +20,7 @@ from parley.language.base import (
 from parley.language.builtin import pictures, recovery
 from parley.language.builtin.clauses import Clause, clauses
 from parley.language.builtin.deciding import decide
-from parley.language.builtin.decision import Answer, Ask, Decision
+from parley.language.builtin.decision import Answer, Ask, Decision, Do
 from parley.language.builtin.lexicon import lexicon
 from parley.language.builtin.own import OwnActions
 from parley.language.builtin.reading import Reading, read
@@ -33,6 +33,7 @@ from parley.language.builtin.tagger import shipped_tagger
 from parley.language.builtin.things import head_of, link
 from parley.language.builtin.tokens import spoken, tokenize
 from parley.language.dialogue.replies import read_reply
+from parley.language.dialogue.state import Asked, Dialogue, Order
 from parley.messages.chat import ChatAction
 from parley.messages.memory import MemoryEntry
 from parley.robots.base import CameraImage
@@ -102,6 +103,7 @@ class BuiltinLanguage:
             return Ask("That is too much at once. Please say it in shorter pieces.")
         if not any(token.is_word for token in tokenize(situation.message)):
             return Ask("I did not understand that. Please say what I should do.")
+        situation = self._with_past(situation)
         parts = self._parts(situation.message)
         if self._skills is None or self._own is None:
             self._skills = SkillTable(shipped_tagger(), self._lexicon)
@@ -121,6 +123,17 @@ class BuiltinLanguage:
             return self.decide(replace(situation, message=text, history=(), objects=objects))
 
         return decide(situation, parts, skills, self._lexicon, self.reading, again)
+
+    def _with_past(self, situation: Situation) -> Situation:
+        """With the last order and what was asked about it, where nothing but the turns is known of them."""
+        past = next((turn.content for turn in reversed(situation.history) if turn.role == "operator"), "")
+        if not past or situation.dialogue.now_unix_ms or situation.queue or situation.question:
+            return situation
+        made = self.decide(replace(situation, message=past, history=()))
+        calls = to_chat(made, self._lexicon).queue if isinstance(made, Do) else ()
+        asked = Asked(past, made.choices) if isinstance(made, Ask) and made.choices else None
+        dialogue = Dialogue(asked=asked, orders=(Order(past, calls=calls),) if calls else ())
+        return replace(situation, dialogue=dialogue)
 
     def reading(self, text: str) -> Reading:
         """What a text says, whatever the situation."""

@@ -152,7 +152,8 @@ def _best(name: Sequence[str], objects: Sequence[MapObject]) -> list[MapObject]:
 
 def _ends_as_said(name: Sequence[str], item: MapObject) -> bool:
     """Whether a thing is called by just this last word: "glasses" are not the glass."""
-    return any(text.lower().split()[-1:] == [*name[-1:]] for text in (item.description, *item.aliases))
+    written = (tuple(text.lower().split()) for text in (item.description, *item.aliases))
+    return any(_naming(words)[-1:] == tuple(name[-1:]) for words in written)
 
 
 def _otherwise_called(name: Sequence[str], objects: Sequence[MapObject], lexicon: Lexicon) -> list[MapObject]:

@@ -20,7 +20,17 @@ from parley.messages.chat import ActionCall
 from parley.messages.status import PlanStep
 from parley.world.object_map import MapObject
 
-__all__ = ["Change", "Visit", "before_all", "change_of", "texts_of", "visits"]
+__all__ = [
+    "Change",
+    "Visit",
+    "before_all",
+    "change_of",
+    "moved",
+    "reordered",
+    "texts_of",
+    "visits",
+    "visits_of",
+]
 
 _OPEN: Final = ("queued", "running", "waiting", "paused", "failed")
 _ORDINALS: Final = {
@@ -96,7 +106,6 @@ class Change:
 def visits(situation: Situation) -> list[Visit]:
     """What a plan, or what waits for a yes, still consists of."""
     dialogue = situation.dialogue
-    finding = {info.name for info in situation.catalogue if tuple(info.effects) == ("locates",)}
     if dialogue.proposal is not None and not any(step.state in _OPEN for step in dialogue.steps):
         labels = dialogue.proposal.labels[len(dialogue.proposal.commands) :]
         steps = [
@@ -104,7 +113,13 @@ def visits(situation: Situation) -> list[Visit]:
             for at, call in enumerate(dialogue.proposal.steps)
         ]
     else:
-        steps = list(dialogue.steps)
+        steps = list(dialogue.steps) or _pending(situation)
+    return visits_of(steps, situation)
+
+
+def visits_of(steps: Sequence[PlanStep], situation: Situation) -> list[Visit]:
+    """The steps of a plan that are not over, those together that belong together."""
+    finding = {info.name for info in situation.catalogue if tuple(info.effects) == ("locates",)}
     found: list[Visit] = []
     before: list[PlanStep] = []
     places: list[int] = []
@@ -125,6 +140,19 @@ def visits(situation: Situation) -> list[Visit]:
             found.append(Visit((*places, place), things, step_words(step.label), calls, words.lower()))
         before, places = [], []
     return found
+
+
+def _pending(situation: Situation) -> list[PlanStep]:
+    """What is pending, where nothing else is known of the plan than that."""
+    running = situation.status == "running"
+    return [
+        PlanStep(
+            action=call,
+            label=call.reason or f"do that with the {', the '.join(texts_of(call)) or 'next step'}",
+            state="running" if running and not place else "queued",
+        )
+        for place, call in enumerate(situation.queue)
+    ]
 
 
 def texts_of(call: ActionCall) -> list[str]:
@@ -204,16 +232,16 @@ def _with_order(
     """What an order takes the place of: what it names, what runs, or nothing."""
     old = [visit for name in against for visit in _meant(plan, name)]
     if not old and _FRONT.search(text) is not None and not takes_back:
-        return _reordered(plan, [], plan, "front")
+        return reordered(plan, [], plan, "front")
     if not old and takes_back:
         old = list(plan) if _ALL.search(text) is not None else list(plan[:1])
-    return _reordered(plan, old, _behind(plan, old), "instead") if old else None
+    return reordered(plan, old, _behind(plan, old), "instead") if old else None
 
 
 def before_all(situation: Situation) -> Change:
     """What is ordered comes before all that is planned."""
     plan = visits(situation)
-    return _reordered(plan, [], plan, "front")
+    return reordered(plan, [], plan, "front")
 
 
 def _behind(plan: Sequence[Visit], old: Sequence[Visit]) -> list[Visit]:
@@ -221,7 +249,7 @@ def _behind(plan: Sequence[Visit], old: Sequence[Visit]) -> list[Visit]:
     return [visit for visit in plan if min(visit.steps) > last]
 
 
-def _reordered(
+def reordered(
     plan: Sequence[Visit], old: Sequence[Visit], behind: Sequence[Visit], where: Literal["instead", "front"],
     calls: tuple[ActionCall, ...] = (), said: str = "",
 ) -> Change:  # fmt: skip
@@ -295,14 +323,17 @@ def _replaced(plan: Sequence[Visit], against: Sequence[Named], wanted: Named) ->
         asked = " or ".join(f"the {name}" for name in names)
         return Change(question=f"Which one do you mean: {asked}?", choices=names)
     target = wanted.things[0]
-    calls = _moved(old[0], target)
+    if any(target in visit.things for visit in plan if visit not in old[:1] or not against):
+        asked = f"The {target.description} is in my plan already. Shall I go there first, or leave it out?"
+        return Change(question=asked)
+    calls = moved(old[0], target)
     if calls is None or target in old[0].things:
         return None
     said = f"I do not {old[0].said}. Instead I take the {target.description}."
-    return _reordered(plan, old[:1], _behind(plan, old[:1]), "instead", calls, said)
+    return reordered(plan, old[:1], _behind(plan, old[:1]), "instead", calls, said)
 
 
-def _moved(old: Visit, target: MapObject) -> tuple[ActionCall, ...] | None:
+def moved(old: Visit, target: MapObject) -> tuple[ActionCall, ...] | None:
     """The same deed about another thing; None if it is not about one thing."""
     names = {n.lower() for item in old.things for n in (item.description, item.id, *item.aliases)}
     calls, changed = [], False
@@ -334,11 +365,12 @@ def _put_in(plan: Sequence[Visit], wanted: Sequence[Named], text: str) -> Change
     front = _FRONT.search(text) is not None
     if not front and _ADDING.search(text) is None:
         return None
-    like = next((visit for visit in plan if _moved(visit, wanted[0].things[0]) is not None), None)
-    if like is None or any(len(name.things) > 1 for name in wanted):
+    like = next((visit for visit in plan if moved(visit, wanted[0].things[0]) is not None), None)
+    planned = {thing.id for visit in plan for thing in visit.things}
+    if like is None or any(len(name.things) > 1 or name.things[0].id in planned for name in wanted):
         return None
-    calls = tuple(call for name in wanted for call in _moved(like, name.things[0]) or ())
+    calls = tuple(call for name in wanted for call in moved(like, name.things[0]) or ())
     names = " and ".join(f"the {name.things[0].description}" for name in wanted)
     if front:
-        return _reordered(plan, [], plan, "front", calls, f"First {names}, then on with the rest.")
+        return reordered(plan, [], plan, "front", calls, f"First {names}, then on with the rest.")
     return Change((), calls, "end", said=f"I add {names}.")

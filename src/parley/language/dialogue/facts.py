@@ -17,7 +17,7 @@ from parley.language.dialogue.questions import asks
 from parley.language.stop_words import calls_to_stop, has_stop_word
 from parley.messages.memory import MemoryEntry
 
-__all__ = ["forgotten", "moved_fact", "other_fact", "worth_keeping"]
+__all__ = ["forgotten", "is_wish", "moved_fact", "other_fact", "worth_keeping"]
 
 _PRONOUNS: Final = frozenset({"he", "she", "they", "it", "this", "that", "these", "those", "they're", "it's"})
 _FIRST: Final = frozenset(
@@ -49,6 +49,20 @@ _NAME: Final = re.compile(
 _KEEP: Final = re.compile(
     r"(?:please )?(?:remember|note|keep in mind|don't forget|do not forget|memorise|memorize)\b"
 )
+
+
+_WISHING: Final = re.compile(
+    r"\b(?:should|shall|must|ought|has to|have to|had better|need(?:s|ed)?|necessary|want(?:s|ed)?|"
+    r"would like|'d like|asking for|ask(?:s|ed)? for|wait(?:s|ing)? for you|can (?:wait|go)|not sure|"
+    r"i (?:think|guess|suppose|doubt)|maybe|perhaps|might|somewhere|nobody|neither|please|could you|"
+    r"comes? (?:before|after|first|last))\b"
+)
+"""What may be a wish, or a guess: nothing that is so."""
+
+
+def is_wish(text: str) -> bool:
+    """Whether something that sounds like a fact may be a wish or a guess, and is not kept unasked."""
+    return _WISHING.search(text.lower()) is not None
 
 
 def worth_keeping(situation: Situation, bare: str) -> bool:
@@ -117,6 +131,8 @@ def other_fact(situation: Situation, reading: Reading, bare: str) -> Told | None
         words = re.sub(r"^(?:that|,)\s*", "", bare[_KEEP.match(bare).end() :].strip()).split()  # type: ignore[union-attr]
     told = reading.acts <= {"told", "social"} and "told" in reading.acts
     if len(words) < 3 or not (asked or told) or not worth_keeping(situation, bare):
+        return None
+    if not asked and is_wish(bare):
         return None
     if not asked and (words[0] in _FIRST | _PRONOUNS or _BEING.search(" ".join(words[1:])) is None):
         return None

@@ -15,6 +15,8 @@ from parley.world.object_map import MapObject
 __all__ = ["Named", "named", "same_word"]
 
 _LONGEST = 8
+_IN_TIME = {"before", "after"}
+"""They part two names: "the yard before the gate" is no thing."""
 
 
 @dataclass(frozen=True, slots=True)
@@ -61,7 +63,7 @@ def named(tokens: Sequence[Token], objects: Sequence[MapObject], lexicon: Lexico
 def _longest(
     low: Sequence[str], start: int, objects: Sequence[MapObject], words: set[str], lexicon: Lexicon
 ) -> Named | None:
-    small = lexicon.classes["prepositions"] | lexicon.classes["determiners"]
+    small = (lexicon.classes["prepositions"] | lexicon.classes["determiners"]) - _IN_TIME
     if low[start] in small or not any(same_word(low[start], word) for word in words):
         return None
     for end in range(min(len(low), start + _LONGEST), start, -1):

@@ -16,11 +16,13 @@ from parley.language.builtin.reply import said as words_for
 from parley.language.builtin.tokens import Token, tokenize
 from parley.language.dialogue.answers import answer, differences
 from parley.language.dialogue.changes import Change, before_all, change_of, texts_of, visits
-from parley.language.dialogue.facts import forgotten, moved_fact, other_fact, worth_keeping
+from parley.language.dialogue.facts import forgotten, is_wish, moved_fact, other_fact, worth_keeping
+from parley.language.dialogue.following import followed
 from parley.language.dialogue.later import PROMISE, due, put_off
 from parley.language.dialogue.mentions import named
 from parley.language.dialogue.places import in_room, rooms
 from parley.language.dialogue.questions import plain, question_of
+from parley.language.dialogue.rearranging import rearranged
 from parley.language.dialogue.replies import chosen, is_thinking, names_deed
 from parley.world.object_map import MapObject
 
@@ -143,10 +145,10 @@ def _about_what_was_said(
         made = _ordered(again(instead["rest"]))
         if made is not None:
             return afterwards(made, situation, reading, tokens, lexicon)
-    change = change_of(situation, tokens, lexicon, orders=False)
-    if change is not None:
-        return _edit(change, situation)
-    return None
+    change = rearranged(situation, tokens, lexicon) or change_of(situation, tokens, lexicon, orders=False)
+    if change is None and situation.dialogue.orders:
+        change = followed(situation, tokens, lexicon, situation.dialogue.orders[-1])
+    return _edit(change, situation) if change is not None else None
 
 
 _ALARMED: Final = "That sounds like an emergency"
@@ -277,7 +279,8 @@ def _handless(situation: Situation, reading: Reading) -> str:
 def no_facts(told: tuple[Told, ...], situation: Situation) -> tuple[Told, ...]:
     """The facts of a message, unless it is a stop, an order to go on, a question or an answer."""
     bare = plain(tokenize(situation.message), (situation.robot,))
-    return told if told and worth_keeping(situation, bare) else ()
+    kept = tuple(fact for fact in told if fact.is_rule or not is_wish(fact.text))
+    return kept if kept and worth_keeping(situation, bare) else ()
 
 
 def _edit(change: Change, situation: Situation, do: Do | None = None) -> Decision:

@@ -1,0 +1,94 @@
+"""The last order once more about something else: "and room 14", "the same for the yard", "no, that one"."""
+
+from __future__ import annotations
+
+import re
+from collections.abc import Sequence
+from typing import Final
+
+from parley.language.base import Situation
+from parley.language.builtin.lexicon import Lexicon, stem
+from parley.language.builtin.tokens import Token
+from parley.language.dialogue.changes import Change, Visit, moved, visits_of
+from parley.language.dialogue.mentions import named
+from parley.language.dialogue.state import Order
+from parley.messages.status import PlanStep
+from parley.world.object_map import MapObject
+
+__all__ = ["followed"]
+
+_SMALL: Final = frozenset(
+    {
+        "and", "also", "too", "now", "then", "next", "the", "as", "well", "please", "same", "for", "with",
+        "likewise", "ditto", "how", "about", "in", "at", "to", "do", "it", "that", "thing", "again", "once",
+        "more", "but", "no", "not", "i", "mean", "meant", "sorry", "oh", "just", "instead", "actually",
+        "rather", "wait", "this", "time", "after", "afterwards", "finally", "one", "other", "okay", "ok", "a",
+        "try", "of",
+    }
+)  # fmt: skip
+_LINKING: Final = re.compile(
+    r"\b(?:and|also|too|now|then|next|as well|same|likewise|ditto|how about|again|once more|after that|"
+    r"no|not|i meant?|sorry|instead|rather)\b"
+)
+_LONGEST: Final = 12
+
+
+def followed(situation: Situation, tokens: Sequence[Token], lexicon: Lexicon, last: Order) -> Change | None:
+    """What was ordered last, about the things that are named now; None if a message says anything else.
+
+    Args:
+        situation: What is known; nothing may be planned, and nothing be asked.
+        tokens: Of the message.
+        lexicon: Words.
+        last: The order.
+    """
+    words = [token.low for token in tokens if token.is_word]
+    said = " ".join(words)
+    asks = situation.message.rstrip().endswith("?") and not said.startswith(("how about", "and"))
+    if asks or not last.calls or situation.queue or situation.question or len(words) > _LONGEST:
+        return None
+    names = named(tokens, situation.objects, lexicon)
+    taken = {at for name in names for at in range(name.start, name.end)}
+    rest = [token.low for at, token in enumerate(tokens) if token.is_word and at not in taken]
+    done = _last_visits(last, situation)
+    if not done or not {*rest} - _which(rest) <= _SMALL or _LINKING.search(said) is None:
+        return None
+    if any(len(name.things) > 1 for name in names):
+        return None
+    before = done[0].things[0]
+    things = [name.things[0] for name in names] or _other(before, words, situation.objects)
+    if not things or before in things:
+        return None
+    calls = tuple(call for thing in things for visit in done for call in moved(visit, thing) or visit.calls)
+    what = " and ".join(f"the {thing.description}" for thing in things)
+    return Change(add=calls, said=f"I do the same with {what}.")
+
+
+def _last_visits(last: Order, situation: Situation) -> list[Visit]:
+    """What was done about the thing that an order was about last, and asked there; none if unclear."""
+    found = visits_of([PlanStep(action=call) for call in last.calls], situation)
+    things = next((visit.things for visit in reversed(found) if visit.things), ())
+    start = next((at for at, visit in enumerate(found) if visit.things == things), 0)
+    done = found[start:]
+    plain = all(visit.things in ((), things) and not any(call.flow for call in visit.calls) for visit in done)
+    return done if len(things) == 1 and plain and moved(done[0], things[0]) is not None else []
+
+
+def _which(words: Sequence[str]) -> set[str]:
+    """The word before "one" that says which: "green" in "the green one"."""
+    at = words.index("one") if "one" in words else 0
+    return {words[at - 1]} - _SMALL if at else set()
+
+
+def _other(before: MapObject, words: Sequence[str], objects: Sequence[MapObject]) -> list[MapObject]:
+    """For "the other one" the only other thing of the kind; for "the next one" that with the next number."""
+    name = before.description.lower().split()
+    kind = [item for item in objects if stem(item.description.lower().split()[-1]) == stem(name[-1])]
+    if which := _which(words):
+        said = [item for item in kind if which <= {*item.description.lower().split()}]
+        return said if len(said) == 1 else []
+    if "next" in words and name[-1].isdigit():
+        wanted = [*name[:-1], str(int(name[-1]) + 1)]
+        return [item for item in objects if item.description.lower().split() == wanted]
+    others = [item for item in kind if item != before]
+    return others if "other" in words and len(others) == 1 else []

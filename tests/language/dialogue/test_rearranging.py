@@ -1,0 +1,149 @@
+"""Another order of a plan, and the last order once more about something else."""
+
+from __future__ import annotations
+
+import asyncio
+
+import pytest
+
+from parley.evaluation.steps import pending
+from parley.language.base import Situation, Turn
+from parley.language.builtin.engine import BuiltinLanguage
+from parley.language.dialogue.changes import texts_of
+from parley.messages.chat import ActionCall, ChatAction
+from parley.messages.pvf import Parameter
+from parley.messages.status import ActionInfo
+from parley.world.object_map import MapObject
+
+NAMES = ("gate 1", "gate 2", "gate 3", "workshop", "paint store", "red barrel", "blue barrel")
+OBJECTS = tuple(MapObject(name.replace(" ", "_"), name, float(at), 0.0) for at, name in enumerate(NAMES))
+CATALOGUE = (
+    ActionInfo(name="drive", description="Drive to a place.", inputs={"place": "string"}, effects=("moves",)),
+    ActionInfo(
+        name="look",
+        description="Look at something and report its state.",
+        inputs={"what": "string"},
+        effects=("looks",),
+    ),
+)
+ENGINE = BuiltinLanguage()
+
+
+def drive(place: str) -> ActionCall:
+    return ActionCall(
+        name="drive",
+        input_parameters={"place": Parameter(type="string", value=place)},
+        reason=f"go to the {place}",
+    )
+
+
+def answer(message: str, *queue: str, history: tuple[str, ...] = ()) -> tuple[Situation, ChatAction]:
+    turns = tuple(
+        Turn(role="assistant" if at % 2 else "operator", content=text) for at, text in enumerate(history)
+    )
+    situation = Situation(
+        message,
+        history=turns,
+        queue=tuple(map(drive, queue)),
+        status="running" if queue else "idle",
+        objects=OBJECTS,
+        robot="Ada",
+        robots=("Ada",),
+        catalogue=CATALOGUE,
+    )
+    return situation, asyncio.run(ENGINE.interpret(situation))
+
+
+def after(message: str, *queue: str) -> list[str]:
+    situation, made = answer(message, *queue)
+    return [text for call in pending(situation.queue, made) for text in texts_of(call)]
+
+
+PLAN = ("gate 1", "gate 2", "workshop")
+
+
+@pytest.mark.parametrize(
+    ("said", "order"),
+    [
+        ("swap the first two", "gate 2, gate 1, workshop"),
+        ("please switch gate 1 and the workshop", "workshop, gate 2, gate 1"),
+        ("do the workshop first", "workshop, gate 1, gate 2"),
+        ("I'd like the paint store first", "paint store, gate 1, gate 2, workshop"),
+        ("gate 1 can wait till the end", "gate 2, workshop, gate 1"),
+        ("move gate 1 to the end", "gate 2, workshop, gate 1"),
+        ("the workshop before gate 2", "gate 1, workshop, gate 2"),
+        ("squeeze in gate 3 after gate 1", "gate 1, gate 3, gate 2, workshop"),
+        ("reverse the order", "workshop, gate 2, gate 1"),
+        ("only the workshop", "workshop"),
+        ("drop everything after gate 1", "gate 1"),
+        ("finish this one and then cancel the rest", "gate 1"),
+        ("skip to the workshop", "workshop"),
+        ("gate 2 isn't needed any more", "gate 1, workshop"),
+        ("the last two can go", "gate 1"),
+        ("take gate 2 off your list", "gate 1, workshop"),
+        ("no workshop today", "gate 1, gate 2"),
+    ],
+)
+def test_a_plan_is_put_into_another_order(said: str, order: str) -> None:
+    assert ", ".join(after(said, *PLAN)) == order
+
+
+@pytest.mark.parametrize(
+    "said",
+    [
+        "swap gate 1 and gate 3",  # that is not planned
+        "the fourth one first",
+        "drop everything after gate 3",
+        "no, the workshop",  # in place of what? it is planned already
+        "gate 1 before gate 1",
+        "put the workshop frobnicated first",
+    ],
+)
+def test_what_does_not_fit_the_plan_changes_nothing(said: str) -> None:
+    assert after(said, *PLAN) == list(PLAN)
+
+
+def test_a_step_that_stays_keeps_running() -> None:
+    _, made = answer("swap gate 2 and the workshop", *PLAN)
+    assert [command.pop_index for command in made.system_cmd] == [1, 2] or {
+        command.pop_index for command in made.system_cmd
+    } == {1, 2}
+
+
+@pytest.mark.parametrize(
+    ("first", "then", "deeds"),
+    [
+        ("go to gate 1", "and gate 2", ["gate 2"]),
+        ("go to gate 1 and inspect it", "the same for the workshop", ["workshop", "workshop"]),
+        ("go to gate 1", "now the next one", ["gate 2"]),
+        ("go to the red barrel", "no, the other one", ["blue barrel"]),
+        ("go to the red barrel", "sorry, the blue one I mean", ["blue barrel"]),
+    ],
+)
+def test_the_last_order_is_done_once_more_about_something_else(
+    first: str, then: str, deeds: list[str]
+) -> None:
+    _, made = answer(then, history=(first, "I will."))
+    assert [text for call in made.queue for text in texts_of(call)] == deeds
+
+
+@pytest.mark.parametrize("then", ["the blue one is leaking", "is gate 2 open?", "and the moon", "gate 2"])
+def test_other_words_are_no_order_once_more(then: str) -> None:
+    _, made = answer(then, history=("go to gate 1", "I will."))
+    assert not made.queue
+
+
+@pytest.mark.parametrize(
+    "said",
+    [
+        "somebody should look at the workshop",
+        "the paint store has to come before gate 1",
+        "a customer is asking for the red barrel at gate 1",
+        "gate 2 is where I need you",
+        "not sure the workshop is locked",
+        "I left my keys somewhere in the workshop",
+    ],
+)
+def test_no_wish_is_kept_as_a_fact(said: str) -> None:
+    _, made = answer(said)
+    assert not [command for command in made.system_cmd if command.command == "add_memory"]
