@@ -111,6 +111,7 @@ async def test_it_waits_again_and_is_carried_out_after_a_yes(data: Path) -> None
         proposal = await offered(home)
         assert proposal.labels == ("Find out where “dining table” is", "Go to “dining table”")
         assert [call.name for call in proposal.steps] == ["GetCoordinates", "NavigateTo"]
+        assert proposal.lines == ("Go to “dining table”",)
         (told,) = [said.message for said in home.observer.said if "started anew" in said.message]
         assert "please look at it again" in told
         assert home.observer.state(home.robot) == "awaiting_approval"

@@ -312,7 +312,7 @@ SAMPLES: dict[type[BaseModel], dict[str, Any]] = {
         "order": "7",
         "target": "A",
         "outcome": "asked",
-        "labels": ["Go there"],
+        "lines": ["Go there"],
         "why": "It is far.",
     },
     status.PlanProposal: {
@@ -323,6 +323,7 @@ SAMPLES: dict[type[BaseModel], dict[str, Any]] = {
         "steps": [MOVE],
         "commands": [{"pop": {"parameters": 1}}],
         "labels": ["Leave out: look", "Go there"],
+        "lines": ["Leave out: look", "Go there"],
         "digest": "5b1e",
         "by": KIM,
         "why": "It is far.",

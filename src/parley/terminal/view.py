@@ -278,8 +278,8 @@ class OperatorView:
         robot.pending = [item for item in robot.pending if not isinstance(item, PlanProposal)]
         robot.pending.append(proposal)
         heading = Line("heading", self.texts("proposal_of", robot=robot.name))
-        labels = [*proposal.labels, *map(label, proposal.steps[len(proposal.labels) :])]
-        rows = [Line("step", f"{number}. {text}") for number, text in enumerate(labels, 1)]
+        lines = proposal.lines or tuple(map(label, proposal.steps))
+        rows = [Line("step", f"{number}. {text}") for number, text in enumerate(lines, 1)]
         return [heading, *rows, Line("asked", self.texts("yes_or_no"))]
 
     def _plan(self, robot: RobotView, steps: Sequence[PlanStep]) -> list[Line]:

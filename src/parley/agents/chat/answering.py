@@ -169,7 +169,7 @@ class Answering:
         self._order(order, said)
         for ruling in await self._rulings.about(order):
             if ruling.outcome == "asked":
-                self.say((name,), together(wish_of(ruling.labels, ruling.why), SHALL_I), "info")
+                self.say((name,), together(wish_of(ruling.lines, ruling.why), SHALL_I), "info")
 
     async def _carry_out(
         self, target: str, said: ChatInput, understood: ChatAction, admitted: Admitted, situation: Situation
@@ -233,7 +233,7 @@ class Answering:
         """The engine's reply where what it says was done; else what was done instead, in our words."""
         asked = next((ruling for ruling in rulings if ruling.outcome == "asked"), None)
         if asked is not None:
-            return wish_of(asked.labels, asked.why)
+            return wish_of(asked.lines, asked.why)
         if rulings and all(ruling.outcome == "refused" for ruling in rulings):
             return together(texts.NOT_DONE, *admitted.refused)
         if admitted.resumes and not order.queue:

@@ -62,7 +62,7 @@ def _visible(deeds: Sequence[Deed]) -> list[Deed]:
 
 
 def _steps_left(situation: Situation) -> list[PlanStep]:
-    hidden = {info.name for info in situation.catalogue if tuple(info.effects) == ("locates",)}
+    hidden = {info.name for info in situation.catalogue if info.only_finds}
     return [
         step for step in situation.dialogue.steps if step.state in _OPEN and step.action.name not in hidden
     ]
@@ -123,7 +123,7 @@ def _left(situation: Situation, about: str) -> str:
     left, proposal = _steps_left(situation), situation.dialogue.proposal
     if not left and proposal is not None:
         return (
-            f"Nothing is begun. This waits for your yes: {listed([step_words(x) for x in proposal.labels])}."
+            f"Nothing is begun. This waits for your yes: {listed([step_words(x) for x in proposal.lines])}."
         )
     if not left:
         return "Nothing is left to do."
@@ -204,7 +204,7 @@ def _waiting(situation: Situation, about: str) -> str:
     if situation.question:
         return f"I wait for your answer to this: {situation.question}"
     if dialogue.proposal is not None:
-        waits = listed([step_words(label) for label in dialogue.proposal.labels])
+        waits = listed([step_words(label) for label in dialogue.proposal.lines])
         return f"I wait for your yes to this: {waits}."
     if dialogue.plan == "paused":
         return _why_stopped(situation, about)
@@ -331,7 +331,7 @@ def _battery(situation: Situation, about: str) -> str:
 
 def abilities(catalogue: Sequence[ActionInfo]) -> str:
     """What can be asked for, in the words of the actions' makers."""
-    shown = [info for info in catalogue if tuple(info.effects) != ("locates",)]
+    shown = [info for info in catalogue if not info.only_finds]
     parts = [(info.description.split(".")[0] or info.label or info.name) for info in shown]
     return listed([f"{part[:1].lower()}{part[1:]}" for part in parts]) if parts else ""
 

@@ -96,7 +96,7 @@ class Change:
 def visits(situation: Situation) -> list[Visit]:
     """What a plan, or what waits for a yes, still consists of."""
     dialogue = situation.dialogue
-    finding = {info.name for info in situation.catalogue if tuple(info.effects) == ("locates",)}
+    finding = {info.name for info in situation.catalogue if info.only_finds}
     if dialogue.proposal is not None and not any(step.state in _OPEN for step in dialogue.steps):
         labels = dialogue.proposal.labels[len(dialogue.proposal.commands) :]
         steps = [
