@@ -50,7 +50,8 @@ class Builder(Ways):
             made = self._for_each(wish, values, several[0])
         else:
             for role in "LSGT":
-                self.last_thing = values[role] if role in values and values[role].things else self.last_thing
+                told = role in values and (values[role].things or values[role].point)
+                self.last_thing = values[role] if told else self.last_thing
             self.last_thing = values.get("T", self.last_thing)
             made = self._planned(wish, values)
         return made if isinstance(made, Ask) else made * times

@@ -10,6 +10,7 @@ from parley.language.builtin.decision import Ask, Deed, Note
 from parley.language.builtin.facts import Place
 from parley.language.builtin.grounding import Grounder, Value
 from parley.language.builtin.saying import with_article
+from parley.language.builtin.skills import Skill
 from parley.language.builtin.things import link
 from parley.language.builtin.wishes import Wish
 from parley.messages.status import ActionInfo
@@ -36,6 +37,8 @@ class Ways(Grounder):
             goal = Value(text, with_article(text), mention.things)
         self.at = goal.argument
         said = {"G": goal.said}
+        if goal.point is not None and skill.takes_pose:
+            return [self._driven(skill, *goal.point, 0.0, goal.said)]
         if not skill.takes_pose:
             slot = skill.roles.get("G")
             return [Deed("GO", skill, {slot: goal.argument}, said)] if slot else Ask("Where to?")
@@ -55,17 +58,22 @@ class Ways(Grounder):
         skill, pose = self.skills.get("GO"), self.situation.robot_pose
         if skill is None or pose is None or not skill.takes_pose:
             return Ask("Where shall I go back to?")
-        ends = {"position::x": pose.x_m, "position::y": pose.y_m, "orientation::y": pose.yaw_rad}
+        self.at = ""
+        return [self._driven(skill, pose.x_m, pose.y_m, pose.yaw_rad, "where I am now")]
+
+    @staticmethod
+    def _driven(skill: Skill, x_m: float, y_m: float, yaw_rad: float, said: str) -> Deed:
+        """Driving to where nothing has to be found."""
+        ends = {"position::x": x_m, "position::y": y_m, "orientation::y": yaw_rad}
         given: dict[str, str | float] = {
             name: next((value for end, value in ends.items() if name.endswith(end)), 0.0)
             for name in skill.action.inputs
         }
-        self.at = ""
-        return [Deed("GO", skill, given, {"G": "where I am now"})]
+        return Deed("GO", skill, given, {"G": said})
 
     def way_to_thing(self, thing: Value | None) -> list[Deed]:
         """The way to what is to be looked at, if it is known where that is."""
-        if thing is None or not (thing.things or thing.place):
+        if thing is None or not (thing.things or thing.place or thing.point):
             return []
         way = self.nearing(thing)
         return [] if isinstance(way, Ask) else way
