@@ -19,7 +19,7 @@ from parley.messages.status import ActionInfo
 from parley.sentences import Sentence, sentence
 from parley.world.object_map import MapObject
 
-__all__ = ["Labels", "command_label", "digest_of", "labels_of", "lines_of"]
+__all__ = ["Labels", "command_label", "digest_of", "for_next", "labels_of", "lines_of"]
 
 Labels = tuple[Sentence, ...]
 
@@ -45,7 +45,8 @@ def labels_of(
         objects: What the robot's map knows, to name places.
     """
     infos = {info.name: info for info in catalogue}
-    lines = _lines(calls, infos)
+    hidden = for_next(calls, catalogue)
+    lines = [at + 1 - sum(hidden[:at]) for at in range(len(calls))]
     labels: list[Sentence] = []
     for index, call in enumerate(calls):
         label = _label(call, infos.get(call.name), _place(calls, index, infos, objects))
@@ -57,21 +58,20 @@ def lines_of(
     calls: Sequence[ActionCall], labels: Sequence[Sentence], catalogue: Sequence[ActionInfo]
 ) -> Labels:
     """The labels that people read of steps: a search that is made only for the next step belongs to it."""
-    lines = _lines(calls, {info.name: info for info in catalogue})
+    hidden = for_next(calls, catalogue)
+    return tuple(label for label, is_hidden in zip(labels, hidden, strict=True) if not is_hidden)
+
+
+def for_next(calls: Sequence[ActionCall], catalogue: Sequence[ActionInfo]) -> tuple[bool, ...]:
+    """Of each step whether it only finds out what the next one needs."""
+    finding = {info.name for info in catalogue if info.only_finds}
+    pairs = zip(calls, [*calls, None][1:], strict=True)
     return tuple(
-        label for label, line, after in zip(labels, lines, [*lines, 0][1:], strict=True) if line != after
+        call.name in finding
+        and after is not None
+        and bool({*call.output_parameters} & {*after.input_parameters})
+        for call, after in pairs
     )
-
-
-def _lines(calls: Sequence[ActionCall], infos: Mapping[str, ActionInfo]) -> list[int]:
-    """The number of the line that each step is a part of, counted as people read them."""
-    lines, line = [], 1
-    for call, after in zip(calls, [*calls, None][1:], strict=True):
-        lines.append(line)
-        info = infos.get(call.name)
-        finds = after is not None and info is not None and info.only_finds
-        line += 0 if finds and after and set(call.output_parameters) & set(after.input_parameters) else 1
-    return lines
 
 
 def command_label(command: SystemCommand, step: str = "") -> Sentence:

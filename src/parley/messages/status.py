@@ -156,6 +156,8 @@ class PlanStep(Payload):
     state: Literal["queued", "running", "finished", "failed", "stopped", "skipped", "paused", "waiting"] = (
         "queued"
     )
+    for_next: bool = False
+    """Whether it only finds out what the next one needs: people read the two as one."""
 
 
 class PlanUpdate(Payload):

@@ -88,9 +88,11 @@ class Ways(Grounder):
         """That a memory was used is said."""
         if place.memory not in self.situation.memory:
             return  # it was told just now
-        note = Note(f"I remember: {place.memory.data.rstrip('.')}.", place.memory.name)
-        if note not in self.notes:
-            self.notes.append(note)
+        told = [note.source for note in self.notes if note.source]
+        fact = f"{place.memory.data.rstrip('.')}."
+        if place.memory.name not in told:
+            text = fact[:1].upper() + fact[1:] if told else f"I remember: {fact}"
+            self.notes.append(Note(text, place.memory.name))
 
     def waiting(self, text: str, words: Sequence[str]) -> Deed | Ask:
         """Waiting: by an action for it, else until a person says when.
