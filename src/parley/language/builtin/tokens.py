@@ -63,9 +63,14 @@ _HUM = re.compile(r"u+h+m*|u+m+|h+m+|m+h*m+|e+r+m*|a+h+|o+h+|e+h+|([a-z])\1{1,}|
 
 
 def spoken(tokens: Sequence[Token]) -> tuple[Token, ...]:
-    """Those that carry something: without hums, words said twice, and beginnings of the word that follows."""
+    """Those that carry something: without hums, words said twice, beginnings of the word that follows.
+
+    Nor does the full stop at the end: it is not spoken, and the tagger has seen few.
+    """
     kept: list[Token] = []
     loud = [token for token in tokens if not _HUM.fullmatch(token.text)]
+    while loud and loud[-1].text in ".…":
+        loud.pop()
     for token, behind in zip(loud, [*loud[1:], None], strict=False):
         begun = behind is not None and token.low.isalpha() and token.low not in ("a", "i")
         if begun and behind is not None and behind.low == token.low:
