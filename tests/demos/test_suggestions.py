@@ -1,8 +1,8 @@
-"""What the page offers to say is understood when it is tapped: examples, places of the map, phrases of actions."""
+"""What the page offers is understood when it is tapped: examples, places of the map, phrases of actions."""
 
 from __future__ import annotations
 
-import re
+from collections import defaultdict
 
 import pytest
 
@@ -48,8 +48,8 @@ async def test_every_thing_of_a_map_can_be_driven_to_as_the_map_says_it(demo: st
 )
 def test_how_an_action_is_asked_for_asks_for_it(action: str, phrase: str) -> None:
     for demo in DEMOS:
-        thing = load_demo(demo).objects.objects[0]
-        message = re.sub(r"\{(\w+)\}", lambda hole: HOLES.get(hole[1], f"the {thing.description}"), phrase)
-        decision = decided(demo, message)
+        holes = defaultdict(lambda: "the {}", HOLES)
+        thing = load_demo(demo).objects.objects[0].description
+        decision = decided(demo, phrase.format_map(holes).format(thing))
         assert not isinstance(decision, Ask), decision
         assert isinstance(decision, Do) and decision.deeds[-1].skill.action.name == action

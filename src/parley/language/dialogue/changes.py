@@ -298,13 +298,15 @@ def _replaced(plan: Sequence[Visit], against: Sequence[Named], wanted: Named) ->
     calls = _moved(old[0], target)
     if calls is None or target in old[0].things:
         return None
-    said = f"I do not {old[0].said}. Instead I take the {target.description}."
+    other = _reason(old[0].said, _names_of(old[0]), target)
+    other = other if other != old[0].said else f"take the {target.description}"
+    said = f"I do not {old[0].said}. Instead I {other}."
     return _reordered(plan, old[:1], _behind(plan, old[:1]), "instead", calls, said)
 
 
 def _moved(old: Visit, target: MapObject) -> tuple[ActionCall, ...] | None:
     """The same deed about another thing; None if it is not about one thing."""
-    names = {n.lower() for item in old.things for n in (item.description, item.id, *item.aliases)}
+    names = _names_of(old)
     calls, changed = [], False
     for call in old.calls:
         inputs = {}
@@ -318,6 +320,10 @@ def _moved(old: Visit, target: MapObject) -> tuple[ActionCall, ...] | None:
         reason = _reason(call.reason, names, target)
         calls.append(call.model_copy(update={"input_parameters": inputs, "reason": reason, "flow": None}))
     return tuple(calls) if changed else None
+
+
+def _names_of(visit: Visit) -> set[str]:
+    return {n.lower() for item in visit.things for n in (item.description, item.id, *item.aliases)}
 
 
 def _reason(reason: str, names: set[str], target: MapObject) -> str:
