@@ -64,6 +64,7 @@ def test_what_is_about_the_world_is_left_to_others(sentence: str) -> None:
         ("where are you going?", Dialogue("running", RUNS), "I go to the gate"),
         ("where are you going?", Dialogue(), "not going anywhere"),
         ("how long will that take?", Dialogue("running", RUNS, left_s=12.4), "12 seconds"),
+        ("how long will that take?", Dialogue("running", RUNS, left_s=1.2), "About 1 second more"),
         ("why are you going there?", Dialogue("running", RUNS, orders=(ORDER,)), "Because Kim asked me"),
         ("why did you stop?", Dialogue("paused", RUNS, stopped=Stop("whoa", "Kim", 1)), "Kim told me to"),
         ("why not?", Dialogue(refused="Ada must not go there."), "Ada must not go there"),

@@ -2,7 +2,12 @@
 
 from __future__ import annotations
 
-__all__ = ["with_article"]
+__all__ = ["counted", "with_article"]
+
+
+def counted(number: int, what: str) -> str:
+    """So many of something: "1 step", "2 steps"."""
+    return f"{number} {what}" if number == 1 else f"{number} {what}s"
 
 
 def with_article(text: str) -> str:

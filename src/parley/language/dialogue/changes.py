@@ -13,6 +13,7 @@ from typing import Final, Literal
 
 from parley.language.base import Situation
 from parley.language.builtin.lexicon import Lexicon
+from parley.language.builtin.saying import counted
 from parley.language.builtin.tokens import Token
 from parley.language.dialogue.answers import step_words
 from parley.language.dialogue.mentions import Named, named
@@ -279,7 +280,8 @@ def _by_number(plan: Sequence[Visit], low: Sequence[str]) -> Change | None:
     if not places or not re.search(r"\b(?:one|step|stop|thing|part|item|place|point|task|bit)s?\b", text):
         return None
     if not all(-len(plan) <= place < len(plan) for place in places):
-        return Change(question=f"I have only {len(plan)} things left to do. Which one do you mean?")
+        only = counted(len(plan), "thing")
+        return Change(question=f"I have only {only} left to do. Which one do you mean?")
     return _dropping([plan[place] for place in dict.fromkeys(places)])
 
 
