@@ -82,6 +82,7 @@ def test_what_is_about_the_world_is_left_to_others(sentence: str) -> None:
         ("what else is in it?", Dialogue(deeds=(LOOKED,)), "I also saw rope."),
         ("what is left to do?", Dialogue("running", RUNS), "go to the gate"),
         ("what is left to do?", Dialogue(), "Nothing"),
+        ("what did you do?", Dialogue(deeds=(deed("Look: “whether it is shut”"),)), "look: whether it"),
         ("how much battery is left?", Dialogue(battery=0.41), "41 %"),
         ("how much battery is left?", Dialogue(), "cannot tell"),
     ],
