@@ -18,6 +18,7 @@ from parley.language.builtin.tagger import shipped_tagger
 from parley.language.builtin.training.data import data_hash
 from parley.messages.status import ActionInfo
 from parley.umrf.catalogue import info_of
+from parley.world.geometry import Pose2D
 from parley.world.object_map import MapObject
 from tests.language.builtin.worlds import CATALOGUE, NAMES, SENTENCES, THINGS, action, situation
 
@@ -125,6 +126,15 @@ def test_a_point_of_the_map_is_driven_to_by_its_numbers() -> None:
     ((frame, given),) = calls(posed)
     assert (frame, given[:3]) == ("GO", ["-2.02", "0.0", "0.0"]) and "4.5" in given
     assert calls(situation("drive to (1.5, -2)")) == [("GO", ["point (1.5, -2)"])]
+
+
+def test_turning_around_is_half_a_turn_and_back_is_nowhere_where_nothing_came_before() -> None:
+    catalogue = tuple(info_of(spec) for spec in BUILTIN_ACTIONS)
+    assert calls(situation("please turn around", catalogue=catalogue)) == [("TURN", ["180.0", "left"])]
+    assert calls(situation("turn around by 90 degrees", catalogue=catalogue)) == []
+    here = Pose2D(1.0, 2.0, 0.0)
+    assert calls(situation("come back", catalogue=catalogue, robot_pose=here)) == []
+    assert len(calls(situation("go to the office and come back", catalogue=catalogue, robot_pose=here))) == 3
 
 
 def splice(chance: random.Random) -> str:

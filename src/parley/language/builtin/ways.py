@@ -56,7 +56,7 @@ class Ways(Grounder):
     def way_back(self) -> list[Deed] | Ask:
         """The way to where the robot is now."""
         skill, pose = self.skills.get("GO"), self.situation.robot_pose
-        if skill is None or pose is None or not skill.takes_pose:
+        if skill is None or pose is None or not skill.takes_pose or not self.at:
             return Ask("Where shall I go back to?")
         self.at = ""
         return [self._driven(skill, pose.x_m, pose.y_m, pose.yaw_rad, "where I am now")]
