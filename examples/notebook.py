@@ -14,7 +14,7 @@ print(parley.say(robot, "Where is the spanner?").message)
 # %% an order waits for a yes, and the yes counts for what was shown
 print(parley.say(robot, "go to the bookshelf").message)
 proposal = parley.proposal(robot)
-print(proposal.labels)
+print(proposal.lines)
 parley.approve(proposal)
 print([each.state for each in parley.settled(robot, timeout_s=60).steps])
 

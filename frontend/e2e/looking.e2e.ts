@@ -105,7 +105,7 @@ describe.skipIf(!hasBrowser)('an operator who looks around', () => {
     await say(page, 'Look for a tennis racket in the wardrobe.');
     await page.locator('li[data-question="open"]').first().waitFor();
     await page.getByRole('link', { name: 'Problems' }).click();
-    await page.getByText(/^I cannot see a tennis racket/).waitFor();
+    await page.getByText(/^I looked, but I cannot see the tennis racket/).waitFor();
     await page.getByRole('button', { name: 'See it in the chat' }).first().click();
     await page.locator('li[data-entry]:focus').waitFor();
   });

@@ -49,6 +49,15 @@ async def test_order_during_a_repair_waits_is_confirmed_and_then_carried_out(fai
     assert failed.body.did == ["look box", "look box", "look door", "look desk"]
 
 
+async def test_an_order_in_the_place_of_an_answer_is_confirmed_for_afterwards(failed: Crew) -> None:
+    failed.language.will("resolve", ChatAction())  # no answer, so the chat takes it
+    failed.language.will("interpret", order(look("desk")))
+    failed.observer.say("look at the desk", "A", answer=True)
+    await failed.hears(AFTERWARDS)
+    await failed.until(lambda: failed.observer.questions.first("A") is not None)
+    assert failed.body.did == ["look box"]
+
+
 async def test_order_said_as_the_answer_for_afterwards_is_carried_out_last(failed: Crew) -> None:
     later = ChatAction(message_response="I will do that afterwards.", queue=(look("desk"),))
     failed.language.will("resolve", later, AGAIN)

@@ -111,13 +111,14 @@ async def test_it_waits_again_and_is_carried_out_after_a_yes(data: Path) -> None
         proposal = await offered(home)
         assert proposal.labels == ("Find out where “dining table” is", "Go to “dining table”")
         assert [call.name for call in proposal.steps] == ["GetCoordinates", "NavigateTo"]
+        assert proposal.lines == ("Go to “dining table”",)
         (told,) = [said.message for said in home.observer.said if "started anew" in said.message]
         assert "please look at it again" in told
         assert home.observer.state(home.robot) == "awaiting_approval"
         decide(home, proposal, decision="approve")
         await home.state("running")
         assert await home.done() == ["finished"] * 2
-        assert any("All right: 1. Find out" in said.message for said in home.observer.said)
+        assert any("All right: Go to" in said.message for said in home.observer.said)
         assert home.distance_m("dining_table_1") < 1.2
     assert kept(data) == 0
     async with running(system(data)) as home:
@@ -173,7 +174,7 @@ def test_the_terminal_shows_it_again_and_takes_the_yes(data: Path) -> None:
     ]  # fmt: skip
     done = subprocess.run(command, input="yes\n", capture_output=True, text=True, timeout=100, check=False)
     told = " ".join(done.stdout.split())
-    order = ["David would do this:", "Answer yes or no.", "All right: 1. Find out", "I have finished"]
+    order = ["David would do this:", "Answer yes or no.", "All right: Go to", "I have finished"]
     places = [told.find(text) for text in order]
     assert places == sorted(places), done.stdout
     assert places[0] >= 0, done.stdout

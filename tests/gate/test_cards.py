@@ -6,15 +6,15 @@ from typing import Any
 
 import pytest
 
-from parley.gate.cards import command_label, digest_of, labels_of
-from parley.messages.chat import ActionCall, SystemCommand
+from parley.gate.cards import command_label, digest_of, labels_of, lines_of
+from parley.messages.chat import ActionCall, Flow, SystemCommand
 from parley.messages.pvf import Parameter
 from parley.messages.status import ActionInfo
 from parley.world.object_map import MapObject
 
 X, Y = "pose::position::x", "pose::position::y"
 FIND = ActionInfo(name="Find", inputs={"target": "string"}, outputs={X: "number", Y: "number"},
-                  label="Find out where {target} is")  # fmt: skip
+                  label="Find out where {target} is", effects=("locates",))  # fmt: skip
 GO = ActionInfo(name="GoTo", inputs={X: "number", Y: "number"}, phrases=("go to {place}",))
 HONK = ActionInfo(name="HonkLoudly", inputs={"times": "number"})
 CATALOGUE = (FIND, GO, HONK)
@@ -50,6 +50,16 @@ def test_a_pose_is_told_by_the_map() -> None:
 def test_an_action_without_words_of_its_own_is_told_by_its_name_and_every_argument() -> None:
     assert labels_of([call("HonkLoudly", times=3)], CATALOGUE) == ("Honk loudly: times “3”",)
     assert labels_of([call("Unknown_Thing", where="hall")], CATALOGUE) == ("Unknown thing: where “hall”",)
+
+
+def test_a_search_for_the_next_step_only_is_no_line_of_its_own_and_is_not_counted() -> None:
+    hurry = drive().model_copy(update={"flow": Flow(together_with=3)})
+    calls = [find("box"), call("Look"), find("shelf"), drive(), hurry, find("bell")]
+    labels = labels_of(calls, CATALOGUE)
+    together = "At the same time as step 3: Go to “shelf”"
+    assert labels[1:] == ("Look", "Find out where “shelf” is", "Go to “shelf”", together, labels[-1])
+    shown = ("Find out where “box” is", "Look", "Go to “shelf”", together, "Find out where “bell” is")
+    assert lines_of(calls, labels, CATALOGUE) == shown
 
 
 @pytest.mark.parametrize(

@@ -297,13 +297,22 @@ SAMPLES: dict[type[BaseModel], dict[str, Any]] = {
         "scan": [[0.5, 0.25]],
         "unix_ms": 1,
     },
-    status.PlanStep: {"action": MOVE, "node": "Move_0", "state": "running", "label": "Go there", "id": "s1"},
+    status.PlanStep: {
+        "action": MOVE,
+        "node": "Move_0",
+        "state": "running",
+        "label": "Go there",
+        "id": "s1",
+        "for_next": True,
+    },
     status.PlanUpdate: {
         "kind": "update",
         "target": "A",
         "graph_name": "g",
         "state": "paused",
-        "steps": [{"action": MOVE, "node": "Move_0", "state": "paused", "label": "", "id": "s1"}],
+        "steps": [
+            {"action": MOVE, "node": "Move_0", "state": "paused", "label": "", "id": "s1", "for_next": False}
+        ],
         "revision": 3,
         "policy": "ask_when_risky",
         "held_by": KIM,
@@ -312,7 +321,7 @@ SAMPLES: dict[type[BaseModel], dict[str, Any]] = {
         "order": "7",
         "target": "A",
         "outcome": "asked",
-        "labels": ["Go there"],
+        "lines": ["Go there"],
         "why": "It is far.",
     },
     status.PlanProposal: {
@@ -323,6 +332,7 @@ SAMPLES: dict[type[BaseModel], dict[str, Any]] = {
         "steps": [MOVE],
         "commands": [{"pop": {"parameters": 1}}],
         "labels": ["Leave out: look", "Go there"],
+        "lines": ["Leave out: look", "Go there"],
         "digest": "5b1e",
         "by": KIM,
         "why": "It is far.",

@@ -139,7 +139,8 @@ async def test_words_before_any_robot_is_there_are_not_lost_in_silence() -> None
 async def test_a_proposed_plan_is_approved() -> None:
     async with opened() as session:
         steps = (call("Go", "go there"), call("Look", "look there"))
-        proposal = PlanProposal(id="p1", target="Ada", steps=steps, labels=("drive to the box",), digest="d1")
+        labels = ("drive to the box", "look there")
+        proposal = PlanProposal(id="p1", target="Ada", steps=steps, labels=labels, digest="d1")
         session.robots.tell(topics.PLAN, proposal)
         await session.shows("1. drive to the box\n")
         await session.shows("2. look there\n")

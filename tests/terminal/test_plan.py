@@ -8,7 +8,7 @@ from hypothesis import strategies as st
 
 from parley.messages.chat import ActionCall
 from parley.messages.status import PlanUpdate
-from parley.terminal.plan import Progress, bar, compare, label, plan_rows, step_row
+from parley.terminal.plan import Progress, bar, compare, label, lines_of, plan_rows, step_row
 from parley.terminal.texts import Texts
 from tests.terminal.robots import call, plan, step
 
@@ -102,3 +102,14 @@ def test_of_what_is_cancelled_only_the_step_that_had_begun_is_reported() -> None
     before = plan(step("a", "running", "a_0"), step("b", "queued", "b_0"))
     _, ended = compare(before, plan(step("a", "stopped", "a_0"), step("b", "stopped", "b_0"), state="idle"))
     assert [step.action.reason for step in ended] == ["a"]
+
+
+def test_a_search_for_the_next_step_is_shown_only_where_it_has_something_to_say() -> None:
+    def shown(*states: str) -> list[str]:
+        one, two = (step("find", state).model_copy(update={"for_next": True}) for state in states)
+        return [
+            f"{line.action.reason} {line.state}" for line in lines_of([one, step("go"), two, step("look")])
+        ]
+
+    assert shown("running", "queued") == ["go running", "look queued"]
+    assert shown("finished", "failed") == ["go queued", "find failed", "look queued"]

@@ -21,7 +21,7 @@ from parley.web.app import openapi_text
 from parley.web.config import WebConfig
 
 ENDS_WITHIN_S = 15
-STEPS = "1. Find out where “dining table” is, 2. Go to “dining table”"
+STEPS = "Go to “dining table”"
 ASKED = f"This is what I would do: {STEPS}. Shall I?"
 """How long a test waits for an end; how quick it is, is not a test's business."""
 

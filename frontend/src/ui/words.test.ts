@@ -30,5 +30,6 @@ describe('words', () => {
   it('are worth showing where they say more than stands there', () => {
     expect(addsTo('Go to “door”', 'go to the door')).toBe(false);
     expect(addsTo('Go to “door”', 'go to the door to let Kim pass')).toBe(true);
+    expect(addsTo('Look with the camera: “door”', 'check the door')).toBe(false);
   });
 });

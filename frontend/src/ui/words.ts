@@ -45,10 +45,11 @@ export const quoted = (words: string): string =>
 
 const LONG = /[\p{L}\p{N}]{4,}/gu;
 
-/** Whether somebody's words say more than stands there already. */
+/** Whether somebody's words say more than stands there already; another word for the deed itself is no more. */
 export function addsTo(known: string, words: string): boolean {
   const there = new Set(known.toLowerCase().match(LONG));
-  return (words.toLowerCase().match(LONG) ?? []).some((word) => !there.has(word));
+  const about = words.trimStart().toLowerCase().replace(/^\S+/, '');
+  return (about.match(LONG) ?? []).some((word) => !there.has(word));
 }
 
 /** Day and time. */

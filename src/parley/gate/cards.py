@@ -19,7 +19,7 @@ from parley.messages.status import ActionInfo
 from parley.sentences import Sentence, sentence
 from parley.world.object_map import MapObject
 
-__all__ = ["Labels", "command_label", "digest_of", "labels_of"]
+__all__ = ["Labels", "command_label", "digest_of", "for_next", "labels_of", "lines_of"]
 
 Labels = tuple[Sentence, ...]
 
@@ -36,23 +36,42 @@ def labels_of(
     calls: Sequence[ActionCall],
     catalogue: Sequence[ActionInfo],
     objects: Sequence[MapObject] = (),
-    before: Sequence[ActionCall] = (),
 ) -> Labels:
-    """One line per step.
+    """What each step does.
 
     Args:
         calls: The steps in order.
         catalogue: What the robot can do.
         objects: What the robot's map knows, to name places.
-        before: Steps that come first and may hand something on.
     """
     infos = {info.name: info for info in catalogue}
-    given = [*before, *calls]
+    hidden = for_next(calls, catalogue)
+    lines = [at + 1 - sum(hidden[:at]) for at in range(len(calls))]
     labels: list[Sentence] = []
-    for index, call in enumerate(calls, len(before)):
-        label = _label(call, infos.get(call.name), _place(given, index, infos, objects))
-        labels.append(_conditional(call, label))
+    for index, call in enumerate(calls):
+        label = _label(call, infos.get(call.name), _place(calls, index, infos, objects))
+        labels.append(_conditional(call, label, lines))
     return tuple(labels)
+
+
+def lines_of(
+    calls: Sequence[ActionCall], labels: Sequence[Sentence], catalogue: Sequence[ActionInfo]
+) -> Labels:
+    """The labels that people read of steps: a search that is made only for the next step belongs to it."""
+    hidden = for_next(calls, catalogue)
+    return tuple(label for label, is_hidden in zip(labels, hidden, strict=True) if not is_hidden)
+
+
+def for_next(calls: Sequence[ActionCall], catalogue: Sequence[ActionInfo]) -> tuple[bool, ...]:
+    """Of each step whether it only finds out what the next one needs."""
+    finding = {info.name for info in catalogue if info.only_finds}
+    pairs = zip(calls, [*calls, None][1:], strict=True)
+    return tuple(
+        call.name in finding
+        and after is not None
+        and bool({*call.output_parameters} & {*after.input_parameters})
+        for call, after in pairs
+    )
 
 
 def command_label(command: SystemCommand, step: str = "") -> Sentence:
@@ -132,22 +151,26 @@ def _fits(phrase: str, arguments: Mapping[str, str], place: str) -> bool:
     return not foreign or (len(foreign) == 1 and bool(place))
 
 
-def _conditional(call: ActionCall, label: Sentence) -> Sentence:
+def _conditional(call: ActionCall, label: Sentence, lines: Sequence[int]) -> Sentence:
+    """With what it depends on, by the number that people read before it."""
     flow = call.flow
     if flow is None:
         return label
     if flow.repeat is not None and flow.repeat > 1:
         label = sentence("{what}, {count} times", what=label, count=flow.repeat)
     if flow.if_ is not None:
-        number = flow.if_.step + 1
+        number = _line_at(flow.if_.step, lines)
         if flow.if_.result:
             return sentence("If step {number} says yes: {what}", number=number, what=label)
         return sentence("If step {number} says no: {what}", number=number, what=label)
     if flow.together_with is not None:
-        return sentence(
-            "At the same time as step {number}: {what}", number=flow.together_with + 1, what=label
-        )
+        number = _line_at(flow.together_with, lines)
+        return sentence("At the same time as step {number}: {what}", number=number, what=label)
     return label
+
+
+def _line_at(step: int, lines: Sequence[int]) -> int:
+    return lines[step] if step < len(lines) else step + 1
 
 
 def _place(

@@ -2,9 +2,10 @@
 
 from __future__ import annotations
 
+from collections.abc import Mapping
 from typing import Any, Literal
 
-from pydantic import Field
+from pydantic import Field, model_validator
 
 from parley.messages.base import ParameterTree, Payload
 from parley.messages.chat import ActionCall, SystemCommand
@@ -89,6 +90,11 @@ class ActionInfo(Payload):
     timeout_s: float | None = None
     """Robot time after which it is cancelled and fails; None: never."""
 
+    @property
+    def only_finds(self) -> bool:
+        """Whether it finds out where something is and does nothing else."""
+        return set(self.effects) == {"locates"}
+
 
 class ActorStatus(Payload):
     """`/parley/actor_status`: heartbeat of one engine."""
@@ -150,6 +156,8 @@ class PlanStep(Payload):
     state: Literal["queued", "running", "finished", "failed", "stopped", "skipped", "paused", "waiting"] = (
         "queued"
     )
+    for_next: bool = False
+    """Whether it only finds out what the next one needs: people read the two as one."""
 
 
 class PlanUpdate(Payload):
@@ -182,6 +190,8 @@ class PlanProposal(Payload):
     labels: tuple[LineText, ...] = ()
     """What each command and then each step does, in words that our code wrote from action, arguments and map.
     """
+    lines: tuple[LineText, ...] = ()
+    """What people read of `labels`: a search that is made only for the next step belongs to that step."""
     digest: str = ""
     """Of robot, steps and what their arguments mean on the map; a yes names it."""
     by: Principal | None = None
@@ -190,6 +200,14 @@ class PlanProposal(Payload):
     """Why a yes is needed though the policy would not ask, in plain words; empty: the policy asks."""
     words: str = ""
     """What the person said who wants it."""
+
+    @model_validator(mode="before")
+    @classmethod
+    def _without_lines(cls, told: Any) -> Any:
+        """Where nobody says what people read of it, they read all."""
+        if isinstance(told, Mapping) and not told.get("lines"):
+            return {**told, "lines": told.get("labels", ())}
+        return told
 
 
 class PlanRuling(Payload):
@@ -200,8 +218,8 @@ class PlanRuling(Payload):
     target: str
     outcome: Literal["done", "asked", "refused"] = "done"
     """`asked`: all of it, or what is left of it, waits for a yes."""
-    labels: tuple[str, ...] = ()
-    """What would be done, in words that our code wrote."""
+    lines: tuple[str, ...] = ()
+    """What would be done, as people read it, in words that our code wrote."""
     why: str = ""
     """Why it is asked or refused, in plain words."""
 

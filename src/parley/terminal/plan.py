@@ -11,7 +11,7 @@ from parley.messages.status import PlanStep, PlanUpdate
 from parley.terminal.lines import Fragments
 from parley.terminal.texts import Texts
 
-__all__ = ["ICONS", "Progress", "bar", "compare", "is_over", "label", "plan_rows", "step_row"]
+__all__ = ["ICONS", "Progress", "bar", "compare", "is_over", "label", "lines_of", "plan_rows", "step_row"]
 
 ICONS = {
     "queued": "○",
@@ -26,6 +26,7 @@ ICONS = {
 """Step state -> one character."""
 
 _STYLES = {"running": "class:now", "finished": "class:done", "failed": "class:bad", "waiting": "class:ask"}
+_ALONE = ("failed", "waiting", "paused", "stopped")
 _WORD_STARTS = re.compile(r"(?<=[a-z0-9])(?=[A-Z])|[_\s]+")
 _MAX_LABEL_CHARS = 60
 
@@ -69,10 +70,25 @@ def is_over(step: PlanStep) -> bool:
     return step.state in ("finished", "failed", "stopped", "skipped")
 
 
+def lines_of(steps: Sequence[PlanStep]) -> list[PlanStep]:
+    """The steps that are shown: a search for the next one only where it has something to say of its own."""
+    lines: list[PlanStep] = []
+    begun = False
+    for step in steps:
+        if step.for_next and step.state not in _ALONE:
+            begun = begun or step.state == "running"
+            continue
+        starts = begun and step.state == "queued"
+        lines.append(step.model_copy(update={"state": "running"}) if starts else step)
+        begun = False
+    return lines
+
+
 def plan_rows(
     steps: Sequence[PlanStep], texts: Texts, progress: Progress | None = None, *, max_rows: int = 6
 ) -> list[Fragments]:
     """The live view of a plan, at most `max_rows` rows around the first step that is not over."""
+    steps = lines_of(steps)
     current = next((i for i, step in enumerate(steps) if not is_over(step)), len(steps))
     first = max(0, min(current - 1, len(steps) - max_rows))
     shown = steps[first : first + max_rows]

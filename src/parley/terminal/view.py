@@ -19,7 +19,7 @@ from parley.messages.status import (
     StopReport,
 )
 from parley.terminal.lines import Fragments, Line, LineKind
-from parley.terminal.plan import Progress, compare, is_over, label, plan_rows, step_row
+from parley.terminal.plan import Progress, compare, is_over, label, lines_of, plan_rows, step_row
 from parley.terminal.texts import Texts
 
 __all__ = ["LOST_AFTER_S", "OperatorView", "Question", "RobotView"]
@@ -166,7 +166,7 @@ class OperatorView:
         if was != "idle" and message.state == "idle":
             robot.pending.clear()
         is_new, ended = compare(before, message)
-        lines = [Line("step", step_row(step, self.texts)) for step in ended]
+        lines = [Line("step", step_row(step, self.texts)) for step in lines_of(ended)]
         to_come = [step for step in message.steps if not is_over(step)]
         if is_new and to_come and message.state != "awaiting_approval":
             lines += self._plan(robot, to_come)
@@ -278,15 +278,15 @@ class OperatorView:
         robot.pending = [item for item in robot.pending if not isinstance(item, PlanProposal)]
         robot.pending.append(proposal)
         heading = Line("heading", self.texts("proposal_of", robot=robot.name))
-        labels = [*proposal.labels, *map(label, proposal.steps[len(proposal.labels) :])]
-        rows = [Line("step", f"{number}. {text}") for number, text in enumerate(labels, 1)]
+        lines = proposal.lines or tuple(map(label, proposal.steps))
+        rows = [Line("step", f"{number}. {text}") for number, text in enumerate(lines, 1)]
         return [heading, *rows, Line("asked", self.texts("yes_or_no"))]
 
     def _plan(self, robot: RobotView, steps: Sequence[PlanStep]) -> list[Line]:
         """A heading and the steps; those to come are numbered as operators call them ("the second")."""
         lines = [Line("heading", self.texts("plan_of", robot=robot.name))]
         number = 0
-        for step in steps:
+        for step in lines_of(steps):
             number += 0 if is_over(step) else 1
             progress = robot.progress if robot.progress and robot.progress.node == step.node else None
             lines.append(Line("step", step_row(step, self.texts, number=number, progress=progress)))

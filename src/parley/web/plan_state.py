@@ -138,7 +138,7 @@ class PlanBook:
         ability = self._ability_of(robot, action)
         if ability is None:
             return {"risk": RiskClass.UNKNOWN, "only_finds": False}
-        return {"risk": ability.kind, "only_finds": set(ability.effects) == {"locates"}}
+        return {"risk": ability.kind, "only_finds": ability.only_finds}
 
     def forget(self, robot: str) -> None:
         """A robot was taken off the list."""

@@ -9,6 +9,7 @@ from importlib import resources
 
 import pytest
 
+from parley.actions.builtin import BUILTIN_ACTIONS
 from parley.language.base import Situation
 from parley.language.builtin.decision import Ask, Do
 from parley.language.builtin.engine import BuiltinLanguage
@@ -16,12 +17,14 @@ from parley.language.builtin.lexicon import lexicon
 from parley.language.builtin.tagger import shipped_tagger
 from parley.language.builtin.training.data import data_hash
 from parley.messages.status import ActionInfo
+from parley.umrf.catalogue import info_of
+from parley.world.geometry import Pose2D
 from parley.world.object_map import MapObject
 from tests.language.builtin.worlds import CATALOGUE, NAMES, SENTENCES, THINGS, action, situation
 
 ENGINE = BuiltinLanguage()
 STRANGE = "glim pot,zorb,quell stand,vantry,bulber,norrick,plaunt,thrum,skeel,oblex"
-ODD = ["uh", "and", "then", "not", "if", ",", ".", "…", "3", "½", "it", "’s", "\u200d", "é"]
+ODD = ["uh", "and", "then", "not", "if", ",", ".", "…", "3", "½", "it", "’s", "\u200d", "é", "(3, -2)"]
 UNCERTAIN = """don't go to the office; go to the zeppelin; frobnicate it;
 check every door except the last one; turn left; move forward; ; ?!; the; go to the office at six; stop;
 hello; somebody fell; Kim is in the office; where is the red box; bring it to me; never open the front gate;
@@ -36,11 +39,11 @@ def calls(given: Situation) -> list[tuple[str, list[str]]]:
 
 @pytest.mark.parametrize("frame", lexicon().frames)
 def test_both_witnesses_read_the_sentences_of_a_frame_as_that_frame(frame: str) -> None:
-    for sentence in lexicon().frames[frame].tests:
+    for sentence in (f"{test}{mark}" for test in lexicon().frames[frame].tests for mark in ("", ".")):
         reading = ENGINE.reading(sentence)
         assert [wish.frame for wish in reading.wishes] == [frame], sentence
         assert reading.wishes[0].witness == ("unknown" if frame == "DO" else "agrees"), sentence
-        assert not reading.left_over, sentence
+        assert not (reading.left_over or reading.unsteady), sentence
 
 
 def test_weights_and_data_belong_together() -> None:
@@ -115,6 +118,23 @@ def test_a_parameter_takes_only_its_type() -> None:
     decision = ENGINE.decide(situation("move forward ten feet", catalogue=(info,)))
     assert isinstance(decision, Do)
     assert decision.deeds[0].arguments == {"direction": "forward", "distance": 3.048}
+
+
+def test_a_point_of_the_map_is_driven_to_by_its_numbers() -> None:
+    catalogue = tuple(info_of(spec) for spec in BUILTIN_ACTIONS)
+    posed = situation("Go to the point (4.50, -2.02) and wait there.", catalogue=catalogue)
+    ((frame, given),) = calls(posed)
+    assert (frame, given[:3]) == ("GO", ["-2.02", "0.0", "0.0"]) and "4.5" in given
+    assert calls(situation("drive to (1.5, -2)")) == [("GO", ["point (1.5, -2)"])]
+
+
+def test_turning_around_is_half_a_turn_and_back_is_nowhere_where_nothing_came_before() -> None:
+    catalogue = tuple(info_of(spec) for spec in BUILTIN_ACTIONS)
+    assert calls(situation("please turn around", catalogue=catalogue)) == [("TURN", ["180.0", "left"])]
+    assert calls(situation("turn around by 90 degrees", catalogue=catalogue)) == []
+    here = Pose2D(1.0, 2.0, 0.0)
+    assert calls(situation("come back", catalogue=catalogue, robot_pose=here)) == []
+    assert len(calls(situation("go to the office and come back", catalogue=catalogue, robot_pose=here))) == 3
 
 
 def splice(chance: random.Random) -> str:

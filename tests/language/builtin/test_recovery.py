@@ -2,12 +2,15 @@
 
 from __future__ import annotations
 
+from dataclasses import replace
+
 import pytest
 
 from parley.errors import FailureCode
 from parley.language.base import ErrorSituation, ReplyReading
 from parley.language.builtin.engine import BuiltinLanguage
 from parley.messages.chat import ActionCall
+from parley.messages.status import ActionInfo
 
 ENGINE = BuiltinLanguage()
 STEP = ActionCall.model_validate(
@@ -26,6 +29,24 @@ async def test_several_candidates_are_offered_and_the_chosen_one_is_taken() -> N
     solved = await ENGINE.resolve(failure("the southern one, I mean the south gate"))
     assert solved.success
     assert solved.queue[0].input_parameters["target"].value == "south gate"
+
+
+@pytest.mark.parametrize(
+    ("reply", "taken"),
+    [
+        ("go to the south gate", True),
+        ("drive over to the south gate, please", True),
+        ("go to the south gate and open it", None),
+        ("take the box to the south gate", None),
+    ],
+)
+async def test_an_order_to_go_where_the_plan_waits_to_go_is_the_answer(
+    reply: str, taken: bool | None
+) -> None:
+    finds = (ActionInfo(name="GetCoordinates", effects=("locates",)),)
+    answer = await ENGINE.resolve(replace(failure(reply), catalogue=finds))
+    assert answer.success is taken
+    assert (await ENGINE.resolve(failure(reply))).success is None  # a step that is more than a search
 
 
 @pytest.mark.parametrize(

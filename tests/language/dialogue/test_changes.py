@@ -70,6 +70,20 @@ async def test_of_one_way(message: str, drops: set[int], adds: list[str]) -> Non
 
 
 @pytest.mark.parametrize(
+    "message",
+    ["no wait, go to the lamp instead", "sorry, go to the lamp", "I meant go to the lamp",
+     "go to the lamp instead", "hang on, I mean go to the lamp"],
+)  # fmt: skip
+async def test_what_is_taken_back_though_nothing_runs_is_just_the_order(message: str) -> None:
+    assert goals(await ENGINE.interpret(given(message))) == ["lamp"]
+
+
+async def test_another_place_is_said_by_the_deed() -> None:
+    answer = await ENGINE.interpret(given("no, the gate", "box"))
+    assert answer.message_response == "I do not go to the box. Instead I go to the gate."
+
+
+@pytest.mark.parametrize(
     ("message", "drops", "adds"),
     [
         ("skip the gate", {1, 2}, []),

@@ -57,6 +57,12 @@ async def test_a_fact_is_corrected_by_a_pronoun() -> None:
     assert (command.arguments["name"], command.arguments["data"]) == ("kim_location", "Kim is at the yard")
 
 
+async def test_a_fact_about_something_else_is_no_correction_of_the_one_before() -> None:
+    before = (Turn("operator", "Kim is in the office"), Turn("assistant", "I will remember that."))
+    for told in ("remember that Ada is at the ramp", "please remember that Ada moved to the ramp"):
+        assert "Kim" not in "".join(stored(await ENGINE.interpret(situation(told, history=before))))
+
+
 async def test_other_facts_are_kept_in_the_persons_words() -> None:
     answer = await ENGINE.interpret(situation("Kim is allergic to wool by the way"))
     assert stored(answer) == ["Kim is allergic to wool"]

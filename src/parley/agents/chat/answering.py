@@ -169,7 +169,7 @@ class Answering:
         self._order(order, said)
         for ruling in await self._rulings.about(order):
             if ruling.outcome == "asked":
-                self.say((name,), together(wish_of(ruling.labels, ruling.why), SHALL_I), "info")
+                self.say((name,), together(wish_of(ruling.lines, ruling.why), SHALL_I), "info")
 
     async def _carry_out(
         self, target: str, said: ChatInput, understood: ChatAction, admitted: Admitted, situation: Situation
@@ -191,7 +191,7 @@ class Answering:
         reply = failed or understood.message_response or "Done."
         if not failed:
             reply = self._honest(target, reply, order, admitted, rulings)
-        if not failed and self._waits_behind_a_question(target, order):
+        if not failed and self._waits_behind_a_question(order, situation):
             reply = together(reply, texts.AFTERWARDS)
         self._known.note(target, said.message, reply)
         if order.alarm:
@@ -233,7 +233,7 @@ class Answering:
         """The engine's reply where what it says was done; else what was done instead, in our words."""
         asked = next((ruling for ruling in rulings if ruling.outcome == "asked"), None)
         if asked is not None:
-            return wish_of(asked.labels, asked.why)
+            return wish_of(asked.lines, asked.why)
         if rulings and all(ruling.outcome == "refused" for ruling in rulings):
             return together(texts.NOT_DONE, *admitted.refused)
         if admitted.resumes and not order.queue:
@@ -273,10 +273,11 @@ class Answering:
         self._known.on_order(said, order)
         self._node.publish(topics.CHAT_ACTION, order)
 
-    def _waits_behind_a_question(self, target: str, order: ChatAction) -> bool:
+    def _waits_behind_a_question(self, order: ChatAction, situation: Situation) -> bool:
         """Whether an order is kept until the robot's question about a failed step is answered."""
+        held = self._known.state(situation.robot) == "held" and bool(situation.question)
         control = {command.command for command in order.system_cmd} - {"add_memory", "remove_memory"}
-        return self._known.waits_for_answer(target) and bool(order.queue) and not control
+        return held and bool(order.queue) and not control
 
     def _trusted(self, target: str, understood: ChatAction) -> ChatAction | None:
         """The order with its addressees, if each robot named can carry it out; None if not."""

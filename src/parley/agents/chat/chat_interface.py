@@ -203,7 +203,7 @@ class ChatInterface(Node):
         if decision.decision == "reject" or offered is None or self._offered.is_asked(target):
             self.publish(topics.PLAN_DECISION, decision)
         else:
-            text = together(wish_of(offered.labels, offered.why), SHALL_I)
+            text = together(wish_of(offered.lines, offered.why), SHALL_I)
             self._say((target,), text, "response", said.id)
 
     def _on_said(self, feedback: ChatFeedback) -> None:

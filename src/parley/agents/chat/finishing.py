@@ -125,7 +125,7 @@ class Finishing:
             return ""
         if not left and len(steps) < 2 and self._now_s() - job.began_s < _SHORT_S:
             return ""
-        finding = {info.name for info in catalogue if set(info.effects) == {"locates"}}
+        finding = {info.name for info in catalogue if info.only_finds}
         if left:
             named = [step.label or step.action.name for step in left if step.action.name not in finding]
             named = named or [step.label or step.action.name for step in left]

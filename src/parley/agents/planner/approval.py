@@ -7,7 +7,7 @@ from types import MappingProxyType
 
 from parley.agents.planner.plan import TargetPlan
 from parley.agents.planner.steps import Step
-from parley.gate.cards import labels_of
+from parley.gate.cards import for_next, labels_of
 from parley.gate.ruling import Policy
 from parley.messages.chat import SystemCommand
 from parley.messages.principal import Principal
@@ -143,14 +143,14 @@ class PlanBoard:
         """With what each step does in our words; worked out anew only where the steps are others."""
         calls = [step.action for step in update.steps]
         if before is not None and calls == [step.action for step in before.steps]:
-            labels: Sequence[str] = [step.label for step in before.steps]
+            told = [{"label": step.label, "for_next": step.for_next} for step in before.steps]
         else:
-            target = update.target
-            labels = labels_of(calls, self._catalogue(target), self._objects(target))
-        steps = zip(update.steps, labels, strict=True)
-        return update.model_copy(
-            update={"steps": tuple(step.model_copy(update={"label": str(text)}) for step, text in steps)}
-        )
+            catalogue = self._catalogue(update.target)
+            labels = labels_of(calls, catalogue, self._objects(update.target))
+            pairs = zip(labels, for_next(calls, catalogue), strict=True)
+            told = [{"label": str(text), "for_next": hidden} for text, hidden in pairs]
+        steps = zip(update.steps, told, strict=True)
+        return update.model_copy(update={"steps": tuple(step.model_copy(update=new) for step, new in steps)})
 
     @property
     def shown(self) -> tuple[PlanUpdate, ...]:

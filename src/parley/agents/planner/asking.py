@@ -31,29 +31,26 @@ _MOVED_M: Final = 0.5
 """Farther from where it was, a robot counts as being somewhere else."""
 
 
-def wish_of(labels: Sequence[str], why: str = "") -> str:
+def wish_of(lines: Sequence[str], why: str = "") -> str:
     """What the robot would do, made of what it will really do.
 
     Args:
-        labels: One per step, written by our code.
+        lines: One per step as people read them, written by our code.
         why: Why it is asked though the policy would not ask; may be empty.
     """
-    if len(labels) == 1:
-        wish = sentence("This is what I would do: {steps}.", steps=_ended(labels[0]))
-    else:
-        steps = listed(
-            [sentence("{number}. {step}", number=n, step=_ended(x)) for n, x in enumerate(labels, 1)]
-        )
-        wish = sentence("This is what I would do: {steps}.", steps=steps)
+    wish = sentence("This is what I would do: {steps}.", steps=_counted(lines))
     return together(sentence("I ask first: {why}.", why=why), wish) if why else wish
 
 
-def begun(labels: Sequence[str]) -> str:
+def begun(lines: Sequence[str]) -> str:
     """What a yes starts, said when it was given."""
-    if len(labels) == 1:
-        return sentence("All right: {steps}.", steps=_ended(labels[0]))
-    steps = listed([sentence("{number}. {step}", number=n, step=_ended(x)) for n, x in enumerate(labels, 1)])
-    return sentence("All right: {steps}.", steps=steps)
+    return sentence("All right: {steps}.", steps=_counted(lines))
+
+
+def _counted(lines: Sequence[str]) -> str:
+    if len(lines) == 1:
+        return _ended(lines[0])
+    return listed([sentence("{number}. {step}", number=n, step=_ended(x)) for n, x in enumerate(lines, 1)])
 
 
 def _ended(label: str) -> str:

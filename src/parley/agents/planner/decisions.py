@@ -121,7 +121,7 @@ class Decisions:
             return  # it goes on waiting, for a better edit
         bound = self._plans.approvals.bound(decision.id)
         self._plans.approvals.drop(decision.id)
-        self._plans.say(plan.target, CHANGED if edited else begun(proposal.labels), "response")
+        self._plans.say(plan.target, CHANGED if edited else begun(proposal.lines), "response")
         if calls:  # whoever says yes to steps wants them done
             self._plans.held_by.pop(plan.target, None)
             self._begin_for(plan.target, decision.by)

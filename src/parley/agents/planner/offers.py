@@ -82,7 +82,7 @@ class Offers(Approvals):
             proposal = left.proposal
             failed = plan.fail_again(left.repairs) if left.repairs else None
             steps = plan.correction(proposal.steps) if failed is not None else proposal.steps
-            wish = wish_of(proposal.labels)
+            wish = wish_of(proposal.lines)
             stale = bool(proposal.commands)  # what they change is not known any more
             if stale or check_calls(steps, status.catalogue) or (left.repairs and failed is None):
                 self._log.drop(proposal.id)

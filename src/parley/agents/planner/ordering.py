@@ -256,7 +256,7 @@ class Ordering:
             proposal = self._proposals.propose(
                 plan, order, calls, asked, repairs=None if clears or not calls else failed
             )
-            self._plans.say(plan.target, together(wish_of(proposal.labels, proposal.why), SHALL_I), "info")
+            self._plans.say(plan.target, together(wish_of(proposal.lines, proposal.why), SHALL_I), "info")
         else:
             self._plans.send(plan, plan.give_up())
 
@@ -303,12 +303,12 @@ class Ordering:
         elif refused or ruling.refused or ruling.begins == "refuse":
             outcome = "refused"
         waiting = self._plans.approvals.of(plan.target)
-        labels = waiting[-1].labels if outcome == "asked" and waiting else ()
+        lines = waiting[-1].lines if outcome == "asked" and waiting else ()
         why = waiting[-1].why if outcome == "asked" and waiting else ""
         if order.id:
             self._node.publish(
                 topics.RULING,
-                PlanRuling(order=order.id, target=plan.target, outcome=outcome, labels=labels, why=why),
+                PlanRuling(order=order.id, target=plan.target, outcome=outcome, lines=lines, why=why),
             )
         for command in ruling.refused:
             self._plans.audit(EFFECT_OF[command.command], order, plan.target, "refused")

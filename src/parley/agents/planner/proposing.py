@@ -11,11 +11,11 @@ from parley.agents.planner.asking import SHALL_I, wish_of
 from parley.agents.planner.plan import TargetPlan
 from parley.agents.planner.robot_plans import RobotPlans
 from parley.agents.planner.steps import Step
-from parley.gate.cards import Labels, command_label, digest_of, labels_of
+from parley.gate.cards import Labels, command_label, digest_of, labels_of, lines_of
 from parley.messages import topics
 from parley.messages.chat import ActionCall, ChatAction, SystemCommand
 from parley.messages.status import PlanProposal
-from parley.sentences import together
+from parley.sentences import Sentence, together
 
 __all__ = ["Proposals"]
 
@@ -50,13 +50,15 @@ class Proposals:
         shown = zip(plan.steps, self._labels(plan, [step.call for step in plan.steps]), strict=True)
         texts = {id(step): label for step, label in shown}
         changes = [command_label(command, texts.get(id(step), "")) for command, step in bound]
+        labels = self._labels(plan, calls)
         proposal = PlanProposal(
             id="new",
             target=target,
             message=order.message_response,
             steps=tuple(calls),
             commands=tuple(commands),
-            labels=tuple(map(self._node.spoken, (*changes, *self._labels(plan, calls)))),
+            labels=self._spoken(changes, labels),
+            lines=self._spoken(changes, self._lines(plan, calls, labels)),
             digest=digest_of(target, calls, commands, self._plans.objects(target)),
             by=order.by,
             why=self._node.spoken(why),
@@ -72,8 +74,12 @@ class Proposals:
     def show_again(self, plan: TargetPlan, proposal: PlanProposal) -> None:
         """Something else was agreed to than what waits, or it would mean something else by now."""
         self._plans.approvals.drop(proposal.id)
-        labels = tuple(map(self._node.spoken, self._labels(plan, proposal.steps)))
-        renewed = proposal.model_copy(update={"digest": self.digest(proposal), "labels": labels})
+        labels = self._labels(plan, proposal.steps)
+        told = {
+            "labels": self._spoken(labels),
+            "lines": self._spoken(self._lines(plan, proposal.steps, labels)),
+        }
+        renewed = proposal.model_copy(update={"digest": self.digest(proposal), **told})
         if proposal.commands:
             self._plans.say(plan.target, orders.PLAN_CHANGED, "error")
             self._plans.send(plan, [])
@@ -81,7 +87,7 @@ class Proposals:
         shown = self._plans.approvals.propose(renewed, self._plans.presence.get(plan.target))
         self._node.publish(topics.PLAN, shown)
         self._plans.send(plan, [])
-        self._plans.say(plan.target, together(orders.NOT_AS_SHOWN, wish_of(shown.labels), SHALL_I), "info")
+        self._plans.say(plan.target, together(orders.NOT_AS_SHOWN, wish_of(shown.lines), SHALL_I), "info")
 
     def digest(self, proposal: PlanProposal) -> str:
         """What a proposal stands for by now."""
@@ -91,3 +97,9 @@ class Proposals:
 
     def _labels(self, plan: TargetPlan, calls: Sequence[ActionCall]) -> Labels:
         return labels_of(calls, self._plans.catalogue(plan.target), self._plans.objects(plan.target))
+
+    def _lines(self, plan: TargetPlan, calls: Sequence[ActionCall], labels: Labels) -> Labels:
+        return lines_of(calls, labels, self._plans.catalogue(plan.target))
+
+    def _spoken(self, *told: Sequence[Sentence]) -> tuple[str, ...]:
+        return tuple(self._node.spoken(text) for texts in told for text in texts)

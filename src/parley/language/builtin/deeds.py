@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from dataclasses import dataclass
 
-from parley.language.builtin.amounts import amount_of
+from parley.language.builtin.amounts import Amount, amount_of
 from parley.language.builtin.checks import Look, check
 from parley.language.builtin.decision import Ask, Deed
 from parley.language.builtin.grounding import Value
@@ -50,7 +50,8 @@ class Builder(Ways):
             made = self._for_each(wish, values, several[0])
         else:
             for role in "LSGT":
-                self.last_thing = values[role] if role in values and values[role].things else self.last_thing
+                told = role in values and (values[role].things or values[role].point)
+                self.last_thing = values[role] if told else self.last_thing
             self.last_thing = values.get("T", self.last_thing)
             made = self._planned(wish, values)
         return made if isinstance(made, Ask) else made * times
@@ -279,6 +280,18 @@ class Builder(Ways):
             return Ask(
                 "By how many degrees shall I turn?" if wish.frame == "TURN" else "How far shall I move?"
             )
+        return self._half_turn(values) if values["H"].argument == "around" else None
+
+    def _half_turn(self, values: dict[str, Value]) -> Ask | None:
+        """Turning around by an action that knows left and right only."""
+        skill = self.skills.get("TURN")
+        slot = skill.roles.get("H") if skill is not None else None
+        if skill is None or slot is None or typed(values["H"], skill.action, slot) is not None:
+            return None
+        if "N" in values:
+            return Ask("To the left or to the right?")
+        values["H"] = Value("left", "left")
+        values["N"] = Value("180 degrees", "180 degrees", amount=Amount(180, "degrees"))
         return None
 
     def _direct(self, wish: Wish, skill: Skill, values: dict[str, Value]) -> list[Deed] | Ask:

@@ -16,6 +16,7 @@ from parley.language.builtin.sets import Group, group
 from parley.language.builtin.skills import Skills
 from parley.language.builtin.spatial import picked
 from parley.language.builtin.things import Mention, link, noun_phrase
+from parley.language.builtin.tokens import point_of
 from parley.language.builtin.wishes import Filler, Wish
 from parley.language.dialogue.places import in_room
 from parley.world.object_map import MapObject
@@ -37,6 +38,8 @@ class Value:
     place: Place | None = None
     """Where it is remembered to be."""
     amount: Amount | None = None
+    point: tuple[float, float] | None = None
+    """Where it is on the map, in metres, if it was told by its numbers."""
     each: tuple[Value, ...] = ()
     """One for each of several, if it is a set."""
 
@@ -104,7 +107,7 @@ class Grounder:
         return found
 
     def _thing(self, frame: str, filler: Filler, mention: Mention) -> Value | Ask:
-        before = self._spoken_of(filler, mention)
+        before = self._spoken_of(filler, mention) or _at_point(filler)
         if before is not None:
             return before
         objects, lexicon = self.situation.objects, self.lexicon
@@ -302,6 +305,14 @@ class Grounder:
     def left_undone(self, text: str) -> None:
         """Something that is not wanted: it is said."""
         self.notes.append(Note(f"I leave that out: “{text}”."))
+
+
+def _at_point(filler: Filler) -> Value | None:
+    point = point_of(filler.words)
+    if point is None:
+        return None
+    text = f"point ({point[0]:g}, {point[1]:g})"
+    return Value(text, f"the {text}", point=point)
 
 
 _BESIDE = frozenset({"next", "near", "beside", "by", "behind", "opposite", "close"})

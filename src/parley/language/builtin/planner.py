@@ -250,5 +250,5 @@ def _without_way(deeds: Sequence[Deed], more: list[Deed]) -> list[Deed]:
     """Without the way to where the last deeds have led already."""
     ways = [deed for deed in deeds if deed.frame == "GO"]
     size = len([deed for deed in more if deed.frame == "GO"])
-    there = 0 < size < len(more) and deeds and deeds[-1].frame == "GO" and ways[-size:] == more[:size]
+    there = size and deeds and deeds[-1].frame == "GO" and ways[-size:] == more[:size]
     return more[size:] if there else more

@@ -20,6 +20,7 @@ _AGAIN, _WITHOUT, _STOP = "try again", "go on without it", "stop"
 _RETRY = frozenset({"again", "retry", "try", "repeat"})
 _YES = frozenset({"yes", "yeah", "ok", "okay", "sure", "yep"})
 _NOT = frozenset({"not", "no", "don't", "never", "can't", "didn't", "haven't"})
+_GOING = frozenset({"go", "drive", "come", "move", "over", "to", "the", "please", "now", "then", "just"})
 _LONGEST = 6
 """So many words an answer has at most that is no order, question or fact."""
 
@@ -33,7 +34,7 @@ def resolve(situation: ErrorSituation) -> ChatAction:
     command = control_of(situation.reply)
     also = {item.description: item.aliases for item in situation.objects}
     choice = chosen(words, names, also) if len(words) <= 2 * _LONGEST and "?" not in situation.reply else None
-    if choice is not None and not names_deed(words):
+    if choice is not None and (not names_deed(words) or _goes_there(situation, words, choice)):
         step = _with_words(situation.failed_action, choice)
         return _solved(situation, f"Thank you. I take the {choice}.", (step,))
     if command in ("stop", "clear", "emergency_stop"):
@@ -53,6 +54,13 @@ def resolve(situation: ErrorSituation) -> ChatAction:
     if names and question is not None and question.topic == "difference":
         return ChatAction(message_response=differences(names, situation.objects))
     return ChatAction()
+
+
+def _goes_there(situation: ErrorSituation, words: Sequence[str], choice: str) -> bool:
+    """Whether somebody orders just what the search that failed was made for: "go to the north gate"."""
+    infos = (info for info in situation.catalogue if info.name == situation.failed_action.name)
+    finds = next((info.only_finds for info in infos), False)
+    return finds and {*words} <= _GOING | {*choice.lower().split()}
 
 
 def _candidates(situation: ErrorSituation) -> tuple[str, ...]:

@@ -151,7 +151,7 @@ def _call(deed: Deed, before: Sequence[Deed], lexicon: Lexicon) -> ActionCall:
             deed.skill.action.name: {
                 "input_parameters": inputs,
                 "output_parameters": {},
-                "reason": said(deed, lexicon),
+                "reason": f"find out where {deed.said['G']} is" if deed.hidden else said(deed, lexicon),
                 **_flow(deed, before),
             }
         }

@@ -2,7 +2,12 @@
 
 from __future__ import annotations
 
-__all__ = ["with_article"]
+__all__ = ["counted", "with_article"]
+
+
+def counted(number: int, what: str) -> str:
+    """So many of something: "1 step", "2 steps"."""
+    return f"{number} {what}" if number == 1 else f"{number} {what}s"
 
 
 def with_article(text: str) -> str:
@@ -15,5 +20,5 @@ def with_article(text: str) -> str:
 
 _OWN = frozenset(
     {"the", "a", "an", "my", "your", "his", "her", "our", "their", "this", "that", "these", "those",
-    "you", "it", "all", "what"}
+    "you", "it", "all", "what", "whether", "if", "how", "which", "who", "where", "when", "why"}
 )  # fmt: skip

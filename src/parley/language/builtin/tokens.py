@@ -6,10 +6,12 @@ import re
 from collections.abc import Sequence
 from dataclasses import dataclass
 
-__all__ = ["Token", "spoken", "tokenize"]
+__all__ = ["Token", "point_of", "spoken", "tokenize"]
 
+_POINT = re.compile(r"\(\s*(-?\d+(?:\.\d+)?)\s*[,;]\s*(-?\d+(?:\.\d+)?)\s*\)")
 _WORD = re.compile(
-    r"\d+(?:[.,:]\d+)+[^\W_]*"  # 2.5m, 14:30
+    rf"{_POINT.pattern}"  # (1.5, -2), as the map tells a point
+    r"|\d+(?:[.,:]\d+)+[^\W_]*"  # 2.5m, 14:30
     r"|[^\W_]\w*(?:-\w+)*(?:n['’]t\b)?"  # words, ids, t-shirt, don't
     r"|['’](?:s|m|re|ll|ve|d)\b"  # what stands for is, am, are, will, have, would
     r"|[^\w\s]",
@@ -34,7 +36,7 @@ class Token:
     @property
     def is_word(self) -> bool:
         """Whether it is more than a mark."""
-        return self.text[0].isalnum() or self.text[0] in "'’"
+        return len(self.text) > 1 or self.text.isalnum() or self.text in "'’"
 
 
 def tokenize(text: str) -> tuple[Token, ...]:
@@ -51,13 +53,24 @@ def tokenize(text: str) -> tuple[Token, ...]:
     return tuple(found)
 
 
+def point_of(words: Sequence[str]) -> tuple[float, float] | None:
+    """The place on the map, in metres, that words tell by its numbers; None if they tell none."""
+    found = [match for word in words if (match := _POINT.fullmatch(word))]
+    return (float(found[0][1]), float(found[0][2])) if len(found) == 1 else None
+
+
 _HUM = re.compile(r"u+h+m*|u+m+|h+m+|m+h*m+|e+r+m*|a+h+|o+h+|e+h+|([a-z])\1{1,}|xxx", re.IGNORECASE)
 
 
 def spoken(tokens: Sequence[Token]) -> tuple[Token, ...]:
-    """Those that carry something: without hums, words said twice, and beginnings of the word that follows."""
+    """Those that carry something: without hums, words said twice, beginnings of the word that follows.
+
+    Nor does the full stop at the end: it is not spoken, and the tagger has seen few.
+    """
     kept: list[Token] = []
     loud = [token for token in tokens if not _HUM.fullmatch(token.text)]
+    while loud and loud[-1].text in ".…":
+        loud.pop()
     for token, behind in zip(loud, [*loud[1:], None], strict=False):
         begun = behind is not None and token.low.isalpha() and token.low not in ("a", "i")
         if begun and behind is not None and behind.low == token.low:

@@ -10,6 +10,7 @@ from parley.language.builtin.decision import Ask, Deed, Note
 from parley.language.builtin.facts import Place
 from parley.language.builtin.grounding import Grounder, Value
 from parley.language.builtin.saying import with_article
+from parley.language.builtin.skills import Skill
 from parley.language.builtin.things import link
 from parley.language.builtin.wishes import Wish
 from parley.messages.status import ActionInfo
@@ -36,6 +37,8 @@ class Ways(Grounder):
             goal = Value(text, with_article(text), mention.things)
         self.at = goal.argument
         said = {"G": goal.said}
+        if goal.point is not None and skill.takes_pose:
+            return [self._driven(skill, *goal.point, 0.0, goal.said)]
         if not skill.takes_pose:
             slot = skill.roles.get("G")
             return [Deed("GO", skill, {slot: goal.argument}, said)] if slot else Ask("Where to?")
@@ -53,19 +56,24 @@ class Ways(Grounder):
     def way_back(self) -> list[Deed] | Ask:
         """The way to where the robot is now."""
         skill, pose = self.skills.get("GO"), self.situation.robot_pose
-        if skill is None or pose is None or not skill.takes_pose:
+        if skill is None or pose is None or not skill.takes_pose or not self.at:
             return Ask("Where shall I go back to?")
-        ends = {"position::x": pose.x_m, "position::y": pose.y_m, "orientation::y": pose.yaw_rad}
+        self.at = ""
+        return [self._driven(skill, pose.x_m, pose.y_m, pose.yaw_rad, "where I am now")]
+
+    @staticmethod
+    def _driven(skill: Skill, x_m: float, y_m: float, yaw_rad: float, said: str) -> Deed:
+        """Driving to where nothing has to be found."""
+        ends = {"position::x": x_m, "position::y": y_m, "orientation::y": yaw_rad}
         given: dict[str, str | float] = {
             name: next((value for end, value in ends.items() if name.endswith(end)), 0.0)
             for name in skill.action.inputs
         }
-        self.at = ""
-        return [Deed("GO", skill, given, {"G": "where I am now"})]
+        return Deed("GO", skill, given, {"G": said})
 
     def way_to_thing(self, thing: Value | None) -> list[Deed]:
         """The way to what is to be looked at, if it is known where that is."""
-        if thing is None or not (thing.things or thing.place):
+        if thing is None or not (thing.things or thing.place or thing.point):
             return []
         way = self.nearing(thing)
         return [] if isinstance(way, Ask) else way
@@ -80,9 +88,11 @@ class Ways(Grounder):
         """That a memory was used is said."""
         if place.memory not in self.situation.memory:
             return  # it was told just now
-        note = Note(f"I remember: {place.memory.data.rstrip('.')}.", place.memory.name)
-        if note not in self.notes:
-            self.notes.append(note)
+        told = [note.source for note in self.notes if note.source]
+        fact = f"{place.memory.data.rstrip('.')}."
+        if place.memory.name not in told:
+            text = fact[:1].upper() + fact[1:] if told else f"I remember: {fact}"
+            self.notes.append(Note(text, place.memory.name))
 
     def waiting(self, text: str, words: Sequence[str]) -> Deed | Ask:
         """Waiting: by an action for it, else until a person says when.

@@ -9,7 +9,7 @@ from typing import Final
 
 from parley.language.base import Situation
 from parley.language.builtin.lexicon import stem
-from parley.language.builtin.saying import with_article
+from parley.language.builtin.saying import counted, with_article
 from parley.language.dialogue.places import room_of, whereabouts
 from parley.language.dialogue.questions import Question
 from parley.language.dialogue.state import Deed, Dialogue, Order
@@ -62,7 +62,7 @@ def _visible(deeds: Sequence[Deed]) -> list[Deed]:
 
 
 def _steps_left(situation: Situation) -> list[PlanStep]:
-    hidden = {info.name for info in situation.catalogue if tuple(info.effects) == ("locates",)}
+    hidden = {info.name for info in situation.catalogue if info.only_finds}
     return [
         step for step in situation.dialogue.steps if step.state in _OPEN and step.action.name not in hidden
     ]
@@ -116,14 +116,14 @@ def _doing(situation: Situation, about: str) -> str:
     what = step_words(left[0].label)
     if dialogue.plan == "paused":
         return f"I stand still, as I was told. Say “carry on” and I {what}."
-    return f"I am about this: {what}.{_left_time(dialogue)}"
+    return f"This is what I am doing: {what}.{_left_time(dialogue)}"
 
 
 def _left(situation: Situation, about: str) -> str:
     left, proposal = _steps_left(situation), situation.dialogue.proposal
     if not left and proposal is not None:
         return (
-            f"Nothing is begun. This waits for your yes: {listed([step_words(x) for x in proposal.labels])}."
+            f"Nothing is begun. This waits for your yes: {listed([step_words(x) for x in proposal.lines])}."
         )
     if not left:
         return "Nothing is left to do."
@@ -137,7 +137,7 @@ def _did(situation: Situation, about: str) -> str:
     parts = [
         deed_words(deed) if deed.ending != "running" else f"now: {step_words(deed.label)}" for deed in done
     ]
-    more = f"{len(parts) - _MOST} other things before that; " if len(parts) > _MOST else ""
+    more = f"{counted(len(parts) - _MOST, 'other thing')} before that; " if len(parts) > _MOST else ""
     return f"I did this: {more}{'; '.join(parts[-_MOST:])}."
 
 
@@ -204,7 +204,7 @@ def _waiting(situation: Situation, about: str) -> str:
     if situation.question:
         return f"I wait for your answer to this: {situation.question}"
     if dialogue.proposal is not None:
-        waits = listed([step_words(label) for label in dialogue.proposal.labels])
+        waits = listed([step_words(label) for label in dialogue.proposal.lines])
         return f"I wait for your yes to this: {waits}."
     if dialogue.plan == "paused":
         return _why_stopped(situation, about)
@@ -304,7 +304,7 @@ def _left_time(dialogue: Dialogue) -> str:
     if dialogue.left_s is None:
         return f" {dialogue.left_text}." if dialogue.left_text else ""
     seconds = max(1, round(dialogue.left_s))
-    words = f"{seconds} seconds" if seconds < 90 else f"{round(seconds / 60)} minutes"
+    words = counted(seconds, "second") if seconds < 90 else counted(round(seconds / 60), "minute")
     return f" About {words} more for this step."
 
 
@@ -316,7 +316,7 @@ def _how_long(situation: Situation, about: str) -> str:
         return "Nothing is left to do."
     if dialogue.plan in ("paused", "held"):
         return "I stand still at the moment, so I cannot tell."
-    more = f" Then {len(left) - 1} more steps." if len(left) > 1 else ""
+    more = f" Then {counted(len(left) - 1, 'more step')}." if len(left) > 1 else ""
     return f"{_left_time(dialogue).strip() or 'I have only just begun: I can tell in a moment.'}{more}"
 
 
@@ -331,9 +331,9 @@ def _battery(situation: Situation, about: str) -> str:
 
 def abilities(catalogue: Sequence[ActionInfo]) -> str:
     """What can be asked for, in the words of the actions' makers."""
-    shown = [info for info in catalogue if tuple(info.effects) != ("locates",)]
+    shown = [info for info in catalogue if not info.only_finds]
     parts = [(info.description.split(".")[0] or info.label or info.name) for info in shown]
-    return listed([f"{part[:1].lower()}{part[1:]}" for part in parts]) if parts else ""
+    return "; ".join(f"{part[:1].lower()}{part[1:]}" for part in parts)
 
 
 def _able(situation: Situation, about: str) -> str:
@@ -341,9 +341,8 @@ def _able(situation: Situation, about: str) -> str:
     if not parts:
         return "I do not know yet what I can do: my robot has not told me."
     return (
-        f"I can {parts}. I remember what you tell me, keep to what you forbid me, and tell where I am, "
-        f"what I did "
-        "and what I saw. Say “stop” at any time."
+        f"I can do this: {parts}. I remember what you tell me, keep to what you forbid me, and tell where "
+        "I am, what I did and what I saw. Say “stop” at any time."
     )
 
 

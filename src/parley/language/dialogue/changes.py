@@ -13,6 +13,7 @@ from typing import Final, Literal
 
 from parley.language.base import Situation
 from parley.language.builtin.lexicon import Lexicon
+from parley.language.builtin.saying import counted
 from parley.language.builtin.tokens import Token
 from parley.language.dialogue.answers import step_words
 from parley.language.dialogue.mentions import Named, named
@@ -119,7 +120,7 @@ def visits(situation: Situation) -> list[Visit]:
 
 def visits_of(steps: Sequence[PlanStep], situation: Situation) -> list[Visit]:
     """The steps of a plan that are not over, those together that belong together."""
-    finding = {info.name for info in situation.catalogue if tuple(info.effects) == ("locates",)}
+    finding = {info.name for info in situation.catalogue if info.only_finds}
     found: list[Visit] = []
     before: list[PlanStep] = []
     places: list[int] = []
@@ -307,7 +308,8 @@ def _by_number(plan: Sequence[Visit], low: Sequence[str]) -> Change | None:
     if not places or not re.search(r"\b(?:one|step|stop|thing|part|item|place|point|task|bit)s?\b", text):
         return None
     if not all(-len(plan) <= place < len(plan) for place in places):
-        return Change(question=f"I have only {len(plan)} things left to do. Which one do you mean?")
+        only = counted(len(plan), "thing")
+        return Change(question=f"I have only {only} left to do. Which one do you mean?")
     return _dropping([plan[place] for place in dict.fromkeys(places)])
 
 
@@ -329,13 +331,15 @@ def _replaced(plan: Sequence[Visit], against: Sequence[Named], wanted: Named) ->
     calls = moved(old[0], target)
     if calls is None or target in old[0].things:
         return None
-    said = f"I do not {old[0].said}. Instead I take the {target.description}."
+    other = _reason(old[0].said, _names_of(old[0]), target)
+    other = other if other != old[0].said else f"take the {target.description}"
+    said = f"I do not {old[0].said}. Instead I {other}."
     return reordered(plan, old[:1], _behind(plan, old[:1]), "instead", calls, said)
 
 
 def moved(old: Visit, target: MapObject) -> tuple[ActionCall, ...] | None:
     """The same deed about another thing; None if it is not about one thing."""
-    names = {n.lower() for item in old.things for n in (item.description, item.id, *item.aliases)}
+    names = _names_of(old)
     calls, changed = [], False
     for call in old.calls:
         inputs = {}
@@ -349,6 +353,10 @@ def moved(old: Visit, target: MapObject) -> tuple[ActionCall, ...] | None:
         reason = _reason(call.reason, names, target)
         calls.append(call.model_copy(update={"input_parameters": inputs, "reason": reason, "flow": None}))
     return tuple(calls) if changed else None
+
+
+def _names_of(visit: Visit) -> set[str]:
+    return {n.lower() for item in visit.things for n in (item.description, item.id, *item.aliases)}
 
 
 def _reason(reason: str, names: set[str], target: MapObject) -> str:

@@ -20,6 +20,7 @@ from parley.messages.memory import MemoryEntry
 __all__ = ["forgotten", "is_wish", "moved_fact", "other_fact", "worth_keeping"]
 
 _PRONOUNS: Final = frozenset({"he", "she", "they", "it", "this", "that", "these", "those", "they're", "it's"})
+_POINTING: Final = frozenset({"this", "that", "these", "those"})
 _FIRST: Final = frozenset(
     {"i", "i'm", "you", "we", "you're", "we're", "let", "let's", "who", "what", "there"}
 )
@@ -99,8 +100,8 @@ def moved_fact(
         return None
     place = places[-1]
     at = next((n for n in range(place.start - 1, 0, -1) if low[n] in _WHERE), 0)
-    subject = next((n for n in range(at - 1, -1, -1) if low[n] in _PRONOUNS), None)
-    if subject is None or {"not", "n't"} & {*low[subject:at]}:
+    subject = next((n for n in range(at - 1, -1, -1) if _is_subject(low, n)), None)
+    if subject is None or {"not", "n't"} & {*low[subject:at]} or _names_its_subject(reading):
         return None
     owner = before.about.removeprefix("Where ").removesuffix(" is")
     be = "are" if low[subject] in ("they", "these", "those", "they're") else "is"
@@ -113,6 +114,17 @@ def moved_fact(
     where = " ".join([_AT.get(low[at], low[at]), *(["to"] if low[at] == "next" else [])])
     text = f"{owner} {be} {where} {article}{situation.message[start:end]}"
     return Told(before.name, text, before.about)
+
+
+def _is_subject(low: Sequence[str], at: int) -> bool:
+    """Whether a word stands for what is spoken of; "that" does before a verb only."""
+    return low[at] in _PRONOUNS and (low[at] not in _POINTING or _BEING.match(low[at + 1]) is not None)
+
+
+def _names_its_subject(reading: Reading) -> bool:
+    """Whether a message says itself what is somewhere: "remember that the box is on the desk"."""
+    told = [wish.one("T") for wish in reading.wishes if wish.frame == "BELOC"]
+    return any(thing is not None and not {*thing.words} & _PRONOUNS for thing in told)
 
 
 def _last_fact(situation: Situation, told_in: Callable[[str], tuple[Told, ...]]) -> Told | None:

@@ -141,7 +141,10 @@ def _about_what_was_said(
     order = due(situation.message, situation.history)
     if order and _ordered(late := again(order)) is not None:
         return late
-    if (instead := _TAKEN_BACK.match(situation.message)) is not None:
+    instead = _TAKEN_BACK.match(situation.message)
+    if instead is None and not visits(situation):
+        instead = _INSTEAD.match(situation.message)
+    if instead is not None:
         made = _ordered(again(instead["rest"]))
         if made is not None:
             return afterwards(made, situation, reading, tokens, lexicon)
@@ -164,10 +167,13 @@ _TAKEN_BACK: Final = re.compile(
     r"about (?:it|that))|"
     r"never ?mind(?: (?:it|that|this))?|scratch (?:that|it)|drop (?:that|it)|leave (?:that|it)|"
     r"cancel (?:that|it)|"
-    r"change of plans?|on second thoughts?|i(?: have|'ve)? changed my mind|that was wrong|no|not that)"
-    r"\W+(?:(?:and|then|please|just|rather|instead|now|but)\W+)*(?P<rest>\w.+)$",
+    r"change of plans?|on second thoughts?|i(?: have|'ve)? changed my mind|that was wrong|nope|no|not that|"
+    r"i mean|i meant|(?:sorry|oops|wait|hang on|hold on)(?=\s*[,.;:!]))"
+    r"\W+(?:(?:and|then|please|just|rather|instead|now|but|no|wait|sorry|hang on|hold on|i mean|i meant)\W+)*"
+    r"(?P<rest>\w.+?)(?:,? (?:instead|rather))?\W*$",
     re.IGNORECASE | re.DOTALL,
 )
+_INSTEAD: Final = re.compile(r"(?P<rest>.+?),? (?:instead|rather)\W*$", re.IGNORECASE | re.DOTALL)
 _AGAIN: Final = re.compile(
     r"(?:(?:can|could|will) you )?(?:please )?(?:do|repeat|make)?(?: ?(?:that|it|this|the same|"
     r"the same thing|the last thing|all of "

@@ -1,0 +1,55 @@
+"""What the page offers is understood when it is tapped: examples, places of the map, phrases of actions."""
+
+from __future__ import annotations
+
+from collections import defaultdict
+
+import pytest
+
+from parley.actions.builtin import BUILTIN_ACTIONS
+from parley.demos.catalogue import DEMOS, load_demo
+from parley.language.base import Situation
+from parley.language.builtin.decision import Answer, Ask, Decision, Do
+from parley.language.builtin.engine import BuiltinLanguage
+from parley.umrf.catalogue import info_of
+
+ENGINE = BuiltinLanguage()
+CATALOGUE = tuple(info_of(spec) for spec in BUILTIN_ACTIONS)
+SHOWN = 3
+"""So many phrases of an action the page shows."""
+HOLES = {"question": "whether it is warm", "name": "the view"}
+
+
+def decided(demo: str, message: str) -> Decision:
+    objects = load_demo(demo).objects.objects
+    return ENGINE.decide(Situation(message, objects=objects, catalogue=CATALOGUE, robot="A", robots=("A",)))
+
+
+@pytest.mark.parametrize(("demo", "example"), [(n, text) for n in DEMOS for text in load_demo(n).examples])
+def test_what_a_demonstration_suggests_is_done_or_answered(demo: str, example: str) -> None:
+    assert isinstance(decided(demo, example), Answer if example.startswith("What") else Do)
+
+
+@pytest.mark.parametrize("demo", DEMOS)
+async def test_every_thing_of_a_map_can_be_driven_to_as_the_map_says_it(demo: str) -> None:
+    objects = load_demo(demo).objects.objects
+    for thing in objects:
+        decision = decided(demo, f"Go to the {thing.description}.")
+        assert isinstance(decision, Do), f"{thing.description}: {decision}"
+        found = await ENGINE.ground(str(decision.deeds[0].arguments["target"]), objects)
+        assert found.candidates == (thing,)
+    point = decided(demo, "Go to the point (1.50, -2.25).")
+    assert isinstance(point, Do) and {1.5, -2.25} <= {*point.deeds[0].arguments.values()}
+
+
+@pytest.mark.parametrize(
+    ("action", "phrase"),
+    [(info.name, phrase) for info in CATALOGUE for phrase in info.phrases[:SHOWN]],
+)
+def test_how_an_action_is_asked_for_asks_for_it(action: str, phrase: str) -> None:
+    for demo in DEMOS:
+        holes = defaultdict(lambda: "the {}", HOLES)
+        thing = load_demo(demo).objects.objects[0].description
+        decision = decided(demo, phrase.format_map(holes).format(thing))
+        assert not isinstance(decision, Ask), decision
+        assert isinstance(decision, Do) and decision.deeds[-1].skill.action.name == action
