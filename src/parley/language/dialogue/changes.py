@@ -84,6 +84,8 @@ class Change:
     where: Literal["end", "instead", "front"] = "end"
     rest: tuple[ActionCall, ...] = ()
     """What was behind and is to come after what is added."""
+    clears: bool = False
+    """Whether nothing of the plan remains."""
     kept: tuple[ActionCall, ...] = ()
     """What comes before it, where the whole is proposed anew."""
     said: str = ""
@@ -207,7 +209,11 @@ def _with_order(
         return _reordered(plan, [], plan, "front")
     if not old and takes_back:
         old = list(plan) if _ALL.search(text) is not None else list(plan[:1])
-    return _reordered(plan, old, _behind(plan, old), "instead") if old else None
+    if not old:
+        return None
+    whole = len(old) == len(plan) > 1
+    said = "I drop the rest of my plan." if whole else _dropping(old).said
+    return replace(_reordered(plan, old, _behind(plan, old), "instead", said=said), clears=whole)
 
 
 def before_all(situation: Situation) -> Change:

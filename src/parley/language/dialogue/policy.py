@@ -16,7 +16,7 @@ from parley.language.builtin.reply import said as words_for
 from parley.language.builtin.tokens import Token, tokenize
 from parley.language.dialogue.answers import answer, differences
 from parley.language.dialogue.changes import Change, before_all, change_of, texts_of, visits
-from parley.language.dialogue.facts import forgotten, moved_fact, other_fact, worth_keeping
+from parley.language.dialogue.facts import forgotten, moved_fact, other_fact, taken_back, worth_keeping
 from parley.language.dialogue.later import PROMISE, due, put_off
 from parley.language.dialogue.mentions import named
 from parley.language.dialogue.places import in_room, rooms
@@ -64,7 +64,7 @@ def beforehand(
         told_in: The facts of a text.
         again: What is decided about a part of the message, or about what was said before.
     """
-    said = _about_itself(situation, reading, tokens, lexicon)
+    said = _about_itself(situation, reading, tokens, lexicon, told_in)
     if said is not None:
         return said
     chose = _chosen(situation, tokens, again)
@@ -92,8 +92,9 @@ def _chosen(situation: Situation, tokens: Sequence[Token], again: Again) -> Deci
 
 
 def _about_itself(
-    situation: Situation, reading: Reading, tokens: Sequence[Token], lexicon: Lexicon
-) -> Decision | None:
+    situation: Situation, reading: Reading, tokens: Sequence[Token], lexicon: Lexicon,
+    told_in: Callable[[str], tuple[Told, ...]],
+) -> Decision | None:  # fmt: skip
     """An alarm, a question about the robot, a wish to forget, a word to wait."""
     bare = plain(tokens, (situation.robot,))
     if "alarm" in reading.acts and "question" not in reading.acts:
@@ -104,7 +105,7 @@ def _about_itself(
         return Answer(f"{differences(asked.choices, situation.objects)} Which one do you mean?")
     if question is not None and (said := answer(question, situation)):
         return Answer(said)
-    lost = forgotten(situation, bare)
+    lost = taken_back(situation, bare, told_in) or forgotten(situation, bare)
     if lost:
         return Forget(tuple(entry.name for entry in lost), tuple(entry.data for entry in lost))
     if lost is not None and situation.memory and bare.startswith("forget") and not _known_plan(situation):
