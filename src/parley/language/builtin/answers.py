@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Callable
+from typing import Final
 
 from parley.language.base import Situation
 from parley.language.builtin.decision import Answer
@@ -17,6 +18,9 @@ from parley.world.object_map import MapObject
 __all__ = ["answer"]
 
 
+_NO_ANSWER: Final = "I cannot answer that. I can tell where a thing is, if it is on my map or was told to me."
+
+
 def answer(
     situation: Situation,
     reading: Reading,
@@ -28,9 +32,7 @@ def answer(
     fillers = [*(filler for wish in reading.wishes for filler in wish.fillers), *reading.loose]
     thing = next((filler for filler in fillers if filler.role == "T"), None)
     if thing is None:
-        return Answer(
-            "I cannot answer that. I can tell where a thing is, if it is on my map or was told to me."
-        )
+        return Answer(_NO_ANSWER)
     mention = link(thing.words, thing.head, situation.objects, lexicon)
     if mention.kind == "pronoun":
         return _spoken_of(situation, before)
@@ -58,4 +60,6 @@ def _spoken_of(situation: Situation, thing: MapObject | None) -> Answer:
         return Answer(f"I know no more than this: {situation.failure.error_message} I am {here}.")
     if situation.question:
         return Answer(f"I know no more about it than I asked: {situation.question}")
-    return Answer(_lying(situation, thing) if thing is not None else "I am not sure what you mean by “it”.")
+    if thing is None or "where" not in situation.message.lower():
+        return Answer(_NO_ANSWER)
+    return Answer(_lying(situation, thing))

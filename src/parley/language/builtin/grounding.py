@@ -136,10 +136,13 @@ class Grounder:
         movable = frame in _MOVABLE and filler.role == "T" and looked_for
         if movable or frame in ("PHOTO", "BELOC"):
             return Value(mention.text, with_article(mention.text))
-        return self._unknown(mention.text, leads=frame == "GO")
+        return self._unknown(mention.text, frame, sought=frame in _MOVABLE and filler.role == "T")
 
-    def _unknown(self, text: str, *, leads: bool) -> Ask:
+    def _unknown(self, text: str, frame: str, *, sought: bool) -> Ask:
         """That nothing is called so, with what is near and known: nobody knows all that a robot knows."""
+        if sought:
+            return Ask(f"I do not know where any “{text}” is. Please tell me where it is.")
+        leads = frame == "GO"
         pose, objects = self.situation.robot_pose, self.situation.objects
         near = sorted(objects, key=lambda item: distance_m(item, pose)) if pose is not None else objects
         names = list(dict.fromkeys(with_article(item.description) for item in near))[:_SHOWN]

@@ -17,10 +17,10 @@ from parley.language.builtin.reply import said as words_for
 from parley.language.builtin.reply import to_chat
 from parley.language.builtin.saying import with_article
 from parley.language.builtin.structure import Part
-from parley.language.builtin.things import link, noun_phrase
+from parley.language.builtin.things import head_of, link, noun_phrase
 from parley.language.builtin.tokens import tokenize
 from parley.language.dialogue.answers import differences, listed
-from parley.language.dialogue.mentions import head_of, named
+from parley.language.dialogue.mentions import named
 from parley.language.dialogue.places import rooms
 from parley.language.dialogue.questions import asks, plain, question_of
 from parley.language.dialogue.replies import chosen, names_deed, words_of

@@ -15,5 +15,5 @@ def with_article(text: str) -> str:
 
 _OWN = frozenset(
     {"the", "a", "an", "my", "your", "his", "her", "our", "their", "this", "that", "these", "those",
-    "you", "it", "all", "what"}
+    "you", "it", "all", "what", "whether", "if"}
 )  # fmt: skip

@@ -20,7 +20,7 @@ from parley.messages.chat import ActionCall
 from parley.messages.status import PlanStep
 from parley.world.object_map import MapObject
 
-__all__ = ["Change", "Visit", "before_all", "change_of", "texts_of", "visits"]
+__all__ = ["Change", "Visit", "before_all", "change_of", "texts_of", "things_of", "visits", "with_other"]
 
 _OPEN: Final = ("queued", "running", "waiting", "paused", "failed")
 _ORDINALS: Final = {
@@ -45,6 +45,11 @@ _TAKING_BACK: Final = re.compile(
 _FRONT: Final = re.compile(
     r"\b(?:first|before that|before you (?:do|go)|beforehand|on the way|on your way)\b"
 )
+_INSTEAD: Final = re.compile(
+    r"\b(?:no|nope|not|instead|rather|scratch|forget|(?:i|we) (?:mean|meant)|make (?:it|that)|never ?mind|"
+    r"drop|cancel|leave|changed? my mind)\b"
+)
+"""What takes back also what comes "first"; "actually" and "wait" do not."""
 _ADDING: Final = re.compile(
     r"\b(?:also|add|too|as well|and then|then|after (?:that|this|wards?)|afterwards|at the end|finally|"
     r"besides|plus|"
@@ -136,6 +141,16 @@ def texts_of(call: ActionCall) -> list[str]:
     ]
 
 
+def things_of(calls: Sequence[ActionCall], objects: Sequence[MapObject]) -> tuple[MapObject, ...]:
+    """The things that actions are about."""
+    return _things_in([PlanStep(action=call, label=call.reason) for call in calls], objects)
+
+
+def with_other(calls: Sequence[ActionCall], old: MapObject, new: MapObject) -> tuple[ActionCall, ...] | None:
+    """The same actions about another thing; None if they are not about that one."""
+    return _moved(Visit((), (old,), "", tuple(calls), ""), new)
+
+
 def _things_in(steps: Sequence[PlanStep], objects: Sequence[MapObject]) -> tuple[MapObject, ...]:
     """The things that steps are about: named in full in their labels or arguments."""
     text = " ".join(
@@ -179,6 +194,8 @@ def change_of(
             against.append(name)
     for_ = [name for name in names if name not in against]
     takes_back = _TAKING_BACK.search(text) is not None
+    if _FRONT.search(text) is not None and _INSTEAD.search(text) is None:
+        takes_back = False
     if orders:
         return _with_order(plan, against, text, takes_back=takes_back)
     if not _is_bare(tokens, names, lexicon):

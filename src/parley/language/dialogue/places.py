@@ -51,7 +51,8 @@ def lies(item: MapObject, objects: Sequence[MapObject], pose: Pose2D | None) -> 
     at = Pose2D(item.x_m, item.y_m, 0.0)
     near = min(others, key=lambda other: distance_m(other, at), default=None)
     room = room_of(item, rooms(objects))
-    parts = [f"about {max(distance_m(item, pose), 1.0):.0f} metres from me"] if pose is not None else []
+    far_m = round(max(distance_m(item, pose), 1.0)) if pose is not None else 0
+    parts = [f"about {far_m} metre{'s' if far_m > 1 else ''} from me"] if far_m else []
     parts += [f"in the {room}"] if room and room not in item.description.lower() else []
     parts += [f"near the {near.description}"] if near is not None else []
     return ", ".join(parts) or "on my map"
