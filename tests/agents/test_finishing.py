@@ -128,6 +128,13 @@ def test_what_a_person_skipped_is_named(ada: Follower) -> None:
     assert ada.told == ["I have finished. I left out: Look."]
 
 
+def test_what_was_only_put_off_is_nothing_left_out(ada: Follower) -> None:
+    ada.finishing.on_order("Ada", "first look there")
+    ada.plan("running", ("Drive", "running"), ("Look", "queued"))
+    ada.plan("idle", ("Drive", "skipped"), ("Look", "finished"), ("Drive", "finished"))
+    assert ada.told == ["I have finished: “first look there”."]
+
+
 def test_an_order_in_the_place_of_what_was_given_up_is_named_alone(ada: Follower) -> None:
     ada.finishing.on_order("Ada", "go to the box")
     ada.plan("running", ("Find", "running"), ("Drive", "queued"))

@@ -65,12 +65,12 @@ async def test_acknowledged_memories_survive_kill_9(tmp_path: Path) -> None:
         events = _until_killed(story, data, rng.uniform(0, 5))
         said = [event for event in events if event["event"] in ("operator", "said")]
         promised = [
-            before["text"].rstrip(".")
+            before["text"].rstrip(".").casefold()
             for before, after in itertools.pairwise(said)
             if before["event"] == "operator" and after["event"] == "said" and "remember" in after["text"]
         ]
         promised_at_all += len(promised)
         async with await MemoryStore.open(data / "memory.db", WallClock()) as store:
-            kept = [entry.data.rstrip(".") for entry in await store.all()]
+            kept = [entry.data.rstrip(".").casefold() for entry in await store.all()]
         assert [text for text in promised if text not in kept] == []
     assert promised_at_all > 0

@@ -449,7 +449,7 @@ async def test_a_restart_does_not_outlive_a_stop() -> None:
     watched = Watched(triggering("restart", node("ThreadLoop", 0)))
     watched.run.start()
     async with asyncio.timeout(5):
-        while watched.state("ThreadLoop_0") is not NodeState.STOPPING:
+        while watched.state("ThreadLoop_0") is not NodeState.STOPPING:  # noqa: ASYNC110 - nobody tells
             await asyncio.sleep(0)  # every turn: its thread may end within two
     watched.run.stop()
     assert await watched.run.wait() is Result.ON_STOPPED

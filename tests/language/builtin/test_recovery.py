@@ -7,10 +7,12 @@ from dataclasses import replace
 import pytest
 
 from parley.errors import FailureCode
-from parley.language.base import ErrorSituation, ReplyReading
+from parley.language.base import ErrorSituation, ReplyReading, Turn
 from parley.language.builtin.engine import BuiltinLanguage
 from parley.messages.chat import ActionCall
+from parley.messages.memory import MemoryEntry
 from parley.messages.status import ActionInfo
+from tests.language.builtin.worlds import CATALOGUE, THINGS
 
 ENGINE = BuiltinLanguage()
 STEP = ActionCall.model_validate(
@@ -19,8 +21,13 @@ STEP = ActionCall.model_validate(
 TWO = {"candidates": [{"id": "g1", "description": "north gate"}, {"id": "g2", "description": "south gate"}]}
 
 
+def target(step: ActionCall) -> str:
+    """The words that a step is given."""
+    return str(next(iter(step.input_parameters.values())).value)
+
+
 def failure(reply: str | None, code: FailureCode = FailureCode.AMBIGUOUS) -> ErrorSituation:
-    return ErrorSituation("It did not work.", STEP, code, TWO, reply=reply)
+    return ErrorSituation("It did not work.", STEP, code, TWO, reply=reply, objects=THINGS)
 
 
 async def test_several_candidates_are_offered_and_the_chosen_one_is_taken() -> None:
@@ -55,7 +62,14 @@ async def test_an_order_to_go_where_the_plan_waits_to_go_is_the_answer(
         ("try again", True, 1),
         ("skip it", True, 0),
         ("I moved it", True, 1),
-        ("purple", None, 0),
+        ("go around it", True, 1),
+        ("could you try it once more?", True, 1),
+        ("leave it, it is not important", True, 0),
+        ("purple", False, 0),
+        ("don't try that again", None, 0),
+        ("I'll move it", None, 0),
+        ("why?", None, 0),
+        ("look again at the printer", None, 0),
         ("stop", True, 0),
     ],
 )
@@ -64,6 +78,53 @@ async def test_a_failed_step_is_repeated_left_out_or_asked_about(
 ) -> None:
     answer = await ENGINE.resolve(failure(reply, FailureCode.BLOCKED))
     assert (answer.success, len(answer.queue)) == (success, steps)
+
+
+@pytest.mark.parametrize(
+    ("reply", "delay_s"), [("try again in two minutes", 120.0), ("wait a minute, then try again", 60.0)]
+)
+async def test_a_wait_comes_before_the_next_attempt(reply: str, delay_s: float) -> None:
+    answer = await ENGINE.resolve(failure(reply, FailureCode.BLOCKED))
+    assert (answer.success, answer.delay_s, answer.queue) == (True, delay_s, (STEP,))
+
+
+@pytest.mark.parametrize(
+    ("reply", "commands", "now", "afterwards"),
+    [
+        ("the north one, then go to the desk", [], ["north gate"], ["desk"]),
+        ("skip it and then go to the desk", [], [], ["desk"]),
+        ("forget it and go to the desk", ["clear"], ["desk"], []),
+    ],
+)
+async def test_an_order_behind_an_answer_is_kept_or_comes_instead(
+    reply: str, commands: list[str], now: list[str], afterwards: list[str]
+) -> None:
+    answer = await ENGINE.resolve(replace(failure(reply), catalogue=CATALOGUE, robot="Ada"))
+    assert answer.success
+    assert [command.command for command in answer.system_cmd] == commands
+    assert [[target(step) for step in steps] for steps in (answer.queue, answer.afterwards)] == [
+        now,
+        afterwards,
+    ]
+
+
+async def test_what_was_taught_for_a_failure_is_done_without_asking_once() -> None:
+    rule = MemoryEntry(name="way_protocol", data="When the way is blocked, wait a minute and try again")
+    other = MemoryEntry(name="lift_protocol", data="When the lift is stuck, go to the desk")
+    known = replace(failure(None, FailureCode.BLOCKED), memory=(rule, other))
+    answer = await ENGINE.resolve(known)
+    assert (answer.success, answer.delay_s, answer.sources) == (True, 60.0, ("way_protocol",))
+    assert (await ENGINE.resolve(replace(known, tried=((STEP,),)))).success is False
+    assert (await ENGINE.resolve(replace(known, memory=(other,)))).success is False
+
+
+async def test_a_second_answer_that_says_nothing_is_told_so() -> None:
+    first = await ENGINE.resolve(failure("purple", FailureCode.BLOCKED))
+    again = replace(
+        failure("bananas", FailureCode.BLOCKED), dialogue=(Turn("assistant", first.message_response),)
+    )
+    assert "did not understand" in first.message_response
+    assert "still do not" in (await ENGINE.resolve(again)).message_response
 
 
 @pytest.mark.parametrize(

@@ -91,6 +91,7 @@ async def test_another_place_is_said_by_the_deed() -> None:
         ("skip the second one", {1, 2}, []),
         ("not the gate, the lamp", {1, 2, 3, 4}, ["lamp", "desk"]),
         ("first the lamp", {0, 1, 2, 3, 4}, ["lamp", "box", "gate", "desk"]),
+        ("actually, go to the lamp first", {0, 1, 2, 3, 4}, ["lamp", "box", "gate", "desk"]),
     ],
 )
 async def test_of_three_ways(message: str, drops: set[int], adds: list[str]) -> None:
@@ -126,3 +127,19 @@ async def test_again_means_what_was_ordered_last() -> None:
         "do that again", objects=THINGS, catalogue=(FIND, GO), dialogue=Dialogue(orders=(order,))
     )
     assert (await ENGINE.interpret(situation)).queue == order.calls
+
+
+@pytest.mark.parametrize(
+    ("last", "goes"), [("red crate", ["blue crate"]), ("gate", [])], ids=["one other", "no other of its kind"]
+)
+async def test_the_other_one_is_the_one_other_thing_of_that_kind(last: str, goes: list[str]) -> None:
+    calls = tuple(call.model_copy(update={"reason": f"go to the {last}"}) for call in way(last))
+    known = Dialogue(orders=(Order(f"go to the {last}", calls=calls),))
+    situation = Situation("and now the other one", objects=THINGS, catalogue=(FIND, GO), dialogue=known)
+    assert goals(await ENGINE.interpret(situation)) == goes
+
+
+async def test_an_order_in_place_of_all_that_is_planned_says_so_and_leaves_nothing() -> None:
+    answer = await ENGINE.interpret(given("forget it and go to the lamp", "box", "gate"))
+    assert [command.command for command in answer.system_cmd] == ["clear"]
+    assert (goals(answer), "drop the rest" in answer.message_response) == (["lamp"], True)

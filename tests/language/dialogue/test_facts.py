@@ -83,6 +83,19 @@ async def test_what_is_to_be_forgotten_is_named() -> None:
     ]
 
 
+async def test_forget_that_takes_back_what_was_told_last_whatever_was_asked_since() -> None:
+    turns = (
+        Turn("operator", "Kim is in the office"), Turn("assistant", "I will remember that."),
+        Turn("operator", "where is Kim?"), Turn("assistant", "I remember: Kim is in the office."),
+    )  # fmt: skip
+    answer = await ENGINE.interpret(situation("forget that", history=turns))
+    assert [(c.command, c.arguments["name"]) for c in answer.system_cmd] == [
+        ("remove_memory", "kim_location")
+    ]
+    ordered = (*turns, Turn("operator", "go to the yard"), Turn("assistant", "I will go to the yard."))
+    assert (await ENGINE.interpret(situation("forget that", history=ordered))).system_cmd == ()
+
+
 async def test_an_order_may_wait_for_something_that_is_told() -> None:
     asked = "when Kim is back, go to the office"
     promise = await ENGINE.interpret(situation(asked))

@@ -4,11 +4,12 @@ from __future__ import annotations
 
 import pytest
 
-from parley.language.base import Situation
+from parley.language.base import Situation, Turn
 from parley.language.builtin.engine import BuiltinLanguage
 from parley.language.builtin.tokens import tokenize
+from parley.language.dialogue.places import rooms, whereabouts
 from parley.language.dialogue.questions import plain, question_of, shapes
-from parley.language.dialogue.state import Deed, Dialogue, Order, Stop
+from parley.language.dialogue.state import Asked, Deed, Dialogue, Order, Stop
 from parley.messages.chat import ActionCall
 from parley.messages.status import PlanStep
 from parley.world.geometry import Pose2D
@@ -93,3 +94,28 @@ async def test_questions_are_answered_from_the_state(message: str, dialogue: Dia
 
 async def test_what_it_waits_for_is_its_open_question() -> None:
     assert "Which gate?" in await said("what are you waiting for?", Dialogue("held"), "Which gate?")
+
+
+async def test_a_choice_that_was_not_understood_is_asked_again() -> None:
+    asked = Dialogue(asked=Asked("go to it", ("box in the hall", "gate")))
+    assert "the box in the hall or the gate" in await said("the pink one", asked)
+
+
+async def test_an_alarm_is_taken_back() -> None:
+    alarm = await ENGINE.interpret(Situation("help, fire!", objects=THINGS, robot="Ada"))
+    turns = (Turn("operator", "help, fire!"), Turn("assistant", alarm.message_response))
+    over = await ENGINE.interpret(
+        Situation("no, it was a false alarm", objects=THINGS, robot="Ada", history=turns)
+    )
+    assert (over.alarm, over.message_response) == (False, "I am glad to hear that. I stay here.")
+
+
+async def test_a_place_that_nobody_knows_is_answered_with_places_that_are_known() -> None:
+    answer = await said("go to the moon", Dialogue())
+    assert "“moon”" in answer and "the box in the hall or the gate" in answer
+
+
+async def test_what_a_name_ends_with_is_no_room_where_it_is_a_thing() -> None:
+    things = (MapObject("d", "desk", 0.0, 0.0), MapObject("c", "end of the desk", 0.0, 1.0))
+    assert rooms((*things, *THINGS)) == ("hall",)
+    assert "in the desk" not in whereabouts(things, Pose2D(0.0, 0.5, 0.0))

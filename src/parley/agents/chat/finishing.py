@@ -137,12 +137,18 @@ class Finishing:
 
 
 def _skipped(steps: Sequence[PlanStep]) -> list[PlanStep]:
-    """What was left out, but for what a condition excluded."""
-    return [
-        step
-        for step in steps
-        if step.state == "skipped" and (step.action.flow is None or step.action.flow.if_ is None)
-    ]
+    """What was left out, but for what a condition excluded, and for what was only put off and done later."""
+    left = []
+    for at, step in enumerate(steps):
+        later = {_said(other) for other in steps[at + 1 :] if other.state == "finished"}
+        excluded = step.action.flow is not None and step.action.flow.if_ is not None
+        if step.state == "skipped" and not excluded and _said(step) not in later:
+            left.append(step)
+    return left
+
+
+def _said(step: PlanStep) -> str:
+    return step.label or step.action.reason or step.action.name
 
 
 def _less(done: Sequence[ActionCall], once: Sequence[PlanStep]) -> list[PlanStep]:

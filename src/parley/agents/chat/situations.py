@@ -175,6 +175,7 @@ class Situations:
             self.questions.first(target),
         )
         pose = status.pose if status is not None else None
+        question = asked.message if asked is not None else self._asked.words(said.reply_to)
         return Situation(
             message=message,
             memory=memory,
@@ -188,9 +189,9 @@ class Situations:
             robots=self._presence.names(),
             catalogue=status.catalogue if status else (),
             failure=failed_situation(failure, memory=memory, objects=objects, status=status)
-            if failure is not None and self.waits_for_answer(target)
+            if failure is not None and question and self.state(target) == "held"
             else None,
-            question=asked.message if asked is not None else self._asked.words(said.reply_to),
+            question=question,
             pictures=pictures,
             dialogue=self.log(target).state(status, proposal, self._clock.unix_ms()),
         )

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Callable
+from typing import Final
 
 from parley.language.base import Situation
 from parley.language.builtin.decision import Answer
@@ -11,24 +12,54 @@ from parley.language.builtin.lexicon import Lexicon
 from parley.language.builtin.reading import Reading
 from parley.language.builtin.saying import with_article
 from parley.language.builtin.things import link, noun_phrase
+from parley.language.dialogue.places import lies, whereabouts
+from parley.world.object_map import MapObject
 
 __all__ = ["answer"]
 
 
+_NO_ANSWER: Final = "I cannot answer that. I can tell where a thing is, if it is on my map or was told to me."
+
+
 def answer(
-    situation: Situation, reading: Reading, lexicon: Lexicon, reader: Callable[[str], Reading]
+    situation: Situation,
+    reading: Reading,
+    lexicon: Lexicon,
+    reader: Callable[[str], Reading],
+    before: MapObject | None = None,
 ) -> Answer:
-    """What is known about what is asked for."""
+    """What is known about what is asked for; "it" is what was spoken of `before`."""
     fillers = [*(filler for wish in reading.wishes for filler in wish.fillers), *reading.loose]
     thing = next((filler for filler in fillers if filler.role == "T"), None)
-    if thing is not None:
-        name, _ = noun_phrase(thing.words, thing.head, lexicon)
-        place = known_place(name, places(situation.memory, reader, lexicon))
-        if place is not None:
-            return Answer(f"I remember: {place.memory.data.rstrip('.')}.", (place.memory.name,))
-        mention = link(thing.words, thing.head, situation.objects, lexicon)
-        if mention.kind in ("one", "several"):
-            named = " and ".join(with_article(item.description) for item in mention.things)
-            return Answer(f"On my map there is {named}.")
-        return Answer(f"I do not know anything about {with_article(mention.text)}.")
-    return Answer("I cannot answer that. I can tell where a thing is, if it is on my map or was told to me.")
+    if thing is None:
+        return Answer(_NO_ANSWER)
+    mention = link(thing.words, thing.head, situation.objects, lexicon)
+    if mention.kind == "pronoun":
+        return _spoken_of(situation, before)
+    name, _ = noun_phrase(thing.words, thing.head, lexicon)
+    place = known_place(name, places(situation.memory, reader, lexicon))
+    if place is not None:
+        return Answer(f"I remember: {place.memory.data.rstrip('.')}.", (place.memory.name,))
+    if mention.kind == "one":
+        return Answer(_lying(situation, mention.things[0]))
+    if mention.kind == "several":
+        named = " and ".join(with_article(item.description) for item in mention.things)
+        return Answer(f"On my map there is {named}.")
+    return Answer(f"I do not know anything about {with_article(mention.text)}.")
+
+
+def _lying(situation: Situation, thing: MapObject) -> str:
+    name = with_article(thing.description)
+    return f"{name[0].upper()}{name[1:]} is {lies(thing, situation.objects, situation.robot_pose)}."
+
+
+def _spoken_of(situation: Situation, thing: MapObject | None) -> Answer:
+    """What is known of "it": what failed, what was asked, else the thing that was spoken of last."""
+    if situation.failure is not None:
+        here = whereabouts(situation.objects, situation.robot_pose)
+        return Answer(f"I know no more than this: {situation.failure.error_message} I am {here}.")
+    if situation.question:
+        return Answer(f"I know no more about it than I asked: {situation.question}")
+    if thing is None or "where" not in situation.message.lower():
+        return Answer(_NO_ANSWER)
+    return Answer(_lying(situation, thing))

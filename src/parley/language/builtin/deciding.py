@@ -146,7 +146,8 @@ def _without_order(
     if facts:
         return Remember(facts)
     if "question" in reading.acts:
-        return answer(situation, reading, lexicon, reader)
+        before, _ = policy.spoken_of(situation, (), lexicon)
+        return answer(situation, reading, lexicon, reader, before)
     if "need" in reading.acts:
         return Ask("What can I do about it? Tell me what to bring, or where to go.")
     if reading.acts <= {"social"}:

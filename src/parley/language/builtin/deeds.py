@@ -276,6 +276,8 @@ class Builder(Ways):
                 values["H"] = Value("left", "left")
             else:
                 return Ask("To the left or to the right?" if wish.frame == "TURN" else "Which direction?")
+        if "N" not in values and values["H"].argument == "back" and {*wish.verb.split()} & _RETURNING:
+            return Ask("Back to which place? Or how far shall I move back?")
         if "N" not in values and values["H"].argument != "around":
             return Ask(
                 "By how many degrees shall I turn?" if wish.frame == "TURN" else "How far shall I move?"
@@ -376,6 +378,7 @@ _CLAUSE = frozenset(
     {"'s", "'", "how", "what", "whether", "who", "whoever", "whatever", "which", "where", "when", "rest"}
 )
 """Words with which a description begins that is more than a name."""
+_RETURNING = frozenset({"go", "come", "get", "head", "drive", "return"})
 _TO_ME = frozenset({"bring", "fetch", "get", "retrieve", "go", "give", "want", "find"})
 """Verbs of bringing that mean the speaker if nobody is named."""
 _ONCE = frozenset({"SAY", "ASK", "WAIT", "TURN", "MOVE", "CONNECT", "DISC", "MIX", "ANSWER", "FOLLOW"})

@@ -24,19 +24,22 @@ _FEW = 2
 """So many words at most may be left over of what is shown for a yes."""
 
 
-def doubt(reading: Reading, orders: tuple[Wish, ...], knows: Callable[[Filler], bool]) -> Ask | None:
+def doubt(
+    reading: Reading, orders: tuple[Wish, ...], knows: Callable[[Filler], bool], *, idle: bool = False
+) -> Ask | None:
     """What is to be asked before these orders of a reading are carried out; None if they are certain.
 
     Args:
         reading: Of the clause.
         orders: The wishes among it that are to be carried out.
         knows: Whether all words of a role name something of the map: another witness that it is one.
+        idle: Whether there is no plan that a message could change: what sounds like a change is an order.
     """
     if reading.left_over:
         return Ask(
             f"I do not understand “{' '.join(reading.left_over)}” in this. Can you say it in other words?"
         )
-    if reading.acts & {"alarm", "question", "control", "edit"}:
+    if reading.acts & ({"alarm", "question", "control"} | (set() if idle else {"edit"})):
         return Ask("I am not sure what you want me to do. Can you say one thing at a time?")
     if reading.unsteady:
         what = " ".join(reading.unsteady)

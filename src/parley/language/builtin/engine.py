@@ -17,13 +17,14 @@ from parley.language.base import (
     ReplyReading,
     Situation,
 )
-from parley.language.builtin import pictures, recovery
+from parley.language.builtin import pictures
 from parley.language.builtin.clauses import Clause, clauses
 from parley.language.builtin.deciding import decide
 from parley.language.builtin.decision import Answer, Ask, Decision, Do
 from parley.language.builtin.lexicon import lexicon
 from parley.language.builtin.own import OwnActions
 from parley.language.builtin.reading import Reading, read
+from parley.language.builtin.recovery import Repairer
 from parley.language.builtin.reply import to_chat
 from parley.language.builtin.skills import SkillTable
 from parley.language.builtin.spans import Parse
@@ -80,7 +81,11 @@ class BuiltinLanguage:
 
     async def interpret(self, situation: Situation, *, on_draft: DraftHandler | None = None) -> ChatAction:
         """See `Language.interpret`."""
-        return self._addressed(to_chat(self.decide(situation), self._lexicon), situation)
+        chat = self._addressed(to_chat(self.decide(situation), self._lexicon), situation)
+        if not situation.pictures:
+            return chat
+        text = f"I cannot see what is in a picture. {chat.message_response}"
+        return chat.model_copy(update={"message_response": text})
 
     def certain(self, situation: Situation) -> ChatAction | None:
         """What a message asks for, where that is certain; None where it would be asked about or answered."""
@@ -174,7 +179,7 @@ class BuiltinLanguage:
 
     async def resolve(self, situation: ErrorSituation) -> ChatAction:
         """See `Language.resolve`."""
-        return recovery.resolve(situation)
+        return Repairer(self._lexicon, self.decide, self.reading, self._parts).resolve(situation)
 
     async def ground(
         self, description: str, objects: Sequence[MapObject], pose: Pose2D | None = None

@@ -12,6 +12,7 @@ from parley.language.builtin.reading import Reading
 from parley.language.builtin.saying import with_article
 from parley.language.builtin.structure import Part
 from parley.language.builtin.things import noun_phrase
+from parley.language.builtin.wishes import Filler
 from parley.messages.memory import MemoryEntry
 
 __all__ = ["Place", "known_place", "places", "rule_of", "told_of"]
@@ -42,7 +43,7 @@ def told_of(reading: Reading, message: str, starts: Sequence[int], lexicon: Lexi
         thing = wish.one("T")
         if wish.frame != "BELOC" or wish.act != "told" or thing is None or not wish.has("LG"):
             continue
-        name, _ = noun_phrase(thing.words, thing.head, lexicon)
+        name = _name(thing, lexicon)
         start = min(starts[min([wish.start, *(filler.start for filler in wish.fillers)])], len(message))
         last = max(filler.end for filler in wish.fillers)
         text = message[start : starts[last]] if last < len(starts) else message[start:]
@@ -104,11 +105,20 @@ def places(
             where = wish.one("L") or wish.one("G")
             thing = wish.one("T")
             if wish.frame == "BELOC" and where is not None and thing is not None:
-                name, _ = noun_phrase(thing.words, thing.head, lexicon)
+                name = _name(thing, lexicon)
                 place, rest = noun_phrase(where.words, where.head, lexicon)
                 words = (*place, *rest)
                 found.append(Place(" ".join(name), words, len(place) - 1, memory))
     return found
+
+
+def _name(thing: Filler, lexicon: Lexicon) -> tuple[str, ...]:
+    """What a thing that is told of is called: up to the first preposition, as a name may have many words."""
+    stop = next(
+        (at for at, word in enumerate(thing.words) if at and word in lexicon.classes["prepositions"]),
+        len(thing.words),
+    )
+    return noun_phrase(thing.words, max(thing.head, stop - 1), lexicon)[0]
 
 
 def known_place(name: Sequence[str], known: Sequence[Place]) -> Place | None:

@@ -18,7 +18,7 @@ from parley.language.builtin.spatial import picked
 from parley.language.builtin.things import Mention, link, noun_phrase
 from parley.language.builtin.tokens import point_of
 from parley.language.builtin.wishes import Filler, Wish
-from parley.language.dialogue.places import in_room
+from parley.language.dialogue.places import distance_m, in_room
 from parley.world.object_map import MapObject
 
 __all__ = ["Grounder", "Value"]
@@ -139,7 +139,20 @@ class Grounder:
         movable = frame in _MOVABLE and filler.role == "T" and looked_for
         if movable or frame in ("PHOTO", "BELOC"):
             return Value(mention.text, with_article(mention.text))
-        return Ask(f"I do not know any “{mention.text}” here. Which thing or place do you mean?")
+        return self._unknown(mention.text, frame, sought=frame in _MOVABLE and filler.role == "T")
+
+    def _unknown(self, text: str, frame: str, *, sought: bool) -> Ask:
+        """That nothing is called so, with what is near and known: nobody knows all that a robot knows."""
+        if sought:
+            return Ask(f"I do not know where any “{text}” is. Please tell me where it is.")
+        leads = frame == "GO"
+        pose, objects = self.situation.robot_pose, self.situation.objects
+        near = sorted(objects, key=lambda item: distance_m(item, pose)) if pose is not None else objects
+        names = list(dict.fromkeys(with_article(item.description) for item in near))[:_SHOWN]
+        unknown = f"I do not know any “{text}” here{', so I cannot go there' if leads else ''}."
+        can = "I can go to" if leads else "I know"
+        shown = f" {can} {', '.join(names[:-1])} or {names[-1]}, for example." if len(names) > 1 else ""
+        return Ask(f"{unknown}{shown} Which {'place' if leads else 'thing or place'} do you mean?")
 
     def _spoken_of(self, filler: Filler, mention: Mention) -> Value | Ask | None:
         """What was spoken of before, if words like "it" and "there" mean that."""
@@ -317,5 +330,7 @@ def _at_point(filler: Filler) -> Value | None:
 
 _BESIDE = frozenset({"next", "near", "beside", "by", "behind", "opposite", "close"})
 _BESIDE_M = 2.0
+_SHOWN = 3
+"""So many things are named to whoever asked for one that nobody knows."""
 _BACK_TO = frozenset({"there", "it", "them", "these", "those", "they", "over"})
 """Words that mean what was spoken of last."""

@@ -78,7 +78,9 @@ class Planner:
         if node.is_order:
             reading = self._as_ordered(node.part)
         wishes = tuple(self.builder.joined(wish) for wish in orders_of(reading))
-        unsure = doubt(reading, wishes, self.builder.knows)
+        known = self.builder.situation
+        idle = not known.queue and known.dialogue.proposal is None
+        unsure = doubt(reading, wishes, self.builder.knows, idle=idle)
         if unsure is not None:
             if not may_be_offered(reading, wishes, self.builder.lexicon):
                 return unsure

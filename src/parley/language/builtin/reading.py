@@ -272,9 +272,13 @@ def _is_name(word: str, lexicon: Lexicon) -> bool:
 
 def _about(parse: Parse, lexicon: Lexicon) -> tuple[str, ...]:
     """The words before the first "is", "has" and the like of what is told."""
-    told = [token.low for token, act in zip(parse.tokens, parse.acts, strict=True) if act in ("told", "need")]
-    end = next((at for at, word in enumerate(told) if word in lexicon.classes["being"]), 0)
-    words = tuple(word for word in told[:end] if word not in lexicon.classes["small"])
+    low = [token.low for token in parse.tokens]
+    told = (at for at, act in enumerate(parse.acts) if act in ("told", "need"))
+    end = next((at for at in told if low[at] in lexicon.classes["being"]), 0)
+    start = end
+    while start and parse.tokens[start - 1].is_word and low[start - 1] not in _BREAKS:
+        start -= 1
+    words = tuple(word for word in low[start:end] if word not in lexicon.classes["small"])
     return words if end and len(words) < 4 else ()
 
 

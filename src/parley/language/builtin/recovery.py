@@ -2,58 +2,328 @@
 
 from __future__ import annotations
 
-from collections.abc import Sequence
-from dataclasses import replace
+import re
+from collections.abc import Callable, Sequence
+from dataclasses import dataclass, replace
+from typing import Final
 
 from parley.errors import FailureCode
-from parley.language.base import ErrorSituation
+from parley.language.base import ErrorSituation, Situation
+from parley.language.builtin.decision import Ask, Decision, Do
+from parley.language.builtin.facts import Place, known_place, places
+from parley.language.builtin.lexicon import Lexicon, stem
+from parley.language.builtin.reading import Reading
+from parley.language.builtin.reply import said as words_for
+from parley.language.builtin.reply import to_chat
+from parley.language.builtin.saying import with_article
+from parley.language.builtin.structure import Part
+from parley.language.builtin.things import head_of, link, noun_phrase
 from parley.language.builtin.tokens import tokenize
-from parley.language.control import control_of
-from parley.language.dialogue.answers import differences
-from parley.language.dialogue.questions import plain, question_of
-from parley.language.dialogue.replies import chosen, is_done, names_deed, words_of
+from parley.language.dialogue.answers import differences, listed
+from parley.language.dialogue.mentions import named
+from parley.language.dialogue.places import rooms
+from parley.language.dialogue.questions import asks, plain, question_of
+from parley.language.dialogue.replies import chosen, names_deed, words_of
+from parley.language.dialogue.settling import Settled, parts_of, settled
 from parley.messages.chat import ActionCall, ChatAction, SystemCommand
+from parley.messages.memory import MemoryEntry
+from parley.world.object_map import MapObject
 
-__all__ = ["resolve"]
+__all__ = ["Repairer"]
 
 _AGAIN, _WITHOUT, _STOP = "try again", "go on without it", "stop"
-_RETRY = frozenset({"again", "retry", "try", "repeat"})
-_YES = frozenset({"yes", "yeah", "ok", "okay", "sure", "yep"})
-_NOT = frozenset({"not", "no", "don't", "never", "can't", "didn't", "haven't"})
-_GOING = frozenset({"go", "drive", "come", "move", "over", "to", "the", "please", "now", "then", "just"})
-_LONGEST = 6
-"""So many words an answer has at most that is no order, question or fact."""
+_YES: Final = frozenset({"yes", "yeah", "ok", "okay", "sure", "yep", "please", "do", "it", "that"})
+_LONGEST: Final = 12
+"""So many words an answer has at most that only names a thing."""
+_HELPED: Final = frozenset({FailureCode.NOT_CAPABLE, FailureCode.DECLINED, FailureCode.NOT_UNDERSTOOD})
+"""Failures after which a person does the step: when they have done it, it is over."""
+_NOT_UNDERSTOOD: Final = "understand"
+_CODE_WORDS: Final = {
+    FailureCode.NO_MATCH: "find see there missing unknown gone",
+    FailureCode.AMBIGUOUS: "several which sure",
+    FailureCode.UNREACHABLE: "reach way closed shut locked",
+    FailureCode.BLOCKED: "blocked block way stuck obstacle",
+    FailureCode.TIMED_OUT: "long late slow time",
+    FailureCode.UNAVAILABLE: "answer available",
+    FailureCode.NOT_CAPABLE: "able can't cannot",
+    FailureCode.HARDWARE: "broken work fail",
+}
+"""How people speak of a failure when they teach what is to be done about it."""
+_ANY_FAILURE: Final = "fail failed wrong error trouble problem something anything step goes go"
 
 
-def resolve(situation: ErrorSituation) -> ChatAction:
-    """Repair a failure by what the operator answered, or ask; an empty answer leaves it to the chat."""
-    names = _candidates(situation)
-    if situation.reply is None:
-        return _ask(situation, names)
-    bare, words = plain(tokenize(situation.reply)), words_of(situation.reply)
-    command = control_of(situation.reply)
-    also = {item.description: item.aliases for item in situation.objects}
-    choice = chosen(words, names, also) if len(words) <= 2 * _LONGEST and "?" not in situation.reply else None
-    if choice is not None and (not names_deed(words) or _goes_there(situation, words, choice)):
-        step = _with_words(situation.failed_action, choice)
-        return _solved(situation, f"Thank you. I take the {choice}.", (step,))
-    if command in ("stop", "clear", "emergency_stop"):
-        kind = "clear" if command == "clear" else "stop"
-        return _solved(situation, "I stop here.", (), (SystemCommand(command=kind),))
-    short = len(words) <= _LONGEST and "?" not in situation.reply
-    if command == "skip" or (short and {*words} & {"without", "skip"} and not {*words} & {"the", "to"}):
-        return _solved(situation, "I go on without it.", ())
-    if short and {*words} & _RETRY and not {*words} & _NOT:
-        return _solved(situation, "I try again.", (situation.failed_action,))
-    if is_done(bare):
-        helped = situation.code in (FailureCode.NOT_CAPABLE, FailureCode.DECLINED)
-        return _solved(situation, "Thank you. I go on.", () if helped else (situation.failed_action,))
-    if short and {*words} <= _YES | {"please", "do", "it", "that"} and not names:
-        return _solved(situation, "I try again.", (situation.failed_action,))
-    question = question_of(bare)
-    if names and question is not None and question.topic == "difference":
-        return ChatAction(message_response=differences(names, situation.objects))
-    return ChatAction()
+@dataclass(frozen=True, slots=True)
+class Repairer:
+    """Repairs a failed step by what was taught, what is remembered, or what a person answers."""
+
+    lexicon: Lexicon
+    decide: Callable[[Situation], Decision]
+    reading: Callable[[str], Reading]
+    parted: Callable[[str], tuple[Part, ...]]
+
+    def resolve(self, situation: ErrorSituation) -> ChatAction:
+        """See `Language.resolve`; an empty answer leaves what was said to the chat."""
+        names = _candidates(situation)
+        if situation.reply is None:
+            return self._alone(situation) or _ask(situation, names)
+        if not any(token.is_word for token in tokenize(situation.reply)):
+            return ChatAction(message_response="I cannot see what is in a picture. Please tell me in words.")
+        return self._answered(situation, situation.reply, names) or self._left(situation, names)
+
+    # -- without asking --------------------------------------------------------------------------------
+
+    def _alone(self, situation: ErrorSituation) -> ChatAction | None:
+        """What was taught for such a failure, else another place that is remembered; nothing twice."""
+        taught = (self._taught(entry, situation) for entry in reversed(situation.memory))
+        found = [one for one in (*taught, self._remembered(situation)) if one is not None]
+        return next((one for one in found if not _is_tried(situation, one)), None)
+
+    def _taught(self, rule: MemoryEntry, situation: ErrorSituation) -> ChatAction | None:
+        """For "when the way is blocked, wait a minute and try again": an answer that was given beforehand."""
+        if rule.type != "text" or len(rule.data) > 300:
+            return None
+        parts = self.parted(rule.data)
+        cases = [part for part in parts if part.clause.link in ("when", "if")]
+        if len(cases) != 1 or not self._is_case(cases[0], situation):
+            return None
+        start = rule.data.find(cases[0].text) + len(cases[0].text)
+        before = rule.data[: rule.data.find(cases[0].text)]
+        what = rule.data[start:].strip(" ,:.") or before.rsplit(" ", 2)[0].strip(" ,")
+        made = self._answered(situation, what, ()) or self._ordered(situation, what)
+        if made is None or not made.success:
+            return None
+        text = f"{situation.error_message.strip()} You told me: “{rule.data.rstrip('.')}”. I do so now."
+        return made.model_copy(update={"message_response": text, "sources": (rule.name,)})
+
+    def _is_case(self, case: Part, situation: ErrorSituation) -> bool:
+        """Whether a failure is what a rule is for: every word of its condition is about it."""
+        small = self.lexicon.classes["small"] | self.lexicon.classes["determiners"]
+        small = small | self.lexicon.classes["prepositions"] | self.lexicon.classes["being"] | {"you", "be"}
+        words = {stem(word) for word in case.low if word[0].isalnum() and word not in small}
+        kind = _stems(_CODE_WORDS.get(situation.code, ""))
+        about = kind | _stems(
+            f"{_ANY_FAILURE} {situation.error_message} {_words_of(situation.failed_action)}"
+        )
+        telling = kind | _stems(f"fail failed wrong error problem {situation.error_message}")
+        return bool(words) and words <= about and bool(words & telling)
+
+    def _remembered(self, situation: ErrorSituation) -> ChatAction | None:
+        """Something is not where the robot looked, and is remembered to be somewhere else."""
+        known = places(situation.memory, self.reading, self.lexicon)
+        words = words_of(_words_of(situation.failed_action))
+        if situation.code is not FailureCode.NO_MATCH or not words:
+            return None
+        name, _ = noun_phrase(words, head_of(words, self.lexicon), self.lexicon)
+        place = known_place(name, known)
+        made = self._at_place(situation, place) if place is not None else None
+        if place is None or made is None:
+            return None
+        text = f"I remember: {place.memory.data.rstrip('.')}. {made.message_response}"
+        return made.model_copy(update={"message_response": text, "sources": (place.memory.name,)})
+
+    def _at_place(self, situation: ErrorSituation, place: Place) -> ChatAction | None:
+        """The failed step at another place: a look there, or that place instead of a word no map knows."""
+        where = link(place.where, place.head, situation.objects, self.lexicon)
+        if where.kind != "one":
+            return None
+        text = with_article(where.things[0].description)
+        if not _looks(situation):
+            step = _with_words(situation.failed_action, where.things[0].description)
+            return _solved(situation, f"I take {text}.", (step,))
+        last = next((_words_of(step) for step in reversed(situation.completed) if _words_of(step)), "")
+        way = self._ordered(situation, f"go to {text}")
+        if way is None or last == where.things[0].description:
+            return None
+        return _solved(situation, f"I go to {text} and look there.", (*way.queue, situation.failed_action))
+
+    # -- by an answer ----------------------------------------------------------------------------------
+
+    def _answered(self, situation: ErrorSituation, reply: str, names: Sequence[str]) -> ChatAction | None:
+        """What settles the failure; None if nothing of it does."""
+        if reply.rstrip().endswith("?") and asks(reply, plain(tokenize(reply))) and not _is_wish(reply):
+            return None
+        chose = self._chosen(situation, reply, names)
+        if chose is not None:
+            return chose
+        found = settled(reply, self._other_things(situation))
+        if found is not None:
+            return self._settled(situation, found)
+        words = words_of(reply)
+        if {*words} <= _YES and not names:
+            return _solved(situation, "I try again.", (situation.failed_action,))
+        return self._elsewhere(situation, reply)
+
+    def _chosen(self, situation: ErrorSituation, reply: str, names: Sequence[str]) -> ChatAction | None:
+        """One of several things, and perhaps an order behind it."""
+        also = {item.description: item.aliases for item in situation.objects}
+        for piece, rest in [next(parts_of(reply)), (reply, "")] if names else []:
+            words = words_of(piece)
+            choice = chosen(words, names, also)
+            ordered = self._ordered(situation, rest) if rest else None
+            if choice is None or len(words) > _LONGEST or (rest and ordered is None):
+                continue
+            if names_deed(words) and not _goes_there(situation, words, choice):
+                continue
+            step = _with_words(situation.failed_action, choice)
+            return _with_rest(_solved(situation, f"Thank you. I take the {choice}.", (step,)), ordered)
+        return None
+
+    def _settled(self, situation: ErrorSituation, found: Settled) -> ChatAction | None:
+        behind = self._ordered(situation, found.rest) if found.rest else None
+        unclear = behind is None and any(
+            wish.act == "order" for wish in self.reading(found.rest or "-").wishes
+        )
+        again = (situation.failed_action,)
+        if found.delay_s:
+            waits = _solved(situation, "All right, I wait and then try again.", again)
+            return waits.model_copy(update={"delay_s": found.delay_s})
+        match found.way:
+            case "stop":
+                made = _solved(situation, "I stop here.", (), (SystemCommand(command="stop"),))
+            case "clear":
+                return None if unclear else self._given_up(situation, found.rest, behind)
+            case "promise":
+                made = ChatAction(message_response="All right, I wait. Please tell me when it is done.")
+            case "without":
+                made = _solved(situation, "I go on without it.", ())
+            case "done":
+                over = situation.code in _HELPED
+                made = _solved(situation, "Thank you. I go on.", () if over else again)
+            case _:
+                made = _solved(situation, "I try again.", again)
+        if unclear:
+            text = f"{made.message_response} I did not understand “{found.rest}”."
+            return made.model_copy(update={"message_response": text})
+        return _with_rest(made, behind)
+
+    @staticmethod
+    def _given_up(situation: ErrorSituation, rest: str, behind: ChatAction | None) -> ChatAction:
+        """Without the step where nothing is wanted instead; else that in place of the whole plan."""
+        if rest and behind is None:
+            return _solved(situation, "I go on without it.", ())
+        more = f" {behind.message_response}" if behind is not None else ""
+        steps, drops = behind.queue if behind is not None else (), (SystemCommand(command="clear"),)
+        return _solved(situation, f"I drop the rest of my plan.{more}", steps, drops)
+
+    def _elsewhere(self, situation: ErrorSituation, reply: str) -> ChatAction | None:
+        """Where a thing is that was not found, or which other one is meant."""
+        if situation.code not in (FailureCode.NO_MATCH, FailureCode.AMBIGUOUS):
+            return None
+        said = MemoryEntry(name="told", data=reply)
+        told = places([said], self.reading, self.lexicon)
+        about = _stems(_words_of(situation.failed_action)) | {"it", "he", "she", "they", "that", "this"}
+        for place in told:
+            if {stem(word) for word in place.thing.split()} <= about:
+                return self._at_place(situation, place)
+        tokens = tokenize(reply)
+        things = [
+            one.things[0] for one in named(tokens, situation.objects, self.lexicon) if len(one.things) == 1
+        ]
+        if len(things) != 1 or len(words_of(reply)) > _LONGEST or not self._only_names(reply, things[0]):
+            return None
+        words = tuple(things[0].description.lower().split())
+        return self._at_place(situation, Place("it", words, head_of(words, self.lexicon), said))
+
+    def _only_names(self, reply: str, thing: MapObject) -> bool:
+        """Whether an answer only names a thing, or orders the failed step with it: "try the desk"."""
+        own = _stems(" ".join((thing.description, *thing.aliases)))
+        small = self.lexicon.classes["small"] | self.lexicon.classes["prepositions"] | _NAMING
+        small = small | self.lexicon.classes["determiners"]
+        return all(word in small or stem(word) in own for word in words_of(reply))
+
+    def _ordered(self, situation: ErrorSituation, words: str) -> ChatAction | None:
+        """The steps of an order that is said besides, if it is certain."""
+        made = self.decide(_as_message(situation, words))
+        if not isinstance(made, Do):
+            return None
+        what = listed([words_for(deed, self.lexicon) for deed in made.deeds if not deed.hidden])
+        chat = to_chat(made, self.lexicon)
+        return chat.model_copy(update={"message_response": f"I will {what}."})
+
+    def _other_things(self, situation: ErrorSituation) -> set[str]:
+        """The words for things and rooms that the failed step is not about."""
+        small = self.lexicon.classes["prepositions"] | self.lexicon.classes["determiners"]
+        names = [name for item in situation.objects for name in (item.description, *item.aliases)]
+        known = _stems(" ".join([*names, *rooms(situation.objects)]))
+        step = f"{_words_of(situation.failed_action)} {situation.failed_action.reason}"
+        return known - _stems(step) - {stem(word) for word in small}
+
+    def _left(self, situation: ErrorSituation, names: Sequence[str]) -> ChatAction:
+        """Nothing, if the chat has something to say to an answer; else the question once more."""
+        message = _as_message(situation, situation.reply or "")
+        made = self.decide(replace(message, question=_question(situation, names)[0]))
+        reading = self.reading(situation.reply or "")
+        meant = any(wish.act == "order" and wish.witness == "agrees" for wish in reading.wishes)
+        if not isinstance(made, Ask) or made.choices or made.offer or made.alarms or made.told or meant:
+            return _about_candidates(situation, names) or ChatAction()
+        question, choices = _question(situation, names)
+        still = any(
+            _NOT_UNDERSTOOD in turn.content for turn in situation.dialogue if turn.role == "assistant"
+        )
+        lead = "I still do not understand you." if still else "I did not understand that."
+        return ChatAction(success=False, message_response=f"{lead} {question}", choices=choices)
+
+
+_NAMING: Final = frozenset({
+    "i", "mean", "meant", "is", "it", "he", "she", "they", "take", "use", "try", "go", "for", "drive", "yes",
+    "no", "sorry", "please", "instead", "rather", "choose", "pick", "look", "check", "then", "maybe", "think",
+    "should", "be",
+})  # fmt: skip
+"""What may stand with the name of a thing in an answer that only names it."""
+
+
+def _about_candidates(situation: ErrorSituation, names: Sequence[str]) -> ChatAction | None:
+    question = question_of(plain(tokenize(situation.reply or ""))) if names else None
+    if question is None or question.topic != "difference":
+        return None
+    return ChatAction(message_response=differences(names, situation.objects))
+
+
+def _is_wish(reply: str) -> bool:
+    """Whether a question is how an answer is put: "can you try again?", "why don't you go around it?"."""
+    return re.match(r"\W*(?:can|could|will|would|why (?:don['’]t|not))\b", reply.lower()) is not None
+
+
+def _stems(text: str) -> set[str]:
+    return {stem(word) for word in words_of(text)}
+
+
+def _words_of(step: ActionCall) -> str:
+    """The words that a step is given first."""
+    values = (
+        item.value for item in step.input_parameters.values() if item.type == "string" and item.has_data
+    )
+    return str(next(values, ""))
+
+
+def _looks(situation: ErrorSituation) -> bool:
+    """Whether the failed step looks at something."""
+    infos = (info for info in situation.catalogue if info.name == situation.failed_action.name)
+    return any("looks" in info.effects for info in infos)
+
+
+def _is_tried(situation: ErrorSituation, repair: ChatAction) -> bool:
+    wanted = [(step.name, _words_of(step)) for step in repair.queue]
+    tried = ([(step.name, _words_of(step)) for step in steps] for steps in situation.tried)
+    return bool(wanted) and wanted in list(tried)
+
+
+def _as_message(situation: ErrorSituation, words: str) -> Situation:
+    """What is known about a failure, for understanding words as a message of their own."""
+    return Situation(
+        words,
+        memory=situation.memory,
+        objects=situation.objects,
+        robot_pose=situation.robot_pose,
+        robot=situation.robot,
+        robots=(situation.robot,) if situation.robot else (),
+        catalogue=situation.catalogue,
+    )
+
+
+_GOING: Final = frozenset(
+    {"go", "drive", "come", "move", "over", "to", "the", "please", "now", "then", "just"}
+)
 
 
 def _goes_there(situation: ErrorSituation, words: Sequence[str], choice: str) -> bool:
@@ -64,22 +334,27 @@ def _goes_there(situation: ErrorSituation, words: Sequence[str], choice: str) ->
 
 
 def _candidates(situation: ErrorSituation) -> tuple[str, ...]:
-    listed = situation.details.get("candidates")
-    if situation.code is not FailureCode.AMBIGUOUS or not isinstance(listed, list):
+    listed_ = situation.details.get("candidates")
+    if situation.code is not FailureCode.AMBIGUOUS or not isinstance(listed_, list):
         return ()
     return tuple(
-        str(item["description"]) for item in listed if isinstance(item, dict) and "description" in item
+        str(item["description"]) for item in listed_ if isinstance(item, dict) and "description" in item
     )
 
 
-def _ask(situation: ErrorSituation, names: Sequence[str]) -> ChatAction:
+def _question(situation: ErrorSituation, names: Sequence[str]) -> tuple[str, tuple[str, ...]]:
+    """What is asked about a failure, and what is offered."""
     if names:
-        shown = " and ".join([", ".join(f"the {name}" for name in names[:-1]), f"the {names[-1]}"])
-        question = f"I know {len(names)} things that fit: {shown}. Which one do you mean?"
-        return ChatAction(success=False, message_response=question, choices=tuple(names))
+        shown = listed([f"the {name}" for name in names])
+        return f"I know {len(names)} things that fit: {shown}. Which one do you mean?", tuple(names)
     text = situation.error_message.strip() or "A step did not work."
-    question = f"{text} Shall I {_AGAIN}, {_WITHOUT}, or {_STOP}?"
-    return ChatAction(success=False, message_response=question, choices=(_AGAIN, _WITHOUT, _STOP))
+    return f"{text} Shall I {_AGAIN}, {_WITHOUT}, or {_STOP}?", (_AGAIN, _WITHOUT, _STOP)
+
+
+def _ask(situation: ErrorSituation, names: Sequence[str]) -> ChatAction:
+    question, choices = _question(situation, names)
+    lead = "That did not help. " if situation.tried else ""
+    return ChatAction(success=False, message_response=f"{lead}{question}", choices=choices)
 
 
 def _solved(
@@ -89,6 +364,14 @@ def _solved(
     return ChatAction(
         success=True, message_response=text, queue=tuple(steps), system_cmd=tuple(commands), targets=targets
     )
+
+
+def _with_rest(made: ChatAction, behind: ChatAction | None) -> ChatAction:
+    """With an order that comes after the rest of the plan."""
+    if behind is None:
+        return made
+    text = f"{made.message_response} After that: {behind.message_response}"
+    return made.model_copy(update={"message_response": text, "afterwards": behind.queue})
 
 
 def _with_words(step: ActionCall, words: str) -> ActionCall:

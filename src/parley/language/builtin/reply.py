@@ -84,11 +84,13 @@ def _changed(edit: Edit, lexicon: Lexicon) -> ChatAction:
     """A change of a plan: steps that are left out, the last first, and what comes in their place."""
     made = to_chat(edit.do, lexicon) if edit.do is not None else ChatAction()
     change = edit.change
-    drops = () if edit.proposal else change.drop
+    drops = () if edit.proposal or change.clears else change.drop
+    clear = (SystemCommand(command="clear"),) if change.clears and not edit.proposal else ()
     return ChatAction(
         message_response=" ".join(text for text in (change.said, made.message_response) if text),
         queue=(*change.kept, *change.add, *made.queue, *change.rest),
         system_cmd=(
+            *clear,
             *(SystemCommand(command="pop", arguments=_meant(place, edit.steps)) for place in drops),
             *made.system_cmd,
         ),

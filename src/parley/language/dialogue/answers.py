@@ -110,7 +110,7 @@ def _doing(situation: Situation, about: str) -> str:
     if dialogue.latched:
         return "I stand still: my emergency stop is on. Somebody has to release it."
     if situation.question:
-        return f"I wait for an answer to this: {situation.question}"
+        return _failed(situation) or f"I wait for an answer to this: {situation.question}"
     if not left:
         return f"{_IDLE} I am {whereabouts(situation.objects, situation.robot_pose)}."
     what = step_words(left[0].label)
@@ -188,7 +188,7 @@ _SMALL: Final = frozenset(
 def _why_stopped(situation: Situation, about: str) -> str:
     dialogue = situation.dialogue
     if situation.question:
-        return f"I wait for an answer to this: {situation.question}"
+        return _failed(situation) or f"I wait for an answer to this: {situation.question}"
     if dialogue.stopped is not None:
         who = f"{dialogue.stopped.by} told" if dialogue.stopped.by else "you told"
         return f"Because {who} me to, {_at(dialogue.stopped.unix_ms)}: “{dialogue.stopped.words.strip()}”."
@@ -211,8 +211,22 @@ def _waiting(situation: Situation, about: str) -> str:
     return _doing(situation, about) if _steps_left(situation) else f"For nothing but your next order. {_IDLE}"
 
 
+def _failed(situation: Situation) -> str:
+    """What was to be done when a step failed, on whose word, and what went wrong; empty if none did."""
+    failure = situation.failure
+    if failure is None:
+        return ""
+    step = failure.failed_action.reason or "do the next step"
+    orders = situation.dialogue.orders
+    asked = f" {_wanted(orders[-1])}." if orders else ""
+    return f"I was to {step}, and that did not work: {failure.error_message}{asked}"
+
+
 def _why(situation: Situation, about: str) -> str:
     dialogue = situation.dialogue
+    if situation.question:
+        wanted = f"{_wanted(dialogue.orders[-1])}." if dialogue.orders else ""
+        return _failed(situation) or wanted or f"I wait for an answer to this: {situation.question}"
     if dialogue.refused:
         return _why_not(situation, about)
     if dialogue.plan in ("paused", "held"):
@@ -332,8 +346,8 @@ def _battery(situation: Situation, about: str) -> str:
 def abilities(catalogue: Sequence[ActionInfo]) -> str:
     """What can be asked for, in the words of the actions' makers."""
     shown = [info for info in catalogue if not info.only_finds]
-    parts = [(info.description.split(".")[0] or info.label or info.name) for info in shown]
-    return "; ".join(f"{part[:1].lower()}{part[1:]}" for part in parts)
+    parts = [(re.split(r"[.;]", info.description)[0] or info.label or info.name) for info in shown]
+    return "; ".join(dict.fromkeys(f"{part[:1].lower()}{part[1:]}" for part in parts))
 
 
 def _able(situation: Situation, about: str) -> str:
@@ -341,8 +355,8 @@ def _able(situation: Situation, about: str) -> str:
     if not parts:
         return "I do not know yet what I can do: my robot has not told me."
     return (
-        f"I can do this: {parts}. I remember what you tell me, keep to what you forbid me, and tell where "
-        "I am, what I did and what I saw. Say “stop” at any time."
+        f"I can do this: {parts}. I remember what you tell me, keep to what you forbid me, and tell where I "
+        "am, what I did and what I saw. Say “stop” at any time."
     )
 
 

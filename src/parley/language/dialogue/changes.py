@@ -29,8 +29,10 @@ __all__ = [
     "moved",
     "reordered",
     "texts_of",
+    "things_of",
     "visits",
     "visits_of",
+    "with_other",
 ]
 
 _OPEN: Final = ("queued", "running", "waiting", "paused", "failed")
@@ -56,6 +58,11 @@ _TAKING_BACK: Final = re.compile(
 _FRONT: Final = re.compile(
     r"\b(?:first|before that|before you (?:do|go)|beforehand|on the way|on your way)\b"
 )
+_INSTEAD: Final = re.compile(
+    r"\b(?:no|nope|not|instead|rather|scratch|forget|(?:i|we) (?:mean|meant)|make (?:it|that)|never ?mind|"
+    r"drop|cancel|leave|changed? my mind)\b"
+)
+"""What takes back also what comes "first"; "actually" and "wait" do not."""
 _ADDING: Final = re.compile(
     r"\b(?:also|add|too|as well|and then|then|after (?:that|this|wards?)|afterwards|at the end|finally|"
     r"besides|plus|"
@@ -95,6 +102,8 @@ class Change:
     where: Literal["end", "instead", "front"] = "end"
     rest: tuple[ActionCall, ...] = ()
     """What was behind and is to come after what is added."""
+    clears: bool = False
+    """Whether nothing of the plan remains."""
     kept: tuple[ActionCall, ...] = ()
     """What comes before it, where the whole is proposed anew."""
     said: str = ""
@@ -163,6 +172,16 @@ def texts_of(call: ActionCall) -> list[str]:
     ]
 
 
+def things_of(calls: Sequence[ActionCall], objects: Sequence[MapObject]) -> tuple[MapObject, ...]:
+    """The things that actions are about."""
+    return _things_in([PlanStep(action=call, label=call.reason) for call in calls], objects)
+
+
+def with_other(calls: Sequence[ActionCall], old: MapObject, new: MapObject) -> tuple[ActionCall, ...] | None:
+    """The same actions about another thing; None if they are not about that one."""
+    return moved(Visit((), (old,), "", tuple(calls), ""), new)
+
+
 def _things_in(steps: Sequence[PlanStep], objects: Sequence[MapObject]) -> tuple[MapObject, ...]:
     """The things that steps are about: named in full in their labels or arguments."""
     text = " ".join(
@@ -206,6 +225,8 @@ def change_of(
             against.append(name)
     for_ = [name for name in names if name not in against]
     takes_back = _TAKING_BACK.search(text) is not None
+    if _FRONT.search(text) is not None and _INSTEAD.search(text) is None:
+        takes_back = False
     if orders:
         return _with_order(plan, against, text, takes_back=takes_back)
     if not _is_bare(tokens, names, lexicon):
@@ -236,7 +257,11 @@ def _with_order(
         return reordered(plan, [], plan, "front")
     if not old and takes_back:
         old = list(plan) if _ALL.search(text) is not None else list(plan[:1])
-    return reordered(plan, old, _behind(plan, old), "instead") if old else None
+    if not old:
+        return None
+    whole = len(old) == len(plan) > 1
+    said = "I drop the rest of my plan." if whole else _dropping(old).said
+    return replace(reordered(plan, old, _behind(plan, old), "instead", said=said), clears=whole)
 
 
 def before_all(situation: Situation) -> Change:

@@ -17,7 +17,7 @@ from parley.language.dialogue.questions import asks
 from parley.language.stop_words import calls_to_stop, has_stop_word
 from parley.messages.memory import MemoryEntry
 
-__all__ = ["forgotten", "is_wish", "moved_fact", "other_fact", "worth_keeping"]
+__all__ = ["forgotten", "is_wish", "moved_fact", "other_fact", "taken_back", "worth_keeping"]
 
 _PRONOUNS: Final = frozenset({"he", "she", "they", "it", "this", "that", "these", "those", "they're", "it's"})
 _POINTING: Final = frozenset({"this", "that", "these", "those"})
@@ -161,6 +161,31 @@ def _own_words(message: str) -> str:
         "", text, flags=re.IGNORECASE,
     )  # fmt: skip
     return re.sub(r",? (?:by the way|you know|please|btw)$", "", text, flags=re.IGNORECASE)
+
+
+def taken_back(
+    situation: Situation, bare: str, told_in: Callable[[str], tuple[Told, ...]]
+) -> tuple[MemoryEntry, ...]:
+    """The memories of what was told last, where "forget that" can mean nothing that was ordered since."""
+    if _THAT.fullmatch(bare) is None:
+        return ()
+    for turn in reversed(situation.history[-_TURNS:]):
+        if turn.role != "operator" or turn.content.rstrip().endswith("?"):
+            continue
+        names = {fact.name: fact for fact in told_in(turn.content)}
+        said = _own_words(turn.content).casefold()
+        kept = {entry.name: entry for entry in situation.memory if entry.data.casefold() == said}
+        told = {name: MemoryEntry(name=name, data=fact.text) for name, fact in names.items()}
+        return tuple((told | kept).values())
+    return ()
+
+
+_THAT: Final = re.compile(
+    r"(?:please |you can |can you |could you )*(?:forget|scratch|delete|unlearn|remove)(?: about)? "
+    r"(?:it|that|this|what (?:i|we)(?: just|'ve| have)* (?:said|told you)|"
+    r"(?:the|my) last (?:thing|one|fact|sentence|message))(?: fact| one| again)?"
+    r"(?: (?:that )?(?:i|we) (?:just )?(?:said|told you))?"
+)
 
 
 def forgotten(situation: Situation, bare: str) -> tuple[MemoryEntry, ...] | None:

@@ -7,12 +7,12 @@ from dataclasses import dataclass
 
 from rapidfuzz.distance import OSA
 
-from parley.language.builtin.lexicon import Lexicon, stem
-from parley.language.builtin.things import head_of, link
+from parley.language.builtin.lexicon import Lexicon, stem, stems
+from parley.language.builtin.things import head_of, link, main_word
 from parley.language.builtin.tokens import Token
 from parley.world.object_map import MapObject
 
-__all__ = ["Named", "named", "same_word"]
+__all__ = ["Named", "named", "same_kind", "same_word"]
 
 _LONGEST = 8
 _IN_TIME = {"before", "after"}
@@ -39,6 +39,12 @@ def same_word(one: str, other: str) -> bool:
     """Whether two words are the same but for plural or one slip in a long word."""
     one, other = stem(one), stem(other)
     return one == other or (min(len(one), len(other)) > 4 and OSA.distance(one, other) == 1)
+
+
+def same_kind(one: MapObject, other: MapObject) -> bool:
+    """Whether two things are called by the same noun: "red gate", "gate by the desk"."""
+    nouns = {main_word(stems(item.description.lower().split())) for item in (one, other)}
+    return len(nouns) == 1
 
 
 def named(tokens: Sequence[Token], objects: Sequence[MapObject], lexicon: Lexicon) -> list[Named]:

@@ -9,7 +9,7 @@ from collections.abc import Sequence
 from parley.world.geometry import Pose2D
 from parley.world.object_map import MapObject
 
-__all__ = ["distance_m", "in_room", "room_of", "rooms", "whereabouts"]
+__all__ = ["distance_m", "in_room", "lies", "room_of", "rooms", "whereabouts"]
 
 _IN: re.Pattern[str] = re.compile(r"\b(?:in|of) the ([\w -]+?)$", re.IGNORECASE)
 _AT_M = 1.3
@@ -26,7 +26,7 @@ def distance_m(item: MapObject, pose: Pose2D) -> float:
 def room_of(item: MapObject, known: Sequence[str] = ()) -> str:
     """The room that the names of a thing put it in; empty if they tell of none."""
     for name in (item.description, *item.aliases):
-        if (found := _IN.search(name)) is not None:
+        if (found := _IN.search(name)) is not None and (not known or found[1].lower() in known):
             return found[1].lower()
     first = item.description.lower().split(" ", 1)[0]
     return first if first in known else ""
@@ -34,7 +34,8 @@ def room_of(item: MapObject, known: Sequence[str] = ()) -> str:
 
 def rooms(objects: Sequence[MapObject]) -> tuple[str, ...]:
     """The rooms that the map's words tell of."""
-    return tuple(dict.fromkeys(room for item in objects if (room := room_of(item))))
+    things = {name.lower() for item in objects for name in (item.description, item.class_name, *item.aliases)}
+    return tuple(dict.fromkeys(room for item in objects if (room := room_of(item)) and room not in things))
 
 
 def in_room(room: str, objects: Sequence[MapObject], pose: Pose2D | None) -> tuple[MapObject, ...]:
@@ -42,6 +43,19 @@ def in_room(room: str, objects: Sequence[MapObject], pose: Pose2D | None) -> tup
     known = rooms(objects)
     found = [item for item in objects if room_of(item, known) == room.lower()]
     return tuple(sorted(found, key=lambda item: distance_m(item, pose) if pose else 0.0))
+
+
+def lies(item: MapObject, objects: Sequence[MapObject], pose: Pose2D | None) -> str:
+    """Where a thing of the map is, as the end of "it is …": how far away, and what it stands by."""
+    others = [other for other in objects if other.id != item.id]
+    at = Pose2D(item.x_m, item.y_m, 0.0)
+    near = min(others, key=lambda other: distance_m(other, at), default=None)
+    room = room_of(item, rooms(objects))
+    far_m = round(max(distance_m(item, pose), 1.0)) if pose is not None else 0
+    parts = [f"about {far_m} metre{'s' if far_m > 1 else ''} from me"] if far_m else []
+    parts += [f"in the {room}"] if room and room not in item.description.lower() else []
+    parts += [f"near the {near.description}"] if near is not None else []
+    return ", ".join(parts) or "on my map"
 
 
 def whereabouts(objects: Sequence[MapObject], pose: Pose2D | None) -> str:

@@ -14,12 +14,27 @@ from parley.language.builtin.lexicon import Lexicon, lemmas
 from parley.language.builtin.reading import Reading
 from parley.language.builtin.reply import said as words_for
 from parley.language.builtin.tokens import Token, tokenize
-from parley.language.dialogue.answers import answer, differences
-from parley.language.dialogue.changes import Change, before_all, change_of, texts_of, visits
-from parley.language.dialogue.facts import forgotten, is_wish, moved_fact, other_fact, worth_keeping
+from parley.language.dialogue.answers import answer, differences, listed
+from parley.language.dialogue.changes import (
+    Change,
+    before_all,
+    change_of,
+    texts_of,
+    things_of,
+    visits,
+    with_other,
+)
+from parley.language.dialogue.facts import (
+    forgotten,
+    is_wish,
+    moved_fact,
+    other_fact,
+    taken_back,
+    worth_keeping,
+)
 from parley.language.dialogue.following import followed
 from parley.language.dialogue.later import PROMISE, due, put_off
-from parley.language.dialogue.mentions import named
+from parley.language.dialogue.mentions import named, same_kind
 from parley.language.dialogue.places import in_room, rooms
 from parley.language.dialogue.questions import plain, question_of
 from parley.language.dialogue.rearranging import rearranged
@@ -66,7 +81,7 @@ def beforehand(
         told_in: The facts of a text.
         again: What is decided about a part of the message, or about what was said before.
     """
-    said = _about_itself(situation, reading, tokens, lexicon)
+    said = _about_itself(situation, reading, tokens, lexicon, told_in)
     if said is not None:
         return said
     chose = _chosen(situation, tokens, again)
@@ -94,8 +109,9 @@ def _chosen(situation: Situation, tokens: Sequence[Token], again: Again) -> Deci
 
 
 def _about_itself(
-    situation: Situation, reading: Reading, tokens: Sequence[Token], lexicon: Lexicon
-) -> Decision | None:
+    situation: Situation, reading: Reading, tokens: Sequence[Token], lexicon: Lexicon,
+    told_in: Callable[[str], tuple[Told, ...]],
+) -> Decision | None:  # fmt: skip
     """An alarm, a question about the robot, a wish to forget, a word to wait."""
     bare = plain(tokens, (situation.robot,))
     if "alarm" in reading.acts and "question" not in reading.acts:
@@ -106,11 +122,14 @@ def _about_itself(
         return Answer(f"{differences(asked.choices, situation.objects)} Which one do you mean?")
     if question is not None and (said := answer(question, situation)):
         return Answer(said)
-    lost = forgotten(situation, bare)
+    lost = taken_back(situation, bare, told_in) or forgotten(situation, bare)
     if lost:
         return Forget(tuple(entry.name for entry in lost), tuple(entry.data for entry in lost))
     if lost is not None and situation.memory and bare.startswith("forget") and not _known_plan(situation):
         return Answer("I know nothing of that, so there is nothing to forget.")
+    if _is_emergency(situation) and _NO_ALARM.fullmatch(bare):
+        more = " Say “carry on” when I should go on." if situation.queue else ""
+        return Answer(f"I am glad to hear that. I stay here.{more}")
     if is_thinking(bare):
         return Answer("Take your time. I wait.")
     return None
@@ -136,6 +155,8 @@ def _about_what_was_said(
     bare = plain(tokens, (situation.robot,))
     if (repeated := _once_more(situation, bare)) is not None:
         return repeated
+    if (other := _the_other(situation, bare)) is not None:
+        return other
     if (refused := _beyond(situation, reading, tokens, lexicon)) is not None:
         return refused
     order = due(situation.message, situation.history)
@@ -195,6 +216,34 @@ def _once_more(situation: Situation, bare: str) -> Decision | None:
     return Edit(Change(add=last.calls, said=f"I do that again: “{last.words.strip()}”."))
 
 
+_OTHER: Final = re.compile(
+    r"(?:(?:do )?(?:the same|that|it) (?:with|for|at|to) |(?P<way>(?:go|drive|move|head) to ))?"
+    r"the other(?: one)?"
+)
+
+
+def _the_other(situation: Situation, bare: str) -> Decision | None:
+    """For "and now the other one": what was ordered last, with the one other thing of that kind."""
+    found = _OTHER.fullmatch(bare)
+    if found is None or situation.question or not situation.dialogue.orders:
+        return None
+    last = situation.dialogue.orders[-1].calls
+    things = things_of(last, situation.objects)
+    alike = [
+        item for item in situation.objects if things and item not in things and same_kind(item, things[0])
+    ]
+    looks = {info.name for info in situation.catalogue if "looks" in info.effects}
+    if len(things) != 1 or not alike or (found["way"] and any(call.name in looks for call in last)):
+        return None
+    if len(alike) > 1:
+        return Ask(f"Which other one: {listed([f'the {item.description}' for item in alike], 'or')}?")
+    calls = with_other(last, things[0], alike[0])
+    reasons = list(dict.fromkeys(call.reason for call in calls or () if call.reason))
+    if calls is None or not reasons:
+        return None
+    return Edit(Change(add=calls, said=f"I will {' and then '.join(reasons)}."))
+
+
 def _beyond(
     situation: Situation, reading: Reading, tokens: Sequence[Token], lexicon: Lexicon
 ) -> Decision | None:
@@ -215,6 +264,14 @@ def _beyond(
     places = [name for name in named(tokens, situation.objects, lexicon) if len(name.things) == 1]
     near = f" I can go to the {places[-1].things[0].description}, if that helps." if places else ""
     return Answer(f"I am sorry, I cannot {verb}: none of my actions does that.{near}")
+
+
+_NO_ALARM: Final = re.compile(
+    r"(?:(?:no|it was|it is|it's|that was|that's|just|only|a|an|the|sorry|it) )*(?:false alarm|"
+    r"joke|mistake|test|drill|no emergency|nothing(?: happened| is wrong| at all)?|over|out)|"
+    r"(?:all|everything|everybody|everyone|it|we|he|she|they)(?: is|'s| are|'re)? "
+    r"(?:ok|okay|good|fine|clear|well|safe|all right|alright|under control)"
+)
 
 
 def _is_emergency(situation: Situation) -> bool:
@@ -257,6 +314,8 @@ def afterwards(
     bare = plain(tokens, (situation.robot,))
     if isinstance(made, Ask) and not made.offer and (hands := _handless(situation, reading)):
         return replace(made, question=f"{hands} {made.question}")
+    if isinstance(made, Ask) and (asked := _asked_again(made, situation, reading, tokens)) is not None:
+        return asked
     if isinstance(made, Ask | Answer) and (fact := other_fact(situation, reading, bare)) is not None:
         return Remember((fact,))
     if isinstance(made, Ask | Answer) and _SOCIAL.fullmatch(bare):
@@ -264,6 +323,18 @@ def afterwards(
             "You are welcome." if bare.startswith(("thank", "cheers")) else "Hello. What can I do for you?"
         )
     return made
+
+
+def _asked_again(made: Ask, situation: Situation, reading: Reading, tokens: Sequence[Token]) -> Ask | None:
+    """The question which of several things is meant, once more, where an answer to it says nothing."""
+    asked = situation.dialogue.asked
+    short = sum(token.is_word for token in tokens) <= _ANSWER
+    if asked is None or made.choices or made.offer or made.told or made.stops or not short or reading.wishes:
+        return None
+    if not {*asked.choices} <= {item.description for item in situation.objects}:
+        return None
+    names = listed([f"the {name}" for name in asked.choices], "or")
+    return Ask(f"I did not understand that. Which one do you mean: {names}?")
 
 
 _BY_HAND: Final = {

@@ -98,6 +98,7 @@ def shapes() -> tuple[Shape, ...]:
 
 
 def _filled(pattern: str, parts: dict[str, str]) -> str:
-    """A shape with its named parts written out; ``<about>`` takes any words."""
+    """A shape with its named parts written out; ``<about>`` takes any words, ``<few>`` one or two."""
     pattern = re.sub(r"<about>", r"(?P<about>.+?)", pattern)
+    pattern = re.sub(r"<few>", r"(?P<about>\\w+(?: \\w+)?)", pattern)
     return re.sub(r"(?<!\?P)<(\w+)>", lambda found: f"(?:{parts[found[1]]})", pattern)
