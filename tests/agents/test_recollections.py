@@ -19,7 +19,7 @@ from parley.agents.planner.umrf_planner import UmrfPlanner
 from parley.clock import WallClock
 from parley.demos.observer import Observer
 from parley.language.base import Language, Picture, Situation
-from parley.language.offline import OfflineLanguage
+from parley.language.builtin.engine import BuiltinLanguage
 from parley.language.scripted import ScriptedLanguage
 from parley.memory.store import MemoryStore
 from parley.messages import topics
@@ -332,8 +332,8 @@ async def test_picture_that_goes_with_an_answer_is_kept(house: House) -> None:
 
 
 async def test_engine_that_sees_no_pictures_gets_no_remembered_ones_and_says_so_of_sent_ones() -> None:
-    offline = OfflineLanguage()
-    async with opened_house(offline) as house:
+    engine = BuiltinLanguage()
+    async with opened_house(engine) as house:
         await house.say("this is the dock", photo())
         said = await house.say("what can you do?")
         assert "picture" not in said.message

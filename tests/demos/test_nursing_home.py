@@ -28,10 +28,9 @@ async def home(demo: Demo) -> AsyncIterator[House]:
         yield house
 
 
-@pytest.mark.parametrize("language", ["offline", "builtin"])
-async def test_story_holds_and_every_action_ends_finished(demo: Demo, tmp_path: Path, language: str) -> None:
+async def test_story_holds_and_every_action_ends_finished(demo: Demo, tmp_path: Path) -> None:
     events: list[dict[str, Any]] = []
-    config = SystemConfig(speed=None, data_dir=tmp_path, language=language)
+    config = SystemConfig(speed=None, data_dir=tmp_path)
     result = await play(demo.story, lambda variant: demo.system(config, variant), emit=events.append)
     assert (result.held, result.text) == (True, "The story held.")
     ends = [event for event in events if event["event"] == "transition" and event.get("result")]

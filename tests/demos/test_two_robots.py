@@ -9,7 +9,7 @@ from parley.actions.builtin import BUILTIN_ACTIONS
 from parley.actions.context import ActionContext
 from parley.demos.catalogue import load_demo
 from parley.language.base import DraftHandler, Situation
-from parley.language.offline import OfflineLanguage
+from parley.language.builtin.engine import BuiltinLanguage
 from parley.language.scripted import ScriptedLanguage
 from parley.messages.chat import ActionCall, ChatAction
 from parley.sim.world_file import RobotEntry, WorldFile
@@ -30,7 +30,7 @@ class HangsForOne(ScriptedLanguage):
     """Never answers messages to David; understands everything else."""
 
     def __init__(self) -> None:
-        super().__init__(OfflineLanguage())
+        super().__init__(BuiltinLanguage())
 
     async def interpret(self, situation: Situation, *, on_draft: DraftHandler | None = None) -> ChatAction:
         if situation.robot == "David":
@@ -55,7 +55,7 @@ def hang_in_a_thread(ctx: ActionContext) -> None:
 
 
 async def test_hung_action_of_one_robot_does_not_delay_the_other() -> None:
-    language = ScriptedLanguage(OfflineLanguage())
+    language = ScriptedLanguage(BuiltinLanguage())
     language.will("interpret", ChatAction(message_response="ok", queue=(ActionCall(name="HangInAThread"),)))
     actions = (*BUILTIN_ACTIONS, hang_in_a_thread.spec)
     async with running(System(two_robots(), FULL_SPEED, language=language, actions=actions)) as home:

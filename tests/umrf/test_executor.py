@@ -449,8 +449,8 @@ async def test_a_restart_does_not_outlive_a_stop() -> None:
     watched = Watched(triggering("restart", node("ThreadLoop", 0)))
     watched.run.start()
     async with asyncio.timeout(5):
-        while watched.state("ThreadLoop_0") is not NodeState.STOPPING:
-            await asyncio.sleep(0)  # every turn: its thread may end within two
+        while watched.state("ThreadLoop_0") is not NodeState.STOPPING:  # noqa: ASYNC110 - within two turns its thread may end
+            await asyncio.sleep(0)
     watched.run.stop()
     assert await watched.run.wait() is Result.ON_STOPPED
     assert watched.states("ThreadLoop_0") == ["RUNNING", "STOPPING", "FINISHED"]

@@ -10,9 +10,8 @@ import re
 from collections.abc import Iterable, Iterator, Sequence
 from dataclasses import dataclass
 from functools import cache, lru_cache
-from typing import Any
+from typing import Any, Literal
 
-from parley.errors import FailureCode
 from parley.language.builtin.amounts import amount_of, in_unit
 from parley.language.builtin.lexicon import lexicon, stem
 from parley.language.builtin.tokens import tokenize
@@ -39,9 +38,8 @@ class Act:
 class StandingRule:
     """What to do in a case."""
 
-    codes: frozenset[FailureCode]
-    """The failures it speaks of; `attention` is what is seen."""
-    any_failure: bool
+    about: Literal["sight", "trouble", ""]
+    """Whether it speaks of what is seen or of what goes wrong."""
     names: frozenset[str]
     """The words of the case that name something in particular."""
     acts: tuple[Act, ...]
@@ -74,19 +72,16 @@ def read_rule(text: str) -> StandingRule | None:
     for case, rest, always in _cuts(words):
         acts = _acts(rest, text, marked=bool(rest) and rest[0].low in _COMMAS)
         told = [word.low for word in case if word.low not in _COMMAS]
-        codes, any_failure = _codes(told), _has(told, _phrases("any"))
-        if acts and told and (always or codes or any_failure):
-            sentence = " ".join(text.split()).rstrip(" .!")
-            return StandingRule(codes, any_failure, _names(told), acts, sentence)
+        about = _about(told)
+        if acts and told and (always or about):
+            return StandingRule(about, _names(told), acts, " ".join(text.split()).rstrip(" .!"))
     return None
 
 
 def read_sighting_rule(text: str) -> StandingRule | None:
     """The rule that a text teaches about what may be seen ("if you see a crack, tell me"), or None."""
     rule = read_rule(text)
-    if rule is None or not rule.names or rule.any_failure or rule.codes - {FailureCode.ATTENTION}:
-        return None
-    return rule
+    return rule if rule is not None and rule.names and rule.about != "trouble" else None
 
 
 def sighted(rule: StandingRule, reports: Iterable[str]) -> str:
@@ -154,11 +149,11 @@ def _has(told: Sequence[str], phrases: Iterable[tuple[str, ...]]) -> bool:
     return any(f" {' '.join(phrase)} " in text for phrase in phrases)
 
 
-def _codes(told: Sequence[str]) -> frozenset[FailureCode]:
-    listed = load_data("standing")["codes"]
-    found = frozenset(FailureCode(code) for code in listed if _has(told, _phrases("codes", code)))
+def _about(told: Sequence[str]) -> Literal["sight", "trouble", ""]:
+    if _has(told, _phrases("trouble")):
+        return "trouble"
     # "Cannot see the box" is no "see a box".
-    return found - {FailureCode.ATTENTION} if "not" in told else found
+    return "sight" if "not" not in told and _has(told, _phrases("seeing")) else ""
 
 
 def _names(told: Sequence[str]) -> frozenset[str]:
@@ -168,8 +163,8 @@ def _names(told: Sequence[str]) -> frozenset[str]:
 @cache
 def _generic() -> frozenset[str]:
     data = load_data("standing")
-    said = [*data["any"], *(text for phrases in data["codes"].values() for text in phrases)]
-    return frozenset(data["generic"]) | {word for text in said for word in text.split()}
+    said = {word for text in (*data["seeing"], *data["trouble"]) for word in text.split()}
+    return frozenset(data["generic"]) | said
 
 
 # -- what is to be done --
