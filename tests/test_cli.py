@@ -244,7 +244,7 @@ def test_interpret_answers_every_line_and_survives_bad_ones(tmp_path: Path) -> N
     }
     source, out = tmp_path / "in.jsonl", tmp_path / "out.jsonl"
     source.write_text(f"{json.dumps(good)}\n{{bad\n{json.dumps(good | {'id': '3'})}\n", encoding="utf-8")
-    done = parley("interpret", "--situations", str(source), "--out", str(out), "--language", "offline")
+    done = parley("interpret", "--situations", str(source), "--out", str(out), "--language", "builtin")
     assert done.returncode == 0, done.stderr
     lines = [json.loads(line) for line in out.read_text().splitlines()]
     assert [line.get("id") for line in lines] == ["1", None, "3"]

@@ -29,26 +29,26 @@ async def test_engines_are_measured_side_by_side_with_what_they_take(tmp_path: P
         server.always(Say(answer={"message_response": "I go.", **plan}))
         model = f"local:m@{server.url}"
         code, out, err = await parley(
-            "eval", "--set", written(tmp_path, blind=False), "--language", "offline", "--language", model,
+            "eval", "--set", written(tmp_path, blind=False), "--language", "builtin", "--language", model,
             "--language", f"auto:{model}",
             "--out", str(tmp_path / "report"), "--json",
         )  # fmt: skip
     assert (code, err) == (0, "")
     report = json.loads(out)
-    offline, asked, both = report["backends"]
+    builtin, asked, both = report["backends"]
     assert {name: part["answered"]["count"] for name, part in both["engines"].items()} == dict.fromkeys(
         both["engines"], 2
     )
     assert sum(part["answered"]["right"] for part in both["engines"].values()) == 2
-    assert (offline["engines"], asked["wrong_deeds"]["right"]) == ({}, 2)
-    assert (offline["language"], offline["usage"]) == ("offline", None)
-    assert (offline["accuracy"]["right"], offline["accuracy"]["count"]) == (1, 2)
-    assert [item["case"] for item in offline["failing"]] == ["going: go to the secret gate"]
+    assert (builtin["engines"], asked["wrong_deeds"]["right"]) == ({}, 2)
+    assert (builtin["language"], builtin["usage"]) == ("builtin", None)
+    assert (builtin["accuracy"]["right"], builtin["accuracy"]["count"]) == (1, 2)
+    assert [item["case"] for item in builtin["failing"]] == ["going: go to the secret gate"]
     assert asked["accuracy"]["right"] == 0
     assert asked["usage"]["asked"] == 2
     assert asked["usage"]["input_tokens"] > 0
     assert json.loads((tmp_path / "report" / "report.json").read_text(encoding="utf-8")) == report
-    assert "`offline`" in (tmp_path / "report" / "report.md").read_text(encoding="utf-8")
+    assert "`builtin`" in (tmp_path / "report" / "report.md").read_text(encoding="utf-8")
 
 
 async def test_a_blind_set_gives_its_score_and_its_failures_only_when_told_to(tmp_path: Path) -> None:

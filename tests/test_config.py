@@ -62,10 +62,21 @@ def test_empty_file_leaves_everything_as_usual() -> None:
         ("approval: perhaps\n", "line 1: approval: Input should be 'run_at_once'"),
         ("seed: 1\nspeed: 1\nseed: 2\n", "line 3: seed: is said twice"),
         ("model: {retries: 1,\n  retries: 2}\n", "line 2: retries: is said twice"),
-        ("language_fallback:\n  - offline\n  - 5\n", "line 3: language_fallback[1]: Input should be"),
+        ("language_fallback:\n  - builtin\n  - 5\n", "line 3: language_fallback[1]: Input should be"),
         ("- speed\n", "line 1: Input should be a valid dictionary"),
         ("speed: [1\n", "not valid YAML"),
-        ("language: nonsense\n", "line 1: language: String should match"),
+        (
+            "language: nonsense\n",
+            "line 1: language: there is no language engine 'nonsense'; use",
+        ),
+        (
+            "speed: 1\nlanguage: offline\n",
+            "line 2: language: the language engine 'offline' is gone; use",
+        ),
+        (
+            "language_fallback: [old]\n",
+            "[0]: the language engine 'old' is gone; use builtin",
+        ),
     ],
 )
 def test_what_is_wrong_is_said_with_its_line(text: str, told: str) -> None:

@@ -137,7 +137,7 @@ def test_a_model_server_that_listens_is_ok(machine: Subject) -> None:
 def test_a_model_without_its_key_hinders_and_the_remedy_names_what_works_without(machine: Subject) -> None:
     language = found(replace(machine, language="nobody:model"), "language")
     assert (language.state, language.hinders) == ("missing", True)
-    assert "offline" in language.remedy
+    assert "--language builtin" in language.remedy
 
 
 def test_the_exit_code_says_whether_something_needed_is_missing(tmp_path: Path) -> None:
@@ -171,7 +171,7 @@ def test_settings_are_read_and_what_they_name_is_looked_for(tmp_path: Path) -> N
     assert str(tmp_path / "data") in findings["data folder"]["text"]
     for subject in ("language", "embeddings"):
         assert (findings[subject]["state"], str(nobody) in findings[subject]["text"]) == ("wrong", True)
-    settings.write_text("langauge: offline\n", encoding="utf-8")
+    settings.write_text("langauge: builtin\n", encoding="utf-8")
     broken = runner.invoke(command_line("doctor"), ["doctor", "--config", str(settings), "--port", port])
     assert broken.exit_code == 1
     assert "line 1: langauge: there is no such setting" in broken.stdout

@@ -37,7 +37,7 @@ INSIDE: dict[str, tuple[str, ...]] = {
     # Planning knows nothing of repairs, nor these of talk.
     "agents": ("base", "display", "planner", "recovery", "chat"),
     # Words and prompts know no engine; what is built in and its dialogue know each other.
-    "language": ("lexicon", "prompts", "dialogue builtin", "offline", "llm"),
+    "language": ("lexicon", "prompts", "dialogue builtin", "llm"),
     "umrf": ("bt",),
     "web": ("people", "routes"),
     "api": (),
@@ -45,7 +45,7 @@ INSIDE: dict[str, tuple[str, ...]] = {
 """Rooms inside rooms by height: one knows those before it, and those that stand beside it. One that is not
 named is known by none of them."""
 
-CLOSED = {"language": {"offline", "builtin", "llm", "prompts"}, "umrf": {"bt"}}
+CLOSED = {"language": {"builtin", "llm", "prompts"}, "umrf": {"bt"}}
 """What the single files of a room, which all others in it use, do not know."""
 
 ONLY_IN = {

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import re
 from pathlib import Path
 from typing import Annotated, Any, Literal, Self
 
@@ -13,6 +14,7 @@ from parley.sentences import SpokenLanguage
 
 __all__ = [
     "ApprovalPolicy", "EmbeddingSettings", "FeedSettings", "ModelPrice", "ModelSettings", "SystemConfig",
+    "language_name",
 ]  # fmt: skip
 
 ApprovalPolicy = Literal["run_at_once", "ask_when_risky", "ask_first"]
@@ -28,6 +30,22 @@ def _beside(path: Path, info: ValidationInfo) -> Path:
 
 
 FilePath = Annotated[Path, AfterValidator(_beside)]
+
+
+def language_name(name: str) -> str:
+    """The name of a language engine, if there may be one called so.
+
+    Raises:
+        ValueError: There is none.
+    """
+    if name in ("offline", "old"):
+        raise ValueError(f"the language engine {name!r} is gone; use builtin, which needs no model either")
+    if name not in ("auto", "builtin") and not re.fullmatch(r"[A-Za-z0-9_.-]+:.+", name):
+        raise ValueError(f"there is no language engine {name!r}; use auto, builtin or provider:model")
+    return name
+
+
+LanguageName = Annotated[str, AfterValidator(language_name)]
 
 
 class ModelPrice(BaseModel):
@@ -135,11 +153,11 @@ class SystemConfig(BaseModel, TextFile):
     """Folder with more actions, watched while the system runs."""
     audit_months: int | None = Field(default=24, ge=1, le=1200)
     """How long the log of who did what is kept; None: for good."""
-    language: str = Field(default="builtin", pattern=r"^(auto|offline|builtin|[A-Za-z0-9_.-]+:.+)$")
-    """What understands people: `offline`, `builtin`, `provider:model`, `provider:model@address`, or
+    language: LanguageName = "builtin"
+    """What understands people: `builtin`, `provider:model`, `provider:model@address`, or
     `auto:provider:model`: the built-in engine where it is certain, that model for the rest (`auto` alone: the
     first model of `language_fallback`)."""
-    language_fallback: tuple[str, ...] = ("builtin",)
+    language_fallback: tuple[LanguageName, ...] = ("builtin",)
     """Asked in this order when a model gives no answer."""
     model: ModelSettings = Field(default_factory=ModelSettings)
     """How language models are asked."""

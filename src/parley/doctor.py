@@ -70,7 +70,7 @@ class Subject:
     port: int
     """Where the page is to be served."""
     language: str = "builtin"
-    """`offline` or `provider:model`."""
+    """`builtin`, `auto`, `provider:model` or `auto:provider:model`."""
     key_file: Path | None = None
     base_url: str = ""
     """Address of the model's server, where it is not in `language`."""
@@ -236,7 +236,7 @@ def _memory(subject: Subject) -> Finding:
 
 
 def _language(subject: Subject) -> Finding:
-    if subject.language in ("auto", "offline", "builtin"):
+    if subject.language in ("auto", "builtin"):
         return Finding("language", "ok", "built in; needs no model, key or network")
     from parley.language.llm.models import ModelSpec, make_model, read_key
 
@@ -244,7 +244,7 @@ def _language(subject: Subject) -> Finding:
         spec = ModelSpec.parse(subject.language.removeprefix("auto:"), subject.base_url)
         model = make_model(spec, read_key(subject.key_file))
     except ConfigError as error:
-        return Finding("language", "missing", str(error), "Or use --language offline.", needed=True)
+        return Finding("language", "missing", str(error), "Or use --language builtin.", needed=True)
     address = urlsplit(spec.base_url or str(getattr(model, "base_url", "") or ""))
     if not address.hostname:
         return Finding("language", "ok", f"{spec.name}; its address is not known here", needed=True)

@@ -9,6 +9,7 @@ from typing import Any, Final, Self, TypeVar
 
 import yaml
 from pydantic import BaseModel, ValidationError
+from pydantic_core import ErrorDetails
 
 from parley.errors import FileFormatError
 
@@ -102,7 +103,7 @@ def validated(model: type[M], raw: Any, file: str) -> M:
         return model.model_validate(raw)
     except ValidationError as error:
         first = error.errors(include_url=False, include_input=False)[0]
-        raise FileFormatError(file, field_path(first["loc"]), first["msg"]) from error
+        raise FileFormatError(file, field_path(first["loc"]), _told(first)) from error
 
 
 def validated_yaml(model: type[M], text: str, file: str, context: dict[str, Any] | None = None) -> M:
@@ -126,8 +127,13 @@ def validated_yaml(model: type[M], text: str, file: str, context: dict[str, Any]
     except ValidationError as error:
         first = error.errors(include_url=False, include_input=False)[0]
         where = f"{file}, line {_line(root, first['loc'])}"
-        problem = "there is no such setting" if first["type"] == "extra_forbidden" else first["msg"]
+        problem = "there is no such setting" if first["type"] == "extra_forbidden" else _told(first)
         raise FileFormatError(where, field_path(first["loc"]), problem) from error
+
+
+def _told(problem: ErrorDetails) -> str:
+    """What is wrong, without what pydantic puts before a validator's own words."""
+    return problem["msg"].removeprefix("Value error, ")
 
 
 def _refuse_twice(node: yaml.Node, file: str) -> None:

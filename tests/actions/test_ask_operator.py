@@ -7,7 +7,7 @@ import pytest
 from parley.actions.ask_operator import ATTEMPTS, ask_operator
 from parley.errors import ActionFailure, FailureCode
 from parley.language.base import ReplyReading
-from parley.language.offline import OfflineLanguage
+from parley.language.builtin.engine import BuiltinLanguage
 from tests.actions.room import room
 
 QUESTION = "Please put the box on me and tell me when it is done."
@@ -15,14 +15,14 @@ QUESTION = "Please put the box on me and tell me when it is done."
 
 @pytest.mark.parametrize("reply", ["done", "I have put it on you", "yes"])
 async def test_answer_is_given_on_word_for_word(reply: str) -> None:
-    async with room(language=OfflineLanguage()) as here:
+    async with room(language=BuiltinLanguage()) as here:
         here.person.answers.append(reply)
         assert (await ask_operator(here.context, QUESTION)).answer == reply
         assert here.person.asked == [QUESTION]
 
 
 async def test_no_is_a_failure_that_names_the_request() -> None:
-    async with room(language=OfflineLanguage()) as here:
+    async with room(language=BuiltinLanguage()) as here:
         here.person.answers.append("no, I won't")
         with pytest.raises(ActionFailure) as caught:
             await ask_operator(here.context, QUESTION)
@@ -59,7 +59,7 @@ async def test_words_for_the_plan_are_no_answer_and_do_not_use_up_the_attempts()
 
 
 async def test_going_on_after_a_pause_does_not_count_as_the_answer() -> None:
-    async with room(language=OfflineLanguage()) as here:
+    async with room(language=BuiltinLanguage()) as here:
         here.run.paused = True
         here.person.answers.extend(["carry on", "done"])
         assert (await ask_operator(here.context, QUESTION)).answer == "done"
@@ -77,7 +77,7 @@ async def test_going_on_is_an_answer_where_nothing_is_paused() -> None:
     "reply", ["where should I put it?", "forget it and go to the box", "go to the box", "are you all right?"]
 )
 async def test_question_or_other_order_is_no_answer_but_passed_on_and_asked_again(reply: str) -> None:
-    async with room(language=OfflineLanguage()) as here:
+    async with room(language=BuiltinLanguage()) as here:
         here.person.answers.extend([reply] * ATTEMPTS + ["done"])
         assert (await ask_operator(here.context, QUESTION)).answer == "done"
         assert here.person.referred == [reply] * ATTEMPTS
@@ -86,7 +86,7 @@ async def test_question_or_other_order_is_no_answer_but_passed_on_and_asked_agai
 
 @pytest.mark.parametrize("reply", ["tea with milk", "the red one", "in the hall", "put it by the door"])
 async def test_open_question_takes_whatever_answers_it(reply: str) -> None:
-    async with room(language=OfflineLanguage()) as here:
+    async with room(language=BuiltinLanguage()) as here:
         here.person.answers.append(reply)
         assert (await ask_operator(here.context, "What shall I bring you?")).answer == reply
         assert here.person.referred == []

@@ -8,7 +8,7 @@ from parley.actions.get_coordinates import get_coordinates
 from parley.actions.navigate_to import navigate_to
 from parley.errors import ActionFailure, FailureCode, LanguageError
 from parley.language.base import Grounding
-from parley.language.offline import OfflineLanguage
+from parley.language.builtin.engine import BuiltinLanguage
 from parley.world.object_map import MapObject
 from tests.actions.room import room
 from tests.sim.worlds import box
@@ -17,7 +17,7 @@ CHAIRS = (MapObject("chair_1", "red chair", 5.0, 2.0), MapObject("chair_2", "blu
 
 
 async def test_spot_is_free_near_the_thing_and_faces_it() -> None:
-    async with room(language=OfflineLanguage()) as here:
+    async with room(language=BuiltinLanguage()) as here:
         found = await get_coordinates(here.context, "the green crate")
         spot, crate = found.pose.planar(), here.view.objects.objects[0]
         assert here.view.occupancy.is_free(spot.x_m, spot.y_m)
@@ -26,7 +26,7 @@ async def test_spot_is_free_near_the_thing_and_faces_it() -> None:
 
 
 async def test_robot_can_really_stand_there() -> None:
-    async with room(language=OfflineLanguage()) as here:
+    async with room(language=BuiltinLanguage()) as here:
         found = await get_coordinates(here.context, "green crate")
         await navigate_to(here.context, found.pose)
         assert here.robot.pose().distance_to(found.pose.planar()) < 0.2

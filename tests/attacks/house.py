@@ -17,7 +17,7 @@ from parley.actions.context import ActionContext
 from parley.config import SystemConfig
 from parley.errors import ActionFailure, FailureCode
 from parley.language.base import Language
-from parley.language.offline import OfflineLanguage
+from parley.language.builtin.engine import BuiltinLanguage
 from parley.language.scripted import ScriptedLanguage
 from parley.messages import topics
 from parley.messages.chat import ChatAction, ChatFeedback, ChatImage, ChatInput
@@ -67,7 +67,7 @@ class Hostile(ScriptedLanguage):
     """A model under somebody else's control: it says what the case says, the rest as an honest one would."""
 
     def __init__(self) -> None:
-        behind: Language = OfflineLanguage()
+        behind: Language = BuiltinLanguage()
         super().__init__(behind)
 
     @property

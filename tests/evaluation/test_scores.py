@@ -16,7 +16,7 @@ from parley.evaluation.report import json_report, markdown_report
 from parley.evaluation.running import Outcome, evaluate, executable
 from parley.evaluation.scores import score, share, wilson
 from parley.language.base import DraftHandler, ErrorSituation, Situation
-from parley.language.offline import OfflineLanguage
+from parley.language.builtin.engine import BuiltinLanguage
 from parley.messages.chat import ChatAction
 from tests.evaluation.rig import answer, call, go, one_case
 
@@ -78,13 +78,13 @@ def test_a_report_shows_engines_side_by_side_and_can_be_written_as_json() -> Non
 
 async def test_an_engine_is_asked_each_case_and_judged_in_order() -> None:
     cases = [one_case(GO), one_case("{in: depot, say: go to the blue box, do: [go box_1]}")]
-    first, second = await evaluate(cases, OfflineLanguage(), WallClock(), at_once=2)
+    first, second = await evaluate(cases, BuiltinLanguage(), WallClock(), at_once=2)
     assert (first.right, first.executable) == (True, True)
     assert not second.right
     assert "box_1" in second.problems[0]
 
 
-class Failing(OfflineLanguage):
+class Failing(BuiltinLanguage):
     """Gives up."""
 
     async def interpret(self, situation: Situation, *, on_draft: DraftHandler | None = None) -> ChatAction:
@@ -97,7 +97,7 @@ async def test_an_engine_that_does_not_answer_is_wrong_and_stops_nothing() -> No
     assert [o.executable for o in outcomes] == [None, None]
 
 
-class Counting(OfflineLanguage):
+class Counting(BuiltinLanguage):
     """Knows how many questions are open at a time."""
 
     open = most = 0

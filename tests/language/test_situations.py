@@ -9,12 +9,12 @@ import jsonschema_rs
 import pytest
 
 from parley.errors import FailureCode, InvalidMessageError
+from parley.evaluation.catalogues import CATALOGUES
 from parley.language.base import DraftHandler, ErrorSituation, Situation
-from parley.language.offline import OfflineLanguage
+from parley.language.builtin.engine import BuiltinLanguage
 from parley.language.situations import interpret_lines, read_situation, schema
 from parley.messages.chat import ChatAction
 from parley.messages.pvf import read_parameters
-from tests.language.dev_set import CATALOGUES
 
 OBJECTS = [
     {"id": "box_1", "description": "red box", "x": 1, "y": 2},
@@ -26,7 +26,7 @@ FAILED = {"GetCoordinates": {"input_parameters": {"target": {"pvf_type": "string
 async def answers(*lines: Any) -> list[dict[str, Any]]:
     texts = [line if isinstance(line, str) else json.dumps(line) for line in lines]
     return [
-        json.loads(line) async for line in interpret_lines(texts, OfflineLanguage(), CATALOGUES["thesis"])
+        json.loads(line) async for line in interpret_lines(texts, BuiltinLanguage(), CATALOGUES["thesis"])
     ]
 
 
@@ -45,9 +45,9 @@ async def test_a_situation_gives_a_chat_action_with_its_id() -> None:
 
 
 async def test_a_catalogue_of_its_own_is_used() -> None:
-    catalogue = [{"name": "move_to", "inputs": {"place": "string"}}]
+    catalogue = [{"name": "a", "inputs": {"place": "string"}, "description": "Drive to a place."}]
     (answer,) = await answers({"message": "go to the door", "objects": OBJECTS, "catalogue": catalogue})
-    assert [next(iter(step)) for step in answer["output"]["queue"]] == ["move_to"]
+    assert [next(iter(step)) for step in answer["output"]["queue"]] == ["a"]
 
 
 async def test_an_error_situation_is_resolved() -> None:
@@ -121,7 +121,7 @@ def test_code_is_read_as_others_write_it_and_an_unknown_one_is_none(written: str
     assert error.code is code
 
 
-class Breaking(OfflineLanguage):
+class Breaking(BuiltinLanguage):
     async def interpret(self, situation: Situation, *, on_draft: DraftHandler | None = None) -> ChatAction:
         if situation.message == "break":
             raise IndexError("a defect")

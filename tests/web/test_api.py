@@ -14,7 +14,7 @@ from schemathesis.checks import not_a_server_error
 from schemathesis.specs.openapi.checks import response_schema_conformance, status_code_conformance
 
 from parley.agents.memory import MemoryNode
-from parley.language.offline import OfflineLanguage
+from parley.language.builtin.engine import BuiltinLanguage
 from parley.memory.store import MemoryStore
 from parley.web.app import create_api
 from tests.web.rig import served
@@ -32,7 +32,7 @@ def url() -> Iterator[str]:
         async with (
             served("Ada", "Bob") as rig,
             await MemoryStore.open(":memory:") as store,
-            MemoryNode(rig.robots.transport, store, OfflineLanguage()),
+            MemoryNode(rig.robots.transport, store, BuiltinLanguage()),
         ):
             found.append(rig.url)
             ready.set()

@@ -158,7 +158,7 @@ def test_a_password_file_that_is_missing_or_too_short_is_named(tmp_path: Path) -
 @pytest.mark.parametrize(
     ("language", "label", "offline"),
     [
-        ("offline", "built in, works without a model", True),
+        ("builtin", "built in, works without a model", True),
         ("ollama:small-one:8b@http://192.0.2.7:11434", "small-one:8b (ollama)", False),
     ],
 )

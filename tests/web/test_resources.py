@@ -12,7 +12,7 @@ from parley.agents.audit_log import AuditLog
 from parley.agents.memory import MemoryNode
 from parley.errors import FailureCode
 from parley.gate.audit_store import AuditStore
-from parley.language.offline import OfflineLanguage
+from parley.language.builtin.engine import BuiltinLanguage
 from parley.memory.store import MemoryStore
 from parley.messages import topics
 from parley.messages.chat import ActionCall
@@ -180,7 +180,7 @@ async def test_memories_are_kept_found_shown_and_forgotten() -> None:
     async with (
         served("Ada") as rig,
         await MemoryStore.open(":memory:") as store,
-        MemoryNode(rig.robots.transport, store, OfflineLanguage()),
+        MemoryNode(rig.robots.transport, store, BuiltinLanguage()),
     ):
         page = await rig.page()
         picture = base64.b64encode(JPEG).decode()
@@ -210,7 +210,7 @@ async def test_memories_of_any_name_can_be_reached() -> None:
     async with (
         served("Ada") as rig,
         await MemoryStore.open(":memory:") as store,
-        MemoryNode(rig.robots.transport, store, OfflineLanguage()),
+        MemoryNode(rig.robots.transport, store, BuiltinLanguage()),
     ):
         photo = {"type": "image", "data": base64.b64encode(JPEG).decode()}
         for name in NAMES:
@@ -228,7 +228,7 @@ async def test_a_forgotten_memory_that_is_brought_back_keeps_where_it_came_from(
     async with (
         served("Ada") as rig,
         await MemoryStore.open(":memory:") as store,
-        MemoryNode(rig.robots.transport, store, OfflineLanguage()),
+        MemoryNode(rig.robots.transport, store, BuiltinLanguage()),
     ):
         seen = MemoryEntry(
             name="box", data="The box is by the door.", info="the box", source="Ada/Inspect", way="seen"

@@ -9,7 +9,7 @@ from parley.agents.rules.rules import MapOf, RuleNode
 from parley.clock import SimClock
 from parley.gate.book import RuleBook
 from parley.gate.rules import RuleKeeper
-from parley.language.offline import OfflineLanguage
+from parley.language.builtin.engine import BuiltinLanguage
 from parley.sim.floor_plan import survey
 from tests.sim.worlds import two_rooms
 from tests.web.rig import served
@@ -28,7 +28,7 @@ async def test_rules_are_looked_at_changed_and_tried() -> None:
             RuleKeeper(book),
             book,
             clock,
-            ground=OfflineLanguage().ground,
+            ground=BuiltinLanguage().ground,
             maps={"A": floor},
         )
         async with node:

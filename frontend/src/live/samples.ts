@@ -90,7 +90,7 @@ export const plan = (part: Partial<PlanView> & { robot: string }): PlanView => (
 
 const info: ServerInfo = {
   version: '1',
-  language: 'offline',
+  language: 'built in, works without a model',
   offline_language: true,
   modules: {},
   examples: ['Go to the door.', 'What do you see?', 'What can you do?'],

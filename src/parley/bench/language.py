@@ -1,4 +1,4 @@
-"""What understanding costs: the offline engine, and what is added to a model's own time."""
+"""What understanding costs: the built-in engine, and what is added to a model's own time."""
 
 from __future__ import annotations
 
@@ -11,11 +11,11 @@ from parley.actions.builtin import BUILTIN_ACTIONS
 from parley.agents.planner.check import plan_problems
 from parley.config import ModelSettings
 from parley.language.base import Situation
+from parley.language.builtin.engine import BuiltinLanguage
 from parley.language.llm import build_language
 from parley.language.llm.answers import PlanAnswer
 from parley.language.llm.reading import read_plan
 from parley.language.llm.scripted_server import Say, ScriptedServer
-from parley.language.offline import OfflineLanguage
 from parley.language.prompts import compose_interpret
 from parley.messages.memory import MemoryEntry
 from parley.umrf.catalogue import Catalogue
@@ -49,7 +49,7 @@ class LanguageFigures:
 
 
 async def measure_language(times: int) -> list[LanguageFigures]:
-    """Answer `times` messages each: offline, and by a model that answers at once (whole, and streamed).
+    """Answer `times` messages each: built in, and by a model that answers at once (whole, and streamed).
 
     What the model cases take is what is added to a model's own time, and what the scripted server itself
     takes. Beside them stands what their parts take alone: the same requests sent by nothing but an HTTP
@@ -57,8 +57,8 @@ async def measure_language(times: int) -> list[LanguageFigures]:
     its answer. The rest is the library that runs the model's agents.
     """
     situations = [_situation(number) for number in range(WARM_UP + times)]
-    offline = OfflineLanguage()
-    figures = [await _measure("offline", offline.interpret, situations)]
+    async with BuiltinLanguage() as builtin:
+        figures = [await _measure("builtin", builtin.interpret, situations)]
     async with ScriptedServer() as server:
         server.always(Say(answer=_PLAN, pieces=20))
         settings = ModelSettings(max_tokens_per_hour=None)

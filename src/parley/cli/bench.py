@@ -158,7 +158,7 @@ def language(
     times: Annotated[int, typer.Option(min=1, help="How many messages of each kind.")] = 200,
     json: JsonOption = False,
 ) -> None:
-    """From message to plan: offline, and what is added to a language model's own time."""
+    """From message to plan: the built-in engine, and what is added to a language model's own time."""
     quiet_logs()
     for figures in on_loop(measure_language(times)):
         facts = {"case": figures.case, "messages": times, "cpu_ms": round(figures.cpu_ms, 2)}

@@ -39,7 +39,7 @@ def register(app: typer.Typer) -> None:
 def evaluate_languages(
     language: Annotated[
         list[str] | None,
-        typer.Option(help="offline, builtin, provider:model, auto:provider:model; repeatable."),
+        typer.Option(help="builtin, provider:model, auto:provider:model; repeatable."),
     ] = None,
     set_name: Annotated[
         str, typer.Option("--set", help="development, held-out, blind, gpsr, all, or a file.")

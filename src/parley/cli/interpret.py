@@ -42,7 +42,7 @@ def interpret(
     key_file: KeyFileOption = None,
     config: ConfigOption = None,
     explain: Annotated[
-        bool, typer.Option(help="Add to each answer how it came about (offline only).")
+        bool, typer.Option(help="Add to each answer how it came about (the built-in engine only).")
     ] = False,
     schema: Annotated[
         bool,
@@ -57,7 +57,7 @@ def interpret(
     chosen = chosen_settings(config, language, key_file)
     engine = build_language([chosen.language], chosen.model, check=plan_problems)
     if explain and not isinstance(engine, Explains):
-        raise ConfigError("only the offline language engine can explain its answers; use --language offline")
+        raise ConfigError("only the built-in language engine can explain its answers; use --language builtin")
     with contextlib.ExitStack() as stack:
         source = _open(stack, situations, "r")
         target = _open(stack, out, "w")

@@ -7,7 +7,7 @@ from typing import Annotated, Any
 
 import typer
 
-from parley.config import SystemConfig
+from parley.config import SystemConfig, language_name
 from parley.errors import ConfigError
 from parley.files import read_text as read_file
 from parley.language.builtin.markup import read_text
@@ -48,7 +48,7 @@ ConfigOption = Annotated[
     typer.Option(help="File with settings (YAML): language model, memory, pictures, whether to ask first."),
 ]
 LanguageOption = Annotated[
-    str, typer.Option(help="offline, builtin (new), provider:model[@address], auto:provider:model (both).")
+    str, typer.Option(help="builtin, provider:model[@address], auto:provider:model (both).")
 ]
 KeyFileOption = Annotated[
     Path | None, typer.Option(help="File with the model's key; default: the provider's environment variable.")
@@ -102,8 +102,7 @@ def language_settings(language: str, key_file: Path | None) -> dict[str, Any]:
     """
     if not language:
         return {} if key_file is None else {"model": {"key_file": key_file}}
-    if language not in ("auto", "offline", "builtin") and ":" not in language:
-        raise ConfigError(
-            f"there is no language engine {language!r}; use auto, offline, builtin or provider:model"
-        )
-    return {"language": language, "model": {"key_file": key_file}}
+    try:
+        return {"language": language_name(language), "model": {"key_file": key_file}}
+    except ValueError as error:
+        raise ConfigError(str(error)) from error

@@ -14,7 +14,7 @@ from typing import Literal
 from rapidfuzz.distance import OSA
 
 from parley.language.control_grammar import among_talk, composed
-from parley.language.word_lists import load_data
+from parley.language.lexicon import load_data
 
 __all__ = ["Control", "control_of"]
 

@@ -11,7 +11,7 @@ from collections.abc import Callable, Sequence
 from functools import cache
 from typing import Any, Literal
 
-from parley.language.word_lists import load_data
+from parley.language.lexicon import load_data
 
 __all__ = ["among_talk", "composed"]
 

@@ -23,23 +23,15 @@ from parley.messages.status import ActionInfo, ParameterInfo
 from parley.world.geometry import Pose2D
 from parley.world.object_map import MapObject
 
-__all__ = ["Explained", "Explains", "interpret_lines", "read_situation", "schema", "write_output"]
-
-
-class Explained(Protocol):
-    """One decision of an engine that can say why."""
-
-    def to_json(self) -> dict[str, Any]:
-        """For a line of JSON."""
-        ...
+__all__ = ["Explains", "interpret_lines", "read_situation", "schema", "write_output"]
 
 
 @runtime_checkable
 class Explains(Protocol):
     """A language engine that can say how it came to its answer."""
 
-    def explain(self, situation: Situation) -> tuple[ChatAction, Sequence[Explained]]:
-        """The answer, and what was decided on the way, in order."""
+    def explain(self, situation: Situation) -> tuple[ChatAction, list[dict[str, str]]]:
+        """The answer, and what was found and decided on the way, in order: `about` what, and a `text`."""
         ...
 
 
@@ -110,7 +102,7 @@ class _Answered(_Line):
     id: Any = None
     output: ChatAction
     latency_s: float
-    explanation: list[dict[str, Any]] | None = None
+    explanation: list[dict[str, str]] | None = None
 
 
 class _Refused(_Line):
@@ -271,13 +263,13 @@ def write_output(
     output: ChatAction,
     latency_s: float,
     identifier: Any = None,
-    explanation: Sequence[Explained] | None = None,
+    explanation: Sequence[dict[str, str]] | None = None,
 ) -> str:
     """One line of output, without the line end; what was decided on the way is added if given."""
     line: dict[str, Any] = {} if identifier is None else {"id": identifier}
     line |= {"output": output.to_wire(), "latency_s": round(latency_s, 6)}
     if explanation is not None:
-        line["explanation"] = [decision.to_json() for decision in explanation]
+        line["explanation"] = list(explanation)
     return json.dumps(line, ensure_ascii=False)
 
 

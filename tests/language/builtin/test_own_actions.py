@@ -95,3 +95,12 @@ def test_an_action_of_which_nothing_is_said_is_never_more_than_offered() -> None
     decision = decide("eject the tip", (silent,))
     assert isinstance(decision, Ask)
     assert done(Do(decision.offer)) == [("eject_tip", {})]
+
+
+def test_no_place_is_given_to_an_input_that_takes_a_number() -> None:
+    numbered = (
+        ActionInfo(name="a", inputs={"x": "number"}, description="Drive to a place.", effects=("moves",)),
+        ActionInfo(name="b", inputs={"what": "string"}, description="Look at a thing.", effects=("looks",)),
+    )
+    assert done(ENGINE.decide(situation("look at the pump", catalogue=numbered))) == [("b", {"what": "pump"})]
+    assert not done(ENGINE.decide(situation("go to the pump", catalogue=numbered)))

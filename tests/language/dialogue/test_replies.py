@@ -13,6 +13,7 @@ PUT = "Please put the box on me and tell me when it is done."
 @pytest.mark.parametrize(
     ("reply", "kind"),
     [
+        ("done", "yes"), ("finished", "yes"), ("done?", "aside"),
         ("there you go", "yes"), ("ok, loaded", "yes"), ("I have put it on you", "yes"), ("all done", "yes"),
         ("it's on your tray", "yes"), ("you can go on", "yes"), ("here it is", "yes"),
         ("I have not put it on you", "no"), ("I can't find it", "no"),

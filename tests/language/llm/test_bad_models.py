@@ -156,8 +156,8 @@ async def test_stop_acts_while_the_model_hangs() -> None:
         here.crew.body.gate("box").set()
 
 
-async def test_offline_engine_steps_in_and_says_so_once() -> None:
-    async with room("offline") as here:
+async def test_builtin_engine_steps_in_and_says_so_once() -> None:
+    async with room("builtin") as here:
         here.model.server.always(Say(body="oops", status=500))
         first = await here.say("look at the box")
         assert first.message.startswith("(My usual language service gives no answer;")
@@ -167,7 +167,7 @@ async def test_offline_engine_steps_in_and_says_so_once() -> None:
 
 
 async def test_refusal_is_final_whatever_engine_stands_behind() -> None:
-    async with room("offline") as here:
+    async with room("builtin") as here:
         here.model.will(Say(refusal="No."))
         told = await here.say("look at the box")
         assert told.message.startswith("My language service declined to answer that.")

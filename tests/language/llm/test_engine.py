@@ -129,22 +129,22 @@ async def test_nothing_is_asked_where_there_is_nothing_to_pick_from() -> None:
 
 
 async def test_memories_are_not_waited_for_as_long_as_plans() -> None:
-    async with model("offline", memory_timeout_s=4.0) as asked:
+    async with model("builtin", memory_timeout_s=4.0) as asked:
         asked.will(Say(drop_after=0))
         entries = [MemoryEntry(name="box", data="The box is red.")]
         assert await asked.language.select_memories("the box", entries) == ["box"]
 
 
 async def test_chain_answers_with_the_first_engine_that_can() -> None:
-    async with model("local:other@http://127.0.0.1:9/v1", "offline", retries=0) as asked:
+    async with model("local:other@http://127.0.0.1:9/v1", "builtin", retries=0) as asked:
         asked.will(Say(body="oops", status=500))
         order = await asked.language.interpret(situation(objects=(BOX,)))
         assert order.queue[-1].name == "Look"
-        assert "offline" in asked.language.label
+        assert "built-in" in asked.language.label
 
 
 async def test_change_of_engine_is_told_when_it_comes_and_when_it_is_over() -> None:
-    async with model("offline", retries=0, breaker_failures=9) as asked:
+    async with model("builtin", retries=0, breaker_failures=9) as asked:
         gone = Say(body="oops", status=500)
         asked.will(LOOKS, gone, gone, LOOKS, LOOKS)
         told = [
@@ -162,7 +162,7 @@ async def test_failure_of_every_engine_is_that_of_the_first() -> None:
         assert "key" in caught.value.plain
 
 
-def test_libraries_for_models_are_not_loaded_for_the_offline_engine() -> None:
+def test_libraries_for_models_are_not_loaded_for_the_builtin_engine() -> None:
     code = (
         "import sys, parley.system, parley.cli; parley.cli.command_line();"
         "print('pydantic_ai' in sys.modules, 'openai' in sys.modules)"

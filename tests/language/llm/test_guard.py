@@ -133,7 +133,7 @@ async def test_unknown_price_is_not_made_up() -> None:
 
 
 def test_models_of_a_chain_share_the_time_there_is() -> None:
-    names = ["local:a@http://127.0.0.1:9/v1", "local:b@http://127.0.0.1:9/v1", "offline"]
+    names = ["local:a@http://127.0.0.1:9/v1", "local:b@http://127.0.0.1:9/v1", "builtin"]
     chain = build_language(names, ModelSettings(timeout_s=20.0), check=plan_problems, within_s=27.0)
     assert isinstance(chain, ChainLanguage)
     limits = [engine.timeout_s for engine in chain.engines if isinstance(engine, LlmLanguage)]

@@ -11,9 +11,9 @@ from parley.agents.planner.check import plan_problems
 from parley.config import ModelSettings
 from parley.errors import ConfigError, FileFormatError, LanguageError
 from parley.language.base import Language
+from parley.language.builtin.engine import BuiltinLanguage
 from parley.language.llm import build_language
 from parley.language.llm.scripted_server import Say
-from parley.language.offline import OfflineLanguage
 from parley.messages.memory import MemoryEntry
 from tests.language.llm.rig import LOOK_PLAN, LOOKS, model, situation
 
@@ -91,6 +91,6 @@ async def test_memories_of_the_thesis_example_are_picked_by_a_model(tmp_path: Pa
     assert await replay(file).select_memories(THESIS_QUERY, many) == wanted
 
 
-async def test_memories_of_the_thesis_example_are_picked_offline() -> None:
-    picked = await OfflineLanguage().select_memories(THESIS_QUERY, THESIS_MEMORIES)
+async def test_memories_of_the_thesis_example_are_picked_without_a_model() -> None:
+    picked = await BuiltinLanguage().select_memories(THESIS_QUERY, THESIS_MEMORIES)
     assert picked == ["package_location", "maintenance_warning"]

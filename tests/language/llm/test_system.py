@@ -78,8 +78,8 @@ async def test_bad_model_moves_no_robot(answers: list[Say]) -> None:
         assert house.observer.events == []
 
 
-async def test_system_goes_on_with_the_offline_engine_when_the_model_is_gone() -> None:
-    async with home("offline") as (house, server, _):
+async def test_system_goes_on_with_the_builtin_engine_when_the_model_is_gone() -> None:
+    async with home("builtin") as (house, server, _):
         server.always(Say(body="oops", status=500))
         assert "simpler one" in (await house.say("go to the fridge")).message
         assert set(await house.done()) == {"finished"}

@@ -4,7 +4,7 @@ import { useWorld } from '@/live/store';
 
 import css from './menu.module.css';
 
-/** Says plainly when only the simple understanding of language is there. */
+/** Says plainly when only the built-in understanding of language is there. */
 export function OfflineNote() {
   const { t } = useTranslation('menu');
   const offline = useWorld((world) => world.info?.offline_language ?? false);

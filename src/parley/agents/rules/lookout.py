@@ -15,7 +15,7 @@ from parley.agents.base import Node
 from parley.agents.planner.steps import OPEN_STATES
 from parley.clock import Clock
 from parley.errors import InvalidMessageError, TransportError
-from parley.language.offline.facts.protocols import Protocol, read_sighting_rule, sighted
+from parley.language.dialogue.standing import StandingRule, read_sighting_rule, sighted
 from parley.latest import Latest
 from parley.memory.client import ask_memory
 from parley.messages import topics
@@ -52,7 +52,7 @@ class Lookout(Node):
     def __init__(self, transport: Transport, clock: Clock) -> None:
         super().__init__(transport)
         self._clock = clock
-        self._rules: dict[_Key, tuple[Protocol, MemoryEntry]] = {}
+        self._rules: dict[_Key, tuple[StandingRule, MemoryEntry]] = {}
         self._fired: Latest[str, set[_Key]] = Latest()
         """What was done already in the steps that run, by robot."""
         self._plans: dict[str, PlanUpdate] = {}
@@ -117,7 +117,9 @@ class Lookout(Node):
 
     # -- what is done ----------------------------------------------------------------------------------
 
-    def _carry_out(self, robot: str, rule: Protocol, entry: MemoryEntry, seen: str, has_more: bool) -> None:
+    def _carry_out(
+        self, robot: str, rule: StandingRule, entry: MemoryEntry, seen: str, has_more: bool
+    ) -> None:
         """Do what the rule says; going on and trying again are what happens anyway."""
         orders = [act.words for act in rule.acts if act.kind == "order"]
         if not orders and not any(rule.has(kind) for kind in ("stop", "tell", "cancel", "wait")):

@@ -21,7 +21,8 @@ from parley.language.builtin import pictures
 from parley.language.builtin.clauses import Clause, clauses
 from parley.language.builtin.deciding import decide
 from parley.language.builtin.decision import Answer, Ask, Decision, Do
-from parley.language.builtin.lexicon import lexicon
+from parley.language.builtin.explaining import explained
+from parley.language.builtin.lexicon import lexicon, stem
 from parley.language.builtin.own import OwnActions
 from parley.language.builtin.reading import Reading, read
 from parley.language.builtin.recovery import Repairer
@@ -44,6 +45,7 @@ from parley.world.object_map import MapObject
 __all__ = ["BuiltinLanguage"]
 
 _LONGEST = 600
+_BLIND = "I cannot see what is in a picture that you send; I only keep it."
 
 
 class BuiltinLanguage:
@@ -87,6 +89,12 @@ class BuiltinLanguage:
         text = f"I cannot see what is in a picture. {chat.message_response}"
         return chat.model_copy(update={"message_response": text})
 
+    def explain(self, situation: Situation) -> tuple[ChatAction, list[dict[str, str]]]:
+        """See `parley.language.situations.Explains`."""
+        decision = self.decide(situation)
+        told = explained(self._parts(situation.message), decision) if situation.message.strip() else []
+        return self._addressed(to_chat(decision, self._lexicon), situation), told
+
     def certain(self, situation: Situation) -> ChatAction | None:
         """What a message asks for, where that is certain; None where it would be asked about or answered."""
         decision = self.decide(situation)
@@ -98,9 +106,10 @@ class BuiltinLanguage:
 
     @staticmethod
     def _addressed(chat: ChatAction, situation: Situation) -> ChatAction:
-        return chat.model_copy(
-            update={"targets": chat.targets or ((situation.robot,) if situation.robot else ())}
-        )
+        sent = any(picture.sent for picture in situation.pictures)
+        told = f"{chat.message_response} {_BLIND}" if sent else chat.message_response
+        targets = chat.targets or ((situation.robot,) if situation.robot else ())
+        return chat.model_copy(update={"targets": targets, "message_response": told})
 
     def decide(self, situation: Situation) -> Decision:
         """What comes of a message."""
@@ -168,14 +177,16 @@ class BuiltinLanguage:
         return Part(clause, parsed, reading, text[tokens[0].start : tokens[-1].end])
 
     async def select_memories(self, query: str, index: Sequence[MemoryEntry]) -> list[str]:
-        """See `Language.select_memories`."""
-        wanted = {token.low for token in tokenize(query)} - self._lexicon.classes["small"]
-        found = []
-        for memory in index:
-            text = f"{memory.name.replace('_', ' ')} {memory.info} {memory.data}"
-            if wanted & {token.low for token in tokenize(text)}:
-                found.append(memory.name)
-        return found
+        """See `Language.select_memories`; those that share a word with one that was found matter, too."""
+        known = [self._content(f"{item.name.replace('_', ' ')} {item.info} {item.data}") for item in index]
+        wanted = self._content(query)
+        wanted = wanted.union(*(words for words in known if words & wanted))
+        return [item.name for item, words in zip(index, known, strict=True) if words & wanted]
+
+    def _content(self, text: str) -> set[str]:
+        classes = self._lexicon.classes
+        empty = classes["small"] | classes["prepositions"] | classes["determiners"]
+        return {stem(token.low) for token in tokenize(text) if token.is_word and token.low not in empty}
 
     async def resolve(self, situation: ErrorSituation) -> ChatAction:
         """See `Language.resolve`."""

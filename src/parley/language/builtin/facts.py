@@ -13,6 +13,7 @@ from parley.language.builtin.saying import with_article
 from parley.language.builtin.structure import Part
 from parley.language.builtin.things import noun_phrase
 from parley.language.builtin.wishes import Filler
+from parley.language.dialogue.standing import read_rule
 from parley.messages.memory import MemoryEntry
 
 __all__ = ["Place", "known_place", "places", "rule_of", "told_of"]
@@ -60,13 +61,19 @@ def rule_of(parts: Sequence[Part], message: str, lexicon: Lexicon) -> Told | Non
     """What people teach for a case that may come ("if you see smoke, stop"); None if it is no such rule.
 
     It has one condition, about what the robot may meet on any way: something seen, or something that goes
-    wrong. Nothing is wanted before it.
+    wrong. Nothing is wanted before it. Only what can be carried out when it happens is promised.
     """
     cases = [part for part in parts if part.clause.link in ("if", "when")]
     others = [
         part for part in parts if part.clause.link not in ("if", "when", "main", "not", "times", "delay")
     ]
-    if len(cases) != 1 or others or (not cases[0].clause.fronted and len(parts) > 2) or len(parts) < 2:
+    if (
+        read_rule(message) is None
+        or len(cases) != 1
+        or others
+        or (not cases[0].clause.fronted and len(parts) > 2)
+        or len(parts) < 2
+    ):
         return None
     words = [word for word in cases[0].low if word.isalpha()]
     sees = (

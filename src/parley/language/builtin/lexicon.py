@@ -5,11 +5,10 @@ from __future__ import annotations
 from collections.abc import Mapping, Sequence
 from dataclasses import dataclass
 from functools import cache
-from importlib import resources
 
-import yaml
+from parley.language.lexicon import load_data
 
-__all__ = ["Frame", "Lexicon", "lemmas", "lexicon", "load", "stem", "stems"]
+__all__ = ["Frame", "Lexicon", "lemmas", "lexicon", "stem", "stems"]
 
 _IRREGULAR = {
     "took": "take", "taken": "take", "brought": "bring", "went": "go", "gone": "go", "found": "find",
@@ -106,35 +105,30 @@ def stems(words: Sequence[str]) -> tuple[str, ...]:
     return tuple(stem(part) for word in words for part in word.replace("_", " ").replace("-", " ").split())
 
 
-def load(name: str) -> dict[str, object]:
-    """One of the files of the lexicon."""
-    text = (resources.files("parley.language.lexicon") / f"{name}.yaml").read_text(encoding="utf-8")
-    read: dict[str, object] = yaml.load(
-        text, yaml.CBaseLoader if hasattr(yaml, "CBaseLoader") else yaml.BaseLoader
-    )
-    return read
-
-
 @cache
 def lexicon() -> Lexicon:
     """The one that lies beside this program."""
     frames: dict[str, Frame] = {}
     verbs: dict[tuple[str, ...], set[str]] = {}
-    for name, entry in load("frames").items():
+    for name, entry in load_data("frames").items():
         if not isinstance(entry, dict):
             raise TypeError(f"frames.yaml: {name} is no entry")
         frames[name] = Frame(name, entry["gloss"], entry["roles"], entry["say"], tuple(entry["tests"]))
         for verb in entry.get("verbs", ()):
             verbs.setdefault(tuple(verb.split()), set()).add(name)
-    classes = {name: frozenset(words) for name, words in load("classes").items() if isinstance(words, list)}
-    hints = {name: frozenset(words) for name, words in load("parameters").items() if isinstance(words, list)}
+    classes = {
+        name: frozenset(words) for name, words in load_data("classes").items() if isinstance(words, list)
+    }
+    hints = {
+        name: frozenset(words) for name, words in load_data("parameters").items() if isinstance(words, list)
+    }
     called = {words: frozenset(names) for words, names in verbs.items()}
     return Lexicon(frames, called, classes, hints, _synonyms())
 
 
 def _synonyms() -> dict[tuple[str, ...], frozenset[tuple[str, ...]]]:
     """The other names of things; of kinds only upwards: a paperback is a book."""
-    read = load("synonyms")
+    read = load_data("synonyms")
     same, kinds = read["same"], read["kind_of"]
     if not isinstance(same, list) or not isinstance(kinds, dict):
         raise TypeError("synonyms.yaml: same is a list of groups, kind_of a table")

@@ -18,6 +18,8 @@ from parley.umrf.kinds import parameters_of
 
 __all__ = ["Ways", "typed"]
 
+_AMOUNTS = frozenset({"distance", "angle", "duration", "number"})
+
 
 @dataclass(slots=True)
 class Ways(Grounder):
@@ -41,7 +43,13 @@ class Ways(Grounder):
             return [self._driven(skill, *goal.point, 0.0, goal.said)]
         if not skill.takes_pose:
             slot = skill.roles.get("G")
-            return [Deed("GO", skill, {slot: goal.argument}, said)] if slot else Ask("Where to?")
+            if slot is None:
+                return Ask("Where to?")
+            counts = parameters_of(skill.action)[slot].kind in _AMOUNTS
+            given = typed(goal, skill.action, slot) if counts else goal.argument
+            if given is None:
+                return Ask(f"I cannot tell by a number where {goal.said} is.")
+            return [Deed("GO", skill, {slot: given}, said)]
         locate = self.skills.get("LOCATE")
         if locate is None or not locate.roles:
             return Ask("I cannot find out where that is.")

@@ -12,10 +12,11 @@ from functools import cache
 from typing import Final
 
 from parley.language.base import Situation
-from parley.language.builtin.lexicon import Lexicon, load
+from parley.language.builtin.lexicon import Lexicon
 from parley.language.builtin.tokens import Token
 from parley.language.dialogue.changes import Change, Visit, moved, reordered, visits
 from parley.language.dialogue.mentions import Named, named
+from parley.language.lexicon import load_data
 
 __all__ = ["rearranged"]
 
@@ -201,12 +202,14 @@ _MADE: Final[dict[str, _Made]] = {
 @cache
 def _patterns() -> tuple[tuple[re.Pattern[str], _Made], ...]:
     """What the lexicon says about changing the order of a plan."""
-    read = load("rearranging")
-    parts = read.pop("parts")
+    read = load_data("rearranging")
+    parts = read["parts"]
     if not isinstance(parts, dict):
         raise TypeError("rearranging.yaml: parts is a table")
     found = []
     for name, templates in read.items():
+        if name == "parts":
+            continue
         if not isinstance(templates, list):
             raise TypeError(f"rearranging.yaml: {name} is a list")
         found += [(re.compile(_pattern(template, parts)), _MADE[name]) for template in templates]

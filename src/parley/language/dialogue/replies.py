@@ -134,10 +134,10 @@ def read_reply(question: str, reply: str, choices: Sequence[str], reading: Readi
         return ReplyReading("choice", choice)
     if literal is not None:
         return ReplyReading("yes" if literal else "no")
+    if is_done(bare) and "?" not in reply:
+        return ReplyReading("yes")
     if asks(reply, bare) or is_thinking(bare) or "alarm" in reading.acts or calls_to_stop(reply):
         return ReplyReading("aside")
-    if is_done(bare):
-        return ReplyReading("yes")
     if any(_is_sure(wish) for wish in reading.wishes) or ("need" in reading.acts and len(words) > _FEW):
         return ReplyReading("aside")
     if begins_with_no(reply) or _NOT & set(words[:3]):

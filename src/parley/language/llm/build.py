@@ -13,17 +13,15 @@ from parley.language.base import Language
 from parley.language.llm.guard import Budget
 from parley.language.llm.reading import PlanCheck
 from parley.language.llm.usage import Usage
-from parley.language.offline import OfflineLanguage
 
 if TYPE_CHECKING:
     from parley.language.builtin.engine import BuiltinLanguage
     from parley.language.llm.engine import LlmLanguage
 
-__all__ = ["AUTO", "BUILTIN", "OFFLINE", "build_language"]
+__all__ = ["build_language"]
 
-AUTO = "auto"
-OFFLINE = "offline"
-BUILTIN = "builtin"
+_AUTO = "auto"
+_BUILTIN = "builtin"
 _REPLAY = "replay:"
 
 
@@ -39,7 +37,7 @@ def build_language(
     """The engine that `names` says, the next behind the one before.
 
     Args:
-        names: `offline`, `builtin`, `provider:model`, `provider:model@address` or `replay:file`; the
+        names: `builtin`, `provider:model`, `provider:model@address` or `replay:file`; the
             usual one first. `auto:` before a model: the built-in engine where it is certain (`auto` alone:
             with the next model).
         settings: How models are asked.
@@ -52,8 +50,8 @@ def build_language(
         ConfigError: A name is not understood, a library or a key is missing, a file cannot be read.
     """
     both, names = _split(names)
-    if names[0] in (OFFLINE, BUILTIN):
-        return _own(names[0])
+    if names[0] == _BUILTIN:
+        return _builtin()
     try:
         from parley.language.llm.auto import AutoLanguage
         from parley.language.llm.chain import ChainLanguage
@@ -61,11 +59,11 @@ def build_language(
         raise ConfigError("language models need a library: pip install 'parley-hri[openai]'") from error
 
     clock = clock or WallClock()
-    settings = _shared(settings, sum(name not in (OFFLINE, BUILTIN) for name in set(names)), within_s)
+    settings = _shared(settings, len({*names} - {_BUILTIN}), within_s)
     budget = Budget(clock, max_tokens=settings.max_tokens_per_hour, max_usd=settings.max_usd_per_hour)
     engines = [
-        _own(name)
-        if name in (OFFLINE, BUILTIN)
+        _builtin()
+        if name == _BUILTIN
         else _model(name, settings, first=not number, check=check, clock=clock, usage=usage, budget=budget)
         for number, name in enumerate(dict.fromkeys(names))
     ]
@@ -76,24 +74,18 @@ def build_language(
 
 
 def _split(names: Sequence[str]) -> tuple[bool, list[str]]:
-    """Whether the built-in engine is asked first, and who besides: with it no other engine of ours."""
+    """Whether the built-in engine is asked first, and who besides."""
     first, *others = names
-    models = [name for name in others if name not in (OFFLINE, BUILTIN)]
-    if first == AUTO:
-        return bool(models), models or [BUILTIN]
-    if first.startswith(f"{AUTO}:"):
-        return True, [first.removeprefix(f"{AUTO}:"), *models]
+    models = [name for name in others if name != _BUILTIN]
+    if first == _AUTO:
+        return bool(models), models or [_BUILTIN]
+    if first.startswith(f"{_AUTO}:"):
+        return True, [first.removeprefix(f"{_AUTO}:"), *models]
     return False, list(names)
 
 
-def _own(name: str) -> Language:
-    """One of our engines; the new one is loaded, with its weights, only where it is asked for."""
-    if name == OFFLINE:
-        return OfflineLanguage()
-    return _builtin()
-
-
 def _builtin() -> BuiltinLanguage:
+    """Loaded, with its weights, only where it is asked for."""
     from parley.language.builtin.engine import BuiltinLanguage
 
     return BuiltinLanguage()

@@ -54,7 +54,7 @@ class ModelSpec:
             name, address = text, ""
         provider, colon, model = name.partition(":")
         if not colon or not provider or not model:
-            raise ConfigError(f"{text!r} names no model: write provider:model, or offline for none")
+            raise ConfigError(f"{text!r} names no model: write provider:model, or builtin for none")
         url = f"http{address}" if at else base_url or LOCAL_SERVERS.get(provider, "")
         if provider == "local" and not url:
             raise ConfigError("local:model needs an address: local:model@http://host:port/v1")

@@ -1,1 +1,0 @@
-"""What is told and remembered, and which of it matters for a message."""

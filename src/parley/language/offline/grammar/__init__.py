@@ -1,1 +1,0 @@
-"""A grammar beside the reader: from any wording to plain orders, in the order in which they are wanted."""

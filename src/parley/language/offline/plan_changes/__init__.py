@@ -1,1 +1,0 @@
-"""Changes of what is pending: dropping, keeping, moving, replacing, repeating."""

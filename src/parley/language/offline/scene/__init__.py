@@ -1,1 +1,0 @@
-"""What descriptions mean: objects of the map, people, pronouns, groups, places by relation."""

@@ -1,1 +1,0 @@
-"""From an order to steps, by what the robot's own catalogue offers."""

@@ -1,1 +1,0 @@
-"""Words and wordings: the lexicon, cutting text, mending typing errors, saying plain sentences."""
