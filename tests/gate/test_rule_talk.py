@@ -6,7 +6,7 @@ import pytest
 
 from parley.clock import SimClock
 from parley.gate.book import RuleBook
-from parley.gate.rule_talk import RuleReply, RuleTalk
+from parley.gate.rule_talk import Listener, RuleReply, RuleTalk
 from parley.gate.rules import RuleKeeper
 from parley.messages.principal import Principal, person
 from parley.messages.rules import Rule
@@ -23,9 +23,7 @@ class Talk:
         self._talk = RuleTalk(self.book, self.keeper)
 
     async def say(self, text: str, by: Principal = KIM, answers: str = "") -> RuleReply | None:
-        return await self._talk.reply(
-            text, by, robot="Ada", robots=("Ada",), places=self._places, catalogue=(), answers=answers
-        )
+        return await self._talk.reply(text, by, Listener("Ada", ("Ada",), self._places), answers=answers)
 
     @property
     def held(self) -> list[str]:

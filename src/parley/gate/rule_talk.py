@@ -22,7 +22,7 @@ from parley.messages.status import ActionInfo
 from parley.sentences import in_language, sentence, together
 from parley.world.object_map import MapObject
 
-__all__ = ["RuleConfirmations", "RuleReply", "RuleTalk"]
+__all__ = ["Listener", "RuleConfirmations", "RuleReply", "RuleTalk"]
 
 _KEPT: Final = 100
 _SHORT: Final = 2
@@ -39,6 +39,21 @@ _DROP: Final = re.compile(
     r"(?: (?:about|on|for|that) (?P<about>.+))?$"
     r"|^(?:palun )?(?:kustuta|tühista|unusta) reegel(?: (?P<kohta>.+?)(?: kohta)?)?$"
 )
+
+
+@dataclass(frozen=True, slots=True)
+class Listener:
+    """The robot that is spoken to, and what words about rules can mean to it."""
+
+    robot: str
+    robots: Sequence[str]
+    """All robots."""
+    places: Sequence[MapObject] = ()
+    """What is on the map."""
+    catalogue: Sequence[ActionInfo] = ()
+    """What it can do."""
+    busy: bool = True
+    """Whether it has something to do: then "don't go there" is about that."""
 
 
 @dataclass(frozen=True, slots=True)
@@ -60,6 +75,11 @@ class _Pending:
     choices: tuple[tuple[str, Rule], ...]
     drops: bool = False
 
+    @property
+    def shown(self) -> Rule | None:
+        """What a plain yes means: what the question says, or the only choice."""
+        return None if self.drops and len(self.choices) > 1 else self.choices[0][1]
+
 
 class RuleConfirmations:
     """Changes of rules that wait for a person's yes, by the question about them."""
@@ -77,7 +97,7 @@ class RuleConfirmations:
         return tuple(rule for _, rule in pending.choices) if pending is not None else ()
 
     def put(self, text: str, rules: Sequence[Rule], *, drops: bool = False) -> RuleReply:
-        """Ask about a change; the first of `rules` is meant by a plain yes if it is the only one."""
+        """Ask about a change, or which rule to drop; of several to make, the text says the first."""
         labels = [sentence("yes") if len(rules) == 1 else rule_text(rule) for rule in rules]
         return self._asked(text, _Pending(tuple(zip(labels, rules, strict=True)), drops))
 
@@ -100,8 +120,8 @@ class RuleConfirmations:
         if chosen is None and said.isdigit() and 0 < int(said) <= len(pending.choices):
             chosen = pending.choices[int(said) - 1][1]
         literal = True if said in _YES else False if said in _NO else assent_of(text)
-        if chosen is None and literal and len(pending.choices) == 1:
-            chosen = pending.choices[0][1]
+        if chosen is None and literal:
+            chosen = pending.shown
         if chosen is None and literal is not False:
             return None
         del self._waiting[question]
@@ -132,29 +152,24 @@ class RuleTalk:
         """Whether this question is one of ours."""
         return self._confirmations.asked(question)
 
-    async def reply(
-        self,
-        text: str,
-        by: Principal,
-        *,
-        robot: str,
-        robots: Sequence[str],
-        places: Sequence[MapObject],
-        catalogue: Sequence[ActionInfo],
-        answers: str = "",
-        busy: bool = True,
-    ) -> RuleReply | None:
+    def concerns(self, text: str, to: Listener) -> bool:
+        """Whether words are about rules, whatever else is asked at the moment."""
+        said = _plain(text).rstrip("?")
+        return bool(
+            _LIST.match(said)
+            or _DROP.match(said)
+            or self._closed(lifted_place(text))
+            or self._told(text, to) is not None
+        )
+
+    async def reply(self, text: str, by: Principal, to: Listener, *, answers: str = "") -> RuleReply | None:
         """What to say to a message that is about rules; None for every other message.
 
         Args:
             text: What was said.
             by: Who says it.
-            robot: Who is spoken to.
-            robots: All robots.
-            places: What is on the map.
-            catalogue: What the robot can do.
+            to: Who is spoken to.
             answers: The question that it answers, if it does.
-            busy: Whether the robot has something to do.
         """
         if answers and self.asked(answers):
             reply = await self._answer(answers, text, by)
@@ -167,10 +182,7 @@ class RuleTalk:
             return self._drop(found["about"] or found["kohta"] or "", by)
         if (place := lifted_place(text)) and (lifted := await self._lift(place, by)) is not None:
             return lifted
-        told = told_rule(
-            text, places=places, catalogue=catalogue, robots=robots, robot=robot, busy=busy,
-            zones=self._book.rules.rules,
-        )  # fmt: skip
+        told = self._told(text, to)
         if told is None:
             return None
         if not _may(by):
@@ -178,6 +190,12 @@ class RuleTalk:
         if isinstance(told, NotUnderstood):
             return RuleReply(told.sentence)
         return self._proposed(told)
+
+    def _told(self, text: str, to: Listener) -> DraftRule | NotUnderstood | None:
+        return told_rule(
+            text, places=to.places, catalogue=to.catalogue, robots=to.robots, robot=to.robot, busy=to.busy,
+            zones=self._book.rules.rules,
+        )  # fmt: skip
 
     def _proposed(self, told: DraftRule) -> RuleReply:
         at_once = told.rule.kind == "keep_out"
@@ -197,11 +215,15 @@ class RuleTalk:
             return sentence("There are no rules.")
         return together(*(rule_text(rule) for rule in rules))
 
-    async def _lift(self, place: str, by: Principal) -> RuleReply | None:
-        """A place is free again: what was only asked about holds no longer, a rule is dropped after a yes."""
+    def _closed(self, place: str) -> list[Rule]:
+        """The rules by which a place is closed."""
         words = set(re.findall(r"\w+", place))
         rules = [rule for rule in self._book.rules.rules if rule.kind == "keep_out"]
-        fitting = [rule for rule in rules if words and words == set(re.findall(r"\w+", rule.name.casefold()))]
+        return [rule for rule in rules if words and words == set(re.findall(r"\w+", rule.name.casefold()))]
+
+    async def _lift(self, place: str, by: Principal) -> RuleReply | None:
+        """A place is free again: what was only asked about holds no longer, a rule is dropped after a yes."""
+        fitting = self._closed(place)
         if not fitting or not _may(by):
             return None
         if not all(self._keeper.is_tried(rule.id) for rule in fitting):

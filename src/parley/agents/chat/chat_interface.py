@@ -25,7 +25,7 @@ from parley.agents.presence import Presence, linked_to
 from parley.agents.questions import SeenIds
 from parley.agents.thinking import PATIENCE_S, Thinking
 from parley.clock import Clock
-from parley.gate.rule_talk import RuleTalk
+from parley.gate.rule_talk import Listener, RuleTalk
 from parley.gate.table import Effect, verdict
 from parley.language.base import Language
 from parley.language.control import Control, control_of
@@ -163,7 +163,7 @@ class ChatInterface(Node):
             targets = self._presence.named_in(said.message) or targets
         calls, refuses = calls_to_stop(said.message), is_no(said.message)
         for target in targets:
-            question = self._questions.first(target) if said.type == "response" else None
+            question = self._questions.newest(target) if said.type == "response" else None
             halts = calls or (refuses and question is None and self._offered.newest(target) is None)
             moves = self._known.moves(target, self._presence.get(target))
             turns = question is None and control in (None, "stop")
@@ -256,11 +256,14 @@ class ChatInterface(Node):
     async def _about_rules(self, target: str, said: ChatInput, ours: str) -> bool:
         """Whether a message was about rules; what becomes one is decided by code and a person's yes."""
         status = self._presence.get(target)
-        reply = self._rules and await self._rules.reply(
-            said.message, said.who, robot=target, robots=self._presence.names(),
-            places=self._known.objects(target), catalogue=status.catalogue if status else (), answers=ours,
+        to = Listener(
+            target,
+            self._presence.names(),
+            self._known.objects(target),
+            status.catalogue if status else (),
             busy=self._known.state(target) != "idle",
-        )  # fmt: skip
+        )
+        reply = self._rules and await self._rules.reply(said.message, said.who, to, answers=ours)
         if not reply:
             return False
         feedback = ChatFeedback(
@@ -372,7 +375,7 @@ class ChatInterface(Node):
         if more and len(said.message.split()) > _SHORT_WORDS:  # there may be an order in it
             reply = together(sentence(reply), texts.REST_LEFT)
         self._known.note(target, said.message, reply)
-        asked = self._questions.first(target) if state == "held" else None
+        asked = self._questions.newest(target) if state == "held" else None
         self.publish(
             topics.CHAT_FEEDBACK,
             ChatFeedback(
