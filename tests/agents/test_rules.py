@@ -122,8 +122,8 @@ async def test_a_told_rule_is_shown_as_what_it_becomes_and_counts_after_a_yes() 
         )
         assert "On the map it reaches from (4.65, 1.45) to (5.75, 2.55) metres." in asked.message
         assert asked.choices[-1] == "no" and len(asked.choices) == 3
-        assert "I keep to it until you answer." in asked.message
-        assert it.held == ["keep-out-green-crate"]
+        assert "Until you answer, A will not drive." in asked.message
+        assert it.held == []
         it.observer.say("perhaps", "A", answer=True)
         await it.observer.until(lambda: it.observer.said[-1].closes == asked.id, timeout_s=10)
         await it.say((await it.question()).choices[1], answer=True)
@@ -134,6 +134,29 @@ async def test_a_told_rule_is_shown_as_what_it_becomes_and_counts_after_a_yes() 
         assert "Shall I drop this rule" in (await it.question()).message
         assert (await it.say("yes", answer=True)).message == "The rule does not hold any more."
         assert it.held == []
+
+
+@pytest.mark.parametrize("answer", ["yes", "no"])
+async def test_a_drive_stands_while_a_zone_before_it_is_asked_about(answer: str) -> None:
+    async with crew() as it:
+        await it.say("go to the green crate")
+        while it.farthest_m < 1.3:
+            await it.system.clock.sleep(0.05)
+        it.observer.say("nobody to the green crate", "A")
+        asked = await it.question()
+        await it.system.clock.sleep(1.0)
+        stood_m = it.farthest_m
+        it.observer.say("go to the green crate", "A")
+        await it.observer.until(lambda: it.observer.said[-1].closes == asked.id)
+        await it.system.clock.sleep(3.0)
+        assert it.farthest_m == pytest.approx(stood_m), "nothing else that is said lets it drive"
+        await it.say(answer, answer=True)
+        if answer == "no":
+            assert await it.done() == ["finished"] * 4
+        else:
+            await it.observer.until(lambda: bool(it.observer.failures), timeout_s=20)
+            assert it.observer.failures[0].code == "forbidden"
+            assert it.farthest_m < 4.25 - it.system.robots["A"].radius_m
 
 
 async def test_after_a_no_nothing_holds_and_orders_are_no_rules() -> None:

@@ -19,7 +19,7 @@ from parley.latest import Latest
 from parley.messages.principal import Principal
 from parley.messages.rules import Rule
 from parley.messages.status import ActionInfo
-from parley.sentences import in_language, sentence, together
+from parley.sentences import in_language, listed, sentence, together
 from parley.world.object_map import MapObject
 
 __all__ = ["Listener", "RuleConfirmations", "RuleReply", "RuleTalk"]
@@ -66,14 +66,19 @@ class RuleReply:
     choices: tuple[str, ...] = ()
     closes: str = ""
     """The question that is settled by it."""
+    stands: tuple[str, ...] = ()
+    """Robots that stand still while it is open, so that nothing happens that the answer would forbid."""
 
 
 @dataclass(frozen=True, slots=True)
 class _Pending:
-    """A change that waits for a yes: what each choice would put in force, None to drop `drops`."""
+    """A change that waits for a yes: what each choice would put in force, or drop."""
 
+    text: str
     choices: tuple[tuple[str, Rule], ...]
+    robot: str
     drops: bool = False
+    stands: tuple[str, ...] = ()
 
     @property
     def shown(self) -> Rule | None:
@@ -91,25 +96,48 @@ class RuleConfirmations:
         """Whether this question is one of ours."""
         return question in self._waiting
 
-    def rules(self, question: str) -> tuple[Rule, ...]:
-        """What is asked about."""
-        pending = self._waiting.get(question)
-        return tuple(rule for _, rule in pending.choices) if pending is not None else ()
+    def of(self, robot: str) -> tuple[str, str]:
+        """The question for whose answer a robot stands, and who asks it; empty if there is none."""
+        found = ((key, item.robot) for key, item in self._waiting.items() if robot in item.stands)
+        return next(found, ("", ""))
 
-    def put(self, text: str, rules: Sequence[Rule], *, drops: bool = False) -> RuleReply:
+    def about(self, rule: Rule) -> tuple[str, str]:
+        """The question about making a rule, and the robot that asks it; empty if nobody asks."""
+        for question, pending in self._waiting.items():
+            if not pending.drops and _same(pending.choices[0][1], rule):
+                return question, pending.robot
+        return "", ""
+
+    def closing(self, rules: Sequence[Rule]) -> str:
+        """A question whether to close what such rules close; empty if there is none."""
+        return next((key for key, item in self._waiting.items() if item.choices[0][1] in rules), "")
+
+    @property
+    def proposed(self) -> tuple[Rule, ...]:
+        """What a yes would make a rule."""
+        return tuple(item.choices[0][1] for item in self._waiting.values() if not item.drops)
+
+    def put(
+        self, text: str, rules: Sequence[Rule], robot: str, *, drops: bool = False, stands: Sequence[str] = ()
+    ) -> RuleReply:
         """Ask about a change, or which rule to drop; of several to make, the text says the first."""
         labels = [sentence("yes") if len(rules) == 1 else rule_text(rule) for rule in rules]
-        return self._asked(text, _Pending(tuple(zip(labels, rules, strict=True)), drops))
+        choices = tuple(zip(labels, rules, strict=True))
+        return self._asked(_Pending(text, choices, robot, drops, tuple(stands)))
 
-    def again(self, question: str) -> RuleReply:
-        """Ask once more what was not answered clearly."""
-        text = sentence("Please answer with one of the choices, or with no.")
-        return replace(self._asked(text, self._waiting.pop(question)), closes=question)
+    def again(self, question: str, text: str = "") -> RuleReply:
+        """Ask once more what was not answered, perhaps in other words."""
+        return replace(self._asked(self._waiting.pop(question), text), closes=question)
 
-    def _asked(self, text: str, pending: _Pending) -> RuleReply:
+    def withdraw(self, question: str) -> None:
+        """Ask no more."""
+        self._waiting.pop(question, None)
+
+    def _asked(self, pending: _Pending, text: str = "") -> RuleReply:
         question = uuid.uuid4().hex
         self._waiting[question] = pending
-        return RuleReply(text, question, (*(label for label, _ in pending.choices), sentence("no")))
+        choices = (*(label for label, _ in pending.choices), sentence("no"))
+        return RuleReply(text or pending.text, question, choices, stands=pending.stands)
 
     def answered(self, question: str, text: str) -> tuple[Rule | None, bool] | None:
         """The rule that was said yes to (None after a no), and whether it is to be dropped; None: unclear."""
@@ -158,7 +186,7 @@ class RuleTalk:
         return bool(
             _LIST.match(said)
             or _DROP.match(said)
-            or self._closed(lifted_place(text))
+            or self._closing(lifted_place(text), self._all)
             or self._told(text, to) is not None
         )
 
@@ -179,8 +207,8 @@ class RuleTalk:
         if _LIST.match(said):
             return RuleReply(self._listed())
         if found := _DROP.match(said):
-            return self._drop(found["about"] or found["kohta"] or "", by)
-        if (place := lifted_place(text)) and (lifted := await self._lift(place, by)) is not None:
+            return self._drop(found["about"] or found["kohta"] or "", by, to)
+        if (place := lifted_place(text)) and (lifted := self._lift(place, by, to)) is not None:
             return lifted
         told = self._told(text, to)
         if told is None:
@@ -189,7 +217,19 @@ class RuleTalk:
             return RuleReply(sentence("You may not change rules."))
         if isinstance(told, NotUnderstood):
             return RuleReply(told.sentence)
-        return self._proposed(told)
+        return self._proposed(told, to)
+
+    def again(self, robot: str) -> RuleReply | None:
+        """The question for whose answer a robot stands, once more; None if there is none."""
+        question, asks = self._confirmations.of(robot)
+        if question and asks != robot:
+            return RuleReply(sentence("I will not drive before {robot} is told about the rule.", robot=asks))
+        return self._confirmations.again(question) if question else None
+
+    @property
+    def _all(self) -> tuple[Rule, ...]:
+        """The rules, and what is asked about."""
+        return (*self._book.rules.rules, *self._confirmations.proposed)
 
     def _told(self, text: str, to: Listener) -> DraftRule | NotUnderstood | None:
         return told_rule(
@@ -197,17 +237,26 @@ class RuleTalk:
             zones=self._book.rules.rules,
         )  # fmt: skip
 
-    def _proposed(self, told: DraftRule) -> RuleReply:
-        at_once = told.rule.kind == "keep_out"
-        if at_once:  # it takes nothing away from anybody's safety
-            self._keeper.try_out(told.rule)
+    def _proposed(self, told: DraftRule, to: Listener) -> RuleReply:
+        meant = (told.rule, *told.others)
+        known = next((rule for rule in self._book.rules.rules if any(_same(rule, x) for x in meant)), None)
+        if known is not None:
+            return RuleReply(sentence("That is already a rule: {rule}", rule=rule_text(known)))
+        question, robot = self._confirmations.about(told.rule)
+        if question and robot == to.robot:
+            return self._confirmations.again(question)
+        if question:
+            return RuleReply(sentence("{robot} asks you about this rule already.", robot=robot))
+        stands: Sequence[str] = ()
+        if told.rule.kind == "keep_out":  # nobody shall be where the yes would have closed it meanwhile
+            stands = told.rule.robots or to.robots
         shown = together(
             sentence("I understand this as a rule: {rule}", rule=rule_text(told.rule)),
             _area_text(told.rule),
-            sentence("I keep to it until you answer.") if at_once else "",
+            sentence("Until you answer, {robots} will not drive.", robots=listed(stands)) if stands else "",
             sentence("Shall it hold from now on?"),
         )
-        return self._confirmations.put(shown, (told.rule, *told.others))
+        return self._confirmations.put(shown, meant, to.robot, stands=stands)
 
     def _listed(self) -> str:
         rules = self._book.rules.rules
@@ -215,24 +264,24 @@ class RuleTalk:
             return sentence("There are no rules.")
         return together(*(rule_text(rule) for rule in rules))
 
-    def _closed(self, place: str) -> list[Rule]:
-        """The rules by which a place is closed."""
+    def _closing(self, place: str, rules: Sequence[Rule]) -> list[Rule]:
+        """Those of some rules by which a place is closed."""
         words = set(re.findall(r"\w+", place))
-        rules = [rule for rule in self._book.rules.rules if rule.kind == "keep_out"]
-        return [rule for rule in rules if words and words == set(re.findall(r"\w+", rule.name.casefold()))]
+        closing = [rule for rule in rules if rule.kind == "keep_out"]
+        return [rule for rule in closing if words and words == set(re.findall(r"\w+", rule.name.casefold()))]
 
-    async def _lift(self, place: str, by: Principal) -> RuleReply | None:
-        """A place is free again: what was only asked about holds no longer, a rule is dropped after a yes."""
-        fitting = self._closed(place)
-        if not fitting or not _may(by):
+    def _lift(self, place: str, by: Principal, to: Listener) -> RuleReply | None:
+        """A place is free again: what was only asked is asked no more, a rule is dropped after a yes."""
+        if not _may(by):
             return None
-        if not all(self._keeper.is_tried(rule.id) for rule in fitting):
-            return self._drop(place, by)
-        for rule in fitting:
-            self._keeper.let_go(rule.id)
-        return RuleReply(sentence("The rule does not hold any more."))
+        if self._closing(place, self._book.rules.rules):
+            return self._drop(place, by, to)
+        if question := self._confirmations.closing(self._closing(place, self._confirmations.proposed)):
+            self._confirmations.withdraw(question)
+            return RuleReply(sentence("All right, the rules stay as they are."), closes=question)
+        return None
 
-    def _drop(self, about: str, by: Principal) -> RuleReply:
+    def _drop(self, about: str, by: Principal, to: Listener) -> RuleReply:
         if not _may(by):
             return RuleReply(sentence("You may not change rules."))
         words = {word for word in re.findall(r"\w+", about) if word not in ("the", "a", "an")}
@@ -240,21 +289,20 @@ class RuleTalk:
         if not fitting:
             return RuleReply(sentence("There is no such rule."))
         if len(fitting) > 1:
-            return self._confirmations.put(sentence("Which rule shall be dropped?"), fitting, drops=True)
-        text = sentence("Shall I drop this rule: {rule}", rule=rule_text(fitting[0]))
-        return self._confirmations.put(text, fitting, drops=True)
+            text = sentence("Which rule shall be dropped?")
+        else:
+            text = sentence("Shall I drop this rule: {rule}", rule=rule_text(fitting[0]))
+        return self._confirmations.put(text, fitting, to.robot, drops=True)
 
     async def _answer(self, question: str, text: str, by: Principal) -> RuleReply | None:
         """What becomes of an answer; None if it is none, but something else that somebody wants."""
         if not _may(by):
             return RuleReply(sentence("You may not change rules."))
-        tried = self._confirmations.rules(question)
         answered = self._confirmations.answered(question, text)
         if answered is None:
-            return self._confirmations.again(question) if len(text.split()) <= _SHORT else None
+            unclear = sentence("Please answer with one of the choices, or with no.")
+            return self._confirmations.again(question, unclear) if len(text.split()) <= _SHORT else None
         rule, drops = answered
-        for other in tried if not drops else ():
-            self._keeper.let_go(other.id)
         if rule is None:
             return RuleReply(sentence("All right, the rules stay as they are."), closes=question)
         try:
@@ -272,6 +320,12 @@ class RuleTalk:
 
 def _may(by: Principal) -> bool:
     return by.is_person and verdict(by, Effect.RULE) == "allow"
+
+
+def _same(one: Rule, other: Rule) -> bool:
+    """Whether two rules say the same, whoever told them in whichever words."""
+    said = {"id": "", "words": "", "by": ""}
+    return one.model_copy(update=said) == other.model_copy(update=said)
 
 
 def _words(rule: Rule) -> set[str]:

@@ -25,7 +25,7 @@ from parley.agents.presence import Presence, linked_to
 from parley.agents.questions import SeenIds
 from parley.agents.thinking import PATIENCE_S, Thinking
 from parley.clock import Clock
-from parley.gate.rule_talk import Listener, RuleTalk
+from parley.gate.rule_talk import Listener, RuleReply, RuleTalk
 from parley.gate.table import Effect, verdict
 from parley.language.base import Language
 from parley.language.control import Control, control_of
@@ -234,6 +234,7 @@ class ChatInterface(Node):
                 self._say((target,), answer, "response", said.id)
             elif not await self._recollections.handles(target, said, mine):
                 await self._answering.answer(target, said, halts)
+            self._ask_about_rules_again(target, said)
 
         return work
 
@@ -266,14 +267,25 @@ class ChatInterface(Node):
         reply = self._rules and await self._rules.reply(said.message, said.who, to, answers=ours)
         if not reply:
             return False
+        self._reply_about_rules(target, said, reply, said.id)
+        self._known.note(target, said.message, reply.text)
+        return True
+
+    def _reply_about_rules(self, target: str, said: ChatInput, reply: RuleReply, reply_to: str = "") -> None:
         feedback = ChatFeedback(
             message=self.spoken(reply.text), targets=(target,), type="request" if reply.id else "response",
             choices=tuple(map(self.spoken, reply.choices)), id=reply.id, closes=reply.closes,
-            reply_to=said.id,
+            reply_to=reply_to,
         )  # fmt: skip
+        if reply.stands:
+            self._holds.begin_for(reply.id, said, reply.stands)
+        self._holds.end(reply.closes)
         self.publish(topics.CHAT_FEEDBACK, feedback)
-        self._known.note(target, said.message, reply.text)
-        return True
+
+    def _ask_about_rules_again(self, target: str, said: ChatInput) -> None:
+        """Whatever else is said, the robot stands until the answer, and says so."""
+        if self._rules is not None and (reply := self._rules.again(target)) is not None:
+            self._reply_about_rules(target, said, reply)
 
     def _keep_pictures(self, target: str, said: ChatInput, question: str) -> Callable[[], Awaitable[None]]:
         """Of an answer with pictures: whoever asked gets the words."""
@@ -376,6 +388,8 @@ class ChatInterface(Node):
             reply = together(sentence(reply), texts.REST_LEFT)
         self._known.note(target, said.message, reply)
         asked = self._questions.newest(target) if state == "held" else None
+        if asked is not None and self._rules is not None and self._rules.asked(asked.id):
+            asked = None
         self.publish(
             topics.CHAT_FEEDBACK,
             ChatFeedback(
@@ -385,6 +399,7 @@ class ChatInterface(Node):
                 reply_to=said.id,
             ),
         )
+        self._ask_about_rules_again(target, said)
 
     def _undoes(self, target: str, said: ChatInput) -> bool:
         """Whether a message is a tap on what undoes a memory; it is done then."""
