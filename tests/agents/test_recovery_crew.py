@@ -8,14 +8,16 @@ from typing import cast
 import pytest
 
 from parley.agents.chat.texts import AFTERWARDS
-from parley.clock import SimClock
+from parley.clock import SimClock, WallClock
 from parley.gate.book import RuleBook
 from parley.gate.rule_talk import RuleTalk
 from parley.gate.rules import RuleKeeper
 from parley.messages import topics
 from parley.messages.chat import ActionCall, ChatAction, ChatFeedback, ChatInput, SystemCommand
+from parley.messages.rules import Rule, RuleSet
 from parley.world.object_map import MapObject
 from tests.agents.crew import Crew, crew, look
+from tests.agents.test_plan_approval import judge_by
 
 ASK = ChatAction(success=False, message_response="What should I do?")
 AGAIN = ChatAction(success=True, message_response="I try again.", queue=(look("box"),))
@@ -183,3 +185,20 @@ async def test_a_rule_told_instead_of_an_answer_is_asked_about_and_then_the_repa
         party.observer.say("try it once more", "A", answer=True)
         await party.state("idle")
         assert party.body.did == ["look box", "look box"]
+
+
+async def test_an_order_that_the_rules_refuse_is_promised_neither_now_nor_for_afterwards() -> None:
+    rules = RuleSet(rules=(Rule(id="r", kind="action", actions=("Look",)),))
+    book = RuleBook(WallClock())
+    async with crew("A", talking=True, judge=judge_by(book)) as party:
+        party.body.failures["look box"] = 1
+        party.language.will("interpret", order(look("box")), order(look("desk")))
+        party.language.will("resolve", ASK)
+        party.observer.say("look at the box", "A")
+        await party.hears("What should I do?")
+        book.replace(rules)
+        party.observer.say("look at the desk", "A")
+        await party.hears("I have not done that.")
+        heard = party.texts()[party.texts().index("What should I do?") + 1 :]
+        assert "must not do “look”" in heard[0], "the refusal comes first"
+        assert heard[1:] == ["I have not done that."]

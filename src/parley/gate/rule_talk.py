@@ -176,6 +176,11 @@ class RuleTalk:
         self._book, self._keeper = book, keeper
         self._confirmations = RuleConfirmations()
 
+    @property
+    def has_rules(self) -> bool:
+        """Whether any rule is in force."""
+        return self._book.has_rules
+
     def asked(self, question: str) -> bool:
         """Whether this question is one of ours."""
         return self._confirmations.asked(question)

@@ -113,6 +113,7 @@ class ChatInterface(Node):
             confirmations=self._confirmations,
             halts=lambda target: self._halts.get(target, 0),
             offered=self._offered.newest,
+            has_rules=lambda: self._rules is not None and self._rules.has_rules,
         )
         self._say = self._answering.say
 
