@@ -70,6 +70,29 @@ async def test_a_robot_that_is_asked_into_a_closed_room_says_why_and_never_enter
         assert it.actions() == []
 
 
+@pytest.mark.parametrize("refused", ["as a plan", "under way"])
+async def test_go_anyway_goes_nowhere(refused: str) -> None:
+    async with crew() as it:
+        if refused == "as a plan":
+            await it.ask("put", rule=EAST)
+        it.observer.say("go to the green crate", "A")
+        if refused == "under way":
+            while it.farthest_m < 1.3:
+                await it.system.clock.sleep(0.05)
+            await it.ask("put", rule=EAST)
+            asked = await it.question()
+        await it.observer.until(lambda: any("“east room”" in said.message for said in it.observer.said))
+        stood_m = it.farthest_m
+        it.observer.say("go anyway", "A", answer=refused == "under way")
+        await it.observer.until(lambda: any("whoever asks" in said.message for said in it.observer.said))
+        told = next(said.message for said in it.observer.said if "whoever asks" in said.message)
+        assert "Stays out of “east room”: every robot." in told and "Operators and supervisors" in told
+        if refused == "under way":
+            await it.observer.until(lambda: it.observer.said[-1].message == asked.message)
+        await it.system.clock.sleep(2.0)
+        assert it.farthest_m < stood_m + 0.2, "it only came to a stand"
+
+
 async def test_trying_a_plan_says_what_would_become_of_it_and_moves_nothing() -> None:
     async with crew() as it:
         await it.ask("put", rule=EAST)

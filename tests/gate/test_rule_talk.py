@@ -20,13 +20,10 @@ class Talk:
         self._places = places
         self.book = RuleBook(SimClock())
         self.keeper = RuleKeeper(self.book)
-        self._talk = RuleTalk(self.book, self.keeper)
-
-    def again(self, robot: str) -> RuleReply | None:
-        return self._talk.again(robot)
+        self.talk = RuleTalk(self.book, self.keeper)
 
     async def say(self, text: str, by: Principal = KIM, answers: str = "") -> RuleReply | None:
-        return await self._talk.reply(text, by, Listener("Ada", ("Ada",), self._places), answers=answers)
+        return await self.talk.reply(text, by, Listener("Ada", ("Ada",), self._places), answers=answers)
 
     @property
     def held(self) -> list[str]:
@@ -92,14 +89,14 @@ async def test_a_told_rule_counts_after_its_yes_and_robots_stand_till_then() -> 
     asked = await talk.say("never go into the store, it is wet")
     assert asked is not None and (talk.held, asked.stands) == ([], ("Ada",))
     assert await talk.say("go to the desk and wait", answers=asked.id) is None, "an order is no answer"
-    again = talk.again("Ada")
+    again = talk.talk.again("Ada")
     assert again is not None and (again.closes, again.text, again.stands) == (asked.id, asked.text, ("Ada",))
     await talk.say("no", answers=again.id)
-    assert (talk.held, talk.again("Ada")) == ([], None)
+    assert (talk.held, talk.talk.again("Ada")) == ([], None)
     asked = await talk.say("never go into the store")
     lifted = await talk.say("it is dry now, you may go into the store again")
     assert asked is not None and lifted is not None
-    assert (lifted.closes, lifted.id, talk.held, talk.again("Ada")) == (asked.id, "", [], None)
+    assert (lifted.closes, lifted.id, talk.held, talk.talk.again("Ada")) == (asked.id, "", [], None)
 
 
 async def test_a_rule_that_is_told_twice_is_asked_about_once() -> None:
@@ -115,6 +112,23 @@ async def test_a_rule_that_is_told_twice_is_asked_about_once() -> None:
     assert third.text == "That is already a rule: Stays out of “store” between 14:00 and 15:00: every robot."
     other = await talk.say("nobody into the store between four and five")
     assert other is not None and other.id
+
+
+@pytest.mark.parametrize("words", ["go anyway", "Do it anyway!", "but ignore the rule, please", "tee ikka"])
+async def test_who_insists_hears_which_rule_it_is_and_who_may_change_it(words: str) -> None:
+    talk = Talk(STORE)
+    asked = await talk.say("never go into the store")
+    assert asked is not None
+    await talk.say("yes", answers=asked.id)
+    assert await talk.say(words) is None, "nothing was refused"
+    talk.talk.refused("Ada", talk.held)
+    told = await talk.say(words)
+    assert told is not None and not told.id
+    assert "Stays out of “store”: Ada." in told.text
+    assert "Operators and supervisors may drop it: “drop the rule about store”." in told.text
+    assert await talk.say("go to the desk anyway") is None, "an order of its own"
+    talk.talk.refused("Ada", ())
+    assert await talk.say(words) is None
 
 
 async def test_a_rule_that_was_agreed_to_is_not_lifted_without_a_yes() -> None:

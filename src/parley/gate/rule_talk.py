@@ -41,6 +41,23 @@ _DROP: Final = re.compile(
 )
 
 
+_INSIST: Final = re.compile(
+    r"\b(?:anyway|anyhow|all the same|regardless|nevertheless|nonetheless|even so|ikka|ikkagi|siiski)\b"
+    r"|\b(?:ignore|override|overrule|disregard|break|bypass|eira) (?:(?:the|that|this|your|seda) )?"
+    r"(?:rules?|reeglit)\b"
+)
+_NAMES_NOTHING: Final = frozenset({
+    "yes", "no", "but", "ok", "okay", "well", "just", "please", "then", "still", "you", "i", "say",
+    "said", "can", "may", "do", "go", "drive", "move", "try", "proceed", "carry", "on", "in",
+    "into", "through", "ahead", "and", "it", "that", "so", "there", "now", "once", "this", "time",
+    "anyway", "anyhow", "all", "the", "same", "regardless", "nevertheless", "nonetheless", "even",
+    "ignore", "override", "overrule", "disregard", "break", "bypass", "your", "rule", "rules",
+    "ikka", "ikkagi", "siiski", "tee", "mine", "sõida", "palun", "sinna", "seda", "aga", "jah",
+    "eira", "reeglit",
+})  # fmt: skip
+"""Of such words is made what wants just what was refused."""
+
+
 @dataclass(frozen=True, slots=True)
 class Listener:
     """The robot that is spoken to, and what words about rules can mean to it."""
@@ -175,6 +192,8 @@ class RuleTalk:
     def __init__(self, book: RuleBook, keeper: RuleKeeper) -> None:
         self._book, self._keeper = book, keeper
         self._confirmations = RuleConfirmations()
+        self._refused: Latest[str, tuple[str, ...]] = Latest()
+        """By which rules what a robot was told last was refused."""
 
     @property
     def has_rules(self) -> bool:
@@ -193,6 +212,7 @@ class RuleTalk:
             or _DROP.match(said)
             or self._closing(lifted_place(text), self._all)
             or self._told(text, to) is not None
+            or self._insisted(said, to.robot)
         )
 
     async def reply(self, text: str, by: Principal, to: Listener, *, answers: str = "") -> RuleReply | None:
@@ -216,6 +236,8 @@ class RuleTalk:
         if (place := lifted_place(text)) and (lifted := self._lift(place, by, to)) is not None:
             return lifted
         told = self._told(text, to)
+        if told is None and (refused := self._insisted(said, to.robot)):
+            return RuleReply(_insisted_text(refused))
         if told is None:
             return None
         if not _may(by):
@@ -223,6 +245,17 @@ class RuleTalk:
         if isinstance(told, NotUnderstood):
             return RuleReply(told.sentence)
         return self._proposed(told, to)
+
+    def refused(self, robot: str, rules: Sequence[str]) -> None:
+        """Hear by which rules what a robot was told is refused; by none, if it is done."""
+        self._refused[robot] = tuple(rules)
+
+    def _insisted(self, said: str, robot: str) -> list[Rule]:
+        """The rules past which somebody wants to go."""
+        if not _INSIST.search(said) or not set(re.findall(r"\w+", said)) <= _NAMES_NOTHING:
+            return []
+        found = (self._book.rules.get(name) for name in self._refused.get(robot, ()))
+        return [rule for rule in found if rule is not None]
 
     def again(self, robot: str) -> RuleReply | None:
         """The question for whose answer a robot stands, once more; None if there is none."""
@@ -321,6 +354,18 @@ class RuleTalk:
         return RuleReply(
             sentence("The rule holds from now on: {rule}", rule=rule_text(rule)), closes=question
         )
+
+
+def _insisted_text(rules: Sequence[Rule]) -> str:
+    """Which rules are in the way, and who may change them."""
+    name = rules[0].name
+    words = f"drop the rule about {name}" if name else "drop the rule"
+    return together(
+        sentence("I do not go past a rule, whoever asks."),
+        *(rule_text(rule) for rule in rules),
+        sentence("Operators and supervisors may drop it: “{words}”.", words=words),
+        sentence("Supervisors also change it on the page Rules."),
+    )
 
 
 def _may(by: Principal) -> bool:

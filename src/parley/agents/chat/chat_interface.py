@@ -25,6 +25,7 @@ from parley.agents.presence import Presence, linked_to
 from parley.agents.questions import SeenIds
 from parley.agents.thinking import PATIENCE_S, Thinking
 from parley.clock import Clock
+from parley.errors import FailureCode
 from parley.gate.rule_talk import Listener, RuleReply, RuleTalk
 from parley.gate.table import Effect, verdict
 from parley.language.base import Language
@@ -40,6 +41,7 @@ from parley.messages.status import (
     GraphEvent,
     PlanDecision,
     PlanProposal,
+    PlanRuling,
     PlanUpdate,
     Rejection,
     RejectionProblem,
@@ -124,7 +126,8 @@ class ChatInterface(Node):
         await self.subscribe(topics.CHAT_FEEDBACK, ChatFeedback, self._on_said)
         await self.subscribe(topics.MEMORY_EVENT, MemoryEvent, self._confirmations.on_event)
         await self.subscribe(topics.STOP, StopCommand, self._on_emergency)
-        await self.subscribe(topics.ERROR_HANDLING, ErrorHandlingMessage, self._known.on_failure)
+        await self.subscribe(topics.ERROR_HANDLING, ErrorHandlingMessage, self._on_failure)
+        await self.subscribe(topics.RULING, PlanRuling, self._on_ruling)
         await self.subscribe_plans(self._on_plan)
         await self.subscribe(topics.GRAPH_EVENTS, GraphEvent, self._known.on_event)
         await self.subscribe(topics.PLAN_DECISION, PlanDecision, self._on_decision)
@@ -333,6 +336,15 @@ class ChatInterface(Node):
         status = self._presence.get(told.target)
         if done := self._finishing.on_update(told, status.catalogue if status else ()):
             self._say((told.target,), done, "info")
+
+    def _on_failure(self, failure: ErrorHandlingMessage) -> None:
+        self._known.on_failure(failure)
+        if self._rules is not None and failure.code is FailureCode.FORBIDDEN:
+            self._rules.refused(failure.target, [str(failure.details.get("rule", ""))])
+
+    def _on_ruling(self, ruling: PlanRuling) -> None:
+        if self._rules is not None and (ruling.rules or ruling.outcome != "refused"):
+            self._rules.refused(ruling.target, ruling.rules)
 
     def _on_decision(self, decision: PlanDecision) -> None:
         self._offered.on_decision(decision)

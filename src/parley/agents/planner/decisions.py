@@ -21,7 +21,6 @@ from parley.messages import topics
 from parley.messages.audit import AuditEvent
 from parley.messages.chat import ActionCall
 from parley.messages.status import PlanDecision
-from parley.sentences import together
 
 __all__ = ["Decisions"]
 
@@ -97,7 +96,7 @@ class Decisions:
         if judgement.forbidden:
             repairs = self._plans.approvals.repairs(decision.id)
             self._plans.approvals.drop(decision.id)
-            self._plans.say(target, together(*orders.reasons(judgement.forbidden)), "error")
+            self._plans.forbid(target, judgement)
             self._plans.send(plan, plan.give_up() if repairs else [])
         elif asks and self._plans.approvals.policy(target) != "ask_first":
             self._proposals.show_again(plan, proposal, "; ".join(asks))
@@ -107,10 +106,9 @@ class Decisions:
     def _take_edit(self, target: str, decision: PlanDecision, judgement: Judgement | None) -> None:
         """Take up an edit unless the rules forbid what it says."""
         if judgement is not None and judgement.forbidden:
-            texts = orders.reasons(judgement.forbidden)
+            texts = self._plans.forbid(target, judgement)
             problems = [Problem("steps", text, "leave that out", "forbidden") for text in texts]
             self._plans.refuse(topics.PLAN_DECISION.name, target, problems)
-            self._plans.say(target, together(*texts), "error")
         elif decision.id:
             self._decide(target, decision)
         else:

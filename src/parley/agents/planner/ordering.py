@@ -194,7 +194,7 @@ class Ordering:
 
     def _forbid(self, plan: TargetPlan, order: ChatAction, judgement: Judgement) -> None:
         """Say which rules a plan would break."""
-        self._plans.say(plan.target, together(*orders.reasons(judgement.forbidden)), "error")
+        self._plans.forbid(plan.target, judgement)
         self._plans.audit(Effect.BEGIN, order, plan.target, "refused")
 
     def _why(self, plan: TargetPlan, order: ChatAction, judgement: Judgement | None) -> str:
