@@ -355,7 +355,7 @@ async def crew(
             UmrfPlanner(
                 transport, clock, known_robots=heartless, policies=dict.fromkeys(ask_first, "ask_first"),
                 patience=patience or Patience(answer_s=1.0, progress_s=1.0, end_s=2.0), proposals=proposals,
-                judge=judge,
+                judge=judge, objects=lambda _: objects,
             )
         )  # fmt: skip
         if talking:

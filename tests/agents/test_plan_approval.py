@@ -5,6 +5,7 @@ from __future__ import annotations
 import asyncio
 import json
 from collections.abc import Sequence
+from dataclasses import replace
 from typing import Any
 
 import pytest
@@ -18,6 +19,7 @@ from parley.messages.chat import ActionCall, ChatAction, ChatFeedback, ChatInput
 from parley.messages.principal import Principal
 from parley.messages.rules import Rule, RuleSet
 from parley.messages.status import ActionInfo
+from parley.world.object_map import MapObject
 from tests.agents.crew import ENGINE, KIM, Crew, crew, decide, drive, find, look, proposals
 
 PROGRAM = Principal(kind="program", name="script")
@@ -410,6 +412,23 @@ async def test_a_yes_is_weighed_by_the_rules_of_its_moment_and_not_of_the_card(v
             await party.until(lambda: party.body.way)
         assert not any("All right" in text for text in party.texts()) or verdict == "ask"
         assert bool(party.body.did) == (verdict == "ask")
+
+
+async def test_a_yes_is_no_yes_to_the_same_words_on_a_map_that_has_changed() -> None:
+    box = MapObject("b", "box", 1.0, 0.0, "box", 0.5, 0.5)
+    objects = [box]
+    async with crew("A", ask_first=["A"], objects=objects) as party:
+        party.order(look("box"))
+        await party.until(lambda: proposals(party))
+        objects[0] = replace(box, x_m=4.0)  # somebody carried it away
+        decide(party, id=proposals(party)[0]["id"], decision="approve")
+        await party.hears("That is not what waits for your yes by now, so I have not begun.")
+        await party.until(lambda: len(proposals(party)) == 2)
+        decide(party, id=proposals(party)[1]["id"], decision="approve", digest=proposals(party)[0]["digest"])
+        await party.until(lambda: len(proposals(party)) == 3)
+        assert not party.body.did
+        decide(party, id=proposals(party)[2]["id"], decision="approve")
+        await party.until(lambda: party.body.did == ["look box"])
 
 
 @pytest.mark.parametrize("waits", [False, True])

@@ -156,7 +156,7 @@ class Link:
         | AuditEvent
         | ChatFeedback,
     ) -> None:
-        """Publish what an operator said or decided on the topic of its kind, or what is to be said to them."""
+        """Publish what an operator said or decided, or what is to be said to them, on its topic."""
         self._publishers[type(message)].publish(to_string(message))
 
     async def say(self, message: ChatInput) -> None:
