@@ -449,7 +449,7 @@ async def test_a_restart_does_not_outlive_a_stop() -> None:
     watched = Watched(triggering("restart", node("ThreadLoop", 0)))
     watched.run.start()
     async with asyncio.timeout(5):
-        while watched.state("ThreadLoop_0") is not NodeState.STOPPING:
+        while watched.state("ThreadLoop_0") is not NodeState.STOPPING:  # noqa: ASYNC110
             await asyncio.sleep(0)  # every turn: its thread may end within two
     watched.run.stop()
     assert await watched.run.wait() is Result.ON_STOPPED
@@ -606,7 +606,7 @@ async def test_a_node_that_ended_during_the_pause_may_be_removed() -> None:
     watched.run.start()
     await asyncio.sleep(0)  # it begins
     watched.run.pause()
-    await asyncio.sleep(0.02)
+    await until(lambda: watched.run.idle)
     watched.run.modify(read_graph(planner_chain("g", [node("NoOp", 2)])))
     watched.run.resume()
     assert await watched.run.wait() is Result.ON_HALTED
