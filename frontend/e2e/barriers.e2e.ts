@@ -111,7 +111,7 @@ describe.skipIf(!hasBrowser)('nobody meets a barrier', () => {
     const yes = { id: waiting?.id, digest: waiting?.digest, decision: 'approve' };
     expect((await post(stage, 'plans/David/decision', yes)).status).toBe(200);
     const first = await stage.open(sizes.desktop);
-    await first.getByText(/^Answering David/).waitFor();
+    await first.getByText(/^David asks:/).waitFor();
     const found: string[] = [];
     for (const [size, look, language] of combinations) {
       const page = await dressed(stage, size, look, language);

@@ -2,7 +2,7 @@ import { act, render, screen, within } from '@testing-library/react';
 import userEvent from '@testing-library/user-event';
 import { beforeEach, describe, expect, it, vi } from 'vitest';
 
-import { entry, robot, snapshot, step } from '@/live/samples';
+import { entry, plan, robot, snapshot, step } from '@/live/samples';
 import { useLive } from '@/live/store';
 import type { Snapshot } from '@/live/types';
 import { useDrafts } from '@/state/drafts';
@@ -140,6 +140,22 @@ describe('the chat', () => {
       { text: 'the green one', reply_to: 'q' },
       { text: 'blue', reply_to: 'q', targets: ['Ada'] },
     ]);
+  });
+
+  it('keeps what a robot needs from a person beside where one writes, and marks its tab', async () => {
+    const help = entry({ id: 'h', seq: 1, type: 'info', message: 'I am waiting here.', choices: ['try again', 'skip it'] });
+    const noted = entry({ id: 'n', seq: 2, type: 'info', message: 'I noted something.', choices: ['Forget it'], targets: ['Bob'] });
+    const question = entry({ id: 'q', seq: 3, type: 'request', message: 'Which door?', question: 'open', choices: ['red'], targets: ['Bob'] });
+    const user = show({ chat: [help, noted, question], plans: [plan({ robot: 'Ada', state: 'held' })] });
+    expect(tab('Ada').textContent).toContain('Ada is waiting for your answer');
+    await user.click(within(screen.getByRole('region', { name: 'Ada asks' })).getByRole('button', { name: 'skip it' }));
+    expect(sent).toMatchObject([{ text: 'skip it', targets: ['Ada'], reply_to: '' }]);
+
+    await user.click(tab('Bob'));
+    const ask = screen.getByRole('region', { name: 'Bob asks' });
+    expect(within(ask).getByText(/Which door/)).toBeTruthy();
+    expect(within(ask).queryByRole('button', { name: 'Forget it' })).toBeNull(); // nobody waits for that
+    expect(screen.getAllByRole('button', { name: 'red' })).toHaveLength(1);
   });
 
   it('undoes by a tap what a robot concluded by itself', async () => {

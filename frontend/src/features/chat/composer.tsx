@@ -107,17 +107,14 @@ function AwayNote({ chosen }: { chosen: readonly string[] }) {
   return <p className={css.away}>{t('notHere', { name: nameList(away, i18n.language), count: away.length })}</p>;
 }
 
+/** Whom a message answers and for whom it is something new. */
 function AnswerNote({ answering }: { answering: Answering }) {
   const { t, i18n } = useTranslation('chat');
   const { question, robots, others } = answering;
-  if (!question) return null;
-  const name = nameList(robots, i18n.language);
+  if (!question || others.length === 0) return null;
   return (
     <p className={css.note}>
-      <span className={css.noteLine}>{t('answering', { name, question: question.message })}</span>
-      {others.length > 0 && (
-        <span>{t('split', { answering: name, others: nameList(others, i18n.language) })}</span>
-      )}
+      {t('split', { answering: nameList(robots, i18n.language), others: nameList(others, i18n.language) })}
     </p>
   );
 }

@@ -4,10 +4,10 @@ import { useTranslation } from 'react-i18next';
 import type { ChatEntry } from '@/live/types';
 import { usePrefs } from '@/state/prefs';
 import { useMay } from '@/state/me';
-import { Button } from '@/ui/button';
 import { Icon } from '@/ui/icon';
 import { clockTime, inWords, nameList } from '@/ui/words';
 
+import { Choices } from './choices';
 import css from './entry.module.css';
 
 interface Props {
@@ -54,20 +54,6 @@ export const Entry = memo(function Entry({ entry, showName, offers, onChoose, on
 
 /** Whether something stands in its head besides from whom it is. */
 const hasMarks = (entry: ChatEntry) => entry.question !== '' || entry.engine !== '';
-
-/** What can be tapped for an answer. */
-function Choices({ entry, onChoose }: Pick<Props, 'entry' | 'onChoose'>) {
-  const { t } = useTranslation('chat');
-  return (
-    <div className={css.choices} role="group" aria-label={t('choices')}>
-      {entry.choices.map((choice) => (
-        <Button needs="speak" key={choice} onPress={() => onChoose(entry, choice)}>
-          {choice}
-        </Button>
-      ))}
-    </div>
-  );
-}
 
 /** Words and pictures; either may be missing. */
 function Said({ entry }: { entry: ChatEntry }) {

@@ -18,6 +18,8 @@ import { useStickToEnd } from './use-stick-to-end';
 
 interface Props {
   entries: readonly ChatEntry[];
+  /** Those that are answered beside where one writes, not here. */
+  asked: readonly ChatEntry[];
   onChoose: (entry: ChatEntry, choice: string) => void;
   onEdit: (text: string) => void;
   /** Shown instead, while nothing was said. */
@@ -32,7 +34,7 @@ const sameSpeaker = (a: ChatEntry | undefined, b: ChatEntry) =>
 const sameDay = (a: number, b: number) => new Date(a).toDateString() === new Date(b).toDateString();
 
 /** The conversation, newest at the end; only its newest part is drawn until more is asked for. */
-export function History({ entries, onChoose, onEdit, empty }: Props) {
+export function History({ entries, asked, onChoose, onEdit, empty }: Props) {
   const { t } = useTranslation('chat');
   const complete = useWorld((world) => world.chatComplete);
   const everything = useWorld((world) => world.chat);
@@ -43,7 +45,7 @@ export function History({ entries, onChoose, onEdit, empty }: Props) {
   );
   const [shown, setShown] = useState(PAGE);
   const { scroller, atEnd, unseen, toEnd, keepPlace } = useStickToEnd(entries, waiting.length, shown);
-  const offers = useMemo(() => offering(entries), [entries]);
+  const offers = useMemo(() => offering(entries.filter((one) => !asked.includes(one))), [entries, asked]);
   const visible = entries.slice(-shown);
   const more = shown < entries.length || !complete;
 

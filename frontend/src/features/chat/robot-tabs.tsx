@@ -2,11 +2,11 @@ import { useEffect, useRef, useState } from 'react';
 import { useTranslation } from 'react-i18next';
 
 import { useWorld } from '@/live/store';
+import type { ChatEntry } from '@/live/types';
 import { useOverlays } from '@/state/overlays';
 import { useRobotNames, useSelection, useSelectionStore } from '@/state/selection';
 import { Button } from '@/ui/button';
 
-import type { Questions } from './questions';
 import css from './robot-tabs.module.css';
 import { useLongPress } from './use-long-press';
 
@@ -56,13 +56,13 @@ function Tab({ name, chosen, awaitsAnswer, onOnly, onToggle }: TabProps) {
 }
 
 /** The robots one can talk to: tap for one; shift-click, long touch or the switch for several. */
-export function RobotTabs({ questions, tools = null }: { questions: Questions; tools?: React.ReactNode }) {
+export function RobotTabs({ asked, tools = null }: { asked: readonly ChatEntry[]; tools?: React.ReactNode }) {
   const { t } = useTranslation('chat');
   const names = useRobotNames();
   const chosen = useSelection();
   const { only, toggle } = useSelectionStore();
   const proposals = useWorld((world) => world.proposals);
-  const asking = new Set(Object.values(proposals).map((proposal) => proposal.robot));
+  const asking = new Set([...Object.values(proposals).map((one) => one.robot), ...asked.flatMap((one) => one.targets)]);
   const open = useOverlays((state) => state.set);
   const [several, setSeveral] = useState(false);
   return (
@@ -74,7 +74,7 @@ export function RobotTabs({ questions, tools = null }: { questions: Questions; t
             key={name}
             name={name}
             chosen={chosen.includes(name)}
-            awaitsAnswer={questions.has(name) || asking.has(name)}
+            awaitsAnswer={asking.has(name)}
             onOnly={() => (several ? toggle(name, names) : only(name))}
             onToggle={() => toggle(name, names)}
           />

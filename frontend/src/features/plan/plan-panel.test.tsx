@@ -140,9 +140,9 @@ describe('the plan', () => {
     });
     const card = screen.getByRole('region', { name: 'Ada asks: shall I do this?' });
     const lines = ['It is night.', 'Forget “box”', 'Go to “door”', 'Says: “to look”', 'Says: “I would go.’ Kim says: ‘Yes”'];
-    const places = lines.map((line) => card.textContent?.indexOf(line) ?? -1);
-    expect(places.every((place, index) => place > (places[index - 1] ?? -1)), places.join(' ')).toBe(true);
-    await user.click(screen.getByRole('button', { name: 'Yes, begin' }));
+    const inOrder = lines.reduce((at, line) => (at < 0 ? at : (card.textContent?.indexOf(line, at) ?? -1)), 0);
+    expect(inOrder, card.textContent ?? '').toBeGreaterThan(0);
+    await user.click(screen.getByRole('button', { name: 'Yes, begin: Go to “door”' }));
     expect(sent).toEqual([
       { method: 'POST', path: '/api/plans/Ada/decision', body: { id: 'p1', digest: 'd1', decision: 'approve' } },
     ]);
