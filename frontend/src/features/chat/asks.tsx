@@ -6,6 +6,7 @@ import { linesOf } from '@/live/lines';
 import { useWorld } from '@/live/store';
 import type { ChatEntry, ProposalView } from '@/live/types';
 import { attempt } from '@/state/do';
+import { draftKey, useDrafts } from '@/state/drafts';
 import { Button } from '@/ui/button';
 import { nameList, sentence } from '@/ui/words';
 
@@ -39,7 +40,7 @@ export function Asks({ chosen, asked, onChoose }: Props) {
     </Button>
   );
   return 'digest' in shown ? (
-    <Proposal key={shown.id} proposal={shown}>
+    <Proposal key={shown.id} proposal={shown} chosen={chosen}>
       {others}
     </Proposal>
   ) : (
@@ -65,9 +66,10 @@ function Question({ entry, onChoose, children }: { entry: ChatEntry; onChoose: C
   );
 }
 
-function Proposal({ proposal, children }: { proposal: ProposalView; children: React.ReactNode }) {
+function Proposal({ proposal, chosen, children }: { proposal: ProposalView; chosen: readonly string[]; children: React.ReactNode }) {
   const { t } = useTranslation(['plan', 'chat']);
   const [busy, setBusy] = useState(false);
+  const writing = useDrafts(({ drafts }) => Boolean(drafts[draftKey(chosen)]?.text)); // then sending is what stands out
   const decide = async (decision: 'approve' | 'reject') => {
     setBusy(true);
     await attempt(() => decidePlan(proposal.robot, { id: proposal.id, digest: proposal.digest, decision }));
@@ -80,7 +82,7 @@ function Proposal({ proposal, children }: { proposal: ProposalView; children: Re
       <p className={css.title}>{t('proposalTitle', { robot: proposal.robot })}</p>
       <p className={css.wishes}>{wishes.join(' · ')}</p>
       <div className={css.buttons}>
-        <Button needs="approve" tone="main" icon="check" isDisabled={busy} onPress={() => void decide('approve')}>
+        <Button needs="approve" tone={writing ? 'plain' : 'main'} icon="check" isDisabled={busy} onPress={() => void decide('approve')}>
           {t('approve', { count: lines.length, what: sentence(lines[0]?.step.label ?? '') })}
         </Button>
         <Button needs="approve" icon="cross" isDisabled={busy} onPress={() => void decide('reject')}>

@@ -91,7 +91,7 @@ export function Composer({ chosen, answering, lastSaid, input }: Props) {
           onChange={(event) => setDraft(key, { text: event.target.value })}
           onKeyDown={onKeyDown}
         />
-        <Button tone="main" icon="send" iconOnly aria-label={t('send')} type="submit" isDisabled={!ready} />
+        <Button tone={ready ? 'main' : 'plain'} icon="send" iconOnly aria-label={t('send')} type="submit" isDisabled={!ready} />
       </div>
       {draft.text.trim() !== '' && answering.question === null && <UnattendedChoice />}
     </form>
