@@ -78,13 +78,25 @@ describe('the chat', () => {
 
   it('says who is not connected before one writes to them', () => {
     show({ robots: [robot({ name: 'Ada', connection: 'lost' })] });
-    expect(screen.getAllByText('Ada is not connected')).toHaveLength(2); // at the tab and above the line one writes in
+    screen.getByText('Ada is not connected'); // above the line one writes in
+    expect(tab('Ada').textContent).toContain('Not connected');
   });
 
   it('speaks of missing robots only when it knows', () => {
     render(<ChatPanel />);
     screen.getByText('Loading…');
     expect(screen.queryByText('Waiting for a robot')).toBeNull();
+    act(() => useLive.getState().setConnection('lost', 1));
+    screen.getByText('Not connected. Trying again…');
+    screen.getByRole('textbox', { name: 'Not connected. Trying again…' });
+  });
+
+  it('tells at its tab how a robot fares', () => {
+    const stopped = robot({ name: 'Ada', state: 'stopped' });
+    show({ robots: [stopped, robot({ name: 'Bob', state: 'running' })] });
+    expect([tab('Ada').textContent, tab('Bob').textContent]).toEqual(['Ada Stopped', 'Bob Working']);
+    act(() => useLive.getState().setConnection('lost', 1));
+    expect(tab('Bob').textContent).toBe('Bob Not known');
   });
 
   it('ends a search with Escape and goes back to writing', async () => {

@@ -2,7 +2,7 @@ import { useEffect } from 'react';
 import { FileTrigger } from 'react-aria-components';
 import { useTranslation } from 'react-i18next';
 
-import { useWorld } from '@/live/store';
+import { useLive, useWorld } from '@/live/store';
 import { draftKey, emptyDraft, useDrafts } from '@/state/drafts';
 import { useToasts } from '@/state/toasts';
 import { Button } from '@/ui/button';
@@ -24,7 +24,7 @@ interface Props {
 
 /** Where one writes. */
 export function Composer({ chosen, answering, lastSaid, input }: Props) {
-  const { t, i18n } = useTranslation('chat');
+  const { t, i18n } = useTranslation(['chat', 'common']);
   const key = draftKey(chosen);
   const draft = useDrafts((state) => state.drafts[key] ?? emptyDraft);
   const setDraft = useDrafts((state) => state.set);
@@ -56,7 +56,9 @@ export function Composer({ chosen, answering, lastSaid, input }: Props) {
     }
   };
 
-  const label = nobody ? t('writeNobody') : t('writeTo', { names: nameList(chosen, i18n.language) });
+  const lost = useLive((live) => live.connection === 'lost' && live.world.run === '');
+  const none = lost ? t('common:offline') : t('writeNobody');
+  const label = nobody ? none : t('writeTo', { names: nameList(chosen, i18n.language) });
   useGrowing(input, draft.text, label);
   return (
     <form

@@ -5,7 +5,9 @@ import { useWorld } from '@/live/store';
 import type { ChatEntry } from '@/live/types';
 import { useOverlays } from '@/state/overlays';
 import { useRobotNames, useSelection, useSelectionStore } from '@/state/selection';
+import { useMood } from '@/state/mood';
 import { Button } from '@/ui/button';
+import { Dot } from '@/ui/dot';
 
 import css from './robot-tabs.module.css';
 import { useLongPress } from './use-long-press';
@@ -19,8 +21,8 @@ interface TabProps {
 }
 
 function Tab({ name, chosen, awaitsAnswer, onOnly, onToggle }: TabProps) {
-  const { t } = useTranslation('chat');
-  const here = useWorld((world) => world.robots[name]?.connection === 'here');
+  const { t } = useTranslation(['chat', 'robots']);
+  const mood = useMood(name);
   const press = useLongPress(onToggle);
   const tab = useRef<HTMLButtonElement>(null);
   useEffect(() => {
@@ -34,7 +36,7 @@ function Tab({ name, chosen, awaitsAnswer, onOnly, onToggle }: TabProps) {
       className={css.tab}
       aria-pressed={chosen}
       data-asks={awaitsAnswer}
-      data-here={here}
+      title={t(`robots:state.${mood}`)}
       {...press.handlers}
       onClick={(event) => {
         if (press.wasLong()) return;
@@ -42,9 +44,8 @@ function Tab({ name, chosen, awaitsAnswer, onOnly, onToggle }: TabProps) {
         else onOnly();
       }}
     >
-      <span className={css.dot} aria-hidden="true" />
-      <span>{name}</span>
-      {!here && <span className="hidden">{t('notHere', { name, count: 1 })}</span>}
+      <Dot mood={mood} />
+      <span>{name}</span> <span className="hidden">{t(`robots:state.${mood}`)}</span>
       {awaitsAnswer && (
         <span className={css.asks}>
           <span aria-hidden="true">?</span>
