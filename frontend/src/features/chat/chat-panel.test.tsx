@@ -213,6 +213,21 @@ describe('the chat', () => {
     expect(screen.getByText('INFO')).toBeTruthy();
   });
 
+  it('is a few keys away from writing however much was said, and arrow keys lead to what was said before', async () => {
+    const chat = Array.from({ length: 30 }, (_, index) => entry({ id: `e${index}`, seq: index, who: 'operator', message: `order ${index}`, sources: ['box'] }));
+    const user = show({ chat });
+    const box = screen.getByRole('textbox', { name: 'Write to Ada' });
+    let stops = 0;
+    for (; document.activeElement !== box && stops < 60; stops += 1) await user.tab();
+    expect(stops).toBeLessThan(15);
+    for (let back = 0; back < 3; back += 1) await user.tab({ shift: true });
+    await user.keyboard('{ArrowUp}');
+    await user.tab();
+    await user.tab();
+    await user.keyboard('{Enter}');
+    expect(box).toHaveProperty('value', 'order 28');
+  });
+
   it('draws the newest part of a long conversation and more when asked', async () => {
     const chat = Array.from({ length: 100 }, (_, index) => entry({ id: `e${index}`, seq: index, message: `message ${index}` }));
     const user = show({ chat });

@@ -81,6 +81,7 @@ export function Composer({ chosen, answering, lastSaid, input }: Props) {
         <PhotoButton isDisabled={nobody} onPhoto={(photo) => setDraft(key, { photo })} />
         <textarea
           ref={input}
+          data-home
           className={css.input}
           rows={1}
           value={draft.text}
