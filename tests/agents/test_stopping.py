@@ -323,6 +323,7 @@ async def test_after_the_last_attempt_any_order_goes_on(failed: Crew, words: str
         await failed.until(lambda: failed.observer.questions.newest("A") is not None)
         failed.observer.say("purple", "A", answer=True)
     await failed.hears("I could not solve this")
+    assert words in failed.observer.said[-1].choices  # it is a tap away, too
     failed.observer.say(words, "A")
     await failed.state("idle")
     await failed.settled()

@@ -475,7 +475,7 @@ class ErrorHandler(Node):
             problem=repair.failure.error_message,
             left=left,
         )
-        self._say(target, text, "info")
+        self._say(target, text, "info", choices=("try again", "skip it", "cancel everything"))
 
     def _hold(self, target: str) -> None:
         """No repair any more: the plan waits, and the next order goes on."""
