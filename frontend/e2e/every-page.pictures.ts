@@ -18,7 +18,7 @@ async function midTask(page: Page): Promise<void> {
   await say(page, 'There is a water bottle in the fridge.');
   await page.getByText('I will remember that there is').waitFor();
   await say(page, 'John is thirsty, get him water.');
-  await page.getByText(/^Answering David/).waitFor();
+  await page.getByText(/^David asks:/).waitFor();
   await say(page, 'I have put it on you.');
   await page.getByRole('group', { name: 'Possible answers' }).getByRole('button').first().waitFor();
 }

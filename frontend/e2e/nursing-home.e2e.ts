@@ -36,7 +36,7 @@ describe.skipIf(!hasBrowser)('an operator in the nursing home', () => {
     await question.waitFor();
     expect(await question.innerText()).toMatch(/water bottle/);
     await page.getByRole('region', { name: 'Pictures' }).getByRole('img').first().waitFor();
-    await say(page, 'I have put it on you.');
+    await page.getByRole('group', { name: 'Possible answers' }).getByRole('button', { name: 'It is on you' }).click();
 
     await page.getByRole('group', { name: 'Possible answers' }).getByRole('button', { name: 'small sofa' }).click();
     await expect.poll(() => cards.count(), { timeout: 60_000 }).toBeGreaterThan(0);

@@ -91,10 +91,17 @@ describe.skipIf(!hasBrowser)('an operator with a plan', () => {
     await page.getByRole('button', { name: 'Undo' }).click();
     await expect.poll(() => queued.count(), { timeout: PATIENCE_MS }).toBe(count);
 
-    await page.getByRole('button', { name: 'Change', exact: true }).click();
+    await page.getByRole('button', { name: 'Change', exact: true }).dblclick(); // once more than needed: nothing else is pressed
     await page.getByRole('row').last().getByRole('button', { name: /^Remove/ }).click();
     await page.getByRole('button', { name: 'Save' }).click();
     await page.getByText('The plan was changed.').first().waitFor();
+    await expect.poll(() => queued.count(), { timeout: PATIENCE_MS }).toBe(count - 1);
+
+    await page.getByRole('button', { name: 'Cancel all' }).click();
+    await expect.poll(() => queued.count(), { timeout: PATIENCE_MS }).toBe(0);
+    await page.getByText(/were cancelled/).waitFor();
+    await page.getByRole('button', { name: 'Begin again' }).click();
+    await steps(page).locator('li[data-state="running"]').waitFor();
     await expect.poll(() => queued.count(), { timeout: PATIENCE_MS }).toBe(count - 1);
   });
 

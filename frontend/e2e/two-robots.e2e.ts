@@ -91,11 +91,11 @@ describe.skipIf(!hasBrowser)('people with two robots', () => {
     await say(page, 'remember that John is on the sofa');
     await page.getByText('I will remember that John is on the sofa.').first().waitFor();
     await say(page, 'go to John');
-    await page.getByText(/^Answering David/).waitFor();
+    await page.getByText(/^David asks:/).waitFor();
     await tab(page, 'Ruth').click({ modifiers: ['Shift'] });
     await page.getByText('David gets this as the answer, Ruth as a new request.').waitFor();
     await say(page, 'go to the large sofa');
-    await page.getByText(/^Answering David/).waitFor({ state: 'detached' });
+    await page.getByText(/^David asks:/).waitFor({ state: 'detached' });
     const { entries } = await stage.get<{ entries: Entry[] }>('chat');
     const asked = entries.findLast((entry) => entry.question !== '' && entry.targets.includes('David'));
     const answer = entries.findLast((entry) => entry.who === 'operator');

@@ -236,6 +236,7 @@ class System:
             begin_for=self.rules.act_for,
         )
         await enter(self._speaking(planner))
+        rules = RuleTalk(self.rules, keeper)
         incidents = await enter(await IncidentStore.open(config.incidents_file or ":memory:", clock))
         recovery = ErrorHandler(
             transport,
@@ -245,6 +246,7 @@ class System:
             max_attempts=config.max_attempts,
             language_timeout_s=config.language_timeout_s,
             incidents=incidents,
+            rules=rules,
         )
         await enter(self._speaking(recovery))
         chat = ChatInterface(
@@ -254,7 +256,7 @@ class System:
             objects=self._objects_of,
             history_exchanges=config.history_exchanges,
             language_timeout_s=config.language_timeout_s,
-            rules=RuleTalk(self.rules, keeper),
+            rules=rules,
         )
         await enter(self._speaking(chat))
         await enter(self._speaking(Lookout(transport, clock)))

@@ -58,6 +58,7 @@ class Person:
     answers: deque[str] = field(default_factory=deque)
     told: list[str] = field(default_factory=list)
     asked: list[str] = field(default_factory=list)
+    offered: list[Sequence[str]] = field(default_factory=list)
     referred: list[str] = field(default_factory=list)
     shown: list[tuple[str, CameraImage, dict[str, Any]]] = field(default_factory=list)
     memories: list[MemoryEntry] = field(default_factory=list)
@@ -67,6 +68,7 @@ class Person:
 
     async def ask(self, question: str, choices: Sequence[str] = ()) -> str:
         self.asked.append(question)
+        self.offered.append(choices)
         return self.answers.popleft()
 
     async def refer(self, reply: str) -> None:

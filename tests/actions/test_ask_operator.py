@@ -21,6 +21,23 @@ async def test_answer_is_given_on_word_for_word(reply: str) -> None:
         assert here.person.asked == [QUESTION]
 
 
+async def test_a_request_is_met_or_refused_with_one_tap_and_no_engine_is_asked() -> None:
+    async with room() as here:  # its language was told nothing, and would fail
+        here.person.answers.extend(["It is on you", "I can't"])
+        assert (await ask_operator(here.context, QUESTION)).answer == "It is on you"
+        with pytest.raises(ActionFailure) as caught:
+            await ask_operator(here.context, QUESTION)
+        assert caught.value.code is FailureCode.DECLINED
+        assert here.person.offered == [("It is on you", "I can't")] * 2
+
+
+async def test_an_open_question_offers_nothing() -> None:
+    async with room(language=BuiltinLanguage()) as here:
+        here.person.answers.append("the red one")
+        await ask_operator(here.context, "Which box shall I take?")
+        assert here.person.offered == [()]
+
+
 async def test_no_is_a_failure_that_names_the_request() -> None:
     async with room(language=BuiltinLanguage()) as here:
         here.person.answers.append("no, I won't")

@@ -22,6 +22,7 @@ from parley.engine.engine import ActionEngine
 from parley.engine.journal import Journal
 from parley.engine.runs import GraphRuns
 from parley.errors import ActionFailure, FailureCode
+from parley.gate.rule_talk import RuleTalk
 from parley.language.scripted import ScriptedLanguage
 from parley.memory.proposals import ProposalStore
 from parley.messages import ros, topics
@@ -38,6 +39,7 @@ from parley.umrf.catalogue import Catalogue
 from parley.umrf.executor import GraphRun
 from parley.umrf.io import read_graph, write_graph
 from parley.umrf.transition import Transition
+from parley.world.object_map import MapObject
 
 STEP_S = 0.005
 KIM = person("Kim")
@@ -329,6 +331,7 @@ def decide(party: Crew, **decision: Any) -> None:
 async def crew(
     *robots: str, talking: bool = False, heartless: Sequence[str] = (), ask_first: Sequence[str] = (),
     patience: Patience | None = None, proposals: ProposalStore | None = None, judge: Judge | None = None,
+    rules: RuleTalk | None = None, objects: Sequence[MapObject] = (),
 ) -> AsyncIterator[Crew]:  # fmt: skip
     """A planner and engines for `robots`; at the end no handler may have failed.
 
@@ -340,6 +343,8 @@ async def crew(
         patience: How long the planner waits.
         proposals: Where it keeps what waits for a yes.
         judge: What rules say about steps.
+        rules: Hears what people say about rules.
+        objects: What is on the map.
     """
     async with AsyncExitStack() as stack:
         transport = await stack.enter_async_context(LocalTransport())
@@ -350,12 +355,14 @@ async def crew(
             UmrfPlanner(
                 transport, clock, known_robots=heartless, policies=dict.fromkeys(ask_first, "ask_first"),
                 patience=patience or Patience(answer_s=1.0, progress_s=1.0, end_s=2.0), proposals=proposals,
-                judge=judge,
+                judge=judge, objects=lambda _: objects,
             )
         )  # fmt: skip
         if talking:
-            await stack.enter_async_context(ErrorHandler(transport, language, clock))
-            await stack.enter_async_context(ChatInterface(transport, language, clock))
+            handler = ErrorHandler(transport, language, clock, objects=lambda _: objects, rules=rules)
+            await stack.enter_async_context(handler)
+            chat = ChatInterface(transport, language, clock, objects=lambda _: objects, rules=rules)
+            await stack.enter_async_context(chat)
         party = Crew(transport, observer, wire, language, stack, planner)
         for name in robots:
             await party.engine(name)

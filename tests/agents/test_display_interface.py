@@ -215,3 +215,13 @@ async def test_single_feeds_have_settings_of_their_own_and_those_of_one_robot_co
         widths = {key: Image.open(io.BytesIO(images[0].data)).width for key, images in shown.items()}
         assert widths == {("A", "camera"): 64, ("B", "camera"): 32, ("B", "map"): 128}
         assert len(shown[("A", "camera")]) == 1
+
+
+async def test_people_are_told_when_pictures_were_lost_before_they_could_be_shown(screen: Screen) -> None:
+    said: list[String] = []
+    await screen.transport.subscribe(topics.CHAT_FEEDBACK, said.append)
+    for number in range(2 * display_interface.MAX_FEEDS):
+        screen.send("", name=f"camera {number}")
+    await until(lambda: len(said) > 0)
+    screen.send("", name="the last")
+    await until(lambda: any("I lost 256 messages" in text.data for text in said))

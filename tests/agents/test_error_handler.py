@@ -163,7 +163,7 @@ async def test_plan_that_goes_on_for_another_reason_withdraws_the_question(room:
     await asyncio.sleep(0.01)
     room.observer.publish(topics.PLAN, PlanUpdate(target="A", state="running"))
     await room.said(2)
-    assert room.observer.questions.first("A") is None
+    assert room.observer.questions.newest("A") is None
 
 
 @pytest.mark.spec("P18", "P20")
@@ -187,5 +187,5 @@ async def test_operator_is_told_when_a_repair_takes_long_and_stop_lets_go_of_it(
             assert "still working out" in (await room.said())[0]
             observer.say("stop", "A")
             room.fail()
-            await observer.until(lambda: observer.questions.first("A") is not None, timeout_s=5)
+            await observer.until(lambda: observer.questions.newest("A") is not None, timeout_s=5)
         assert transport.handler_failures == 0

@@ -394,6 +394,22 @@ async def test_a_strangers_program_neither_replaces_nor_removes_what_a_person_to
     assert house.events[-1].kind == "removed"
 
 
+@pytest.mark.parametrize(
+    ("by", "way"),
+    [({"kind": "robot", "name": "Ada"}, "seen"), ({"kind": "engine", "name": "m"}, "concluded")],
+)
+async def test_what_was_seen_or_concluded_no_program_without_a_key_has_forgotten(
+    house: House, by: dict[str, str], way: str
+) -> None:
+    await house.tell(topics.ADD_TO_MEMORY, {"key": {"data": "in the box", "by": by}})
+    for stranger in ({"kind": "program", "name": "x"}, by, {"kind": "person", "role": "viewer"}):
+        await house.tell(topics.REMOVE_MEMORY, {"key": {"by": stranger}})
+    await house.tell(topics.REMOVE_MEMORY, {"key": None})
+    assert (await house.whole())["key"].way == way
+    await house.tell(topics.REMOVE_MEMORY, {"key": {"by": KIM}})
+    assert [event.kind for event in house.events] == ["added", *["failed"] * 4, "removed"]
+
+
 async def test_what_a_program_sends_is_its_own_word_in_whosever_name_it_comes(house: House) -> None:
     sent = {"data": "If you see a crack, stop.", "source": "Kim", "way": "told", "words": "really"}
     await house.tell(topics.ADD_TO_MEMORY, {"rule": sent})

@@ -5,18 +5,24 @@ from __future__ import annotations
 import asyncio
 import json
 from collections.abc import Sequence
+from dataclasses import replace
 from typing import Any
 
 import pytest
 
+from parley.agents.planner.ordering import Judge
 from parley.clock import WallClock
 from parley.gate.book import RuleBook
 from parley.gate.judge import Judgement, PlannedStep
 from parley.messages import topics
 from parley.messages.chat import ActionCall, ChatAction, ChatFeedback, ChatInput, Flow, FlowIf, SystemCommand
+from parley.messages.principal import Principal
 from parley.messages.rules import Rule, RuleSet
 from parley.messages.status import ActionInfo
+from parley.world.object_map import MapObject
 from tests.agents.crew import ENGINE, KIM, Crew, crew, decide, drive, find, look, proposals
+
+PROGRAM = Principal(kind="program", name="script")
 
 
 def press(what: str) -> ActionCall:
@@ -372,10 +378,10 @@ async def test_plan_of_a_robot_that_goes_while_it_is_held_is_kept_and_told() -> 
         assert party.body.did == ["look box", "look box", "look door"]
 
 
-@pytest.mark.parametrize("waits", [False, True])
-async def test_an_edit_that_the_rules_forbid_is_refused_when_it_is_made(waits: bool) -> None:
-    book = RuleBook(WallClock(), RuleSet(rules=(Rule(id="r", kind="action", actions=("Drive",)),)))
+NO_DRIVING = Rule(id="r", kind="action", actions=("Drive",))
 
+
+def judge_by(book: RuleBook) -> Judge:
     async def judged(
         robot: str, calls: Sequence[ActionCall], infos: Sequence[ActionInfo], *_: object
     ) -> Judgement:
@@ -384,7 +390,51 @@ async def test_an_edit_that_the_rules_forbid_is_refused_when_it_is_made(waits: b
         steps = [PlannedStep(call, known[call.name]) for call in calls]
         return book.judge_plan(robot=robot, steps=steps, by=KIM)
 
-    async with crew("A", ask_first=["A"] if waits else [], judge=judged) as party:
+    return judged
+
+
+@pytest.mark.parametrize("verdict", ["forbid", "ask"])
+async def test_a_yes_is_weighed_by_the_rules_of_its_moment_and_not_of_the_card(verdict: str) -> None:
+    book = RuleBook(WallClock())
+    async with crew("A", judge=judge_by(book)) as party:
+        party.order(press("bell"), drive(2.0), by=PROGRAM)
+        await party.until(lambda: proposals(party))
+        book.replace(RuleSet(rules=(NO_DRIVING.model_copy(update={"verdict": verdict}),)))
+        decide(party, id=proposals(party)[0]["id"], decision="approve")
+        if verdict == "forbid":
+            await party.hears("must not do")
+            await party.state("idle")
+        else:
+            await party.until(lambda: len(proposals(party)) == 2)
+            assert "drive" in proposals(party)[1]["why"]
+            assert not party.body.did
+            decide(party, id=proposals(party)[1]["id"], decision="approve")
+            await party.until(lambda: party.body.way)
+        assert not any("All right" in text for text in party.texts()) or verdict == "ask"
+        assert bool(party.body.did) == (verdict == "ask")
+
+
+async def test_a_yes_is_no_yes_to_the_same_words_on_a_map_that_has_changed() -> None:
+    box = MapObject("b", "box", 1.0, 0.0, "box", 0.5, 0.5)
+    objects = [box]
+    async with crew("A", ask_first=["A"], objects=objects) as party:
+        party.order(look("box"))
+        await party.until(lambda: proposals(party))
+        objects[0] = replace(box, x_m=4.0)  # somebody carried it away
+        decide(party, id=proposals(party)[0]["id"], decision="approve")
+        await party.hears("That is not what waits for your yes by now, so I have not begun.")
+        await party.until(lambda: len(proposals(party)) == 2)
+        decide(party, id=proposals(party)[1]["id"], decision="approve", digest=proposals(party)[0]["digest"])
+        await party.until(lambda: len(proposals(party)) == 3)
+        assert not party.body.did
+        decide(party, id=proposals(party)[2]["id"], decision="approve")
+        await party.until(lambda: party.body.did == ["look box"])
+
+
+@pytest.mark.parametrize("waits", [False, True])
+async def test_an_edit_that_the_rules_forbid_is_refused_when_it_is_made(waits: bool) -> None:
+    book = RuleBook(WallClock(), RuleSet(rules=(NO_DRIVING,)))
+    async with crew("A", ask_first=["A"] if waits else [], judge=judge_by(book)) as party:
         identity = ""
         if waits:
             party.order(look("box"))

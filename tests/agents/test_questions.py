@@ -20,8 +20,8 @@ def answer(questions: OpenQuestions, *targets: str, reply_to: str = "", kind: st
     )
 
 
-def first(questions: OpenQuestions, target: str = "A") -> str:
-    found = questions.first(target)
+def newest(questions: OpenQuestions, target: str = "A") -> str:
+    found = questions.newest(target)
     return found.id if found else ""
 
 
@@ -34,63 +34,64 @@ def questions() -> OpenQuestions:
 
 
 def test_nobody_asked_anything() -> None:
-    assert OpenQuestions().first("A") is None
+    assert OpenQuestions().newest("A") is None
 
 
-def test_oldest_comes_first_and_an_answer_settles_it(questions: OpenQuestions) -> None:
-    assert first(questions) == "one"
+def test_an_answer_is_taken_for_the_newest_and_settles_it(questions: OpenQuestions) -> None:
+    assert newest(questions) == "two"
     answer(questions)
-    assert first(questions) == "two"
+    assert newest(questions) == "one"
     answer(questions)
-    assert first(questions) == ""
+    assert newest(questions) == ""
 
 
 def test_answer_settles_the_question_it_names(questions: OpenQuestions) -> None:
-    answer(questions, reply_to="two")
+    answer(questions, reply_to="one")
+    assert newest(questions) == "two"
     answer(questions)
-    assert first(questions) == ""
+    assert newest(questions) == ""
 
 
 def test_answer_to_a_question_nobody_asked_settles_nothing(questions: OpenQuestions) -> None:
     answer(questions, reply_to="three")
-    assert first(questions) == "one"
+    assert newest(questions) == "two"
 
 
 def test_order_settles_nothing(questions: OpenQuestions) -> None:
     answer(questions, kind="request")
-    assert first(questions) == "one"
+    assert newest(questions) == "two"
 
 
 @pytest.mark.parametrize("kind", ["info", "response", "error"])
 def test_robot_withdraws_its_question_with_whatever_it_says(questions: OpenQuestions, kind: str) -> None:
     questions.on_feedback(
-        ChatFeedback.model_validate({"message": "", "targets": ["A"], "type": kind, "closes": "one"})
+        ChatFeedback.model_validate({"message": "", "targets": ["A"], "type": kind, "closes": "two"})
     )
-    assert first(questions) == "two"
+    assert newest(questions) == "one"
 
 
 def test_robots_have_questions_of_their_own(questions: OpenQuestions) -> None:
     questions.on_feedback(ask("three", "B"))
     answer(questions, "B")
-    assert (first(questions), first(questions, "B")) == ("one", "")
+    assert (newest(questions), newest(questions, "B")) == ("two", "")
 
 
 def test_robot_is_found_whatever_the_capitals(questions: OpenQuestions) -> None:
-    assert first(questions, "a") == "one"
+    assert newest(questions, "a") == "two"
     answer(questions, " a")
-    assert first(questions) == "two"
+    assert newest(questions) == "one"
 
 
 def test_what_robots_say_beside_questions_is_no_question() -> None:
     questions = OpenQuestions()
     questions.on_feedback(ChatFeedback(message="I am there.", targets=("A",)))
-    assert questions.first("A") is None
+    assert questions.newest("A") is None
 
 
 def test_answer_to_a_named_question_settles_it_whoever_it_was_sent_to(questions: OpenQuestions) -> None:
     questions.on_feedback(ask("three", "B"))
     answer(questions, "A", reply_to="three")
-    assert (first(questions), first(questions, "B")) == ("one", "")
+    assert (newest(questions), newest(questions, "B")) == ("two", "")
 
 
 @pytest.mark.parametrize(

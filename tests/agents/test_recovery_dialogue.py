@@ -149,7 +149,7 @@ async def test_order_for_afterwards_goes_to_the_plan_and_the_question_stays_open
     (order,) = place.orders.seen
     assert (order.queue, order.targets) == ((look("door"),), ("A",))
     assert place.corrections.seen == []
-    assert place.observer.questions.first("A") is not None
+    assert place.observer.questions.newest("A") is not None
 
 
 async def test_order_behind_an_answer_is_handed_on_with_the_correction(place: Place) -> None:

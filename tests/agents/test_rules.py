@@ -70,6 +70,29 @@ async def test_a_robot_that_is_asked_into_a_closed_room_says_why_and_never_enter
         assert it.actions() == []
 
 
+@pytest.mark.parametrize("refused", ["as a plan", "under way"])
+async def test_go_anyway_goes_nowhere(refused: str) -> None:
+    async with crew() as it:
+        if refused == "as a plan":
+            await it.ask("put", rule=EAST)
+        it.observer.say("go to the green crate", "A")
+        if refused == "under way":
+            while it.farthest_m < 1.3:
+                await it.system.clock.sleep(0.05)
+            await it.ask("put", rule=EAST)
+            asked = await it.question()
+        await it.observer.until(lambda: any("“east room”" in said.message for said in it.observer.said))
+        stood_m = it.farthest_m
+        it.observer.say("go anyway", "A", answer=refused == "under way")
+        await it.observer.until(lambda: any("whoever asks" in said.message for said in it.observer.said))
+        told = next(said.message for said in it.observer.said if "whoever asks" in said.message)
+        assert "Stays out of “east room”: every robot." in told and "Operators and supervisors" in told
+        if refused == "under way":
+            await it.observer.until(lambda: it.observer.said[-1].message == asked.message)
+        await it.system.clock.sleep(2.0)
+        assert it.farthest_m < stood_m + 0.2, "it only came to a stand"
+
+
 async def test_trying_a_plan_says_what_would_become_of_it_and_moves_nothing() -> None:
     async with crew() as it:
         await it.ask("put", rule=EAST)
@@ -122,8 +145,8 @@ async def test_a_told_rule_is_shown_as_what_it_becomes_and_counts_after_a_yes() 
         )
         assert "On the map it reaches from (4.65, 1.45) to (5.75, 2.55) metres." in asked.message
         assert asked.choices[-1] == "no" and len(asked.choices) == 3
-        assert "I keep to it until you answer." in asked.message
-        assert it.held == ["keep-out-green-crate"]
+        assert "Until you answer, A will not drive." in asked.message
+        assert it.held == []
         it.observer.say("perhaps", "A", answer=True)
         await it.observer.until(lambda: it.observer.said[-1].closes == asked.id, timeout_s=10)
         await it.say((await it.question()).choices[1], answer=True)
@@ -134,6 +157,29 @@ async def test_a_told_rule_is_shown_as_what_it_becomes_and_counts_after_a_yes() 
         assert "Shall I drop this rule" in (await it.question()).message
         assert (await it.say("yes", answer=True)).message == "The rule does not hold any more."
         assert it.held == []
+
+
+@pytest.mark.parametrize("answer", ["yes", "no"])
+async def test_a_drive_stands_while_a_zone_before_it_is_asked_about(answer: str) -> None:
+    async with crew() as it:
+        await it.say("go to the green crate")
+        while it.farthest_m < 1.3:
+            await it.system.clock.sleep(0.05)
+        it.observer.say("nobody to the green crate", "A")
+        asked = await it.question()
+        await it.system.clock.sleep(1.0)
+        stood_m = it.farthest_m
+        it.observer.say("go to the green crate", "A")
+        await it.observer.until(lambda: it.observer.said[-1].closes == asked.id)
+        await it.system.clock.sleep(3.0)
+        assert it.farthest_m == pytest.approx(stood_m), "nothing else that is said lets it drive"
+        await it.say(answer, answer=True)
+        if answer == "no":
+            assert await it.done() == ["finished"] * 4
+        else:
+            await it.observer.until(lambda: bool(it.observer.failures), timeout_s=20)
+            assert it.observer.failures[0].code == "forbidden"
+            assert it.farthest_m < 4.25 - it.system.robots["A"].radius_m
 
 
 async def test_after_a_no_nothing_holds_and_orders_are_no_rules() -> None:

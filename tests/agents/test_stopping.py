@@ -187,7 +187,7 @@ async def test_try_again_after_a_failure_continues_from_the_failed_step(failed: 
     modify: ros.UmrfGraphModify = failed.wire.of(topics.GRAPH_MODIFY)[0]
     assert modify.continue_from.startswith("Look_")
     assert failed.body.did == ["look box", "look box", "look door"]
-    assert failed.observer.questions.first("A") is None
+    assert failed.observer.questions.newest("A") is None
 
 
 async def test_skip_this_ends_the_running_step_and_continues_with_the_next(party: Crew) -> None:
@@ -208,7 +208,7 @@ async def test_skip_this_after_a_failure_leaves_the_failed_step_out(failed: Crew
     await failed.state("idle")
     assert failed.wire.continued_from() == "Look_1"
     assert failed.body.did == ["look box", "look door"]
-    assert failed.observer.questions.first("A") is None
+    assert failed.observer.questions.newest("A") is None
 
 
 async def test_drop_the_second_one_changes_the_graph_and_leaves_it_running(party: Crew) -> None:
@@ -246,7 +246,7 @@ async def test_cancel_everything_stops_the_graph_empties_the_plan_and_a_new_orde
 async def test_cancel_everything_during_a_repair_withdraws_the_question(failed: Crew) -> None:
     failed.observer.say("cancel everything", "A")
     await failed.state("idle")
-    await failed.until(lambda: failed.observer.questions.first("A") is None)
+    await failed.until(lambda: failed.observer.questions.newest("A") is None)
     await told(failed, "look at the lid", look("lid"))
     await failed.until(lambda: failed.body.did == ["look box", "look lid"])
 
@@ -300,7 +300,7 @@ async def test_order_that_is_being_understood_when_the_stop_button_is_pressed_mo
 @pytest.mark.spec("P1")
 async def test_last_attempt_of_error_handling_pauses_holds_and_tells_what_remains(failed: Crew) -> None:
     for _ in range(3):
-        await failed.until(lambda: failed.observer.questions.first("A") is not None)
+        await failed.until(lambda: failed.observer.questions.newest("A") is not None)
         failed.observer.say("purple", "A", answer=True)
     await failed.hears("I could not solve this")
     await failed.until(lambda: failed.wire.commands() == ["pause"])
@@ -320,9 +320,10 @@ async def test_last_attempt_of_error_handling_pauses_holds_and_tells_what_remain
 )
 async def test_after_the_last_attempt_any_order_goes_on(failed: Crew, words: str, did: list[str]) -> None:
     for _ in range(3):
-        await failed.until(lambda: failed.observer.questions.first("A") is not None)
+        await failed.until(lambda: failed.observer.questions.newest("A") is not None)
         failed.observer.say("purple", "A", answer=True)
     await failed.hears("I could not solve this")
+    assert words in failed.observer.said[-1].choices  # it is a tap away, too
     failed.observer.say(words, "A")
     await failed.state("idle")
     await failed.settled()
@@ -331,7 +332,7 @@ async def test_after_the_last_attempt_any_order_goes_on(failed: Crew, words: str
 
 async def test_after_the_last_attempt_a_new_order_takes_the_failed_steps_place(failed: Crew) -> None:
     for _ in range(3):
-        await failed.until(lambda: failed.observer.questions.first("A") is not None)
+        await failed.until(lambda: failed.observer.questions.newest("A") is not None)
         failed.observer.say("purple", "A", answer=True)
     await failed.hears("I could not solve this")
     await told(failed, "look at the lid", look("lid"))

@@ -11,9 +11,9 @@ import pytest
 from parley.agents.planner.unattended import PRESENCE, SILENT_S, Absence, UnattendedPlans
 from parley.messages import topics
 from parley.messages.attendance import Attendance, Unattended
-from parley.messages.chat import ChatAction, ChatFeedback, ChatInput
+from parley.messages.chat import ActionCall, ChatAction, ChatFeedback, ChatInput
 from parley.messages.ros import String
-from parley.messages.status import ActorStatus, PlanUpdate, PoseInfo
+from parley.messages.status import ActorStatus, PlanStep, PlanUpdate, PoseInfo
 from parley.messages.wire import decode, to_string
 from parley.transport.local import LocalTransport
 from tests.web.rig import HandClock, Robots
@@ -126,6 +126,27 @@ async def test_a_robot_goes_home_where_it_stood_first() -> None:
         assert [command.command for command in home.system_cmd] == ["clear"]
         pose = home.queue[0].input_parameters
         assert (pose["pose::position::x"].value, pose["pose::position::y"].value) == (1.0, 2.0)
+
+
+async def test_what_is_understood_only_after_everybody_has_gone_is_not_done_far_from_home() -> None:
+    async with ward("go_home") as here:
+        await here.alone()
+        drive = ActionCall(name="NavigateTo")
+        for states in (
+            ("stopped",),
+            ("running",),
+            ("finished",),
+            ("finished", "running"),
+        ):  # home; a late order
+            steps = tuple(PlanStep.model_validate({"action": drive, "state": state}) for state in states)
+            state = "running" if "running" in states else "idle"
+            update = PlanUpdate.model_validate({"target": "A", "state": state, "steps": steps})
+            here.robots.tell(topics.PLAN, update)
+            await settled()
+            here.node.look()
+            await settled()
+            assert len(here.orders) == (2 if len(states) == 2 else 1), states
+        assert [command.command for command in here.orders[1].system_cmd] == ["clear"]
 
 
 async def test_somebody_who_is_back_in_time_changes_nothing() -> None:

@@ -75,7 +75,7 @@ def _stop(command: str, by: Principal | None) -> Send:
 
 def _say(text: str, by: Principal | None, *, answers: bool = False) -> Send:
     def send(house: House, _: PlanProposal | None) -> None:
-        asked = house.witness.questions.first(ADA) if answers else None
+        asked = house.witness.questions.newest(ADA) if answers else None
         said = ChatInput(
             message=text, targets=(ADA,), id=f"i{next(house.count)}", by=by,
             type="response" if asked else "request", reply_to=asked.id if asked else "",

@@ -252,8 +252,8 @@ class House:
 
     async def asked(self, robot: str = ADA) -> ChatFeedback:
         """The open question of a robot, once there is one."""
-        await self.until(lambda: self.witness.questions.first(robot) is not None)
-        question = self.witness.questions.first(robot)
+        await self.until(lambda: self.witness.questions.newest(robot) is not None)
+        question = self.witness.questions.newest(robot)
         assert question is not None
         return question
 
@@ -300,7 +300,7 @@ class House:
             self.press("reset", robot)
             identity = self.say("cancel everything", robot)
             await self.reply(identity)
-            if (question := self.witness.questions.first(robot)) is not None:
+            if (question := self.witness.questions.newest(robot)) is not None:
                 self.say("nothing", robot, answers=question)  # what pictures show is asked until it is told
         await self.until(lambda: all(self.witness.at_rest(robot) for robot in ROBOTS), 10.0)
         for robot in ROBOTS:

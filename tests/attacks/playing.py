@@ -65,7 +65,7 @@ async def play(house: House, case: Case, policy: ApprovalPolicy) -> Outcome:
 
 async def converse(house: House, case: Case) -> None:
     """A person says something, and the engine answers."""
-    asked = house.witness.questions.first(case.to)
+    asked = house.witness.questions.newest(case.to)
     gate = asyncio.Event()
     prepared = (*case.drafts, *([gate] if case.late else []), read(case.answer))
     _script(house, asked, prepared, is_reading="reading" in case.answer)
@@ -124,7 +124,7 @@ async def _then(house: House, then: Then, before: int) -> None:
         case "wait":
             await house.passes(60.0)
         case "tap" if any(then.say in said.choices for said in house.witness.said):  # else there is nothing
-            asked = house.witness.questions.first(then.to)
+            asked = house.witness.questions.newest(then.to)
             house.say(then.say, then.to, answers=asked)
         case "":
             house.say(then.say, then.to)

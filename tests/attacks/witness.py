@@ -98,7 +98,7 @@ class Witness(Observer):
             and not any(name.startswith(f"{robot}_") for name in going)
             and status is not None
             and status.state != "stopped"
-            and self.questions.first(robot) is None
+            and self.questions.newest(robot) is None
         )
 
     def forget(self) -> None:

@@ -40,9 +40,9 @@ class House:
         """The robot's open question, once there is one."""
         name = robot or self.robot
         await self.observer.until(
-            lambda: self.observer.questions.first(name) is not None, timeout_s=PATIENCE_S
+            lambda: self.observer.questions.newest(name) is not None, timeout_s=PATIENCE_S
         )
-        question = self.observer.questions.first(name)
+        question = self.observer.questions.newest(name)
         assert question is not None
         return question
 

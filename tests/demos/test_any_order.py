@@ -77,12 +77,12 @@ class Operator:
         await self.say(self.random.choice(ONWARD))
 
     async def answer(self) -> None:
-        question = self.home.observer.questions.first("David")
+        question = self.home.observer.questions.newest("David")
         choices = (*ANSWERS, *(question.choices if question else ()))
         await self.say(self.random.choice(choices), answer=question is not None)
 
     async def stop(self) -> None:
-        answer = self.home.observer.questions.first("David") is not None and self.random.random() < 0.5
+        answer = self.home.observer.questions.newest("David") is not None and self.random.random() < 0.5
         said = self.home.observer.said
         before = len(said)
         self.home.observer.say(self.random.choice(STOPS), "David", answer=answer)

@@ -118,6 +118,6 @@ async def test_operator_is_told_after_a_restart_in_the_middle_of_a_repair(tmp_pa
             lambda: any("before this was settled" in said.message for said in house.observer.said),
             timeout_s=10,
         )
-        assert house.observer.questions.first(house.robot) is None
+        assert house.observer.questions.newest(house.robot) is None
         await house.say("go to the small sofa")
         assert set(await house.done()) == {"finished"}

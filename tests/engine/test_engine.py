@@ -352,15 +352,17 @@ async def test_a_graph_may_have_any_name(name: str, tmp_path: Path) -> None:
         await journal.flush()
 
 
-async def test_a_graph_of_five_thousand_actions_runs_and_is_stopped_on_its_way() -> None:
+async def test_a_graph_of_a_thousand_actions_runs_and_is_stopped_on_its_way() -> None:
     async with rigged() as rig:
-        last = node("WaitFor", 5000, seconds=60.0)
-        rig.start(chain("big", [*(node("NoOp", index) for index in range(5000)), last]))
+        rig.start(chain("bigger", [node("NoOp", index) for index in range(1001)]))
+        last = node("WaitFor", 999, seconds=60.0)
+        rig.start(chain("big", [*(node("NoOp", index) for index in range(999)), last]))
         async with asyncio.timeout(60):
-            while rig.node_states("big", "WaitFor_5000") != ["RUNNING"]:  # noqa: ASYNC110 - 10,000 events
+            while rig.node_states("big", "WaitFor_999") != ["RUNNING"]:  # noqa: ASYNC110 - 2000 events
                 await asyncio.sleep(0.1)
         rig.stop("big")
         await rig.until_graph("big", "STOPPED")
         sequences = [event.sequence for event in rig.events if event.graph_name == "big"]
         assert sequences == list(range(len(sequences)))
-        assert len(sequences) == 2 * 5000 + 6  # each begins and ends; the last stops in between; the graph
+        assert len(sequences) == 2 * 999 + 6  # each begins and ends; the last stops in between; the graph
+        assert [(item.code, item.path) for item in rig.rejections[0].problems] == [("too_large", "actions")]

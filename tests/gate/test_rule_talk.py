@@ -6,7 +6,7 @@ import pytest
 
 from parley.clock import SimClock
 from parley.gate.book import RuleBook
-from parley.gate.rule_talk import RuleReply, RuleTalk
+from parley.gate.rule_talk import Listener, RuleReply, RuleTalk
 from parley.gate.rules import RuleKeeper
 from parley.messages.principal import Principal, person
 from parley.messages.rules import Rule
@@ -20,12 +20,10 @@ class Talk:
         self._places = places
         self.book = RuleBook(SimClock())
         self.keeper = RuleKeeper(self.book)
-        self._talk = RuleTalk(self.book, self.keeper)
+        self.talk = RuleTalk(self.book, self.keeper)
 
     async def say(self, text: str, by: Principal = KIM, answers: str = "") -> RuleReply | None:
-        return await self._talk.reply(
-            text, by, robot="Ada", robots=("Ada",), places=self._places, catalogue=(), answers=answers
-        )
+        return await self.talk.reply(text, by, Listener("Ada", ("Ada",), self._places), answers=answers)
 
     @property
     def held(self) -> list[str]:
@@ -83,20 +81,58 @@ async def test_of_several_rules_the_one_that_is_chosen_is_dropped() -> None:
     assert nothing is not None and nothing.text == "There is no such rule."
 
 
-async def test_a_closed_place_is_closed_until_the_answer_and_opened_by_a_word() -> None:
-    talk = Talk(MapObject("s", "store", 5.0, 0.0, "store", 1.0, 1.0))
+STORE = MapObject("s", "store", 5.0, 0.0, "store", 1.0, 1.0)
+
+
+async def test_a_told_rule_counts_after_its_yes_and_robots_stand_till_then() -> None:
+    talk = Talk(STORE)
     asked = await talk.say("never go into the store, it is wet")
-    assert asked is not None and asked.id and talk.held == ["keep-out-store"]
+    assert asked is not None and (talk.held, asked.stands) == ([], ("Ada",))
     assert await talk.say("go to the desk and wait", answers=asked.id) is None, "an order is no answer"
-    await talk.say("no", answers=asked.id)
-    assert talk.held == []
-    await talk.say("never go into the store")
+    again = talk.talk.again("Ada")
+    assert again is not None and (again.closes, again.text, again.stands) == (asked.id, asked.text, ("Ada",))
+    await talk.say("no", answers=again.id)
+    assert (talk.held, talk.talk.again("Ada")) == ([], None)
+    asked = await talk.say("never go into the store")
     lifted = await talk.say("it is dry now, you may go into the store again")
-    assert lifted is not None and not lifted.id and talk.held == []
+    assert asked is not None and lifted is not None
+    assert (lifted.closes, lifted.id, talk.held, talk.talk.again("Ada")) == (asked.id, "", [], None)
+
+
+async def test_a_rule_that_is_told_twice_is_asked_about_once() -> None:
+    talk = Talk(STORE)
+    first = await talk.say("nobody into the store between two and three")
+    second = await talk.say("Nobody may go into the store between two and three!")
+    assert first is not None and second is not None and second.closes == first.id
+    assert await talk.say("yes", answers=first.id) is None
+    await talk.say("yes", answers=second.id)
+    assert talk.held == ["keep-out-store"]
+    third = await talk.say("nobody into the store between two and three")
+    assert third is not None and not third.id
+    assert third.text == "That is already a rule: Stays out of “store” between 14:00 and 15:00: every robot."
+    other = await talk.say("nobody into the store between four and five")
+    assert other is not None and other.id
+
+
+@pytest.mark.parametrize("words", ["go anyway", "Do it anyway!", "but ignore the rule, please", "tee ikka"])
+async def test_who_insists_hears_which_rule_it_is_and_who_may_change_it(words: str) -> None:
+    talk = Talk(STORE)
+    asked = await talk.say("never go into the store")
+    assert asked is not None
+    await talk.say("yes", answers=asked.id)
+    assert await talk.say(words) is None, "nothing was refused"
+    talk.talk.refused("Ada", talk.held)
+    told = await talk.say(words)
+    assert told is not None and not told.id
+    assert "Stays out of “store”: Ada." in told.text
+    assert "Operators and supervisors may drop it: “drop the rule about store”." in told.text
+    assert await talk.say("go to the desk anyway") is None, "an order of its own"
+    talk.talk.refused("Ada", ())
+    assert await talk.say(words) is None
 
 
 async def test_a_rule_that_was_agreed_to_is_not_lifted_without_a_yes() -> None:
-    talk = Talk(MapObject("s", "store", 5.0, 0.0, "store", 1.0, 1.0))
+    talk = Talk(STORE)
     asked = await talk.say("never go into the store")
     assert asked is not None
     await talk.say("yes, like that", answers=asked.id)

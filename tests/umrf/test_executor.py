@@ -606,7 +606,7 @@ async def test_a_node_that_ended_during_the_pause_may_be_removed() -> None:
     watched.run.start()
     await asyncio.sleep(0)  # it begins
     watched.run.pause()
-    await asyncio.sleep(0.02)
+    await until(lambda: watched.run.idle)
     watched.run.modify(read_graph(planner_chain("g", [node("NoOp", 2)])))
     watched.run.resume()
     assert await watched.run.wait() is Result.ON_HALTED

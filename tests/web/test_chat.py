@@ -160,3 +160,12 @@ async def test_a_picture_needs_no_words_but_something_must_be_there() -> None:
         await rig.heard()
         assert (rig.robots.inputs[0].message, len(rig.robots.inputs[0].images)) == ("", 1)
         assert (await rig.http.post("/api/chat", json=message("m2", "", "Ada"))).status_code == 422
+
+
+async def test_people_are_told_when_what_robots_said_was_lost_on_its_way_to_them() -> None:
+    async with served("Ada") as rig:
+        for number in range(1200):
+            rig.robots.say(f"word {number}")
+        await rig.heard()
+        told = [entry for entry in rig.server.backend.state.chat.newest(2000) if entry.type == "error"]
+        assert len(told) == 1 and "200 messages did not get here" in told[0].message

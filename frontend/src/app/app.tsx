@@ -7,6 +7,8 @@ import { SignIn } from '@/features/session';
 import { connect } from '@/live/connection';
 import { keepStopLine } from '@/live/stop-line';
 import { applyLook, usePrefs } from '@/state/prefs';
+import { keepFocus } from '@/ui/keep-focus';
+import { holdSecondClicks } from '@/ui/second-click';
 import { useHashPath } from '@/ui/use-hash';
 
 import { Shell } from './shell';
@@ -25,6 +27,8 @@ export function App() {
   const { state, refresh } = session;
   useEffect(() => (state === 'open' ? connect(refresh) : undefined), [state, refresh]);
   useEffect(() => (state === 'open' ? keepStopLine() : undefined), [state]);
+  useEffect(holdSecondClicks, []);
+  useEffect(keepFocus, []);
   return (
     <I18nProvider locale={localeOf[language]}>
       <Router hook={useHashPath}>

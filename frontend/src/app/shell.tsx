@@ -87,5 +87,6 @@ function CommandsButton() {
 
 function focusContent(event: React.MouseEvent) {
   event.preventDefault(); // the address after # belongs to the pages
-  document.getElementById('content')?.focus();
+  const content = document.getElementById('content');
+  (content?.querySelector<HTMLElement>('[data-home]:not(:disabled)') ?? content)?.focus();
 }

@@ -7,6 +7,8 @@ import { Button } from '@/ui/button';
 import css from './toasts.module.css';
 
 const SHOWN_MS = 8000;
+/** Whoever may want something back needs a moment to see that. */
+const WITH_ACTION_MS = 20_000;
 
 /** Short notes at the edge; those with a failure stay until they are put away. */
 export function Toasts() {
@@ -27,9 +29,9 @@ function Note({ toast }: { toast: Toast }) {
   const { id, tone, message, action } = toast;
   useEffect(() => {
     if (tone === 'error') return undefined;
-    const timer = setTimeout(() => dismiss(id), SHOWN_MS);
+    const timer = setTimeout(() => dismiss(id), action ? WITH_ACTION_MS : SHOWN_MS);
     return () => clearTimeout(timer);
-  }, [id, tone, dismiss]);
+  }, [id, tone, action, dismiss]);
   return (
     <div className={css.toast} data-tone={tone} role={tone === 'error' ? 'alert' : undefined}>
       <p>{message}</p>

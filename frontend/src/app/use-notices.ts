@@ -1,6 +1,8 @@
 import { useEffect, useRef } from 'react';
 
-import { useWorld } from '@/live/store';
+import { useLive, useWorld } from '@/live/store';
+import type { World } from '@/live/world';
+import { moodOf } from '@/state/mood';
 import { useToasts } from '@/state/toasts';
 
 /** Shows what was refused, once each. */
@@ -11,7 +13,11 @@ export function useNotices(): void {
   useEffect(() => {
     for (const notice of notices.filter((one) => one.id > shown.current)) {
       shown.current = notice.id;
-      show({ tone: 'error', message: [notice.robot, notice.message].filter(Boolean).join(': ') });
+      const { robot } = notice;
+      const isStopped = moodOf(robot, useLive.getState().world) === 'stopped';
+      const stands = ({ world }: { world: World }) => moodOf(robot, world) === 'stopped';
+      const message = [robot, notice.message].filter(Boolean).join(': ');
+      show({ tone: 'error', message, ...(isStopped && { stands }) });
     }
   }, [notices, show]);
 }

@@ -9,7 +9,7 @@ import { PlanPanel, PlanStrip } from '@/features/plan';
 import { useWorld } from '@/live/store';
 import { useMayAll } from '@/state/me';
 import { Boundary } from '@/ui/boundary';
-import { Button } from '@/ui/button';
+import { Beside, Button } from '@/ui/button';
 import type { Layout } from '@/ui/use-media';
 
 import css from './workspace.module.css';
@@ -76,7 +76,7 @@ function Area({ name, children }: { name: string; children: React.ReactNode }) {
   return (
     <div className={css[name]}>
       <Boundary message={t('crashed')} again={t('crashedAgain')}>
-        {children}
+        <Beside value={name !== 'chat'}>{children}</Beside>
       </Boundary>
     </div>
   );

@@ -3,7 +3,7 @@ import i18next from 'i18next';
 
 import { ApiError } from '@/live/api';
 
-import { useToasts } from './toasts';
+import { untilReached, useToasts } from './toasts';
 
 /** What a failed request says to people. */
 export function explain(error: unknown): string {
@@ -18,7 +18,9 @@ export async function attempt(deed: () => Promise<unknown>): Promise<boolean> {
     await deed();
     return true;
   } catch (error) {
-    useToasts.getState().show({ tone: 'error', message: explain(error) });
+    const message = explain(error);
+    const unreached = error instanceof ApiError && error.status === 0;
+    useToasts.getState().show({ tone: 'error', message, ...(unreached && { stands: untilReached() }) });
     return false;
   }
 }

@@ -1,12 +1,18 @@
 /** Short notes that appear and go, some of them with a way back. */
 import { create } from 'zustand';
 
+import { useLive } from '@/live/store';
+
+type Live = ReturnType<typeof useLive.getState>;
+
 export interface Toast {
   id: number;
   tone: 'info' | 'error';
   message: string;
   /** Label and deed of its button, e.g. to undo. */
   action?: { label: string; run: () => void };
+  /** Asked at each change: once it is not true any more, the note goes by itself. */
+  stands?: (live: Live) => boolean;
 }
 
 interface Toasts {
@@ -30,3 +36,18 @@ export const useToasts = create<Toasts>()((set) => ({
     })),
   dismiss: (id) => set((now) => ({ toasts: now.toasts.filter((toast) => toast.id !== id) })),
 }));
+
+useLive.subscribe((live) => {
+  const { toasts } = useToasts.getState();
+  const standing = toasts.filter((toast) => toast.stands?.(live) ?? true);
+  if (standing.length < toasts.length) useToasts.setState({ toasts: standing });
+});
+
+/** Holds until the connection was lost and is there again. */
+export function untilReached(): (live: Live) => boolean {
+  let lost = false;
+  return ({ connection }) => {
+    lost ||= connection === 'lost';
+    return !lost || connection !== 'connected';
+  };
+}

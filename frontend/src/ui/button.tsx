@@ -1,3 +1,4 @@
+import { createContext, useContext } from 'react';
 import { Button as AriaButton, type ButtonProps } from 'react-aria-components';
 
 import { useMe, type Effect } from '@/state/me';
@@ -15,6 +16,9 @@ interface Props extends Omit<ButtonProps, 'children' | 'className'> {
   needs?: Effect;
 }
 
+/** True in parts of the page beside the one in which people act: what stands out there would be one of two. */
+export const Beside = createContext(false);
+
 /** A button that is large enough for a thumb. */
 export function Button({ needs, ...rest }: Props) {
   const session = useMe((me) => me.session);
@@ -22,8 +26,9 @@ export function Button({ needs, ...rest }: Props) {
 }
 
 function Shown({ tone = 'plain', icon, children, iconOnly = false, ...rest }: Omit<Props, 'needs'>) {
+  const beside = useContext(Beside);
   return (
-    <AriaButton {...rest} className={[css.button, css[tone], iconOnly ? css.iconOnly : ''].join(' ')}>
+    <AriaButton {...rest} className={[css.button, css[tone === 'main' && beside ? 'plain' : tone], iconOnly ? css.iconOnly : ''].join(' ')}>
       {icon && <Icon name={icon} />}
       {!iconOnly && children && <span>{children}</span>}
     </AriaButton>

@@ -1,3 +1,7 @@
+import { useTranslation } from 'react-i18next';
+
+import { useLive } from '@/live/store';
+
 import css from './panel.module.css';
 
 interface Props {
@@ -43,4 +47,11 @@ export function Empty({ title, children }: { title: string; children?: React.Rea
       {children}
     </div>
   );
+}
+
+/** What a part shows until it knows what there is; without a connection, that there is none. */
+export function Loading() {
+  const { t } = useTranslation('common');
+  const lost = useLive((live) => live.connection === 'lost');
+  return <Empty title={lost ? t('offline') : t('loading')} />;
 }

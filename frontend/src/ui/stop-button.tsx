@@ -14,7 +14,7 @@ export function StopButton() {
   const stop = useStopping((state) => state.stop);
   const several = names.length > 1;
   return (
-    <div className={css.group}>
+    <div className={css.group} data-stops>
       <button type="button" className={css.stop} title={t('help')} onClick={() => void stop([])}>
         <Icon name="octagon" size={22} />
         <span>{several ? t('stopAll') : t('stop')}</span>

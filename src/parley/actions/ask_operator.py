@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from collections.abc import Sequence
 from dataclasses import dataclass
 from typing import Final
 
@@ -17,11 +18,23 @@ __all__ = ["ATTEMPTS", "Answer", "ask_operator"]
 ATTEMPTS: Final = 3
 """How often the question is put before not being understood counts as a failure."""
 
+_CANNOT: Final = "I can't"
+_HANDED: Final = (("put ", " on me and tell me", "It is on you"), ("", " tell me when", "It is done"))
+"""What a request asks for, how it ends, and what says that it is met."""
+
+
+def _offers(question: str) -> Sequence[str]:
+    """What can be tapped for an answer: that it is done, or not; an open question has nothing."""
+    done = next((said for asks, ends, said in _HANDED if asks in question and ends in question), "")
+    return (done, _CANNOT) if done else ()
+
 
 async def _reading(ctx: ActionContext, question: str, reply: str) -> str:
     """How an answer is meant. A literal yes or no is read by code, and no engine turns a no into a yes."""
     if calls_to_stop(reply):
         return "control"
+    if reply in _offers(question):
+        return "no" if reply == _CANNOT else "yes"
     literal = assent_of(reply, (ctx.actor,))
     if literal is not None:
         return "yes" if literal else "no"
@@ -52,7 +65,7 @@ async def ask_operator(ctx: ActionContext, question: str) -> Answer:
     """
     asked, unclear = question, 0
     while unclear < ATTEMPTS:
-        reply = await ctx.operator.ask(asked)
+        reply = await ctx.operator.ask(asked, _offers(question))
         if ctx.run.paused and control_of(reply) == "start":
             asked = question  # that was for the plan; the question is still open
             continue

@@ -37,6 +37,7 @@ from parley.messages.topics import Topic
 from parley.messages.wire import decode, decode_plan, to_string
 from parley.sentences import SpokenLanguage, in_language, sentence
 from parley.transport.base import Handler, Publisher, Subscription, Transport
+from parley.transport.losses import Losses
 
 __all__ = ["Mailboxes", "Node"]
 
@@ -106,14 +107,10 @@ class Node:
             depth: How many may wait; of more the oldest are lost.
             in_charge: Whether a person would miss what is lost here: then it is said.
         """
-        ends: list[Subscription] = []
-        lost = 0
+        losses = Losses(self._tell_lost)
 
         async def receive(message: String) -> None:
-            nonlocal lost
-            before, lost = lost, sum(end.dropped for end in ends)
-            if in_charge and lost.bit_length() > before.bit_length():  # 1, 2, 4, ...: a flood makes no flood
-                self._tell_lost(lost)
+            losses.look()
             try:
                 payload = decode(kind, message.data)
             except InvalidMessageError as error:
@@ -123,8 +120,10 @@ class Node:
             if inspect.isawaitable(answer):
                 await answer
 
-        ends.append(await self.subscribe_raw(topic, receive, depth=depth))
-        return ends[0]
+        subscription = await self.subscribe_raw(topic, receive, depth=depth)
+        if in_charge:
+            losses.watch(subscription)
+        return subscription
 
     def _tell_lost(self, count: int) -> None:
         text = sentence(

@@ -107,7 +107,7 @@ class MemoryNode(Node):
     async def _remove(self, name: str, scope: str | None, by: Principal | None) -> MemoryEvent:
         known = [entry for entry in await self._store.named(name) if scope in (None, entry.scope)]
         if not all(may_forget(entry, by) for entry in known):
-            said = sentence("a person told me {name}, and only a person has me forget it", name=name)
+            said = sentence("only a person, or a program with a key, has me forget {name}", name=name)
             return MemoryEvent(kind="failed", name=name, scope=scope or "", message=said)
         if await self._store.remove(name, scope=scope):
             return MemoryEvent(kind="removed", name=name, scope=scope or "")

@@ -69,7 +69,7 @@ class OpenQuestions:
 
         The named question counts first; then the robot that is called by name; then the robots that the
         message is for; last, if it is for nobody, the only one that waits. Of several questions of a robot
-        the oldest is meant.
+        the newest is meant.
         """
         if said.type != "response":
             return []
@@ -84,12 +84,12 @@ class OpenQuestions:
         chosen = [key for key in waits if _calls(said.message, self._names[key])]
         if not chosen:
             chosen = [key for key in waits if key in keys] if keys else waits if len(waits) == 1 else []
-        return [(self._names[key], self._open[key][0]) for key in chosen]
+        return [(self._names[key], self._open[key][-1]) for key in chosen]
 
-    def first(self, target: str) -> ChatFeedback | None:
-        """The question of a robot that waits longest, or None."""
+    def newest(self, target: str) -> ChatFeedback | None:
+        """The question of a robot that an answer is taken for: the one that was shown last, or None."""
         waiting = self._open.get(_key(target))
-        return waiting[0] if waiting else None
+        return waiting[-1] if waiting else None
 
     def robots(self) -> list[str]:
         """The robots that wait for an answer."""

@@ -152,7 +152,7 @@ class Parley:
 
     def question(self, robot: str) -> ChatFeedback | None:
         """What a robot asks and waits for, oldest first; None: nothing."""
-        return self._listener.questions.first(self._named(robot))
+        return self._listener.questions.newest(self._named(robot))
 
     def proposal(self, robot: str) -> PlanProposal | None:
         """What a robot proposed last and waits to be approved; None: nothing."""

@@ -77,7 +77,7 @@ class Observer(Node):
 
     def say(self, text: str, robot: str, *, answer: bool = False) -> None:
         """Speak as the operator; `answer` marks it as the answer to the robot's open question."""
-        question = self.questions.first(robot) if answer else None
+        question = self.questions.newest(robot) if answer else None
         said = ChatInput(
             message=text,
             targets=(robot,),

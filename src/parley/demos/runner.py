@@ -214,10 +214,10 @@ class _Player:
         observer = self._observer
 
         def over() -> bool:
-            return observer.questions.first(self._robot) is not None or self._idle()
+            return observer.questions.newest(self._robot) is not None or self._idle()
 
         await self._wait(over, "a question")
-        question = observer.questions.first(self._robot)
+        question = observer.questions.newest(self._robot)
         if question is None:
             raise StoryBroken(self._last_failure() or "not_asked", "the plan ended and nothing was asked")
         return question
@@ -225,7 +225,7 @@ class _Player:
     async def _answer_stubbornly(self, answer: str) -> None:
         """Give the same answer to everything until the robot asks no more."""
         for _ in range(20):
-            question = self._observer.questions.first(self._robot)
+            question = self._observer.questions.newest(self._robot)
             if question is None:
                 break
             self._observer.say(answer, self._robot, answer=True)
@@ -235,8 +235,10 @@ class _Player:
 
     async def _finish(self, expected: Finished) -> None:
         observer = self._observer
-        await self._wait(lambda: self._idle() or observer.questions.first(self._robot) is not None, "the end")
-        question = observer.questions.first(self._robot)
+        await self._wait(
+            lambda: self._idle() or observer.questions.newest(self._robot) is not None, "the end"
+        )
+        question = observer.questions.newest(self._robot)
         if question is not None:
             raise StoryBroken(self._last_failure() or "other_question", f"asked “{question.message}”")
         states = [step.state for step in observer.plans[self._robot].steps]

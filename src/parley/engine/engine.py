@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import asyncio
-from collections.abc import Callable, Generator, Mapping, Sequence
+from collections.abc import Callable, Mapping, Sequence
 from contextlib import AsyncExitStack, nullcontext
 from types import TracebackType
 from typing import Any, Self, TypeVar
@@ -42,9 +42,9 @@ from parley.robots.base import Robot
 from parley.transport.base import Publisher, Subscription, Transport
 from parley.umrf.action import RunHandle
 from parley.umrf.catalogue import Catalogue, info_of
-from parley.umrf.check import reasons, vouch_steps
+from parley.umrf.check import reasons
 from parley.umrf.executor import STOP_TIMEOUT_S, GraphRun
-from parley.umrf.io import read_steps, write_descriptor, write_graph
+from parley.umrf.io import read_loaded, write_descriptor, write_graph
 from parley.umrf.model import Graph, Result
 from parley.umrf.motion import Motions
 from parley.umrf.node_run import NodeRun
@@ -69,8 +69,6 @@ Admit = Callable[[ActionInfo, Mapping[str, Any]], None]
 C = TypeVar("C")
 P = TypeVar("P", bound=BaseModel)
 Raw = Mapping[str, Any]
-Steps = Generator[None, None, None]
-"""Work that yields where something else may have a turn."""
 
 SOURCE = "action_engine"
 COMMAND_DEPTH = 1000
@@ -299,13 +297,9 @@ class ActionEngine:
             self._light(what, message.umrf_graph_name, lambda: command(message))
 
     def _light(self, what: str, name: str, command: Callable[[], None]) -> None:
-        def work() -> Steps:
-            command()
-            yield from ()
+        self._inbox.put(name, lambda: self._told(what, name, command), light=True)
 
-        self._inbox.put(name, lambda: self._told(what, name, work()), light=True)
-
-    def _heavy_command(self, what: str, message: M, text: str, command: Callable[[M, Raw], Steps]) -> None:
+    def _heavy_command(self, what: str, message: M, text: str, command: Callable[[M, Raw], None]) -> None:
         """As `_command`, for one that brings a graph, which may be large."""
         if self._names.isdisjoint(message.targets):
             return
@@ -315,12 +309,14 @@ class ActionEngine:
             self._reject(what, message.umrf_graph_name, error.problems)
             return
         name = str(raw.get("graph_name") or message.umrf_graph_name)
-        self._inbox.put(name, lambda: self._told(what, message.umrf_graph_name, command(message, raw)))
+        self._inbox.put(
+            name, lambda: self._told(what, message.umrf_graph_name, lambda: command(message, raw))
+        )
 
-    def _told(self, what: str, name: str, steps: Steps) -> Steps:
-        """Do all `steps`, and say so if the command is refused."""
+    def _told(self, what: str, name: str, command: Callable[[], None]) -> None:
+        """Carry out `command`, and say so if it is refused."""
         try:
-            yield from steps
+            command()
         except GraphRefusedError as error:
             problems = reasons(error, self._catalogue, actor=self.actor)
             self._reject(what, error.graph_name or name, problems)
@@ -354,25 +350,16 @@ class ActionEngine:
             raise GraphRefusedError(left.graph.name, [problem])
         self.runs.restore(left.saved)
 
-    def _start(self, message: ros.UmrfGraphStart, raw: Raw) -> Steps:
+    def _start(self, message: ros.UmrfGraphStart, raw: Raw) -> None:
         if not message.umrf_graph_json:
             self.start(message.umrf_graph_name)
             return
-        graph = yield from read_steps(raw)
-        catalogue = self.runs.catalogue
-        revision = catalogue.revision
-        fit = yield from vouch_steps(graph, catalogue, actor=self.actor)
-        if fit and catalogue.revision == revision:
-            catalogue.vouched_for = graph
-        journal = self._journal
-        try:
-            with journal.read_from(graph.name, message.umrf_graph_json) if journal else nullcontext():
-                self.start(graph)
-        finally:
-            catalogue.vouched_for = None
+        graph, journal = read_loaded(raw), self._journal
+        with journal.read_from(graph.name, message.umrf_graph_json) if journal else nullcontext():
+            self.start(graph)
 
-    def _modify(self, message: ros.UmrfGraphModify, raw: Raw) -> Steps:
-        graph = yield from read_steps(raw)
+    def _modify(self, message: ros.UmrfGraphModify, raw: Raw) -> None:
+        graph = read_loaded(raw)
         if message.continue_from:
             self._together.check(graph.name)
         self._together.modify(graph, message.modified_graph, message.continue_from, message.targets)

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import asyncio
 from collections import Counter, deque
-from collections.abc import Callable, Generator
+from collections.abc import Callable
 from typing import Final
 
 import structlog
@@ -13,36 +13,34 @@ __all__ = ["Inbox", "Work"]
 
 log = structlog.get_logger(__name__)
 
-Work = Callable[[], Generator[None, None, None]]
-"""Carries out one command; yields where others may have a turn."""
-
+Work = Callable[[], None]
+"""Carries out one command."""
 
 TURN_S: Final = 0.002
 """Wall time in a turn of the loop after which no more is begun in it."""
 
 
 class Inbox:
-    """Slices of work for `TURN_S` per turn of the loop, and at least one.
+    """Commands for `TURN_S` per turn of the loop, and at least one.
 
     Commands for the same graph keep their order. A light one for a graph that nothing waits for is carried
     out at once, so it overtakes heavy ones for other graphs.
     """
 
     def __init__(self) -> None:
-        self._waiting: deque[tuple[str, Generator[None, None, None]]] = deque()
+        self._waiting: deque[tuple[str, Work]] = deque()
         self._names: Counter[str] = Counter()
         self._turn: asyncio.Handle | None = None
 
     def put(self, name: str, work: Work, *, light: bool = False) -> None:
         """Carry out `work` on the graph of that name, now or later; it tells its own errors."""
         if light and not self._names[name]:
-            for _ in work():
-                pass
+            work()
             return
-        self._waiting.append((name, work()))
+        self._waiting.append((name, work))
         self._names[name] += 1
         if self._turn is None:
-            self._slice()
+            self._take_turn()
 
     def close(self) -> None:
         """Drop what waits."""
@@ -51,31 +49,25 @@ class Inbox:
         self._waiting.clear()
         self._names.clear()
 
-    def _slice(self) -> None:
+    def _take_turn(self) -> None:
         """Do what this turn has time for; it is used up even if nothing is left, as more may come in it."""
         self._turn = None
         if not self._waiting:
             return
         loop = asyncio.get_running_loop()
         until_s = loop.time() + TURN_S
-        self._turn = loop.call_soon(self._slice)
+        self._turn = loop.call_soon(self._take_turn)
         self._step()
         while self._waiting and loop.time() < until_s:
             self._step()
 
     def _step(self) -> None:
-        name, work = self._waiting[0]
+        name, work = self._waiting.popleft()
         try:
-            next(work)
-        except StopIteration:
-            self._done(name)
+            work()
         except Exception:
             # The border of the engine: a defect in one command must not silence the others, but must be seen.
             log.exception("command failed", graph=name)
-            self._done(name)
-
-    def _done(self, name: str) -> None:
-        self._waiting.popleft()
         self._names[name] -= 1
         if not self._names[name]:
             del self._names[name]

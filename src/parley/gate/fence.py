@@ -13,6 +13,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from parley.gate.book import RuleBook
+from parley.gate.judge import Finding
 from parley.gate.ways import with_walls
 from parley.gate.wording import hours_text, zone_text
 from parley.messages.rules import Rule
@@ -64,29 +65,33 @@ class Fence:
     def _radius_m(self) -> float:
         return self._book.facts(self._robot).radius_m
 
-    def why_closed(self, goal: Pose2D) -> str:
-        """Which rule keeps the robot out of a place, in words; empty if it may be there."""
+    def why_closed(self, goal: Pose2D) -> Finding | None:
+        """Which rule keeps the robot out of a place; None if it may be there."""
         for rule in self._closed():
             if self._book.shape(rule).distance_to(goal.x_m, goal.y_m) < self._radius_m:
-                return sentence(
+                said = sentence(
                     "I must not go into {zone}{hours}.", zone=zone_text(rule), hours=hours_text(rule.when)
                 )
-        return ""
+                return Finding(-1, rule.id, "zone_entered", said)
+        return None
 
-    def why_no_way(self, occupancy: OccupancyMap, start: Pose2D, goal: Pose2D, radius_m: float) -> str:
-        """Which rule leaves no way to a goal, in words; empty if there is none without the rules either."""
+    def why_no_way(
+        self, occupancy: OccupancyMap, start: Pose2D, goal: Pose2D, radius_m: float
+    ) -> Finding | None:
+        """Which rule leaves no way to a goal; None if there is none without the rules either."""
         try:
             way = plan_path(occupancy, start, goal, radius_m=radius_m).points_m
         except NoPathError:
-            return ""
+            return None
         for rule in self._closed():
             if (self._book.shape(rule).distance_m(way) < radius_m).any():
-                return sentence(
+                said = sentence(
                     "The only way there leads through {zone}, where I must not go{hours}.",
                     zone=zone_text(rule),
                     hours=hours_text(rule.when),
                 )
-        return ""
+                return Finding(-1, rule.id, "zone_on_way", said)
+        return None
 
     def limit(
         self, pose: Pose2D, measured: tuple[float, float], command: tuple[float, float]

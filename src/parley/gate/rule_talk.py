@@ -19,10 +19,10 @@ from parley.latest import Latest
 from parley.messages.principal import Principal
 from parley.messages.rules import Rule
 from parley.messages.status import ActionInfo
-from parley.sentences import in_language, sentence, together
+from parley.sentences import in_language, listed, sentence, together
 from parley.world.object_map import MapObject
 
-__all__ = ["RuleConfirmations", "RuleReply", "RuleTalk"]
+__all__ = ["Listener", "RuleConfirmations", "RuleReply", "RuleTalk"]
 
 _KEPT: Final = 100
 _SHORT: Final = 2
@@ -41,6 +41,38 @@ _DROP: Final = re.compile(
 )
 
 
+_INSIST: Final = re.compile(
+    r"\b(?:anyway|anyhow|all the same|regardless|nevertheless|nonetheless|even so|ikka|ikkagi|siiski)\b"
+    r"|\b(?:ignore|override|overrule|disregard|break|bypass|eira) (?:(?:the|that|this|your|seda) )?"
+    r"(?:rules?|reeglit)\b"
+)
+_NAMES_NOTHING: Final = frozenset({
+    "yes", "no", "but", "ok", "okay", "well", "just", "please", "then", "still", "you", "i", "say",
+    "said", "can", "may", "do", "go", "drive", "move", "try", "proceed", "carry", "on", "in",
+    "into", "through", "ahead", "and", "it", "that", "so", "there", "now", "once", "this", "time",
+    "anyway", "anyhow", "all", "the", "same", "regardless", "nevertheless", "nonetheless", "even",
+    "ignore", "override", "overrule", "disregard", "break", "bypass", "your", "rule", "rules",
+    "ikka", "ikkagi", "siiski", "tee", "mine", "sõida", "palun", "sinna", "seda", "aga", "jah",
+    "eira", "reeglit",
+})  # fmt: skip
+"""Of such words is made what wants just what was refused."""
+
+
+@dataclass(frozen=True, slots=True)
+class Listener:
+    """The robot that is spoken to, and what words about rules can mean to it."""
+
+    robot: str
+    robots: Sequence[str]
+    """All robots."""
+    places: Sequence[MapObject] = ()
+    """What is on the map."""
+    catalogue: Sequence[ActionInfo] = ()
+    """What it can do."""
+    busy: bool = True
+    """Whether it has something to do: then "don't go there" is about that."""
+
+
 @dataclass(frozen=True, slots=True)
 class RuleReply:
     """What is said to the person."""
@@ -51,14 +83,24 @@ class RuleReply:
     choices: tuple[str, ...] = ()
     closes: str = ""
     """The question that is settled by it."""
+    stands: tuple[str, ...] = ()
+    """Robots that stand still while it is open, so that nothing happens that the answer would forbid."""
 
 
 @dataclass(frozen=True, slots=True)
 class _Pending:
-    """A change that waits for a yes: what each choice would put in force, None to drop `drops`."""
+    """A change that waits for a yes: what each choice would put in force, or drop."""
 
+    text: str
     choices: tuple[tuple[str, Rule], ...]
+    robot: str
     drops: bool = False
+    stands: tuple[str, ...] = ()
+
+    @property
+    def shown(self) -> Rule | None:
+        """What a plain yes means: what the question says, or the only choice."""
+        return None if self.drops and len(self.choices) > 1 else self.choices[0][1]
 
 
 class RuleConfirmations:
@@ -71,25 +113,48 @@ class RuleConfirmations:
         """Whether this question is one of ours."""
         return question in self._waiting
 
-    def rules(self, question: str) -> tuple[Rule, ...]:
-        """What is asked about."""
-        pending = self._waiting.get(question)
-        return tuple(rule for _, rule in pending.choices) if pending is not None else ()
+    def of(self, robot: str) -> tuple[str, str]:
+        """The question for whose answer a robot stands, and who asks it; empty if there is none."""
+        found = ((key, item.robot) for key, item in self._waiting.items() if robot in item.stands)
+        return next(found, ("", ""))
 
-    def put(self, text: str, rules: Sequence[Rule], *, drops: bool = False) -> RuleReply:
-        """Ask about a change; the first of `rules` is meant by a plain yes if it is the only one."""
+    def about(self, rule: Rule) -> tuple[str, str]:
+        """The question about making a rule, and the robot that asks it; empty if nobody asks."""
+        for question, pending in self._waiting.items():
+            if not pending.drops and _same(pending.choices[0][1], rule):
+                return question, pending.robot
+        return "", ""
+
+    def closing(self, rules: Sequence[Rule]) -> str:
+        """A question whether to close what such rules close; empty if there is none."""
+        return next((key for key, item in self._waiting.items() if item.choices[0][1] in rules), "")
+
+    @property
+    def proposed(self) -> tuple[Rule, ...]:
+        """What a yes would make a rule."""
+        return tuple(item.choices[0][1] for item in self._waiting.values() if not item.drops)
+
+    def put(
+        self, text: str, rules: Sequence[Rule], robot: str, *, drops: bool = False, stands: Sequence[str] = ()
+    ) -> RuleReply:
+        """Ask about a change, or which rule to drop; of several to make, the text says the first."""
         labels = [sentence("yes") if len(rules) == 1 else rule_text(rule) for rule in rules]
-        return self._asked(text, _Pending(tuple(zip(labels, rules, strict=True)), drops))
+        choices = tuple(zip(labels, rules, strict=True))
+        return self._asked(_Pending(text, choices, robot, drops, tuple(stands)))
 
-    def again(self, question: str) -> RuleReply:
-        """Ask once more what was not answered clearly."""
-        text = sentence("Please answer with one of the choices, or with no.")
-        return replace(self._asked(text, self._waiting.pop(question)), closes=question)
+    def again(self, question: str, text: str = "") -> RuleReply:
+        """Ask once more what was not answered, perhaps in other words."""
+        return replace(self._asked(self._waiting.pop(question), text), closes=question)
 
-    def _asked(self, text: str, pending: _Pending) -> RuleReply:
+    def withdraw(self, question: str) -> None:
+        """Ask no more."""
+        self._waiting.pop(question, None)
+
+    def _asked(self, pending: _Pending, text: str = "") -> RuleReply:
         question = uuid.uuid4().hex
         self._waiting[question] = pending
-        return RuleReply(text, question, (*(label for label, _ in pending.choices), sentence("no")))
+        choices = (*(label for label, _ in pending.choices), sentence("no"))
+        return RuleReply(text or pending.text, question, choices, stands=pending.stands)
 
     def answered(self, question: str, text: str) -> tuple[Rule | None, bool] | None:
         """The rule that was said yes to (None after a no), and whether it is to be dropped; None: unclear."""
@@ -100,8 +165,8 @@ class RuleConfirmations:
         if chosen is None and said.isdigit() and 0 < int(said) <= len(pending.choices):
             chosen = pending.choices[int(said) - 1][1]
         literal = True if said in _YES else False if said in _NO else assent_of(text)
-        if chosen is None and literal and len(pending.choices) == 1:
-            chosen = pending.choices[0][1]
+        if chosen is None and literal:
+            chosen = pending.shown
         if chosen is None and literal is not False:
             return None
         del self._waiting[question]
@@ -127,34 +192,37 @@ class RuleTalk:
     def __init__(self, book: RuleBook, keeper: RuleKeeper) -> None:
         self._book, self._keeper = book, keeper
         self._confirmations = RuleConfirmations()
+        self._refused: Latest[str, tuple[str, ...]] = Latest()
+        """By which rules what a robot was told last was refused."""
+
+    @property
+    def has_rules(self) -> bool:
+        """Whether any rule is in force."""
+        return self._book.has_rules
 
     def asked(self, question: str) -> bool:
         """Whether this question is one of ours."""
         return self._confirmations.asked(question)
 
-    async def reply(
-        self,
-        text: str,
-        by: Principal,
-        *,
-        robot: str,
-        robots: Sequence[str],
-        places: Sequence[MapObject],
-        catalogue: Sequence[ActionInfo],
-        answers: str = "",
-        busy: bool = True,
-    ) -> RuleReply | None:
+    def concerns(self, text: str, to: Listener) -> bool:
+        """Whether words are about rules, whatever else is asked at the moment."""
+        said = _plain(text).rstrip("?")
+        return bool(
+            _LIST.match(said)
+            or _DROP.match(said)
+            or self._closing(lifted_place(text), self._all)
+            or self._told(text, to) is not None
+            or self._insisted(said, to.robot)
+        )
+
+    async def reply(self, text: str, by: Principal, to: Listener, *, answers: str = "") -> RuleReply | None:
         """What to say to a message that is about rules; None for every other message.
 
         Args:
             text: What was said.
             by: Who says it.
-            robot: Who is spoken to.
-            robots: All robots.
-            places: What is on the map.
-            catalogue: What the robot can do.
+            to: Who is spoken to.
             answers: The question that it answers, if it does.
-            busy: Whether the robot has something to do.
         """
         if answers and self.asked(answers):
             reply = await self._answer(answers, text, by)
@@ -164,32 +232,69 @@ class RuleTalk:
         if _LIST.match(said):
             return RuleReply(self._listed())
         if found := _DROP.match(said):
-            return self._drop(found["about"] or found["kohta"] or "", by)
-        if (place := lifted_place(text)) and (lifted := await self._lift(place, by)) is not None:
+            return self._drop(found["about"] or found["kohta"] or "", by, to)
+        if (place := lifted_place(text)) and (lifted := self._lift(place, by, to)) is not None:
             return lifted
-        told = told_rule(
-            text, places=places, catalogue=catalogue, robots=robots, robot=robot, busy=busy,
-            zones=self._book.rules.rules,
-        )  # fmt: skip
+        told = self._told(text, to)
+        if told is None and (refused := self._insisted(said, to.robot)):
+            return RuleReply(_insisted_text(refused))
         if told is None:
             return None
         if not _may(by):
             return RuleReply(sentence("You may not change rules."))
         if isinstance(told, NotUnderstood):
             return RuleReply(told.sentence)
-        return self._proposed(told)
+        return self._proposed(told, to)
 
-    def _proposed(self, told: DraftRule) -> RuleReply:
-        at_once = told.rule.kind == "keep_out"
-        if at_once:  # it takes nothing away from anybody's safety
-            self._keeper.try_out(told.rule)
+    def refused(self, robot: str, rules: Sequence[str]) -> None:
+        """Hear by which rules what a robot was told is refused; by none, if it is done."""
+        self._refused[robot] = tuple(rules)
+
+    def _insisted(self, said: str, robot: str) -> list[Rule]:
+        """The rules past which somebody wants to go."""
+        if not _INSIST.search(said) or not set(re.findall(r"\w+", said)) <= _NAMES_NOTHING:
+            return []
+        found = (self._book.rules.get(name) for name in self._refused.get(robot, ()))
+        return [rule for rule in found if rule is not None]
+
+    def again(self, robot: str) -> RuleReply | None:
+        """The question for whose answer a robot stands, once more; None if there is none."""
+        question, asks = self._confirmations.of(robot)
+        if question and asks != robot:
+            return RuleReply(sentence("I will not drive before {robot} is told about the rule.", robot=asks))
+        return self._confirmations.again(question) if question else None
+
+    @property
+    def _all(self) -> tuple[Rule, ...]:
+        """The rules, and what is asked about."""
+        return (*self._book.rules.rules, *self._confirmations.proposed)
+
+    def _told(self, text: str, to: Listener) -> DraftRule | NotUnderstood | None:
+        return told_rule(
+            text, places=to.places, catalogue=to.catalogue, robots=to.robots, robot=to.robot, busy=to.busy,
+            zones=self._book.rules.rules,
+        )  # fmt: skip
+
+    def _proposed(self, told: DraftRule, to: Listener) -> RuleReply:
+        meant = (told.rule, *told.others)
+        known = next((rule for rule in self._book.rules.rules if any(_same(rule, x) for x in meant)), None)
+        if known is not None:
+            return RuleReply(sentence("That is already a rule: {rule}", rule=rule_text(known)))
+        question, robot = self._confirmations.about(told.rule)
+        if question and robot == to.robot:
+            return self._confirmations.again(question)
+        if question:
+            return RuleReply(sentence("{robot} asks you about this rule already.", robot=robot))
+        stands: Sequence[str] = ()
+        if told.rule.kind == "keep_out":  # nobody shall be where the yes would have closed it meanwhile
+            stands = told.rule.robots or to.robots
         shown = together(
             sentence("I understand this as a rule: {rule}", rule=rule_text(told.rule)),
             _area_text(told.rule),
-            sentence("I keep to it until you answer.") if at_once else "",
+            sentence("Until you answer, {robots} will not drive.", robots=listed(stands)) if stands else "",
             sentence("Shall it hold from now on?"),
         )
-        return self._confirmations.put(shown, (told.rule, *told.others))
+        return self._confirmations.put(shown, meant, to.robot, stands=stands)
 
     def _listed(self) -> str:
         rules = self._book.rules.rules
@@ -197,20 +302,24 @@ class RuleTalk:
             return sentence("There are no rules.")
         return together(*(rule_text(rule) for rule in rules))
 
-    async def _lift(self, place: str, by: Principal) -> RuleReply | None:
-        """A place is free again: what was only asked about holds no longer, a rule is dropped after a yes."""
+    def _closing(self, place: str, rules: Sequence[Rule]) -> list[Rule]:
+        """Those of some rules by which a place is closed."""
         words = set(re.findall(r"\w+", place))
-        rules = [rule for rule in self._book.rules.rules if rule.kind == "keep_out"]
-        fitting = [rule for rule in rules if words and words == set(re.findall(r"\w+", rule.name.casefold()))]
-        if not fitting or not _may(by):
-            return None
-        if not all(self._keeper.is_tried(rule.id) for rule in fitting):
-            return self._drop(place, by)
-        for rule in fitting:
-            self._keeper.let_go(rule.id)
-        return RuleReply(sentence("The rule does not hold any more."))
+        closing = [rule for rule in rules if rule.kind == "keep_out"]
+        return [rule for rule in closing if words and words == set(re.findall(r"\w+", rule.name.casefold()))]
 
-    def _drop(self, about: str, by: Principal) -> RuleReply:
+    def _lift(self, place: str, by: Principal, to: Listener) -> RuleReply | None:
+        """A place is free again: what was only asked is asked no more, a rule is dropped after a yes."""
+        if not _may(by):
+            return None
+        if self._closing(place, self._book.rules.rules):
+            return self._drop(place, by, to)
+        if question := self._confirmations.closing(self._closing(place, self._confirmations.proposed)):
+            self._confirmations.withdraw(question)
+            return RuleReply(sentence("All right, the rules stay as they are."), closes=question)
+        return None
+
+    def _drop(self, about: str, by: Principal, to: Listener) -> RuleReply:
         if not _may(by):
             return RuleReply(sentence("You may not change rules."))
         words = {word for word in re.findall(r"\w+", about) if word not in ("the", "a", "an")}
@@ -218,21 +327,20 @@ class RuleTalk:
         if not fitting:
             return RuleReply(sentence("There is no such rule."))
         if len(fitting) > 1:
-            return self._confirmations.put(sentence("Which rule shall be dropped?"), fitting, drops=True)
-        text = sentence("Shall I drop this rule: {rule}", rule=rule_text(fitting[0]))
-        return self._confirmations.put(text, fitting, drops=True)
+            text = sentence("Which rule shall be dropped?")
+        else:
+            text = sentence("Shall I drop this rule: {rule}", rule=rule_text(fitting[0]))
+        return self._confirmations.put(text, fitting, to.robot, drops=True)
 
     async def _answer(self, question: str, text: str, by: Principal) -> RuleReply | None:
         """What becomes of an answer; None if it is none, but something else that somebody wants."""
         if not _may(by):
             return RuleReply(sentence("You may not change rules."))
-        tried = self._confirmations.rules(question)
         answered = self._confirmations.answered(question, text)
         if answered is None:
-            return self._confirmations.again(question) if len(text.split()) <= _SHORT else None
+            unclear = sentence("Please answer with one of the choices, or with no.")
+            return self._confirmations.again(question, unclear) if len(text.split()) <= _SHORT else None
         rule, drops = answered
-        for other in tried if not drops else ():
-            self._keeper.let_go(other.id)
         if rule is None:
             return RuleReply(sentence("All right, the rules stay as they are."), closes=question)
         try:
@@ -248,8 +356,26 @@ class RuleTalk:
         )
 
 
+def _insisted_text(rules: Sequence[Rule]) -> str:
+    """Which rules are in the way, and who may change them."""
+    name = rules[0].name
+    words = f"drop the rule about {name}" if name else "drop the rule"
+    return together(
+        sentence("I do not go past a rule, whoever asks."),
+        *(rule_text(rule) for rule in rules),
+        sentence("Operators and supervisors may drop it: “{words}”.", words=words),
+        sentence("Supervisors also change it on the page Rules."),
+    )
+
+
 def _may(by: Principal) -> bool:
     return by.is_person and verdict(by, Effect.RULE) == "allow"
+
+
+def _same(one: Rule, other: Rule) -> bool:
+    """Whether two rules say the same, whoever told them in whichever words."""
+    said = {"id": "", "words": "", "by": ""}
+    return one.model_copy(update=said) == other.model_copy(update=said)
 
 
 def _words(rule: Rule) -> set[str]:

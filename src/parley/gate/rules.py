@@ -10,7 +10,6 @@ import asyncio
 import os
 import tempfile
 import textwrap
-from collections.abc import Sequence
 from dataclasses import dataclass
 from itertools import pairwise
 from pathlib import Path
@@ -115,7 +114,6 @@ class RuleKeeper:
     def __init__(self, book: RuleBook, path: Path | None = None) -> None:
         self._book, self._path = book, path
         self._saving = asyncio.Lock()
-        self._tried: dict[str, Rule] = {}
         self._written = _Written("", RuleSet())
         if path is not None and path.exists():
             text = read_text(path)
@@ -127,30 +125,6 @@ class RuleKeeper:
         """Where the rules are kept."""
         return self._path
 
-    def try_out(self, rule: Rule) -> None:
-        """Let a rule hold that is not kept: until it is put, dropped, or the process ends."""
-        kept = self._kept()
-        self._tried[rule.id] = rule
-        self._book.replace(self._with_tried(kept))
-
-    def let_go(self, rule_id: str) -> bool:
-        """Drop a rule that is only tried; whether there was one."""
-        kept = self._kept()
-        if self._tried.pop(rule_id, None) is None:
-            return False
-        self._book.replace(self._with_tried(kept))
-        return True
-
-    def is_tried(self, rule_id: str) -> bool:
-        """Whether a rule holds without being kept."""
-        return rule_id in self._tried
-
-    def _kept(self) -> list[Rule]:
-        return [rule for rule in self._book.rules.rules if rule.id not in self._tried]
-
-    def _with_tried(self, rules: Sequence[Rule]) -> RuleSet:
-        return self._book.rules.model_copy(update={"rules": (*rules, *self._tried.values())})
-
     async def put(self, rule: Rule) -> None:
         """Add a rule, or replace the one of its id; it is on the disk when this returns.
 
@@ -158,9 +132,8 @@ class RuleKeeper:
             ConfigError: The file cannot be written, or was changed by somebody else.
         """
         async with self._saving:
-            rules, known = self._kept(), self._book.rules.get(rule.id)
-            self._tried.pop(rule.id, None)
-            if known is None or known not in rules:
+            rules, known = list(self._book.rules.rules), self._book.rules.get(rule.id)
+            if known is None:
                 rules.append(rule)
             else:
                 rules[rules.index(known)] = rule
@@ -174,8 +147,8 @@ class RuleKeeper:
         """
         async with self._saving:
             known = self._book.rules.get(rule_id)
-            if known is not None and not self.let_go(rule_id):
-                await self._save([rule for rule in self._kept() if rule is not known])
+            if known is not None:
+                await self._save([rule for rule in self._book.rules.rules if rule is not known])
             return known
 
     async def _save(self, rules: list[Rule]) -> None:
@@ -184,7 +157,7 @@ class RuleKeeper:
             text = with_rules(self._written.text, self._written.rules, after)
             await asyncio.to_thread(_write, self._path, self._written.text, text)
             self._written = _Written(text, after)
-        self._book.replace(self._with_tried(after.rules))
+        self._book.replace(after)
 
 
 def _write(path: Path, before: str, text: str) -> None:

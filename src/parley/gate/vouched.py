@@ -25,5 +25,5 @@ def vouched(entry: MemoryEntry, by: Principal | None) -> MemoryEntry:
 
 
 def may_forget(entry: MemoryEntry, by: Principal | None) -> bool:
-    """Whether somebody may have a memory forgotten; of what no person told anybody may."""
-    return entry.way != "told" or verdict(by, Effect.FORGET) == "allow"
+    """Whether somebody may have a memory forgotten; what is only a program's word any program takes back."""
+    return entry.way == "" or verdict(by, Effect.FORGET) == "allow"

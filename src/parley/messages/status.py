@@ -222,6 +222,8 @@ class PlanRuling(Payload):
     """What would be done, as people read it, in words that our code wrote."""
     why: str = ""
     """Why it is asked or refused, in plain words."""
+    rules: tuple[str, ...] = ()
+    """The rules that forbid it; also told, with an empty `order`, of what nobody gave an id."""
 
 
 class PlanDecision(Payload):

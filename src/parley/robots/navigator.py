@@ -130,8 +130,9 @@ class Navigator:
         """Plan around what was seen; without a way, stand and look again for a while before giving up."""
         waited_s = 0.0
         while True:
-            if self._fence is not None and (said := self._fence.why_closed(goal)):
-                raise ActionFailure(FailureCode.FORBIDDEN, said, {"goal": _xy(goal.x_m, goal.y_m)})
+            if self._fence is not None and (closed := self._fence.why_closed(goal)):
+                details = {"goal": _xy(goal.x_m, goal.y_m), "rule": closed.rule}
+                raise ActionFailure(FailureCode.FORBIDDEN, closed.sentence, details)
             try:
                 return await self._plan(goal)
             except NoPathError as error:
@@ -157,9 +158,9 @@ class Navigator:
         if self._fence is not None:
             start, radius_m = self._vehicle.pose(), self._vehicle.radius_m + _PLAN_MARGIN_M
             with self._clock.hold():
-                said = await asyncio.to_thread(self._fence.why_no_way, self._map, start, goal, radius_m)
-            if said:
-                return ActionFailure(FailureCode.FORBIDDEN, said, at)
+                found = await asyncio.to_thread(self._fence.why_no_way, self._map, start, goal, radius_m)
+            if found:
+                return ActionFailure(FailureCode.FORBIDDEN, found.sentence, {**at, "rule": found.rule})
         text = f"I know no way to ({goal.x_m:.1f}, {goal.y_m:.1f}) on my map."
         return ActionFailure(FailureCode.UNREACHABLE, text, at)
 

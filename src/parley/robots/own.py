@@ -197,8 +197,8 @@ class RobotBase(ABC):
         fence = self._fence
         if fence is None or type(self).go is RobotBase.go:  # whose commands all pass the fence
             return await self.go(goal, control, timeout_s=timeout_s)
-        if said := fence.why_closed(goal):
-            raise ActionFailure(FailureCode.FORBIDDEN, said)
+        if closed := fence.why_closed(goal):
+            raise ActionFailure(FailureCode.FORBIDDEN, closed.sentence, {"rule": closed.rule})
         drive = asyncio.ensure_future(self.go(goal, control, timeout_s=timeout_s))
         try:
             while not drive.done():

@@ -42,9 +42,6 @@ class Catalogue:
     def __init__(self, specs: Iterable[ActionSpec] = (), graphs: Iterable[Graph] = ()) -> None:
         self.capabilities: frozenset[str] | None = None
         """What the robot has; None if that is not known, and then nothing is asked of it."""
-        self.vouched_for: Graph | None = None
-        """A graph that was just found to be fit to run, so that it is not checked again at once."""
-        self._revisions: list[int] = [0]
         self._specs: dict[str, ActionSpec] = {}
         self._graphs: dict[str, Graph] = {}
         self._told: list[tuple[ActionInfo, ...]] = []
@@ -60,12 +57,6 @@ class Catalogue:
             cast("dict[str, Any]", kept).clear()
             cast("dict[str, Any]", kept).update(found)
         self._told.clear()
-        self._revisions[0] += 1
-
-    @property
-    def revision(self) -> int:
-        """Another one after each `replace`."""
-        return self._revisions[0]
 
     def for_robot(self, capabilities: Iterable[str]) -> Self:
         """The same catalogue, changes to come included, as it is for a robot with these capabilities."""

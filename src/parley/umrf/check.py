@@ -7,7 +7,7 @@ runs without waiting for something that nobody will give.
 from __future__ import annotations
 
 from collections import Counter
-from collections.abc import Callable, Collection, Generator, Iterable, Iterator, Sequence
+from collections.abc import Callable, Collection, Iterable, Iterator, Sequence
 from dataclasses import replace
 from typing import Final
 
@@ -28,9 +28,8 @@ from parley.umrf.model import (
     Response,
     Result,
 )
-from parley.umrf.reading import SLICE
 
-__all__ = ["check", "reasons", "vouch_steps"]
+__all__ = ["check", "reasons"]
 
 MAX_LEVELS: Final = 30
 """How many graphs may be inside of each other."""
@@ -57,8 +56,7 @@ def check(
             need is known to their own engines alone.
         given: Names of the parameters that the start brings.
     """
-    steps = _Checker(graph, catalogue, actor, known_actors, given).problems()
-    return [problem for problem in steps if problem is not None]
+    return list(_Checker(graph, catalogue, actor, known_actors, given).problems())
 
 
 def reasons(error: GraphRefusedError, catalogue: Catalogue, *, actor: str = "") -> list[Problem]:
@@ -74,18 +72,6 @@ def reasons(error: GraphRefusedError, catalogue: Catalogue, *, actor: str = "") 
         further = check(error.readable, catalogue, actor=actor, known_actors=actors)
         problems += [item for item in further if item.code in _OF_NAMES and item.path not in places]
     return problems
-
-
-def vouch_steps(graph: Graph, catalogue: Catalogue, *, actor: str) -> Generator[None, None, bool]:
-    """Check a graph as `check` does, yielding now and then; whether it can run.
-
-    It no longer counts if the catalogue has changed since: see `Catalogue.revision`.
-    """
-    for problem in _Checker(graph, catalogue, actor, (), ()).problems():
-        if problem is not None:
-            return False
-        yield
-    return True
 
 
 class _Checker:
@@ -110,12 +96,10 @@ class _Checker:
         self.children = {ref: {c.node: c for c in node.children} for ref, node in self.nodes.items()}
         self.parents = {ref: {p.node for p in node.parents} for ref, node in self.nodes.items()}
 
-    def problems(self) -> Iterator[Problem | None]:
-        """Each problem, and now and then None for those who do something else in between."""
+    def problems(self) -> Iterator[Problem]:
+        """Each problem."""
         yield from self._names()
         for index, node in enumerate(self.graph.nodes):
-            if index % SLICE == SLICE - 1:
-                yield None
             path = f"actions[{index}]"
             yield from self._relations(node, path)
             yield from self._action(node, path)
@@ -254,7 +238,7 @@ class _Checker:
                 self.inside,
                 self.levels,
             )
-            for problem in filter(None, inner.problems()):
+            for problem in inner.problems():
                 yield replace(problem, path=f"{path}.{spec.name}.{problem.path}")
             known = (self.levels.get(item.name, -1) for item in spec.graph.nodes)
             self.levels[name] = 1 + max(known, default=-1)

@@ -110,8 +110,8 @@ class GraphRun:
         self._make_inner: Callable[..., GraphRun] = make_inner or functools.partial(
             like_this, stop_timeout_s=stop_timeout_s, peers=peers
         )
-        self._inner: dict[str, GraphRun] = {}
-        """Node -> the newest run of the graph behind it, also if that has ended and left an action behind."""
+        self._inner: list[GraphRun] = []
+        """The newest run of the graph behind each node, and older ones that left an action behind."""
         self._begun: dict[str, SavedRun] = {}
         """Sub-graphs that an earlier process had begun, by graph name."""
         self._rounds = Rounds()
@@ -139,7 +139,7 @@ class GraphRun:
             self._holding = True
         for item in self._active():
             self._pause_node(item, "pause")
-        for inner in self._inner.values():
+        for inner in self._inner:
             inner.pause()
         self._settle()
 
@@ -151,7 +151,7 @@ class GraphRun:
         Raises:
             GraphRefusedError: The graph has ended, or `continue_from` is unknown or lacks inputs.
         """
-        over = self.state in ENDED and (continue_from or not self._active())
+        over = self.state in ENDED and (continue_from or self.idle)
         if over or self.state is GraphState.STOPPING:
             raise self._refusal("graph_ended", f"{self.name} is {self.state}", "start it anew")
         past = values_to_continue(self.name, self._flow, continue_from, self._runs)
@@ -167,7 +167,7 @@ class GraphRun:
         for item in active:
             self._runs[item.name].motion.revoke()  # no drive waits for its turn
         in_slices(active, lambda item: self._stop_node(item, "stop"))
-        for inner in self._inner.values():
+        for inner in self._inner:
             inner.stop()
         self._settle()
 
@@ -247,20 +247,28 @@ class GraphRun:
         for name, run in list(self._runs.items()):
             if not await run.abandon():
                 log.error("action cannot be ended", graph=self.name, node=name)
-        for inner in self._inner.values():
+        for inner in self._inner:
             await inner.close()
 
     # -- what can be seen -----------------------------------------------------------------------------------
 
     @property
     def idle(self) -> bool:
-        """Whether no action of this graph is going on."""
-        return not self._runs
+        """Whether no action of this graph is going on, nor of those inside of it."""
+        return not self._runs and all(inner.idle for inner in self._inner)
 
     @property
     def holding(self) -> bool:
         """Whether a pause is in force, even if an action still has to end."""
         return self._holding or self.state is GraphState.PAUSED
+
+    @property
+    def resumable(self) -> bool:
+        """Whether a resume lets anything go on, also what one of its edges paused or its end left behind."""
+        if self.state is GraphState.STOPPING:
+            return False
+        still = any(item.state in _STILL for item in self._each_active())
+        return self.holding or still or any(inner.resumable for inner in self._inner)
 
     def snapshot(self) -> Graph:
         """The graph as it is now, with states, logs and the data that is there (4.3)."""
@@ -313,7 +321,8 @@ class GraphRun:
             run = self._make_inner(replace(item.spec.graph, name=name), parameters=values)
         else:
             run = self._make_inner(left.graph, parameters={})
-        self._inner[item.name], run.outer = run, self.name
+        run.outer = self.name
+        self._replace_inner(run)
         if left is None:
             run.start()
         else:
@@ -321,6 +330,13 @@ class GraphRun:
             if run.holding:
                 run.resume()
         return run
+
+    def _replace_inner(self, run: GraphRun) -> None:
+        """An older run of that graph is discarded (11.1): what it left behind is stopped."""
+        for old in self._inner:
+            if old.name == run.name:
+                old.stop()
+        self._inner = [old for old in self._inner if old.name != run.name or not old.idle] + [run]
 
     def _inner_changed(self, item: FlowNode, state: GraphState) -> None:
         """A sub-graph or a plain action came to stand still, or goes on."""
@@ -341,10 +357,14 @@ class GraphRun:
         if isinstance(ending, BaseException) and not (stopped and isinstance(ending, asyncio.CancelledError)):
             for text in failure_lines(self.name, item.node, ending, run.last_log):
                 item.note(text, self._clock.unix_ms())
-        if run.restart_wanted and self.state is GraphState.RUNNING and not self._holding:
+        if run.restart_wanted and self.state in (GraphState.RUNNING, GraphState.PAUSED):
             self._set_node(item, NodeState.FINISHED, "restart", Result.ON_STOPPED)
             self._hand_over(item, Result.ON_STOPPED)
-            self._run_node(item, "restart")
+            if self.holding:
+                self._later.again.append(item.name)
+                self._settle()
+            else:
+                self._run_node(item, "restart")
             return
         if not stopped and self._tries_again(item, run, ending):
             return
@@ -385,9 +405,9 @@ class GraphRun:
         state = NodeState.ERROR if failed and result is Result.ON_ERROR else NodeState.FINISHED
         self._set_node(item, state, cause, result, facts)
         self._hand_over(item, result)
+        self._follow(item.name, result, hold=stood)  # before a round goes on that waited for it (10.7)
         self._rounds.over(item.name)
         self._next_rounds()
-        self._follow(item.name, result, hold=stood)
         self._settle()
 
     def _hand_over(self, item: FlowNode, result: Result) -> None:
@@ -397,6 +417,7 @@ class GraphRun:
             self.peers.ended(self.name, item.node, RemoteEnd(result, item.given_outputs(), message))
 
     def _pause_node(self, item: FlowNode, cause: str) -> None:
+        self._rounds.pause(item.name)
         if item.state is not NodeState.RUNNING:
             return
         run = self._runs[item.name]
@@ -406,6 +427,7 @@ class GraphRun:
             self._set_node(item, still, cause)
 
     def _stop_node(self, item: FlowNode, cause: str) -> None:
+        self._rounds.stop(item.name)
         if not item.active or item.state is NodeState.STOPPING:
             return
         self._set_node(item, NodeState.STOPPING, cause)
@@ -426,7 +448,8 @@ class GraphRun:
             self._later.held.append((name, result))
         elif self.state is GraphState.RUNNING and self._flow.nodes[name].spontaneous:
             # What the last round set off is stopped before this one sets off anything (10.7).
-            others = [item for item in self._flow.reachable(name) if item.active]
+            reached = self._flow.reachable(name)
+            others = [item for item in reached if item.active or self._rounds.between(item.name)]
             for item in others:
                 self._stop_node(item, "round")
             self._rounds.wait(name, [item.name for item in others], result)
@@ -436,8 +459,8 @@ class GraphRun:
 
     def _next_rounds(self) -> None:
         """Propagate ends of spontaneous nodes and run these again, unless they were stopped or failed."""
-        for name, result in self._rounds.take_ready():
-            if self._holding or self.state is GraphState.PAUSED:
+        for name, result, held in self._rounds.take_ready():
+            if held or self._holding or self.state is GraphState.PAUSED:
                 self._later.held.append((name, result))
             elif self.state is GraphState.RUNNING and name in self._flow.nodes:
                 self._apply(self._flow.propagate(name, result), "edge", source=name)
@@ -480,6 +503,7 @@ class GraphRun:
     def _go_on(self, continue_from: str, past: Mapping[str, Any], cause: str) -> None:
         """Lift the pause, run what was held back, then `continue_from`; checked before."""
         self._holding = False
+        self._rounds.resume()
         if self.state is GraphState.PAUSED or (self.state is GraphState.HALTED and continue_from):
             self._set_graph(GraphState.RUNNING, cause)
         for item in self._active():
@@ -487,8 +511,8 @@ class GraphRun:
                 self._runs[item.name].resume()
                 if item.state in _STILL:  # a sub-graph has said already that it goes on
                     self._set_node(item, NodeState.RUNNING, cause)
-        for inner in self._inner.values():
-            if inner.holding:
+        for inner in self._inner:
+            if inner.resumable:
                 inner.resume()
         again, held = self._later.take()
         for name in again:

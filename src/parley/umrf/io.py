@@ -8,7 +8,7 @@ use the `faithful` one, which reads back to the same graph.
 from __future__ import annotations
 
 import json
-from collections.abc import Generator, Mapping, Sequence
+from collections.abc import Mapping, Sequence
 from dataclasses import fields, replace
 from json.encoder import encode_basestring
 from operator import attrgetter
@@ -28,7 +28,7 @@ from parley.umrf.model import (
     Response,
     Result,
 )
-from parley.umrf.reading import EXTRAS, Reader, in_one_go, load_object
+from parley.umrf.reading import EXTRAS, Reader, load_object
 
 __all__ = [
     "GraphWriter",
@@ -38,7 +38,7 @@ __all__ = [
     "node_to_json",
     "read_descriptor",
     "read_graph",
-    "read_steps",
+    "read_loaded",
     "write_descriptor",
     "write_graph",
 ]
@@ -62,17 +62,17 @@ def read_graph(source: str | Mapping[str, Any]) -> Graph:
     Raises:
         GraphRefusedError: With every problem and where it is.
     """
-    return in_one_go(read_steps(load_object(source, "graph")))
+    return read_loaded(load_object(source, "graph"))
 
 
-def read_steps(raw: Mapping[str, Any]) -> Generator[None, None, Graph]:
-    """Read a graph from an object that `load_object` gave, yielding now and then.
+def read_loaded(raw: Mapping[str, Any]) -> Graph:
+    """Read a graph from an object that `load_object` gave.
 
     Raises:
         UnreadableGraphError: With every problem and where it is.
     """
     reader = Reader()
-    graph = yield from reader.graph(raw)
+    graph = reader.graph(raw)
     if graph is None or reader.problems:
         name = raw.get("graph_name")
         raise UnreadableGraphError(name if isinstance(name, str) else "", reader.problems, graph)

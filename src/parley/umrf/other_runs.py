@@ -30,8 +30,8 @@ class Inside(Protocol):
     on_state: Callable[[GraphState], None] | None
 
     @property
-    def holding(self) -> bool:
-        """See `GraphRun.holding`."""
+    def resumable(self) -> bool:
+        """See `GraphRun.resumable`."""
         ...
 
     def exit_values(self) -> Mapping[str, Any]:
@@ -119,7 +119,7 @@ class SubgraphRun(NodeRun):
     def resume(self) -> None:
         """See `NodeRun.resume`."""
         super().resume()
-        if self._inner is not None and self._inner.holding:
+        if self._inner is not None and self._inner.resumable:
             self._inner.resume()
 
     def stop(self, timeout_s: float, timed_out: Callable[[], None]) -> None:

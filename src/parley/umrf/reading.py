@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import json
 import math
-from collections.abc import Callable, Generator, Mapping
+from collections.abc import Callable, Mapping
 from dataclasses import replace
 from typing import Any, Final, TypeVar
 
@@ -25,15 +25,15 @@ from parley.umrf.model import (
     Result,
 )
 
-__all__ = ["EXTRAS", "MAX_INSTANCE_ID", "SLICE", "Reader", "in_one_go", "load_object"]
+__all__ = ["EXTRAS", "MAX_ACTIONS", "MAX_INSTANCE_ID", "Reader", "load_object"]
 
+MAX_ACTIONS: Final = 1000
+"""How many actions a graph may have: reading and checking so many keeps the loop for some 30 ms."""
 MAX_INSTANCE_ID: Final = 65535
 MAX_MESSAGES: Final = 10
 MAX_RETRIES: Final = 100
 EXTRAS: Final = "parley"
 """The key of a node or a descriptor for what UMRF does not know; other engines ignore it."""
-SLICE: Final = 50
-"""So many nodes of a graph are read, checked or written in one go, which takes about a millisecond."""
 
 T = TypeVar("T")
 
@@ -59,33 +59,26 @@ def _refused(message: str, remedy: str = "") -> GraphRefusedError:
     return GraphRefusedError("", [Problem("", message, remedy, "malformed")])
 
 
-def in_one_go(steps: Generator[None, None, T]) -> T:
-    """The result of something that can also be done in slices."""
-    while True:
-        try:
-            next(steps)
-        except StopIteration as end:
-            found: T = end.value
-            return found
-
-
 class Reader:
     """Collects `problems` while it reads; whatever a problem hides is read as its default."""
 
     def __init__(self) -> None:
         self.problems: list[Problem] = []
 
-    def graph(self, raw: Mapping[str, Any]) -> Generator[None, None, Graph | None]:
-        """A graph (2), short form included; None or wrong in parts if there are problems.
-
-        Yields now and then, so that a large one need not be read in one go.
-        """
+    def graph(self, raw: Mapping[str, Any]) -> Graph | None:
+        """A graph (2), short form included; None or wrong in parts if there are problems."""
         name = self._text(raw, "graph_name", "", needed=True)
         actions = self._list(raw, "actions", "", needed=True)
+        if len(actions) > MAX_ACTIONS:
+            self._problem(
+                "actions",
+                f"a graph may have {MAX_ACTIONS} actions, not {len(actions)}",
+                "make several graphs of it",
+                "too_large",
+            )
+            return None
         nodes: list[Node | None] = []
         for index, item in enumerate(actions):
-            if index % SLICE == SLICE - 1:
-                yield
             node = self.node(item, f"actions[{index}]")
             if node is not None and EXTRAS in item:
                 node = self._limited(node, item[EXTRAS], f"actions[{index}].{EXTRAS}")

@@ -44,10 +44,7 @@ def resolve(
     Raises:
         GraphRefusedError: With every reason why it cannot run.
     """
-    vouched_for = graph is catalogue.vouched_for and not known_actors
-    if not vouched_for and (
-        problems := check(graph, catalogue, actor=actor, known_actors=known_actors, given=given)
-    ):
+    if problems := check(graph, catalogue, actor=actor, known_actors=known_actors, given=given):
         raise GraphRefusedError(graph.name, problems)
 
     def spec_of(node: Node) -> ActionSpec | None:

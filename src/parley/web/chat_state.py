@@ -217,9 +217,9 @@ class ChatBook:
         return key in self._asked_as
 
     def _question_of(self, robot: str, wanted: str) -> str | None:
-        """The question of `robot` that an answer settles: the wanted one, else the oldest."""
+        """The question of `robot` that an answer settles: the wanted one, else the newest."""
         waiting = [key for key in self._asked_as if _awaits(self.entries.get(key), robot)]
-        return wanted if wanted in waiting else next(iter(waiting), None)
+        return wanted if wanted in waiting else next(reversed(waiting), None)
 
     def _key_of_question(self, wire_id: str) -> str:
         return next((key for key, asked in self._asked_as.items() if asked and asked == wire_id), "")

@@ -31,6 +31,7 @@ from parley.messages.status import (
 from parley.messages.topics import Service, Topic
 from parley.messages.wire import decode, decode_plan, encode, load_json, to_string
 from parley.transport.base import Publisher, Transport
+from parley.transport.losses import Losses
 from parley.umrf.io import read_graph
 from parley.web.state import WebState
 
@@ -54,8 +55,18 @@ _SENT: Final[dict[type[BaseModel], Topic[String]]] = {
     StopCommand: topics.STOP,
     AddToMemory: topics.ADD_TO_MEMORY,
     RemoveMemory: topics.REMOVE_MEMORY,
+    ChatFeedback: topics.CHAT_FEEDBACK,
     AuditEvent: topics.AUDIT,
 }
+
+
+_MISSED: Final = frozenset(
+    topic.name for topic in (topics.CHAT_INPUT, topics.CHAT_FEEDBACK, topics.PLAN, topics.PLAN_DECISION)
+)
+"""Of what is told here a person would miss what is lost."""
+_LOST: Final = (
+    "So much came at once that {count} messages did not get here. Look whether all is as you want it."
+)
 
 
 class Link:
@@ -84,6 +95,7 @@ class Link:
         self._publishers: dict[type[BaseModel], Publisher[String]] = {}
         self._echoes: dict[str, asyncio.Future[None]] = {}
         """Messages that were published and did not come back yet, by id."""
+        self._losses = Losses(self._tell_lost)
         self._memory_waits: dict[str, list[asyncio.Future[MemoryEvent]]] = {}
 
     async def __aenter__(self) -> Self:
@@ -141,9 +153,10 @@ class Link:
         | AddToMemory
         | RemoveMemory
         | Attendance
-        | AuditEvent,
+        | AuditEvent
+        | ChatFeedback,
     ) -> None:
-        """Publish what an operator said or decided on the topic of its kind."""
+        """Publish what an operator said or decided, or what is to be said to them, on its topic."""
         self._publishers[type(message)].publish(to_string(message))
 
     async def say(self, message: ChatInput) -> None:
@@ -204,10 +217,18 @@ class Link:
             except InvalidMessageError as error:
                 log.warning("unreadable message", topic=topic.name, error=str(error))
                 return
+            self._losses.look()
             handle(payload)
 
         subscription = await self.transport.subscribe(topic, receive, depth=max(topic.qos.depth, 1000))
         self._stack.push_async_callback(subscription.close)
+        if topic.name in _MISSED:
+            self._losses.watch(subscription)
+
+    def _tell_lost(self, count: int) -> None:
+        """To everybody who looks; what is shown may be out of date."""
+        told = ChatFeedback(message=_LOST.format(count=count), type="error")
+        self.send(told)  # behind all that waits
 
     def _on_status(self, status: ActorStatus) -> None:
         before = self._state.robots.views.get(status.actor)

@@ -104,15 +104,19 @@ async def test_what_was_wrong_goes_back_to_the_model() -> None:
         assert "there is no action 'Fly'; there are: Look, Find, Drive" in asked.server.requests[1].texts[-1]
 
 
-async def test_hung_model_is_given_up_in_time_and_nothing_is_done() -> None:
+@pytest.mark.parametrize("hangs", ["gate", "piece_gate"], ids=["at once", "in the middle of its answer"])
+async def test_hung_model_is_given_up_in_time_and_nothing_is_done(hangs: str) -> None:
     async with room() as here:
-        here.model.will(Say(gate=asyncio.Event()))
+        gate = asyncio.Event()
+        late = Say(answer=LOOK_PLAN, gate=gate) if hangs == "gate" else Say(answer=LOOK_PLAN, piece_gate=gate)
+        here.model.will(late)
         answer = asyncio.create_task(here.say("look at the box"))
         await here.model.server.asked()
         here.model.clock.advance(20.0)
         told = await answer
         assert told.message == "My language service takes too long. Nothing was started; please try again."
-        assert await here.untouched()
+        gate.set()
+        assert await here.untouched(), "what comes after that is not done either"
 
 
 async def test_slow_model_is_waited_for() -> None:

@@ -126,7 +126,7 @@ REFUSED: list[tuple[str, str, str]] = [
     ("doctype", "<!DOCTYPE root SYSTEM 'file:///etc/hostname'>" + tree("<A/>"), "line 1"),
     ("too_large", tree("<A/>" + " " * 1_000_000), ""),
     ("too_large", tree("<Inverter>" * 101 + "<A/>" + "</Inverter>" * 101), "line 3, <Inverter>"),
-    ("too_large", tree("<Sequence>" + "<A/>" * 5001 + "</Sequence>"), "line 2, <BehaviorTree>"),
+    ("too_large", tree("<Sequence>" + "<A/>" * 1001 + "</Sequence>"), "line 2, <BehaviorTree>"),
     ("too_large", tree(ENOUGH * 3 + "<A/>" + "</RetryUntilSuccessful>" * 3),
      "line 2, <BehaviorTree>"),
     ("too_large", tree(ENOUGH * 9 + "<Sequence/>" + "</RetryUntilSuccessful>" * 9), "line 2, <BehaviorTree>"),

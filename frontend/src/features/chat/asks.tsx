@@ -1,46 +1,94 @@
-import { useState } from 'react';
+import { useMemo, useState } from 'react';
 import { useTranslation } from 'react-i18next';
 
 import { decidePlan } from '@/live/api';
 import { linesOf } from '@/live/lines';
 import { useWorld } from '@/live/store';
-import type { ProposalView } from '@/live/types';
+import type { ChatEntry, ProposalView } from '@/live/types';
 import { attempt } from '@/state/do';
+import { draftKey, useDrafts } from '@/state/drafts';
 import { Button } from '@/ui/button';
-import { sentence } from '@/ui/words';
+import { nameList, sentence } from '@/ui/words';
 
 import css from './asks.module.css';
+import { Choices } from './choices';
 
-/** What waits for a yes of the chosen robots, where the talk is; always in sight. */
-export function Asks({ chosen }: { chosen: readonly string[] }) {
-  const proposals = useWorld((world) => world.proposals);
-  const waiting = Object.values(proposals).filter((proposal) => chosen.includes(proposal.robot));
-  const newest = waiting.at(-1);
-  return newest ? <Ask key={newest.id} proposal={newest} more={waiting.length - 1} /> : null;
+type Choose = (entry: ChatEntry, choice: string) => void;
+
+interface Props {
+  chosen: readonly string[];
+  /** What was asked in words, newest last. */
+  asked: readonly ChatEntry[];
+  onChoose: Choose;
 }
 
-function Ask({ proposal, more }: { proposal: ProposalView; more: number }) {
+/** What waits for an answer of the chosen robots, where one writes and always in sight: the newest, the others a tap away. */
+export function Asks({ chosen, asked, onChoose }: Props) {
+  const { t } = useTranslation('chat');
+  const proposals = useWorld((world) => world.proposals);
+  const waiting = useMemo(
+    () => [...Object.values(proposals).filter((one) => chosen.includes(one.robot)), ...asked].toReversed(),
+    [proposals, chosen, asked],
+  );
+  const [back, setBack] = useState(0);
+  const at = back % Math.max(1, waiting.length);
+  const shown = waiting[at];
+  if (!shown) return null;
+  const others = waiting.length > 1 && (
+    <Button tone="quiet" onPress={() => setBack(at + 1)}>
+      {t('moreAsks', { count: waiting.length - 1 })}
+    </Button>
+  );
+  return 'digest' in shown ? (
+    <Proposal key={shown.id} proposal={shown} chosen={chosen}>
+      {others}
+    </Proposal>
+  ) : (
+    <Question key={shown.id} entry={shown} onChoose={onChoose}>
+      {others}
+    </Question>
+  );
+}
+
+function Question({ entry, onChoose, children }: { entry: ChatEntry; onChoose: Choose; children: React.ReactNode }) {
+  const { t, i18n } = useTranslation('chat');
+  const name = nameList(entry.targets, i18n.language);
+  return (
+    <section className={css.ask} aria-label={t('questionHere', { name })}>
+      <p className={css.wishes}>
+        <strong>{t('answering', { name })}</strong> {entry.message}
+      </p>
+      <div className={css.buttons}>
+        <Choices entry={entry} onChoose={onChoose} />
+        {children}
+      </div>
+    </section>
+  );
+}
+
+function Proposal({ proposal, chosen, children }: { proposal: ProposalView; chosen: readonly string[]; children: React.ReactNode }) {
   const { t } = useTranslation(['plan', 'chat']);
   const [busy, setBusy] = useState(false);
+  const writing = useDrafts(({ drafts }) => Boolean(drafts[draftKey(chosen)]?.text)); // then sending is what stands out
   const decide = async (decision: 'approve' | 'reject') => {
     setBusy(true);
     await attempt(() => decidePlan(proposal.robot, { id: proposal.id, digest: proposal.digest, decision }));
     setBusy(false);
   };
-  const title = t('proposalTitle', { robot: proposal.robot });
-  const wishes = [...proposal.changes, ...linesOf(proposal.steps).map(({ step }) => sentence(step.label))];
+  const lines = linesOf(proposal.steps);
+  const wishes = [...proposal.changes, ...lines.map(({ step }) => sentence(step.label))];
   return (
     <section className={css.ask} aria-label={t('chat:asksHere', { robot: proposal.robot })}>
-      <p className={css.title}>{title}</p>
+      <p className={css.title}>{t('proposalTitle', { robot: proposal.robot })}</p>
       <p className={css.wishes}>{wishes.join(' · ')}</p>
       <div className={css.buttons}>
-        <Button needs="approve" icon="check" isDisabled={busy} onPress={() => void decide('approve')}>
-          {t('approve')}
+        <Button needs="approve" tone={writing ? 'plain' : 'main'} icon="check" isDisabled={busy} onPress={() => void decide('approve')}>
+          {t('approve', { count: lines.length, what: sentence(lines[0]?.step.label ?? '') })}
         </Button>
         <Button needs="approve" icon="cross" isDisabled={busy} onPress={() => void decide('reject')}>
           {t('reject')}
         </Button>
-        {more > 0 && <span className={css.more}>{t('chat:moreAsks', { count: more })}</span>}
+        {children}
       </div>
     </section>
   );

@@ -2,7 +2,7 @@ import { act, render, screen, within } from '@testing-library/react';
 import userEvent from '@testing-library/user-event';
 import { beforeEach, describe, expect, it, vi } from 'vitest';
 
-import { entry, robot, snapshot, step } from '@/live/samples';
+import { entry, plan, robot, snapshot, step } from '@/live/samples';
 import { useLive } from '@/live/store';
 import type { Snapshot } from '@/live/types';
 import { useDrafts } from '@/state/drafts';
@@ -78,13 +78,25 @@ describe('the chat', () => {
 
   it('says who is not connected before one writes to them', () => {
     show({ robots: [robot({ name: 'Ada', connection: 'lost' })] });
-    expect(screen.getAllByText('Ada is not connected')).toHaveLength(2); // at the tab and above the line one writes in
+    screen.getByText('Ada is not connected'); // above the line one writes in
+    expect(tab('Ada').textContent).toContain('Not connected');
   });
 
   it('speaks of missing robots only when it knows', () => {
     render(<ChatPanel />);
     screen.getByText('Loading…');
     expect(screen.queryByText('Waiting for a robot')).toBeNull();
+    act(() => useLive.getState().setConnection('lost', 1));
+    screen.getByText('Not connected. Trying again…');
+    screen.getByRole('textbox', { name: 'Not connected. Trying again…' });
+  });
+
+  it('tells at its tab how a robot fares', () => {
+    const stopped = robot({ name: 'Ada', state: 'stopped' });
+    show({ robots: [stopped, robot({ name: 'Bob', state: 'running' })] });
+    expect([tab('Ada').textContent, tab('Bob').textContent]).toEqual(['Ada Stopped', 'Bob Working']);
+    act(() => useLive.getState().setConnection('lost', 1));
+    expect(tab('Bob').textContent).toBe('Bob Not known');
   });
 
   it('ends a search with Escape and goes back to writing', async () => {
@@ -142,6 +154,22 @@ describe('the chat', () => {
     ]);
   });
 
+  it('keeps what a robot needs from a person beside where one writes, and marks its tab', async () => {
+    const help = entry({ id: 'h', seq: 1, type: 'info', message: 'I am waiting here.', choices: ['try again', 'skip it'] });
+    const noted = entry({ id: 'n', seq: 2, type: 'info', message: 'I noted something.', choices: ['Forget it'], targets: ['Bob'] });
+    const question = entry({ id: 'q', seq: 3, type: 'request', message: 'Which door?', question: 'open', choices: ['red'], targets: ['Bob'] });
+    const user = show({ chat: [help, noted, question], plans: [plan({ robot: 'Ada', state: 'held' })] });
+    expect(tab('Ada').textContent).toContain('Ada is waiting for your answer');
+    await user.click(within(screen.getByRole('region', { name: 'Ada asks' })).getByRole('button', { name: 'skip it' }));
+    expect(sent).toMatchObject([{ text: 'skip it', targets: ['Ada'], reply_to: '' }]);
+
+    await user.click(tab('Bob'));
+    const ask = screen.getByRole('region', { name: 'Bob asks' });
+    expect(within(ask).getByText(/Which door/)).toBeTruthy();
+    expect(within(ask).queryByRole('button', { name: 'Forget it' })).toBeNull(); // nobody waits for that
+    expect(screen.getAllByRole('button', { name: 'red' })).toHaveLength(1);
+  });
+
   it('undoes by a tap what a robot concluded by itself', async () => {
     const noted = entry({ id: 'n', seq: 1, type: 'info', message: 'I noted for myself: “Kim likes tea”', choices: ['Forget “kim”'] });
     const user = show({ chat: [noted] });
@@ -183,6 +211,21 @@ describe('the chat', () => {
     expect(screen.queryByText('INFO')).toBeNull();
     await user.click(screen.getByRole('button', { name: 'Times and kinds' }));
     expect(screen.getByText('INFO')).toBeTruthy();
+  });
+
+  it('is a few keys away from writing however much was said, and arrow keys lead to what was said before', async () => {
+    const chat = Array.from({ length: 30 }, (_, index) => entry({ id: `e${index}`, seq: index, who: 'operator', message: `order ${index}`, sources: ['box'] }));
+    const user = show({ chat });
+    const box = screen.getByRole('textbox', { name: 'Write to Ada' });
+    let stops = 0;
+    for (; document.activeElement !== box && stops < 60; stops += 1) await user.tab();
+    expect(stops).toBeLessThan(15);
+    for (let back = 0; back < 3; back += 1) await user.tab({ shift: true });
+    await user.keyboard('{ArrowUp}');
+    await user.tab();
+    await user.tab();
+    await user.keyboard('{Enter}');
+    expect(box).toHaveProperty('value', 'order 28');
   });
 
   it('draws the newest part of a long conversation and more when asked', async () => {

@@ -19,7 +19,7 @@ import { useMay } from '@/state/me';
 import { Composer } from './composer';
 import { History } from './history';
 import { useOutbox } from './outbox';
-import { answering, conversation, openQuestions } from './questions';
+import { answering, askedOf, conversation, openQuestions } from './questions';
 import { RobotTabs } from './robot-tabs';
 import { SearchBox } from './search-box';
 import { Welcome } from './welcome';
@@ -40,6 +40,9 @@ export function ChatPanel() {
 
   const questions = useMemo(() => openQuestions(chat), [chat]);
   const entries = useMemo(() => conversation(chat, chosen), [chat, chosen]);
+  const helpless = useHelpless();
+  const asked = useMemo(() => askedOf(chat, helpless), [chat, helpless]);
+  const askedHere = useMemo(() => conversation(asked, chosen), [asked, chosen]);
   const answer = useMemo(() => answering(questions, chosen), [questions, chosen]);
   const onItsWay = useOutbox(
     (outbox) => outbox.messages.findLast((one) => one.targets.some((name) => chosen.includes(name)))?.text,
@@ -85,19 +88,26 @@ export function ChatPanel() {
   );
   return (
     <Panel title={t('title')} tools={tools} flush bare={low}>
-      <RobotTabs questions={questions} tools={low ? tools : null} />
+      <RobotTabs asked={asked} tools={low ? tools : null} />
       {searching && <SearchBox onGo={goToEntry} onClose={closeSearch} />}
       <History
         key={key}
         entries={entries}
+        asked={askedHere}
         onChoose={choose}
         onEdit={edit}
         empty={<Welcome chosen={chosen} onSay={say} />}
       />
-      <Asks chosen={chosen} />
+      <Asks chosen={chosen} asked={askedHere} onChoose={choose} />
       {maySpeak && <Composer chosen={chosen} answering={answer} lastSaid={lastSaid} input={input} />}
     </Panel>
   );
+}
+
+/** Robots whose plan waits for a person to say how it goes on. */
+function useHelpless(): ReadonlySet<string> {
+  const plans = useWorld((world) => world.plans);
+  return useMemo(() => new Set(Object.values(plans).filter((plan) => plan.state === 'held').map((plan) => plan.robot)), [plans]);
 }
 
 interface SwitchProps {

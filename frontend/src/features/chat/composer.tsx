@@ -2,7 +2,7 @@ import { useEffect } from 'react';
 import { FileTrigger } from 'react-aria-components';
 import { useTranslation } from 'react-i18next';
 
-import { useWorld } from '@/live/store';
+import { useLive, useWorld } from '@/live/store';
 import { draftKey, emptyDraft, useDrafts } from '@/state/drafts';
 import { useToasts } from '@/state/toasts';
 import { Button } from '@/ui/button';
@@ -24,7 +24,7 @@ interface Props {
 
 /** Where one writes. */
 export function Composer({ chosen, answering, lastSaid, input }: Props) {
-  const { t, i18n } = useTranslation('chat');
+  const { t, i18n } = useTranslation(['chat', 'common']);
   const key = draftKey(chosen);
   const draft = useDrafts((state) => state.drafts[key] ?? emptyDraft);
   const setDraft = useDrafts((state) => state.set);
@@ -56,7 +56,9 @@ export function Composer({ chosen, answering, lastSaid, input }: Props) {
     }
   };
 
-  const label = nobody ? t('writeNobody') : t('writeTo', { names: nameList(chosen, i18n.language) });
+  const lost = useLive((live) => live.connection === 'lost' && live.world.run === '');
+  const none = lost ? t('common:offline') : t('writeNobody');
+  const label = nobody ? none : t('writeTo', { names: nameList(chosen, i18n.language) });
   useGrowing(input, draft.text, label);
   return (
     <form
@@ -79,6 +81,7 @@ export function Composer({ chosen, answering, lastSaid, input }: Props) {
         <PhotoButton isDisabled={nobody} onPhoto={(photo) => setDraft(key, { photo })} />
         <textarea
           ref={input}
+          data-home
           className={css.input}
           rows={1}
           value={draft.text}
@@ -91,7 +94,7 @@ export function Composer({ chosen, answering, lastSaid, input }: Props) {
           onChange={(event) => setDraft(key, { text: event.target.value })}
           onKeyDown={onKeyDown}
         />
-        <Button tone="main" icon="send" iconOnly aria-label={t('send')} type="submit" isDisabled={!ready} />
+        <Button tone={ready ? 'main' : 'plain'} icon="send" iconOnly aria-label={t('send')} type="submit" isDisabled={!ready} />
       </div>
       {draft.text.trim() !== '' && answering.question === null && <UnattendedChoice />}
     </form>
@@ -107,17 +110,14 @@ function AwayNote({ chosen }: { chosen: readonly string[] }) {
   return <p className={css.away}>{t('notHere', { name: nameList(away, i18n.language), count: away.length })}</p>;
 }
 
+/** Whom a message answers and for whom it is something new. */
 function AnswerNote({ answering }: { answering: Answering }) {
   const { t, i18n } = useTranslation('chat');
   const { question, robots, others } = answering;
-  if (!question) return null;
-  const name = nameList(robots, i18n.language);
+  if (!question || others.length === 0) return null;
   return (
     <p className={css.note}>
-      <span className={css.noteLine}>{t('answering', { name, question: question.message })}</span>
-      {others.length > 0 && (
-        <span>{t('split', { answering: name, others: nameList(others, i18n.language) })}</span>
-      )}
+      {t('split', { answering: nameList(robots, i18n.language), others: nameList(others, i18n.language) })}
     </p>
   );
 }

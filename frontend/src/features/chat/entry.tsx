@@ -4,16 +4,18 @@ import { useTranslation } from 'react-i18next';
 import type { ChatEntry } from '@/live/types';
 import { usePrefs } from '@/state/prefs';
 import { useMay } from '@/state/me';
-import { Button } from '@/ui/button';
 import { Icon } from '@/ui/icon';
 import { clockTime, inWords, nameList } from '@/ui/words';
 
+import { Choices } from './choices';
 import css from './entry.module.css';
 
 interface Props {
   entry: ChatEntry;
   /** Whether to say from whom it is: not if the one before was from the same. */
   showName: boolean;
+  /** Whether Tab stops at what can be pressed in it. */
+  isStop: boolean;
   /** Whether its answers can be tapped. */
   offers: boolean;
   onChoose: (entry: ChatEntry, choice: string) => void;
@@ -21,9 +23,7 @@ interface Props {
 }
 
 /** One thing said. */
-export const Entry = memo(function Entry({ entry, showName, offers, onChoose, onEdit }: Props) {
-  const maySpeak = useMay('speak');
-  const { t } = useTranslation('chat');
+export const Entry = memo(function Entry({ entry, showName, isStop, offers, onChoose, onEdit }: Props) {
   const debug = usePrefs((prefs) => prefs.debug);
   const mine = entry.who === 'operator';
   return (
@@ -41,13 +41,9 @@ export const Entry = memo(function Entry({ entry, showName, offers, onChoose, on
       <div className={css.said}>
         <Said entry={entry} />
       </div>
-      {offers && <Choices entry={entry} onChoose={onChoose} />}
-      {entry.sources.length > 0 && <Sources names={entry.sources} />}
-      {mine && maySpeak && entry.message && (
-        <button type="button" className={css.edit} aria-label={t('edit')} title={t('edit')} onClick={() => onEdit(entry.message)}>
-          <Icon name="edit" size={16} />
-        </button>
-      )}
+      {offers && <Choices entry={entry} onChoose={onChoose} isStop={isStop} />}
+      {entry.sources.length > 0 && <Sources names={entry.sources} isStop={isStop} />}
+      {mine && entry.message && <Again text={entry.message} isStop={isStop} onEdit={onEdit} />}
     </li>
   );
 });
@@ -55,17 +51,15 @@ export const Entry = memo(function Entry({ entry, showName, offers, onChoose, on
 /** Whether something stands in its head besides from whom it is. */
 const hasMarks = (entry: ChatEntry) => entry.question !== '' || entry.engine !== '';
 
-/** What can be tapped for an answer. */
-function Choices({ entry, onChoose }: Pick<Props, 'entry' | 'onChoose'>) {
+/** Takes own words up again, to change and send them. */
+function Again({ text, isStop, onEdit }: Pick<Props, 'isStop' | 'onEdit'> & { text: string }) {
   const { t } = useTranslation('chat');
+  const maySpeak = useMay('speak');
+  if (!maySpeak) return null;
   return (
-    <div className={css.choices} role="group" aria-label={t('choices')}>
-      {entry.choices.map((choice) => (
-        <Button needs="speak" key={choice} onPress={() => onChoose(entry, choice)}>
-          {choice}
-        </Button>
-      ))}
-    </div>
+    <button type="button" className={css.edit} tabIndex={isStop ? 0 : -1} aria-label={t('edit')} title={t('edit')} onClick={() => onEdit(text)}>
+      <Icon name="edit" size={16} />
+    </button>
   );
 }
 
@@ -114,13 +108,13 @@ function Head({ entry, debug }: { entry: ChatEntry; debug: boolean }) {
   );
 }
 
-function Sources({ names }: { names: readonly string[] }) {
+function Sources({ names, isStop }: { names: readonly string[]; isStop: boolean }) {
   const { t } = useTranslation('chat');
   return (
     <p className={css.sources}>
       <span>{t('because')}</span>
       {names.map((name) => (
-        <a key={name} href={`#/memory?name=${encodeURIComponent(name)}`}>
+        <a key={name} tabIndex={isStop ? 0 : -1} href={`#/memory?name=${encodeURIComponent(name)}`}>
           {inWords(name)}
         </a>
       ))}

@@ -18,6 +18,8 @@ import { useStickToEnd } from './use-stick-to-end';
 
 interface Props {
   entries: readonly ChatEntry[];
+  /** Those that are answered beside where one writes, not here. */
+  asked: readonly ChatEntry[];
   onChoose: (entry: ChatEntry, choice: string) => void;
   onEdit: (text: string) => void;
   /** Shown instead, while nothing was said. */
@@ -32,7 +34,7 @@ const sameSpeaker = (a: ChatEntry | undefined, b: ChatEntry) =>
 const sameDay = (a: number, b: number) => new Date(a).toDateString() === new Date(b).toDateString();
 
 /** The conversation, newest at the end; only its newest part is drawn until more is asked for. */
-export function History({ entries, onChoose, onEdit, empty }: Props) {
+export function History({ entries, asked, onChoose, onEdit, empty }: Props) {
   const { t } = useTranslation('chat');
   const complete = useWorld((world) => world.chatComplete);
   const everything = useWorld((world) => world.chat);
@@ -43,9 +45,14 @@ export function History({ entries, onChoose, onEdit, empty }: Props) {
   );
   const [shown, setShown] = useState(PAGE);
   const { scroller, atEnd, unseen, toEnd, keepPlace } = useStickToEnd(entries, waiting.length, shown);
-  const offers = useMemo(() => offering(entries), [entries]);
+  const offers = useMemo(() => offering(entries.filter((one) => !asked.includes(one))), [entries, asked]);
   const visible = entries.slice(-shown);
   const more = shown < entries.length || !complete;
+
+  // Of all that can be pressed in here only one entry's is on the way of Tab; arrow keys lead to the others.
+  const [entered, setEntered] = useState('');
+  const stop = visible.some((entry) => entry.id === entered) ? entered : visible.at(-1)?.id;
+  const onFocus = ({ target }: React.FocusEvent) => setEntered(target.closest<HTMLElement>('[data-entry]')?.dataset.entry ?? '');
 
   useMomentShown({ entries, complete, shown, draw: setShown, loadOlder, scroller, keepPlace });
 
@@ -67,7 +74,8 @@ export function History({ entries, onChoose, onEdit, empty }: Props) {
             <p className={css.beginning}>{t('beginning')}</p>
           )}
         </div>
-        <ol className={css.list} aria-live="polite" aria-relevant="additions">
+        {/* eslint-disable-next-line jsx-a11y/no-noninteractive-element-interactions -- keys move between what was said */}
+        <ol className={css.list} aria-live="polite" aria-relevant="additions" onFocus={onFocus} onKeyDown={onArrow}>
           {visible.map((entry, index) => {
             const before = visible[index - 1];
             const newDay = !before || !sameDay(before.unix_ms, entry.unix_ms);
@@ -77,6 +85,7 @@ export function History({ entries, onChoose, onEdit, empty }: Props) {
                 key={entry.id}
                 entry={entry}
                 offers={offers.has(entry.id)}
+                isStop={entry.id === stop}
                 showName={newDay || !sameSpeaker(before, entry)}
                 onChoose={onChoose}
                 onEdit={onEdit}
@@ -97,6 +106,15 @@ export function History({ entries, onChoose, onEdit, empty }: Props) {
       )}
     </div>
   );
+}
+
+function onArrow(event: React.KeyboardEvent) {
+  const here = (event.target as Element).closest('[data-entry]');
+  const all = [...event.currentTarget.querySelectorAll<HTMLElement>('[data-entry]')];
+  const by = { ArrowDown: 1, ArrowUp: -1 }[event.key];
+  if (!here || !by) return;
+  event.preventDefault();
+  all[all.findIndex((one) => one === here) + by]?.focus();
 }
 
 async function loadOlder(): Promise<void> {

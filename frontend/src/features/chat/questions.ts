@@ -52,6 +52,13 @@ export function offering(chat: readonly ChatEntry[]): ReadonlySet<string> {
   return offers;
 }
 
+/** What a person has to answer before a robot goes on, oldest first: questions, and offers of a robot that waits for help. */
+export function askedOf(chat: readonly ChatEntry[], helpless: ReadonlySet<string>): readonly ChatEntry[] {
+  const offers = offering(chat);
+  const waits = (entry: ChatEntry) => entry.type !== 'info' || entry.targets.some((robot) => helpless.has(robot));
+  return chat.filter((entry) => entry.question === 'open' || (offers.has(entry.id) && waits(entry)));
+}
+
 function stillOffers(entry: ChatEntry, spokenTo: ReadonlySet<string>): boolean {
   if (entry.question === '') return !entry.targets.some((robot) => spokenTo.has(robot));
   return entry.question === 'open';

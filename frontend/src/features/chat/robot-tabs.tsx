@@ -2,11 +2,13 @@ import { useEffect, useRef, useState } from 'react';
 import { useTranslation } from 'react-i18next';
 
 import { useWorld } from '@/live/store';
+import type { ChatEntry } from '@/live/types';
 import { useOverlays } from '@/state/overlays';
 import { useRobotNames, useSelection, useSelectionStore } from '@/state/selection';
+import { useMood } from '@/state/mood';
 import { Button } from '@/ui/button';
+import { Dot } from '@/ui/dot';
 
-import type { Questions } from './questions';
 import css from './robot-tabs.module.css';
 import { useLongPress } from './use-long-press';
 
@@ -19,8 +21,8 @@ interface TabProps {
 }
 
 function Tab({ name, chosen, awaitsAnswer, onOnly, onToggle }: TabProps) {
-  const { t } = useTranslation('chat');
-  const here = useWorld((world) => world.robots[name]?.connection === 'here');
+  const { t } = useTranslation(['chat', 'robots']);
+  const mood = useMood(name);
   const press = useLongPress(onToggle);
   const tab = useRef<HTMLButtonElement>(null);
   useEffect(() => {
@@ -34,7 +36,7 @@ function Tab({ name, chosen, awaitsAnswer, onOnly, onToggle }: TabProps) {
       className={css.tab}
       aria-pressed={chosen}
       data-asks={awaitsAnswer}
-      data-here={here}
+      title={t(`robots:state.${mood}`)}
       {...press.handlers}
       onClick={(event) => {
         if (press.wasLong()) return;
@@ -42,9 +44,8 @@ function Tab({ name, chosen, awaitsAnswer, onOnly, onToggle }: TabProps) {
         else onOnly();
       }}
     >
-      <span className={css.dot} aria-hidden="true" />
-      <span>{name}</span>
-      {!here && <span className="hidden">{t('notHere', { name, count: 1 })}</span>}
+      <Dot mood={mood} />
+      <span>{name}</span> <span className="hidden">{t(`robots:state.${mood}`)}</span>
       {awaitsAnswer && (
         <span className={css.asks}>
           <span aria-hidden="true">?</span>
@@ -56,13 +57,13 @@ function Tab({ name, chosen, awaitsAnswer, onOnly, onToggle }: TabProps) {
 }
 
 /** The robots one can talk to: tap for one; shift-click, long touch or the switch for several. */
-export function RobotTabs({ questions, tools = null }: { questions: Questions; tools?: React.ReactNode }) {
+export function RobotTabs({ asked, tools = null }: { asked: readonly ChatEntry[]; tools?: React.ReactNode }) {
   const { t } = useTranslation('chat');
   const names = useRobotNames();
   const chosen = useSelection();
   const { only, toggle } = useSelectionStore();
   const proposals = useWorld((world) => world.proposals);
-  const asking = new Set(Object.values(proposals).map((proposal) => proposal.robot));
+  const asking = new Set([...Object.values(proposals).map((one) => one.robot), ...asked.flatMap((one) => one.targets)]);
   const open = useOverlays((state) => state.set);
   const [several, setSeveral] = useState(false);
   return (
@@ -74,7 +75,7 @@ export function RobotTabs({ questions, tools = null }: { questions: Questions; t
             key={name}
             name={name}
             chosen={chosen.includes(name)}
-            awaitsAnswer={questions.has(name) || asking.has(name)}
+            awaitsAnswer={asking.has(name)}
             onOnly={() => (several ? toggle(name, names) : only(name))}
             onToggle={() => toggle(name, names)}
           />

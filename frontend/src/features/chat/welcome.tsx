@@ -3,7 +3,7 @@ import { useTranslation } from 'react-i18next';
 import { useLive, useWorld } from '@/live/store';
 import { useMay } from '@/state/me';
 import { Button } from '@/ui/button';
-import { Empty } from '@/ui/panel';
+import { Empty, Loading } from '@/ui/panel';
 import { nameList } from '@/ui/words';
 
 import css from './welcome.module.css';
@@ -23,7 +23,7 @@ export function Welcome({ chosen, onSay }: Props) {
   const foreign = useWorld((world) => world.info?.offline_language ?? false) && !i18n.language.startsWith('en');
   const known = useLive((live) => live.world.run !== '');
   const maySpeak = useMay('speak');
-  if (!known) return <Empty title={t('common:loading')} />;
+  if (!known) return <Loading />;
   if (chosen.length === 0) {
     return (
       <Empty title={t('emptyNobody')}>

@@ -3,7 +3,7 @@ import { useTranslation } from 'react-i18next';
 
 import { useLive, useWorld } from '@/live/store';
 import { feedKey } from '@/live/world';
-import { Empty, Panel } from '@/ui/panel';
+import { Empty, Loading, Panel } from '@/ui/panel';
 
 import css from './display.module.css';
 import { FeedMenu } from './feed-menu';
@@ -25,7 +25,7 @@ export function DisplayPanel() {
     <Panel title={t('title')} tools={<FeedMenu groups={groups} />} flush>
       {/* eslint-disable-next-line jsx-a11y/no-noninteractive-tabindex -- what scrolls must be reachable by keys */}
       <div className={css.scroller} tabIndex={0} role="group" aria-label={t('title')}>
-        {!known && <Empty title={t('common:loading')} />}
+        {!known && <Loading />}
         {known && groups.length === 0 && (
           <Empty title={t('empty')}>
             <p>{t('emptyText')}</p>

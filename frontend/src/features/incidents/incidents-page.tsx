@@ -6,7 +6,7 @@ import { useWorld } from '@/live/store';
 import { useRobotNames } from '@/state/selection';
 import { Button } from '@/ui/button';
 import { Choice } from '@/ui/choice';
-import { Empty, Panel } from '@/ui/panel';
+import { Empty, Loading, Panel } from '@/ui/panel';
 import { useRequest } from '@/ui/use-request';
 
 import { IncidentCard } from './incident-card';
@@ -37,7 +37,7 @@ export function IncidentsPage() {
   );
   return (
     <Panel title={t('title')} tools={filter}>
-      {fetched.state === 'loading' && shown.length === 0 && <Empty title={t('common:loading')} />}
+      {fetched.state === 'loading' && shown.length === 0 && <Loading />}
       {fetched.state === 'failed' && (
         <Empty title={t('failed')}>
           <p role="alert">{fetched.reason}</p>

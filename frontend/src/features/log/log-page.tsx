@@ -7,7 +7,7 @@ import type { LogLine, LogPage as Found } from '@/live/types';
 import { useRobotNames } from '@/state/selection';
 import { Button } from '@/ui/button';
 import { Choice } from '@/ui/choice';
-import { Empty, Panel } from '@/ui/panel';
+import { Empty, Loading, Panel } from '@/ui/panel';
 import { TextField } from '@/ui/text-field';
 import { useNow } from '@/ui/use-now';
 import { useKept, useRequest, type Loaded } from '@/ui/use-request';
@@ -92,7 +92,7 @@ interface LinesProps {
 
 function Lines({ found, narrowed, onAgain }: LinesProps) {
   const { t } = useTranslation(['log', 'common']);
-  if (found.state === 'loading') return <Empty title={t('common:loading')} />;
+  if (found.state === 'loading') return <Loading />;
   if (found.state === 'failed') {
     return (
       <Empty title={t('failed')}>

@@ -76,7 +76,7 @@ describe('the map', () => {
     useLive.getState().takeSnapshot(snapshot({ robots: [robot({ name: 'Cay' })] }));
     useLive.getState().setConnection('lost', 1);
     render(<MapPanel />);
-    expect(screen.getByText('Connecting…')).toBeTruthy();
+    expect(screen.getByText('Not connected. Trying again…')).toBeTruthy();
     act(() => useLive.getState().setConnection('connected'));
     expect(await screen.findByRole('application')).toBeTruthy();
   });

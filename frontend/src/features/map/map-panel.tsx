@@ -7,7 +7,7 @@ import type { MapInfo, MapThing, Rule } from '@/live/types';
 import { useRobotNames, useSelection } from '@/state/selection';
 import { Button } from '@/ui/button';
 import { Choice } from '@/ui/choice';
-import { Empty, Panel } from '@/ui/panel';
+import { Empty, Loading, Panel } from '@/ui/panel';
 import { useMap, type Shown } from '@/ui/use-map';
 import { useNow } from '@/ui/use-now';
 import { useRequest } from '@/ui/use-request';
@@ -30,6 +30,7 @@ export function MapPanel() {
   const [picked, setPicked] = useState('');
   const [listed, setListed] = useState(false);
   const [asked, setAsked] = useState(0);
+  const known = useWorld((world) => world.run !== '');
   const robot = names.includes(picked) ? picked : selected;
   const mapName = useWorld((world) => world.views[robot]?.map_name ?? '');
   const shown = useMap(robot, mapName, asked);
@@ -51,7 +52,7 @@ export function MapPanel() {
   );
   return (
     <Panel title={t('title')} tools={tools} flush>
-      {robot === '' && <Empty title={t('noRobot')} />}
+      {robot === '' && (known ? <Empty title={t('noRobot')} /> : <Loading />)}
       {robot !== '' && shown.state !== 'ready' && <NotYet shown={shown} onRetry={() => setAsked(asked + 1)} />}
       {shown.state === 'ready' && (
         <Ready key={mapName} map={shown.map} mapName={mapName} robot={robot} listed={listed}>
@@ -64,7 +65,7 @@ export function MapPanel() {
 
 function NotYet({ shown, onRetry }: { shown: Exclude<Shown, { state: 'ready' }>; onRetry: () => void }) {
   const { t } = useTranslation(['map', 'common']);
-  if (shown.state !== 'failed') return <Empty title={t(shown.state === 'loading' ? 'common:loading' : 'connecting')} />;
+  if (shown.state !== 'failed') return <Loading />;
   return (
     <Empty title={t('empty')}>
       {shown.reason && <p>{shown.reason}</p>}

@@ -7,7 +7,7 @@ import type { MemoryItem } from '@/live/types';
 import { useRobotNames } from '@/state/selection';
 import { Button } from '@/ui/button';
 import { Choice } from '@/ui/choice';
-import { Empty, Panel } from '@/ui/panel';
+import { Empty, Loading, Panel } from '@/ui/panel';
 import { TextField } from '@/ui/text-field';
 import { useHashValue } from '@/ui/use-hash';
 import { useKept, useRequest } from '@/ui/use-request';
@@ -45,7 +45,7 @@ export function MemoryPage() {
           <TextField label={t('search')} value={words} onChange={setWords} maxLength={500} />
           {names.length > 0 && <Choice label={t('whose')} value={scope} options={scopes} onChange={setScope} />}
         </div>
-        {found.state === 'loading' && <Empty title={t('common:loading')} />}
+        {found.state === 'loading' && <Loading />}
         {found.state === 'failed' && (
           <Empty title={t('failed')}>
             <p role="alert">{found.reason}</p>

@@ -22,11 +22,11 @@ export function Sidebar() {
 
 export function Brand() {
   return (
-    <p className={css.brand} translate="no">
+    <h1 className={css.brand} translate="no">
       <img src="/icon.svg" alt="" width={28} height={28} />
       {/* eslint-disable-next-line i18next/no-literal-string -- the name is the same in every language */}
       <span>Parley</span>
-    </p>
+    </h1>
   );
 }
 

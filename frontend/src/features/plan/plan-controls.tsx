@@ -1,13 +1,14 @@
-import { useState } from 'react';
 import { useTranslation } from 'react-i18next';
 
 import { commandPlan, type PlanCommand } from '@/live/api';
-import type { PlanView } from '@/live/types';
+import { isEarlier, linesOf } from '@/live/lines';
+import type { PlanView, StepView } from '@/live/types';
 import { attempt } from '@/state/do';
 import { Button } from '@/ui/button';
-import { Dialog, DialogButtons } from '@/ui/dialog';
+import { sentence } from '@/ui/words';
 
 import css from './plan-panel.module.css';
+import { usePutBack } from './use-saving';
 
 /** States in which there is nothing to control. */
 const RESTING: readonly PlanView['state'][] = ['idle', 'awaiting_approval', 'ended'];
@@ -18,55 +19,46 @@ interface Props {
   onEdit: (() => void) | null;
 }
 
-/** Pause, continue, skip, cancel, change. */
+/** Pause, continue, skip, cancel, change; each keeps its place, and what is lost by one of them can be put back. */
 export function PlanControls({ plan, onEdit }: Props) {
   const { t } = useTranslation('plan');
-  const [clearing, setClearing] = useState(false);
-  const order = (command: PlanCommand) => void attempt(() => commandPlan(plan.robot, command));
+  const offer = usePutBack(plan);
+  const order = (command: PlanCommand) => attempt(() => commandPlan(plan.robot, command));
   if (plan.kind !== 'plan' || RESTING.includes(plan.state)) return null;
   const standing = plan.state === 'paused' || plan.state === 'held';
+  const left = linesOf(plan.steps).filter((line) => !isEarlier(line));
+  const drop = async (command: PlanCommand, gone: readonly StepView[], said: string, back?: string) => {
+    if ((await order(command)) && gone.length > 0) offer(gone, said, back);
+  };
+  const skip = () => {
+    const line = left[0];
+    void drop('skip', line ? [...line.finding, line.step] : [], t('skippedStep', { step: sentence(line?.step.label ?? '') }));
+  };
+  const clear = () => {
+    const gone = left.flatMap((line) => [...line.finding, line.step]);
+    // What is put back begins at once, also where it stood still before: then it is not just undone.
+    void drop('clear', gone, t('cleared', { count: left.length }), standing ? t('beginAgain') : undefined);
+  };
   return (
     <div className={css.controls}>
       {standing ? (
-        <Button needs="resume" tone="main" icon="play" onPress={() => order('resume')}>
+        <Button needs="resume" tone="main" icon="play" onPress={() => void order('resume')}>
           {t('resume')}
         </Button>
       ) : (
-        <Button icon="pause" onPress={() => order('pause')}>
+        <Button icon="pause" onPress={() => void order('pause')}>
           {t('pause')}
         </Button>
       )}
-      <Button needs="edit" icon="skip" onPress={() => order('skip')}>
+      <Button needs="edit" icon="skip" onPress={skip}>
         {t('skip')}
       </Button>
-      {onEdit && (
-        <Button needs="edit" icon="edit" onPress={onEdit}>
-          {t('change')}
-        </Button>
-      )}
-      <Button needs="clear" icon="trash" onPress={() => setClearing(true)}>
+      <Button needs="edit" icon="edit" isDisabled={!onEdit} onPress={() => onEdit?.()}>
+        {t('change')}
+      </Button>
+      <Button needs="clear" icon="trash" onPress={clear}>
         {t('clear')}
       </Button>
-      <Dialog
-        role="alertdialog"
-        title={t('clearTitle', { robot: plan.robot })}
-        isOpen={clearing}
-        onClose={() => setClearing(false)}
-      >
-        <p>{t('clearText', { robot: plan.robot })}</p>
-        <DialogButtons>
-          <Button onPress={() => setClearing(false)}>{t('clearNo')}</Button>
-          <Button
-            tone="danger"
-            onPress={() => {
-              setClearing(false);
-              order('clear');
-            }}
-          >
-            {t('clearYes')}
-          </Button>
-        </DialogButtons>
-      </Dialog>
     </div>
   );
 }

@@ -7,7 +7,7 @@ import { planKey } from '@/live/world';
 import { useSelection } from '@/state/selection';
 import { Choice } from '@/ui/choice';
 import { Icon } from '@/ui/icon';
-import { Empty, Panel } from '@/ui/panel';
+import { Empty, Loading, Panel } from '@/ui/panel';
 
 import { pendingSteps, toDrafts } from './editing';
 import { PlanControls } from './plan-controls';
@@ -28,6 +28,7 @@ export function PlanPanel() {
   const { t } = useTranslation(['plan', 'common']);
   const plans = useWorld((world) => world.plans);
   const robots = useWorld((world) => world.robots);
+  const known = useWorld((world) => world.run !== '');
   const chosen = useSelection();
   const [picked, setPicked] = useState({ key: '', whileChosen: '' });
   const shown = shownPlans(plans, robots);
@@ -46,9 +47,13 @@ export function PlanPanel() {
   );
   return (
     <Panel title={t('title')} tools={choice} flush>
-      {plan ? <PlanOf key={partKey(plan)} plan={plan} /> : <Empty title={t('noRobot')}>
+      {plan && <PlanOf key={partKey(plan)} plan={plan} />}
+      {!plan && !known && <Loading />}
+      {!plan && known && (
+        <Empty title={t('noRobot')}>
           <p>{t('noRobotHelp')}</p>
-        </Empty>}
+        </Empty>
+      )}
     </Panel>
   );
 }

@@ -5,7 +5,7 @@ import { decidePlan, type Decision } from '@/live/api';
 import type { ProposalView } from '@/live/types';
 import { attempt } from '@/state/do';
 import { Button } from '@/ui/button';
-import { quoted } from '@/ui/words';
+import { quoted, sentence } from '@/ui/words';
 
 import { toDrafts } from './editing';
 import { linesOf } from '@/live/lines';
@@ -23,6 +23,7 @@ export function ProposalCard({ proposal }: { proposal: ProposalView }) {
     await attempt(() => decidePlan(proposal.robot, { id: proposal.id, digest: proposal.digest, ...decision }));
     setBusy(false);
   };
+  const lines = linesOf(proposal.steps);
   const title = t('proposalTitle', { robot: proposal.robot });
   return (
     <section className={css.card} aria-label={title}>
@@ -40,7 +41,7 @@ export function ProposalCard({ proposal }: { proposal: ProposalView }) {
         <>
           <div className={css.buttons}>
             <Button needs="approve" tone="main" icon="check" isDisabled={busy} onPress={() => void decide({ decision: 'approve' })}>
-              {t('approve')}
+              {t('approve', { count: lines.length, what: sentence(lines[0]?.step.label ?? '') })}
             </Button>
             <Button needs="approve" icon="edit" isDisabled={busy} onPress={() => setEditing(true)}>
               {t('change')}
@@ -60,7 +61,7 @@ export function ProposalCard({ proposal }: { proposal: ProposalView }) {
             </>
           )}
           <ol className={css.steps}>
-            {linesOf(proposal.steps).map((line, index) => (
+            {lines.map((line, index) => (
               <StepCard key={line.step.id} line={line} number={index + 1} changed={false} />
             ))}
           </ol>

@@ -29,31 +29,35 @@ export function useSaving() {
   };
 }
 
-/** Takes one step that has not begun out of a plan, with the search for its place; it can be put back for a while. */
-export function useRemoving(plan: PlanView) {
+/** Says that steps are out of a plan, and puts them back where they stood if a person wants that. */
+export function usePutBack(plan: PlanView) {
   const { t } = useTranslation(['plan', 'common']);
   const show = useToasts((state) => state.show);
   const save = useSaving();
-  return async ({ step, finding }: Line) => {
-    const before = pendingSteps(plan.steps);
-    const out = [...finding, step].map((one) => one.id);
-    const gone = before.filter((one) => out.includes(one.id));
-    const rest = before.filter((one) => !out.includes(one.id));
-    const outcome = await save(plan.robot, rest.map(callOf), plan.revision, '');
-    if (outcome !== 'saved') return;
+  return (gone: readonly StepView[], message: string, label = t('common:undo')) => {
     const undo = () => {
       const now = Object.values(useLive.getState().world.plans).find(
         (one) => one.robot === plan.robot && one.kind === 'plan',
       );
       const still = now ? pendingSteps(now.steps) : [];
-      const steps = gone.toReversed().reduce<readonly StepView[]>((known, one) => putBack(one, before, known), still);
-      void save(plan.robot, steps.map(callOf), now?.revision ?? plan.revision);
+      const steps = gone.toReversed().reduce<readonly StepView[]>((known, one) => putBack(one, plan.steps, known), still);
+      void save(plan.robot, steps.map(callOf), now?.revision ?? plan.revision, '');
     };
-    show({
-      tone: 'info',
-      message: t('removed', { step: sentence(step.label) }),
-      action: { label: t('common:undo'), run: undo },
-    });
+    show({ tone: 'info', message, action: { label, run: undo } });
+  };
+}
+
+/** Takes one step that has not begun out of a plan, with the search for its place; it can be put back for a while. */
+export function useRemoving(plan: PlanView) {
+  const { t } = useTranslation('plan');
+  const save = useSaving();
+  const offer = usePutBack(plan);
+  return async ({ step, finding }: Line) => {
+    const gone = [...finding, step];
+    const out = gone.map((one) => one.id);
+    const rest = pendingSteps(plan.steps).filter((one) => !out.includes(one.id));
+    const outcome = await save(plan.robot, rest.map(callOf), plan.revision, '');
+    if (outcome === 'saved') offer(gone, t('removed', { step: sentence(step.label) }));
   };
 }
 

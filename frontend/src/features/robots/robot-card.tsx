@@ -2,11 +2,12 @@ import { useTranslation } from 'react-i18next';
 
 import { removeRobot } from '@/live/api';
 import { onServerClock } from '@/live/server-time';
-import { useWorld } from '@/live/store';
-import type { PlanView, RobotView } from '@/live/types';
+import type { RobotView } from '@/live/types';
 import { attempt } from '@/state/do';
+import { useMood } from '@/state/mood';
 import { useSelectionStore } from '@/state/selection';
 import { Button } from '@/ui/button';
+import { Dot } from '@/ui/dot';
 import { PolicyChoice } from '@/ui/policy-choice';
 import { goTo } from '@/ui/use-hash';
 import { useNow } from '@/ui/use-now';
@@ -16,15 +17,13 @@ import { Abilities } from './abilities';
 import css from './robots.module.css';
 
 const SEEN_STEP_MS = 10_000;
-/** In these a plan goes on only when a person has said something. */
-const NEEDS: readonly PlanView['state'][] = ['held', 'awaiting_approval'];
 
 /** One robot. */
 export function RobotCard({ robot }: { robot: RobotView }) {
   const { t } = useTranslation('robots');
   const only = useSelectionStore((state) => state.only);
   const here = robot.connection === 'here';
-  const waits = useWorld((world) => Object.values(world.plans).some((plan) => plan.robot === robot.name && NEEDS.includes(plan.state)));
+  const mood = useMood(robot.name);
   const talk = () => {
     only(robot.name);
     goTo('/');
@@ -46,8 +45,8 @@ export function RobotCard({ robot }: { robot: RobotView }) {
         <div>
           <dt>{t('now')}</dt>
           <dd className={css.state} data-connection={robot.connection}>
-            <span aria-hidden="true" />
-            {here ? t(`state.${waits && robot.state === 'idle' ? 'waiting' : robot.state}`) : t(`connection.${robot.connection}`)}
+            <Dot mood={mood} />
+            {mood === 'away' ? t(`connection.${robot.connection}`) : t(`state.${mood}`)}
           </dd>
         </div>
         {robot.stop.state !== 'none' && (

@@ -3,7 +3,7 @@ import { useTranslation } from 'react-i18next';
 import { useLive, useWorld } from '@/live/store';
 import { useOverlays } from '@/state/overlays';
 import { Button } from '@/ui/button';
-import { Empty, Panel } from '@/ui/panel';
+import { Empty, Loading, Panel } from '@/ui/panel';
 
 import { RobotCard } from './robot-card';
 import css from './robots.module.css';
@@ -22,7 +22,7 @@ export function RobotsPage() {
   );
   return (
     <Panel title={t('title')} tools={add}>
-      {!known && <Empty title={t('common:loading')} />}
+      {!known && <Loading />}
       {known && sorted.length === 0 && (
         <Empty title={t('empty')}>
           <p>{t('emptyText')}</p>

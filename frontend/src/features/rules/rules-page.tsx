@@ -7,7 +7,7 @@ import type { Rule, RuleView } from '@/live/types';
 import { useRobotNames } from '@/state/selection';
 import { attempt } from '@/state/do';
 import { Button } from '@/ui/button';
-import { Empty, Panel } from '@/ui/panel';
+import { Empty, Loading, Panel } from '@/ui/panel';
 import { useMap } from '@/ui/use-map';
 import { useRequest, type Loaded } from '@/ui/use-request';
 
@@ -72,7 +72,7 @@ export function RulesPage() {
 function Faces({ found, count, onRetry }: { found: Loaded<unknown>; count: number; onRetry: () => void }) {
   const { t } = useTranslation(['rules', 'common']);
   if (found.state === 'ready') return count === 0 ? <Empty title={t('empty')} /> : null;
-  if (found.state === 'loading') return <Empty title={t('common:loading')} />;
+  if (found.state === 'loading') return <Loading />;
   return (
     <Empty title={t('failed')}>
       <p role="alert">{found.reason}</p>

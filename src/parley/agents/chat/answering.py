@@ -47,6 +47,7 @@ class Answering:
         confirmations: Hears what the memory kept.
         halts: How often a robot was told to stop: what was asked for before that is dropped.
         offered: What of a robot waits for a yes.
+        has_rules: Whether there are rules by which an order may be refused.
     """
 
     def __init__(
@@ -63,11 +64,12 @@ class Answering:
         confirmations: Confirmations,
         halts: Callable[[str], int],
         offered: Callable[[str], PlanProposal | None],
+        has_rules: Callable[[], bool],
     ) -> None:
         self._node, self._language, self._clock = node, language, clock
         self._known, self._presence, self._thinking = known, presence, thinking
         self._finishing, self._recollections, self._confirmations = finishing, recollections, confirmations
-        self._offered = offered
+        self._offered, self._has_rules = offered, has_rules
         self._halts, self._rulings = halts, Rulings(node.transport)
 
     async def open(self) -> None:
@@ -104,9 +106,9 @@ class Answering:
         """
         message = said.message
         own = for_oneself(message)
-        # What may have to wait for a yes is not announced while it is being worked out.
+        # What may have to wait for a yes, or be forbidden, is not announced while it is being worked out.
         drafts = Drafts(
-            "" if self._known.may_have_to_ask(target) else said.id,
+            "" if self._known.may_have_to_ask(target) or self._has_rules() else said.id,
             target,
             lambda draft: self._node.publish(topics.REPLY_DRAFT, draft),
             self._clock,
@@ -167,7 +169,7 @@ class Answering:
         order = order.model_copy(update={"id": uuid.uuid4().hex, "reply_to": said.id})
         self._rulings.expect(order)
         self._order(order, said)
-        for ruling in await self._rulings.about(order):
+        for ruling in await self._rulings.about(order) or ():
             if ruling.outcome == "asked":
                 self.say((name,), together(wish_of(ruling.lines, ruling.why), SHALL_I), "info")
 
@@ -187,11 +189,12 @@ class Answering:
             self._order(order, said)
         failed = await self._confirmations.confirmed(confirmations)
         rulings = await self._rulings.about(order)
-        asked = next((ruling for ruling in rulings if ruling.outcome == "asked"), None)
+        asked = next((ruling for ruling in rulings or () if ruling.outcome == "asked"), None)
         reply = failed or understood.message_response or "Done."
         if not failed:
             reply = self._honest(target, reply, order, admitted, rulings)
-        if not failed and self._waits_behind_a_question(order, situation):
+        refused = bool(rulings) and all(ruling.outcome == "refused" for ruling in rulings or ())
+        if not failed and not refused and self._waits_behind_a_question(order, situation):
             reply = together(reply, texts.AFTERWARDS)
         self._known.note(target, said.message, reply)
         if order.alarm:
@@ -228,9 +231,11 @@ class Answering:
         reply: str,
         order: ChatAction,
         admitted: Admitted,
-        rulings: Sequence[PlanRuling],
+        rulings: Sequence[PlanRuling] | None,
     ) -> str:
         """The engine's reply where what it says was done; else what was done instead, in our words."""
+        if rulings is None:
+            return texts.UNSURE
         asked = next((ruling for ruling in rulings if ruling.outcome == "asked"), None)
         if asked is not None:
             return wish_of(asked.lines, asked.why)

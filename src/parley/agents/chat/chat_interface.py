@@ -25,7 +25,8 @@ from parley.agents.presence import Presence, linked_to
 from parley.agents.questions import SeenIds
 from parley.agents.thinking import PATIENCE_S, Thinking
 from parley.clock import Clock
-from parley.gate.rule_talk import RuleTalk
+from parley.errors import FailureCode
+from parley.gate.rule_talk import Listener, RuleReply, RuleTalk
 from parley.gate.table import Effect, verdict
 from parley.language.base import Language
 from parley.language.control import Control, control_of
@@ -40,6 +41,7 @@ from parley.messages.status import (
     GraphEvent,
     PlanDecision,
     PlanProposal,
+    PlanRuling,
     PlanUpdate,
     Rejection,
     RejectionProblem,
@@ -113,6 +115,7 @@ class ChatInterface(Node):
             confirmations=self._confirmations,
             halts=lambda target: self._halts.get(target, 0),
             offered=self._offered.newest,
+            has_rules=lambda: self._rules is not None and self._rules.has_rules,
         )
         self._say = self._answering.say
 
@@ -123,7 +126,8 @@ class ChatInterface(Node):
         await self.subscribe(topics.CHAT_FEEDBACK, ChatFeedback, self._on_said)
         await self.subscribe(topics.MEMORY_EVENT, MemoryEvent, self._confirmations.on_event)
         await self.subscribe(topics.STOP, StopCommand, self._on_emergency)
-        await self.subscribe(topics.ERROR_HANDLING, ErrorHandlingMessage, self._known.on_failure)
+        await self.subscribe(topics.ERROR_HANDLING, ErrorHandlingMessage, self._on_failure)
+        await self.subscribe(topics.RULING, PlanRuling, self._on_ruling)
         await self.subscribe_plans(self._on_plan)
         await self.subscribe(topics.GRAPH_EVENTS, GraphEvent, self._known.on_event)
         await self.subscribe(topics.PLAN_DECISION, PlanDecision, self._on_decision)
@@ -163,7 +167,7 @@ class ChatInterface(Node):
             targets = self._presence.named_in(said.message) or targets
         calls, refuses = calls_to_stop(said.message), is_no(said.message)
         for target in targets:
-            question = self._questions.first(target) if said.type == "response" else None
+            question = self._questions.newest(target) if said.type == "response" else None
             halts = calls or (refuses and question is None and self._offered.newest(target) is None)
             moves = self._known.moves(target, self._presence.get(target))
             turns = question is None and control in (None, "stop")
@@ -234,6 +238,7 @@ class ChatInterface(Node):
                 self._say((target,), answer, "response", said.id)
             elif not await self._recollections.handles(target, said, mine):
                 await self._answering.answer(target, said, halts)
+            self._ask_about_rules_again(target, said)
 
         return work
 
@@ -256,21 +261,35 @@ class ChatInterface(Node):
     async def _about_rules(self, target: str, said: ChatInput, ours: str) -> bool:
         """Whether a message was about rules; what becomes one is decided by code and a person's yes."""
         status = self._presence.get(target)
-        reply = self._rules and await self._rules.reply(
-            said.message, said.who, robot=target, robots=self._presence.names(),
-            places=self._known.objects(target), catalogue=status.catalogue if status else (), answers=ours,
+        to = Listener(
+            target,
+            self._presence.names(),
+            self._known.objects(target),
+            status.catalogue if status else (),
             busy=self._known.state(target) != "idle",
-        )  # fmt: skip
+        )
+        reply = self._rules and await self._rules.reply(said.message, said.who, to, answers=ours)
         if not reply:
             return False
+        self._reply_about_rules(target, said, reply, said.id)
+        self._known.note(target, said.message, reply.text)
+        return True
+
+    def _reply_about_rules(self, target: str, said: ChatInput, reply: RuleReply, reply_to: str = "") -> None:
         feedback = ChatFeedback(
             message=self.spoken(reply.text), targets=(target,), type="request" if reply.id else "response",
             choices=tuple(map(self.spoken, reply.choices)), id=reply.id, closes=reply.closes,
-            reply_to=said.id,
+            reply_to=reply_to,
         )  # fmt: skip
+        if reply.stands:
+            self._holds.begin_for(reply.id, said, reply.stands)
+        self._holds.end(reply.closes)
         self.publish(topics.CHAT_FEEDBACK, feedback)
-        self._known.note(target, said.message, reply.text)
-        return True
+
+    def _ask_about_rules_again(self, target: str, said: ChatInput) -> None:
+        """Whatever else is said, the robot stands until the answer, and says so."""
+        if self._rules is not None and (reply := self._rules.again(target)) is not None:
+            self._reply_about_rules(target, said, reply)
 
     def _keep_pictures(self, target: str, said: ChatInput, question: str) -> Callable[[], Awaitable[None]]:
         """Of an answer with pictures: whoever asked gets the words."""
@@ -317,6 +336,15 @@ class ChatInterface(Node):
         status = self._presence.get(told.target)
         if done := self._finishing.on_update(told, status.catalogue if status else ()):
             self._say((told.target,), done, "info")
+
+    def _on_failure(self, failure: ErrorHandlingMessage) -> None:
+        self._known.on_failure(failure)
+        if self._rules is not None and failure.code is FailureCode.FORBIDDEN:
+            self._rules.refused(failure.target, [str(failure.details.get("rule", ""))])
+
+    def _on_ruling(self, ruling: PlanRuling) -> None:
+        if self._rules is not None and (ruling.rules or ruling.outcome != "refused"):
+            self._rules.refused(ruling.target, ruling.rules)
 
     def _on_decision(self, decision: PlanDecision) -> None:
         self._offered.on_decision(decision)
@@ -372,7 +400,9 @@ class ChatInterface(Node):
         if more and len(said.message.split()) > _SHORT_WORDS:  # there may be an order in it
             reply = together(sentence(reply), texts.REST_LEFT)
         self._known.note(target, said.message, reply)
-        asked = self._questions.first(target) if state == "held" else None
+        asked = self._questions.newest(target) if state == "held" else None
+        if asked is not None and self._rules is not None and self._rules.asked(asked.id):
+            asked = None
         self.publish(
             topics.CHAT_FEEDBACK,
             ChatFeedback(
@@ -382,6 +412,7 @@ class ChatInterface(Node):
                 reply_to=said.id,
             ),
         )
+        self._ask_about_rules_again(target, said)
 
     def _undoes(self, target: str, said: ChatInput) -> bool:
         """Whether a message is a tap on what undoes a memory; it is done then."""

@@ -40,8 +40,12 @@ class Holds:
         self._send(StopCommand(command="hold", targets=targets, id=identity, by=said.who, words=said.message))
         return identity
 
+    def begin_for(self, question: str, said: ChatInput, targets: tuple[str, ...]) -> None:
+        """Let robots stand until a question is answered."""
+        self._send(StopCommand(command="hold", targets=targets, id=question, by=said.who, words=said.message))
+
     def end(self, identity: str) -> None:
-        """The message is read."""
+        """The message is read, or the question answered."""
         if identity:
             self._send(StopCommand(command="go_on", id=identity))
 

@@ -6,6 +6,7 @@ import asyncio
 from collections.abc import Sequence
 from typing import Final
 
+from parley.agents.planner.ordering import WEIGHED_WITHIN_S
 from parley.messages import topics
 from parley.messages.chat import ChatAction
 from parley.messages.status import PlanRuling
@@ -13,8 +14,8 @@ from parley.transport.base import Transport
 
 __all__ = ["Rulings"]
 
-_WITHIN_S: Final = 3.0
-"""Wall time in which a planner says what became of an order."""
+_WITHIN_S: Final = WEIGHED_WITHIN_S + 3.0
+"""Wall time in which a planner says what became of an order; longer than it may weigh one."""
 
 
 class Rulings:
@@ -44,8 +45,8 @@ class Rulings:
             loop = asyncio.get_running_loop()
             self._waits |= {(order.id, target): loop.create_future() for target in order.targets}
 
-    async def about(self, order: ChatAction, within_s: float = _WITHIN_S) -> Sequence[PlanRuling]:
-        """What became of an order, robot by robot; empty where nobody rules, or not within that wall time."""
+    async def about(self, order: ChatAction, within_s: float = _WITHIN_S) -> Sequence[PlanRuling] | None:
+        """What became of an order, robot by robot; empty where nobody rules, None if not in time."""
         keys = [(order.id, target) for target in order.targets]
         waits = [self._waits[key] for key in keys if key in self._waits]
         try:
@@ -53,7 +54,7 @@ class Rulings:
                 async with asyncio.timeout(within_s):
                     await asyncio.wait(waits)
         except TimeoutError:
-            pass  # the reply is then the engine's own; what waits for a yes is shown by the plan all the same
+            return None
         finally:
             for key in keys:
                 self._waits.pop(key, None)

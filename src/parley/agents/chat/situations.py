@@ -138,11 +138,11 @@ class Situations:
 
     def waits_for_answer(self, target: str) -> bool:
         """Whether a robot stands with a failed step and has asked what to do."""
-        return self.state(target) == "held" and self.questions.first(target) is not None
+        return self.state(target) == "held" and self.questions.newest(target) is not None
 
     def gave_up(self, target: str) -> bool:
         """Whether a robot stands with a failed step and nothing more is asked about it."""
-        return self.state(target) == "held" and self.questions.first(target) is None
+        return self.state(target) == "held" and self.questions.newest(target) is None
 
     async def of(
         self,
@@ -172,7 +172,7 @@ class Situations:
         status, plan, asked = (
             self._presence.get(target),
             self.plans.get(target),
-            self.questions.first(target),
+            self.questions.newest(target),
         )
         pose = status.pose if status is not None else None
         question = asked.message if asked is not None else self._asked.words(said.reply_to)

@@ -20,6 +20,7 @@ __all__ = [
     "ONLY_LOOKS",
     "REST_LEFT",
     "SAY_CARRY_ON",
+    "UNSURE",
     "alarm",
     "concluded",
     "dropped",
@@ -73,6 +74,7 @@ _NEVER_MIND: Final = re.compile(
 
 ONLY_LOOKS: Final = "You may look and stop, but not give orders here."
 REST_LEFT: Final = sentence("If there was more in what you said, please say it again.")
+UNSURE: Final = sentence("I do not know yet whether I may do that.")
 NOT_DONE: Final = sentence("I have not done that.")
 SAY_CARRY_ON: Final = "I go on when you say “carry on”."
 NOTHING_TO_RESUME: Final = "There is nothing left to go on with."

@@ -21,7 +21,6 @@ from parley.messages import topics
 from parley.messages.audit import AuditEvent
 from parley.messages.chat import ActionCall
 from parley.messages.status import PlanDecision
-from parley.sentences import together
 
 __all__ = ["Decisions"]
 
@@ -71,24 +70,45 @@ class Decisions:
             )
         elif decision.decision == "policy":
             self._set_policy(target, decision.policy)
-        elif decision.decision == "edit":
+        elif decision.decision == "reject":
+            self._decide(target, decision)
+        else:  # what the rules say now counts, not what they said when it was shown
+            edits = decision.decision == "edit"
+            proposal = self._plans.approvals.get(decision.id)
+            shown = proposal.steps if proposal is not None and proposal.target == target else ()
             self._ordering.weighed(
                 target,
-                decision.steps,
+                decision.steps if edits else shown,
                 decision.by,
-                lambda found: self._take_edit(target, decision, found),
+                lambda found: (self._take_edit if edits else self._take_yes)(target, decision, found),
                 lambda: self._plans.say(target, orders.NOTHING_DONE, "error"),
             )
+
+    def _take_yes(self, target: str, decision: PlanDecision, judgement: Judgement | None) -> None:
+        """Take up a yes unless the rules forbid what it is to by now, or have come to ask about it."""
+        proposal = self._plans.approvals.get(decision.id)
+        if proposal is None or judgement is None:
+            self._decide(target, decision)
+            return
+        plan = self._plans.plan(target)
+        asked = [self._node.spoken(text).rstrip(".") for text in orders.reasons(judgement.ask)]
+        asks = [text for text in asked if text not in proposal.why]
+        if judgement.forbidden:
+            repairs = self._plans.approvals.repairs(decision.id)
+            self._plans.approvals.drop(decision.id)
+            self._plans.forbid(target, judgement)
+            self._plans.send(plan, plan.give_up() if repairs else [])
+        elif asks and self._plans.approvals.policy(target) != "ask_first":
+            self._proposals.show_again(plan, proposal, "; ".join(asks))
         else:
             self._decide(target, decision)
 
     def _take_edit(self, target: str, decision: PlanDecision, judgement: Judgement | None) -> None:
         """Take up an edit unless the rules forbid what it says."""
         if judgement is not None and judgement.forbidden:
-            texts = dict.fromkeys(finding.sentence for finding in judgement.forbidden)
+            texts = self._plans.forbid(target, judgement)
             problems = [Problem("steps", text, "leave that out", "forbidden") for text in texts]
             self._plans.refuse(topics.PLAN_DECISION.name, target, problems)
-            self._plans.say(target, together(*texts), "error")
         elif decision.id:
             self._decide(target, decision)
         else:

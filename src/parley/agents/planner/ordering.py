@@ -194,16 +194,14 @@ class Ordering:
 
     def _forbid(self, plan: TargetPlan, order: ChatAction, judgement: Judgement) -> None:
         """Say which rules a plan would break."""
-        texts = list(dict.fromkeys(finding.sentence for finding in judgement.forbidden))
-        self._plans.say(plan.target, together(*texts), "error")
+        self._plans.forbid(plan.target, judgement)
         self._plans.audit(Effect.BEGIN, order, plan.target, "refused")
 
     def _why(self, plan: TargetPlan, order: ChatAction, judgement: Judgement | None) -> str:
         """Why a yes is needed, where the policy alone would not ask."""
         if order.needs_yes or judgement is None or self._plans.approvals.policy(plan.target) == "ask_first":
             return order.needs_yes
-        found = [finding.sentence.rstrip(".") for finding in (*judgement.ask, *judgement.risky)]
-        return "; ".join(dict.fromkeys(found))
+        return "; ".join(text.rstrip(".") for text in orders.reasons((*judgement.ask, *judgement.risky)))
 
     def _repair(self, plan: TargetPlan, order: ChatAction, judgement: Judgement | None) -> None:
         control = orders.in_order(orders.of_plans(order))

@@ -2,18 +2,19 @@
 
 from __future__ import annotations
 
-from collections.abc import Sequence
+from collections.abc import Iterable, Sequence
 from typing import Final
 
 from parley.agents.planner.effects import Effect
 from parley.agents.planner.plan import TargetPlan
+from parley.gate.judge import Finding
 from parley.messages.chat import ActionCall, ChatAction, SystemCommand
 from parley.sentences import sentence
 
 __all__ = [
     "LEFT", "MOST_WAITING", "NOTHING_DONE", "NOT_AS_SHOWN", "PLAN_CHANGED", "STEP_OVER", "TOO_MANY_WAIT",
     "WAITING", "WAITING_HELPLESS", "bare", "forgetting", "in_order", "no_robot", "of_memory", "of_plans",
-    "take_repair",
+    "reasons", "take_repair",
 ]  # fmt: skip
 
 _HELP: Final = sentence("Say “try again”, “skip it” or “cancel everything”, or give me another order.")
@@ -36,6 +37,11 @@ PLAN_CHANGED: Final = "The plan has changed in the meantime, so I left it as it 
 def no_robot(name: str, known: str) -> str:
     """That nobody is called `name`, and who is there."""
     return sentence("There is no robot called {name}. {known}", name=name, known=known)
+
+
+def reasons(findings: Iterable[Finding]) -> list[str]:
+    """What rules say, each thing once."""
+    return list(dict.fromkeys(finding.sentence for finding in findings))
 
 
 def take_repair(plan: TargetPlan, calls: Sequence[ActionCall]) -> list[Effect]:

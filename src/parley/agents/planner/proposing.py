@@ -71,15 +71,20 @@ class Proposals:
         self._plans.send(plan, [])
         return proposal
 
-    def show_again(self, plan: TargetPlan, proposal: PlanProposal) -> None:
-        """Something else was agreed to than what waits, or it would mean something else by now."""
+    def show_again(self, plan: TargetPlan, proposal: PlanProposal, why: str = "") -> None:
+        """Something else was agreed to than what waits, or it would mean something else by now.
+
+        `why` it is asked now, though it was not then; may be empty.
+        """
         self._plans.approvals.drop(proposal.id)
         labels = self._labels(plan, proposal.steps)
         told = {
             "labels": self._spoken(labels),
             "lines": self._spoken(self._lines(plan, proposal.steps, labels)),
         }
-        renewed = proposal.model_copy(update={"digest": self.digest(proposal), **told})
+        renewed = proposal.model_copy(
+            update={"digest": self.digest(proposal), "why": why or proposal.why, **told}
+        )
         if proposal.commands:
             self._plans.say(plan.target, orders.PLAN_CHANGED, "error")
             self._plans.send(plan, [])
@@ -87,7 +92,9 @@ class Proposals:
         shown = self._plans.approvals.propose(renewed, self._plans.presence.get(plan.target))
         self._node.publish(topics.PLAN, shown)
         self._plans.send(plan, [])
-        self._plans.say(plan.target, together(orders.NOT_AS_SHOWN, wish_of(shown.lines), SHALL_I), "info")
+        self._plans.say(
+            plan.target, together(orders.NOT_AS_SHOWN, wish_of(shown.lines, why), SHALL_I), "info"
+        )
 
     def digest(self, proposal: PlanProposal) -> str:
         """What a proposal stands for by now."""

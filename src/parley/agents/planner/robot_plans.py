@@ -23,13 +23,14 @@ from parley.agents.presence import Presence, linked_to
 from parley.agents.questions import OpenQuestions
 from parley.clock import Clock
 from parley.errors import Problem
+from parley.gate.judge import Judgement
 from parley.gate.table import Effect as GateEffect
 from parley.messages import topics
 from parley.messages.audit import AuditEvent
 from parley.messages.chat import ActionCall, ChatAction
 from parley.messages.principal import Principal
-from parley.messages.status import ActionInfo, ActorStatus
-from parley.sentences import sentence
+from parley.messages.status import ActionInfo, ActorStatus, PlanRuling
+from parley.sentences import sentence, together
 from parley.world.object_map import MapObject
 
 __all__ = ["RobotPlans"]
@@ -236,6 +237,14 @@ class RobotPlans:
         topic = topics.PLAN_DECISION if decided else topics.CHAT_ACTION
         self.refuse(topic.name, plan.target, problems)
         self.say(plan.target, text or (orders.LEFT if decided else orders.NOTHING_DONE), "error")
+
+    def forbid(self, target: str, judgement: Judgement) -> list[str]:
+        """Tell everybody what the rules forbid; in words."""
+        texts = orders.reasons(judgement.forbidden)
+        self.say(target, together(*texts), "error")
+        rules = tuple(dict.fromkeys(finding.rule for finding in judgement.forbidden))
+        self._node.publish(topics.RULING, PlanRuling(order="", target=target, outcome="refused", rules=rules))
+        return texts
 
     def audit(
         self, effect: GateEffect, order: ChatAction, target: str, outcome: Literal["asked", "refused"]

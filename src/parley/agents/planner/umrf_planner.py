@@ -144,7 +144,7 @@ class UmrfPlanner(Node):
 
     def _note_question(self, target: str) -> None:
         plan = self._plans.by_robot.get(target)
-        asked = self._plans.questions.first(target) is not None
+        asked = self._plans.questions.newest(target) is not None
         if plan is not None and plan.asked != asked:
             plan.asked = asked
             self._plans.send(plan, [])

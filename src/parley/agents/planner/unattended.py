@@ -119,6 +119,8 @@ class UnattendedPlans(Node):
             self._running.add(told.target)
         else:
             self._running.discard(told.target)
+            if told.steps and all(step.state == "finished" for step in told.steps):
+                self._settled.discard(told.target)  # what begins now is understood only after they had gone
 
     def _settle(self, robot: str) -> None:
         choice = self._choices.get(robot, self._choice)

@@ -11,6 +11,7 @@ from parley.agents.base import Mailboxes, Node
 from parley.agents.planner.orders import WAITING
 from parley.agents.presence import Presence
 from parley.agents.questions import OpenQuestions, SeenIds
+from parley.agents.recovery.asides import Asides
 from parley.agents.recovery.incident_log import IncidentLog
 from parley.agents.recovery.repair import (
     MAX_ALONE,
@@ -28,6 +29,7 @@ from parley.clock import Clock
 from parley.errors import FailureCode, InvalidMessageError, LanguageError
 from parley.gate.assent import assent_of
 from parley.gate.orders import Heard, admit_repair, engine, is_chosen
+from parley.gate.rule_talk import Listener, RuleTalk
 from parley.gate.table import Effect, verdict
 from parley.language.base import ErrorSituation, Language, Turn
 from parley.language.control import Control, control_of
@@ -78,6 +80,7 @@ class ErrorHandler(Node):
         incidents: Where failures are written down, open; its owner closes it. None: kept while the node is
             open.
         patience_s: Wall time after which the operator is told that it takes long.
+        rules: Knows what is said about rules, which answers no question about a failed step.
     """
 
     name: ClassVar[str] = "error_handler"
@@ -93,8 +96,10 @@ class ErrorHandler(Node):
         language_timeout_s: float = 30.0,
         incidents: IncidentStore | None = None,
         patience_s: float = PATIENCE_S,
+        rules: RuleTalk | None = None,
     ) -> None:
         super().__init__(transport)
+        self._rules = rules
         self._language, self._objects, self._clock = language, objects, clock
         self._max_attempts = max_attempts
         self._thinking = Thinking(language_timeout_s, patience_s)
@@ -113,8 +118,7 @@ class ErrorHandler(Node):
         """Corrections under way, to see whether they help."""
         self._latched: set[str] = set()
         """Robots that were stopped for safety and may not move before a person releases that."""
-        self._referred: dict[str, tuple[Repair, ChatAction]] = {}
-        """What was asked and has to be asked again, by the message that is answered elsewhere meanwhile."""
+        self._asides = Asides()
 
     async def open(self) -> None:
         """See `Node.open`."""
@@ -163,10 +167,10 @@ class ErrorHandler(Node):
 
     def _on_said(self, feedback: ChatFeedback) -> None:
         self._questions.on_feedback(feedback)
-        if feedback.type != "info" and feedback.reply_to in self._referred:
-            repair, question = self._referred.pop(feedback.reply_to)
-            if self._is_current(repair) and not repair.question_id:
-                self._put(repair, question)
+        for target in self._asides.on_feedback(feedback):
+            repair = self._repairs.get(target)
+            if repair is not None and repair.question is not None and not repair.question_id:
+                self._put(repair, repair.question)
 
     def _on_input(self, said: ChatInput) -> None:
         if not self._seen_ids.is_new(said.id):
@@ -187,12 +191,16 @@ class ErrorHandler(Node):
             self.publish(topics.CHAT_INPUT, addressed)
             return
         answered = self._questions.answered(said)
+        self._asides.on_input(said, self._questions)
         self._questions.on_input(said)
         for target, question in answered:
             repair = self._repairs.get(target)
             if repair is None or repair.question_id != question.id:
                 continue
-            if target in self._latched:
+            if self._is_about_rules(said, target):
+                repair.question_id = ""
+                self._refer(repair, said)
+            elif target in self._latched:
                 self._say(target, _STOPPED, "response")
             else:
                 repair.question_id = ""
@@ -299,7 +307,7 @@ class ErrorHandler(Node):
             self._solve(repair, resolution, alone=reply is None)
         elif resolution.success is None and answer is not None and repair.question is not None:
             if not (resolution.message_response or resolution.queue or resolution.system_cmd):
-                self._refer(repair, answer, repair.question)
+                self._refer(repair, answer)
             else:
                 self._answer_aside(repair, resolution, repair.question)
         elif repair.attempts >= self._max_attempts:
@@ -423,12 +431,16 @@ class ErrorHandler(Node):
         self._say(target, resolution.message_response, "response", sources=resolution.sources)
         self._put(repair, question)
 
-    def _refer(self, repair: Repair, said: ChatInput, question: ChatAction) -> None:
+    def _refer(self, repair: Repair, said: ChatInput) -> None:
         """Let what is no answer be understood like any message; then the question is put again."""
-        identity = f"{said.id or uuid.uuid4().hex}~aside"
-        self._referred[identity] = (repair, question)
-        changes = {"type": "request", "targets": (repair.failure.target,), "id": identity}
-        self.publish(topics.CHAT_INPUT, said.model_copy(update=changes))
+        self.publish(topics.CHAT_INPUT, self._asides.begin(said, repair.failure.target))
+
+    def _is_about_rules(self, said: ChatInput, target: str) -> bool:
+        """Whether a message tells, asks for or lifts a rule: that is no answer to a question of ours."""
+        status = self._presence.get(target)
+        catalogue = status.catalogue if status is not None else ()
+        to = Listener(target, self._presence.names(), self._objects(target), catalogue)
+        return self._rules is not None and self._rules.concerns(said.message, to)
 
     def _ask(self, repair: Repair, resolution: ChatAction) -> None:
         repair.attempts += 1
@@ -463,7 +475,7 @@ class ErrorHandler(Node):
             problem=repair.failure.error_message,
             left=left,
         )
-        self._say(target, text, "info")
+        self._say(target, text, "info", choices=("try again", "skip it", "cancel everything"))
 
     def _hold(self, target: str) -> None:
         """No repair any more: the plan waits, and the next order goes on."""

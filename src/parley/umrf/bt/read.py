@@ -35,11 +35,10 @@ from parley.umrf.bt.shape import (
 )
 from parley.umrf.bt.xml import Element, parse
 from parley.umrf.model import Graph, Node, NodeRef
-from parley.umrf.reading import MAX_INSTANCE_ID
+from parley.umrf.reading import MAX_ACTIONS, MAX_INSTANCE_ID
 
 __all__ = ["import_tree"]
 
-MAX_ACTIONS: Final = 5_000
 MAX_READ: Final = 4 * MAX_ACTIONS
 """Elements, those in a retry once per attempt."""
 MAX_ATTEMPTS: Final = 100

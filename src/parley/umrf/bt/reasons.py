@@ -43,7 +43,7 @@ IMPORT_REASONS: Final[Mapping[str, str]] = MappingProxyType(
     {
         "malformed_xml": "the text is not well-formed XML",
         "doctype": "the text has a document type or entities of its own",
-        "too_large": "more than 1 MB of text, 100 levels, 20000 elements or 5000 actions",
+        "too_large": "more than 1 MB of text, 100 levels, 4000 elements or 1000 actions",
         "not_a_tree_file": "the file is not a BTCPP_format 4 file with exactly one tree to run",
         "unsupported_element": "an element other than those of the subset",
         "unsupported_attribute": "a script, precondition or other attribute outside of the subset",

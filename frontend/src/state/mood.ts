@@ -1,0 +1,32 @@
+/** How a robot fares, in one word. */
+import { useLive, useWorld } from '@/live/store';
+import type { PlanView, ProposalView, RobotView } from '@/live/types';
+
+export type Mood = 'away' | 'stopped' | 'waiting' | 'paused' | 'running' | 'idle' | 'unknown';
+
+/** In these a plan goes on only when a person has said something. */
+const NEEDS: readonly PlanView['state'][] = ['held', 'awaiting_approval'];
+
+interface Seen {
+  robots: Readonly<Record<string, RobotView>>;
+  plans: Readonly<Record<string, PlanView>>;
+  proposals: Readonly<Record<string, ProposalView>>;
+}
+
+export function moodOf(name: string, { robots, plans, proposals }: Seen): Mood {
+  const robot = robots[name];
+  if (robot?.connection !== 'here') return 'away';
+  if (robot.state === 'stopped' || robot.stop.state !== 'none') return 'stopped';
+  const waits =
+    Object.values(plans).some((plan) => plan.robot === name && NEEDS.includes(plan.state)) ||
+    Object.values(proposals).some((proposal) => proposal.robot === name);
+  if (waits && robot.state !== 'running') return 'waiting';
+  return robot.state === 'leaving' ? 'unknown' : robot.state;
+}
+
+/** How a robot fares now; not known while this page is not connected. */
+export function useMood(name: string): Mood {
+  const mood = useWorld((world) => moodOf(name, world));
+  const lost = useLive((live) => live.connection === 'lost');
+  return lost ? 'unknown' : mood;
+}
