@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import asyncio
+from dataclasses import replace
 
 import pytest
 
@@ -101,6 +102,20 @@ def test_a_plan_is_put_into_another_order(said: str, order: str) -> None:
 )
 def test_what_does_not_fit_the_plan_changes_nothing(said: str) -> None:
     assert after(said, *PLAN) == list(PLAN)
+
+
+def test_a_number_counts_steps_and_a_name_takes_all_that_is_done_there() -> None:
+    _, made = answer("go to gate 1 and inspect it and then go to the workshop")
+    situation = Situation("", queue=made.queue, status="running", objects=OBJECTS, catalogue=CATALOGUE)
+    for said, left in (
+        ("drop the second step", ["drive gate 1", "drive workshop"]),
+        ("skip gate 1", ["drive workshop"]),
+        ("the workshop first", ["drive workshop", "drive gate 1", "look gate 1"]),
+    ):
+        asked = replace(situation, message=said)
+        answered = asyncio.run(ENGINE.interpret(asked))
+        calls = pending(asked.queue, answered)
+        assert [f"{call.name} {texts_of(call)[0]}" for call in calls] == left, said
 
 
 def test_a_step_that_stays_keeps_running() -> None:

@@ -40,11 +40,13 @@ _DROP: Final = (
 
 def rearranged(situation: Situation, tokens: Sequence[Token], lexicon: Lexicon) -> Change | None:
     """What a message makes of the order of a plan; None if it is about something else."""
-    groups = _grouped(visits(situation))
-    if not groups or situation.question:
+    plan = visits(situation)
+    if not plan or situation.question:
         return None
     names = named(tokens, situation.objects, lexicon)
     text = _with_slots(tokens, names)
+    counts = not {*text.split()}.isdisjoint(_NUMBERS)  # as people count the lines of a plan on the page
+    groups = [[visit] for visit in plan] if counts else _grouped(plan)
     for pattern, made in _patterns():
         found = pattern.fullmatch(f"{text} ")
         if found is not None:
