@@ -12,6 +12,7 @@ from parley.agents.planner.check import check_calls, complete_calls
 from parley.agents.planner.commands import Commands
 from parley.agents.planner.flow import listed, rebased
 from parley.agents.planner.ordering import BeginFor, Ordering
+from parley.agents.planner.plan import TargetPlan
 from parley.agents.planner.proposing import Proposals
 from parley.agents.planner.robot_plans import RobotPlans
 from parley.errors import Problem
@@ -20,7 +21,7 @@ from parley.gate.table import Effect, verdict
 from parley.messages import topics
 from parley.messages.audit import AuditEvent
 from parley.messages.chat import ActionCall
-from parley.messages.status import PlanDecision
+from parley.messages.status import PlanDecision, PlanProposal
 
 __all__ = ["Decisions"]
 
@@ -139,11 +140,20 @@ class Decisions:
         calls = self._plans.accept(plan, calls or (), correcting=repairs, decided=edited)
         if calls is None:
             return  # it goes on waiting, for a better edit
+        self._begin(plan, decision, proposal, calls)
+
+    def _begin(
+        self, plan: TargetPlan, decision: PlanDecision, proposal: PlanProposal, calls: list[ActionCall]
+    ) -> None:
+        """Do what was agreed to; the steps wait behind what a person told to wait."""
+        edited, repairs = decision.decision == "edit", self._plans.approvals.repairs(decision.id)
         bound = self._plans.approvals.bound(decision.id)
         self._plans.approvals.drop(decision.id)
         self._plans.say(plan.target, CHANGED if edited else begun(proposal.labels), "response")
-        if calls:  # whoever says yes to steps wants them done
+        rest = not repairs and plan.update().state == "paused" and bool(plan.pending)
+        if calls and not rest:  # whoever says yes to steps wants them done, but not what they told to wait
             self._plans.held_by.pop(plan.target, None)
+        if calls:
             self._begin_for(plan.target, decision.by)
         for command, step in bound:
             self._commands.change(plan, command, step, decision)
@@ -151,7 +161,7 @@ class Decisions:
             self._plans.send(plan, orders.take_repair(plan, calls))
         elif calls:
             self._commands.append(plan, calls, proposal.words)
-            if plan.update().state == "paused":
+            if not rest and plan.update().state == "paused":
                 self._plans.send(plan, plan.start())
         else:
             self._plans.send(plan, [])
