@@ -150,13 +150,13 @@ class Decisions:
         bound = self._plans.approvals.bound(decision.id)
         self._plans.approvals.drop(decision.id)
         self._plans.say(plan.target, CHANGED if edited else begun(proposal.labels), "response")
+        for command, step in bound:
+            self._commands.change(plan, command, step, decision)
         rest = not repairs and plan.update().state == "paused" and bool(plan.pending)
         if calls and not rest:  # whoever says yes to steps wants them done, but not what they told to wait
             self._plans.held_by.pop(plan.target, None)
         if calls:
             self._begin_for(plan.target, decision.by)
-        for command, step in bound:
-            self._commands.change(plan, command, step, decision)
         if repairs:
             self._plans.send(plan, orders.take_repair(plan, calls))
         elif calls:
