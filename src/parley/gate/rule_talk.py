@@ -368,8 +368,9 @@ def _insisted_text(rules: Sequence[Rule]) -> str:
     return together(
         sentence("I do not go past a rule, whoever asks."),
         *(rule_text(rule) for rule in rules),
-        sentence("Operators and supervisors may drop it: “{words}”.", words=words),
-        sentence("Supervisors also change it on the page Rules."),
+        sentence(
+            "Operators and supervisors may drop it (“{words}”) or change it on the page Rules.", words=words
+        ),
     )
 
 

@@ -20,7 +20,7 @@ from parley.gate.judge import Judgement
 from parley.gate.table import Effect, verdict
 from parley.messages import topics
 from parley.messages.audit import AuditEvent
-from parley.messages.chat import ActionCall
+from parley.messages.chat import ActionCall, SystemCommand
 from parley.messages.status import PlanDecision, PlanProposal
 
 __all__ = ["Decisions"]
@@ -118,7 +118,7 @@ class Decisions:
     def _decide(self, target: str, decision: PlanDecision) -> None:
         proposal = self._plans.approvals.get(decision.id)
         if proposal is None or proposal.target != target:
-            self._plans.say(decision.target, "That plan is no longer waiting for an answer.", "error")
+            self._too_late(target, decision)
             return
         plan, repairs = self._plans.plan(proposal.target), self._plans.approvals.repairs(decision.id)
         if decision.decision == "reject":
@@ -141,6 +141,16 @@ class Decisions:
         if calls is None:
             return  # it goes on waiting, for a better edit
         self._begin(plan, decision, proposal, calls)
+
+    def _too_late(self, target: str, decision: PlanDecision) -> None:
+        """A no to what somebody else's yes has begun meanwhile is a stop; nothing else is done."""
+        plan = self._plans.plan(target)
+        if decision.decision == "reject" and plan.update().state == "running":
+            stop = SystemCommand(command="stop")
+            self._plans.send(plan, self._commands.effects_of(plan, stop, decision.by))
+            self._plans.say(target, orders.BEGUN_ALREADY, "response")
+        else:
+            self._plans.say(target, "That plan is no longer waiting for an answer.", "error")
 
     def _begin(
         self, plan: TargetPlan, decision: PlanDecision, proposal: PlanProposal, calls: list[ActionCall]
