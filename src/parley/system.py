@@ -46,7 +46,7 @@ from parley.gate.audit_store import AuditStore
 from parley.gate.book import RuleBook
 from parley.gate.judge import Judgement
 from parley.gate.places import Resolver
-from parley.gate.rule_talk import RuleTalk
+from parley.gate.rule_talk import RuleTalk, left_over_rule
 from parley.gate.rules import RuleKeeper
 from parley.gate.stop_line import StopLine
 from parley.gate.ways import judge_with_ways
@@ -266,6 +266,9 @@ class System:
         doubt = IN_DOUBT if self.stop_line.in_doubt else ""
         for text in (doubt, self.store.notice, incidents.notice, proposals.notice, *self._early):
             self._tell_all(text, "error")
+        for rule in keeper.left_over:
+            self._tell_all(left_over_rule(rule))
+        await keeper.note_asked(())
         await self._open_actions(notices)
         views: Mapping[str, WorldView] = {name: self._view(name) for name in self.robot_names}
         maps = {name: (view.occupancy, view.objects.objects) for name, view in views.items()}

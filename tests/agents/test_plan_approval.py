@@ -414,6 +414,22 @@ async def test_a_yes_is_weighed_by_the_rules_of_its_moment_and_not_of_the_card(v
         assert bool(party.body.did) == (verdict == "ask")
 
 
+async def test_a_yes_to_new_steps_does_not_let_go_on_what_a_person_told_to_wait() -> None:
+    async with crew("A") as party:
+        await begun(party)
+        party.command("stop")
+        await party.state("paused")
+        party.order(press("bell"), by=PROGRAM)
+        await party.until(lambda: proposals(party))
+        decide(party, id=proposals(party)[0]["id"], decision="approve")
+        await party.hears("I am still standing still.")
+        party.body.gate("box").set()
+        await party.settled()
+        assert (party.observer.state("A"), party.body.did) == ("paused", ["look box"])
+        party.command("start")
+        await party.until(lambda: party.body.did == ["look box", "press bell"])
+
+
 async def test_a_yes_is_no_yes_to_the_same_words_on_a_map_that_has_changed() -> None:
     box = MapObject("b", "box", 1.0, 0.0, "box", 0.5, 0.5)
     objects = [box]

@@ -182,6 +182,29 @@ async def test_a_drive_stands_while_a_zone_before_it_is_asked_about(answer: str)
             assert it.farthest_m < 4.25 - it.system.robots["A"].radius_m
 
 
+async def test_a_rule_that_nobody_had_agreed_to_at_the_end_of_a_process_is_told_by_the_next(
+    tmp_path: Path,
+) -> None:
+    config = SystemConfig(speed=None, data_dir=tmp_path)
+    lost = "so this is no rule: Stays out of “green crate”: every robot."
+
+    def told(it: Crew) -> int:
+        return sum(lost in said.message for said in it.observer.said)
+
+    async with crew(config) as it:
+        it.observer.say("nobody into the green crate", "A")
+        await it.question()
+    async with crew(config) as it:
+        await it.observer.until(lambda: told(it) == 1)
+        assert it.held == []
+        it.observer.say("nobody into the green crate", "A")
+        await it.question()
+        await it.say("no", answer=True)
+    async with crew(config) as it:
+        await it.say("what rules are there?")
+        assert (told(it), it.held) == (0, [])
+
+
 async def test_after_a_no_nothing_holds_and_orders_are_no_rules() -> None:
     async with crew() as it:
         it.observer.say("nobody into the green crate", "A")

@@ -81,6 +81,21 @@ async def test_stop_pauses_stands_still_keeps_the_plan_and_carry_on_resumes(part
     assert party.body.did == ["drive 1", "look door"]
 
 
+@pytest.mark.parametrize("turns", [0, 3, 10])
+async def test_a_no_right_behind_somebody_elses_yes_stops_what_the_yes_begins(turns: int) -> None:
+    async with crew("A", talking=True, ask_first=["A"]) as party:
+        party.body.gate("box")
+        party.language.will("interpret", ChatAction(message_response="Yes.", queue=(look("box"),)))
+        party.observer.say("look at the box", "A")
+        await party.hears("Shall I?")
+        party.observer.say("yes", "A")
+        for _ in range(turns):  # of the loop: the yes is read, decided on, begun with
+            await asyncio.sleep(0)
+        party.observer.say("no", "A")
+        await party.hears("I have stopped")
+        await party.state("paused")
+
+
 async def test_a_correction_that_opens_with_wait_is_carried_out_and_stops_nothing(party: Crew) -> None:
     pops = [{"pop": {"parameters": index}} for index in (0, 1)]
     change = {"message_response": "Then the box.", "queue": [look("box")], "system_cmd": pops}

@@ -125,7 +125,7 @@ async def test_who_insists_hears_which_rule_it_is_and_who_may_change_it(words: s
     told = await talk.say(words)
     assert told is not None and not told.id
     assert "Stays out of “store”: Ada." in told.text
-    assert "Operators and supervisors may drop it: “drop the rule about store”." in told.text
+    assert "Operators and supervisors may drop it (“drop the rule about store”)" in told.text
     assert await talk.say("go to the desk anyway") is None, "an order of its own"
     talk.talk.refused("Ada", ())
     assert await talk.say(words) is None

@@ -22,7 +22,7 @@ from parley.messages.status import ActionInfo
 from parley.sentences import in_language, listed, sentence, together
 from parley.world.object_map import MapObject
 
-__all__ = ["Listener", "RuleConfirmations", "RuleReply", "RuleTalk"]
+__all__ = ["Listener", "RuleConfirmations", "RuleReply", "RuleTalk", "left_over_rule"]
 
 _KEPT: Final = 100
 _SHORT: Final = 2
@@ -224,6 +224,11 @@ class RuleTalk:
             to: Who is spoken to.
             answers: The question that it answers, if it does.
         """
+        reply = await self._reply(text, by, to, answers)
+        await self._keeper.note_asked(self._confirmations.proposed)
+        return reply
+
+    async def _reply(self, text: str, by: Principal, to: Listener, answers: str) -> RuleReply | None:
         if answers and self.asked(answers):
             reply = await self._answer(answers, text, by)
             if reply is not None:
@@ -363,8 +368,17 @@ def _insisted_text(rules: Sequence[Rule]) -> str:
     return together(
         sentence("I do not go past a rule, whoever asks."),
         *(rule_text(rule) for rule in rules),
-        sentence("Operators and supervisors may drop it: “{words}”.", words=words),
-        sentence("Supervisors also change it on the page Rules."),
+        sentence(
+            "Operators and supervisors may drop it (“{words}”) or change it on the page Rules.", words=words
+        ),
+    )
+
+
+def left_over_rule(rule: Rule) -> str:
+    """About a rule that was told and not agreed to when the program ended."""
+    return sentence(
+        "I was started anew before you answered, so this is no rule: {rule} Tell me again if it should be.",
+        rule=rule_text(rule),
     )
 
 

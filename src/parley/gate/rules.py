@@ -10,11 +10,13 @@ import asyncio
 import os
 import tempfile
 import textwrap
+from collections.abc import Sequence
 from dataclasses import dataclass
 from itertools import pairwise
 from pathlib import Path
 from typing import Final
 
+import structlog
 import yaml
 
 from parley.errors import ConfigError
@@ -25,6 +27,9 @@ from parley.messages.rules import Rule, RuleSet
 __all__ = ["FILE_NAME", "RuleKeeper", "read_rules", "rule_yaml", "with_rules"]
 
 FILE_NAME: Final = "rules.yaml"
+
+_ASKED: Final = ".asked.yaml"
+log = structlog.get_logger(__name__)
 
 _HEAD: Final = "# What robots may do here; `parley rules check` looks for mistakes.\nschema: 1\n"
 
@@ -119,11 +124,28 @@ class RuleKeeper:
             text = read_text(path)
             self._written = _Written(text, read_rules(text, path.name))
             book.replace(self._written.rules)
+        self._asked = path.with_suffix(_ASKED) if path is not None else None
+        self._asking = _asked_before(self._asked)
+        self.left_over: Sequence[Rule] = self._asking.rules.rules
+        """What an earlier process asked about when it ended, and was not told."""
 
     @property
     def path(self) -> Path | None:
         """Where the rules are kept."""
         return self._path
+
+    async def note_asked(self, rules: Sequence[Rule]) -> None:
+        """Write down what is asked about, so that the next process can say that it is no rule."""
+        if self._asked is None or tuple(rules) == self._asking.rules.rules:
+            return
+        after = RuleSet(rules=tuple(rules))
+        text = with_rules("", RuleSet(), after)
+        try:
+            await asyncio.to_thread(_write, self._asked, self._asking.text, text)
+        except ConfigError as error:  # whoever told it is asked all the same
+            log.warning("what is asked about is not written down", problem=str(error))
+            return
+        self._asking = _Written(text, after)
 
     async def put(self, rule: Rule) -> None:
         """Add a rule, or replace the one of its id; it is on the disk when this returns.
@@ -158,6 +180,16 @@ class RuleKeeper:
             await asyncio.to_thread(_write, self._path, self._written.text, text)
             self._written = _Written(text, after)
         self._book.replace(after)
+
+
+def _asked_before(path: Path | None) -> _Written:
+    """What is written down there; nothing if it is not there or damaged: it only makes a sentence."""
+    try:
+        text = path.read_text(encoding="utf-8") if path is not None and path.exists() else ""
+        return _Written(text, read_rules(text) if text else RuleSet())
+    except (OSError, UnicodeDecodeError, ConfigError) as error:
+        log.warning("what was asked about cannot be read", problem=str(error))
+        return _Written("", RuleSet())
 
 
 def _write(path: Path, before: str, text: str) -> None:

@@ -168,12 +168,14 @@ class ChatInterface(Node):
         calls, refuses = calls_to_stop(said.message), is_no(said.message)
         for target in targets:
             question = self._questions.newest(target) if said.type == "response" else None
-            halts = calls or (refuses and question is None and self._offered.newest(target) is None)
+            unasked = refuses and question is None and self._offered.newest(target) is None
             moves = self._known.moves(target, self._presence.get(target))
+            # Somebody else may just have said yes: what begins by that has not set the robot in motion yet.
+            halts = (calls and moves) or (unasked and (moves or self._known.is_under_way(target)))
             turns = question is None and control in (None, "stop")
             if turns and only_takes_back(said.message, moves=moves):
                 self._mailboxes.post(target, self._correction(target, said, moves=moves))
-            elif halts and control not in _HALTING and moves:
+            elif halts and control not in _HALTING:
                 self._control(target, "stop", said, more=control is None)
             elif control is not None and not self._answers(target, question, control):
                 self._control(target, control, said)

@@ -132,6 +132,10 @@ class Situations:
         runs = [step.action.name for step in plan.steps if step.state in ("running", "paused")]
         return status is None or status.at_rest is False or bool(moving & set(runs))
 
+    def is_under_way(self, target: str) -> bool:
+        """Whether a robot is at something, or may begin any moment."""
+        return self.state(target) in ("running", "awaiting_approval")
+
     def may_have_to_ask(self, target: str) -> bool:
         """Whether some steps of a robot wait for a person's yes."""
         return target in self.plans and self.plans[target].policy != "run_at_once"

@@ -12,6 +12,7 @@ from parley.agents.planner.check import check_calls, complete_calls
 from parley.agents.planner.commands import Commands
 from parley.agents.planner.flow import listed, rebased
 from parley.agents.planner.ordering import BeginFor, Ordering
+from parley.agents.planner.plan import TargetPlan
 from parley.agents.planner.proposing import Proposals
 from parley.agents.planner.robot_plans import RobotPlans
 from parley.errors import Problem
@@ -19,8 +20,8 @@ from parley.gate.judge import Judgement
 from parley.gate.table import Effect, verdict
 from parley.messages import topics
 from parley.messages.audit import AuditEvent
-from parley.messages.chat import ActionCall
-from parley.messages.status import PlanDecision
+from parley.messages.chat import ActionCall, SystemCommand
+from parley.messages.status import PlanDecision, PlanProposal
 
 __all__ = ["Decisions"]
 
@@ -117,7 +118,7 @@ class Decisions:
     def _decide(self, target: str, decision: PlanDecision) -> None:
         proposal = self._plans.approvals.get(decision.id)
         if proposal is None or proposal.target != target:
-            self._plans.say(decision.target, "That plan is no longer waiting for an answer.", "error")
+            self._too_late(target, decision)
             return
         plan, repairs = self._plans.plan(proposal.target), self._plans.approvals.repairs(decision.id)
         if decision.decision == "reject":
@@ -139,19 +140,38 @@ class Decisions:
         calls = self._plans.accept(plan, calls or (), correcting=repairs, decided=edited)
         if calls is None:
             return  # it goes on waiting, for a better edit
+        self._begin(plan, decision, proposal, calls)
+
+    def _too_late(self, target: str, decision: PlanDecision) -> None:
+        """A no to what somebody else's yes has begun meanwhile is a stop; nothing else is done."""
+        plan = self._plans.plan(target)
+        if decision.decision == "reject" and plan.update().state == "running":
+            stop = SystemCommand(command="stop")
+            self._plans.send(plan, self._commands.effects_of(plan, stop, decision.by))
+            self._plans.say(target, orders.BEGUN_ALREADY, "response")
+        else:
+            self._plans.say(target, "That plan is no longer waiting for an answer.", "error")
+
+    def _begin(
+        self, plan: TargetPlan, decision: PlanDecision, proposal: PlanProposal, calls: list[ActionCall]
+    ) -> None:
+        """Do what was agreed to; the steps wait behind what a person told to wait."""
+        edited, repairs = decision.decision == "edit", self._plans.approvals.repairs(decision.id)
         bound = self._plans.approvals.bound(decision.id)
         self._plans.approvals.drop(decision.id)
         self._plans.say(plan.target, CHANGED if edited else begun(proposal.lines), "response")
-        if calls:  # whoever says yes to steps wants them done
-            self._plans.held_by.pop(plan.target, None)
-            self._begin_for(plan.target, decision.by)
         for command, step in bound:
             self._commands.change(plan, command, step, decision)
+        rest = not repairs and plan.update().state == "paused" and bool(plan.pending)
+        if calls and not rest:  # whoever says yes to steps wants them done, but not what they told to wait
+            self._plans.held_by.pop(plan.target, None)
+        if calls:
+            self._begin_for(plan.target, decision.by)
         if repairs:
             self._plans.send(plan, orders.take_repair(plan, calls))
         elif calls:
             self._commands.append(plan, calls, proposal.words)
-            if plan.update().state == "paused":
+            if not rest and plan.update().state == "paused":
                 self._plans.send(plan, plan.start())
         else:
             self._plans.send(plan, [])
