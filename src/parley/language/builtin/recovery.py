@@ -214,7 +214,7 @@ class Repairer:
         about = _stems(_words_of(situation.failed_action)) | {"it", "he", "she", "they", "that", "this"}
         for place in told:
             if {stem(word) for word in place.thing.split()} <= about:
-                return self._at_place(situation, place)
+                return self._kept(situation, reply, self._at_place(situation, place))
         tokens = tokenize(reply)
         things = [
             one.things[0] for one in named(tokens, situation.objects, self.lexicon) if len(one.things) == 1
@@ -223,6 +223,21 @@ class Repairer:
             return None
         words = tuple(things[0].description.lower().split())
         return self._at_place(situation, Place("it", words, head_of(words, self.lexicon), said))
+
+    def _kept(self, situation: ErrorSituation, reply: str, made: ChatAction | None) -> ChatAction | None:
+        """With a memory of where the thing is that was not found."""
+        words = words_of(_words_of(situation.failed_action))
+        wish = next((wish for wish in self.reading(reply).wishes if wish.frame == "BELOC"), None)
+        where = (wish.one("L") or wish.one("G")) if wish is not None else None
+        if made is None or where is None or not words:
+            return made
+        name, _ = noun_phrase(words, head_of(words, self.lexicon), self.lexicon)
+        thing = " ".join(name)
+        fact = {"name": f"{'_'.join(name)}_location", "data": f"{with_article(thing)} is {where.text}",
+                "info": f"Where {with_article(thing)} is"}  # fmt: skip
+        return made.model_copy(
+            update={"system_cmd": (SystemCommand(command="add_memory", arguments=dict(fact)),)}
+        )
 
     def _only_names(self, reply: str, thing: MapObject) -> bool:
         """Whether an answer only names a thing, or orders the failed step with it: "try the desk"."""

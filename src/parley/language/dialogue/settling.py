@@ -39,6 +39,11 @@ _JOINT: Final = re.compile(
     r"\s*(?:[.;,!:]+\s*(?:(?:and|then|but|so) )*|\b(?:and then|then|and|but)\b)\s*", re.IGNORECASE
 )
 _NOT: Final = frozenset({"not", "n't", "don't", "no", "never", "nor"})
+_OWN: Final = frozenset({"myself", "ourselves", "himself", "herself", "themselves"})
+_CLEARING: Final = re.compile(
+    r"\b(?:moved|removed|opened|cleared|pushed|pulled|freed|fixed|closed|plugged)\b"
+)
+"""What somebody does for a robot that goes on then; else what they did themselves is the step."""
 _MOST_WORDS: Final = 9
 _LONGEST_S: Final = 3600.0
 
@@ -96,7 +101,7 @@ def _way(piece: str, things: Collection[str]) -> Way | None:
     if short and _AGAIN.search(bare) and not _NOT & {*words}:
         return "again"
     if is_done(bare):
-        return "done"
+        return "without" if _OWN & {*words} and not _CLEARING.search(bare) else "done"
     return "promise" if _PROMISE.fullmatch(bare) and not _NOT & {*words} else None
 
 
