@@ -67,6 +67,9 @@ async def test_an_order_to_go_where_the_plan_waits_to_go_is_the_answer(
         ("leave it, it is not important", True, 0),
         ("I did it myself", True, 0),
         ("I moved it myself", True, 1),
+        ("just do the rest", True, 0),
+        ("forget the gate", True, 0),
+        ("forget the printer", False, 0),
         ("purple", False, 0),
         ("don't try that again", None, 0),
         ("I'll move it", None, 0),
@@ -108,6 +111,14 @@ async def test_an_order_behind_an_answer_is_kept_or_comes_instead(
         now,
         afterwards,
     ]
+
+
+async def test_what_is_said_of_a_later_step_is_left_to_the_chat() -> None:
+    later = STEP.model_copy(update={"reason": "go to the printer"})
+    answer = await ENGINE.resolve(
+        replace(failure("forget the printer", FailureCode.BLOCKED), pending=(later,))
+    )
+    assert (answer.success, answer.message_response) == (None, "")
 
 
 async def test_where_a_thing_is_that_was_not_found_is_remembered_and_looked_at() -> None:

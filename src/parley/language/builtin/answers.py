@@ -32,6 +32,8 @@ def answer(
     """What is known about what is asked for; "it" is what was spoken of `before`."""
     fillers = [*(filler for wish in reading.wishes for filler in wish.fillers), *reading.loose]
     thing = next((filler for filler in fillers if filler.role == "T"), None)
+    if thing is None and _is_about_failure(situation, lexicon):
+        return _spoken_of(situation, before)
     if thing is None:
         return _kept(situation, lexicon) or Answer(_NO_ANSWER)
     mention = link(thing.words, thing.head, situation.objects, lexicon)
@@ -48,6 +50,15 @@ def answer(
         return Answer(f"On my map there is {named}.")
     shown = with_article(as_said(mention.text, situation.message))
     return _kept(situation, lexicon) or Answer(f"I do not know anything about {shown}.")
+
+
+def _is_about_failure(situation: Situation, lexicon: Lexicon) -> bool:
+    """Whether a question has words of what went wrong: "what is in the way?"."""
+    small = lexicon.classes["small"] | lexicon.classes["prepositions"] | lexicon.classes["logic"]
+    small = small - lexicon.classes["trouble"]
+    failed = situation.failure.error_message if situation.failure is not None else ""
+    asked, told = ({token.low for token in tokenize(text)} - small for text in (situation.message, failed))
+    return any(word.isalpha() for word in asked & told)
 
 
 def _kept(situation: Situation, lexicon: Lexicon) -> Answer | None:

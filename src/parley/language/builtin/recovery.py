@@ -258,10 +258,11 @@ class Repairer:
     def _other_things(self, situation: ErrorSituation) -> set[str]:
         """The words for things and rooms that the failed step is not about."""
         small = self.lexicon.classes["prepositions"] | self.lexicon.classes["determiners"]
-        names = [name for item in situation.objects for name in (item.description, *item.aliases)]
-        known = _stems(" ".join([*names, *rooms(situation.objects)]))
-        step = f"{_words_of(situation.failed_action)} {situation.failed_action.reason}"
-        return known - _stems(step) - {stem(word) for word in small}
+        step = f"{_words_of(situation.failed_action)} {situation.failed_action.reason}".lower()
+        called = [" ".join((item.description, *item.aliases)) for item in situation.objects]
+        own = [text for text, item in zip(called, situation.objects, strict=True) if item.description in step]
+        known = _stems(" ".join([*called, *rooms(situation.objects)]))
+        return known - _stems(" ".join([step, *own])) - {stem(word) for word in small}
 
     def _left(self, situation: ErrorSituation, names: Sequence[str]) -> ChatAction:
         """Nothing, if the chat has something to say to an answer; else the question once more."""
@@ -269,6 +270,8 @@ class Repairer:
         made = self.decide(replace(message, question=_question(situation, names)[0]))
         reading = self.reading(situation.reply or "")
         meant = any(wish.act == "order" and wish.witness == "agrees" for wish in reading.wishes)
+        planned = _stems(" ".join(f"{_words_of(step)} {step.reason}" for step in situation.pending))
+        meant = meant or bool(self._other_things(situation) & planned & _stems(situation.reply or ""))
         if not isinstance(made, Ask) or made.choices or made.offer or made.alarms or made.told or meant:
             return _about_candidates(situation, names) or ChatAction()
         question, choices = _question(situation, names)

@@ -25,7 +25,8 @@ _AGAIN: Final = re.compile(
 )
 _WITHOUT: Final = re.compile(
     r"\b(?:without|skip|leave (?:it|that|this|out)|never ?mind|ignore|next step|"
-    r"(?:forget|drop)(?: about)? (?:it|that|this)|no (?:need|longer needed)|"
+    r"(?:do|(?:go|carry) on with|continue with|on with) the rest|"
+    r"(?:forget|drop|omit)(?: about)? (?:it|that|this|the)|no (?:need|longer needed)|"
     r"(?:not|n't|don't|doesn't) (?:important|matter|needed|necessary|bother|need|want))\b"
 )
 _GIVING_UP: Final = re.compile(r"(?:no )?(?:(?:forget|drop|leave)(?: about)? (?:it|that|this)|never ?mind)")
