@@ -127,6 +127,18 @@ async def test_question_is_answered_and_the_own_one_asked_again_without_counting
     assert [correction.success for correction in place.corrections.seen] == [True]
 
 
+async def test_after_an_answer_aside_the_question_is_put_as_at_first(place: Place) -> None:
+    unclear = ASK.model_copy(update={"message_response": f"I did not understand. {ASK.message_response}"})
+    place.language.will("resolve", ASK, unclear, ASIDE)
+    place.fail()
+    await place.said()
+    for count, answer in enumerate(("hm", "why?")):
+        place.answer(answer, "A")
+        await place.said(2 + 2 * count)
+    asked = [said.message for said in place.observer.said if said.type == "request"]
+    assert asked == [ASK.message_response, unclear.message_response, ASK.message_response]
+
+
 async def test_what_was_said_aside_is_part_of_the_dialogue(place: Place) -> None:
     place.language.will("resolve", ASK, ASIDE, SOLVED)
     place.fail()

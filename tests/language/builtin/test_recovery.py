@@ -65,6 +65,11 @@ async def test_an_order_to_go_where_the_plan_waits_to_go_is_the_answer(
         ("go around it", True, 1),
         ("could you try it once more?", True, 1),
         ("leave it, it is not important", True, 0),
+        ("I did it myself", True, 0),
+        ("I moved it myself", True, 1),
+        ("just do the rest", True, 0),
+        ("forget the gate", True, 0),
+        ("forget the printer", False, 0),
         ("purple", False, 0),
         ("don't try that again", None, 0),
         ("I'll move it", None, 0),
@@ -106,6 +111,29 @@ async def test_an_order_behind_an_answer_is_kept_or_comes_instead(
         now,
         afterwards,
     ]
+
+
+async def test_what_is_said_of_a_later_step_is_left_to_the_chat() -> None:
+    later = STEP.model_copy(update={"reason": "go to the printer"})
+    answer = await ENGINE.resolve(
+        replace(failure("forget the printer", FailureCode.BLOCKED), pending=(later,))
+    )
+    assert (answer.success, answer.message_response) == (None, "")
+
+
+async def test_where_a_thing_is_that_was_not_found_is_remembered_and_looked_at() -> None:
+    look = ActionCall.model_validate(
+        {"look": {"input_parameters": {"what": {"pvf_type": "string", "pvf_value": "the red key"}}}}
+    )
+    looks = tuple(i.model_copy(update={"effects": ("looks",)}) if i.name == "look" else i for i in CATALOGUE)
+    failed = replace(failure("it is on the desk", FailureCode.NO_MATCH), failed_action=look, catalogue=looks)
+    answer = await ENGINE.resolve(failed)
+    assert [target(step) for step in answer.queue] == ["desk", "the red key"]
+    (command,) = answer.system_cmd
+    assert command.arguments["data"] == "the red key is on the desk"
+    known = MemoryEntry(name="red_key_location", data="the red key is on the desk")
+    alone = await ENGINE.resolve(replace(failed, reply=None, memory=(known,)))
+    assert (alone.success, alone.sources, len(alone.queue)) == (True, ("red_key_location",), 2)
 
 
 async def test_what_was_taught_for_a_failure_is_done_without_asking_once() -> None:

@@ -4,7 +4,8 @@ from __future__ import annotations
 
 import pytest
 
-from parley.language.base import Situation, Turn
+from parley.errors import FailureCode
+from parley.language.base import ErrorSituation, Situation, Turn
 from parley.language.builtin.engine import BuiltinLanguage
 from parley.language.builtin.tokens import tokenize
 from parley.language.dialogue.places import rooms, whereabouts
@@ -119,3 +120,13 @@ async def test_what_a_name_ends_with_is_no_room_where_it_is_a_thing() -> None:
     things = (MapObject("d", "desk", 0.0, 0.0), MapObject("c", "end of the desk", 0.0, 1.0))
     assert rooms((*things, *THINGS)) == ("hall",)
     assert "in the desk" not in whereabouts(things, Pose2D(0.0, 0.5, 0.0))
+
+
+@pytest.mark.parametrize("message", ["what's in the way?", "where is it?", "why?", "what were you doing?"])
+async def test_while_a_failure_is_asked_about_questions_are_answered_from_it(message: str) -> None:
+    step = ActionCall(name="drive_to", reason="go to the gate")
+    failed = ErrorSituation("A crate is in the way.", step, FailureCode.BLOCKED)
+    answer = await ENGINE.interpret(
+        Situation(message, objects=THINGS, robot="Ada", question="Shall I try again?", failure=failed)
+    )
+    assert "A crate is in the way." in answer.message_response

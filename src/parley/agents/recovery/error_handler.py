@@ -450,7 +450,10 @@ class ErrorHandler(Node):
 
     def _put(self, repair: Repair, question: ChatAction, *, instead_of: str = "") -> None:
         repair.note_asked(question.message_response, self._clock.unix_ms())
-        repair.question = question
+        if repair.question is None or not question.choices or repair.question.choices != question.choices:
+            repair.question = (
+                question  # once more it is asked as at first: "I did not understand" is over then
+            )
         repair.question_id = _question_id(repair.incident)
         self._record(repair)
         self._say(

@@ -8,10 +8,11 @@ from typing import Final
 from parley.language.base import Situation
 from parley.language.builtin.decision import Answer
 from parley.language.builtin.facts import known_place, places
-from parley.language.builtin.lexicon import Lexicon
+from parley.language.builtin.lexicon import Lexicon, stem
 from parley.language.builtin.reading import Reading
-from parley.language.builtin.saying import with_article
+from parley.language.builtin.saying import as_said, with_article
 from parley.language.builtin.things import link, noun_phrase
+from parley.language.builtin.tokens import tokenize
 from parley.language.dialogue.places import lies, whereabouts
 from parley.world.object_map import MapObject
 
@@ -31,8 +32,10 @@ def answer(
     """What is known about what is asked for; "it" is what was spoken of `before`."""
     fillers = [*(filler for wish in reading.wishes for filler in wish.fillers), *reading.loose]
     thing = next((filler for filler in fillers if filler.role == "T"), None)
+    if thing is None and _is_about_failure(situation, lexicon):
+        return _spoken_of(situation, before)
     if thing is None:
-        return Answer(_NO_ANSWER)
+        return _kept(situation, lexicon) or Answer(_NO_ANSWER)
     mention = link(thing.words, thing.head, situation.objects, lexicon)
     if mention.kind == "pronoun":
         return _spoken_of(situation, before)
@@ -45,7 +48,31 @@ def answer(
     if mention.kind == "several":
         named = " and ".join(with_article(item.description) for item in mention.things)
         return Answer(f"On my map there is {named}.")
-    return Answer(f"I do not know anything about {with_article(mention.text)}.")
+    shown = with_article(as_said(mention.text, situation.message))
+    return _kept(situation, lexicon) or Answer(f"I do not know anything about {shown}.")
+
+
+def _is_about_failure(situation: Situation, lexicon: Lexicon) -> bool:
+    """Whether a question has words of what went wrong: "what is in the way?"."""
+    small = lexicon.classes["small"] | lexicon.classes["prepositions"] | lexicon.classes["logic"]
+    small = small - lexicon.classes["trouble"]
+    failed = situation.failure.error_message if situation.failure is not None else ""
+    asked, told = ({token.low for token in tokenize(text)} - small for text in (situation.message, failed))
+    return any(word.isalpha() for word in asked & told)
+
+
+def _kept(situation: Situation, lexicon: Lexicon) -> Answer | None:
+    """What is remembered in the words of a question, all but those that only ask; the newest."""
+    asking = lexicon.classes["small"] | lexicon.classes["logic"] | lexicon.classes["prepositions"]
+    asking = asking | lexicon.classes["being"] | {"do", "does", "did", "whose", "when", "much", "many"}
+    words = {
+        stem(token.low) for token in tokenize(situation.message) if token.is_word and token.low not in asking
+    }
+    for memory in reversed(situation.memory):
+        said = {stem(token.low) for token in tokenize(f"{memory.name.replace('_', ' ')} {memory.data}")}
+        if words and words <= said and memory.type == "text":
+            return Answer(f"I remember: {memory.data.rstrip('.')}.", (memory.name,))
+    return None
 
 
 def _lying(situation: Situation, thing: MapObject) -> str:

@@ -18,6 +18,7 @@ from parley.language.builtin.things import Mention, link
 from parley.language.builtin.ways import Ways, typed
 from parley.language.builtin.wishes import Filler, Wish
 from parley.messages.status import Kind
+from parley.umrf.kinds import parameters_of
 
 __all__ = ["Builder"]
 
@@ -276,6 +277,7 @@ class Builder(Ways):
                 values["H"] = Value("left", "left")
             else:
                 return Ask("To the left or to the right?" if wish.frame == "TURN" else "Which direction?")
+        self._turned_around(values)
         if "N" not in values and values["H"].argument == "back" and {*wish.verb.split()} & _RETURNING:
             return Ask("Back to which place? Or how far shall I move back?")
         if "N" not in values and values["H"].argument != "around":
@@ -295,6 +297,15 @@ class Builder(Ways):
         values["H"] = Value("left", "left")
         values["N"] = Value("180 degrees", "180 degrees", amount=Amount(180, "degrees"))
         return None
+
+    def _turned_around(self, values: dict[str, Value]) -> None:
+        """For "turn around" where an action knows but left and right: half a turn."""
+        skill = self.skills.get("TURN")
+        slot = _slot(skill, "H", values) if skill is not None and values["H"].argument == "around" else None
+        choices = parameters_of(skill.action)[slot].choices if skill is not None and slot else ()
+        if choices and "left" in choices and "around" not in choices:
+            values["H"] = Value("left", "left")
+            values.setdefault("N", Value("180 degrees", "180 degrees", amount=Amount(180, "degrees")))
 
     def _direct(self, wish: Wish, skill: Skill, values: dict[str, Value]) -> list[Deed] | Ask:
         """By the action that is made for it."""

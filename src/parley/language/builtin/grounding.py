@@ -11,7 +11,7 @@ from parley.language.builtin.amounts import Amount, amount_of, direction_of
 from parley.language.builtin.decision import Ask, Deed, Note
 from parley.language.builtin.facts import Place, known_place
 from parley.language.builtin.lexicon import Lexicon, stem
-from parley.language.builtin.saying import with_article
+from parley.language.builtin.saying import as_said, with_article
 from parley.language.builtin.sets import Group, group
 from parley.language.builtin.skills import Skills
 from parley.language.builtin.spatial import picked
@@ -139,10 +139,14 @@ class Grounder:
         movable = frame in _MOVABLE and filler.role == "T" and looked_for
         if movable or frame in ("PHOTO", "BELOC"):
             return Value(mention.text, with_article(mention.text))
-        return self._unknown(mention.text, frame, sought=frame in _MOVABLE and filler.role == "T")
+        return self._unknown(
+            as_said(mention.text, filler.text), frame, sought=frame in _MOVABLE and filler.role == "T"
+        )
 
     def _unknown(self, text: str, frame: str, *, sought: bool) -> Ask:
         """That nothing is called so, with what is near and known: nobody knows all that a robot knows."""
+        if text[:1].isupper():
+            return Ask(f"I do not know where {text} is. Please tell me where.")
         if sought:
             return Ask(f"I do not know where any “{text}” is. Please tell me where it is.")
         leads = frame == "GO"
@@ -191,8 +195,12 @@ class Grounder:
         """Of a room as a goal the nearest thing that stands in it: a room is no thing of its own."""
         if frame not in ("GO", "BRING") or filler.role not in "GL":
             return None
+        return self.inside(filler.words)
+
+    def inside(self, words: Sequence[str]) -> MapObject | None:
+        """The nearest thing in the room that words name, if they name one."""
         small = self.lexicon.classes["prepositions"] | self.lexicon.classes["determiners"]
-        room = " ".join(word for word in filler.words if word not in small)
+        room = " ".join(word for word in words if word not in small)
         inside = in_room(room, self.situation.objects, self.situation.robot_pose)
         return inside[0] if inside and len(room) > 1 else None
 

@@ -214,7 +214,7 @@ class Repairer:
         about = _stems(_words_of(situation.failed_action)) | {"it", "he", "she", "they", "that", "this"}
         for place in told:
             if {stem(word) for word in place.thing.split()} <= about:
-                return self._at_place(situation, place)
+                return self._kept(situation, reply, self._at_place(situation, place))
         tokens = tokenize(reply)
         things = [
             one.things[0] for one in named(tokens, situation.objects, self.lexicon) if len(one.things) == 1
@@ -223,6 +223,21 @@ class Repairer:
             return None
         words = tuple(things[0].description.lower().split())
         return self._at_place(situation, Place("it", words, head_of(words, self.lexicon), said))
+
+    def _kept(self, situation: ErrorSituation, reply: str, made: ChatAction | None) -> ChatAction | None:
+        """With a memory of where the thing is that was not found."""
+        words = words_of(_words_of(situation.failed_action))
+        wish = next((wish for wish in self.reading(reply).wishes if wish.frame == "BELOC"), None)
+        where = (wish.one("L") or wish.one("G")) if wish is not None else None
+        if made is None or where is None or not words:
+            return made
+        name, _ = noun_phrase(words, head_of(words, self.lexicon), self.lexicon)
+        thing = " ".join(name)
+        fact = {"name": f"{'_'.join(name)}_location", "data": f"{with_article(thing)} is {where.text}",
+                "info": f"Where {with_article(thing)} is"}  # fmt: skip
+        return made.model_copy(
+            update={"system_cmd": (SystemCommand(command="add_memory", arguments=dict(fact)),)}
+        )
 
     def _only_names(self, reply: str, thing: MapObject) -> bool:
         """Whether an answer only names a thing, or orders the failed step with it: "try the desk"."""
@@ -243,10 +258,11 @@ class Repairer:
     def _other_things(self, situation: ErrorSituation) -> set[str]:
         """The words for things and rooms that the failed step is not about."""
         small = self.lexicon.classes["prepositions"] | self.lexicon.classes["determiners"]
-        names = [name for item in situation.objects for name in (item.description, *item.aliases)]
-        known = _stems(" ".join([*names, *rooms(situation.objects)]))
-        step = f"{_words_of(situation.failed_action)} {situation.failed_action.reason}"
-        return known - _stems(step) - {stem(word) for word in small}
+        step = f"{_words_of(situation.failed_action)} {situation.failed_action.reason}".lower()
+        called = [" ".join((item.description, *item.aliases)) for item in situation.objects]
+        own = [text for text, item in zip(called, situation.objects, strict=True) if item.description in step]
+        known = _stems(" ".join([*called, *rooms(situation.objects)]))
+        return known - _stems(" ".join([step, *own])) - {stem(word) for word in small}
 
     def _left(self, situation: ErrorSituation, names: Sequence[str]) -> ChatAction:
         """Nothing, if the chat has something to say to an answer; else the question once more."""
@@ -254,6 +270,8 @@ class Repairer:
         made = self.decide(replace(message, question=_question(situation, names)[0]))
         reading = self.reading(situation.reply or "")
         meant = any(wish.act == "order" and wish.witness == "agrees" for wish in reading.wishes)
+        planned = _stems(" ".join(f"{_words_of(step)} {step.reason}" for step in situation.pending))
+        meant = meant or bool(self._other_things(situation) & planned & _stems(situation.reply or ""))
         if not isinstance(made, Ask) or made.choices or made.offer or made.alarms or made.told or meant:
             return _about_candidates(situation, names) or ChatAction()
         question, choices = _question(situation, names)

@@ -2,7 +2,15 @@
 
 from __future__ import annotations
 
-__all__ = ["counted", "with_article"]
+import re
+
+__all__ = ["as_said", "counted", "with_article"]
+
+
+def as_said(words: str, text: str) -> str:
+    """Words of a text as they stand in it, with the capitals of names."""
+    found = re.search(re.escape(words), text, re.IGNORECASE)
+    return found[0] if found is not None else words
 
 
 def counted(number: int, what: str) -> str:

@@ -34,9 +34,10 @@ class Ways(Grounder):
             self.used(goal.place)
             text = " ".join(goal.place.where)
             mention = link(goal.place.where, goal.place.head, self.situation.objects, self.lexicon)
-            if mention.kind == "one":
-                text = mention.things[0].description
-            goal = Value(text, with_article(text), mention.things)
+            inside = self.inside(goal.place.where) if mention.kind != "one" else None
+            things = (inside,) if inside is not None else mention.things
+            text = things[0].description if inside is not None or mention.kind == "one" else text
+            goal = Value(text, with_article(text), things)
         self.at = goal.argument
         said = {"G": goal.said}
         if goal.point is not None and skill.takes_pose:

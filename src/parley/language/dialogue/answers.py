@@ -401,6 +401,16 @@ def differences(names: Sequence[str], objects: Sequence[MapObject]) -> str:
     return f"{text[:1].upper()}{text[1:]}."
 
 
+def _told_all(situation: Situation, about: str) -> str:
+    facts = [entry.data.rstrip(".") for entry in situation.memory if entry.type == "text"]
+    things = len(situation.objects)
+    known = f" Of {things} things I know from my map where they are." if things else ""
+    if not facts:
+        return f"You have not told me anything yet that I remember.{known}"
+    more = f" and {len(facts) - _MOST} more" if len(facts) > _MOST else ""
+    return f"I remember: {'; '.join(facts[-_MOST:])}{more}.{known}"
+
+
 def _difference(situation: Situation, about: str) -> str:
     choices = situation.question
     return f"{choices}" if choices else ""
@@ -412,7 +422,7 @@ _TOPICS: Final[dict[str, Callable[[Situation, str], str]]] = {
     "why_not_go": _why_not_go, "why": _why, "what_doing": _doing, "what_left": _left, "what_did": _did,
     "what_seen": _seen, "what_else_seen": _else, "seen_thing": _seen_thing, "how_long": _how_long,
     "battery": _battery, "able": _able, "name": _name, "time": _time, "told_about": _told_about,
-    "difference": _difference,
+    "told_all": _told_all, "difference": _difference,
     "hear": lambda situation, about: "Yes, I hear you: I read every word.",
     "how_are_you": lambda situation, about: f"I am well, thank you. {_doing(situation, about)}",
     "joke": lambda situation, about: "I am no good at that, sorry: I drive, look and remember.",

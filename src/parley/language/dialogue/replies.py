@@ -28,6 +28,10 @@ _ORDINALS: Final = {
     "two": 1,
     "three": 2,
     "last": -1,
+    "1": 0,
+    "2": 1,
+    "3": 2,
+    "4": 3,
 }
 _NOT: Final = frozenset(
     {"not", "no", "don't", "dont", "never", "can't", "cannot", "didn't", "haven't", "isn't", "nope", "nah",

@@ -25,7 +25,8 @@ _AGAIN: Final = re.compile(
 )
 _WITHOUT: Final = re.compile(
     r"\b(?:without|skip|leave (?:it|that|this|out)|never ?mind|ignore|next step|"
-    r"(?:forget|drop)(?: about)? (?:it|that|this)|no (?:need|longer needed)|"
+    r"(?:do|(?:go|carry) on with|continue with|on with) the rest|"
+    r"(?:forget|drop|omit)(?: about)? (?:it|that|this|the)|no (?:need|longer needed)|"
     r"(?:not|n't|don't|doesn't) (?:important|matter|needed|necessary|bother|need|want))\b"
 )
 _GIVING_UP: Final = re.compile(r"(?:no )?(?:(?:forget|drop|leave)(?: about)? (?:it|that|this)|never ?mind)")
@@ -39,6 +40,11 @@ _JOINT: Final = re.compile(
     r"\s*(?:[.;,!:]+\s*(?:(?:and|then|but|so) )*|\b(?:and then|then|and|but)\b)\s*", re.IGNORECASE
 )
 _NOT: Final = frozenset({"not", "n't", "don't", "no", "never", "nor"})
+_OWN: Final = frozenset({"myself", "ourselves", "himself", "herself", "themselves"})
+_CLEARING: Final = re.compile(
+    r"\b(?:moved|removed|opened|cleared|pushed|pulled|freed|fixed|closed|plugged)\b"
+)
+"""What somebody does for a robot that goes on then; else what they did themselves is the step."""
 _MOST_WORDS: Final = 9
 _LONGEST_S: Final = 3600.0
 
@@ -96,7 +102,7 @@ def _way(piece: str, things: Collection[str]) -> Way | None:
     if short and _AGAIN.search(bare) and not _NOT & {*words}:
         return "again"
     if is_done(bare):
-        return "done"
+        return "without" if _OWN & {*words} and not _CLEARING.search(bare) else "done"
     return "promise" if _PROMISE.fullmatch(bare) and not _NOT & {*words} else None
 
 
