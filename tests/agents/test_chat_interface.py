@@ -239,6 +239,23 @@ async def test_what_is_said_to_two_robots_for_one_moves_only_that_one(room: Room
     assert [order.targets for order in room.planner.orders] == [("B",)]
 
 
+@pytest.mark.parametrize(
+    ("called", "heard"), [(("B",), ["I will look.", "That is for B."]), (("A", "B"), ["I will look."])]
+)
+async def test_those_who_will_do_it_say_so_whoever_heard_it(
+    room: Room, called: tuple[str, ...], heard: list[str]
+) -> None:
+    room.language.will(
+        "interpret", ChatAction(message_response="I will look.", queue=(look(),), targets=called)
+    )
+    room.observer.publish(
+        topics.CHAT_INPUT, ChatInput(message=f"{' and '.join(called)}, look at the box", targets=("A",))
+    )
+    await room.reply(len(heard))
+    assert sorted(said.message for said in room.observer.said) == heard
+    assert [said.targets for said in room.observer.said if said.message == "I will look."] == [called]
+
+
 async def test_emergency_stop_goes_straight_to_the_engines(room: Room) -> None:
     room.observer.say("emergency stop", "A")
     await room.orders()

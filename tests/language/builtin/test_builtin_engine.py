@@ -137,6 +137,16 @@ def test_turning_around_is_half_a_turn_and_back_is_nowhere_where_nothing_came_be
     assert len(calls(situation("go to the office and come back", catalogue=catalogue, robot_pose=here))) == 3
 
 
+def test_a_thing_that_no_map_holds_is_looked_for_where_it_is_said_to_be() -> None:
+    catalogue = tuple(info_of(spec) for spec in BUILTIN_ACTIONS)
+    rack = MapObject("rack_1", "rack", 5.0, 1.0, aliases=("stand with the cups",))
+    for order in ("take the cup from the desk to the yard", "bring the old cup on the desk to the yard"):
+        frames = calls(situation(order, catalogue=catalogue, objects=(*THINGS, rack)))
+        assert [frame for frame, _ in frames] == ["GO", "GO", "FIND", "ASK", "GO", "GO"]
+        assert (frames[0][1], frames[2][1][0][-3:], frames[4][1]) == (["desk"], "cup", ["yard"])
+    assert calls(situation("bring the cup to the yard", catalogue=catalogue, objects=(*THINGS, rack))) == []
+
+
 def splice(chance: random.Random) -> str:
     words = [*" ".join(SENTENCES).split(), *ODD]
     return " ".join(chance.choice(words) for _ in range(chance.randrange(1, 14)))

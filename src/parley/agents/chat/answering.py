@@ -196,7 +196,11 @@ class Answering:
         refused = bool(rulings) and all(ruling.outcome == "refused" for ruling in rulings or ())
         if not failed and not refused and self._waits_behind_a_question(order, situation):
             reply = together(reply, texts.AFTERWARDS)
-        self._known.note(target, said.message, reply)
+        speakers = order.targets if order.queue else (target,)
+        if target not in speakers:
+            self.say((target,), texts.that_is_for(speakers), "response", said.id)
+        for speaker in speakers:
+            self._known.note(speaker, said.message, reply)
         if order.alarm:
             self.say(self._presence.names(), texts.alarm(target, said.message), "error")
         told = {str(command.arguments.get("name")) for command in order.system_cmd}
@@ -213,7 +217,7 @@ class Answering:
             topics.CHAT_FEEDBACK,
             ChatFeedback(
                 message=self._node.spoken(reply),
-                targets=(target,),
+                targets=speakers,
                 type="error" if failed else "response",
                 sources=tuple(name for name in understood.sources if name in known | told),
                 choices=understood.choices if asks else (),

@@ -52,6 +52,8 @@ def addressed(situation: Situation, tokens: Sequence[Token], lexicon: Lexicon) -
     if set(named) <= set(first) | set(last):
         return tuple(dict.fromkeys(names[low[at]] for at in named))
     others = [names[low[at]] for at in named if names[low[at]] != situation.robot]
+    if len({low[at] for at in named}) > 1:
+        return Ask("Please say it to one of us after the other, each by name first.")
     return Ask(f"Is that for {others[0]}? Please call {others[0]} by name first.") if others else here
 
 

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 
 from parley.language.builtin.amounts import Amount, amount_of
 from parley.language.builtin.checks import Look, check
@@ -14,7 +14,7 @@ from parley.language.builtin.owned import owned
 from parley.language.builtin.saying import with_article
 from parley.language.builtin.skills import Skill
 from parley.language.builtin.structure import Part
-from parley.language.builtin.things import Mention, link
+from parley.language.builtin.things import Mention, head_of, link
 from parley.language.builtin.ways import Ways, typed
 from parley.language.builtin.wishes import Filler, Wish
 from parley.messages.status import Kind
@@ -38,6 +38,7 @@ class Builder(Ways):
         times = self._strange(wish) or self.times(wish)
         if isinstance(times, Ask):
             return times
+        wish = self._placed(wish)
         values = self._values(wish)
         if isinstance(values, Ask):
             return values
@@ -56,6 +57,27 @@ class Builder(Ways):
             self.last_thing = values.get("T", self.last_thing)
             made = self._planned(wish, values)
         return made if isinstance(made, Ask) else made * times
+
+    def _placed(self, wish: Wish) -> Wish:
+        """With the place of a thing that no map holds as a role of its own: "the cup on the desk"."""
+        thing = wish.one("T")
+        roles = self.lexicon.frames[wish.frame].roles
+        role = next((role for role in "SL" if role in roles), "")
+        if thing is None or wish.has("SL") or not role or wish.frame not in ("BRING", "TAKE", "GIVE", "FIND"):
+            return wish
+        words, small = thing.words, self.lexicon.classes["prepositions"] - {"of"}
+        at = next((at for at in range(thing.head + 1, len(words)) if words[at] in small), 0)
+        if not at or link(words, thing.head, self.situation.objects, self.lexicon).things:
+            return wish
+        where = head_of(words[at:], self.lexicon)
+        if link(words[at:], where, self.situation.objects, self.lexicon).kind != "one":
+            return wish
+        middle = thing.start + at
+        parts = (
+            replace(thing, end=middle, words=words[:at], said=""),
+            Filler(role, middle, thing.end, where, words[at:], thing.share),
+        )
+        return replace(wish, fillers=(*(one for one in wish.fillers if one is not thing), *parts))
 
     def _logic(self, wish: Wish) -> Ask | None:
         """What of its logic no plan takes."""

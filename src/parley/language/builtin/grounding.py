@@ -93,7 +93,7 @@ class Grounder:
         mention = link(filler.words, filler.head, self.situation.objects, self.lexicon)
         if kind == "person":
             return self._person(filler, mention)
-        return self._thing(wish.frame, filler, mention)
+        return self._thing(wish.frame, filler, mention, placed=wish.has("SL"))
 
     def _person(self, filler: Filler, mention: Mention) -> Value | Ask:
         if mention.kind == "pronoun":
@@ -106,7 +106,8 @@ class Grounder:
         self.last_person = found
         return found
 
-    def _thing(self, frame: str, filler: Filler, mention: Mention) -> Value | Ask:
+    def _thing(self, frame: str, filler: Filler, mention: Mention, *, placed: bool = False) -> Value | Ask:
+        """A thing or a place; `placed`: where it is, is said."""
         before = self._spoken_of(filler, mention) or _at_point(filler)
         if before is not None:
             return before
@@ -120,9 +121,9 @@ class Grounder:
         several = self._others(filler) or group(filler.words, objects, lexicon, self.left_out)
         if several is not None:
             return self._several(several)
-        placed = picked(filler.words, objects, lexicon, self.situation.robot_pose)
-        if placed is not None:
-            return self._one_of(placed.things)
+        described = picked(filler.words, objects, lexicon, self.situation.robot_pose)
+        if described is not None:
+            return self._one_of(described.things)
         if self.left_out or {*filler.words} & lexicon.classes["quantifiers"]:
             return Ask(f"I do not know which ones you mean by “{filler.text}”. Please name them.")
         if mention.kind in ("speaker", "here"):
@@ -135,7 +136,7 @@ class Grounder:
         place = known_place(name, self.known)
         if place is not None:
             return Value(place.thing, with_article(place.thing), (), place)
-        looked_for = frame in ("FIND", "COUNT", "DO", "MAKE") or rest or not objects
+        looked_for = frame in ("FIND", "COUNT", "DO", "MAKE") or rest or not objects or placed
         movable = frame in _MOVABLE and filler.role == "T" and looked_for
         if movable or frame in ("PHOTO", "BELOC"):
             return Value(mention.text, with_article(mention.text))

@@ -194,8 +194,6 @@ def _rank(wanted: tuple[str, ...], known: tuple[str, ...]) -> int:
         _alike(one, other) for one, other in zip(wanted, known, strict=True)
     ):
         return 3
-    if known[-len(wanted) :] == wanted:
-        return 4
     if len(wanted[-1]) > 3 and len(known) == 1 and known[0].endswith(wanted[-1]):
         return 4
     return 9
