@@ -34,7 +34,7 @@ from parley.messages.wire import decode, encode, to_string
 from parley.transport.local import LocalTransport
 
 KIM = person("Kim", device="phone")
-ENGINE = Principal(kind="engine", name="offline")
+ENGINE = Principal(kind="engine", name="builtin")
 GO = ActionCall(name="GoTo", input_parameters={"target": Parameter("string", "box")})
 
 
@@ -96,7 +96,7 @@ async def test_an_order_stands_in_the_log_from_the_words_to_the_end() -> None:
         entries = (await r.log(robot="Ada"))[::-1]
         assert [str(told(entry)) for entry in entries] == [
             "Kim (phone) said “go to the box” to Ada.",
-            "The language engine offline wants this from Ada: Go to (box).",
+            "The language engine builtin wants this from Ada: Go to (box).",
             "Ada waits for a yes: Go to the box.",
             "Lee said yes to Ada: Go to the box.",
             "Ada began: Go to the box. Lee said yes to it.",

@@ -156,15 +156,15 @@ def test_a_password_file_that_is_missing_or_too_short_is_named(tmp_path: Path) -
 
 
 @pytest.mark.parametrize(
-    ("language", "label", "offline"),
+    ("language", "label", "works_alone"),
     [
         ("builtin", "built in, works without a model", True),
         ("ollama:small-one:8b@http://192.0.2.7:11434", "small-one:8b (ollama)", False),
     ],
 )
-def test_people_are_told_which_language_engine_there_is(language: str, label: str, offline: bool) -> None:
+def test_people_are_told_which_language_engine_there_is(language: str, label: str, works_alone: bool) -> None:
     page = WebConfig.of(SystemConfig(language=language))
-    assert (page.language, page.offline_language) == (label, offline)
+    assert (page.language, page.offline_language) == (label, works_alone)
 
 
 def test_the_interface_is_described_always_the_same() -> None:

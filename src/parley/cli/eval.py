@@ -22,7 +22,7 @@ from parley.evaluation.gpsr import GPSR_SEED
 from parley.evaluation.report import json_report, markdown_report
 from parley.evaluation.running import Outcome, evaluate
 from parley.evaluation.scores import BackendScore, score
-from parley.evaluation.sets import load_set
+from parley.evaluation.sets import SET_NAMES, load_set
 from parley.language.llm import build_language
 from parley.language.llm.usage import Usage
 
@@ -42,7 +42,8 @@ def evaluate_languages(
         typer.Option(help="builtin, provider:model, auto:provider:model; repeatable."),
     ] = None,
     set_name: Annotated[
-        str, typer.Option("--set", help="development, held-out, blind, gpsr, all, or a file.")
+        str,
+        typer.Option("--set", help=f"{', '.join(SET_NAMES)}, or a file."),
     ] = "development",
     out: Annotated[
         Path | None, typer.Option(help="Folder for report.md and report.json; made if it is not there.")

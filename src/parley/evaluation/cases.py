@@ -8,7 +8,6 @@ How steps are written: `parley.evaluation.steps`.
 
 from __future__ import annotations
 
-import hashlib
 import itertools
 from collections.abc import Sequence
 from dataclasses import dataclass
@@ -141,11 +140,6 @@ class Case:
         return ": ".join(part for part in parts if part.strip())
 
     @property
-    def held_out(self) -> bool:
-        """Whether it belongs to the half, by hash, that a set may keep back."""
-        return hashlib.sha256(self.id.encode()).digest()[0] % 2 == 1
-
-    @property
     def expectations(self) -> list[Expected]:
         """Each reading that is fair."""
         if not self.body.either:
@@ -201,8 +195,6 @@ class Case:
 
 class _File(_Strict):
     blind: bool = False
-    half_blind: bool = False
-    """Whether the half by hash is blind."""
     worlds: dict[str, World]
     cases: dict[str, list[CaseBody]]
 
@@ -229,9 +221,7 @@ class CaseSet(TextFile):
                 if body.in_ not in worlds:
                     where = f"cases.{phenomenon}.{number}.in"
                     raise FileFormatError(file, where, f"there is no world {body.in_!r}")
-                case = Case(phenomenon, body, worlds[body.in_], Path(file).stem)
-                blind = read.blind or (read.half_blind and case.held_out)
-                cases.append(Case(phenomenon, body, case.world, case.part, blind))
+                cases.append(Case(phenomenon, body, worlds[body.in_], Path(file).stem, read.blind))
         return cls(tuple(cases), worlds)
 
 

@@ -23,7 +23,6 @@ _SPEAKERS = frozenset({"i", "we", "you"})
 _WHERE = frozenset(
     {"in", "on", "at", "under", "behind", "near", "by", "inside", "into", "beside", "below", "above"}
 )
-_AND_NOUNS = frozenset({"and", ","})
 
 
 @dataclass(frozen=True, slots=True)

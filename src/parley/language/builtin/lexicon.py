@@ -63,10 +63,6 @@ class Lexicon:
         tries = [[*verb, *particles], *(verb[:size] for size in range(len(verb), 0, -1))]
         return next((found for words in tries if (found := self.exactly(words))), frozenset())
 
-    def is_in(self, word: str, name: str) -> bool:
-        """Whether a word belongs to a closed class."""
-        return word in self.classes[name]
-
 
 def _forms(words: tuple[str, ...]) -> list[tuple[str, ...]]:
     """With each lemma the first word may have."""

@@ -10,12 +10,10 @@ import re
 from collections.abc import Sequence
 from dataclasses import dataclass
 from functools import cache
-from importlib import resources
 from typing import Final
 
-import yaml
-
 from parley.language.builtin.tokens import Token
+from parley.language.lexicon import load_data
 
 __all__ = ["Question", "asks", "plain", "question_of", "shapes"]
 
@@ -84,8 +82,7 @@ def question_of(bare: str) -> Question | None:
 @cache
 def shapes() -> tuple[Shape, ...]:
     """All of them, in the order in which they are tried."""
-    text = (resources.files("parley.language.lexicon") / "questions.yaml").read_text(encoding="utf-8")
-    read = yaml.safe_load(text)
+    read = {**load_data("questions")}
     parts: dict[str, str] = read.pop("parts")
     return tuple(
         Shape(
