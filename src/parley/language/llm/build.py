@@ -3,12 +3,14 @@
 from __future__ import annotations
 
 from collections.abc import Sequence
+from importlib.util import find_spec
 from pathlib import Path
 from typing import TYPE_CHECKING
 
 from parley.clock import Clock, WallClock
 from parley.config import ModelSettings
 from parley.errors import ConfigError
+from parley.extras import needs
 from parley.language.base import Language
 from parley.language.llm.guard import Budget
 from parley.language.llm.reading import PlanCheck
@@ -94,8 +96,11 @@ def _own(name: str) -> Language:
 
 
 def _builtin() -> BuiltinLanguage:
-    from parley.language.builtin.engine import BuiltinLanguage
+    with needs("language"):
+        from parley.language.builtin.engine import BuiltinLanguage
 
+        if find_spec("onnxruntime") is None:  # loading it takes long, and is done beside the loop
+            raise ModuleNotFoundError(name="onnxruntime")
     return BuiltinLanguage()
 
 
