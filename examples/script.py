@@ -1,4 +1,4 @@
-"""A robot of your own on an empty floor, told what to do; `pip install parley-hri` is enough for it."""
+"""A robot of your own on an empty floor, told what to do; it needs `pip install 'parley-hri[maps]'`."""
 
 import asyncio
 

@@ -10,7 +10,11 @@ from parley.errors import MissingExtraError
 
 __all__ = ["EXTRAS", "needs"]
 
-EXTRAS: Final = {"sim": "the simulator", "web": "the page for operators"}
+EXTRAS: Final = {
+    "maps": "driving by a map",
+    "sim": "the simulator",
+    "web": "the page for operators",
+}
 """Extra -> what it brings. Those of language models: `parley.language.llm`."""
 
 

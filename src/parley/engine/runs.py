@@ -318,9 +318,9 @@ class GraphRuns:
         ended = [
             name
             for name, run in self._runs.items()
-            if run.idle and (run.state in ENDED or (run.outer and run.state is GraphState.HALTED))
+            if (run.state in ENDED or (run.outer and run.state is GraphState.HALTED)) and run.idle
         ]
-        halted = [name for name, run in self._runs.items() if run.idle and run.state is GraphState.HALTED]
+        halted = [name for name, run in self._runs.items() if run.state is GraphState.HALTED and run.idle]
         for name in {*ended[: -self._kept(ended)], *halted[:-KEPT_HALTED]}:
             del self._runs[name]
 

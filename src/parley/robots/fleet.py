@@ -16,6 +16,7 @@ from parley.gate.fence import Fence
 from parley.gate.judge import RobotFacts
 from parley.robots.base import Robot
 from parley.robots.own import RobotBase
+from parley.world import grids
 from parley.world.occupancy import UNKNOWN, OccupancyMap
 
 __all__ = ["Fleet", "OwnFleet"]
@@ -64,13 +65,15 @@ class OwnFleet:
         occupancy: The map they drive by; None: they have none, and drive to no place.
 
     Raises:
-        ConfigError: Two have one name, or one has none.
+        ConfigError: Two have one name, or one has none; or what is needed for maps is not installed.
     """
 
     def __init__(self, robots: Sequence[RobotBase], occupancy: OccupancyMap | None = None) -> None:
         names = Counter(robot.name for robot in robots)
         if "" in names or max(names.values(), default=0) > 1:
             raise ConfigError(f"each robot needs a name of its own, not {', '.join(map(repr, names))}")
+        if occupancy is not None:
+            grids.require()
         self.clock: Clock = WallClock()
         self._robots = {robot.name: robot for robot in robots}
         self._occupancy = occupancy or NO_MAP

@@ -4,9 +4,9 @@ from __future__ import annotations
 
 import numpy as np
 from numpy.typing import NDArray
-from scipy.ndimage import binary_dilation
 
 from parley.robots.base import LaserScan
+from parley.world import grids
 from parley.world.geometry import Pose2D
 from parley.world.occupancy import FREE, OccupancyMap
 
@@ -38,7 +38,7 @@ class ObservedObstacles:
         """
         self._map, self._within_m = occupancy, within_m
         reach = round(_KNOWN_WITHIN_M / occupancy.resolution_m)
-        self._known = binary_dilation(occupancy.cells != FREE, iterations=max(1, reach))
+        self._known = grids.binary_dilation(occupancy.cells != FREE, iterations=max(1, reach))
         self._seen = np.zeros(occupancy.cells.shape, dtype=np.bool_)
 
     def __len__(self) -> int:

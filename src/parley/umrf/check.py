@@ -109,22 +109,20 @@ class _Checker:
 
     def _names(self) -> Iterator[Problem]:
         reserved = {ENTRY.name, EXIT.name}
-        count = Counter(node.full_name for node in self.graph.nodes)
-        seen: set[str] = set()
+        count = Counter(node.ref for node in self.graph.nodes)
         for index, node in enumerate(self.graph.nodes):
             path = f"actions[{index}]"
             if node.name in reserved:
                 yield Problem(
                     f"{path}.name", f"{node.name!r} is reserved", "choose another name", "reserved_name"
                 )
-            if count[node.full_name] > 1 and node.full_name in seen:
+            if self.nodes[node.ref] is not node:
                 yield Problem(
                     f"{path}.instance_id",
-                    f"there are {count[node.full_name]} actions {node.full_name}",
+                    f"there are {count[node.ref]} actions {node.full_name}",
                     "give each its own instance_id",
                     "duplicate_node",
                 )
-            seen.add(node.full_name)
 
     def _relations(self, node: Node, path: str) -> Iterator[Problem]:
         yield from self._known(node.children, f"{path}.children")

@@ -7,8 +7,8 @@ from dataclasses import dataclass
 
 import numpy as np
 from numpy.typing import NDArray
-from skimage.graph import MCP_Geometric
 
+from parley.world import grids
 from parley.world.geometry import Pose2D
 from parley.world.object_map import MapObject
 from parley.world.occupancy import OccupancyMap
@@ -68,7 +68,7 @@ def approach_pose(
     near = _near(occupancy, target, allowed, wished_m + _FARTHER_M)
     if len(near.cells) == 0:
         return None
-    way, _ = MCP_Geometric(travel_costs(allowed, clearance, radius_m)).find_costs([(row, column)])
+    way, _ = grids.MCP_Geometric(travel_costs(allowed, clearance, radius_m)).find_costs([(row, column)])
     score = (
         _STANDOFF_WEIGHT * np.abs(near.gap_m - wished_m)
         + _WAY_WEIGHT * way[tuple(near.cells.T)] * occupancy.resolution_m

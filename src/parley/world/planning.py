@@ -7,10 +7,9 @@ from dataclasses import dataclass
 
 import numpy as np
 from numpy.typing import NDArray
-from scipy.ndimage import distance_transform_edt
-from skimage.graph import route_through_array
 
 from parley.errors import ParleyError
+from parley.world import grids
 from parley.world.geometry import Pose2D
 from parley.world.occupancy import FREE, OCCUPIED, OccupancyMap
 
@@ -83,7 +82,7 @@ def clearance_m(
     free = np.pad(occupancy.free, 1)
     rows, columns = occupancy.cells_of(obstacles).T
     free[rows + 1, columns + 1] = False
-    cells = np.asarray(distance_transform_edt(free))[1:-1, 1:-1]
+    cells = np.asarray(grids.distance_transform_edt(free))[1:-1, 1:-1]
     # Measured from centre to centre; the obstacle begins half a cell earlier.
     return np.asarray(np.maximum(cells - 0.5, 0.0) * occupancy.resolution_m)
 
@@ -162,7 +161,7 @@ def _search(
         return None
     allowed[ends[0]] = True  # wherever it stands, it stands there
     try:
-        cells, _ = route_through_array(  # type: ignore[no-untyped-call]
+        cells, _ = grids.route_through_array(  # type: ignore[no-untyped-call]
             travel_costs(allowed, clearance, radius_m), *ends, fully_connected=True, geometric=True
         )
     except ValueError:  # how route_through_array says that no path exists

@@ -8,7 +8,6 @@ import binascii
 import numpy as np
 from numpy.typing import NDArray
 from PIL import Image
-from scipy import ndimage
 
 from parley.errors import InvalidMessageError
 from parley.messages.display import RawImage
@@ -94,12 +93,20 @@ def _demosaic(raw: NDArray[np.uint8], pattern: str) -> NDArray[np.uint8]:
         measured = np.zeros(raw.shape, np.float32)
         for place in (index for index, letter in enumerate(pattern) if letter == colour):
             measured[place // 2 :: 2, place % 2 :: 2] = 1.0
-        weights = ndimage.convolve(measured, _NEIGHBOURS, mode="constant")
-        sums = ndimage.convolve(values * measured, _NEIGHBOURS, mode="constant")
+        weights, sums = _around(measured), _around(values * measured)
         # A picture one pixel wide or high may not know a colour at all.
         known = np.divide(sums, weights, out=np.zeros_like(sums), where=weights > 0)
         picture[:, :, channel] = np.where(measured > 0, values, np.rint(known))
     return picture
+
+
+def _around(values: NDArray[np.float32]) -> NDArray[np.float32]:
+    """The weighted sum of each pixel and its neighbours; outside of the picture there is nothing."""
+    (height, width), wide = values.shape, np.pad(values, 1)
+    found = np.zeros_like(values)
+    for (row, column), weight in np.ndenumerate(_NEIGHBOURS):
+        found += weight * wide[row : row + height, column : column + width]
+    return found
 
 
 def _rows(image: RawImage, row_bytes: int) -> NDArray[np.uint8]:

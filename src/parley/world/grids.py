@@ -1,0 +1,26 @@
+"""What maps are searched with: large libraries, which a robot that has no map does without."""
+
+from __future__ import annotations
+
+from parley.extras import needs
+
+try:
+    from scipy.ndimage import binary_dilation, distance_transform_edt
+    from skimage.graph import MCP_Geometric, route_through_array
+except ModuleNotFoundError as error:
+    _missing: ModuleNotFoundError | None = error
+else:
+    _missing = None
+
+__all__ = ["MCP_Geometric", "binary_dilation", "distance_transform_edt", "require", "route_through_array"]
+
+
+def require() -> None:
+    """To be called where a map is taken up, so that what is missing is said before anything drives.
+
+    Raises:
+        MissingExtraError: `maps`.
+    """
+    with needs("maps"):
+        if _missing is not None:
+            raise _missing

@@ -1,0 +1,49 @@
+"""What is installed without extras is enough for a robot without a map; what is missing is named."""
+
+from __future__ import annotations
+
+import subprocess
+import sys
+from pathlib import Path
+
+EXAMPLES = Path(__file__).parents[2] / "examples"
+SCRIPT = """
+import asyncio
+import sys
+
+for library in ("argon2", "fastapi", "mujoco", "pydantic_ai", "skimage"):
+    sys.modules[library] = None
+
+from own_robot import Cart
+
+from parley.api import Parley, Site, person
+from parley.errors import MissingExtraError
+
+
+async def main():
+    async with Parley(robots=[Cart("Kim")], by=person("Ada")) as parley:
+        reply = await parley.say("Kim", "turn left by 90 degrees")
+        plan = await parley.settled("Kim", timeout_s=20)
+        print(reply.message, [step.state for step in plan.steps])
+    try:
+        async with Parley(robots=[Cart("Kim")], world=Site.floor(6, 4)):
+            print("it works")
+    except MissingExtraError as error:
+        print(error.extra)
+
+
+asyncio.run(main())
+"""
+
+
+def test_a_robot_without_a_map_needs_no_extra(tmp_path: Path) -> None:
+    done = subprocess.run(
+        [sys.executable, "-c", SCRIPT],
+        cwd=EXAMPLES,
+        env={"HOME": str(tmp_path), "PYTHONPATH": ":".join(sys.path)},
+        capture_output=True,
+        text=True,
+        timeout=60,
+        check=False,
+    )
+    assert done.stdout.splitlines() == ["I will turn left by 90 degrees. ['finished']", "maps"], done.stderr
