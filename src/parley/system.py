@@ -271,7 +271,7 @@ class System:
         await keeper.note_asked(())
         await self._open_actions(notices)
         views: Mapping[str, WorldView] = {name: self._view(name) for name in self.robot_names}
-        maps = {name: (view.occupancy, view.objects.objects) for name, view in views.items()}
+        maps = {name: (view.occupancy, view.objects) for name, view in views.items()}
         await enter(MapService(transport, maps))
         await self._listen_to_stops()
         watchdog = LoopWatchdog(self.stop_line, self.robot_names, clock, self._tell_all)

@@ -9,7 +9,7 @@ from typing import Any
 import pytest
 
 from parley.errors import FileFormatError
-from parley.world.object_map import MapObject, ObjectMap
+from parley.world.object_map import MapArea, MapObject, ObjectMap
 
 
 def entry(**changes: Any) -> dict[str, Any]:
@@ -35,7 +35,8 @@ def test_what_is_written_reads_back_the_same() -> None:
         (
             MapObject("a", "box A", 1.0, 2.0, "box", 0.3, 0.4, ("crate", "case"), front_rad=1.5),
             MapObject("b", "chair B", -1.0, 0.0, "chair", 0.0, 0.0),
-        )
+        ),
+        (MapArea("yard", ((0.0, 0.0), (4.0, 0.0), (4.0, 3.5))),),
     )
     assert ObjectMap.parse(json.dumps(objects.to_json())) == objects
 
@@ -55,6 +56,10 @@ def test_an_unknown_id_finds_nothing() -> None:
         (document(entry(), entry(description="")), "items.chair[1].description"),
         (document(entry(), entry()), "items.chair[1].id"),
         (document(entry(front="north")), "items.chair[0].front"),
+        (
+            json.dumps({"classes": [], "items": {}, "areas": [{"name": "yard", "corners": [[0, 0]]}]}),
+            "areas[0].corners",
+        ),
     ],
 )
 def test_a_malformed_map_is_refused_with_file_and_field(text: str, field: str) -> None:

@@ -3,7 +3,7 @@
 /** What a request gets: an answer, a refusal in words, or nothing. */
 export type Answer = { json: unknown } | { refused: string } | 'never';
 
-/** Beginning of the path below /api -> answer; the longest that fits counts. */
+/** Beginning of the path below /api -> answer; the longest that fits counts. What is not only read needs its whole path. */
 export type Answers = Readonly<Record<string, Answer>>;
 
 export interface Asked {
@@ -20,7 +20,7 @@ export function network(answers: Answers, asked: Asked[] = []): typeof fetch {
     const path = String(input).replace(/^\/api\//, '');
     const method = options?.method ?? 'GET';
     asked.push({ method, path, body: options?.body ? (JSON.parse(String(options.body)) as unknown) : null });
-    const fitting = Object.keys(answers).filter((start) => path.startsWith(start) && method === 'GET');
+    const fitting = Object.keys(answers).filter((start) => path.startsWith(start) && (method === 'GET' || start === path));
     const answer = answers[fitting.sort((a, b) => b.length - a.length)[0] ?? ''] ?? { json: {} };
     if (answer === 'never') return new Promise<Response>(() => undefined);
     return Promise.resolve('refused' in answer ? reply({ detail: answer.refused }, 503) : reply(answer.json));

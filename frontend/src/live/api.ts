@@ -139,8 +139,15 @@ export const getRules = (language: string) => request<RulesAnswer>('GET', `rules
 export const putRule = (rule: Rule, language: string) =>
   request<RulesAnswer>('PUT', `rules/${part(rule.id)}?language=${part(language)}`, rule);
 export const dropRule = (id: string) => request<RulesAnswer>('DELETE', `rules/${part(id)}`);
-export const tryRules = (robot: string, words: readonly string[], language: string) =>
-  request<RuleVerdict>('POST', 'rules/try', { robot, words, language });
+/** What would become of places in words, of a point, or of a plan. */
+export interface Trial {
+  words?: readonly string[];
+  goal?: readonly [number, number];
+  steps?: readonly ActionCall[];
+}
+
+export const tryRules = (robot: string, trial: Trial, language: string) =>
+  request<RuleVerdict>('POST', 'rules/try', { robot, ...trial, language });
 
 export const addRobot = (name: string) => request<unknown>('POST', 'robots', { name });
 export const removeRobot = (name: string) => request<unknown>('DELETE', `robots/${part(name)}`);

@@ -157,6 +157,7 @@ export const mapInfo: MapInfo = {
     { id: 'box_1', kind: 'box', description: 'red box', x: 3, y: 1, width: 1, height: 1 },
     { id: 'door_1', kind: 'door', description: 'front door', x: 0, y: 3, width: 1, height: 0.2 },
   ],
+  rooms: [{ name: 'hall', corners: [[-2, -1], [8, -1], [8, 4], [-2, 4]] }],
 };
 
 export const mapView: MapView = {

@@ -25,6 +25,7 @@ export type LogLine = Schemas['LogLine'];
 export type LogPage = Schemas['LogPage'];
 export type MapView = Schemas['MapView'];
 export type MapInfo = Schemas['MapInfo'];
+export type MapRoom = Schemas['MapRoom'];
 export type MapThing = Schemas['MapThing'];
 export type AbilityView = Schemas['AbilityView'];
 

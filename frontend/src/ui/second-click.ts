@@ -38,8 +38,13 @@ export function holdSecondClicks(): () => void {
     event.preventDefault();
     event.stopImmediatePropagation();
   };
+  const onKey = () => {
+    first = null; // a key between two clicks makes them two deeds
+  };
   for (const part of PARTS) window.addEventListener(part, onPart, { capture: true });
+  window.addEventListener('keydown', onKey, { capture: true });
   return () => {
+    window.removeEventListener('keydown', onKey, { capture: true });
     for (const part of PARTS) window.removeEventListener(part, onPart, { capture: true });
   };
 }

@@ -70,7 +70,8 @@ class Demo:
         """A system for it; the robots' maps stay as surveyed, whatever a variant changes in the world."""
         world = self.world.with_changes(variant.world) if variant is not None else self.world
         gone = set(variant.world.remove) if variant is not None else set()
-        objects = ObjectMap(tuple(item for item in self.objects.objects if item.id not in gone))
+        kept = tuple(item for item in self.objects.objects if item.id not in gone)
+        objects = replace(self.objects, objects=kept)
         return System(
             world, config, occupancy=self.occupancy, objects=objects, language=language, actions=actions
         )

@@ -7,7 +7,7 @@ from pydantic import Field
 from parley.messages.base import Payload
 from parley.messages.status import PoseInfo
 
-__all__ = ["GetMap", "MapInfo", "MapThing", "MapView"]
+__all__ = ["GetMap", "MapInfo", "MapRoom", "MapThing", "MapView"]
 
 Point = tuple[float, float]
 """x, y in the map frame, metres."""
@@ -26,6 +26,13 @@ class MapThing(Payload):
     """Along x, metres."""
     height: float = 0.0
     """Along y, metres."""
+
+
+class MapRoom(Payload):
+    """A room, or another part of the map that has a name."""
+
+    name: str
+    corners: tuple[Point, ...]
 
 
 class GetMap(Payload):
@@ -49,6 +56,7 @@ class MapInfo(Payload):
     image: str
     """Base64 of a grey PNG, first row on top: white free, black occupied, grey unknown."""
     objects: tuple[MapThing, ...] = ()
+    rooms: tuple[MapRoom, ...] = ()
 
 
 class MapView(Payload):

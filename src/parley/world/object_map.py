@@ -8,7 +8,8 @@
 
 `dimensions` are the bounding box in the map plane: `width` along x, `height` along y, in metres.
 Ours, optional: `aliases` (other names people use for it) and `front` (the direction its open or usable side
-faces, radians in the map frame: stand there to use it).
+faces, radians in the map frame: stand there to use it); beside `items`, `areas`: rooms and the like, each with
+a `name` and its `corners`, for people to see on the map.
 """
 
 from __future__ import annotations
@@ -22,7 +23,7 @@ from parley.errors import FileFormatError
 from parley.files import TextFile, parse_json, validated
 from parley.world.geometry import Extent, Metres
 
-__all__ = ["MapObject", "ObjectMap"]
+__all__ = ["MapArea", "MapObject", "ObjectMap"]
 
 _PERSON: Final = "person"
 
@@ -43,6 +44,15 @@ class MapObject:
     aliases: tuple[str, ...] = ()
     front_rad: float | None = None
     """Map-frame direction its usable side faces; None: it can be used from anywhere."""
+
+
+@dataclass(frozen=True, slots=True)
+class MapArea:
+    """A room, or another part of the map that has a name."""
+
+    name: str
+    corners: tuple[tuple[float, float], ...]
+    """x, y in the map frame, metres, one after the other around it."""
 
 
 class _Coordinates(BaseModel):
@@ -67,10 +77,17 @@ class _Item(BaseModel):
     front: float | None = Field(default=None)
 
 
+class _Area(BaseModel):
+    model_config = ConfigDict(extra="forbid", allow_inf_nan=False)
+    name: str = Field(min_length=1)
+    corners: list[tuple[Metres, Metres]] = Field(min_length=3)
+
+
 class _File(BaseModel):
     model_config = ConfigDict(extra="ignore", allow_inf_nan=False)
     classes: list[str]
     items: dict[str, list[_Item]]
+    areas: list[_Area] = Field(default_factory=list)
 
 
 @dataclass(frozen=True, slots=True)
@@ -78,6 +95,7 @@ class ObjectMap(TextFile):
     """All objects of one map, ids unique."""
 
     objects: tuple[MapObject, ...] = field(default=())
+    areas: tuple[MapArea, ...] = field(default=())
 
     def get(self, object_id: str) -> MapObject | None:
         """The object of that id, or None."""
@@ -96,7 +114,8 @@ class ObjectMap(TextFile):
             FileFormatError: Names the file and the field.
         """
         parsed = validated(_File, parse_json(text, file), file)
-        return cls(tuple(_objects(parsed, file)))
+        areas = (MapArea(area.name, tuple(area.corners)) for area in parsed.areas)
+        return cls(tuple(_objects(parsed, file)), tuple(areas))
 
     def to_json(self) -> dict[str, Any]:
         """The thesis's form."""
@@ -113,7 +132,10 @@ class ObjectMap(TextFile):
             if item.front_rad is not None:
                 body["front"] = item.front_rad
             items.setdefault(item.class_name, []).append(body)
-        return {"classes": sorted(items), "items": items}
+        areas = [
+            {"name": area.name, "corners": [list(corner) for corner in area.corners]} for area in self.areas
+        ]
+        return {"classes": sorted(items), "items": items} | ({"areas": areas} if areas else {})
 
 
 def _objects(parsed: _File, file: str) -> list[MapObject]:

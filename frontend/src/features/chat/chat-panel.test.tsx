@@ -9,7 +9,7 @@ import { useDrafts } from '@/state/drafts';
 import { usePrefs } from '@/state/prefs';
 
 import { ChatPanel } from './chat-panel';
-import { useOutbox } from './outbox';
+import { useOutbox } from '@/state/outbox';
 
 type Sent = { text: string; targets: string[]; reply_to: string };
 

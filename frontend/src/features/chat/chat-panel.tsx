@@ -4,6 +4,7 @@ import { useTranslation } from 'react-i18next';
 
 import { useWorld } from '@/live/store';
 import type { ChatEntry } from '@/live/types';
+import { useAsked } from '@/state/asked';
 import { draftKey, useDrafts } from '@/state/drafts';
 import { useMoment } from '@/state/moment';
 import { usePrefs } from '@/state/prefs';
@@ -18,8 +19,8 @@ import css from './chat-panel.module.css';
 import { useMay } from '@/state/me';
 import { Composer } from './composer';
 import { History } from './history';
-import { useOutbox } from './outbox';
-import { answering, askedOf, conversation, openQuestions } from './questions';
+import { useOutbox } from '@/state/outbox';
+import { answering, conversation, openQuestions } from '@/live/questions';
 import { RobotTabs } from './robot-tabs';
 import { SearchBox } from './search-box';
 import { Welcome } from './welcome';
@@ -40,8 +41,7 @@ export function ChatPanel() {
 
   const questions = useMemo(() => openQuestions(chat), [chat]);
   const entries = useMemo(() => conversation(chat, chosen), [chat, chosen]);
-  const helpless = useHelpless();
-  const asked = useMemo(() => askedOf(chat, helpless), [chat, helpless]);
+  const asked = useAsked();
   const askedHere = useMemo(() => conversation(asked, chosen), [asked, chosen]);
   const answer = useMemo(() => answering(questions, chosen), [questions, chosen]);
   const onItsWay = useOutbox(
@@ -102,12 +102,6 @@ export function ChatPanel() {
       {maySpeak && <Composer chosen={chosen} answering={answer} lastSaid={lastSaid} input={input} />}
     </Panel>
   );
-}
-
-/** Robots whose plan waits for a person to say how it goes on. */
-function useHelpless(): ReadonlySet<string> {
-  const plans = useWorld((world) => world.plans);
-  return useMemo(() => new Set(Object.values(plans).filter((plan) => plan.state === 'held').map((plan) => plan.robot)), [plans]);
 }
 
 interface SwitchProps {

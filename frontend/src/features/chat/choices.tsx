@@ -17,8 +17,9 @@ export function Choices({ entry, onChoose, isStop = true }: Props) {
   if (entry.choices.length === 0) return null;
   return (
     <div className={css.choices} role="group" aria-label={t('choices')}>
-      {entry.choices.map((choice) => (
+      {entry.choices.map((choice, index) => (
         <Button needs="speak" key={choice} excludeFromTabOrder={!isStop} onPress={() => onChoose(entry, choice)}>
+          {entry.choices.length > 1 && <span aria-hidden="true" className={css.number}>{index + 1}</span>}
           {choice}
         </Button>
       ))}

@@ -9,9 +9,9 @@ import { Button } from '@/ui/button';
 import { nameList } from '@/ui/words';
 
 import css from './composer.module.css';
-import { useOutbox } from './outbox';
+import { useOutbox } from '@/state/outbox';
 import { readPhoto } from '@/ui/photo';
-import type { Answering } from './questions';
+import type { Answering } from '@/live/questions';
 import { UnattendedChoice, useUnattended } from './unattended';
 
 interface Props {

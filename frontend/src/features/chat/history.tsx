@@ -10,9 +10,9 @@ import { dayName } from '@/ui/words';
 
 import { Entry } from './entry';
 import css from './history.module.css';
-import { undelivered, useOutbox } from './outbox';
+import { undelivered, useOutbox } from '@/state/outbox';
 import { PendingEntry } from './pending-entry';
-import { offering } from './questions';
+import { offering } from '@/live/questions';
 import { useMomentShown } from './use-moment';
 import { useStickToEnd } from './use-stick-to-end';
 

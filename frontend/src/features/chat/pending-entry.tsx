@@ -3,7 +3,7 @@ import { useTranslation } from 'react-i18next';
 import { Button } from '@/ui/button';
 
 import css from './entry.module.css';
-import { useOutbox, type Outgoing } from './outbox';
+import { useOutbox, type Outgoing } from '@/state/outbox';
 
 /** A message that is not yet part of the conversation. */
 export function PendingEntry({ message }: { message: Outgoing }) {

@@ -1,10 +1,12 @@
 import { memo } from 'react';
 
-import type { MapInfo, MapThing, MapView, Rule } from '@/live/types';
+import type { MapInfo, MapRoom, MapThing, MapView, Rule } from '@/live/types';
 import { cornersOf, outline } from '@/ui/corners';
 
 import css from './map.module.css';
-import { labelOf, roomForLabels, toScreen, type Place, type Size, type Viewport } from './viewport';
+import { nameOf, type Candidates, type Mark } from './marks';
+import type { Way as Trial } from './use-way';
+import { labelOf, middleOf, roomForLabels, toScreen, type Place, type Size, type Viewport } from './viewport';
 
 export interface Rover {
   name: string;
@@ -21,7 +23,10 @@ interface Props {
   size: Size;
   rovers: readonly Rover[];
   /** What is picked out. */
-  marked: Place | MapThing | null;
+  marked: Mark | null;
+  /** Ways that are not driven yet: to what is picked out, and what waits for a yes. */
+  trials: readonly Trial[];
+  candidates: Candidates;
   showScan: boolean;
   /** Rules that hold for a part of the map. */
   zones: readonly Rule[];
@@ -30,9 +35,10 @@ interface Props {
 const ROBOT_M = 0.18;
 const ROBOT_LEAST_PX = 11;
 const LABEL_BELOW_PX = 20;
+const ASIDE_PX = 16;
 
 /** The map as a picture; whoever cannot see it has the list. */
-export const MapDrawing = memo(function MapDrawing({ map, view, size, rovers, marked, showScan, zones }: Props) {
+export const MapDrawing = memo(function MapDrawing({ map, view, size, rovers, marked, trials, candidates, showScan, zones }: Props) {
   const { x: left, y: top } = toScreen(view, size, { x: 0, y: 0 });
   const { origin, resolution } = map;
   const turned = ((origin.yaw ?? 0) * 180) / Math.PI;
@@ -48,11 +54,15 @@ export const MapDrawing = memo(function MapDrawing({ map, view, size, rovers, ma
           height={map.height}
           transform={`translate(${origin.x} ${origin.y}) rotate(${turned}) translate(0 ${map.height * resolution}) scale(${resolution} ${-resolution})`}
         />
+        {map.rooms.map((room) => (
+          <polygon key={room.name} className={css.room} data-marked={marked?.kind === 'room' && marked.room === room} points={pointsOf(room.corners)} />
+        ))}
         {map.objects.map((thing) => (
           <rect
             key={thing.id}
             className={css.thing}
-            data-marked={thing === marked}
+            data-marked={marked?.kind === 'thing' && thing === marked.thing}
+            data-candidate={candidates.has(thing.id)}
             x={thing.x - thing.width / 2}
             y={thing.y - thing.height / 2}
             width={thing.width}
@@ -62,11 +72,12 @@ export const MapDrawing = memo(function MapDrawing({ map, view, size, rovers, ma
         {zones.map((zone) => (
           <polygon key={zone.id} className={css.zone} data-kind={zone.kind} points={outline(cornersOf(zone)).join(' ')} />
         ))}
+        {trials.map((trial, index) => trial.state === 'found' && <Tried key={index} points={trial.points} />)}
         {rovers.map((rover) => (
           <Way key={rover.name} rover={rover} showScan={showScan} />
         ))}
       </g>
-      <Labels things={map.objects} rovers={rovers} view={view} size={size} robotPx={robotPx} />
+      <Labels things={map.objects} rooms={map.rooms} candidates={candidates} rovers={rovers} view={view} size={size} robotPx={robotPx} />
       {rovers.map((rover) => {
         const at = toScreen(view, size, rover.pose);
         const heading = (-(rover.pose.yaw ?? 0) * 180) / Math.PI;
@@ -83,10 +94,23 @@ export const MapDrawing = memo(function MapDrawing({ map, view, size, rovers, ma
           </g>
         );
       })}
-      {marked && !('id' in marked) && <Pin at={toScreen(view, size, marked)} />}
+      {marked?.kind === 'place' && <Pin at={toScreen(view, size, marked.at)} />}
     </svg>
   );
 });
+
+const pointsOf = (points: readonly (readonly [number, number])[]) => points.map(([x, y]) => `${x},${y}`).join(' ');
+
+/** A way that nobody drives yet, and where it ends. */
+function Tried({ points }: { points: readonly (readonly [number, number])[] }) {
+  const [x, y] = points.at(-1) ?? [0, 0];
+  return (
+    <g className={css.tried}>
+      <polyline points={pointsOf(points)} />
+      <circle cx={x} cy={y} r={0.14} />
+    </g>
+  );
+}
 
 function Way({ rover, showScan }: { rover: Rover; showScan: boolean }) {
   const { view, pose } = rover;
@@ -102,6 +126,8 @@ function Way({ rover, showScan }: { rover: Rover; showScan: boolean }) {
 }
 
 interface LabelsProps {
+  rooms: readonly MapRoom[];
+  candidates: Candidates;
   things: readonly MapThing[];
   rovers: readonly Rover[];
   view: Viewport;
@@ -109,27 +135,29 @@ interface LabelsProps {
   robotPx: number;
 }
 
-function Labels({ things, rovers, view, size, robotPx }: LabelsProps) {
+function Labels({ things, rooms, candidates, rovers, view, size, robotPx }: LabelsProps) {
   const robots = rovers.map((rover) => {
     const at = toScreen(view, size, rover.pose);
     return { id: `robot ${rover.name}`, text: rover.name, at: { x: at.x, y: at.y + robotPx + LABEL_BELOW_PX / 2 } };
   });
-  const named = things.map((thing) => ({
-    id: `thing ${thing.id}`,
-    text: labelOf(thing, view.scale),
-    at: toScreen(view, size, thing),
-  }));
-  const labels = [...robots, ...named];
-  const written = roomForLabels(labels, size);
+  const named = [...things]
+    .sort((a, b) => Number(candidates.has(b.id)) - Number(candidates.has(a.id)))
+    .map((thing) => {
+      const candidate = candidates.get(thing.id);
+      const text = candidate ? `${candidate.number}  ${nameOf(thing)}` : labelOf(thing, view.scale);
+      return { id: `${candidate ? 'candidate' : 'thing'} ${thing.id}`, text, at: toScreen(view, size, thing), aside: ASIDE_PX };
+    });
+  const large = rooms.map((room) => ({ id: `room ${room.name}`, text: room.name, at: toScreen(view, size, middleOf(room)), aside: 2 * ASIDE_PX }));
+  const labels = [...robots, ...named.filter((one) => one.id.startsWith('candidate')), ...large, ...named];
+  const marks = rovers.map((rover) => ({ at: toScreen(view, size, rover.pose), radius: robotPx }));
+  const written = roomForLabels(labels, size, marks);
   return (
     <g className={css.labels}>
-      {labels
-        .filter((label) => written.has(label.id))
-        .map((label) => (
-          <text key={label.id} x={label.at.x} y={label.at.y} data-robot={label.id.startsWith('robot ')}>
-            {label.text}
-          </text>
-        ))}
+      {[...written].map(([id, at]) => (
+        <text key={id} x={at.x} y={at.y} data-of={id.split(' ')[0]}>
+          {labels.find((label) => label.id === id)?.text}
+        </text>
+      ))}
     </g>
   );
 }

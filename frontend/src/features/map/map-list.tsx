@@ -6,11 +6,13 @@ import { sentence } from '@/ui/words';
 
 import type { Rover } from './map-drawing';
 import css from './map.module.css';
+import { nameOf, type Mark } from './marks';
+import { middleOf } from './viewport';
 
 interface Props {
   map: MapInfo;
   rovers: readonly Rover[];
-  onMark: (thing: MapThing) => void;
+  onMark: (marked: Mark) => void;
 }
 
 const nearest = (things: readonly MapThing[], to: { x: number; y: number }) =>
@@ -19,8 +21,6 @@ const nearest = (things: readonly MapThing[], to: { x: number; y: number }) =>
       !best || Math.hypot(thing.x - to.x, thing.y - to.y) < Math.hypot(best.x - to.x, best.y - to.y) ? thing : best,
     null,
   );
-
-const nameOf = (thing: MapThing) => sentence(thing.description || thing.kind);
 
 /** The map in words. */
 export function MapList({ map, rovers, onMark }: Props) {
@@ -43,12 +43,23 @@ export function MapList({ map, rovers, onMark }: Props) {
           );
         })}
       </ul>
+      {map.rooms.length > 0 && <h3>{t('rooms')}</h3>}
+      <ul>
+        {map.rooms.map((room) => (
+          <li key={room.name}>
+            {sentence(room.name)}
+            <Button tone="quiet" aria-label={t('pick', { thing: sentence(room.name) })} onPress={() => onMark({ kind: 'room', room, at: middleOf(room) })}>
+              {t('pickShort')}
+            </Button>
+          </li>
+        ))}
+      </ul>
       <h3>{t('things')}</h3>
       <ul>
         {things.map((thing) => (
           <li key={thing.id}>
-            {nameOf(thing)}
-            <Button tone="quiet" aria-label={t('pick', { thing: nameOf(thing) })} onPress={() => onMark(thing)}>
+            {sentence(nameOf(thing))}
+            <Button tone="quiet" aria-label={t('pick', { thing: sentence(nameOf(thing)) })} onPress={() => onMark({ kind: 'thing', thing, at: thing })}>
               {t('pickShort')}
             </Button>
           </li>

@@ -2,17 +2,21 @@ import { act, fireEvent, render, screen, within } from '@testing-library/react';
 import userEvent from '@testing-library/user-event';
 import { beforeEach, describe, expect, it, vi } from 'vitest';
 
-import { network } from '@/gallery/network';
-import { mapInfo, mapView, robot, snapshot } from '@/live/samples';
+import { network, type Answer, type Answers } from '@/gallery/network';
+import { entry, mapInfo, mapView, robot, snapshot, step } from '@/live/samples';
 import { useLive } from '@/live/store';
 import { useDrafts } from '@/state/drafts';
+import { useOutbox } from '@/state/outbox';
 
 import { MapPanel } from './map-panel';
 
+const said = () => useOutbox.getState().messages.map(({ text, targets }) => ({ text, targets }));
+const verdict = (part: object) => ({ forbidden: [], ask: [], risky: [], unknown: [], way: [], length_m: 0, expected_s: 0, ...part });
 const draft = () => Object.values(useDrafts.getState().drafts)[0]?.text;
 
 beforeEach(() => {
   useDrafts.setState({ drafts: {} });
+  useOutbox.setState({ messages: [] });
   useLive.getState().setConnection('connected');
   vi.stubGlobal('fetch', network({ map: { json: mapInfo } }));
   const robots = [robot({ name: 'Ada' }), robot({ name: 'Bob', pose: { x: 5, y: 3, yaw: 0 }, map_name: 'hall' })];
@@ -27,11 +31,47 @@ const show = async () => {
 };
 
 describe('the map', () => {
-  it('puts a way to a thing into words for the chat, and does not send it', async () => {
+  it.each([
+    ['Pick Red box', 'Ada: Go to the red box', 'Go to the red box.'],
+    ['Pick Hall', 'Ada: Go to the hall', 'Go to the hall.'],
+  ])('says the way to what is picked as a message of this person: %s', async (pick, deed, text) => {
+    const user = await show();
+    await user.click(screen.getByRole('button', { name: pick }));
+    await user.click(screen.getByRole('button', { name: deed }));
+    expect(said()).toEqual([{ text, targets: ['Ada'] }]);
+  });
+
+  it('refuses at once a place to which no way leads, and says how far others are', async () => {
+    const answers: Record<string, Answer> = { map: { json: mapInfo }, 'rules/try': { json: verdict({ length_m: 0 }) } };
+    vi.stubGlobal('fetch', network(answers));
+    useLive.getState().takeSnapshot(snapshot({ info: { ...snapshot().info, modules: { rules: true } }, robots: [robot({ name: 'Ada' })], views: [mapView] }));
     const user = await show();
     await user.click(screen.getByRole('button', { name: 'Pick Red box' }));
-    await user.click(screen.getByRole('button', { name: 'Go there' }));
-    expect(draft()).toBe('Go to the red box.');
+    await screen.findByText('Ada cannot get there: no way leads there.');
+    expect(screen.queryByRole('button', { name: /Go to/ })).toBeNull();
+    answers['rules/try'] = { json: verdict({ length_m: 3.21, expected_s: 7.5, way: [[1, 2], [3, 1]] }) };
+    await user.click(screen.getByRole('button', { name: 'Pick Front door' }));
+    await screen.findByText('3.2 m, about 8 s');
+    screen.getByRole('button', { name: 'Go to the front door' });
+  });
+
+  it('draws the way that waits for a yes', async () => {
+    const answers: Answers = { map: { json: mapInfo }, 'rules/try': { json: verdict({ length_m: 2, way: [[1, 2], [3, 1]] }) } };
+    vi.stubGlobal('fetch', network(answers));
+    const proposal = { id: 'p', robot: 'Ada', message: '', changes: [], steps: [step({ id: 's' })], digest: 'd', why: '' };
+    useLive.getState().takeSnapshot(snapshot({ info: { ...snapshot().info, modules: { rules: true } }, robots: [robot({ name: 'Ada' })], views: [mapView], proposals: [proposal] }));
+    const { container } = render(<MapPanel />);
+    await vi.waitFor(() => expect(container.querySelector('.tried polyline')?.getAttribute('points')).toBe('1,2 3,1'));
+  });
+
+  it('answers which one is meant by a tap on it', async () => {
+    const question = entry({ id: 'q', type: 'request', question: 'open', message: 'Which?', choices: ['Blue box', 'Red box'] });
+    useLive.getState().takeChanges([{ kind: 'chat', seq: 1, entry: question }]);
+    const user = await show();
+    screen.getByText('2 red box', { normalizer: (text) => text.replaceAll(/\s+/g, ' ') });
+    await user.click(screen.getByRole('button', { name: 'Pick Red box' }));
+    await user.click(screen.getByRole('button', { name: 'Answer: Red box' }));
+    expect(useOutbox.getState().messages).toMatchObject([{ text: 'Red box', targets: ['Ada'], reply_to: 'q' }]);
   });
 
   it('mentions a thing behind what is written already', async () => {
@@ -47,8 +87,9 @@ describe('the map', () => {
     const map = screen.getByRole('application');
     fireEvent.keyDown(map, { key: 'ArrowUp' });
     fireEvent.keyDown(map, { key: 'Enter' });
-    await user.click(screen.getByRole('button', { name: 'Go there' }));
-    expect(draft()).toBe('Go to the point (3.00, 2.54).');
+    fireEvent.keyDown(map, { key: 'Enter' }); // the room first, then the very place
+    await user.click(screen.getByRole('button', { name: 'Ada: Go there' }));
+    expect(said()).toEqual([{ text: 'Go to the point (3.00, 2.54).', targets: ['Ada'] }]);
   });
 
   it('says in words where each robot of the same map is', async () => {

@@ -3,7 +3,8 @@ import { useTranslation } from 'react-i18next';
 
 import { getRules } from '@/live/api';
 import { useWorld } from '@/live/store';
-import type { MapInfo, MapThing, Rule } from '@/live/types';
+import type { MapInfo, Rule } from '@/live/types';
+import { useAsked } from '@/state/asked';
 import { useRobotNames, useSelection } from '@/state/selection';
 import { Button } from '@/ui/button';
 import { Choice } from '@/ui/choice';
@@ -17,8 +18,9 @@ import type { Rover } from './map-drawing';
 import { MapList } from './map-list';
 import { MapStage } from './map-stage';
 import css from './map.module.css';
+import { candidatesOf, type Mark } from './marks';
 import { PlaceBar } from './place-bar';
-import type { Place } from './viewport';
+import { useProposedWay, useWayTo } from './use-way';
 
 const AGE_STEP_MS = 1000;
 
@@ -92,15 +94,20 @@ interface ReadyProps {
 }
 
 function Ready({ map, mapName, robot, listed, children }: ReadyProps) {
-  const [marked, setMarked] = useState<Place | MapThing | null>(null);
+  const [marked, setMarked] = useState<Mark | null>(null);
+  const way = useWayTo(robot, marked);
+  const proposed = useProposedWay(robot);
+  const question = useAsked().findLast((entry) => entry.targets.includes(robot));
+  const candidates = useMemo(() => candidatesOf(map, question), [map, question]);
+  const trials = useMemo(() => [proposed, way], [proposed, way]);
   const rovers = useRovers(mapName, robot);
   const zones = useZones(mapName);
   return (
     <div className={css.layout}>
       {children}
-      <MapStage map={map} rovers={rovers} zones={zones} marked={marked} onMark={setMarked} />
+      <MapStage map={map} rovers={rovers} zones={zones} marked={marked} trials={trials} candidates={candidates} onMark={setMarked} />
       {listed && <MapList map={map} rovers={rovers} onMark={setMarked} />}
-      <PlaceBar marked={marked} onClear={() => setMarked(null)} />
+      <PlaceBar robot={robot} marked={marked} way={way} question={question} candidates={candidates} onClear={() => setMarked(null)} />
     </div>
   );
 }

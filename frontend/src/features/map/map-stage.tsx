@@ -2,35 +2,39 @@ import { useMemo, useState } from 'react';
 import { ToggleButton } from 'react-aria-components';
 import { useTranslation } from 'react-i18next';
 
-import type { MapInfo, MapThing, Rule } from '@/live/types';
+import type { MapInfo, Rule } from '@/live/types';
 import { Button } from '@/ui/button';
 import { Icon, type IconName } from '@/ui/icon';
 
 import { MapDrawing, type Rover } from './map-drawing';
+import { markAt, type Candidates, type Mark } from './marks';
+import type { Way } from './use-way';
 import css from './map.module.css';
 import { useViewport } from './use-viewport';
-import { thingAt, type Place } from './viewport';
+import type { Place } from './viewport';
 
 interface Props {
   map: MapInfo;
   rovers: readonly Rover[];
   zones: readonly Rule[];
-  marked: Place | MapThing | null;
-  onMark: (marked: Place | MapThing) => void;
+  marked: Mark | null;
+  trials: readonly Way[];
+  candidates: Candidates;
+  onMark: (marked: Mark) => void;
 }
 
 const ZOOM_STEP = 1.4;
 const FINGER_PX = 14;
 
 /** The map to look at, move, zoom and point at. */
-export function MapStage({ map, rovers, zones, marked, onMark }: Props) {
+export function MapStage({ map, rovers, zones, marked, trials, candidates, onMark }: Props) {
   const { t } = useTranslation('map');
   const [follow, setFollow] = useState(false);
   const [showScan, setShowScan] = useState(false);
   const chosen = rovers.find((rover) => rover.chosen) ?? null;
   const { x, y } = chosen?.pose ?? { x: 0, y: 0 };
   const followed = useMemo(() => (follow && chosen ? { x, y } : null), [follow, chosen, x, y]);
-  const onPick = (place: Place) => onMark(thingAt(map.objects, place, FINGER_PX / view.scale) ?? place);
+  const onPick = (place: Place) => onMark(markAt(map, place, FINGER_PX / view.scale, marked));
   const { box, size, view, zoomBy, fitAll, handlers } = useViewport({
     map,
     followed,
@@ -49,7 +53,7 @@ export function MapStage({ map, rovers, zones, marked, onMark }: Props) {
         tabIndex={0}
         {...handlers}
       >
-        <MapDrawing map={map} view={view} size={size} rovers={rovers} marked={marked} showScan={showScan} zones={zones} />
+        <MapDrawing map={map} view={view} size={size} rovers={rovers} marked={marked} trials={trials} candidates={candidates} showScan={showScan} zones={zones} />
         <span className={css.cross}>
           <Icon name="target" size={28} />
         </span>

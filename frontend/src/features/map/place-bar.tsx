@@ -1,40 +1,98 @@
 import { useTranslation } from 'react-i18next';
 
-import type { MapThing } from '@/live/types';
+import type { ChatEntry } from '@/live/types';
+import { useOutbox } from '@/state/outbox';
+import { useRobotNames } from '@/state/selection';
 import { Button } from '@/ui/button';
 import { sentence } from '@/ui/words';
 
 import css from './map.module.css';
+import { nameOf, type Candidates, type Mark } from './marks';
 import { useSaying } from './use-saying';
-import type { Place } from './viewport';
+import type { Way } from './use-way';
 
 interface Props {
-  marked: Place | MapThing | null;
+  robot: string;
+  marked: Mark | null;
+  way: Way;
+  question: ChatEntry | undefined;
+  candidates: Candidates;
   onClear: () => void;
 }
 
 /** What can be done with what is picked out. */
-export function PlaceBar({ marked, onClear }: Props) {
-  const { t } = useTranslation(['map', 'common']);
-  const say = useSaying();
+export function PlaceBar({ robot, marked, way, question, candidates, onClear }: Props) {
+  const { t } = useTranslation('map');
+  if (!marked) {
+    return (
+      <div className={css.bar} aria-live="polite">
+        <p className={css.hint}>{candidates.size > 0 ? t('tapAnswer', { robot }) : t('tap')}</p>
+      </div>
+    );
+  }
+  const candidate = marked.kind === 'thing' ? candidates.get(marked.thing.id) : undefined;
   return (
     <div className={css.bar} aria-live="polite">
-      {marked ? (
-        <>
-          <p>
-            {'id' in marked
-              ? sentence(marked.description || marked.kind)
-              : t('place', { x: marked.x.toFixed(1), y: marked.y.toFixed(1) })}
-          </p>
-          <Button needs="speak" tone="main" icon="chat" onPress={() => say('go', marked)}>
-            {t('goThere')}
-          </Button>
-          <Button needs="speak" onPress={() => say('mention', marked)}>{t('mention')}</Button>
-          <Button tone="quiet" icon="close" iconOnly aria-label={t('unmark')} onPress={onClear} />
-        </>
+      <p>
+        <Title marked={marked} /> <WayWords robot={robot} way={way} />
+      </p>
+      {candidate && question ? (
+        <Answer question={question} choice={candidate.choice} onDone={onClear} />
       ) : (
-        <p className={css.hint}>{t('tap')}</p>
+        <Deeds robot={robot} marked={marked} way={way} />
       )}
+      <Button tone="quiet" icon="close" iconOnly aria-label={t('unmark')} onPress={onClear} />
     </div>
+  );
+}
+
+function Title({ marked }: { marked: Mark }) {
+  const { t } = useTranslation('map');
+  if (marked.kind === 'thing') return <strong>{sentence(nameOf(marked.thing))}</strong>;
+  const at = { x: marked.at.x.toFixed(1), y: marked.at.y.toFixed(1) };
+  return <strong>{marked.kind === 'room' ? sentence(marked.room.name) : t('place', at)}</strong>;
+}
+
+/** How far it is, or why not. */
+function WayWords({ robot, way }: { robot: string; way: Way }) {
+  const { t } = useTranslation('map');
+  if (way.state === 'none') return <span className={css.no}>{t('noWay', { robot })}</span>;
+  if (way.state === 'refused') return <span className={css.no}>{way.why}</span>;
+  if (way.state !== 'found') return null;
+  return <span className={css.hint}>{t('far', { metres: way.metres.toFixed(1), seconds: Math.ceil(way.seconds) })}</span>;
+}
+
+function Deeds({ robot, marked, way }: Pick<Props, 'robot' | 'way'> & { marked: Mark }) {
+  const { t } = useTranslation('map');
+  const say = useSaying(robot);
+  const several = useRobotNames().length > 1;
+  const thing = marked.kind === 'room' ? marked.room.name : marked.kind === 'thing' ? nameOf(marked.thing) : '';
+  const go = thing ? t('goTo', { thing }) : t('goThere');
+  const isRefused = way.state === 'none' || way.state === 'refused';
+  return (
+    <>
+      {!isRefused && (
+        <Button needs="speak" tone="main" icon="chat" isDisabled={way.state === 'asking'} onPress={() => say('go', marked)}>
+          {several ? t('named', { robot, deed: go }) : go}
+        </Button>
+      )}
+      <Button needs="speak" onPress={() => say('mention', marked)}>
+        {t('mention')}
+      </Button>
+    </>
+  );
+}
+
+function Answer({ question, choice, onDone }: { question: ChatEntry; choice: string; onDone: () => void }) {
+  const { t } = useTranslation('map');
+  const send = useOutbox((outbox) => outbox.send);
+  const answer = () => {
+    void send({ text: choice, targets: question.targets, reply_to: question.question === 'open' ? question.id : '', images: [] });
+    onDone();
+  };
+  return (
+    <Button needs="speak" tone="main" icon="check" onPress={answer}>
+      {t('answer', { choice })}
+    </Button>
   );
 }

@@ -2,7 +2,7 @@ import { describe, expect, it } from 'vitest';
 
 import { mapInfo } from '@/live/samples';
 
-import { bounds, fit, labelOf, pan, roomForLabels, thingAt, toMap, toScreen, zoom } from './viewport';
+import { bounds, fit, labelOf, pan, roomAt, roomForLabels, thingAt, toMap, toScreen, zoom } from './viewport';
 
 const size = { width: 800, height: 400 };
 
@@ -66,7 +66,15 @@ describe('labels on a map', () => {
   it('are left out where they would lie over an earlier one or leave the screen', () => {
     const label = (id: string, x: number, y: number) => ({ id, text: 'front door', at: { x, y } });
     const written = roomForLabels([label('a', 200, 100), label('b', 210, 104), label('c', 200, 200), label('d', 2, 50)], size);
-    expect([...written]).toEqual(['a', 'c']);
+    expect([...written.keys()]).toEqual(['a', 'c']);
+    const beside = roomForLabels([label('a', 200, 100), { ...label('b', 210, 104), aside: 20 }], size, [{ at: { x: 210, y: 82 }, radius: 8 }]);
+    expect(beside.get('b')).toEqual({ x: 210, y: 124 }); // above it is a robot
+  });
+
+  it('are those of the smallest room at a place', () => {
+    const box = (name: string, from: number, to: number) => ({ name, corners: [[from, from], [to, from], [to, to], [from, to]] as [number, number][] });
+    const rooms = [box('hall', 0, 8), box('corner', 0, 2), box('yard', 20, 30)];
+    expect([1, 4, 25, 15].map((at) => roomAt(rooms, { x: at, y: at })?.name)).toEqual(['corner', 'hall', 'yard', undefined]);
   });
 
   it('are short while the map is small', () => {

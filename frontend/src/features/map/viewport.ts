@@ -1,5 +1,5 @@
 /** What part of a map is on the screen. Plain functions; metres in the map, pixels on the screen. */
-import type { MapInfo, MapThing } from '@/live/types';
+import type { MapInfo, MapRoom, MapThing } from '@/live/types';
 import { bounds, type Place } from '@/ui/map-bounds';
 
 export { bounds, type Place };
@@ -87,27 +87,68 @@ const LONG_NAMES_SCALE = 60;
 export const labelOf = (thing: MapThing, scale: number): string =>
   (scale < LONG_NAMES_SCALE ? thing.kind || thing.description : thing.description || thing.kind).replaceAll('_', ' ');
 
-const LETTER_PX = 6.6;
+const LETTER_PX = 7;
 const LINE_PX = 16;
 
-/** Which labels can be written inside the screen and not over each other; the first come first. */
+export interface Label {
+  id: string;
+  text: string;
+  /** Where it would best stand. */
+  at: Place;
+  /** How far above or below it may stand instead. */
+  aside?: number;
+}
+
+interface Box {
+  left: number;
+  right: number;
+  top: number;
+  bottom: number;
+}
+
+const around = (at: Place, half: number, high: number): Box => ({
+  left: at.x - half,
+  right: at.x + half,
+  top: at.y - high / 2,
+  bottom: at.y + high / 2,
+});
+const meet = (a: Box, b: Box) => a.right >= b.left && a.left <= b.right && a.bottom >= b.top && a.top <= b.bottom;
+
+/**
+ * Where labels can be written inside the screen and not over each other; the first come first.
+ * @param marks What must not be written over: middle and radius.
+ */
 export function roomForLabels(
-  labels: readonly { id: string; text: string; at: Place }[],
+  labels: readonly Label[],
   size: Size,
-): ReadonlySet<string> {
-  const taken: { left: number; right: number; top: number; bottom: number }[] = [];
-  const written = new Set<string>();
-  for (const { id, text, at } of labels) {
+  marks: readonly { at: Place; radius: number }[] = [],
+): ReadonlyMap<string, Place> {
+  const taken = marks.map(({ at, radius }) => around(at, radius, 2 * radius));
+  const written = new Map<string, Place>();
+  for (const { id, text, at, aside = 0 } of labels) {
+    const places = aside > 0 ? [at, { x: at.x, y: at.y - aside }, { x: at.x, y: at.y + aside }] : [at];
     const half = (text.length * LETTER_PX) / 2;
-    const box = { left: at.x - half, right: at.x + half, top: at.y - LINE_PX / 2, bottom: at.y + LINE_PX / 2 };
-    const inside = box.left >= 0 && box.right <= size.width && box.top >= 0 && box.bottom <= size.height;
-    const free = inside && taken.every(
-      (other) =>
-        box.right < other.left || box.left > other.right || box.bottom < other.top || box.top > other.bottom,
-    );
-    if (!free) continue;
-    taken.push(box);
-    written.add(id);
+    const fits = (box: Box) =>
+      box.left >= 0 && box.right <= size.width && box.top >= 0 && box.bottom <= size.height && !taken.some((other) => meet(box, other));
+    const place = places.find((one) => fits(around(one, half, LINE_PX)));
+    if (!place) continue;
+    taken.push(around(place, half, LINE_PX));
+    written.set(id, place);
   }
   return written;
 }
+
+/** The room at a place, the smallest of several. */
+export const roomAt = (rooms: readonly MapRoom[], place: Place): MapRoom | null =>
+  rooms.filter((room) => isInside(room, place)).sort((a, b) => areaOf(a) - areaOf(b))[0] ?? null;
+
+/** The middle of a room's corners. */
+export const middleOf = ({ corners }: MapRoom): Place => ({
+  x: corners.reduce((sum, [x]) => sum + x, 0) / corners.length,
+  y: corners.reduce((sum, [, y]) => sum + y, 0) / corners.length,
+});
+
+const edges = ({ corners }: MapRoom) => corners.map((corner, index) => [corner, corners[(index + 1) % corners.length] ?? corner] as const);
+const areaOf = (room: MapRoom) => Math.abs(edges(room).reduce((sum, [[x, y], [u, v]]) => sum + x * v - u * y, 0)) / 2;
+const isInside = (room: MapRoom, at: Place) =>
+  edges(room).filter(([[x, y], [u, v]]) => y > at.y !== v > at.y && at.x < ((u - x) * (at.y - y)) / (v - y) + x).length % 2 === 1;

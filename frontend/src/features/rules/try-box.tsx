@@ -28,7 +28,7 @@ export function TryBox({ robot, robots, map, rules, onRobot }: Props) {
   const ask = () =>
     attempt(async () => {
       setVerdict(null);
-      setVerdict(await tryRules(robot, places, i18n.language));
+      setVerdict(await tryRules(robot, { words: places }, i18n.language));
     });
   return (
     <section className={css.try} aria-labelledby="try-rules">

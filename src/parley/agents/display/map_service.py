@@ -5,7 +5,7 @@ from __future__ import annotations
 import asyncio
 import base64
 import io
-from collections.abc import Iterable, Mapping
+from collections.abc import Mapping
 from typing import ClassVar
 
 from PIL import Image
@@ -13,12 +13,12 @@ from PIL import Image
 from parley.agents.base import Node
 from parley.errors import InvalidMessageError
 from parley.messages import topics
-from parley.messages.map import GetMap, MapInfo, MapThing
+from parley.messages.map import GetMap, MapInfo, MapRoom, MapThing
 from parley.messages.ros import ChatRequest, ChatResponse
 from parley.messages.status import PoseInfo
 from parley.messages.wire import decode, encode
 from parley.transport.base import Transport
-from parley.world.object_map import MapObject
+from parley.world.object_map import ObjectMap
 from parley.world.occupancy import OccupancyMap
 
 __all__ = ["MapService", "map_info"]
@@ -34,9 +34,7 @@ class MapService(Node):
 
     name: ClassVar[str] = "map_service"
 
-    def __init__(
-        self, transport: Transport, maps: Mapping[str, tuple[OccupancyMap, Iterable[MapObject]]]
-    ) -> None:
+    def __init__(self, transport: Transport, maps: Mapping[str, tuple[OccupancyMap, ObjectMap]]) -> None:
         super().__init__(transport)
         self._maps = maps
 
@@ -59,7 +57,7 @@ class MapService(Node):
         return ChatResponse(encode(info))
 
 
-def map_info(robot: str, occupancy: OccupancyMap, objects: Iterable[MapObject]) -> MapInfo:
+def map_info(robot: str, occupancy: OccupancyMap, objects: ObjectMap) -> MapInfo:
     """The message about one map."""
     buffer = io.BytesIO()
     Image.fromarray(occupancy.to_pixels()).save(buffer, "PNG")
@@ -82,6 +80,7 @@ def map_info(robot: str, occupancy: OccupancyMap, objects: Iterable[MapObject]) 
                 width=item.width_m,
                 height=item.height_m,
             )
-            for item in objects
+            for item in objects.objects
         ),
+        rooms=tuple(MapRoom(name=area.name, corners=area.corners) for area in objects.areas),
     )

@@ -4,7 +4,7 @@ import { createJSONStorage, persist } from 'zustand/middleware';
 
 import { sendMessage, type OutgoingMessage } from '@/live/api';
 import { useLive } from '@/live/store';
-import { explain } from '@/state/do';
+import { explain } from './do';
 
 export interface Outgoing extends OutgoingMessage {
   unixMs: number;

@@ -1,5 +1,5 @@
 /** Which questions are open, and what the next message answers. Plain functions. */
-import type { ChatEntry } from '@/live/types';
+import type { ChatEntry } from './types';
 
 export type Questions = ReadonlyMap<string, ChatEntry>;
 

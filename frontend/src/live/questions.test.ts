@@ -1,6 +1,6 @@
 import { describe, expect, it } from 'vitest';
 
-import { entry } from '@/live/samples';
+import { entry } from './samples';
 
 import { answering, conversation, offering, openQuestions } from './questions';
 

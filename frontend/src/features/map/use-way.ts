@@ -1,0 +1,65 @@
+import { useEffect, useState } from 'react';
+import { useTranslation } from 'react-i18next';
+
+import { ApiError, tryRules, type Trial } from '@/live/api';
+import { useWorld } from '@/live/store';
+import type { RuleVerdict } from '@/live/types';
+
+import { nameOf, type Mark } from './marks';
+
+/** `unsure`: nobody could say; `none`: no way leads there; `refused`: a rule forbids it, in words. */
+export type Way =
+  | { state: 'idle' | 'asking' | 'unsure' | 'none' }
+  | { state: 'refused'; why: string }
+  | { state: 'found'; points: readonly (readonly [number, number])[]; metres: number; seconds: number };
+
+const IDLE: Way = { state: 'idle' };
+
+/** The way a robot would take, without driving it. `trial` null: none is wanted. */
+function useTrial(robot: string, trial: Trial | null): Way {
+  const { i18n } = useTranslation();
+  const known = useWorld((world) => world.info?.modules?.rules ?? false);
+  const asked = known && trial ? JSON.stringify(trial) : '';
+  const key = `${robot} ${asked}`;
+  const [found, setFound] = useState<{ key: string; way: Way }>({ key: '', way: IDLE });
+  const { language } = i18n;
+  useEffect(() => {
+    if (!asked) return undefined;
+    let current = true;
+    tryRules(robot, JSON.parse(asked) as Trial, language).then(
+      (verdict) => current && setFound({ key, way: wayOf(verdict) }),
+      (error: unknown) => {
+        if (!(error instanceof ApiError)) throw error;
+        if (current) setFound({ key, way: { state: 'unsure' } });
+      },
+    );
+    return () => {
+      current = false;
+    };
+  }, [robot, asked, key, language]);
+  if (!asked) return IDLE;
+  return found.key === key ? found.way : { state: 'asking' };
+}
+
+function wayOf({ forbidden = [], unknown = [], way = [], length_m = 0, expected_s = 0 }: RuleVerdict): Way {
+  const why = forbidden.map((finding) => finding.text).join(' ');
+  if (why) return { state: 'refused', why };
+  if (unknown.length > 0) return { state: 'unsure' };
+  return length_m > 0 ? { state: 'found', points: way, metres: length_m, seconds: expected_s } : { state: 'none' };
+}
+
+/** The way to what is picked out. A room is large enough to be reached somewhere. */
+export function useWayTo(robot: string, marked: Mark | null): Way {
+  const trials: Record<Mark['kind'], (mark: Mark) => Trial | null> = {
+    place: ({ at }) => ({ goal: [at.x, at.y] }),
+    thing: (mark) => (mark.kind === 'thing' ? { words: [nameOf(mark.thing)] } : null),
+    room: () => null,
+  };
+  return useTrial(robot, marked && trials[marked.kind](marked));
+}
+
+/** The way that a robot proposes and waits for a yes to. */
+export function useProposedWay(robot: string): Way {
+  const steps = useWorld((world) => Object.values(world.proposals).findLast((one) => one.robot === robot)?.steps);
+  return useTrial(robot, steps && steps.length > 0 ? { steps: steps.map((step) => step.call ?? {}) } : null);
+}
