@@ -12,6 +12,7 @@ import heapq
 import itertools
 from collections import Counter, defaultdict
 from collections.abc import Callable, Mapping, Sequence
+from functools import partial
 from typing import Any
 
 __all__ = ["STOP_TICKS", "TICKS_PER_S", "TieError", "play"]
@@ -75,7 +76,7 @@ class _World:
         self.begun: Counter[str] = Counter()
         self.runs: list[_Run] = []
         self._left, self._urgent = most, 0
-        self._events: list[tuple[int, int, int, Callable[..., None], tuple[Any, ...]]] = []
+        self._events: list[tuple[int, int, int, Callable[[], bool], Callable[[], None]]] = []
         self._order = itertools.count()
 
     @property
@@ -83,15 +84,18 @@ class _World:
         """When it is, and which of the things that happen then is going on."""
         return self.now, self.turn
 
-    def at(self, ticks: int, do: Callable[..., None], *arguments: Any) -> None:
-        """Do something later."""
+    def at(
+        self, ticks: int, do: Callable[..., None], *arguments: Any, still: Callable[[], bool] = lambda: True
+    ) -> None:
+        """Do something later, if it is `still` to be done then."""
         if ticks == self.now and self._urgent:
             raise TieError
-        heapq.heappush(self._events, (ticks, next(self._order), self.now, do, arguments))
+        do_it: Callable[[], None] = partial(do, *arguments)
+        heapq.heappush(self._events, (ticks, next(self._order), self.now, still, do_it))
 
     def at_once(self, do: Callable[..., None], *arguments: Any) -> None:
         """Do something after all that goes on now; what else waits for that must not depend on it."""
-        if any(event[0] == self.now for event in self._events):
+        if any(ticks == self.now and still() for ticks, _, _, still, _ in self._events):
             raise TieError
         self.at(self.now, do, *arguments)
         self._urgent = 1
@@ -99,11 +103,13 @@ class _World:
     def pass_time(self) -> None:
         """Until nothing is left to happen."""
         while self._events:
-            ticks, _, since, do, arguments = heapq.heappop(self._events)
+            ticks, _, since, still, do = heapq.heappop(self._events)
+            if not still():
+                continue
             if since < ticks == self.now and ticks:
                 raise TieError
             self.now, self.turn, self._urgent = ticks, self.turn + 1, 0
-            do(*arguments)
+            do()
 
     def script(self, key: str) -> tuple[int, str, int]:
         """Of the next run of a node."""
@@ -314,12 +320,13 @@ class _Run:
     def later(self, node: _Node, ticks: int, do: Callable[..., None], *arguments: Any) -> None:
         """Do something with this run of the node, if it is still the same then."""
         number = node.number
-
-        def check() -> None:
-            if node.number == number and node.going_on:
-                do(node, *arguments)
-
-        self.world.at(self.world.now + ticks, check)
+        self.world.at(
+            self.world.now + ticks,
+            do,
+            node,
+            *arguments,
+            still=lambda: node.number == number and node.going_on,
+        )
 
     def come_to_end(self, node: _Node) -> None:
         if node.state == "S" or not node.active:

@@ -7,7 +7,7 @@ from dataclasses import replace
 from typing import Any
 
 import pytest
-from hypothesis import given, settings
+from hypothesis import HealthCheck, given, settings
 from hypothesis import strategies as st
 
 from parley.errors import GraphRefusedError
@@ -377,7 +377,7 @@ def test_the_published_form_is_stable_and_loses_no_more_than_the_reference(writt
 
 
 @given(st.lists(graphs(), max_size=3))
-@settings(max_examples=30)
+@settings(max_examples=30, suppress_health_check=[HealthCheck.too_slow])  # a busy machine
 @pytest.mark.spec("D18")
 def test_a_writer_that_remembers_writes_the_same_text(versions: list[Graph]) -> None:
     writer = GraphWriter()

@@ -127,6 +127,14 @@ NAMED: dict[str, tuple[Case, list[tuple[str, Told]]]] = {
         monitor("p---"),
         [("g", {"": "RPRHhSTs", "Do_0": "RFtREe", "Do_1": "RSFsRSFs", "Do_2": "RFt"})],
     ),
+    "a pause while the reaction still stops holds the next round": (
+        Case(
+            {"g": {"nodes": ["Do*", "Do"], "edges": [[0, 1, 0, "r--i"]], "entry": [0, 1], "exit": []}},
+            {"g/Do_0": [(100, "t", 50), (300, "n", 50)], "g/Do_1": [(5000, "t", 400), (5000, "t", 60)]},
+            [[200, "pause"], [2000, "resume"], [2100, "stop"]],
+        ),
+        [("g", {"": "RPRSTs", "Do_0": "RFtRSFs", "Do_1": "RSFsRSFs"})],
+    ),
     "what an edge pauses holds back what follows it": (
         Case(
             {

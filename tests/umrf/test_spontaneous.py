@@ -132,19 +132,6 @@ async def test_a_pause_holds_the_next_round() -> None:
     await watched.run.close()
 
 
-async def test_a_pause_while_the_reaction_still_stops_holds_the_next_round_too() -> None:
-    watched = Watched(monitor(node("NoOp", 0), node("Stubborn", 1, seconds=0.03)), stop_timeout_s=1.0)
-    watched.run.start()
-    await until(lambda: watched.states("Stubborn_1")[-1:] == ["STOPPING"])
-    watched.run.pause()
-    assert watched.run.state is GraphState.PAUSED
-    await until(lambda: watched.state("Stubborn_1") is NodeState.FINISHED)
-    assert watched.runs() == ["NoOp_0", "Stubborn_1"]
-    watched.run.resume()
-    await until(lambda: watched.runs().count("Stubborn_1") == 2)
-    await watched.run.close()
-
-
 async def test_a_trigger_between_two_rounds_is_ignored() -> None:
     watched = Watched(monitor(node("NoOp", 0), node("Stubborn", 1, seconds=0.03)), stop_timeout_s=1.0)
     watched.run.start()
