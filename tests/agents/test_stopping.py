@@ -15,7 +15,7 @@ from parley.messages import ros, topics
 from parley.messages.chat import ChatAction, ChatFeedback, SystemCommand
 from parley.messages.principal import person
 from parley.messages.status import StopCommand
-from tests.agents.crew import Crew, ask, crew, drive, look, proposals
+from tests.agents.crew import Crew, ask, crew, decide, drive, look, proposals
 from tests.engine.rig import DummyRobot
 
 ASK = ChatAction(success=False, message_response="What should I do?", choices=("try again", "stop"))
@@ -93,6 +93,24 @@ async def test_a_no_right_behind_somebody_elses_yes_stops_what_the_yes_begins(tu
             await asyncio.sleep(0)
         party.observer.say("no", "A")
         await party.hears("I have stopped")
+        await party.state("paused")
+
+
+async def test_a_no_on_a_card_stops_only_what_a_yes_on_it_has_begun() -> None:
+    async with crew("A", ask_first=["A"]) as party:
+        party.body.gate("box")
+        for thing in ("box", "door", "lid"):
+            party.order(look(thing))
+        await party.until(lambda: len(proposals(party)) == 3)
+        box, door, _ = (item["id"] for item in proposals(party))
+        decide(party, id=box, decision="approve")
+        await party.doing("look box")
+        decide(party, id=door, decision="reject")
+        decide(party, id=door, decision="reject")
+        await party.hears("That plan is no longer waiting for an answer.")
+        assert party.observer.state("A") == "running"
+        decide(party, id=box, decision="reject")
+        await party.hears("Somebody had said yes already, so I have stopped.")
         await party.state("paused")
 
 

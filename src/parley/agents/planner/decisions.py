@@ -15,6 +15,7 @@ from parley.agents.planner.ordering import BeginFor, Ordering
 from parley.agents.planner.plan import TargetPlan
 from parley.agents.planner.proposing import Proposals
 from parley.agents.planner.robot_plans import RobotPlans
+from parley.agents.questions import SeenIds
 from parley.errors import Problem
 from parley.gate.judge import Judgement
 from parley.gate.table import Effect, verdict
@@ -53,6 +54,8 @@ class Decisions:
     ) -> None:
         self._node, self._plans, self._proposals, self._commands = node, plans, proposals, commands
         self._ordering, self._begin_for = ordering, begin_for
+        self._begun = SeenIds()
+        """What somebody said yes to."""
 
     async def open(self) -> None:
         """Take decisions; closed with the node."""
@@ -145,7 +148,7 @@ class Decisions:
     def _too_late(self, target: str, decision: PlanDecision) -> None:
         """A no to what somebody else's yes has begun meanwhile is a stop; nothing else is done."""
         plan = self._plans.plan(target)
-        if decision.decision == "reject" and plan.update().state == "running":
+        if decision.decision == "reject" and decision.id in self._begun and plan.update().state == "running":
             stop = SystemCommand(command="stop")
             self._plans.send(plan, self._commands.effects_of(plan, stop, decision.by))
             self._plans.say(target, orders.BEGUN_ALREADY, "response")
@@ -159,6 +162,7 @@ class Decisions:
         edited, repairs = decision.decision == "edit", self._plans.approvals.repairs(decision.id)
         bound = self._plans.approvals.bound(decision.id)
         self._plans.approvals.drop(decision.id)
+        self._begun.is_new(decision.id)
         self._plans.say(plan.target, CHANGED if edited else begun(proposal.lines), "response")
         for command, step in bound:
             self._commands.change(plan, command, step, decision)

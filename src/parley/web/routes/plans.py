@@ -68,22 +68,23 @@ async def post_decision(robot: Robot, post: DecisionPost, web: Web, who: Who) ->
     who.need(_DECIDES[post.decision])
     name = web.robot(robot).name
     proposal = web.state.plans.proposals.get(post.id)
+    decision = PlanDecision(
+        id=post.id,
+        target=name,
+        decision=post.decision,
+        steps=post.steps,
+        digest=post.digest,
+        by=who.by,
+    )
     if proposal is None or proposal.robot != name or post.id in web.state.plans.decided:
+        if post.decision == "reject":
+            web.link.send(decision)  # somebody's yes was quicker: what it has begun is stopped
         raise WebProblem(409, "This plan is no longer waiting for an answer.", path="id")
     if post.decision == "approve" and post.digest != proposal.digest:
         raise WebProblem(
             409, "This is not the plan that waits for a yes.", "Look at it and decide again.", path="digest"
         )
-    web.link.send(
-        PlanDecision(
-            id=post.id,
-            target=name,
-            decision=post.decision,
-            steps=post.steps,
-            digest=post.digest,
-            by=who.by,
-        )
-    )
+    web.link.send(decision)
     return Done()
 
 
