@@ -18,12 +18,12 @@ class Asides:
         self._awaited: Latest[str, str] = Latest()
         """Id of a message that is to be replied to, or of a question that is to be answered, by robot."""
 
-    def begin(self, said: ChatInput, target: str) -> ChatInput:
-        """The message as a request of its own, so that it is understood like any other."""
+    def begin(self, said: ChatInput, target: str, question_id: str) -> ChatInput:
+        """The message as a request of its own, understood like any other, and after which question it came."""
         identity = f"{said.id or uuid.uuid4().hex}~{target}"
         self._awaited[target] = identity
         return said.model_copy(
-            update={"type": "request", "targets": (target,), "id": identity, "reply_to": ""}
+            update={"type": "request", "targets": (target,), "id": identity, "reply_to": question_id}
         )
 
     def on_input(self, said: ChatInput, questions: OpenQuestions) -> None:

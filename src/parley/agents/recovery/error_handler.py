@@ -433,7 +433,9 @@ class ErrorHandler(Node):
 
     def _refer(self, repair: Repair, said: ChatInput) -> None:
         """Let what is no answer be understood like any message; then the question is put again."""
-        self.publish(topics.CHAT_INPUT, self._asides.begin(said, repair.failure.target))
+        self.publish(
+            topics.CHAT_INPUT, self._asides.begin(said, repair.failure.target, _question_id(repair.incident))
+        )
 
     def _is_about_rules(self, said: ChatInput, target: str) -> bool:
         """Whether a message tells, asks for or lifts a rule: that is no answer to a question of ours."""
