@@ -19,7 +19,7 @@ class Asides:
         """Id of a message that is to be replied to, or of a question that is to be answered, by robot."""
 
     def begin(self, said: ChatInput, target: str, question_id: str) -> ChatInput:
-        """The message as a request of its own, understood like any other, behind the question it came after."""
+        """The message as a request of its own, understood like any other; the question it came after."""
         identity = f"{said.id or uuid.uuid4().hex}~{target}"
         self._awaited[target] = identity
         return said.model_copy(
