@@ -135,7 +135,7 @@ describe.skipIf(!hasBrowser)('people with two robots', () => {
 
   it('see when a robot falls silent, and go on with the other one', async () => {
     const page = await stage.open(sizes.desktop);
-    await tab(page, 'Ruth').waitFor();
+    await tab(page, 'Ruth').click();
     stage.system.tell('vanish Ruth');
     await page.getByText('Ruth is not connected').first().waitFor({ state: 'attached' });
     await page.goto(`${stage.system.address}#/robots`);

@@ -8,8 +8,8 @@
 
 `dimensions` are the bounding box in the map plane: `width` along x, `height` along y, in metres.
 Ours, optional: `aliases` (other names people use for it) and `front` (the direction its open or usable side
-faces, radians in the map frame: stand there to use it); beside `items`, `areas`: rooms and the like, each with
-a `name` and its `corners`, for people to see on the map.
+faces, radians in the map frame: stand there to use it); beside `items`, `areas`: rooms and the like, each
+with a `name` and its `corners`, for people to see on the map.
 """
 
 from __future__ import annotations

@@ -299,35 +299,28 @@ class Builder(Ways):
                 values["H"] = Value("left", "left")
             else:
                 return Ask("To the left or to the right?" if wish.frame == "TURN" else "Which direction?")
-        self._turned_around(values)
+        if (which := self._turned_around(values)) is not None:
+            return which
         if "N" not in values and values["H"].argument == "back" and {*wish.verb.split()} & _RETURNING:
             return Ask("Back to which place? Or how far shall I move back?")
         if "N" not in values and values["H"].argument != "around":
             return Ask(
                 "By how many degrees shall I turn?" if wish.frame == "TURN" else "How far shall I move?"
             )
-        return self._half_turn(values) if values["H"].argument == "around" else None
+        return None
 
-    def _half_turn(self, values: dict[str, Value]) -> Ask | None:
-        """Turning around by an action that knows left and right only."""
+    def _turned_around(self, values: dict[str, Value]) -> Ask | None:
+        """For "turn around" where an action knows but left and right: half a turn."""
         skill = self.skills.get("TURN")
-        slot = skill.roles.get("H") if skill is not None else None
-        if skill is None or slot is None or typed(values["H"], skill.action, slot) is not None:
+        slot = _slot(skill, "H", values) if skill is not None and values["H"].argument == "around" else None
+        choices = parameters_of(skill.action)[slot].choices if skill is not None and slot else ()
+        if "left" not in choices or "around" in choices:
             return None
         if "N" in values:
             return Ask("To the left or to the right?")
         values["H"] = Value("left", "left")
         values["N"] = Value("180 degrees", "180 degrees", amount=Amount(180, "degrees"))
         return None
-
-    def _turned_around(self, values: dict[str, Value]) -> None:
-        """For "turn around" where an action knows but left and right: half a turn."""
-        skill = self.skills.get("TURN")
-        slot = _slot(skill, "H", values) if skill is not None and values["H"].argument == "around" else None
-        choices = parameters_of(skill.action)[slot].choices if skill is not None and slot else ()
-        if choices and "left" in choices and "around" not in choices:
-            values["H"] = Value("left", "left")
-            values.setdefault("N", Value("180 degrees", "180 degrees", amount=Amount(180, "degrees")))
 
     def _direct(self, wish: Wish, skill: Skill, values: dict[str, Value]) -> list[Deed] | Ask:
         """By the action that is made for it."""
