@@ -49,8 +49,8 @@ export const entry = (part: Partial<ChatEntry> & { id: string }): ChatEntry => (
 
 export const logPage = (part: Partial<LogPage> = {}): LogPage => ({
   lines: [
-    { number: 8, unix_ms: Date.UTC(2026, 0, 2, 10), effect: 'stop', outcome: 'done', robot: 'Ada', text: 'Kim (phone) stopped Ada.' },
-    { number: 7, unix_ms: Date.UTC(2026, 0, 2, 9), effect: 'speak', outcome: 'done', robot: 'Ada', text: 'Kim (phone) said “go to the box” to Ada.' },
+    { number: 8, unix_ms: Date.UTC(2026, 0, 2, 10), effect: 'stop', outcome: 'done', robot: 'Ada', text: 'Kim (phone) stopped Ada.', words: '' },
+    { number: 7, unix_ms: Date.UTC(2026, 0, 2, 9), effect: 'speak', outcome: 'done', robot: 'Ada', text: 'Kim (phone) said “go to the box” to Ada.', words: 'go to the box' },
   ],
   complete: true,
   chain: { entries: 8, since_unix_ms: Date.UTC(2026, 0, 1), last: '', first_broken: 0, problem: '' },

@@ -277,6 +277,8 @@ class LogLine(WebModel):
     robot: str = ""
     text: str
     """What happened, in one sentence."""
+    words: str = ""
+    """For an order: what the person said."""
 
 
 class LogPage(WebModel):

@@ -1,12 +1,14 @@
-import { render, screen } from '@testing-library/react';
+import { fireEvent, render, screen } from '@testing-library/react';
 import userEvent from '@testing-library/user-event';
 import { beforeEach, describe, expect, it, vi } from 'vitest';
 
 import { network, type Asked } from '@/gallery/network';
 import { logPage, robot, snapshot } from '@/live/samples';
 import { useLive } from '@/live/store';
+import { useDrafts } from '@/state/drafts';
 
 import { LogPage } from './log-page';
+import { tableOf } from './table';
 
 let asked: Asked[];
 
@@ -23,6 +25,22 @@ describe('the log', () => {
     render(<LogPage />);
     await screen.findByText('Kim (phone) stopped Ada.');
     await screen.findByText(/^Unbroken since/);
+  });
+
+  it('takes an order of then up again, where one writes, and does not send it', async () => {
+    render(<LogPage />);
+    fireEvent.click(await screen.findByLabelText('Do again: go to the box'));
+    expect(useDrafts.getState().drafts).toEqual({ Ada: { text: 'go to the box', photo: null } });
+  });
+
+  it('is a table for other programs, in which nothing is taken for a formula', () => {
+    const [stop, said] = logPage().lines ?? [];
+    const lines = stop && said ? [{ ...stop, text: '=1+1, he said “"”' }, said] : [];
+    expect(tableOf(lines).split('\r\n').slice(1)).toEqual([
+      '"7","2026-01-02T09:00:00.000Z","speak","done","Ada","Kim (phone) said “go to the box” to Ada."',
+      '"8","2026-01-02T10:00:00.000Z","stop","done","Ada","\'=1+1, he said “""”"',
+      '',
+    ]);
   });
 
   it('says so when it was changed', async () => {

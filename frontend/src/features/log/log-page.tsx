@@ -1,14 +1,17 @@
 import { useDeferredValue, useState } from 'react';
 import { useTranslation } from 'react-i18next';
 
-import { getLog } from '@/live/api';
+import { getLog, type LogWish } from '@/live/api';
 import { useWorld } from '@/live/store';
 import type { LogLine, LogPage as Found } from '@/live/types';
-import { useRobotNames } from '@/state/selection';
+import { attempt } from '@/state/do';
+import { draftKey, useDrafts } from '@/state/drafts';
+import { useRobotNames, useSelectionStore } from '@/state/selection';
 import { Button } from '@/ui/button';
 import { Choice } from '@/ui/choice';
 import { Empty, Loading, Panel } from '@/ui/panel';
 import { TextField } from '@/ui/text-field';
+import { goTo } from '@/ui/use-hash';
 import { useNow } from '@/ui/use-now';
 import { useKept, useRequest, type Loaded } from '@/ui/use-request';
 import { timeOrDay } from '@/ui/words';
@@ -16,6 +19,7 @@ import { timeOrDay } from '@/ui/words';
 import { ChainMark } from './chain-mark';
 import { kinds, type Kind } from './kinds';
 import css from './log.module.css';
+import { save, tableOf } from './table';
 
 const ALL = '*';
 const MINUTE_MS = 60_000;
@@ -74,6 +78,9 @@ export function LogPage() {
           <Button tone="quiet" onPress={() => setAsked(asked + 1)}>
             {t('again')}
           </Button>
+          <Button icon="down" onPress={() => void attempt(async () => save(tableOf(await all(wish)), 'parley-log.csv'))}>
+            {t('export')}
+          </Button>
           {before > 0 && <Button onPress={() => setBefore(0)}>{t('newest')}</Button>}
           {found.state === 'ready' && !found.value.complete && (
             <Button onPress={() => setBefore(found.value.lines?.at(-1)?.number ?? 0)}>{t('older')}</Button>
@@ -82,6 +89,27 @@ export function LogPage() {
       </div>
     </Panel>
   );
+}
+
+const PAGE = 500;
+const MOST = 10_000;
+
+/** Everything that fits, the newest `MOST`, newest first. */
+async function all(wish: LogWish): Promise<LogLine[]> {
+  const lines: LogLine[] = [];
+  for (let complete = false; !complete && lines.length < MOST; ) {
+    const found = await getLog({ ...wish, before: lines.at(-1)?.number ?? 0, limit: PAGE });
+    lines.push(...(found.lines ?? []));
+    complete = (found.complete ?? true) || (found.lines ?? []).length === 0;
+  }
+  return lines;
+}
+
+/** Takes an order of then up again: its words stand where one writes, to be changed and sent. */
+function again(line: LogLine): void {
+  if (line.robot) useSelectionStore.getState().only(line.robot);
+  useDrafts.getState().add(draftKey(line.robot ? [line.robot] : []), line.words ?? '');
+  goTo('/');
 }
 
 interface LinesProps {
@@ -124,6 +152,9 @@ function Line({ line }: { line: LogLine }) {
         {timeOrDay(line.unix_ms, now, i18n.language)}
       </time>
       <span>{line.text}</span>
+      {line.words && line.robot && (
+        <Button needs="speak" tone="quiet" icon="undo" iconOnly aria-label={t('doAgain', { words: line.words })} onPress={() => again(line)} />
+      )}
     </li>
   );
 }

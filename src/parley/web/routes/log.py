@@ -58,6 +58,7 @@ async def get_log(
             outcome=entry.outcome,
             robot=entry.robot,
             text=in_language(told(entry), language),
+            words=entry.words if entry.effect == Effect.SPEAK.value else "",
         )
         for entry in found.entries[:limit]
     )
