@@ -18,6 +18,7 @@ import css from './shell.module.css';
 import { ShortcutSheet } from './shortcut-sheet';
 import { Toasts } from './toasts';
 import { useEscapeTwice } from './use-escape-twice';
+import { useHeard } from './use-heard';
 import { useNotices } from './use-notices';
 import { useRobotShortcuts } from './use-robot-shortcuts';
 
@@ -37,6 +38,7 @@ export function Shell(props: Props) {
   useEscapeTwice(() => void stop([]));
   useRobotShortcuts();
   useNotices();
+  useHeard();
   const words = { message: t('crashed'), again: t('crashedAgain') };
   return (
     <div className={css.shell} data-layout={layout}>

@@ -6,7 +6,7 @@ import { cornersOf, outline } from '@/ui/corners';
 import css from './map.module.css';
 import { nameOf, type Candidates, type Mark } from './marks';
 import type { Way as Trial } from './use-way';
-import { labelOf, middleOf, roomForLabels, toScreen, type Place, type Size, type Viewport } from './viewport';
+import { labelOf, LONG_NAMES_SCALE, middleOf, roomForLabels, toScreen, type Place, type Size, type Viewport } from './viewport';
 
 export interface Rover {
   name: string;
@@ -36,6 +36,7 @@ const ROBOT_M = 0.18;
 const ROBOT_LEAST_PX = 11;
 const LABEL_BELOW_PX = 20;
 const ASIDE_PX = 16;
+const ROOM_LETTER_PX = 9.5;
 
 /** The map as a picture; whoever cannot see it has the list. */
 export const MapDrawing = memo(function MapDrawing({ map, view, size, rovers, marked, trials, candidates, showScan, zones }: Props) {
@@ -144,10 +145,10 @@ function Labels({ things, rooms, candidates, rovers, view, size, robotPx }: Labe
     .sort((a, b) => Number(candidates.has(b.id)) - Number(candidates.has(a.id)))
     .map((thing) => {
       const candidate = candidates.get(thing.id);
-      const text = candidate ? `${candidate.number}  ${nameOf(thing)}` : labelOf(thing, view.scale);
+      const text = candidate ? `${candidate.number}${view.scale < LONG_NAMES_SCALE ? '' : `  ${nameOf(thing)}`}` : labelOf(thing, view.scale);
       return { id: `${candidate ? 'candidate' : 'thing'} ${thing.id}`, text, at: toScreen(view, size, thing), aside: ASIDE_PX };
     });
-  const large = rooms.map((room) => ({ id: `room ${room.name}`, text: room.name, at: toScreen(view, size, middleOf(room)), aside: 2 * ASIDE_PX }));
+  const large = rooms.map((room) => ({ id: `room ${room.name}`, text: room.name, at: toScreen(view, size, middleOf(room)), aside: 2 * ASIDE_PX, letterPx: ROOM_LETTER_PX }));
   const labels = [...robots, ...named.filter((one) => one.id.startsWith('candidate')), ...large, ...named];
   const marks = rovers.map((rover) => ({ at: toScreen(view, size, rover.pose), radius: robotPx }));
   const written = roomForLabels(labels, size, marks);

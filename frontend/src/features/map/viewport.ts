@@ -81,7 +81,7 @@ export function thingAt(things: readonly MapThing[], place: Place, reachM: numbe
 }
 
 /** From so many pixels per metre there is room for more than what kind of thing it is. */
-const LONG_NAMES_SCALE = 60;
+export const LONG_NAMES_SCALE = 60;
 
 /** What a thing is called on the map. */
 export const labelOf = (thing: MapThing, scale: number): string =>
@@ -97,6 +97,8 @@ export interface Label {
   at: Place;
   /** How far above or below it may stand instead. */
   aside?: number;
+  /** Wider than others. */
+  letterPx?: number;
 }
 
 interface Box {
@@ -125,9 +127,9 @@ export function roomForLabels(
 ): ReadonlyMap<string, Place> {
   const taken = marks.map(({ at, radius }) => around(at, radius, 2 * radius));
   const written = new Map<string, Place>();
-  for (const { id, text, at, aside = 0 } of labels) {
+  for (const { id, text, at, aside = 0, letterPx = LETTER_PX } of labels) {
     const places = aside > 0 ? [at, { x: at.x, y: at.y - aside }, { x: at.x, y: at.y + aside }] : [at];
-    const half = (text.length * LETTER_PX) / 2;
+    const half = (text.length * letterPx) / 2;
     const fits = (box: Box) =>
       box.left >= 0 && box.right <= size.width && box.top >= 0 && box.bottom <= size.height && !taken.some((other) => meet(box, other));
     const place = places.find((one) => fits(around(one, half, LINE_PX)));

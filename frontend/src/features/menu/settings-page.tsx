@@ -6,6 +6,7 @@ import { Choice } from '@/ui/choice';
 import { Panel } from '@/ui/panel';
 
 import { InstallHint } from './install-hint';
+import { LoudChoice } from './loud-choice';
 import css from './settings-page.module.css';
 
 const themes: readonly Theme[] = ['system', 'light', 'dark', 'contrast'];
@@ -37,6 +38,7 @@ export function SettingsPage({ children }: { children?: React.ReactNode }) {
           options={colours.map((id) => ({ id, label: t(`colours.${id}`) }))}
           onChange={(planColours) => prefs.set({ planColours })}
         />
+        <LoudChoice />
         <About />
         <InstallHint />
         {children}
