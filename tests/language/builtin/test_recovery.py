@@ -167,3 +167,9 @@ async def test_a_second_answer_that_says_nothing_is_told_so() -> None:
 async def test_an_answer_is_read_as_what_it_is(reply: str, kind: str) -> None:
     choices = ("north gate", "south gate") if kind in ("choice",) or "not" in reply else ()
     assert (await ENGINE.read_reply("Which one?", reply, choices)).kind == ReplyReading(kind).kind  # type: ignore[arg-type]
+
+
+async def test_a_choice_that_is_tapped_is_that_choice() -> None:
+    for tapped in (choices := ("It is on you", "I can't", "not the north gate", "the north gate")):
+        reading = await ENGINE.read_reply("Which one?", tapped, choices)
+        assert (reading.kind, reading.choice) == ("choice", tapped)

@@ -102,6 +102,9 @@ def chosen(
         names: What is offered.
         also: What else each is called.
     """
+    same = [name for name in names if words_of(name) == [*words]]
+    if same:
+        return same[0]
     said = {stem(word) for word in words}
     called = [" ".join([name, *also.get(name, ())]) for name in names]
     own = [{stem(word) for word in text.lower().split()} for text in called]
