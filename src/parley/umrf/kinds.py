@@ -14,7 +14,7 @@ from typing import Final, get_args
 from parley.messages.pvf import SEPARATOR
 from parley.messages.status import ActionInfo, Kind, ParameterInfo
 
-__all__ = ["KINDS", "parameters_of", "words_of_name"]
+__all__ = ["KINDS", "is_word_for", "parameters_of", "words_of_name"]
 
 KINDS: Final[tuple[Kind, ...]] = get_args(Kind)
 
@@ -55,6 +55,11 @@ _KIND_OF_WORD: Final = _table(
     "topic name announcement content query statement",
 )
 _LIST: Final = r"(?P<list>[\w-]+(?: [\w-]+)?(?:, [\w-]+(?: [\w-]+)?)*,? or [\w-]+(?: [\w-]+)?)"
+
+
+def is_word_for(word: str, kind: Kind) -> bool:
+    """Whether a word is one for a kind of thing: "visitor" for a person."""
+    return _KIND_OF_WORD.get(word) == kind
 
 
 def words_of_name(name: str) -> list[str]:

@@ -108,3 +108,36 @@ def test_all_groups_of_names_can_be_read() -> None:
     for name, others in lexicon().synonyms.items():
         assert name not in others
         assert all(token.is_word for token in tokenize(" ".join(name)))
+
+
+FINDERS = (
+    action("detect_item", "Look around for an item.", "item"),
+    action("detect_person", "Look around for a person.", "who"),
+)
+
+
+@pytest.mark.parametrize(
+    ("said", "done"),
+    [
+        ("find the wrench", "detect_item"),
+        ("find Kim", "detect_person"),
+        ("find the visitor", "detect_person"),
+    ],
+)
+def test_a_thing_is_not_given_to_an_action_for_persons(said: str, done: str) -> None:
+    for catalogue in (FINDERS, FINDERS[::-1]):
+        decision = ENGINE.decide(situation(said, catalogue=catalogue, objects=()))
+        assert isinstance(decision, Do)
+        assert [deed.skill.action.name for deed in decision.deeds] == [done]
+
+
+def test_who_can_only_find_persons_does_not_look_for_things() -> None:
+    asked = situation("find the wrench", catalogue=FINDERS[1:], objects=())
+    assert isinstance(ENGINE.decide(asked), Ask)
+
+
+def test_an_action_that_nobody_describes_is_known_by_the_words_of_its_name() -> None:
+    named = (action("pick_up", "", "object"), action("moveTo", "", "place"))
+    decision = ENGINE.decide(situation("go to the office", catalogue=named))
+    assert isinstance(decision, Do)
+    assert decision.deeds[0].skill.action.name == "moveTo"

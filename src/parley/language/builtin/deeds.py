@@ -255,6 +255,8 @@ class Builder(Ways):
             if wish.frame == "FACE" and role in values:
                 values["T"] = values.pop(role)
         skill = self.skills.get(wish.frame)
+        if skill is not None and "T" in values and self.lexicon.frames[wish.frame].roles.get("T") == "thing":
+            skill = skill.fitting(self.is_person(wish.all("T"), values["T"]))
         if skill is not None:
             return self._direct(wish, skill, values)
         other = _WAYS.get(wish.frame)

@@ -19,6 +19,7 @@ from parley.language.builtin.things import Mention, link, noun_phrase
 from parley.language.builtin.tokens import point_of
 from parley.language.builtin.wishes import Filler, Wish
 from parley.language.dialogue.places import distance_m, in_room
+from parley.umrf.kinds import is_word_for
 from parley.world.object_map import MapObject
 
 __all__ = ["Grounder", "Value"]
@@ -243,6 +244,15 @@ class Grounder:
             return Ask(f"There are {count} things called “{names[0]}”. Which one do you mean?")
         named = [with_article(name) for name in names[:6]]
         return Ask(f"Which one do you mean: {', '.join(named[:-1])} or {named[-1]}?", tuple(names[:6]))
+
+    def is_person(self, fillers: Sequence[Filler], value: Value) -> bool:
+        """Whether somebody is meant: by a name, by what the map says, or by a word for people."""
+        if value.things or not fillers:
+            return bool(value.things) and all(one.class_name == "person" for one in value.things)
+        name, _ = noun_phrase(fillers[0].words, fillers[0].head, self.lexicon)
+        said = fillers[0].text.split()
+        named = any(word[:1].isupper() and word.lower() in name for word in said)
+        return named or bool(name and is_word_for(name[-1], "person")) or value.argument == "operator"
 
     def is_placed(self, filler: Filler) -> bool:
         """Whether a role tells one thing from others by where it is."""

@@ -9,7 +9,7 @@ import json
 import re
 from collections import OrderedDict
 from collections.abc import Sequence
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 
 import numpy as np
 from scipy.optimize import linear_sum_assignment
@@ -18,7 +18,7 @@ from parley.language.builtin.labels import OTHER
 from parley.language.builtin.lexicon import Lexicon
 from parley.language.builtin.tagger import Tagger
 from parley.messages.status import ActionInfo
-from parley.umrf.kinds import parameters_of
+from parley.umrf.kinds import parameters_of, words_of_name
 
 __all__ = ["Skill", "SkillTable", "Skills"]
 
@@ -55,6 +55,19 @@ class Skill:
     roles: dict[str, str]
     """Role -> parameter."""
     share: float = 1.0
+    other: Skill | None = None
+    """One of the same kind for persons, where this is for things; or the other way round."""
+
+    @property
+    def is_for_persons(self) -> bool:
+        """Whether what it is about is a person by its type."""
+        name = self.roles.get("T", "")
+        return name in self.action.inputs and parameters_of(self.action)[name].kind == "person"
+
+    def fitting(self, person: bool) -> Skill | None:
+        """This one or the other, for a person or for a thing; None if neither takes such."""
+        fits = (one for one in (self, self.other) if one is not None and one.is_for_persons is person)
+        return next(fits, None if self.is_for_persons and not person else self)
 
     @property
     def takes_pose(self) -> bool:
@@ -97,7 +110,20 @@ class SkillTable:
             share = beliefs[row].get(frame, 0.0)
             if self._is_told_apart(frame, row, chosen, beliefs) and share >= _LEAST:
                 found[frame] = Skill(catalogue[row], frame, self._roles(catalogue[row], frame), share)
+        for row, belief in enumerate(beliefs):
+            if row not in {chosen.get(frame) for frame in found}:
+                self._beside(found, catalogue[row], belief)
         return found
+
+    def _beside(self, found: Skills, action: ActionInfo, belief: dict[str, float]) -> None:
+        """Add an action to one of the same kind, where one is for persons and the other for things."""
+        frame = max(belief, key=lambda name: belief[name], default=OTHER)
+        first = found.get(frame)
+        if first is None or first.other is not None or belief[frame] < _SURE:
+            return
+        second = Skill(action, frame, self._roles(action, frame), belief[frame])
+        if second.is_for_persons is not first.is_for_persons:
+            found[frame] = replace(first, other=second)
 
     @staticmethod
     def _is_told_apart(
@@ -128,11 +154,12 @@ class SkillTable:
         said = next((frame for effect, frame in _EFFECTS.items() if effect in action.effects), None)
         if said is not None and self._has_core(action, said):
             return {said: 1.0}
-        if not action.description:
+        words = action.description or " ".join(words_of_name(action.name))  # all that is said of it
+        if not words:
             return {}
-        if action.description not in self._described:
-            self._described[action.description] = self._described_as(action.description)
-        found = self._described[action.description]
+        if words not in self._described:
+            self._described[words] = self._described_as(words)
+        found = self._described[words]
         many = len(action.inputs)
         return {
             frame: 0.0
