@@ -287,7 +287,9 @@ SAMPLES: dict[type[BaseModel], dict[str, Any]] = {
         "origin": POSE,
         "image": "aGk=",
         "objects": [THING],
+        "rooms": [{"name": "hall", "corners": [[0.0, 0.0], [1.0, 0.0], [1.0, 1.0]]}],
     },
+    map.MapRoom: {"name": "hall", "corners": [[0.0, 0.0], [1.0, 0.0], [1.0, 1.0]]},
     map.MapView: {
         "actor": "A",
         "map_name": "hall",
@@ -323,6 +325,7 @@ SAMPLES: dict[type[BaseModel], dict[str, Any]] = {
         "outcome": "asked",
         "lines": ["Go there"],
         "why": "It is far.",
+        "rules": ["no_hall"],
     },
     status.PlanProposal: {
         "kind": "proposal",
