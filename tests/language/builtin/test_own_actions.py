@@ -104,3 +104,16 @@ def test_no_place_is_given_to_an_input_that_takes_a_number() -> None:
     )
     assert done(ENGINE.decide(situation("look at the pump", catalogue=numbered))) == [("b", {"what": "pump"})]
     assert not done(ENGINE.decide(situation("go to the pump", catalogue=numbered)))
+
+
+def test_the_very_words_of_an_action_mean_it_whatever_words_they_are() -> None:
+    catalogue = (
+        ActionInfo(
+            name="shine", description="Make the hall shine.", phrases=("sweep and then polish the hall",)
+        ),
+        ActionInfo(name="rounds", description="Walk around.", phrases=("patrol without a break",)),
+    )
+    for info in catalogue:
+        decision = ENGINE.decide(situation(info.phrases[0], catalogue=catalogue))
+        assert isinstance(decision, Do)
+        assert [deed.skill.action.name for deed in decision.deeds] == [info.name]

@@ -23,7 +23,7 @@ from parley.language.builtin.deciding import decide
 from parley.language.builtin.decision import Answer, Ask, Decision, Do
 from parley.language.builtin.explaining import explained
 from parley.language.builtin.lexicon import lexicon, stem
-from parley.language.builtin.own import OwnActions
+from parley.language.builtin.own import OwnActions, is_promised
 from parley.language.builtin.reading import Reading, read
 from parley.language.builtin.recovery import Repairer
 from parley.language.builtin.reply import to_chat
@@ -33,7 +33,7 @@ from parley.language.builtin.steady import steadily
 from parley.language.builtin.structure import Part
 from parley.language.builtin.tagger import shipped_tagger
 from parley.language.builtin.things import head_of, link
-from parley.language.builtin.tokens import spoken, tokenize
+from parley.language.builtin.tokens import Token, spoken, tokenize
 from parley.language.dialogue.replies import read_reply
 from parley.language.dialogue.state import Asked, Dialogue, Order
 from parley.messages.chat import ChatAction
@@ -119,6 +119,10 @@ class BuiltinLanguage:
             return Ask("I did not understand that. Please say what I should do.")
         situation = self._with_past(situation)
         parts = self._parts(situation.message)
+        if len(parts) > 1 and is_promised(situation.message, situation.catalogue):
+            parsed, reading = self._read(situation.message)
+            whole = Clause("main", 0, len(parsed.tokens), 0)  # "open the door to the yard" is one deed there
+            parts = (Part(whole, parsed, reading, situation.message),)
         if self._skills is None or self._own is None:
             self._skills = SkillTable(shipped_tagger(), self._lexicon)
             self._own = OwnActions(shipped_tagger(), self._lexicon)
@@ -155,7 +159,12 @@ class BuiltinLanguage:
 
     def _read_text(self, text: str) -> tuple[Parse, Reading]:
         tokens = spoken(tokenize(text)) or tokenize(text)
-        return steadily(shipped_tagger(), tokens, self._lexicon)
+        found = steadily(shipped_tagger(), tokens, self._lexicon)
+        if not (found[1].unsteady or found[1].left_over):
+            return found
+        stop = Token(".", tokens[-1].end, tokens[-1].end)  # it helps with names that nobody knows
+        other = steadily(shipped_tagger(), (*tokens, stop), self._lexicon)
+        return found if other[1].unsteady or other[1].left_over else other
 
     def _parted(self, text: str) -> tuple[Part, ...]:
         """The clauses of a message, each read by itself."""

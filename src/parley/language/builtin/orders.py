@@ -35,10 +35,10 @@ class Clause:
     """Whether it is at least neither a question, a need nor an alarm."""
 
 
-def clauses_of(parse: Parse, reading: Reading, lexicon: Lexicon) -> list[Clause]:
-    """The orders of a message: each from one verb to the next."""
+def clauses_of(parse: Parse, reading: Reading, lexicon: Lexicon, *, whole: bool = False) -> list[Clause]:
+    """The orders of a message: each from one verb to the next, or all of it as one."""
     size = len(parse.tokens)
-    starts = [verb.start for verb in parse.verbs if _opens(parse, verb.start, lexicon)]
+    starts = [verb.start for verb in parse.verbs if not whole and _opens(parse, verb.start, lexicon)]
     bounds = [0, *(start for start in starts if _content(parse, 0, start, lexicon)), size]
     fillers = [filler for wish in reading.wishes for filler in wish.fillers] + [*reading.loose]
     found = []

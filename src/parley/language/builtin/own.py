@@ -29,7 +29,7 @@ from parley.language.builtin.wishes import Filler, Wish
 from parley.messages.status import ActionInfo
 from parley.umrf.kinds import parameters_of, words_of_name
 
-__all__ = ["OwnAction", "OwnActions"]
+__all__ = ["OwnAction", "OwnActions", "is_promised"]
 
 _NEAR = 0.25
 """Less alike in meaning is no match, whatever the words."""
@@ -108,6 +108,13 @@ class _Rank(NamedTuple):
     filled: Filling
 
 
+def is_promised(message: str, catalogue: Sequence[ActionInfo]) -> bool:
+    """Whether a message is, word by word, one by which an action may be asked for."""
+    words = re.findall(r"[\w']+", message.lower())
+    phrases = (phrase for info in catalogue for phrase in (*info.phrases, *info.examples))
+    return any(re.findall(r"[\w']+", phrase.lower()) == words for phrase in phrases)
+
+
 class OwnActions:
     """What catalogues hold besides the known frames; each is prepared once."""
 
@@ -131,7 +138,8 @@ class OwnActions:
         known, vectors = self._prepared(catalogue)
         if not known:
             return reading
-        clauses = clauses_of(parse, reading, self._lexicon)
+        whole = is_promised(" ".join(token.text for token in parse.tokens), catalogue)
+        clauses = clauses_of(parse, reading, self._lexicon, whole=whole)
         found = [self._meant(clause, known, vectors, framed, reading) for clause in clauses]
         meant = [
             (clause, own)
@@ -239,13 +247,13 @@ class OwnActions:
 
     def _phrased(self, clause: Clause, item: _Known, framed: frozenset[str]) -> OwnAction | None:
         """The action, if just these words are one of its phrases or examples."""
-        if item.action.name in framed or not clause.may_order:
+        if not clause.may_order:
             return None
         said = " ".join(_words(clause.text))
         for pattern in item.patterns:
             match = pattern.fullmatch(said)
-            if match is None:
-                continue
+            if match is None or (item.action.name in framed and (match.groupdict() or item.slots.parameters)):
+                continue  # what it takes is grounded by its frame
             given = {name: tuple(text.split()) for name, text in match.groupdict().items()}
             fills = tuple(filled_by(name, words, item.slots, self._lexicon) for name, words in given.items())
             missing = set(item.slots.parameters) - set(given) - item.slots.optional
