@@ -66,7 +66,7 @@ def pixels_of(image: CameraImage, label: str) -> int:
 
 
 def test_its_map_files_are_what_a_survey_of_the_world_gives(demo: Demo, tmp_path: Path) -> None:
-    """After a change to world.yaml: write them anew with `parley.sim.export.export_maps`, but for the rooms."""
+    """After a change to world.yaml: `parley.sim.export.export_maps` writes them anew, but for the rooms."""
     export_maps(demo.world, tmp_path)
     assert (FOLDER / "map.yaml").read_text() == (tmp_path / "map.yaml").read_text()
     assert (FOLDER / "map.pgm").read_bytes() == (tmp_path / "map.pgm").read_bytes()
