@@ -164,7 +164,8 @@ class BuiltinLanguage:
             return found
         stop = Token(".", tokens[-1].end, tokens[-1].end)  # it helps with names that nobody knows
         other = steadily(shipped_tagger(), (*tokens, stop), self._lexicon)
-        return found if other[1].unsteady or other[1].left_over else other
+        certain = other[1].wishes and not (other[1].unsteady or other[1].left_over)
+        return other if certain else found
 
     def _parted(self, text: str) -> tuple[Part, ...]:
         """The clauses of a message, each read by itself."""
