@@ -134,10 +134,3 @@ def test_a_thing_is_not_given_to_an_action_for_persons(said: str, done: str) -> 
 def test_who_can_only_find_persons_does_not_look_for_things() -> None:
     asked = situation("find the wrench", catalogue=FINDERS[1:], objects=())
     assert isinstance(ENGINE.decide(asked), Ask)
-
-
-def test_an_action_that_nobody_describes_is_known_by_the_words_of_its_name() -> None:
-    named = (action("pick_up", "", "object"), action("moveTo", "", "place"))
-    decision = ENGINE.decide(situation("go to the office", catalogue=named))
-    assert isinstance(decision, Do)
-    assert decision.deeds[0].skill.action.name == "moveTo"

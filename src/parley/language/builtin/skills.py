@@ -18,7 +18,7 @@ from parley.language.builtin.labels import OTHER
 from parley.language.builtin.lexicon import Lexicon
 from parley.language.builtin.tagger import Tagger
 from parley.messages.status import ActionInfo
-from parley.umrf.kinds import parameters_of, words_of_name
+from parley.umrf.kinds import parameters_of
 
 __all__ = ["Skill", "SkillTable", "Skills"]
 
@@ -154,12 +154,11 @@ class SkillTable:
         said = next((frame for effect, frame in _EFFECTS.items() if effect in action.effects), None)
         if said is not None and self._has_core(action, said):
             return {said: 1.0}
-        words = action.description or " ".join(words_of_name(action.name))  # all that is said of it
-        if not words:
+        if not action.description:
             return {}
-        if words not in self._described:
-            self._described[words] = self._described_as(words)
-        found = self._described[words]
+        if action.description not in self._described:
+            self._described[action.description] = self._described_as(action.description)
+        found = self._described[action.description]
         many = len(action.inputs)
         return {
             frame: 0.0
