@@ -11,6 +11,7 @@ from parley.evaluation.steps import pending
 from parley.language.base import Situation, Turn
 from parley.language.builtin.engine import BuiltinLanguage
 from parley.language.dialogue.changes import texts_of
+from parley.language.dialogue.state import Asked, Dialogue
 from parley.messages.chat import ActionCall, ChatAction
 from parley.messages.pvf import Parameter
 from parley.messages.status import ActionInfo
@@ -162,3 +163,16 @@ def test_other_words_are_no_order_once_more(then: str) -> None:
 def test_no_wish_is_kept_as_a_fact(said: str) -> None:
     _, made = answer(said)
     assert not [command for command in made.system_cmd if command.command == "add_memory"]
+
+
+def test_an_order_that_names_one_of_the_choices_itself_is_not_asked_about_for_ever() -> None:
+    asked = Asked("the red barrel", ("red barrel", "blue barrel"))
+    situation = Situation(
+        "the red barrel",
+        objects=OBJECTS,
+        robot="Ada",
+        robots=("Ada",),
+        catalogue=CATALOGUE,
+        dialogue=Dialogue(asked=asked, now_unix_ms=1),
+    )
+    assert asyncio.run(ENGINE.interpret(situation)).message_response

@@ -138,7 +138,8 @@ class BuiltinLanguage:
 
         def again(text: str, without: Sequence[str] = ()) -> Decision:
             objects = tuple(item for item in situation.objects if item.description not in without)
-            return self.decide(replace(situation, message=text, history=(), objects=objects))
+            plain = replace(situation.dialogue, asked=None)  # it is no answer to what was asked about it
+            return self.decide(replace(situation, message=text, history=(), objects=objects, dialogue=plain))
 
         return decide(situation, parts, skills, self._lexicon, self.reading, again)
 
