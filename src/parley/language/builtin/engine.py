@@ -201,7 +201,7 @@ class BuiltinLanguage:
 
     async def resolve(self, situation: ErrorSituation) -> ChatAction:
         """See `Language.resolve`."""
-        return Repairer(self._lexicon, self.decide, self.reading, self._parts).resolve(situation)
+        return Repairer(self._lexicon, self.decide, self.reading).resolve(situation)
 
     async def ground(
         self, description: str, objects: Sequence[MapObject], pose: Pose2D | None = None

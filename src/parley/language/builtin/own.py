@@ -138,7 +138,10 @@ class OwnActions:
         known, vectors = self._prepared(catalogue)
         if not known:
             return reading
-        whole = is_promised(" ".join(token.text for token in parse.tokens), catalogue)
+        said = " ".join(_words(parse.text(0, len(parse.tokens))))
+        whole = any(
+            not pattern.groups and pattern.fullmatch(said) for item in known for pattern in item.patterns
+        )
         clauses = clauses_of(parse, reading, self._lexicon, whole=whole)
         found = [self._meant(clause, known, vectors, framed, reading) for clause in clauses]
         meant = [

@@ -16,7 +16,6 @@ from parley.language.builtin.reading import Reading
 from parley.language.builtin.reply import said as words_for
 from parley.language.builtin.reply import to_chat
 from parley.language.builtin.saying import with_article
-from parley.language.builtin.structure import Part
 from parley.language.builtin.things import head_of, link, noun_phrase
 from parley.language.builtin.tokens import tokenize
 from parley.language.dialogue.answers import differences, listed
@@ -25,6 +24,7 @@ from parley.language.dialogue.places import rooms
 from parley.language.dialogue.questions import asks, plain, question_of
 from parley.language.dialogue.replies import chosen, names_deed, words_of
 from parley.language.dialogue.settling import Settled, parts_of, settled
+from parley.language.dialogue.standing import read_rule
 from parley.messages.chat import ActionCall, ChatAction, SystemCommand
 from parley.messages.memory import MemoryEntry
 from parley.world.object_map import MapObject
@@ -59,7 +59,6 @@ class Repairer:
     lexicon: Lexicon
     decide: Callable[[Situation], Decision]
     reading: Callable[[str], Reading]
-    parted: Callable[[str], tuple[Part, ...]]
 
     def resolve(self, situation: ErrorSituation) -> ChatAction:
         """See `Language.resolve`; an empty answer leaves what was said to the chat."""
@@ -80,26 +79,21 @@ class Repairer:
 
     def _taught(self, rule: MemoryEntry, situation: ErrorSituation) -> ChatAction | None:
         """For "when the way is blocked, wait a minute and try again": an answer that was given beforehand."""
-        if rule.type != "text" or len(rule.data) > 300:
+        read = read_rule(rule.data) if rule.type == "text" else None
+        if read is None or not self._is_case(read.case, situation):
             return None
-        parts = self.parted(rule.data)
-        cases = [part for part in parts if part.clause.link in ("when", "if")]
-        if len(cases) != 1 or not self._is_case(cases[0], situation):
-            return None
-        start = rule.data.find(cases[0].text) + len(cases[0].text)
-        before = rule.data[: rule.data.find(cases[0].text)]
-        what = rule.data[start:].strip(" ,:.") or before.rsplit(" ", 2)[0].strip(" ,")
+        what = " and ".join(act.words for act in read.acts)
         made = self._answered(situation, what, ()) or self._ordered(situation, what)
         if made is None or not made.success:
             return None
         text = f"{situation.error_message.strip()} You told me: “{rule.data.rstrip('.')}”. I do so now."
         return made.model_copy(update={"message_response": text, "sources": (rule.name,)})
 
-    def _is_case(self, case: Part, situation: ErrorSituation) -> bool:
+    def _is_case(self, case: Sequence[str], situation: ErrorSituation) -> bool:
         """Whether a failure is what a rule is for: every word of its condition is about it."""
         small = self.lexicon.classes["small"] | self.lexicon.classes["determiners"]
         small = small | self.lexicon.classes["prepositions"] | self.lexicon.classes["being"] | {"you", "be"}
-        words = {stem(word) for word in case.low if word[0].isalnum() and word not in small}
+        words = {stem(word) for word in case if word[0].isalnum() and word not in small}
         kind = _stems(_CODE_WORDS.get(situation.code, ""))
         about = kind | _stems(
             f"{_ANY_FAILURE} {situation.error_message} {_words_of(situation.failed_action)}"

@@ -13,7 +13,6 @@ from typing import Final, Literal
 
 from parley.language.base import Situation
 from parley.language.builtin.lexicon import Lexicon
-from parley.language.builtin.saying import counted
 from parley.language.builtin.tokens import Token
 from parley.language.dialogue.answers import step_words
 from parley.language.dialogue.mentions import Named, named
@@ -29,17 +28,28 @@ __all__ = [
     "moved",
     "reordered",
     "texts_of",
-    "things_of",
     "visits",
     "visits_of",
-    "with_other",
 ]
 
 _OPEN: Final = ("queued", "running", "waiting", "paused", "failed")
-_ORDINALS: Final = {
-    "first": 0, "1st": 0, "second": 1, "2nd": 1, "third": 2, "3rd": 2, "fourth": 3, "4th": 3, "fifth": 4,
-    "5th": 4, "last": -1, "final": -1, "next": 1,
-}  # fmt: skip
+_ORDINALS: Final = frozenset(
+    {
+        "first",
+        "1st",
+        "second",
+        "2nd",
+        "third",
+        "3rd",
+        "fourth",
+        "4th",
+        "fifth",
+        "5th",
+        "last",
+        "final",
+        "next",
+    }
+)
 _AGAINST: Final = re.compile(
     r"\b(?:not|no|without|skip(?:ping)?|leave(?: \w+)? out|leaving out|drop|omit|forget(?: about)?|except|"
     r"but not|"
@@ -70,11 +80,6 @@ _ADDING: Final = re.compile(
 )
 _ALL: Final = re.compile(
     r"\b(?:all|everything|forget (?:it|that|this)|scratch|cancel|drop (?:it|that)|never ?mind)\b"
-)
-_LEAVING_OUT: Final = re.compile(
-    r"^(?:please |just |you can |you may |we can |let's |can you |could you |i said )*(?:skip|leave out|"
-    r"drop|omit|cancel|remove|forget(?: about)?|without|"
-    r"delete|strike|scratch|cut|no need|don't|do not|not)\b"
 )
 
 
@@ -172,16 +177,6 @@ def texts_of(call: ActionCall) -> list[str]:
     ]
 
 
-def things_of(calls: Sequence[ActionCall], objects: Sequence[MapObject]) -> tuple[MapObject, ...]:
-    """The things that actions are about."""
-    return _things_in([PlanStep(action=call, label=call.reason) for call in calls], objects)
-
-
-def with_other(calls: Sequence[ActionCall], old: MapObject, new: MapObject) -> tuple[ActionCall, ...] | None:
-    """The same actions about another thing; None if they are not about that one."""
-    return moved(Visit((), (old,), "", tuple(calls), ""), new)
-
-
 def _things_in(steps: Sequence[PlanStep], objects: Sequence[MapObject]) -> tuple[MapObject, ...]:
     """The things that steps are about: named in full in their labels or arguments."""
     text = " ".join(
@@ -234,7 +229,7 @@ def change_of(
     if against and not for_:
         return _left_out(plan, against)
     if not names:
-        return _by_number(plan, low)
+        return None
     if takes_back or against:
         return _replaced(plan, against, for_[-1])
     return _put_in(plan, for_, text)
@@ -244,7 +239,7 @@ def _is_bare(tokens: Sequence[Token], names: Sequence[Named], lexicon: Lexicon) 
     """Whether there is nothing in a message but what is named and the words of changing a plan."""
     taken = {at for name in names for at in range(name.start, name.end)}
     small = lexicon.classes["small"] | lexicon.classes["logic"] | lexicon.classes["prepositions"]
-    small = small | lexicon.classes["determiners"] | lexicon.classes["changing"] | set(_ORDINALS)
+    small = small | lexicon.classes["determiners"] | lexicon.classes["changing"] | _ORDINALS
     return all(at in taken or not token.is_word or token.low in small for at, token in enumerate(tokens))
 
 
@@ -322,20 +317,6 @@ def _dropping(out: Sequence[Visit]) -> Change:
     return Change(
         tuple(sorted(place for visit in out for place in visit.steps)), said=f"All right, I will not {said}."
     )
-
-
-def _by_number(plan: Sequence[Visit], low: Sequence[str]) -> Change | None:
-    """For "skip the second one", "drop the last two steps"."""
-    text = " ".join(low)
-    if _LEAVING_OUT.search(text) is None:
-        return None
-    places = [_ORDINALS[word] for word in low if word in _ORDINALS]
-    if not places or not re.search(r"\b(?:one|step|stop|thing|part|item|place|point|task|bit)s?\b", text):
-        return None
-    if not all(-len(plan) <= place < len(plan) for place in places):
-        only = counted(len(plan), "thing")
-        return Change(question=f"I have only {only} left to do. Which one do you mean?")
-    return _dropping([plan[place] for place in dict.fromkeys(places)])
 
 
 def _replaced(plan: Sequence[Visit], against: Sequence[Named], wanted: Named) -> Change | None:

@@ -7,10 +7,11 @@ from collections.abc import Sequence
 from typing import Final
 
 from parley.language.base import Situation
-from parley.language.builtin.lexicon import Lexicon, stem
+from parley.language.builtin.lexicon import Lexicon
 from parley.language.builtin.tokens import Token
+from parley.language.dialogue.answers import listed
 from parley.language.dialogue.changes import Change, Visit, moved, visits_of
-from parley.language.dialogue.mentions import named
+from parley.language.dialogue.mentions import named, same_kind
 from parley.language.dialogue.state import Order
 from parley.messages.status import PlanStep
 from parley.world.object_map import MapObject
@@ -28,8 +29,9 @@ _SMALL: Final = frozenset(
 )  # fmt: skip
 _LINKING: Final = re.compile(
     r"\b(?:and|also|too|now|then|next|as well|same|likewise|ditto|how about|again|once more|after that|"
-    r"no|not|i meant?|sorry|instead|rather)\b"
+    r"no|not|i meant?|sorry|instead|rather|other)\b"
 )
+_GOING: Final = frozenset({"go", "drive", "move", "head"})
 _LONGEST: Final = 12
 
 
@@ -51,17 +53,24 @@ def followed(situation: Situation, tokens: Sequence[Token], lexicon: Lexicon, la
     taken = {at for name in names for at in range(name.start, name.end)}
     rest = [token.low for at, token in enumerate(tokens) if token.is_word and at not in taken]
     done = _last_visits(last, situation)
-    if not done or not {*rest} - _which(rest) <= _SMALL or _LINKING.search(said) is None:
+    if not done or not {*rest} - _which(rest) <= _SMALL | _GOING or _LINKING.search(said) is None:
         return None
     if any(len(name.things) > 1 for name in names):
         return None
     before = done[0].things[0]
     things = [name.things[0] for name in names] or _other(before, words, situation.objects)
+    if _GOING & {*words} and (names or _looks(done, situation)):
+        return None  # an order of its own
+    if len(things) > 1 and not names:
+        return Change(
+            question=f"Which other one: {listed([f'the {one.description}' for one in things], 'or')}?"
+        )
     if not things or before in things:
         return None
     calls = tuple(call for thing in things for visit in done for call in moved(visit, thing) or visit.calls)
-    what = " and ".join(f"the {thing.description}" for thing in things)
-    return Change(add=calls, said=f"I do the same with {what}.")
+    reasons = dict.fromkeys(call.reason for call in calls if call.reason)
+    what = " and then ".join(reasons) or f"do the same with the {things[0].description}"
+    return Change(add=calls, said=f"I will {what}.")
 
 
 def _last_visits(last: Order, situation: Situation) -> list[Visit]:
@@ -83,12 +92,16 @@ def _which(words: Sequence[str]) -> set[str]:
 def _other(before: MapObject, words: Sequence[str], objects: Sequence[MapObject]) -> list[MapObject]:
     """For "the other one" the only other thing of the kind; for "the next one" that with the next number."""
     name = before.description.lower().split()
-    kind = [item for item in objects if stem(item.description.lower().split()[-1]) == stem(name[-1])]
+    kind = [item for item in objects if same_kind(item, before)]
     if which := _which(words):
         said = [item for item in kind if which <= {*item.description.lower().split()}]
         return said if len(said) == 1 else []
     if "next" in words and name[-1].isdigit():
         wanted = [*name[:-1], str(int(name[-1]) + 1)]
         return [item for item in objects if item.description.lower().split() == wanted]
-    others = [item for item in kind if item != before]
-    return others if "other" in words and len(others) == 1 else []
+    return [item for item in kind if item != before] if "other" in words else []
+
+
+def _looks(done: Sequence[Visit], situation: Situation) -> bool:
+    looking = {info.name for info in situation.catalogue if "looks" in info.effects}
+    return any(call.name in looking for visit in done for call in visit.calls)

@@ -11,6 +11,7 @@ from parley.language.base import Situation
 from parley.language.builtin.decision import Answer, Ask, Decision, Do, Edit, Forget, Remember, Told
 from parley.language.builtin.facts import Place
 from parley.language.builtin.lexicon import Lexicon, lemmas
+from parley.language.builtin.own import is_promised
 from parley.language.builtin.reading import Reading
 from parley.language.builtin.reply import said as words_for
 from parley.language.builtin.tokens import Token, tokenize
@@ -20,9 +21,7 @@ from parley.language.dialogue.changes import (
     before_all,
     change_of,
     texts_of,
-    things_of,
     visits,
-    with_other,
 )
 from parley.language.dialogue.facts import (
     forgotten,
@@ -34,7 +33,7 @@ from parley.language.dialogue.facts import (
 )
 from parley.language.dialogue.following import followed
 from parley.language.dialogue.later import PROMISE, due, put_off
-from parley.language.dialogue.mentions import named, same_kind
+from parley.language.dialogue.mentions import named
 from parley.language.dialogue.places import in_room, rooms
 from parley.language.dialogue.questions import plain, question_of
 from parley.language.dialogue.rearranging import rearranged
@@ -116,7 +115,7 @@ def _about_itself(
     bare = plain(tokens, (situation.robot,))
     if "alarm" in reading.acts and "question" not in reading.acts:
         return _alarm(situation, tokens, lexicon)
-    question = None if _is_promised(bare, situation) else question_of(bare)
+    question = None if is_promised(bare, situation.catalogue) else question_of(bare)
     asked = situation.dialogue.asked
     if question is not None and question.topic == "difference" and asked is not None:
         return Answer(f"{differences(asked.choices, situation.objects)} Which one do you mean?")
@@ -135,15 +134,6 @@ def _about_itself(
     return None
 
 
-def _is_promised(bare: str, situation: Situation) -> bool:
-    """Whether words are those by which an action of the robot's is asked for."""
-    return any(
-        " ".join(re.findall(r"[\w']+", phrase.lower())) == bare
-        for info in situation.catalogue
-        for phrase in (*info.phrases, *info.examples)
-    )
-
-
 def _about_what_was_said(
     situation: Situation,
     reading: Reading,
@@ -155,8 +145,6 @@ def _about_what_was_said(
     bare = plain(tokens, (situation.robot,))
     if (repeated := _once_more(situation, bare)) is not None:
         return repeated
-    if (other := _the_other(situation, bare)) is not None:
-        return other
     if (refused := _beyond(situation, reading, tokens, lexicon)) is not None:
         return refused
     order = due(situation.message, situation.history)
@@ -214,34 +202,6 @@ def _once_more(situation: Situation, bare: str) -> Decision | None:
         return Answer("I have not done anything yet that I could do again.")
     last = situation.dialogue.orders[-1]
     return Edit(Change(add=last.calls, said=f"I do that again: “{last.words.strip()}”."))
-
-
-_OTHER: Final = re.compile(
-    r"(?:(?:do )?(?:the same|that|it) (?:with|for|at|to) |(?P<way>(?:go|drive|move|head) to ))?"
-    r"the other(?: one)?"
-)
-
-
-def _the_other(situation: Situation, bare: str) -> Decision | None:
-    """For "and now the other one": what was ordered last, with the one other thing of that kind."""
-    found = _OTHER.fullmatch(bare)
-    if found is None or situation.question or not situation.dialogue.orders:
-        return None
-    last = situation.dialogue.orders[-1].calls
-    things = things_of(last, situation.objects)
-    alike = [
-        item for item in situation.objects if things and item not in things and same_kind(item, things[0])
-    ]
-    looks = {info.name for info in situation.catalogue if "looks" in info.effects}
-    if len(things) != 1 or not alike or (found["way"] and any(call.name in looks for call in last)):
-        return None
-    if len(alike) > 1:
-        return Ask(f"Which other one: {listed([f'the {item.description}' for item in alike], 'or')}?")
-    calls = with_other(last, things[0], alike[0])
-    reasons = list(dict.fromkeys(call.reason for call in calls or () if call.reason))
-    if calls is None or not reasons:
-        return None
-    return Edit(Change(add=calls, said=f"I will {' and then '.join(reasons)}."))
 
 
 def _beyond(

@@ -13,6 +13,7 @@ from typing import Final
 
 from parley.language.base import Situation
 from parley.language.builtin.lexicon import Lexicon
+from parley.language.builtin.saying import counted
 from parley.language.builtin.tokens import Token
 from parley.language.dialogue.changes import Change, Visit, moved, reordered, visits
 from parley.language.dialogue.mentions import Named, named
@@ -24,10 +25,15 @@ _Groups = list[list[Visit]]
 """Steps in a row about the same thing: they stay together."""
 
 _SLOT: Final = (
-    r"(?:@\d+(?: and @\d+)*|(?:the )?(?:very )?(?:first|second|third|fourth|fifth|last|next|final)"
-    r"(?: (?:two|three|ones?|stops?|steps?|things?|places?|trip|part|item))?|this(?: one)?)"
+    r"(?:@\d+(?: and @\d+)*|ORD(?: and ORD)*(?: (?:two|three|ones?|stops?|steps?|things?|places?|trip|part|"
+    r"point|task|bit|item))?|this(?: one)?)"
+).replace(
+    "ORD", r"(?:the )?(?:very )?(?:first|1st|second|2nd|third|3rd|fourth|4th|fifth|5th|last|next|final)"
 )
-_NUMBERS: Final = {"first": 0, "second": 1, "third": 2, "fourth": 3, "fifth": 4, "last": -1, "final": -1}
+_NUMBERS: Final = {
+    "first": 0, "1st": 0, "second": 1, "2nd": 1, "next": 1, "third": 2, "3rd": 2, "fourth": 3, "4th": 3,
+    "fifth": 4, "5th": 4, "last": -1, "final": -1,
+}  # fmt: skip
 _COUNTS: Final = {"two": 2, "three": 3}
 _DO: Final = (
     r"(?:do|put|take|go to|visit|make|move|bring|leave|keep|have|check|squeeze in|squeeze|fit in|fit|add)?"
@@ -52,6 +58,9 @@ def rearranged(situation: Situation, tokens: Sequence[Token], lexicon: Lexicon) 
         if found is not None:
             try:
                 wanted = made(_Plan(groups, names), found.groupdict())
+            except IndexError:
+                only = counted(len(groups), "thing")
+                return Change(question=f"I have only {only} left to do. Which one do you mean?")
             except LookupError:
                 return None
             return _change(groups, wanted)
@@ -108,7 +117,7 @@ class _Plan:
         self.names = names
 
     def meant(self, slot: str) -> _Groups:
-        """What a slot means, in the order of the plan; LookupError if nothing of it is planned."""
+        """What a slot means; LookupError if nothing of it is planned, IndexError for a number beyond it."""
         words = slot.split()
         if words[0].startswith("@"):
             things = {item.id for at in re.findall(r"@(\d+)", slot) for item in self.names[int(at)].things}
@@ -118,13 +127,11 @@ class _Plan:
             return found
         if words[0] == "this":
             return self.groups[:1]
-        if "next" in words:
-            return [self.groups[1]]
         count = next((_COUNTS[word] for word in words if word in _COUNTS), 1)
-        place = next(_NUMBERS[word] for word in words if word in _NUMBERS)
-        if len(self.groups) < max(count, place + 1):
-            raise LookupError(slot)
-        return self.groups[-count:] if place < 0 else self.groups[place : place + count]
+        starts = [
+            at if at >= 0 else at - count + 1 for word in words if (at := _NUMBERS.get(word)) is not None
+        ]
+        return [self.groups[start + more] for start in starts for more in range(count)]
 
     def new(self, slot: str) -> _Groups:
         """What a slot means; what is not planned yet is done like the rest of the plan."""

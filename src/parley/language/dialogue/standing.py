@@ -38,6 +38,8 @@ class Act:
 class StandingRule:
     """What to do in a case."""
 
+    case: tuple[str, ...]
+    """The words of the case, in small letters."""
     about: Literal["sight", "trouble", ""]
     """Whether it speaks of what is seen or of what goes wrong."""
     names: frozenset[str]
@@ -74,7 +76,7 @@ def read_rule(text: str) -> StandingRule | None:
         told = [word.low for word in case if word.low not in _COMMAS]
         about = _about(told)
         if acts and told and (always or about):
-            return StandingRule(about, _names(told), acts, " ".join(text.split()).rstrip(" .!"))
+            return StandingRule(tuple(told), about, _names(told), acts, " ".join(text.split()).rstrip(" .!"))
     return None
 
 
