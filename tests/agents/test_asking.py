@@ -50,6 +50,13 @@ def test_a_yes_means_nothing_where_nothing_waits() -> None:
     assert waiting.decided("Ada", said("yes"), ["Ada"]) is None
 
 
+def test_a_yes_does_not_go_to_what_was_replaced() -> None:
+    waiting = offered("p1", "p2")
+    waiting.on_update(PlanUpdate(target="Ada", state="awaiting_approval", waits=("p1",)))
+    decision = waiting.decided("Ada", said("yes"), ["Ada"])
+    assert decision is not None and decision.id == "p1"
+
+
 def test_a_robot_that_is_somewhere_else_says_so_when_it_asks_again() -> None:
     here, there = PoseInfo(x=1.0, y=1.0), PoseInfo(x=3.0, y=1.0)
     assert "I am not where I was then." in offered_again("I would go.", here, there, repairs=False)

@@ -318,6 +318,7 @@ SAMPLES: dict[type[BaseModel], dict[str, Any]] = {
         "revision": 3,
         "policy": "ask_when_risky",
         "held_by": KIM,
+        "waits": ["9b"],
     },
     status.PlanRuling: {
         "order": "7",

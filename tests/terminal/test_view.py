@@ -208,6 +208,13 @@ def test_a_proposed_plan_asks_for_a_yes_and_goes_with_the_decision(view: Operato
     assert view.robots["Ada"].pending == []
 
 
+def test_a_proposal_that_was_replaced_is_not_asked_about_any_more(view: OperatorView) -> None:
+    for identity in ("p", "q"):
+        view.on_plan(PlanProposal(id=identity, target="Ada", steps=(call("Go", "go to the box"),)))
+    view.on_plan(plan(state="awaiting_approval").model_copy(update={"waits": ("p",)}))
+    assert [item.id for item in view.robots["Ada"].pending] == ["p"]
+
+
 def test_an_emergency_stop_of_somebody_else_is_told_and_shown(view: OperatorView) -> None:
     lines = view.on_stop_report(StopReport(actor="Ada", state="received"))
     assert [line.text for line in lines] == [

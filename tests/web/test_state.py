@@ -23,7 +23,16 @@ from parley.umrf.model import Graph, GraphState, Node, NodeState
 from parley.web.changes import ChangeLog
 from parley.web.chat_state import KEPT_ENTRIES, ChatBook
 from parley.web.limits import Attempts, Rate
-from parley.web.models import AbilityView, Change, ChatEntry, PlanView, RobotChange, RobotGone, RobotView
+from parley.web.models import (
+    AbilityView,
+    Change,
+    ChatEntry,
+    PlanView,
+    ProposalGone,
+    RobotChange,
+    RobotGone,
+    RobotView,
+)
 from parley.web.plan_state import PlanBook
 from parley.web.robot_state import LOST_AFTER_S, STOP_DEADLINE_S, RobotBook
 
@@ -478,6 +487,15 @@ def test_the_time_while_a_step_stood_still_is_not_work() -> None:
         book.on_event(event("MoveTo_0", state, unix_ms=at_ms))
     book.on_update(update(step("MoveTo", "finished", "MoveTo_0")))
     assert plan_of(book).steps[0].worked_ms == 400
+
+
+def test_a_proposal_that_was_replaced_is_gone_while_others_wait() -> None:
+    book, changes = plans()
+    for identity in ("p1", "p2", "p3"):
+        book.on_proposal(PlanProposal(id=identity, target="Ada", steps=(ActionCall(name="Press"),)))
+    book.on_update(update(state="awaiting_approval", waits=("p1", "p3")))
+    assert list(book.proposals) == ["p1", "p3"]
+    assert [change.id for change in changes if isinstance(change, ProposalGone)] == ["p2"]
 
 
 def test_how_much_care_a_step_needs_is_said_when_it_becomes_known() -> None:

@@ -174,6 +174,8 @@ class PlanUpdate(Payload):
     """Whether new steps of this robot wait for a person's yes."""
     held_by: Principal | None = None
     """Who told the robot to stand still; None: nobody."""
+    waits: tuple[str, ...] | None = None
+    """The proposals that wait for a yes, by their ids, oldest first: no other does. None: it is not told."""
 
 
 class PlanProposal(Payload):

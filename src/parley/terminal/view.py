@@ -161,7 +161,13 @@ class OperatorView:
             return self._propose(robot, message)
         before, robot.plan = robot.plan, message
         was = before.state if before is not None else "idle"
-        if was == "awaiting_approval" != message.state:
+        if message.waits is not None:
+            robot.pending = [
+                item
+                for item in robot.pending
+                if not isinstance(item, PlanProposal) or item.id in message.waits
+            ]
+        elif was == "awaiting_approval" != message.state:
             robot.pending = [item for item in robot.pending if not isinstance(item, PlanProposal)]
         if was != "idle" and message.state == "idle":
             robot.pending.clear()
@@ -275,7 +281,7 @@ class OperatorView:
         if proposal in robot.pending:
             return []  # told again for somebody who came later
         self.replies += 1
-        robot.pending = [item for item in robot.pending if not isinstance(item, PlanProposal)]
+        robot.pending = [item for item in robot.pending if item.id != proposal.id]
         robot.pending.append(proposal)
         heading = Line("heading", self.texts("proposal_of", robot=robot.name))
         lines = proposal.lines or tuple(map(label, proposal.steps))

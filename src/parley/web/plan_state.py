@@ -66,7 +66,8 @@ class PlanBook:
         if before is not None and before.graph_name != update.graph_name:
             self._drop(robot, before.graph_name)
         for proposal in [p for p in self.proposals.values() if p.robot == robot]:
-            if update.state == "idle" or proposal.id in self.decided:
+            waits = update.waits is None or proposal.id in update.waits
+            if update.state == "idle" or not waits or proposal.id in self.decided:
                 self._end_proposal(proposal.id)
         self._show_plan(update, before)
 

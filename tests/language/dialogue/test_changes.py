@@ -121,6 +121,17 @@ async def test_a_proposal_is_changed_as_a_whole() -> None:
     assert (answer.replaces, goals(answer), answer.system_cmd) == ("7", ["gate"], ())
 
 
+async def test_who_drops_what_waits_drops_all_that_waits() -> None:
+    waits = PlanProposal(id="7", target="Ada", steps=(*way("box"), *way("gate")), labels=("", "", "", ""))
+    situation = Situation(
+        "forget it, go to the lamp", objects=THINGS, robot="Ada", catalogue=(FIND, GO),
+        dialogue=Dialogue("awaiting_approval", proposal=waits),
+    )  # fmt: skip
+    answer = await ENGINE.interpret(situation)
+    assert (answer.replaces, goals(answer)) == ("7", ["lamp"])
+    assert [command.command for command in answer.system_cmd] == ["clear"]
+
+
 async def test_again_means_what_was_ordered_last() -> None:
     order = Order("go to the gate", calls=way("gate"))
     situation = Situation(

@@ -126,7 +126,8 @@ class PlanBoard:
             "policy": approvals.policy(plan.target), "revision": revision, "held_by": held_by,
         }  # fmt: skip
         update = self._labelled(plan.update(), before)
-        if approvals.of(plan.target) and update.state == "idle":
+        changes["waits"] = tuple(proposal.id for proposal in approvals.of(plan.target))
+        if changes["waits"] and update.state == "idle":
             changes["state"] = "awaiting_approval"
         update = update.model_copy(update=changes)
         if update == before:

@@ -103,7 +103,10 @@ class Offered:
         waiting[:] = [proposal for proposal in waiting if proposal.id != decision.id]
 
     def on_update(self, update: PlanUpdate) -> None:
-        """A plan changed: nothing waits where no plan is."""
+        """A plan changed: what was replaced or given up waits no more, and nothing where no plan is."""
+        waiting = self._waiting.get(update.target, [])
+        if update.waits is not None:
+            waiting[:] = [proposal for proposal in waiting if proposal.id in update.waits]
         if update.state == "idle":
             self._waiting.pop(update.target, None)
 

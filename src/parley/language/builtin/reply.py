@@ -85,7 +85,7 @@ def _changed(edit: Edit, lexicon: Lexicon) -> ChatAction:
     made = to_chat(edit.do, lexicon) if edit.do is not None else ChatAction()
     change = edit.change
     drops = () if edit.proposal or change.clears else change.drop
-    clear = (SystemCommand(command="clear"),) if change.clears and not edit.proposal else ()
+    clear = (SystemCommand(command="clear"),) if change.clears else ()
     return ChatAction(
         message_response=" ".join(text for text in (change.said, made.message_response) if text),
         queue=(*change.kept, *change.add, *made.queue, *change.rest),
