@@ -482,22 +482,6 @@ async def test_letting_go_concerns_one_robot() -> None:
         assert "All right." not in [said.message for said in room.observer.said]
 
 
-async def test_order_that_was_asked_back_about_is_over_with_a_stop(room: Room) -> None:
-    drive = ActionInfo(name="Drive", effects=("moves",))
-    room.observer.publish(topics.ACTOR_STATUS, ActorStatus(actor="A", catalogue=(drive,)))
-    order = ChatAction(message_response="I go.", queue=(ActionCall(name="Drive"),) * 2)
-    question = ChatAction(message_response="Which box?", choices=("red", "blue"))
-    room.language.will("interpret", question, order)
-    for number, words in enumerate(("go to the box", "stop", "go to the door"), 1):
-        room.observer.say(words, "A")
-        await room.reply(number)
-    for state, plan in (("running", "running"), ("finished", "idle")):
-        steps = [{"action": call.model_dump(), "state": state} for call in order.queue]
-        update = {"target": "A", "graph_name": "g", "state": plan, "steps": steps}
-        room.observer.publish(topics.PLAN, PlanUpdate.model_validate(update))
-    assert await room.reply(4) == "I have finished: “go to the door”."
-
-
 @pytest.mark.parametrize("text", ["never mind", "Nevermind.", "forget it", "please forget that", "drop it!"])
 def test_words_that_let_go_are_known(text: str) -> None:
     assert is_never_mind(text)

@@ -8,7 +8,7 @@ import pytest
 
 from parley.agents.chat.finishing import Finishing
 from parley.messages.chat import ActionCall, Flow
-from parley.messages.status import ActionInfo, PlanDecision, PlanProposal, PlanStep, PlanUpdate
+from parley.messages.status import ActionInfo, PlanStep, PlanUpdate
 
 CATALOGUE = (
     ActionInfo(name="Find", effects=("locates",)),
@@ -41,53 +41,24 @@ def ada() -> Follower:
     return Follower()
 
 
-def test_the_end_of_several_steps_is_told_once_in_the_words_of_the_order(ada: Follower) -> None:
-    ada.finishing.on_order("Ada", "go to the box.")
+def test_the_end_of_several_steps_is_told_once_by_what_was_done(ada: Follower) -> None:
     ada.plan("running", ("Find", "running"), ("Drive", "queued"))
     ada.plan("running", ("Find", "finished"), ("Drive", "running"))
     assert ada.told == []
     for _ in range(2):
         ada.plan("idle", ("Find", "finished"), ("Drive", "finished"))
-    assert ada.told == ["I have finished: “go to the box”."]
-
-
-def test_what_was_asked_for_meanwhile_is_named_too(ada: Follower) -> None:
-    ada.finishing.on_order("Ada", "go to the box")
-    ada.plan("running", ("Drive", "running"))
-    ada.finishing.on_order("Ada", "then to the door")
-    ada.plan("running", ("Drive", "running"), ("Drive", "queued"))
-    ada.plan("idle", ("Drive", "finished"), ("Drive", "finished"))
-    assert ada.told == ["I have finished: “go to the box” and “then to the door”."]
-
-
-def test_an_order_that_had_to_be_asked_about_is_named_with_the_answer(ada: Follower) -> None:
-    ada.finishing.on_answer("Ada", "go to the box.", asks_back=True)
-    ada.finishing.on_order("Ada", "the small one")
-    ada.plan("running", ("Find", "running"), ("Drive", "queued"))
-    ada.plan("idle", ("Find", "finished"), ("Drive", "finished"))
-    assert ada.told == ["I have finished: “go to the box – the small one”."]
-
-
-def test_an_order_that_nobody_made_clear_is_not_named(ada: Follower) -> None:
-    ada.finishing.on_answer("Ada", "go to the box", asks_back=True)
-    ada.finishing.on_answer("Ada", "what is the time?", asks_back=False)
-    ada.finishing.on_order("Ada", "go to the door")
-    ada.plan("running", ("Find", "running"), ("Drive", "queued"))
-    ada.plan("idle", ("Find", "finished"), ("Drive", "finished"))
-    assert ada.told == ["I have finished: “go to the door”."]
+    assert ada.told == ["I have finished: drive."]
 
 
 def test_one_short_move_is_not_worth_a_word_but_a_long_one_is(ada: Follower) -> None:
     for seconds in (1.0, 10.0):
-        ada.finishing.on_order("Ada", f"move for {seconds:g}")
         ada.plan("running", ("Drive", "running"), graph=f"g{seconds}")
         ada.now_s += seconds
         ada.plan("idle", ("Drive", "finished"), graph=f"g{seconds}")
-    assert ada.told == ["I have finished: “move for 10”."]
+    assert ada.told == ["I have finished: drive."]
 
 
 def test_looking_alone_is_answered_by_what_is_seen(ada: Follower) -> None:
-    ada.finishing.on_order("Ada", "what do you see?")
     ada.plan("running", ("Look", "running"), ("Look", "queued"))
     ada.now_s += 60
     ada.plan("idle", ("Look", "finished"), ("Look", "finished"))
@@ -96,7 +67,6 @@ def test_looking_alone_is_answered_by_what_is_seen(ada: Follower) -> None:
 
 @pytest.mark.parametrize("end", ["stopped", "failed"])
 def test_what_was_not_done_is_not_called_finished(ada: Follower, end: str) -> None:
-    ada.finishing.on_order("Ada", "go to the box, then to the door")
     ada.plan("running", ("Drive", "running"), ("Drive", "queued"))
     ada.plan("idle", ("Drive", "finished"), ("Drive", end))
     assert ada.told == []
@@ -111,75 +81,45 @@ def test_a_step_that_its_condition_excluded_is_nothing_left_out(ada: Follower) -
         ),
     )
     text = ada.finishing.on_update(PlanUpdate(target="Ada", graph_name="g1", steps=steps), CATALOGUE)
-    assert text == "I have finished: “drive”."
+    assert text == "I have finished: drive."
 
 
 def test_after_a_repair_that_left_the_failed_step_out_it_is_named(ada: Follower) -> None:
-    ada.finishing.on_order("Ada", "go there and look")
     ada.plan("held", ("Drive", "finished"), ("Look", "failed"))
     ada.plan("idle", ("Drive", "finished"))
-    assert ada.told == ["I have finished. I left out: Look."]
+    assert ada.told == ["I have finished. I left out: look."]
 
 
 def test_what_a_person_skipped_is_named(ada: Follower) -> None:
-    ada.finishing.on_order("Ada", "go to the box, then to the door")
     ada.plan("running", ("Drive", "running"), ("Drive", "queued"), ("Look", "queued"))
     ada.plan("idle", ("Drive", "finished"), ("Drive", "finished"), ("Look", "skipped"))
-    assert ada.told == ["I have finished. I left out: Look."]
+    assert ada.told == ["I have finished. I left out: look."]
 
 
 def test_what_was_only_put_off_is_nothing_left_out(ada: Follower) -> None:
-    ada.finishing.on_order("Ada", "first look there")
     ada.plan("running", ("Drive", "running"), ("Look", "queued"))
     ada.plan("idle", ("Drive", "skipped"), ("Look", "finished"), ("Drive", "finished"))
-    assert ada.told == ["I have finished: “first look there”."]
-
-
-def test_an_order_in_the_place_of_what_was_given_up_is_named_alone(ada: Follower) -> None:
-    ada.finishing.on_order("Ada", "go to the box")
-    ada.plan("running", ("Find", "running"), ("Drive", "queued"))
-    ada.plan("held", ("Find", "finished"), ("Drive", "failed"))
-    ada.finishing.on_order("Ada", "go to the door", instead=True)
-    ada.plan("running", ("Find", "finished"), ("Find", "queued"), ("Drive", "queued"))
-    ada.plan("idle", ("Find", "finished"), ("Find", "finished"), ("Drive", "finished"))
-    assert ada.told == ["I have finished: “go to the door”."]
+    assert ada.told == ["I have finished: look; drive."]
 
 
 def test_after_a_repair_that_helped_it_is_told(ada: Follower) -> None:
-    ada.finishing.on_order("Ada", "go there and look")
     ada.plan("running", ("Drive", "running"), ("Look", "queued"))
     ada.plan("held", ("Drive", "finished"), ("Look", "failed"))
     ada.plan("running", ("Drive", "finished"), ("Drive", "queued"), ("Look", "queued"))
     ada.plan("idle", ("Drive", "finished"), ("Drive", "finished"), ("Look", "finished"))
-    assert ada.told == ["I have finished: “go there and look”."]
+    assert ada.told == ["I have finished: drive; look."]
 
 
 def test_an_order_that_replaces_a_cancelled_one_is_named_alone(ada: Follower) -> None:
-    ada.finishing.on_order("Ada", "go to the box")
     ada.plan("running", ("Find", "running"), ("Drive", "queued"))
-    ada.finishing.on_order("Ada", "no, go to the door")
     ada.plan("idle", ("Find", "stopped"), ("Drive", "stopped"))
     ada.plan("running", ("Find", "running"), ("Drive", "queued"), graph="g2")
     ada.plan("idle", ("Find", "finished"), ("Drive", "finished"), graph="g2")
-    assert ada.told == ["I have finished: “no, go to the door”."]
+    assert ada.told == ["I have finished: drive."]
 
 
-def test_what_waited_for_a_yes_is_named_if_it_was_given(ada: Follower) -> None:
-    for identity, words, decision in (("p1", "go to the box", "reject"), ("p2", "go to the door", "approve")):
-        ada.finishing.on_order("Ada", words)
-        ada.finishing.on_proposal(PlanProposal(id=identity, target="Ada"))
-        ada.plan("awaiting_approval", graph="")
-        ada.finishing.on_decision(
-            PlanDecision.model_validate({"id": identity, "target": "Ada", "decision": decision})
-        )
-    ada.plan("running", ("Find", "running"), ("Drive", "queued"))
-    ada.plan("idle", ("Find", "finished"), ("Drive", "finished"))
-    assert ada.told == ["I have finished: “go to the door”."]
-
-
-def test_a_changed_plan_is_named_by_what_was_done(ada: Follower) -> None:
-    ada.finishing.on_order("Ada", "go to the box")
-    ada.plan("running", ("Find", "running"), ("Drive", "queued"))
-    ada.finishing.on_decision(PlanDecision(target="Ada", decision="edit"))
-    ada.plan("idle", ("Find", "finished"), ("Drive", "finished"), ("Look", "finished"))
-    assert ada.told == ["I have finished: “drive” and “look”."]
+def test_of_many_steps_the_first_are_named(ada: Follower) -> None:
+    ada.plan("running", ("Drive", "running"))
+    done = tuple(PlanStep(action=ActionCall(name="Drive"), label=f"{n}", state="finished") for n in range(5))
+    text = ada.finishing.on_update(PlanUpdate(target="Ada", graph_name="g1", steps=done), CATALOGUE)
+    assert text == "I have finished: 0; 1; 2 and 2 more."

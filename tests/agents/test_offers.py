@@ -105,7 +105,7 @@ async def test_the_end_of_what_was_asked_is_said_once() -> None:
         order = ChatAction(message_response="I will go.", queue=(find("box"), drive()))
         party.language.will("interpret", order)
         party.observer.publish(topics.CHAT_INPUT, ChatInput(message="go to the box", targets=("A",), id="1"))
-        await party.hears("I have finished: “go to the box”.")
+        await party.hears("I have finished")
         await party.settled()
         (told,) = [said for said in party.observer.said if "finished" in said.message]
         assert (told.type, told.targets) == ("info", ("A",))

@@ -51,6 +51,15 @@ async def test_only_orders_with_a_risky_step_wait_where_that_is_wanted() -> None
         await party.until(lambda: party.body.did == ["look box", "look door", "press bell"])
 
 
+async def test_what_is_said_once_more_waits_once() -> None:
+    async with crew("A", ask_first=["A"]) as party:
+        for thing in ("box", "door", "box"):
+            party.order(look(thing))
+        await party.until(lambda: len(proposals(party)) == 3)
+        _, door, box = proposals(party)
+        await party.until(lambda: party.observer.plans["A"].waits == (door["id"], box["id"]))
+
+
 async def test_policy_from_the_start_is_told_when_the_robot_comes() -> None:
     async with crew("A", ask_first=["A"]) as party:
         await party.until(lambda: "A" in party.observer.plans)

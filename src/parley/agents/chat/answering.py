@@ -9,7 +9,6 @@ from dataclasses import replace
 from parley.agents.base import Node
 from parley.agents.chat import texts
 from parley.agents.chat.drafts import Drafts
-from parley.agents.chat.finishing import Finishing
 from parley.agents.chat.memories import Confirmations, keeping_order
 from parley.agents.chat.recollections import Recollections
 from parley.agents.chat.rulings import Rulings
@@ -42,7 +41,6 @@ class Answering:
         known: What was heard of each robot.
         presence: Who is there.
         thinking: How long understanding may take.
-        finishing: Told of orders, so that it is said when all is done.
         recollections: Says why something is so.
         confirmations: Hears what the memory kept.
         halts: How often a robot was told to stop: what was asked for before that is dropped.
@@ -59,7 +57,6 @@ class Answering:
         known: Situations,
         presence: Presence,
         thinking: Thinking,
-        finishing: Finishing,
         recollections: Recollections,
         confirmations: Confirmations,
         halts: Callable[[str], int],
@@ -68,7 +65,7 @@ class Answering:
     ) -> None:
         self._node, self._language, self._clock = node, language, clock
         self._known, self._presence, self._thinking = known, presence, thinking
-        self._finishing, self._recollections, self._confirmations = finishing, recollections, confirmations
+        self._recollections, self._confirmations = recollections, confirmations
         self._offered, self._has_rules = offered, has_rules
         self._halts, self._rulings = halts, Rulings(node.transport)
 
@@ -211,8 +208,6 @@ class Answering:
         asks = bool(understood.choices) and not understood.queue and asked is None
         if asks:
             self._known.log(target).on_asked(said.message, understood.choices)
-        if not order.queue:
-            self._finishing.on_answer(target, said.message, asks_back=asks)
         self._node.publish(
             topics.CHAT_FEEDBACK,
             ChatFeedback(
@@ -277,8 +272,6 @@ class Answering:
         self._node.publish(topics.CHAT_FEEDBACK, feedback)
 
     def _order(self, order: ChatAction, said: ChatInput) -> None:
-        for name in order.targets if order.queue else ():
-            self._finishing.on_order(name, said.message, instead=self._known.gave_up(name))
         self._known.on_order(said, order)
         self._node.publish(topics.CHAT_ACTION, order)
 

@@ -110,7 +110,6 @@ class ChatInterface(Node):
             known=self._known,
             presence=self._presence,
             thinking=self._thinking,
-            finishing=self._finishing,
             recollections=self._recollections,
             confirmations=self._confirmations,
             halts=lambda target: self._halts.get(target, 0),
@@ -330,7 +329,6 @@ class ChatInterface(Node):
     def _on_plan(self, told: PlanUpdate | PlanProposal) -> None:
         if isinstance(told, PlanProposal):
             self._offered.on_proposal(told)
-            self._finishing.on_proposal(told)
             return
         self._known.on_plan(told)
         self._offered.on_update(told)
@@ -350,7 +348,6 @@ class ChatInterface(Node):
 
     def _on_decision(self, decision: PlanDecision) -> None:
         self._offered.on_decision(decision)
-        self._finishing.on_decision(decision)
 
     def _on_emergency(self, command: StopCommand) -> None:
         """The stop button: what was asked for before it is dropped, as if it had been said."""
@@ -371,7 +368,6 @@ class ChatInterface(Node):
             self._known.on_stop(target, said)
             if control == "stop" and self._known.moves(target, self._presence.get(target)):
                 self._holds.keep(target, said)
-        self._finishing.on_answer(target, said.message, asks_back=False)
         state, status = self._known.state(target), self._presence.get(target)
         # A plan that waits for approval has no step yet: only approving or dropping it does anything.
         nothing = state == "idle" or (state == "awaiting_approval" and control in ("stop", "skip"))

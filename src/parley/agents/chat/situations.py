@@ -144,10 +144,6 @@ class Situations:
         """Whether a robot stands with a failed step and has asked what to do."""
         return self.state(target) == "held" and self.questions.newest(target) is not None
 
-    def gave_up(self, target: str) -> bool:
-        """Whether a robot stands with a failed step and nothing more is asked about it."""
-        return self.state(target) == "held" and self.questions.newest(target) is None
-
     async def of(
         self,
         target: str,

@@ -64,6 +64,8 @@ class Proposals:
             why=self._node.spoken(why),
             words=order.words,
         )
+        for same in [item for item in self._plans.approvals.of(target) if item.digest == proposal.digest]:
+            self._plans.approvals.drop(same.id)  # said once more, it is asked about once
         proposal = self._plans.approvals.propose(
             proposal, self._plans.presence.get(target), repairs=repairs, bound=bound
         )
