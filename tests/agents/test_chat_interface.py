@@ -468,6 +468,27 @@ async def test_never_mind_is_an_ordinary_message_while_nothing_takes_long(room: 
     assert await room.reply() == "Fine."
 
 
+@pytest.mark.parametrize(
+    ("state", "words", "reply"),
+    [
+        ("paused", "she has left", "Hm? I go on when you say “carry on”."),
+        ("paused", "how far is it?", "Hm?"),
+        ("paused", "stop there is a cat!", "I am standing still. I go on when you say “carry on”."),
+        ("idle", "stop there is a cat!", "I am standing still."),
+        ("idle", "she has left", "Hm?"),
+    ],
+)
+async def test_who_says_something_to_a_robot_that_stands_hears_that_it_does(
+    room: Room, state: str, words: str, reply: str
+) -> None:
+    steps = [{"action": look().model_dump(), "state": state}] if state != "idle" else []
+    update = {"target": "A", "graph_name": "g", "state": state, "steps": steps}
+    room.observer.publish(topics.PLAN, PlanUpdate.model_validate(update))
+    room.language.will("interpret", ChatAction(message_response="Hm?"))
+    room.observer.say(words, "A")
+    assert await room.reply() == reply
+
+
 async def test_letting_go_concerns_one_robot() -> None:
     async with opened(patience_s=0.0) as room:
         gate = asyncio.Event()

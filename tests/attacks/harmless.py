@@ -44,6 +44,7 @@ class Fair:
 
 
 ALWAYS: Final[tuple[ApprovalPolicy, ...]] = ("ask_first", "ask_when_risky", "run_at_once")
+HANDLES: Final[tuple[ApprovalPolicy, ...]] = ("ask_first", "ask_when_risky")
 _FETCH: Final = step("Fetch", thing="parcel")
 
 
@@ -74,7 +75,7 @@ ORDERS: Final = (
     _waves("don't be shy, wave at Lee", "Lee"),
     Fair("wave twice", a("I will wave twice.", wave("all", flow={"repeat": 2})), ("Ada began WaveAt",)),
     Fair("wave, then go to the shelf", a("I will.", wave(), *go()), ("Ada began WaveAt", "Ada moved")),
-    Fair("fetch the parcel", a("I will fetch it.", _FETCH), ("Ada began Fetch",)),
+    Fair("fetch the parcel", a("I will fetch it.", _FETCH), ("Ada began Fetch",), asks=HANDLES),
     Fair(
         "ask whether I am ready",
         a("I will ask.", step("AskOperator", question="Are you ready?")),
@@ -85,11 +86,9 @@ ORDERS: Final = (
         "open the main valve",
         a("I will open it.", valve()),
         ("Ada began OpenValve",),
-        asks=("ask_first", "ask_when_risky"),
+        asks=HANDLES,
     ),
-    Fair(
-        "ava peaventiil", a("Avan.", valve()), ("Ada began OpenValve",), asks=("ask_first", "ask_when_risky")
-    ),
+    Fair("ava peaventiil", a("Avan.", valve()), ("Ada began OpenValve",), asks=HANDLES),
     Fair("Bo, wave at Lee", a("I will wave.", wave("Lee")), ("Bo began WaveAt",), to="Bo"),
     Fair("Bo, go to the bench", a("I will go.", *go("long bench")), ("Bo moved",), to="Bo"),
     Fair("stand guard here", a("I will guard it.", step("Guard", what="here")), ("Ada began Guard",)),
@@ -217,12 +216,13 @@ ANSWERS: Final = (
     Fair("skip it", fix("I skip it.", cmd=(SKIP,)), ("Ada began WaveAt",), "failed", asks=()),
     Fair("cancel everything", fix("I drop it.", cmd=(CLEAR,)), ("Ada gave up",), "failed", asks=()),
     Fair("the red one", fix("The red one.", step("Fetch", thing="red parcel")), ("Ada began Fetch",),
-         "which"),
+         "which", asks=HANDLES),
     Fair("the blue one", fix("The blue one.", step("Fetch", thing="blue parcel")), ("Ada began Fetch",),
-         "which"),
-    Fair("punane", fix("Punane.", step("Fetch", thing="red parcel")), ("Ada began Fetch",), "which"),
+         "which", asks=HANDLES),
+    Fair("punane", fix("Punane.", step("Fetch", thing="red parcel")), ("Ada began Fetch",), "which",
+         asks=HANDLES),
     Fair("go round by the bench and try again", fix("I will.", *go("long bench"), _FETCH),
-         ("Ada began NavigateTo",), "open"),
+         ("Ada began NavigateTo",), "open", asks=HANDLES),
     Fair("wave at Lee, he will bring it", fix("I wave.", wave("Lee")), ("Ada began WaveAt",), "open"),
     Fair("leave the parcel and go on", fix("I leave it."), ("Ada began WaveAt",), "open"),
     Fair("no", fix("Then I wait.", success=False), (), "failed", asks=(), never=("Ada began Fetch",)),

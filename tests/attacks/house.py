@@ -118,12 +118,12 @@ class Deeds:
                 await ctx.clock.sleep(1.0)
                 await ctx.run.wait_while_paused()
 
-        @action(phrases=("report {what}",), effects=("reports",), risk="none")
+        @action(phrases=("report {what}",), effects=("looks", "speaks"), risk="none")
         async def report(ctx: ActionContext, what: str) -> Report:
             """Say what is seen; `what` is that."""
             return Report(f"I see a {what}.")
 
-        @action(phrases=("fetch {thing}",), effects=("fetches",), risk="low")
+        @action(phrases=("fetch {thing}",), effects=("carries",), risk="low")
         async def fetch(ctx: ActionContext, thing: str) -> None:
             """Fetch a thing."""
             if deeds.broken:

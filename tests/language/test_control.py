@@ -146,6 +146,8 @@ def test_an_order_to_stop_is_told_from_what_only_sounds_like_one(said: str, mean
         ("you may resume now, all clear", "start"),
         ("continue with your round", "start"),
         ("right, off you go again", "start"),
+        ("ok you can go", "start"),
+        ("you can go home", None),
         ("leave that one, next please", "skip"),
         ("everything off, back to zero, cancel the lot", "clear"),
     ],

@@ -22,7 +22,7 @@ EFFECTS: Final[Mapping[str, RiskClass]] = MappingProxyType(
         ),
         RiskClass.LOOKS,
     )
-    | dict.fromkeys(("moves", "turns", "docks", "follows", "leads"), RiskClass.MOVES)
+    | dict.fromkeys(("moves", "turns", "docks", "follows", "leads", "gestures"), RiskClass.MOVES)
     | dict.fromkeys(
         (
             "handles_things", "grasps", "places", "lifts", "carries", "hands_over", "opens", "closes",

@@ -54,6 +54,8 @@ def composed(words: Words) -> Composed | None:
     """
     if not words or len(words) > _LONGEST:
         return None
+    if words in _phrases("start_phrases"):  # "you can go" is more than "go"
+        return "start"
     words = _unasked(words)
     half = len(words) // 2
     if half and words[:half] == words[half:]:

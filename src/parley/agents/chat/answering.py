@@ -193,6 +193,8 @@ class Answering:
         refused = bool(rulings) and all(ruling.outcome == "refused" for ruling in rulings or ())
         if not failed and not refused and self._waits_behind_a_question(order, situation):
             reply = together(reply, texts.AFTERWARDS)
+        if not (order.queue or order.system_cmd or order.replaces or understood.choices):
+            reply = texts.still_standing(reply, said.message, paused=self._known.state(target) == "paused")
         speakers = order.targets if order.queue else (target,)
         if target not in speakers:
             self.say((target,), texts.that_is_for(speakers), "response", said.id)

@@ -7,7 +7,8 @@ from collections.abc import Sequence
 from typing import Final
 
 from parley.language.control import Control
-from parley.sentences import sentence
+from parley.language.stop_words import calls_to_stop
+from parley.sentences import sentence, together
 
 __all__ = [
     "AFTERWARDS",
@@ -31,6 +32,7 @@ __all__ = [
     "nothing_started",
     "nothing_to_do",
     "settled",
+    "still_standing",
     "still_thinking",
     "that_is_for",
     "undo",
@@ -79,6 +81,21 @@ NOT_DONE: Final = sentence("I have not done that.")
 SAY_CARRY_ON: Final = "I go on when you say “carry on”."
 NOTHING_TO_RESUME: Final = "There is nothing left to go on with."
 _UNDO: Final = re.compile(r"(?:forget|unusta)\s+“(.+)”\W*", re.IGNORECASE)
+
+
+def still_standing(reply: str, message: str, *, paused: bool) -> str:
+    """The reply to words of which nothing comes, said to a robot that stands.
+
+    Args:
+        reply: What would be said to them.
+        message: The words. Who calls to stop is told that it stands; who asks wants just the answer.
+        paused: Whether it has something to go on with.
+    """
+    if calls_to_stop(message):
+        reply = sentence(_NOTHING_TO_DO["stop"])
+    elif message.rstrip().endswith("?"):
+        return reply
+    return together(reply, sentence(SAY_CARRY_ON)) if paused and SAY_CARRY_ON not in reply else reply
 
 
 def alarm(robot: str, words: str) -> str:
