@@ -23,7 +23,7 @@ from parley.errors import FileFormatError
 from parley.files import parse_yaml, read_text, validated
 from parley.world.geometry import Metres
 
-__all__ = ["FREE", "MAX_CELLS", "OCCUPIED", "UNKNOWN", "OccupancyMap"]
+__all__ = ["FREE", "MAX_CELLS", "NO_MAP", "OCCUPIED", "UNKNOWN", "OccupancyMap"]
 
 FREE, OCCUPIED, UNKNOWN = 0, 100, -1
 """The values of a cell, those of nav_msgs/OccupancyGrid."""
@@ -199,3 +199,7 @@ def _to_cells(pixels: NDArray[np.uint8], header: _Header) -> NDArray[np.int8]:
     meaning[shade < header.free_thresh] = FREE
     meaning[shade > header.occupied_thresh] = OCCUPIED
     return np.asarray(meaning[pixels[::-1]])
+
+
+NO_MAP: Final = OccupancyMap(np.full((1, 1), UNKNOWN, np.int8), 0.05, 0.0, 0.0, "no map")
+"""What a robot without a map has: nothing is known to be free."""
