@@ -86,13 +86,6 @@ class OccupancyMap:
             math.floor((x_m - self.origin_x_m) / self.resolution_m),
         )
 
-    def center_of(self, row: int, column: int) -> tuple[float, float]:
-        """Map-frame x and y of a cell's centre."""
-        return (
-            self.origin_x_m + (column + 0.5) * self.resolution_m,
-            self.origin_y_m + (row + 0.5) * self.resolution_m,
-        )
-
     def cells_of(self, points_m: NDArray[np.float64]) -> NDArray[np.intp]:
         """Rows and columns, shape (k, 2), of those of the map-frame points (n, 2) that lie on the grid."""
         origin = np.array([self.origin_x_m, self.origin_y_m])
