@@ -11,7 +11,7 @@ SCRIPT = """
 import asyncio
 import sys
 
-for library in ("argon2", "fastapi", "mujoco", "pydantic_ai", "skimage"):
+for library in ("argon2", "fastapi", "mujoco", "pydantic_ai", "scipy", "skimage"):
     sys.modules[library] = None
 
 from own_robot import Cart
