@@ -22,7 +22,7 @@ from parley.messages import topics
 from parley.messages.ros import UmrfGraphStart
 from parley.umrf.catalogue import Catalogue
 from parley.umrf.check import check as check_graph
-from parley.umrf.check import reasons
+from parley.umrf.check import doubts, reasons
 from parley.umrf.discovery import ActionFolder
 from parley.umrf.io import read_graph, write_graph
 from parley.umrf.model import Graph, GraphState, NodeState, Response, Result
@@ -57,8 +57,10 @@ def check(
     if problems:
         _tell_problems(problems, as_json=json)
         raise typer.Exit(1)
+    unsure = doubts(read_graph(text), catalogue)
+    _tell_problems(unsure, as_json=json)
     if not json:
-        typer.echo(f"{file.name}: nothing wrong with it")
+        typer.echo(f"{file.name}: {'it can run' if unsure else 'nothing wrong with it'}")
 
 
 def _catalogue(folder: Path | None) -> Catalogue:
