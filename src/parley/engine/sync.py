@@ -21,7 +21,7 @@ from parley.clock import Clock
 from parley.errors import ActionFailure, FailureCode, Problem
 from parley.latest import Latest
 from parley.messages.status import ActorStatus, SyncEntry, SyncNotice
-from parley.umrf.model import GraphState, Node, Result
+from parley.umrf.model import BUSY, Node, Result
 from parley.umrf.remote import RemoteEnd
 
 __all__ = ["PEER_TIMEOUT_S", "Session", "Sync"]
@@ -32,11 +32,6 @@ PEER_TIMEOUT_S: Final = 5.0
 RETRY_S: Final = 0.2
 _KEPT: Final = 50
 """Sessions that are kept, so that late notices still find theirs."""
-
-_AT_WORK: Final = frozenset(
-    state.value
-    for state in (GraphState.INITIALIZED, GraphState.RUNNING, GraphState.PAUSED, GraphState.STOPPING)
-)
 
 
 @dataclass(slots=True)
@@ -332,7 +327,7 @@ class Sync:
             return
         self._statuses[status.actor] = status
         for name, state in status.graphs.items():
-            if state in _AT_WORK and name in self._sessions:
+            if state in BUSY and name in self._sessions:
                 self._at_work_s[status.actor, name] = self.clock.wall_s()
 
     def stopped(self, actors: Iterable[str]) -> list[str]:

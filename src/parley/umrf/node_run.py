@@ -16,6 +16,7 @@ from parley.umrf.action import ActionSpec, Outcome, RunHandle, bind_inputs, outc
 from parley.umrf.flow import FlowNode
 from parley.umrf.model import GraphState, Result
 from parley.umrf.motion import Motion
+from parley.umrf.reports import harmless
 from parley.umrf.text import clean_text
 from parley.umrf.threads import in_thread
 from parley.umrf.time_limit import PausableTime, within
@@ -182,10 +183,8 @@ class NodeRun:
             work = in_thread(f"action {self.node}", self._to_its_end, run, context, arguments)
         try:
             returned = await self._limited(work)
-        except SystemExit as error:  # would end the loop, and with it every robot of this process
-            raise RuntimeError(f"it called exit({error.code})") from error
-        except KeyboardInterrupt as error:  # as well; a person's Ctrl-C is told to the loop, not to an action
-            raise RuntimeError("it raised KeyboardInterrupt") from error
+        except (SystemExit, KeyboardInterrupt) as error:  # would end the loop, and with it every robot
+            raise harmless(error) from error
         return Ended.of(outcome_of(item.spec, returned))
 
     def _to_its_end(self, run: Callable[..., T], context: Any, arguments: Mapping[str, Any]) -> T:
