@@ -42,6 +42,8 @@ def test_what_happened_is_shown_newest_first_and_can_be_narrowed(data: Path) -> 
     ]
     _, text = parley("show", "--data", str(data), "--by", "kim", "--json")
     assert [json.loads(line)["words"] for line in text.splitlines()] == ["=go to the box"]
+    nothing = CliRunner().invoke(command_line("audit"), ["audit", "show", "--data", str(data), "--by", "pat"])
+    assert (nothing.stdout, nothing.stderr) == ("", "Nothing of that kind is written.\n")
 
 
 def test_a_whole_log_says_its_end_and_a_changed_one_ends_with_1(data: Path) -> None:

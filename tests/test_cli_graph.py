@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import json
 from pathlib import Path
+from typing import Any
 
 import pytest
 from typer.testing import CliRunner, Result
@@ -92,6 +93,34 @@ def test_what_is_no_graph_is_refused_and_what_is_not_there_is_another_matter(
     assert "not valid JSON" in refused.output
     missing = parley(command[0], file.parent / "missing.json", *command[1:])
     assert isinstance(missing.exception, ConfigError), "which ends the process with 2"
+
+
+def test_a_loop_that_nobody_gives_data_again_is_told_of_a_graph_that_can_run(tmp_path: Path) -> None:
+    item: dict[str, Any] = {"item": {"pvf_type": "string"}}
+    find: dict[str, Any] = {
+        "name": "Find",
+        "type": "sync",
+        "output_parameters": item,
+        "children": [{"name": "Take"}],
+    }
+    parents = [{"name": name, "required": False} for name in ("Find", "Shake")]
+    take: dict[str, Any] = {"name": "Take", "type": "sync", "input_parameters": item, "parents": parents}
+    shake: dict[str, Any] = {
+        "name": "Shake",
+        "type": "sync",
+        "parents": [{"name": "Take"}],
+        "children": [{"name": "Take"}],
+    }
+    actions = [find, take | {"children": [{"name": "Shake"}]}, shake]
+    graph = {"graph_name": "g", "graph_entry": [{"name": "Find"}], "graph_exit": [], "actions": actions}
+    (file := tmp_path / "g.json").write_text(json.dumps(graph), encoding="utf-8")
+    for action in actions:
+        described = {key: action[key] for key in action if key not in ("parents", "children")}
+        (tmp_path / f"{action['name']}.umrf.json").write_text(json.dumps(described), encoding="utf-8")
+    checked = parley("check", file, "--actions", tmp_path)
+    assert checked.exit_code == 0
+    assert "Take_0 has no data for item when it runs again after Shake_0" in checked.stdout
+    assert checked.stdout.splitlines()[-1] == "g.json: it can run"
 
 
 def test_a_folder_of_actions_that_is_not_there_is_an_error_and_not_an_empty_one(file: Path) -> None:

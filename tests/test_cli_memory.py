@@ -39,6 +39,8 @@ def test_memories_are_added_replaced_found_forgotten_and_restored(tmp_path: Path
     (restored,) = lines("restore", "box", *where)
     assert (restored["data"], restored["source"]) == ("The box is in the hall.", "Kim")
     assert parley("memory", "restore", "box", *where).returncode == 1
+    nothing = parley("memory", "list", "--name", "unicorn", *where)
+    assert (nothing.returncode, nothing.stdout, nothing.stderr) == (0, "", "Nothing is remembered.\n")
     assert parley("memory", "search", "unicorn", *where).returncode == 1
 
 

@@ -72,6 +72,11 @@ def tracked_files() -> tuple[Path, ...]:
 
 
 @cache
+def tree_of(path: Path) -> ast.Module:
+    return ast.parse(path.read_text(encoding="utf-8"))
+
+
+@cache
 def story_words() -> frozenset[str]:
     """The nouns of the demonstrations: the fixed ones, and every word their object maps name things with."""
     words = set(STORY_WORDS)
@@ -125,19 +130,33 @@ def test_a_machines_path_would_be_found(text: str) -> None:
 
 
 def test_every_module_says_what_it_is_for() -> None:
-    silent = [
-        shown(path)
-        for path in python_files(SOURCE)
-        if not ast.get_docstring(ast.parse(path.read_text(encoding="utf-8")))
-    ]
+    silent = [shown(path) for path in python_files(SOURCE) if not ast.get_docstring(tree_of(path))]
     assert silent == []
+
+
+PAPERS = re.compile(r"\b(?:section \d|contract\b|spec/|docs/|design\.md|umrf\.md)", re.IGNORECASE)
+"""Documents that stand in the sources and not with whoever installed the product."""
+
+
+def test_no_error_cites_a_document_that_a_user_does_not_have() -> None:
+    cited = []
+    for path in python_files(SOURCE):
+        nodes = list(ast.walk(tree_of(path)))
+        silent = {id(node.value) for node in nodes if isinstance(node, ast.Expr)}  # what documents the code
+        cited += [
+            f"{shown(path)}:{node.lineno}"
+            for node in nodes
+            if isinstance(node, ast.Constant) and isinstance(node.value, str) and id(node) not in silent
+            if PAPERS.search(node.value)
+        ]
+    assert cited == []
 
 
 def test_no_exception_is_swallowed_in_silence() -> None:
     swallowed = [
         f"{shown(path)}:{node.lineno}"
         for path in python_files(SOURCE)
-        for node in ast.walk(ast.parse(path.read_text(encoding="utf-8")))
+        for node in ast.walk(tree_of(path))
         if isinstance(node, ast.ExceptHandler) and is_blind(node) and is_idle(node)
     ]
     assert swallowed == []
@@ -151,7 +170,7 @@ def test_no_cache_grows_without_end() -> None:
     endless = [
         f"{shown(path)}:{node.lineno}: {node.name}"
         for path in python_files(SOURCE)
-        for node in ast.walk(ast.parse(path.read_text(encoding="utf-8")))
+        for node in ast.walk(tree_of(path))
         if isinstance(node, ast.FunctionDef) and is_endless_cache(node)
     ]
     assert endless == []

@@ -35,13 +35,14 @@ class Site:
     """The simulated world; None: it is real."""
 
     @classmethod
-    def load(cls, path: Path) -> Self:
+    def load(cls, path: Path | str) -> Self:
         """Read a folder with `FILES`, of which one may be missing, or one `world.yaml`.
 
         Raises:
             ConfigError: There is no such folder, or nothing of this in it.
             FileFormatError: Names the file and the field that is wrong.
         """
+        path = Path(path)
         folder = path if path.is_dir() else path.parent
         world_file = folder / FILES[0] if path.is_dir() else path
         objects, occupancy = folder / FILES[1], folder / FILES[2]

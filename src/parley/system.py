@@ -211,7 +211,6 @@ class System:
         journal = self._journal = await enter(await Journal.open(file, clock, tell=self._tell_all))
         audit = await enter(await AuditStore.open(config.audit_file or ":memory:", clock))
         await enter(AuditLog(transport, audit, clock, months=config.audit_months, tell=self._tell_all))
-        await self._keep_older_stops(journal)
         await enter(self.fleet)
         await enter(MemoryNode(transport, self.store, self.language, meanings=self._meanings(self.store)))
         await enter(
@@ -286,13 +285,6 @@ class System:
         for incident in recovery.left_over:
             if incident.robot in engines and incident.robot not in told:
                 notices.tell(left_over_text(incident), [incident.robot])
-
-    async def _keep_older_stops(self, journal: Journal) -> None:
-        """Take over the stops that an older version kept in the journal."""
-        if journal.latched:
-            self.stop_line.pull(journal.latched, by=None, wait_s=0.0)
-            if await asyncio.wrap_future(self.stop_line.written) == "":
-                await journal.forget_latched()
 
     async def _listen_to_stops(self) -> None:
         refusals: Publisher[ros.String] = self.transport.publisher(topics.REJECTION)

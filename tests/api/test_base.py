@@ -11,16 +11,28 @@ SCRIPT = """
 import asyncio
 import sys
 
-for library in ("argon2", "fastapi", "mujoco", "pydantic_ai", "skimage"):
+for library in ("argon2", "fastapi", "mujoco", "pydantic_ai", "scipy", "skimage"):
     sys.modules[library] = None
 
 from own_robot import Cart
 
-from parley.api import Parley, Site, person
+from parley.api import MapObject, ObjectMap, Parley, Site, person
 from parley.errors import MissingExtraError
 
 
+class Guide(Cart):
+    async def go(self, goal, control, *, timeout_s):
+        self._pose = goal
+        return goal
+
+
 async def main():
+    known = Site(ObjectMap((MapObject("box_1", "red box", 5.0, 1.0, width_m=0.6),)))
+    guide = Guide("Kim")  # finds its way by itself
+    async with Parley(known, robots=[guide], by=person("Ada")) as parley:
+        await parley.say("Kim", "go to the red box")
+        plan = await parley.settled("Kim", timeout_s=20)
+        print(plan.state, [step.state for step in plan.steps], f"{guide.pose().x_m:.2f}")
     async with Parley(robots=[Cart("Kim")], by=person("Ada")) as parley:
         reply = await parley.say("Kim", "turn left by 90 degrees")
         plan = await parley.settled("Kim", timeout_s=20)
@@ -46,4 +58,8 @@ def test_a_robot_without_a_map_needs_no_extra(tmp_path: Path) -> None:
         timeout=60,
         check=False,
     )
-    assert done.stdout.splitlines() == ["I will turn left by 90 degrees. ['finished']", "maps"], done.stderr
+    assert done.stdout.splitlines() == [
+        "idle ['finished', 'finished'] 3.95",
+        "I will turn left by 90 degrees. ['finished']",
+        "maps",
+    ], done.stderr

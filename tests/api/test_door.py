@@ -225,6 +225,8 @@ async def test_what_is_wrong_is_said_where_it_is_given() -> None:
     with pytest.raises(ConfigError, match="no folder or file"):
         async with Parley("nowhere"):
             pass
+    with pytest.raises(ConfigError, match="no folder or file"):
+        Site.load("nowhere")
     with pytest.raises(ConfigError, match="speeed"):
         async with Parley(site(), config={"speeed": 1}):
             pass

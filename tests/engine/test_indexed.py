@@ -10,7 +10,7 @@ import pytest
 from parley.errors import GraphRefusedError
 from parley.messages import ros, topics
 from parley.umrf.catalogue import Catalogue
-from parley.umrf.graph_index import load_graphs
+from parley.umrf.discovery import ActionFolder
 from parley.umrf.model import Result
 from tests.umrf.inner_graphs import CATALOGUE, greet_twice, use
 from tests.umrf.spec_actions import SPECS, chain, node
@@ -28,10 +28,13 @@ def test_graph_files_are_found_two_levels_deep_and_bad_ones_are_skipped(tmp_path
     (tmp_path / "broken.graph.json").write_text("{")
     (tmp_path / "twice.graph.json").write_text(json.dumps(chain("A", [node("NoOp", 7)])))
     (tmp_path / "latin.graph.json").write_bytes(b"\xff")
-    graphs = load_graphs(tmp_path)
+    index = ActionFolder(tmp_path)
+    index.scan()
+    graphs = index.found.graphs
     assert sorted(graph.name for graph in graphs) == ["A", "B", "C"]
     assert graphs[0].nodes[0].instance_id == 0, "of two graphs of one name the first counts"
-    assert Catalogue.load_folder(tmp_path).graph("B") is not None
+    told = {text.partition(" ")[0] for text in index.found.problems}
+    assert told == {"broken.graph.json", "latin.graph.json", "twice.graph.json:"}
 
 
 @pytest.mark.spec("11.1", "7.1")

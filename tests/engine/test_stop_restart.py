@@ -2,11 +2,8 @@
 
 from __future__ import annotations
 
-import sqlite3
 from pathlib import Path
 
-from parley.clock import WallClock
-from parley.engine.journal import Journal
 from parley.gate.stop_line import StopLine
 
 from .rig import DummyRobot, Rig, rigged
@@ -29,18 +26,3 @@ async def test_a_stop_that_nobody_reset_holds_after_a_restart(tmp_path: Path) ->
         await again.until(lambda: said(again, "at_rest"))
         assert robot.told == ["halt"]
         assert again.statuses[-1].state == "stopped"
-
-
-async def test_stops_that_an_older_version_kept_in_the_journal_are_found_once(tmp_path: Path) -> None:
-    file = tmp_path / "journal.db"
-    async with await Journal.open(file, WallClock()):
-        pass
-    with sqlite3.connect(file) as older:
-        older.execute("CREATE TABLE latched (actor TEXT PRIMARY KEY) WITHOUT ROWID")
-        older.execute("INSERT INTO latched VALUES ('A')")
-    older.close()
-    async with await Journal.open(file, WallClock()) as journal:
-        assert journal.latched == {"A"}
-        await journal.forget_latched()
-    async with await Journal.open(file, WallClock()) as journal:
-        assert journal.latched == frozenset()

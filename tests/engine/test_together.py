@@ -13,7 +13,7 @@ import pytest
 
 from parley.messages import ros, topics
 from parley.messages.failure import FailureReport
-from parley.messages.status import StepCommand, SyncNotice
+from parley.messages.status import StepCommand, SyncEntry, SyncNotice
 from parley.messages.wire import decode, to_string
 from parley.umrf.action import ActionSpec, RunHandle, action
 from parley.umrf.catalogue import Catalogue
@@ -123,9 +123,8 @@ async def test_an_end_that_comes_twice_counts_once() -> None:
         sent: set[str] = set()
 
         def repeat(message: ros.String) -> None:
-            notice = decode(SyncNotice, message.data)
-            if notice.kind == "ended" and notice.id not in sent:
-                sent.add(notice.id)
+            if decode(SyncNotice, message.data).said and message.data not in sent:
+                sent.add(message.data)
                 for _ in range(3):
                     again.publish(message)
 
@@ -394,10 +393,19 @@ async def test_a_command_to_all_is_not_carried_out_twice() -> None:
 
 
 async def test_a_passed_on_command_that_cannot_be_carried_out_is_told() -> None:
+    said: list[SyncNotice] = []
     async with crew() as rig:
+
+        def keep(message: ros.String) -> None:
+            said.extend([notice] if (notice := decode(SyncNotice, message.data)).actor == "A" else [])
+
+        listening = await rig.transport.subscribe(topics.SYNC, keep)
         await at_work(rig)
-        notice = SyncNotice(kind="command", actor="A", graph_name="g", command="end", node="NoOp_9")
-        rig.transport.publisher(topics.SYNC).publish(to_string(notice))
+        await listening.close()
+        end = SyncEntry(kind="command", graph_name="g", command="end", node="NoOp_9")
+        rig.transport.publisher(topics.SYNC).publish(
+            to_string(said[-1].model_copy(update={"first": 100, "said": (end,)}))
+        )
         await rig.until(lambda: rig.rejections)
         assert rig.rejections[0].what == "sync end"
         rig.transport.publisher(topics.SYNC).publish(ros.String("{"))

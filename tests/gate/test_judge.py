@@ -158,15 +158,8 @@ def test_an_action_that_begins_is_judged_with_its_arguments() -> None:
 
 def test_on_whose_account_a_robot_acts_is_known_to_engine_and_drive() -> None:
     rules = book(STORE | {"exempt": ("supervisor",)})
-    assert not rules.drive_limits("Ada", 5, 0, NOON).allowed
+    assert [rule.kind for rule in rules.active("Ada", NOON)] == ["keep_out"]
     rules.act_for("Ada", person("Kim", role="supervisor"))
-    assert rules.drive_limits("Ada", 5, 0, NOON).allowed
+    assert rules.active("Ada", NOON) == ()
     rules.act_for("Ada", None)
-    assert not rules.drive_limits("Ada", 5, 0, NOON).allowed
-
-
-def test_the_drive_is_limited_where_it_is() -> None:
-    slow = {"id": "s", "kind": "slow", "rectangle": (2, -1, 3, 1), "max_speed_mps": 0.25}
-    rules = book(slow, {"id": "v", "kind": "speed", "max_speed_mps": 0.4})
-    assert rules.drive_limits("Ada", 2.5, 0, NOON) == (True, 0.25)
-    assert rules.drive_limits("Ada", 0, 0, NOON) == (True, 0.4)
+    assert rules.active("Ada", NOON)

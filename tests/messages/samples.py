@@ -119,6 +119,19 @@ CHAIN: dict[str, Any] = {
     "problem": "it was changed",
 }
 
+SYNC_ENTRY: dict[str, Any] = {
+    "kind": "ended",
+    "graph_name": "g",
+    "node": "Move_0",
+    "result": "on_true",
+    "outputs": {"x": {"pvf_type": "number", "pvf_value": 1.0}},
+    "message": "it did not work",
+    "command": "modify",
+    "targets": ["A", "B"],
+    "graph_json": "{}",
+    "continue_from": "Move_1",
+    "id": "2",
+}
 SAMPLES: dict[type[BaseModel], dict[str, Any]] = {
     principal.Principal: KIM,
     audit.AuditEvent: AUDITED,
@@ -355,21 +368,15 @@ SAMPLES: dict[type[BaseModel], dict[str, Any]] = {
     status.StepCommand: {"target": "A", "graph_name": "g", "node": "Move_0", "command": "end"},
     status.StopCommand: {"command": "reset", "targets": ["A"], "id": "1", "by": KIM, "words": "stop!!"},
     status.StopReport: {"actor": "A", "id": "1", "state": "at_rest"},
+    status.SyncEntry: SYNC_ENTRY,
     status.SyncNotice: {
-        "kind": "ended",
         "actor": "A",
         "graph_name": "g",
-        "id": "1",
-        "node": "Move_0",
-        "result": "on_true",
-        "outputs": {"x": {"pvf_type": "number", "pvf_value": 1.0}},
-        "number": 7,
-        "answers": "2",
-        "message": "it did not work",
-        "command": "modify",
-        "targets": ["A", "B"],
-        "graph_json": "{}",
-        "continue_from": "Move_1",
+        "run": "5b1e",
+        "heard": {"B": ["77aa", 3]},
+        "first": 7,
+        "said": [SYNC_ENTRY],
+        "answer": True,
     },
     status.RejectionProblem: {"path": "x", "message": "wrong", "remedy": "right it", "code": "bad"},
     status.Rejection: {

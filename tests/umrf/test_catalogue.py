@@ -9,6 +9,7 @@ import pytest
 from parley.messages.pvf import Parameter
 from parley.umrf.action import ActionSpec
 from parley.umrf.catalogue import Catalogue, descriptor_file_name, merge
+from parley.umrf.discovery import ActionFolder
 from parley.umrf.io import write_descriptor
 from parley.umrf.model import Node
 
@@ -88,9 +89,7 @@ def test_descriptors_are_read_from_a_folder_and_two_levels_below(tmp_path: Path)
         (folder / descriptor_file_name(item.name)).write_text(write_descriptor(item), encoding="utf-8")
     (tmp_path / "bad.umrf.json").write_text("{", encoding="utf-8")
     (tmp_path / "latin.umrf.json").write_bytes(b"\xff")
-    (tmp_path / "a.graph.json").write_text("{}", encoding="utf-8")
-    assert {item.name for item in Catalogue.load_folder(tmp_path)} == {item.name for item in SPECS[:3]}
-
-
-def test_a_folder_that_is_not_there_gives_nothing(tmp_path: Path) -> None:
-    assert len(Catalogue.load_folder(tmp_path / "nowhere")) == 0
+    index = ActionFolder(tmp_path)
+    index.scan()
+    assert {item.name for item in index.found.specs} == {item.name for item in SPECS[:3]}
+    assert [text.partition(" ")[0] for text in index.found.problems] == ["bad.umrf.json", "latin.umrf.json"]

@@ -5,7 +5,7 @@ from __future__ import annotations
 from typing import Any
 
 from parley.umrf.catalogue import Catalogue
-from parley.umrf.check import MAX_LEVELS, check
+from parley.umrf.check import MAX_LEVELS, check, doubts
 from parley.umrf.io import read_graph
 from parley.umrf.model import Graph, Result
 
@@ -78,6 +78,9 @@ async def test_a_second_round_that_lacks_an_input_says_so() -> None:
         "graph_exit": [],
         "actions": [giver, taker, back],
     }
+    assert check(read_graph(graph), CATALOGUE) == []
+    (doubt,) = doubts(read_graph(graph), CATALOGUE)
+    assert doubt.message == "SameText_0 has no data for text when it runs again after NoOp_0"
     watched = Watched(graph)
     watched.run.start()
     assert await watched.run.wait() is Result.ON_HALTED

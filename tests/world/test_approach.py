@@ -12,7 +12,7 @@ from hypothesis import strategies as st
 from parley.world.approach import approach_pose
 from parley.world.geometry import Pose2D, wrap_angle
 from parley.world.object_map import MapObject
-from parley.world.occupancy import FREE, OCCUPIED, OccupancyMap
+from parley.world.occupancy import FREE, NO_MAP, OCCUPIED, OccupancyMap
 from parley.world.planning import plan_path
 
 RADIUS_M = 0.2
@@ -75,6 +75,18 @@ def test_of_equal_spots_the_one_with_the_shorter_way_is_taken() -> None:
     east = approach_pose(ground(target), target, Pose2D(4.5, 2.5), radius_m=RADIUS_M)
     assert west is not None and east is not None
     assert west.x_m < 2.5 < east.x_m
+
+
+@pytest.mark.parametrize(
+    ("target", "x", "y"), [(block(2.5, 0.5), 1.55, 0.5), (block(2.5, 2.5, front=-math.pi / 2), 2.5, 1.65)]
+)
+def test_without_a_map_the_spot_is_before_it_and_whoever_drives_finds_out_whether_it_is_free(
+    target: MapObject, x: float, y: float
+) -> None:
+    pose = approach_pose(NO_MAP, target, START, radius_m=RADIUS_M)
+    assert pose is not None
+    assert [pose.x_m, pose.y_m] == pytest.approx([x, y])
+    assert wrap_angle(pose.bearing_to(target.x_m, target.y_m) - pose.yaw_rad) == pytest.approx(0.0, abs=1e-9)
 
 
 def test_nobody_stands_behind_a_wall_looking_at_it() -> None:

@@ -47,7 +47,8 @@ def test_a_cells_centre_lies_in_that_cell(
     row: int, column: int, resolution_m: float, origin_m: float
 ) -> None:
     ground = OccupancyMap(np.zeros((3, 3), np.int8), resolution_m, origin_m, -origin_m)
-    assert ground.cell_of(*ground.center_of(row, column)) == (row, column)
+    ((x, y),) = ground.centers_of(np.array([[row, column]]))
+    assert ground.cell_of(x, y) == (row, column)
 
 
 def test_points_beside_the_grid_have_no_cell() -> None:

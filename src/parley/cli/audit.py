@@ -47,7 +47,10 @@ def show(
         robot=robot, by=by, effect=effect, text=text, limit=limit,
         since_unix_ms=_moment(since, "--since"), until_unix_ms=_moment(until, "--until"),
     )  # fmt: skip
-    for entry in read_file(data / "audit.db", wanted):
+    found = read_file(data / "audit.db", wanted)
+    if not found and not json:
+        typer.echo("Nothing of that kind is written.", err=True)
+    for entry in found:
         if json:
             emit_json(entry.model_dump(mode="json"))
         else:

@@ -16,12 +16,13 @@ from parley.cli.output import emit_json, fail, quiet_logs
 from parley.config import SystemConfig
 from parley.demos.catalogue import DEMOS, load_demo
 from parley.demos.observer import Observer
-from parley.engine.run_file import check_file, read_graph_file
 from parley.errors import ConfigError, GraphRefusedError, Problem
 from parley.files import read_text
 from parley.messages import topics
 from parley.messages.ros import UmrfGraphStart
 from parley.umrf.catalogue import Catalogue
+from parley.umrf.check import check as check_graph
+from parley.umrf.check import doubts, reasons
 from parley.umrf.discovery import ActionFolder
 from parley.umrf.io import read_graph, write_graph
 from parley.umrf.model import Graph, GraphState, NodeState, Response, Result
@@ -48,12 +49,18 @@ def check(
 ) -> None:
     """Say everything that would keep the graph from running."""
     catalogue = _catalogue(actions)
-    problems = check_file(file, catalogue, actor)
+    text = read_text(file)
+    try:
+        problems = check_graph(read_graph(text), catalogue, actor=actor)
+    except GraphRefusedError as error:
+        problems = reasons(error, catalogue, actor=actor)
     if problems:
         _tell_problems(problems, as_json=json)
         raise typer.Exit(1)
+    unsure = doubts(read_graph(text), catalogue)
+    _tell_problems(unsure, as_json=json)
     if not json:
-        typer.echo(f"{file.name}: nothing wrong with it")
+        typer.echo(f"{file.name}: {'it can run' if unsure else 'nothing wrong with it'}")
 
 
 def _catalogue(folder: Path | None) -> Catalogue:
@@ -99,7 +106,7 @@ def show(
 ) -> None:
     """Show a graph: as text, as a Mermaid flowchart or as an SVG picture."""
     try:
-        graph = read_graph_file(file)
+        graph = read_graph(read_text(file))
     except GraphRefusedError as error:
         _tell_problems(error.problems, as_json=False, err=True)
         raise typer.Exit(1) from error

@@ -39,7 +39,10 @@ def incidents(
     json: Annotated[bool, typer.Option("--json", help="One JSON object per incident.")] = False,
 ) -> None:
     """List what went wrong, newest first: what was tried, what was said, how it ended."""
-    for incident in on_loop(_newest(data, robot, limit)):
+    found = on_loop(_newest(data, robot, limit))
+    if not found and not json:
+        typer.echo("Nothing went wrong.", err=True)
+    for incident in found:
         if json:
             emit_json(incident.model_dump(mode="json"))
         else:

@@ -57,8 +57,11 @@ def list_memories(
             return [entry for entry in await store.all(scope) if name in ("", entry.name)]
         return [e for e in await store.history(name) if scope is None or e.scope in ("", scope)]
 
-    for entry in _with_store(data, file, work):
+    found = _with_store(data, file, work)
+    for entry in found:
         _show(entry, json)
+    if not found and not json:
+        typer.echo("Nothing is remembered.", err=True)
 
 
 @app.command("search")

@@ -3,10 +3,10 @@
 from __future__ import annotations
 
 import time
-from collections.abc import Callable, Mapping
+from collections.abc import Callable
 from contextlib import AsyncExitStack
 from dataclasses import dataclass, field
-from typing import Any, Final
+from typing import Final
 
 from parley.demos.observer import Emit, Observer
 from parley.demos.story import Finished, Story, StoryStep, Variant
@@ -319,15 +319,3 @@ def _distance_m(system: System, robot: str, thing: MapObject) -> float:
     dx = max(abs(pose.x_m - thing.x_m) - thing.width_m / 2, 0.0)
     dy = max(abs(pose.y_m - thing.y_m) - thing.height_m / 2, 0.0)
     return float((dx * dx + dy * dy) ** 0.5)
-
-
-def summary(result: StoryResult) -> Mapping[str, Any]:
-    """The figures of a result for people."""
-    factor = result.robot_s / result.wall_s if result.wall_s else 0.0
-    return {
-        "held": result.held,
-        "reason": result.reason,
-        "wall_s": round(result.wall_s, 2),
-        "robot_s": round(result.robot_s, 2),
-        "real_time_factor": round(factor, 1),
-    }

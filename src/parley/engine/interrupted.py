@@ -4,16 +4,12 @@ from __future__ import annotations
 
 from collections.abc import Mapping
 from dataclasses import dataclass, field, replace
-from typing import Any, Final
+from typing import Any
 
-from parley.umrf.model import Graph, GraphState, Node, NodeState
+from parley.umrf.model import ACTIVE, Graph, GraphState, Node, NodeState
 from parley.umrf.saved import SavedRun
 
 __all__ = ["Interrupted"]
-
-_ACTIVE: Final = frozenset(
-    {NodeState.RUNNING, NodeState.PAUSE_REQUESTED, NodeState.PAUSED, NodeState.STOPPING}
-)
 
 
 @dataclass(frozen=True, slots=True)
@@ -52,7 +48,7 @@ class Interrupted:
     @property
     def going_on(self) -> tuple[Node, ...]:
         """The nodes that were being carried out."""
-        return tuple(node for node in self.graph.nodes if node.state in _ACTIVE)
+        return tuple(node for node in self.graph.nodes if node.state in ACTIVE)
 
     @property
     def remaining(self) -> tuple[Node, ...]:

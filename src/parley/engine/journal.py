@@ -26,9 +26,7 @@ from parley.engine.journal_file import (
     VERSION,
     Batch,
     GraphText,
-    forget_latched,
     prepare,
-    read_latched,
     read_left,
     settle_all,
     write,
@@ -63,13 +61,10 @@ class Journal:
         clock: Clock,
         interrupted: Sequence[Interrupted],
         last: int,
-        latched: frozenset[str],
         tell: Callable[[str], None],
     ) -> None:
         self.interrupted = tuple(interrupted)
         """What was under way when an earlier process was killed, oldest first."""
-        self.latched = latched
-        """Actors whose emergency stop an older version kept in here."""
         self._database, self._clock, self._tell = database, clock, tell
         self._first = self._next = last + 1
         self._ids: weakref.WeakKeyDictionary[GraphRun, int] = weakref.WeakKeyDictionary()
@@ -101,11 +96,10 @@ class Journal:
         database = await Database.open(path, prepare=prepare, unix_ms=clock.unix_ms(), what="journal")
         try:
             interrupted, last = await database.run(read_left)
-            latched = await database.run(read_latched)
         except BaseException:
             await database.close()
             raise
-        return cls(database, clock, interrupted, last, latched, tell)
+        return cls(database, clock, interrupted, last, tell)
 
     async def __aenter__(self) -> Self:
         return self
@@ -132,14 +126,6 @@ class Journal:
         self._changed[run] = (number, transition.unix_ms)
         if self._writer is None:
             self._writer = asyncio.get_running_loop().create_task(self._write(), name="journal")
-
-    async def forget_latched(self) -> None:
-        """The stops that an older version kept in here stand in a file of their own now.
-
-        Raises:
-            StoreError: The file cannot be written.
-        """
-        await self._database.run(forget_latched)
 
     @contextmanager
     def read_from(self, name: str, text: str) -> Iterator[None]:

@@ -26,9 +26,7 @@ __all__ = [
     "VERSION",
     "Batch",
     "GraphText",
-    "forget_latched",
     "prepare",
-    "read_latched",
     "read_left",
     "settle_all",
     "write",
@@ -204,18 +202,6 @@ def read_left(connection: sqlite3.Connection) -> tuple[list[Interrupted], int]:
         if item.is_open:
             found.append(item)
     return found, last
-
-
-def read_latched(connection: sqlite3.Connection) -> frozenset[str]:
-    """Actors whose emergency stop an older version kept in here."""
-    known = connection.execute("SELECT 1 FROM sqlite_master WHERE name = 'latched'").fetchone()
-    found = connection.execute("SELECT actor FROM latched") if known else ()
-    return frozenset(actor for (actor,) in found)
-
-
-def forget_latched(connection: sqlite3.Connection) -> None:
-    """They stand somewhere else now."""
-    connection.execute("DROP TABLE IF EXISTS latched")
 
 
 def _interrupted(connection: sqlite3.Connection, actor: str, number: int, newest: _Newest) -> Interrupted:

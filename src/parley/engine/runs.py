@@ -17,7 +17,7 @@ from parley.errors import GraphRefusedError, Problem
 from parley.umrf.action import RunHandle
 from parley.umrf.catalogue import Catalogue
 from parley.umrf.executor import STOP_TIMEOUT_S, GraphRun
-from parley.umrf.model import ENDED, Graph, GraphState, Result
+from parley.umrf.model import BUSY, ENDED, Graph, GraphState, Result
 from parley.umrf.remote import Peers
 from parley.umrf.saved import SavedRun
 from parley.umrf.transition import NO_FACTS, Transition
@@ -32,8 +32,6 @@ KEPT_NODES: Final = 5000
 
 KEPT_HALTED: Final = 100
 """How many graphs that have run dry are kept, to be gone on with; each order to a robot leaves one."""
-
-_BUSY: Final = frozenset({GraphState.INITIALIZED, GraphState.RUNNING, GraphState.PAUSED, GraphState.STOPPING})
 
 RunObserver = Callable[[GraphRun, Transition], None]
 """Told every transition of every graph."""
@@ -166,7 +164,7 @@ class GraphRuns:
             GraphRefusedError: There is one of that name.
         """
         old = self._runs.get(name)
-        if old is not None and old.state in _BUSY:
+        if old is not None and old.state in BUSY:
             raise _refused(
                 name,
                 "already_running",
@@ -294,7 +292,7 @@ class GraphRuns:
     def _hold_inner(self, graph: Graph, parameters: Mapping[str, Any], peers: Peers | None) -> GraphRun:
         """The run of a sub-graph; others see it as a graph of its own (10.8)."""
         old = self._runs.get(graph.name)
-        if old is not None and not old.outer and old.state in _BUSY:
+        if old is not None and not old.outer and old.state in BUSY:
             raise _refused(graph.name, "already_running", f"{graph.name!r} is {old.state}", "stop it first")
         return self._hold(graph, parameters, peers)
 

@@ -1,23 +1,27 @@
 """What the engines of several actors tell each other about the graphs they carry out together (13).
 
 Every engine runs the whole graph; a node of another actor only waits there until that actor's engine says how
-it ended. Plain objects: notices come in by `Sync.take`, go out by a function, and time is wall time.
+it ended. In each run an engine has one list of what it says to the others. A notice brings what of it not all
+have confirmed, and tells how much of theirs was taken; it is said again until they have. So nothing is taken
+twice or out of order, whatever the network loses. Plain objects: notices come in by `Sync.take`, go out by a
+function, and time is wall time.
 """
 
 from __future__ import annotations
 
 import asyncio
+import contextlib
 import uuid
-from collections import Counter, deque
+from collections import defaultdict, deque
 from collections.abc import Callable, Iterable
-from dataclasses import dataclass, field
+from dataclasses import dataclass
 from typing import Final
 
 from parley.clock import Clock
 from parley.errors import ActionFailure, FailureCode, Problem
 from parley.latest import Latest
-from parley.messages.status import ActorStatus, SyncNotice
-from parley.umrf.model import GraphState, Node, Result
+from parley.messages.status import ActorStatus, SyncEntry, SyncNotice
+from parley.umrf.model import BUSY, Node, Result
 from parley.umrf.remote import RemoteEnd
 
 __all__ = ["PEER_TIMEOUT_S", "Session", "Sync"]
@@ -29,44 +33,19 @@ RETRY_S: Final = 0.2
 _KEPT: Final = 50
 """Sessions that are kept, so that late notices still find theirs."""
 
-_REPLAYED: Final = 1000
-"""So many ends are kept for an actor that takes part without being named in the graph."""
-
-_AT_WORK: Final = frozenset(
-    state.value
-    for state in (GraphState.INITIALIZED, GraphState.RUNNING, GraphState.PAUSED, GraphState.STOPPING)
-)
-
 
 @dataclass(slots=True)
-class _Ends:
-    """Ends of one node that came from its actor, in whichever order."""
+class _Peer:
+    """Another actor in one run."""
 
-    came: dict[int, SyncNotice] = field(default_factory=dict)
-    """How often the node had ended before -> what came."""
-    following: int = 0
-    gap_since_s: float | None = None
-    """Wall time since when only later ends than `following` are there."""
-
-    def take(self, now_s: float, patience_s: float) -> SyncNotice | None:
-        """The one that follows the last; if that does not come for so long, the first of the others."""
-        if self.following not in self.came:
-            if not self.came:
-                return None
-            self.gap_since_s = now_s if self.gap_since_s is None else self.gap_since_s
-            if now_s < self.gap_since_s + patience_s:
-                return None
-            self.following = min(self.came)
-        self.gap_since_s = None
-        self.following += 1
-        return self.came.pop(self.following - 1)
-
-
-@dataclass(slots=True)
-class _Unconfirmed:
-    notice: SyncNotice
-    missing: set[str]
-    until_s: float
+    run: str = ""
+    """Its own id of this run."""
+    ready: bool = False
+    """Whether it knows ours: only then does what it says count."""
+    taken: int = 0
+    """How much of what it said was taken."""
+    confirmed: int = 0
+    """How much of what was said here it has taken, or was given up."""
 
 
 class Session:
@@ -75,28 +54,22 @@ class Session:
     def __init__(self, sync: Sync, graph_name: str, actors: Iterable[str]) -> None:
         self.id = uuid.uuid4().hex
         self.graph_name = graph_name
-        self.known: dict[str, str] = {}
-        """Actor -> its own id of this run."""
-        self._sync, self._actors = sync, frozenset(actors)
-        self._silent = set(self._actors)
-        self._answered = asyncio.Event()
-        self._inboxes: dict[tuple[str, str], _Ends] = {}
-        self._ended: Counter[tuple[str, str]] = Counter()
-        self._commands = 0
-        self._newest: dict[str, int] = {}
-        """Actor -> number of the newest command of its that says whether to go on."""
-        self._arrived = asyncio.Event()
-        self._taken: set[str] = set()
-        self._sent: deque[SyncNotice] = deque(maxlen=_REPLAYED)
         self.changing = asyncio.Lock()
+        self._sync, self._actors = sync, frozenset(actors)
+        self._peers = {actor: _Peer() for actor in self._actors}
+        self._said: deque[tuple[float, SyncEntry]] = deque()
+        """What is still to be said, and since when (wall time)."""
+        self._forgotten = 0
+        """How much was said before that."""
+        self._ends: defaultdict[tuple[str, str], deque[SyncEntry]] = defaultdict(deque)
+        self._came = asyncio.Event()
         self._asked = ""
         """Id of the change that the others are asked about."""
         self._answers: dict[str, str] = {}
-        self._answer_came = asyncio.Event()
-        self._count = 0
         self._opened_s = sync.clock.wall_s()
-        self._unconfirmed: dict[str, _Unconfirmed] = {}
-        self._retry: asyncio.TimerHandle | None = None
+        self._soon: asyncio.Handle | None = None
+        self._again: asyncio.TimerHandle | None = None
+        self._closed = False
 
     @property
     def actors(self) -> frozenset[str]:
@@ -106,58 +79,25 @@ class Session:
     @property
     def others(self) -> frozenset[str]:
         """Everybody else who takes part: those named in the graph, and those who carry it out unnamed."""
-        return self._actors | self.known.keys()
+        return frozenset(self._peers)
 
-    # -- start ----------------------------------------------------------------------------------------------
+    @property
+    def settled(self) -> bool:
+        """Whether the others have confirmed all that was said."""
+        return all(peer.confirmed == self._count for peer in self._peers.values())
+
+    @property
+    def _count(self) -> int:
+        return self._forgotten + len(self._said)
 
     async def handshake(self) -> list[str]:
         """Wait until every other actor has taken up the graph, too; those that did not in time."""
-        clock = self._sync.clock
-        until_s = clock.wall_s() + self._sync.timeout_s
-        while self._silent and clock.wall_s() < until_s:
-            self._say(
-                SyncNotice(kind="hello", actor=self._sync.actor, graph_name=self.graph_name, id=self.id)
-            )
-            try:
-                async with asyncio.timeout(min(RETRY_S, self._sync.timeout_s)):
-                    await self._answered.wait()
-            except TimeoutError:
-                continue
-        return sorted(self._silent)
+        self._say()
+        await self._until(lambda: not self._silent())
+        return self._silent()
 
-    def greeted(self, notice: SyncNotice) -> None:
-        """Another actor has taken up the graph: answer, unless we are already in a run with its last one.
-
-        One that the graph does not name could not be waited for; it gets what has happened before.
-        """
-        new = notice.actor not in self.others
-        if new and self._sync.clock.wall_s() > self._opened_s + self._sync.timeout_s:
-            return
-        if self.known.setdefault(notice.actor, notice.id) != notice.id:
-            if not self._silent:
-                return
-            self.known[notice.actor] = notice.id
-        self._say(
-            SyncNotice(
-                kind="ready",
-                actor=self._sync.actor,
-                graph_name=self.graph_name,
-                id=self.id,
-                answers=notice.id,
-            )
-        )
-        for sent in self._sent if new else ():
-            self._hand_over(sent, {notice.actor})
-
-    def answered(self, notice: SyncNotice) -> None:
-        """Another actor has heard that we have taken up the graph."""
-        if notice.answers == self.id and notice.actor in self._silent:
-            self.known[notice.actor] = notice.id
-            self._silent.discard(notice.actor)
-            if not self._silent:
-                self._answered.set()
-
-    # -- changes --------------------------------------------------------------------------------------------
+    def _silent(self) -> list[str]:
+        return sorted(name for name in self._actors if not self._peers[name].ready)
 
     async def ask(self, graph_json: str, continue_from: str) -> dict[str, str]:
         """Ask all others whether the graph could be changed so; who cannot, and why (empty: no answer came).
@@ -168,186 +108,166 @@ class Session:
             graph_json: The new form.
             continue_from: Where it is to go on.
         """
-        clock, self._asked, self._answers = self._sync.clock, uuid.uuid4().hex, {}
-        until_s = clock.wall_s() + self._sync.timeout_s
-        while missing := self.others - self._answers.keys():
-            if clock.wall_s() >= until_s:
-                return self._answers_with_no() | dict.fromkeys(missing, "")
-            self._say(
-                SyncNotice(
-                    kind="ask",
-                    actor=self._sync.actor,
-                    graph_name=self.graph_name,
-                    id=self._asked,
-                    command="modify",
-                    graph_json=graph_json,
-                    continue_from=continue_from,
-                )
-            )
-            self._answer_came.clear()
-            try:
-                async with asyncio.timeout(min(RETRY_S, self._sync.timeout_s)):
-                    while self.others - self._answers.keys():
-                        await self._answer_came.wait()
-                        self._answer_came.clear()
-            except TimeoutError:
-                continue
-        return self._answers_with_no()
-
-    def _answers_with_no(self) -> dict[str, str]:
-        return {name: reason for name, reason in self._answers.items() if reason}
-
-    def take_answer(self, notice: SyncNotice) -> None:
-        """Another actor says whether the graph could be changed."""
-        if notice.answers == self._asked:
-            refused = notice.result != "yes"
-            self._answers[notice.actor] = (notice.message or "refused") if refused else ""
-            self._answer_came.set()
-
-    # -- ends of nodes --------------------------------------------------------------------------------------
+        self._asked, self._answers = uuid.uuid4().hex, {}
+        question = SyncEntry(
+            kind="ask",
+            graph_name=self.graph_name,
+            id=self._asked,
+            graph_json=graph_json,
+            continue_from=continue_from,
+        )
+        self.tell(question)
+        await self._until(lambda: self.others <= self._answers.keys())
+        refusals = {name: reason for name, reason in self._answers.items() if reason}
+        return refusals | dict.fromkeys(self.others - self._answers.keys(), "")
 
     def ended(self, graph_name: str, node: Node, end: RemoteEnd) -> None:
-        """See `Peers.ended`; repeated until everybody has confirmed it or the time is over."""
-        notice = SyncNotice(
-            kind="ended",
-            actor=self._sync.actor,
-            graph_name=graph_name,
-            id=self._next_id(),
-            number=self._ended[graph_name, node.full_name],
-            node=node.full_name,
-            result=end.result.value,
-            outputs=dict(end.outputs),
-            message=end.message,
-        )
-        self._ended[graph_name, node.full_name] += 1
-        self._sent.append(notice)
-        if self.others:
-            self._hand_over(notice, set(self.others))
-
-    def _next_id(self) -> str:
-        self._count += 1
-        return f"{self.id}/{self._count}"
-
-    def pass_on(self, notice: SyncNotice) -> None:
-        """Tell the others what was done here, until those who carry out the graph too have confirmed it."""
-        numbered = notice.model_copy(update={"id": self._next_id(), "number": self._commands})
-        self._commands += 1
-        if others := self.known.keys() - set(notice.targets):
-            self._hand_over(numbered, others)
-        else:
-            self._say(numbered)
-
-    def takes(self, notice: SyncNotice) -> bool:
-        """Confirm a command of another actor; whether it is to be carried out.
-
-        It is not if it came before, is of another run, or (unless it changes or ends something) if a later
-        one of that actor came already.
-        """
-        run = notice.id.partition("/")[0]
-        if not run:  # from who does not wait for an answer
-            return True
-        if self.known.get(notice.actor, run) != run:
-            return False
-        self._confirm(notice)
-        if notice.id in self._taken:
-            return False
-        self._taken.add(notice.id)
-        if notice.command in ("modify", "end"):
-            return True
-        late = notice.number < self._newest.get(notice.actor, 0)
-        if not late:
-            self._newest[notice.actor] = notice.number
-        return not late or notice.command == "stop"
-
-    def _confirm(self, notice: SyncNotice) -> None:
-        self._say(
-            SyncNotice(
-                kind="received",
-                actor=self._sync.actor,
-                graph_name=notice.graph_name,
-                answers=notice.id,
+        """See `Peers.ended`; said until everybody has confirmed it or the time is over."""
+        self._add(
+            SyncEntry(
+                kind="ended",
+                graph_name=graph_name,
+                node=node.full_name,
+                result=end.result.value,
+                outputs=dict(end.outputs),
+                message=end.message,
             )
         )
+        if self._closed:
+            self._say()
+        elif self._soon is None:  # of many ends in one turn of the loop one notice is made
+            self._soon = asyncio.get_running_loop().call_soon(self._say)
 
-    def _hand_over(self, notice: SyncNotice, to: set[str]) -> None:
-        until_s = self._sync.clock.wall_s() + self._sync.timeout_s
-        waiting = self._unconfirmed.setdefault(notice.id, _Unconfirmed(notice, set(), until_s))
-        waiting.missing |= to
-        self._say(notice)
-        if self._retry is None:
-            self._retry = asyncio.get_running_loop().call_later(RETRY_S, self._say_again)
-
-    def confirmed(self, notice: SyncNotice) -> None:
-        """Another actor has got the end of one of our nodes."""
-        waiting = self._unconfirmed.get(notice.answers)
-        if waiting is not None:
-            waiting.missing.discard(notice.actor)
-            if not waiting.missing:
-                del self._unconfirmed[notice.answers]
-
-    def take_end(self, notice: SyncNotice) -> None:
-        """A node of another actor has ended: confirm it, and keep it for who waits or will wait for it."""
-        self._confirm(notice)
-        inbox = self._inbox(notice.graph_name, notice.node)
-        if notice.number >= inbox.following:
-            inbox.came[notice.number] = notice
-            self._arrived.set()
+    def tell(self, entry: SyncEntry) -> None:
+        """Say a command, a question or an answer to those who do not know it already."""
+        if not self.others <= set(entry.targets):
+            self._add(entry)
+            self._say()
 
     async def end_of(self, graph_name: str, node: Node) -> RemoteEnd:
         """See `Peers.end_of`; ends of one node are given in the order in which they happened."""
-        clock, patience_s = self._sync.clock, self._sync.timeout_s
-        inbox, since_s = self._inbox(graph_name, node.full_name), clock.wall_s()
-        while (notice := inbox.take(clock.wall_s(), patience_s)) is None:
+        came, since_s = self._ends[graph_name, node.full_name], self._sync.clock.wall_s()
+        while not came:
             if reason := self._sync.lost(node.actor, self.graph_name, since_s):
                 raise ActionFailure(
                     FailureCode.UNAVAILABLE, f"{node.full_name} is for {node.actor}, which {reason}."
                 )
-            self._arrived.clear()
-            try:
-                async with asyncio.timeout(min(RETRY_S, self._sync.timeout_s)):
-                    await self._arrived.wait()
-            except TimeoutError:
-                continue
-        return RemoteEnd(Result(notice.result), notice.outputs, notice.message)
+            await self._until(lambda: bool(came), RETRY_S)
+        end = came.popleft()
+        return RemoteEnd(Result(end.result), end.outputs, end.message)
+
+    def take(self, notice: SyncNotice) -> None:
+        """Another actor says something; what is of another run than the one that is shared does not count.
+
+        One that the graph does not name could not be waited for; it gets what has happened before.
+        """
+        peer = self._peers.get(notice.actor)
+        if peer is None:
+            if self._is_old():
+                return
+            peer = self._peers[notice.actor] = _Peer()
+        new = peer.run != notice.run
+        if new and peer.ready:
+            return
+        if new:
+            peer.run, peer.taken = notice.run, 0
+        known, confirmed = notice.heard.get(self._sync.actor, ("", 0))
+        before = peer.taken
+        if known == self.id:
+            peer.ready = True
+            peer.confirmed = max(peer.confirmed, min(confirmed, self._count))
+            for number, entry in enumerate(notice.said, notice.first):
+                if number >= peer.taken:  # if some are left out, they were given up
+                    peer.taken = number + 1
+                    self._hear(notice.actor, entry)
+        if notice.answer or new or peer.taken > before:
+            self._say(answer=False)
+        self._came.set()
 
     def close(self) -> None:
-        """Say nothing more."""
-        self._unconfirmed.clear()
-        if self._retry is not None:
-            self._retry.cancel()
+        """Say nothing again."""
+        self._closed = True
+        if self._soon is not None:
+            self._say()
+        if self._again is not None:
+            self._again.cancel()
 
-    def _inbox(self, graph_name: str, node: str) -> _Ends:
-        return self._inboxes.setdefault((graph_name, node), _Ends())
+    def _hear(self, actor: str, entry: SyncEntry) -> None:
+        if entry.kind == "ended":
+            self._ends[entry.graph_name, entry.node].append(entry)
+        elif entry.kind != "answer":
+            self._sync.hear(self, entry)
+        elif entry.id == self._asked:
+            self._answers[actor] = entry.message
+
+    async def _until(self, condition: Callable[[], bool], limit_s: float | None = None) -> None:
+        """Wait until something comes that makes it true, for so long at most."""
+        with contextlib.suppress(TimeoutError):
+            async with asyncio.timeout(self._sync.timeout_s if limit_s is None else limit_s):
+                while not condition():
+                    self._came.clear()
+                    await self._came.wait()
+
+    def _is_old(self) -> bool:
+        return self._sync.clock.wall_s() > self._opened_s + self._sync.timeout_s
+
+    def _add(self, entry: SyncEntry) -> None:
+        self._said.append((self._sync.clock.wall_s(), entry))
+        if self._is_old():  # nobody comes any more who would have to hear it all
+            least = min((peer.confirmed for peer in self._peers.values()), default=self._count)
+            while self._forgotten < least:
+                self._said.popleft()
+                self._forgotten += 1
+
+    def _say(self, *, answer: bool = True) -> None:
+        """Say what not all have confirmed; `answer`: whether they are to say how far they are."""
+        if self._soon is not None:
+            self._soon.cancel()
+            self._soon = None
+        least = min((peer.confirmed for peer in self._peers.values()), default=0)
+        first = max(self._forgotten, least)
+        self._sync.publish(
+            SyncNotice(
+                actor=self._sync.actor,
+                graph_name=self.graph_name,
+                run=self.id,
+                heard={name: (peer.run, peer.taken) for name, peer in self._peers.items() if peer.run},
+                first=first,
+                said=tuple(entry for _, entry in self._said)[first - self._forgotten :],
+                answer=answer,
+            )
+        )
+        waits = (self._silent() and not self._is_old()) or not self.settled
+        if waits and self._again is None and not self._closed:
+            self._again = asyncio.get_running_loop().call_later(RETRY_S, self._say_again)
 
     def _say_again(self) -> None:
-        self._retry = None
-        now_s = self._sync.clock.wall_s()
-        for waiting in list(self._unconfirmed.values()):
-            if now_s < waiting.until_s:
-                self._say(waiting.notice)
-                continue
-            del self._unconfirmed[waiting.notice.id]
-            names = ", ".join(sorted(waiting.missing))
-            self._sync.complain(
-                self.graph_name,
-                Problem(
-                    "",
-                    f"{names} did not confirm {_said(waiting.notice)}",
-                    "see whether they still run",
-                    "peer_lost",
-                ),
-            )
-        if self._unconfirmed:
-            self._retry = asyncio.get_running_loop().call_later(RETRY_S, self._say_again)
+        self._again = None
+        self._give_up()
+        if not self.settled or self._silent():
+            self._say()
 
-    def _say(self, notice: SyncNotice) -> None:
-        self._sync.publish(notice)
+    def _give_up(self) -> None:
+        """Say whom nothing was heard of for too long, and wait no longer for it."""
+        until_s, number = self._sync.clock.wall_s() - self._sync.timeout_s, self._forgotten
+        for since_s, entry in self._said:
+            late = {name: peer for name, peer in self._peers.items() if peer.confirmed <= number}
+            if since_s > until_s:
+                return
+            for peer in late.values():
+                peer.confirmed = number + 1
+            if (names := sorted(late.keys() - set(entry.targets))) and entry.kind in ("ended", "command"):
+                what = f"{', '.join(names)} did not confirm {_named(entry)}"
+                self._sync.complain(
+                    self.graph_name, Problem("", what, "see whether they still run", "peer_lost")
+                )
+            number += 1
 
 
-def _said(notice: SyncNotice) -> str:
-    if notice.kind == "ended":
-        return f"that {notice.node} has ended"
-    return f"the command to {notice.command} {notice.node or notice.graph_name}"
+def _named(entry: SyncEntry) -> str:
+    if entry.kind == "ended":
+        return f"that {entry.node} has ended"
+    return f"the command to {entry.command} {entry.node or entry.graph_name}"
 
 
 class Sync:
@@ -358,6 +278,7 @@ class Sync:
         clock: For the wall time.
         publish: Where notices go.
         complain: Told (with the graph's name) when others do not confirm.
+        hear: Told commands and questions of others.
         timeout_s: Wall time to wait for others.
     """
 
@@ -367,10 +288,12 @@ class Sync:
         clock: Clock,
         publish: Callable[[SyncNotice], None],
         complain: Callable[[str, Problem], None],
+        hear: Callable[[Session, SyncEntry], None],
         *,
         timeout_s: float = PEER_TIMEOUT_S,
     ) -> None:
-        self.actor, self.clock, self.publish, self.complain = actor, clock, publish, complain
+        self.actor, self.clock, self.publish = actor, clock, publish
+        self.complain, self.hear = complain, hear
         self.timeout_s = timeout_s
         self._sessions: dict[str, Session] = {}
         self._statuses: dict[str, ActorStatus] = {}
@@ -393,25 +316,10 @@ class Sync:
             del self._sessions[session.graph_name]
 
     def take(self, notice: SyncNotice) -> None:
-        """Something came from another engine (commands apart)."""
-        if notice.actor == self.actor:
-            return
+        """Something came from another engine."""
         session = self._sessions.get(notice.graph_name)
-        match notice.kind:
-            case "hello" if session is not None:
-                session.greeted(notice)
-            case "ready" if session is not None:
-                session.answered(notice)
-            case "answer" if session is not None:
-                session.take_answer(notice)
-            case "ended":
-                run_id = notice.id.partition("/")[0]
-                for item in self._sessions.values():  # a sub-graph's name is not that of its session
-                    if item.known.get(notice.actor) == run_id:
-                        item.take_end(notice)
-            case "received":
-                for item in self._sessions.values():
-                    item.confirmed(notice)
+        if session is not None and notice.actor != self.actor:
+            session.take(notice)
 
     def note(self, status: ActorStatus) -> None:
         """Another actor lives."""
@@ -419,7 +327,7 @@ class Sync:
             return
         self._statuses[status.actor] = status
         for name, state in status.graphs.items():
-            if state in _AT_WORK and name in self._sessions:
+            if state in BUSY and name in self._sessions:
                 self._at_work_s[status.actor, name] = self.clock.wall_s()
 
     def stopped(self, actors: Iterable[str]) -> list[str]:

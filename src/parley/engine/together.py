@@ -10,7 +10,7 @@ from parley.clock import Clock
 from parley.engine.runs import GraphRuns
 from parley.engine.sync import PEER_TIMEOUT_S, Session, Sync
 from parley.errors import GraphRefusedError, Problem
-from parley.messages.status import ActorStatus, SyncNotice
+from parley.messages.status import ActorStatus, SyncEntry, SyncNotice
 from parley.umrf.executor import GraphRun
 from parley.umrf.io import read_graph
 from parley.umrf.model import Graph, GraphState, Result
@@ -48,9 +48,14 @@ class Together:
         timeout_s: float = PEER_TIMEOUT_S,
     ) -> None:
         self._actor, self._names, self._runs = actor, frozenset(names), runs
-        self._refuse, self._watch, self._publish = refuse, watch, publish
+        self._refuse, self._watch = refuse, watch
         self._sync = Sync(
-            actor, clock, publish, lambda name, problem: refuse("sync", name, [problem]), timeout_s=timeout_s
+            actor,
+            clock,
+            publish,
+            complain=lambda name, problem: refuse("sync", name, [problem]),
+            hear=self._hear,
+            timeout_s=timeout_s,
         )
         self._watching = False
         self._tasks: set[asyncio.Task[None]] = set()
@@ -174,24 +179,6 @@ class Together:
                 return
             self.pass_on("modify", graph.name, targets, graph_json=text, continue_from=continue_from)
 
-    def _answer(self, notice: SyncNotice) -> None:
-        """Say whether a change could be made here."""
-        try:
-            self._runs.check_modify(read_graph(notice.graph_json), notice.continue_from)
-            reason = ""
-        except GraphRefusedError as error:
-            reason = "; ".join(map(str, error.problems))
-        self._publish(
-            SyncNotice(
-                kind="answer",
-                actor=self._actor,
-                graph_name=notice.graph_name,
-                answers=notice.id,
-                result="no" if reason else "yes",
-                message=reason,
-            )
-        )
-
     def pass_on(self, command: Command, name: str, targets: Sequence[str] = (), **more: str) -> None:
         """Tell the other actors of a graph what was done with it here.
 
@@ -199,20 +186,14 @@ class Together:
             command: What was done.
             name: The graph.
             targets: Who was told so directly.
-            **more: Fields of the notice.
+            **more: Fields of the entry.
         """
         run = self._runs.get(name)
         if run is not None and isinstance(run.peers, Session):
-            run.peers.pass_on(
-                SyncNotice(
-                    kind="command",
-                    actor=self._actor,
-                    graph_name=name,
-                    command=command,
-                    targets=tuple(targets),
-                    **more,
-                )
+            entry = SyncEntry(
+                kind="command", graph_name=name, command=command, targets=tuple(targets), **more
             )
+            run.peers.tell(entry)
 
     def hold(self) -> None:
         """An emergency stop has paused what goes on here: nor may the others go on with it."""
@@ -222,24 +203,26 @@ class Together:
 
     def take(self, notice: SyncNotice) -> None:
         """Something came from another engine."""
-        if notice.kind not in ("command", "ask"):
-            self._sync.take(notice)
-            return
-        run = self._runs.get(notice.graph_name)
-        if notice.kind == "ask":
-            if notice.actor != self._actor and run is not None and run.peers is not None:
-                self._answer(notice)
-            return
-        told = not self._names.isdisjoint(notice.targets)
-        session = run.peers if run is not None else None
-        if notice.actor == self._actor or not isinstance(session, Session):
-            return
-        if not session.takes(notice) or told:
+        self._sync.take(notice)
+
+    def _hear(self, session: Session, entry: SyncEntry) -> None:
+        """Another engine passes on a command, or asks whether a change could be made here."""
+        run = self._runs.get(entry.graph_name)
+        if run is None or run.peers is not session or not self._names.isdisjoint(entry.targets):
             return
         try:
-            self._obey(notice)
+            if entry.kind == "ask":
+                self._runs.check_modify(read_graph(entry.graph_json), entry.continue_from)
+            else:
+                self._obey(entry)
+            refused = ""
         except GraphRefusedError as error:
-            self._refuse(f"sync {notice.command}", notice.graph_name, error.problems)
+            refused = "; ".join(map(str, error.problems)) or "refused"
+            if entry.kind == "command":
+                self._refuse(f"sync {entry.command}", entry.graph_name, error.problems)
+        if entry.kind == "ask":
+            name, answers = entry.graph_name, entry.id
+            session.tell(SyncEntry(kind="answer", graph_name=name, id=answers, message=refused))
 
     def note(self, status: ActorStatus) -> None:
         """Another actor lives."""
@@ -253,9 +236,9 @@ class Together:
         await asyncio.gather(*tasks, return_exceptions=True)
         self._sync.close()
 
-    def _obey(self, notice: SyncNotice) -> None:
-        name = notice.graph_name
-        match notice.command:
+    def _obey(self, entry: SyncEntry) -> None:
+        name = entry.graph_name
+        match entry.command:
             case "stop":
                 self._runs.stop(name)
             case "pause":
@@ -263,9 +246,9 @@ class Together:
             case "resume":
                 self._runs.resume(name)
             case "modify":
-                self._runs.modify(read_graph(notice.graph_json), notice.continue_from)
+                self._runs.modify(read_graph(entry.graph_json), entry.continue_from)
             case "end":
-                self._runs.end_node(name, notice.node)
+                self._runs.end_node(name, entry.node)
 
     def _spawn(self, work: Coroutine[Any, Any, None]) -> None:
         task = asyncio.create_task(work, name=f"start together {self._actor}")

@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-import math
 from collections.abc import Callable, Mapping, Sequence
 from datetime import datetime
 from typing import Any
@@ -11,7 +10,6 @@ from parley.clock import Clock
 from parley.errors import ActionFailure, FailureCode
 from parley.gate.hours import holds_at, wall_clock, zone_of
 from parley.gate.judge import (
-    DriveVerdict,
     Judgement,
     PlannedStep,
     RobotFacts,
@@ -154,21 +152,6 @@ class RuleBook:
         """
         for finding in self.judge_action(robot, action, inputs).forbidden:
             raise ActionFailure(FailureCode.FORBIDDEN, finding.sentence, {"rule": finding.rule})
-
-    def drive_limits(self, robot: str, x: float, y: float, now: datetime | None = None) -> DriveVerdict:
-        """Whether a robot's middle may be at a place, and how fast it may be there."""
-        now = now or self.now()
-        allowed, speed = True, math.inf
-        for rule in self.active(robot, now):
-            inside = rule.kind == "speed" or (
-                rule.id in self._shapes
-                and self._shapes[rule.id].distance_to(x, y) < self.facts(robot).radius_m
-            )
-            if inside and rule.kind == "keep_out":
-                allowed = False
-            elif inside and rule.max_speed_mps is not None:
-                speed = min(speed, rule.max_speed_mps)
-        return DriveVerdict(allowed, speed)
 
     @property
     def has_rules(self) -> bool:

@@ -23,7 +23,7 @@ from parley.messages.status import ActionInfo
 from parley.sentences import sentence
 
 __all__ = [
-    "DriveVerdict", "Finding", "Judgement", "Place", "PlannedStep", "RobotFacts", "WayPlanner", "exempts",
+    "Finding", "Judgement", "Place", "PlannedStep", "RobotFacts", "WayPlanner", "exempts",
     "holds_for", "judge_plan", "judge_step",
 ]  # fmt: skip
 
@@ -95,14 +95,6 @@ class Judgement:
     expected_s: float = 0.0
     ways: tuple[tuple[Point, ...], ...] = ()
     """The way of each step; empty for steps that do not drive or whose way is not known."""
-
-
-class DriveVerdict(NamedTuple):
-    """What the rules say about being at a place."""
-
-    allowed: bool
-    max_speed_mps: float
-    """Infinite without a limit."""
 
 
 def exempts(rule: Rule, by: Principal | None) -> bool:

@@ -7,7 +7,7 @@ from typing import Final, Literal
 
 from parley.messages.principal import Principal
 
-__all__ = ["COLUMNS", "TABLE", "Column", "Effect", "Verdict", "column_of", "table_text", "verdict"]
+__all__ = ["COLUMNS", "TABLE", "Column", "Effect", "Verdict", "column_of", "verdict"]
 
 
 class Effect(StrEnum):
@@ -116,13 +116,3 @@ def column_of(principal: Principal | None) -> Column:
 def verdict(principal: Principal | None, effect: Effect) -> Verdict:
     """What becomes of an effect that somebody wants."""
     return TABLE[effect, column_of(principal)]
-
-
-def table_text() -> str:
-    """The table in Markdown, as docs/safety.md shows it."""
-    lines = ["| effect | " + " | ".join(COLUMNS) + " |", "|---" * (len(COLUMNS) + 1) + "|"]
-    lines += [
-        f"| {effect.value} | " + " | ".join(TABLE[effect, column] for column in COLUMNS) + " |"
-        for effect in Effect
-    ]
-    return "\n".join(lines)

@@ -29,6 +29,7 @@ __all__ = [
     "StepCommand",
     "StopCommand",
     "StopReport",
+    "SyncEntry",
     "SyncNotice",
 ]
 
@@ -310,38 +311,48 @@ class Rejection(Payload):
     detail: dict[str, Any] = Field(default_factory=dict)
 
 
-class SyncNotice(Payload):
-    """`/parley/sync`: what the engines of one multi-actor graph tell each other (`spec/umrf.md` 13).
+class SyncEntry(Payload):
+    """One thing that an engine says to the others that carry out a graph with it."""
 
-    TeMoto's own format is not public, so these are ours alone.
-    """
-
-    kind: Literal["hello", "ready", "ended", "received", "command", "ask", "answer"]
-    """`hello` and `ready` are the start handshake; `ended` hands a result over, `received` confirms it;
-    `command` passes on what the speaker was told to do with the graph; `ask` asks whether everybody could do
-    it, which `answer` says, before anybody does."""
-    actor: str
-    """Who speaks."""
+    kind: Literal["ended", "command", "ask", "answer"]
+    """`ended` hands the result of a node over; `command` passes on what the speaker was told to do with the
+    graph; `ask` asks whether everybody could change it so, which `answer` says, before anybody does."""
     graph_name: str
-    id: str = ""
-    """Of `hello` and `ready`: the speaker's run of the graph. Of `ended` and `command`: that, a slash and a
-    number, so that it can be confirmed and is taken once."""
-    number: int = 0
-    """Of `ended`: how often that node had ended before, so that ends are taken in their order. Of `command`:
-    how many commands the speaker had passed on before."""
-    answers: str = ""
-    """Of `ready`, `received` and `answer`: the id of what is answered."""
+    """The graph, or one inside of it."""
     node: str = ""
-    """Full name of the node that ended."""
+    """Full name of the node that ended or is to end."""
     result: str = ""
-    """`on_true`, `on_false`, `on_error`, `on_stopped`; of an `answer` `yes` or `no`."""
+    """`on_true`, `on_false`, `on_error`, `on_stopped`."""
     outputs: ParameterTree = Field(default_factory=dict)
     message: str = ""
-    """The failure report of a node that failed; why the answer is no."""
+    """The failure report of a node that failed; why the answer is no, empty for yes."""
     command: Literal["stop", "pause", "resume", "modify", "end", ""] = ""
-    """Of a `command`; `end` ends the node."""
+    """`end` ends the node."""
     targets: tuple[str, ...] = ()
     """Of a `command`: to whom it was given, so that they do not carry it out twice."""
     graph_json: str = ""
-    """Of `modify`: the new form of the graph."""
+    """Of `modify` and `ask`: the new form of the graph."""
     continue_from: str = ""
+    id: str = ""
+    """Of `ask` and its `answer`."""
+
+
+class SyncNotice(Payload):
+    """`/parley/sync`: where one engine is in a graph that several carry out together (`spec/umrf.md` 13).
+
+    TeMoto's own format is not public, so this is ours alone.
+    """
+
+    actor: str
+    """Who speaks."""
+    graph_name: str
+    run: str
+    """The speaker's own id of this run of the graph."""
+    heard: dict[str, tuple[str, int]] = Field(default_factory=dict)
+    """Other actor -> its id of the run, and how many of its entries were taken."""
+    first: int = Field(default=0, ge=0)
+    """Number of the first entry in `said`; earlier ones were confirmed by all, or given up."""
+    said: tuple[SyncEntry, ...] = ()
+    """What not all have confirmed, in the order in which it happened."""
+    answer: bool = False
+    """Whether everybody is to say how far they are."""

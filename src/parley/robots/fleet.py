@@ -7,8 +7,6 @@ from collections.abc import Sequence
 from types import TracebackType
 from typing import Protocol, Self
 
-import numpy as np
-
 from parley.clock import Clock, WallClock
 from parley.errors import ConfigError
 from parley.gate.book import RuleBook
@@ -17,12 +15,9 @@ from parley.gate.judge import RobotFacts
 from parley.robots.base import Robot
 from parley.robots.own import RobotBase
 from parley.world import grids
-from parley.world.occupancy import UNKNOWN, OccupancyMap
+from parley.world.occupancy import NO_MAP, OccupancyMap
 
 __all__ = ["Fleet", "OwnFleet"]
-
-NO_MAP = OccupancyMap(np.full((1, 1), UNKNOWN, np.int8), 0.05, 0.0, 0.0, "no map")
-"""What a robot without a map drives by: nothing is known to be free."""
 
 
 class Fleet(Protocol):
@@ -62,7 +57,7 @@ class OwnFleet:
 
     Args:
         robots: Of different names.
-        occupancy: The map they drive by; None: they have none, and drive to no place.
+        occupancy: The map they drive by; None: none; then they have to find ways by themselves.
 
     Raises:
         ConfigError: Two have one name, or one has none; or what is needed for maps is not installed.

@@ -6,25 +6,19 @@ import copy
 import re
 from collections.abc import Iterable, Iterator
 from dataclasses import replace
-from pathlib import Path
 from typing import Any, Self, cast
 
-import structlog
 from rapidfuzz import fuzz, process
 
-from parley.errors import GraphRefusedError
 from parley.messages.pvf import Parameter
 from parley.messages.status import ActionInfo, ParameterInfo
 from parley.umrf.action import ActionSpec
-from parley.umrf.graph_index import GraphSpec, entry_inputs, exit_outputs, files_marked, load_graphs
-from parley.umrf.io import read_descriptor
+from parley.umrf.graph_index import GraphSpec, entry_inputs, exit_outputs
 from parley.umrf.kinds import parameters_of
 from parley.umrf.model import Graph, Node
 from parley.umrf.remote import actors_of
 
 __all__ = ["DESCRIPTOR_MARK", "Catalogue", "descriptor_file_name", "fully_described", "info_of", "merge"]
-
-log = structlog.get_logger(__name__)
 
 DESCRIPTOR_MARK = "umrf.json"
 _SIMILAR = 60.0
@@ -146,20 +140,6 @@ class Catalogue:
             description=graph.description,
             graph=graph,
         )
-
-    @classmethod
-    def load_folder(cls, path: Path) -> Self:
-        """Read the descriptors and graphs in `path` and two levels below; bad ones are logged and skipped."""
-        specs = [spec for file in files_marked(path, DESCRIPTOR_MARK) for spec in _read(file)]
-        return cls(specs, load_graphs(path))
-
-
-def _read(file: Path) -> list[ActionSpec]:
-    try:
-        return [read_descriptor(file.read_text(encoding="utf-8"))]
-    except (GraphRefusedError, OSError, UnicodeDecodeError) as error:
-        log.warning("descriptor skipped", file=str(file), reason=str(error))
-        return []
 
 
 def info_of(spec: ActionSpec) -> ActionInfo:

@@ -29,7 +29,7 @@ from parley.umrf.model import (
     Result,
 )
 
-__all__ = ["check", "reasons"]
+__all__ = ["check", "doubts", "reasons"]
 
 MAX_LEVELS: Final = 30
 """How many graphs may be inside of each other."""
@@ -57,6 +57,11 @@ def check(
         given: Names of the parameters that the start brings.
     """
     return list(_Checker(graph, catalogue, actor, known_actors, given).problems())
+
+
+def doubts(graph: Graph, catalogue: Catalogue) -> list[Problem]:
+    """What such a graph may come to wait for, although it can run: loops that nobody gives data again."""
+    return list(_Checker(graph, catalogue, "", (), ()).doubts())
 
 
 def reasons(error: GraphRefusedError, catalogue: Catalogue, *, actor: str = "") -> list[Problem]:
@@ -106,6 +111,38 @@ class _Checker:
         for key, relations in (("graph_entry", self.graph.entry), ("graph_exit", self.graph.exit)):
             yield from self._known(relations, key)
         yield from self._unreachable()
+
+    def doubts(self) -> Iterator[Problem]:
+        """Each input that comes along an edge once, of an action to which a loop leads back (4.3)."""
+        for index, node in enumerate(self.graph.nodes):
+            inside = self._behind(node) if node.type != "spontaneous" else ()  # which keeps its data
+            back = [
+                p.node for p in node.parents if p.node in inside and Response.RUN in map(p.response, Result)
+            ]
+            spec = self.catalogue.match(node)
+            for name, known in spec.inputs.items() if spec is not None and back else ():
+                has_data = known.has_data or node.input_parameters[name].has_data
+                if (
+                    known.required
+                    and not has_data
+                    and not any(self._gives(p, node, name, known) for p in back)
+                ):
+                    yield Problem(
+                        f"actions[{index}].input_parameters.{_tree(name)}",
+                        f"{node.full_name} has no data for {name} when it runs again after {_names(back)}",
+                        "let an action of the loop output it, or give it a pvf_value",
+                        "loop_without_data",
+                    )
+
+    def _behind(self, node: Node) -> set[NodeRef]:
+        """What comes after a node, itself included if a loop leads back to it."""
+        found: set[NodeRef] = set()
+        waiting = [node.ref]
+        while waiting:
+            new = self.children.get(waiting.pop(), {}).keys() - found
+            found |= new
+            waiting.extend(new)
+        return found
 
     def _names(self) -> Iterator[Problem]:
         reserved = {ENTRY.name, EXIT.name}

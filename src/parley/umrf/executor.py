@@ -24,7 +24,7 @@ from parley.umrf.catalogue import Catalogue
 from parley.umrf.flow import Effect, Flow, FlowNode
 from parley.umrf.graph_index import GraphSpec
 from parley.umrf.model import ENDED, Graph, GraphState, NodeState, Result
-from parley.umrf.node_run import Ended, NodeRun
+from parley.umrf.node_run import Ended, Inside, NodeRun
 from parley.umrf.other_runs import RemoteRun, run_of
 from parley.umrf.remote import Peers, RemoteEnd
 from parley.umrf.reports import failure_lines, stop_timed_out_text
@@ -110,8 +110,8 @@ class GraphRun:
         self._make_inner: Callable[..., GraphRun] = make_inner or functools.partial(
             like_this, stop_timeout_s=stop_timeout_s, peers=peers
         )
-        self._inner: list[GraphRun] = []
-        """The newest run of the graph behind each node, and older ones that left an action behind."""
+        self._left: list[Inside] = []
+        """Graphs inside that their nodes left; the others are reached by the runs of their nodes."""
         self._begun: dict[str, SavedRun] = {}
         """Sub-graphs that an earlier process had begun, by graph name."""
         self._rounds = Rounds()
@@ -139,7 +139,7 @@ class GraphRun:
             self._holding = True
         for item in self._active():
             self._pause_node(item, "pause")
-        for inner in self._inner:
+        for inner in self._left:
             inner.pause()
         self._settle()
 
@@ -167,7 +167,7 @@ class GraphRun:
         for item in active:
             self._runs[item.name].motion.revoke()  # no drive waits for its turn
         in_slices(active, lambda item: self._stop_node(item, "stop"))
-        for inner in self._inner:
+        for inner in self._left:
             inner.stop()
         self._settle()
 
@@ -247,7 +247,7 @@ class GraphRun:
         for name, run in list(self._runs.items()):
             if not await run.abandon():
                 log.error("action cannot be ended", graph=self.name, node=name)
-        for inner in self._inner:
+        for inner in self._left:
             await inner.close()
 
     # -- what can be seen -----------------------------------------------------------------------------------
@@ -255,7 +255,12 @@ class GraphRun:
     @property
     def idle(self) -> bool:
         """Whether no action of this graph is going on, nor of those inside of it."""
-        return not self._runs and all(inner.idle for inner in self._inner)
+        return not self._runs and all(inner.idle for inner in self._left)
+
+    @property
+    def over(self) -> bool:
+        """Whether no command changes anything any more, nor in graphs inside of it."""
+        return self.state in ENDED and not self._runs and all(inner.over for inner in self._left)
 
     @property
     def holding(self) -> bool:
@@ -267,8 +272,8 @@ class GraphRun:
         """Whether a resume lets anything go on, also what one of its edges paused or its end left behind."""
         if self.state is GraphState.STOPPING:
             return False
-        still = any(item.state in _STILL for item in self._each_active())
-        return self.holding or still or any(inner.resumable for inner in self._inner)
+        still = any(item.state in _STILL or self._runs[item.name].resumable for item in self._each_active())
+        return self.holding or still or any(inner.resumable for inner in self._left)
 
     def snapshot(self) -> Graph:
         """The graph as it is now, with states, logs and the data that is there (4.3)."""
@@ -322,7 +327,10 @@ class GraphRun:
         else:
             run = self._make_inner(left.graph, parameters={})
         run.outer = self.name
-        self._replace_inner(run)
+        for old in self._left:
+            if old.name == name:  # discarded (11.1): what it left behind is stopped
+                old.stop()
+        self._left = [old for old in self._left if not old.over]
         if left is None:
             run.start()
         else:
@@ -330,13 +338,6 @@ class GraphRun:
             if run.holding:
                 run.resume()
         return run
-
-    def _replace_inner(self, run: GraphRun) -> None:
-        """An older run of that graph is discarded (11.1): what it left behind is stopped."""
-        for old in self._inner:
-            if old.name == run.name:
-                old.stop()
-        self._inner = [old for old in self._inner if old.name != run.name or not old.idle] + [run]
 
     def _inner_changed(self, item: FlowNode, state: GraphState) -> None:
         """A sub-graph or a plain action came to stand still, or goes on."""
@@ -349,6 +350,8 @@ class GraphRun:
     def _run_ended(self, run: NodeRun) -> None:
         """An action is over, however: note it, tell it, and go on with what follows."""
         del self._runs[run.node]
+        if run.inner is not None and not run.inner.over:
+            self._left.append(run.inner)
         item = self._flow.nodes.get(run.node)
         if item is None or not item.active:  # its stop timed out, which was told already
             return
@@ -507,11 +510,11 @@ class GraphRun:
         if self.state is GraphState.PAUSED or (self.state is GraphState.HALTED and continue_from):
             self._set_graph(GraphState.RUNNING, cause)
         for item in self._active():
-            if item.state in _STILL:
+            if item.state in _STILL or self._runs[item.name].resumable:
                 self._runs[item.name].resume()
                 if item.state in _STILL:  # a sub-graph has said already that it goes on
                     self._set_node(item, NodeState.RUNNING, cause)
-        for inner in self._inner:
+        for inner in self._left:
             if inner.resumable:
                 inner.resume()
         again, held = self._later.take()

@@ -17,6 +17,7 @@ from parley.messages.pvf import NATIVE_TYPES, Parameter, fits_type
 from parley.umrf.action import ActionSpec
 from parley.umrf.isolated import isolated
 from parley.umrf.model import (
+    ACTIVE,
     DEFAULT_CONDITIONS,
     ENTRY,
     EXIT,
@@ -129,7 +130,7 @@ class FlowNode:
     @property
     def active(self) -> bool:
         """Whether a run of it is going on, standing still included."""
-        return self.state in _ACTIVE
+        return self.state in ACTIVE
 
     def missing_inputs(self) -> list[str]:
         """Required inputs without data."""
@@ -194,9 +195,6 @@ class FlowNode:
 def _valued(declared: Mapping[str, Parameter], values: Mapping[str, Any]) -> dict[str, Parameter]:
     """The declared parameters holding exactly `values`."""
     return {name: item.with_value(values.get(name)) for name, item in declared.items()}
-
-
-_ACTIVE = frozenset({NodeState.RUNNING, NodeState.PAUSE_REQUESTED, NodeState.PAUSED, NodeState.STOPPING})
 
 
 class Flow:

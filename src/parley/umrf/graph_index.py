@@ -4,20 +4,13 @@ from __future__ import annotations
 
 from collections.abc import Iterator
 from dataclasses import dataclass, field, replace
-from pathlib import Path
 from typing import Final
 
-import structlog
-
-from parley.errors import GraphRefusedError
 from parley.messages.pvf import Parameter
 from parley.umrf.action import ActionSpec
-from parley.umrf.io import read_graph
 from parley.umrf.model import ChildRelation, Graph, Node
 
-__all__ = ["GRAPH_MARK", "LEVELS", "GraphSpec", "entry_inputs", "exit_outputs", "files_marked", "load_graphs"]
-
-log = structlog.get_logger(__name__)
+__all__ = ["GRAPH_MARK", "LEVELS", "GraphSpec", "entry_inputs", "exit_outputs"]
 
 GRAPH_MARK: Final = "graph.json"
 LEVELS: Final = ("*", "*/*", "*/*/*")
@@ -60,29 +53,3 @@ def exit_outputs(graph: Graph) -> dict[str, Parameter]:
     outputs = [nodes[relation.node].output_parameters for relation in graph.exit if relation.node in nodes]
     last = next((item for item in reversed(outputs) if item), {})
     return {name: replace(parameter, value=None) for name, parameter in last.items()}
-
-
-def files_marked(folder: Path, mark: str) -> list[Path]:
-    """The files in `folder` and two levels below it whose name contains `mark`."""
-    return [
-        file
-        for pattern in LEVELS
-        for file in sorted(folder.glob(pattern))
-        if mark in file.name and file.is_file()
-    ]
-
-
-def load_graphs(folder: Path) -> list[Graph]:
-    """Read the graph files of `folder`; bad ones are logged and skipped, of equal names the first counts."""
-    found: dict[str, Graph] = {}
-    for file in files_marked(folder, GRAPH_MARK):
-        try:
-            graph = read_graph(file.read_text(encoding="utf-8"))
-        except (GraphRefusedError, OSError, UnicodeDecodeError) as error:
-            log.warning("graph file skipped", file=str(file), reason=str(error))
-            continue
-        if found.setdefault(graph.name, graph) is not graph:
-            log.warning(
-                "graph file skipped", file=str(file), reason=f"there is a graph {graph.name!r} already"
-            )
-    return list(found.values())

@@ -41,7 +41,7 @@ from parley.errors import ActionFailure, FailureCode
 from parley.umrf.action import Action, ActionSpec, Outcome, RunHandle, bind_inputs, outcome_of
 from parley.umrf.modules import PRIVATE, import_file
 from parley.umrf.motion import Motion
-from parley.umrf.reports import text_of
+from parley.umrf.reports import harmless, text_of
 from parley.umrf.signature import flatten_value
 from parley.umrf.threads import in_thread
 
@@ -306,9 +306,10 @@ def _work(connection: Connection, order: _Order) -> None:
         last: tuple[Any, ...] = ("returned", outcome.result, dict(outcome.outputs), facts)
     except ActionFailure as failure:
         last = ("failed", failure.code.value, failure.message, failure.details)
-    except (asyncio.CancelledError, KeyboardInterrupt):
+    except asyncio.CancelledError:
         last = ("failed", FailureCode.INTERNAL.value, "It was cancelled.", {})
-    except BaseException as error:  # noqa: BLE001 - told to the engine, which tells people
+    except BaseException as raised:  # noqa: BLE001 - told to the engine, which tells people
+        error = harmless(raised)
         text = f"{order.attribute} failed: {type(error).__name__}: {text_of(error)}".rstrip(": ")
         last = ("failed", FailureCode.INTERNAL.value, text, {})
     try:

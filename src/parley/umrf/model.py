@@ -13,6 +13,8 @@ from typing import Any, Final, NamedTuple
 from parley.messages.pvf import Parameter
 
 __all__ = [
+    "ACTIVE",
+    "BUSY",
     "DEFAULT_CONDITIONS",
     "ENDED",
     "ENTRY",
@@ -61,6 +63,12 @@ class GraphState(StrEnum):
 
 ENDED: Final = frozenset({GraphState.FINISHED, GraphState.STOPPED, GraphState.ERROR})
 """States of a graph that cannot be gone on with."""
+BUSY: Final = frozenset({GraphState.INITIALIZED, GraphState.RUNNING, GraphState.PAUSED, GraphState.STOPPING})
+"""Those of one that nothing else may take the name of."""
+ACTIVE: Final = frozenset(
+    {NodeState.RUNNING, NodeState.PAUSE_REQUESTED, NodeState.PAUSED, NodeState.STOPPING}
+)
+"""States of a node of which a run is going on, standing still included."""
 
 
 class Result(StrEnum):

@@ -8,19 +8,20 @@ import math
 import threading
 from collections.abc import Awaitable, Callable, Mapping
 from dataclasses import dataclass, field
-from typing import Any, Final, TypeVar
+from typing import Any, Final, Protocol, TypeVar
 
 from parley.clock import Clock
 from parley.errors import ActionFailure, FailureCode
 from parley.umrf.action import ActionSpec, Outcome, RunHandle, bind_inputs, outcome_of
 from parley.umrf.flow import FlowNode
-from parley.umrf.model import Result
+from parley.umrf.model import GraphState, Result
 from parley.umrf.motion import Motion
+from parley.umrf.reports import harmless
 from parley.umrf.text import clean_text
 from parley.umrf.threads import in_thread
 from parley.umrf.time_limit import PausableTime, within
 
-__all__ = ["Ended", "NodeRun"]
+__all__ = ["Ended", "Inside", "NodeRun"]
 
 PROGRESS_INTERVAL_S: Final = 0.1
 ROUND_S: Final = 0.01
@@ -58,6 +59,53 @@ class Ended:
         return cls(Result.ON_TRUE if outcome.result else Result.ON_FALSE, outcome.outputs, outcome.facts)
 
 
+class Inside(Protocol):
+    """What a node needs to know of the graph that runs in its place; a `GraphRun`."""
+
+    name: str
+    state: GraphState
+    on_state: Callable[[GraphState], None] | None
+
+    @property
+    def idle(self) -> bool:
+        """See `GraphRun.idle`."""
+        ...
+
+    @property
+    def over(self) -> bool:
+        """See `GraphRun.over`."""
+        ...
+
+    @property
+    def resumable(self) -> bool:
+        """See `GraphRun.resumable`."""
+        ...
+
+    def exit_values(self) -> Mapping[str, Any]:
+        """See `GraphRun.exit_values`."""
+        ...
+
+    def pause(self) -> None:
+        """See `GraphRun.pause`."""
+        ...
+
+    def resume(self) -> None:
+        """See `GraphRun.resume`."""
+        ...
+
+    def stop(self) -> None:
+        """See `GraphRun.stop`."""
+        ...
+
+    async def wait(self) -> Result:
+        """See `GraphRun.wait`."""
+        ...
+
+    async def close(self) -> None:
+        """See `GraphRun.close`."""
+        ...
+
+
 class NodeRun:
     """A run that goes on; what the action sees of it is `parley.umrf.action.RunHandle`.
 
@@ -87,6 +135,8 @@ class NodeRun:
         self.attempt = attempt
         self.actor, self.graph_name, self.node, self.clock = actor, graph_name, item.name, clock
         self.motion = Motion(item.name)
+        self.inner: Inside | None = None
+        """The graph that runs in its place, once it has begun."""
         self.restart_wanted = False
         self.last_log = ""
         self.item = item
@@ -133,10 +183,8 @@ class NodeRun:
             work = in_thread(f"action {self.node}", self._to_its_end, run, context, arguments)
         try:
             returned = await self._limited(work)
-        except SystemExit as error:  # would end the loop, and with it every robot of this process
-            raise RuntimeError(f"it called exit({error.code})") from error
-        except KeyboardInterrupt as error:  # as well; a person's Ctrl-C is told to the loop, not to an action
-            raise RuntimeError("it raised KeyboardInterrupt") from error
+        except (SystemExit, KeyboardInterrupt) as error:  # would end the loop, and with it every robot
+            raise harmless(error) from error
         return Ended.of(outcome_of(item.spec, returned))
 
     def _to_its_end(self, run: Callable[..., T], context: Any, arguments: Mapping[str, Any]) -> T:
@@ -204,9 +252,9 @@ class NodeRun:
         return self._values
 
     @property
-    def inner_name(self) -> str:
-        """Name of the graph that runs inside; empty if there is none."""
-        return ""
+    def resumable(self) -> bool:
+        """Whether a resume lets something inside go on, although the node runs."""
+        return False
 
     @property
     def stands_still(self) -> bool:

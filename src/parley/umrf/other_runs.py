@@ -5,7 +5,7 @@ from __future__ import annotations
 import asyncio
 import math
 from collections.abc import Callable, Mapping
-from typing import Any, Final, Protocol
+from typing import Any, Final
 
 from parley.errors import ActionFailure, FailureCode
 from parley.messages.failure import FailureReport
@@ -13,50 +13,13 @@ from parley.umrf.action import RunHandle
 from parley.umrf.flow import FlowNode
 from parley.umrf.graph_index import GraphSpec
 from parley.umrf.model import GraphState, Result
-from parley.umrf.node_run import Ended, NodeRun
+from parley.umrf.node_run import Ended, Inside, NodeRun
 from parley.umrf.remote import Peers, RemoteSpec
 
-__all__ = ["Inside", "RemoteRun", "SubgraphRun", "run_of"]
+__all__ = ["RemoteRun", "SubgraphRun", "run_of"]
 
 _MARGIN_S: Final = 0.1
 """A sub-graph has so much longer to stop than its own nodes, so that it can say itself what did not."""
-
-
-class Inside(Protocol):
-    """What a node needs to know of the graph that runs in its place; a `GraphRun`."""
-
-    name: str
-    state: GraphState
-    on_state: Callable[[GraphState], None] | None
-
-    @property
-    def resumable(self) -> bool:
-        """See `GraphRun.resumable`."""
-        ...
-
-    def exit_values(self) -> Mapping[str, Any]:
-        """See `GraphRun.exit_values`."""
-        ...
-
-    def pause(self) -> None:
-        """See `GraphRun.pause`."""
-        ...
-
-    def resume(self) -> None:
-        """See `GraphRun.resume`."""
-        ...
-
-    def stop(self) -> None:
-        """See `GraphRun.stop`."""
-        ...
-
-    async def wait(self) -> Result:
-        """See `GraphRun.wait`."""
-        ...
-
-    async def close(self) -> None:
-        """See `GraphRun.close`."""
-        ...
 
 
 class SubgraphRun(NodeRun):
@@ -77,12 +40,11 @@ class SubgraphRun(NodeRun):
     ) -> None:
         super().__init__(**rest)
         self._begin, self._on_state = begin, on_state
-        self._inner: Inside | None = None
         self._timed_out: Callable[[], None] | None = None
 
     async def _call(self, make_context: Callable[[RunHandle], Any]) -> Ended:
         await self.wait_while_paused()
-        inner = self._inner = self._begin(self.item, self._values)
+        inner = self.inner = self._begin(self.item, self._values)
         inner.on_state = self._on_state
         try:
             result = await self._limited(inner.wait())
@@ -96,45 +58,45 @@ class SubgraphRun(NodeRun):
 
     def _expired(self) -> float:
         """The time is over: the inner graph is stopped, which ends by itself."""
-        if self._inner is not None:
-            self._inner.stop()
+        if self.inner is not None:
+            self.inner.stop()
         return math.inf
 
     @property
-    def inner_name(self) -> str:
-        """See `NodeRun.inner_name`."""
-        return self._inner.name if self._inner is not None else ""
+    def resumable(self) -> bool:
+        """See `NodeRun.resumable`."""
+        return self.inner is not None and self.inner.resumable
 
     @property
     def stands_still(self) -> bool:
         """Whether nothing goes on inside."""
-        return self._inner is None or self._inner.state is GraphState.PAUSED
+        return self.inner is None or self.inner.state is GraphState.PAUSED
 
     def pause(self) -> None:
         """See `NodeRun.pause`."""
         super().pause()
-        if self._inner is not None:
-            self._inner.pause()
+        if self.inner is not None:
+            self.inner.pause()
 
     def resume(self) -> None:
         """See `NodeRun.resume`."""
         super().resume()
-        if self._inner is not None and self._inner.resumable:
-            self._inner.resume()
+        if self.inner is not None and self.resumable:
+            self.inner.resume()
 
     def stop(self, timeout_s: float, timed_out: Callable[[], None]) -> None:
         """See `NodeRun.stop`; the inner graph is stopped, and the node ends when that has ended."""
         self._stopping, self._timed_out = True, timed_out
         self._stop_timer = self._loop.call_later(timeout_s + _MARGIN_S, timed_out)
-        if self._inner is None:
+        if self.inner is None:
             self.task.cancel()
         else:
-            self._inner.stop()
+            self.inner.stop()
 
     async def abandon(self) -> bool:
         """See `NodeRun.abandon`."""
-        if self._inner is not None:
-            await self._inner.close()
+        if self.inner is not None:
+            await self.inner.close()
         return await super().abandon()
 
 

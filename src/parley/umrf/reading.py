@@ -47,7 +47,7 @@ def load_object(source: str | Mapping[str, Any], what: str) -> Mapping[str, Any]
     try:
         value = load_json(what, source if isinstance(source, str) else json.dumps(source))
     except InvalidMessageError as error:
-        raise _refused(error.problem, "send the JSON of section 2 of the UMRF contract") from error
+        raise _refused(error.problem, f"write the {what} as one JSON object") from error
     except (TypeError, ValueError, RecursionError) as error:
         raise _refused(f"cannot be written as JSON: {error}") from error
     if not isinstance(value, dict):

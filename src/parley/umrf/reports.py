@@ -11,7 +11,7 @@ from parley.messages.failure import FailureReport
 from parley.umrf.model import Node
 from parley.umrf.text import clean_text
 
-__all__ = ["failure_lines", "failure_text", "is_report", "stop_timed_out_text", "text_of"]
+__all__ = ["failure_lines", "failure_text", "harmless", "is_report", "stop_timed_out_text", "text_of"]
 
 log = structlog.get_logger(__name__)
 
@@ -40,6 +40,13 @@ def failure_text(action: str, error: BaseException) -> str:
         return FailureReport(message=f"{action} was cancelled from inside.").to_text()
     text = f"{action} failed: {type(error).__name__}: {text_of(error)}".rstrip(": ")
     return FailureReport(message=clean_text(text), code=FailureCode.INTERNAL).to_text()
+
+
+def harmless(error: BaseException) -> BaseException:
+    """What an action raised, as what does not end the process; a person's Ctrl-C never reaches an action."""
+    if isinstance(error, SystemExit):
+        return RuntimeError(f"it called exit({error.code})")
+    return RuntimeError("it raised KeyboardInterrupt") if isinstance(error, KeyboardInterrupt) else error
 
 
 def text_of(told: object) -> str:

@@ -154,7 +154,7 @@ def save_frame(
         "rounds": {name: result.value for name, result in rounds.pending.items()},
         "flow": _save_exit(flow),
         "restart": [name for name, run in runs.items() if run.restart_wanted],
-        "inner": [run.inner_name for run in runs.values() if run.inner_name],
+        "inner": [run.inner.name for run in runs.values() if run.inner is not None],
     }
 
 

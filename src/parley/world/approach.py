@@ -9,9 +9,9 @@ import numpy as np
 from numpy.typing import NDArray
 
 from parley.world import grids
-from parley.world.geometry import Pose2D
+from parley.world.geometry import Pose2D, wrap_angle
 from parley.world.object_map import MapObject
-from parley.world.occupancy import OccupancyMap
+from parley.world.occupancy import NO_MAP, OccupancyMap
 from parley.world.planning import clearance_m, passable, travel_costs
 
 __all__ = ["approach_pose"]
@@ -48,7 +48,7 @@ def approach_pose(
     """A pose near an object, facing it, that the robot can drive to.
 
     Args:
-        occupancy: The map.
+        occupancy: The map. With `NO_MAP` whoever drives has to find out what is free.
         target: The object; with `front_rad`, only spots on that side count.
         start: Where the robot is; of equally good spots it gets the one with the shorter way.
         radius_m: Of the robot.
@@ -58,6 +58,8 @@ def approach_pose(
         The pose, always the same for the same arguments; None if no such spot can be reached.
     """
     wished_m = radius_m + standoff_m
+    if occupancy is NO_MAP:
+        return _before(target, start, wished_m)
     radius_m += _MARGIN_M
     clearance = clearance_m(occupancy)
     allowed = passable(occupancy, clearance, start, radius_m)
@@ -81,6 +83,16 @@ def approach_pose(
         if _in_view(occupancy, spot, target):
             return Pose2D(spot.x_m, spot.y_m, spot.bearing_to(target.x_m, target.y_m))
     return None
+
+
+def _before(target: MapObject, start: Pose2D, wished_m: float) -> Pose2D:
+    """The spot so far in front of an object, or else on the side from which the robot comes."""
+    side = target.front_rad
+    if side is None:
+        side = math.atan2(start.y_m - target.y_m, start.x_m - target.x_m)
+    cos, sin = math.cos(side), math.sin(side)
+    away_m = (abs(cos) * target.width_m + abs(sin) * target.height_m) / 2 + wished_m
+    return Pose2D(target.x_m + cos * away_m, target.y_m + sin * away_m, wrap_angle(side + math.pi))
 
 
 def _near(

@@ -23,7 +23,7 @@ from parley.errors import FileFormatError
 from parley.files import parse_yaml, read_text, validated
 from parley.world.geometry import Metres
 
-__all__ = ["FREE", "MAX_CELLS", "OCCUPIED", "UNKNOWN", "OccupancyMap"]
+__all__ = ["FREE", "MAX_CELLS", "NO_MAP", "OCCUPIED", "UNKNOWN", "OccupancyMap"]
 
 FREE, OCCUPIED, UNKNOWN = 0, 100, -1
 """The values of a cell, those of nav_msgs/OccupancyGrid."""
@@ -84,13 +84,6 @@ class OccupancyMap:
         return (
             math.floor((y_m - self.origin_y_m) / self.resolution_m),
             math.floor((x_m - self.origin_x_m) / self.resolution_m),
-        )
-
-    def center_of(self, row: int, column: int) -> tuple[float, float]:
-        """Map-frame x and y of a cell's centre."""
-        return (
-            self.origin_x_m + (column + 0.5) * self.resolution_m,
-            self.origin_y_m + (row + 0.5) * self.resolution_m,
         )
 
     def cells_of(self, points_m: NDArray[np.float64]) -> NDArray[np.intp]:
@@ -199,3 +192,7 @@ def _to_cells(pixels: NDArray[np.uint8], header: _Header) -> NDArray[np.int8]:
     meaning[shade < header.free_thresh] = FREE
     meaning[shade > header.occupied_thresh] = OCCUPIED
     return np.asarray(meaning[pixels[::-1]])
+
+
+NO_MAP: Final = OccupancyMap(np.full((1, 1), UNKNOWN, np.int8), 0.05, 0.0, 0.0, "no map")
+"""What a robot without a map has: nothing is known to be free."""

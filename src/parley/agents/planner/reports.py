@@ -23,12 +23,11 @@ from parley.agents.planner.sync import Sync
 from parley.errors import FailureCode
 from parley.messages.failure import FailureReport
 from parley.sentences import sentence
-from parley.umrf.model import Graph, GraphState, Node, NodeState, Response, Result
+from parley.umrf.model import ACTIVE, Graph, GraphState, Node, NodeState, Response, Result
 
 __all__ = ["Reports"]
 
 _UNCHANGED: Final = "I could not do that, so I changed nothing."
-_BUSY: Final = ACTIVE_NODES | {NodeState.STOPPING}
 
 
 def _state(nodes: Mapping[str, Node], step: Step) -> NodeState | None:
@@ -73,7 +72,7 @@ class Reports:
                 effects += self._on_node(step, node)
                 answered |= node.state is NodeState.ERROR and was is None and step.result is False
         state = graph.state
-        if answered and not any(node.state in _BUSY for node in graph.nodes):
+        if answered and not any(node.state in ACTIVE for node in graph.nodes):
             state = GraphState.HALTED  # the reference's last word after an error is that the graph runs (D17)
         return effects + self._end_strays(graph) + self._on_graph_state(state)
 

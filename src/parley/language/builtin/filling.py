@@ -5,11 +5,9 @@ from __future__ import annotations
 from collections.abc import Mapping, Sequence
 from dataclasses import dataclass
 
-import numpy as np
-from scipy.optimize import linear_sum_assignment
-
 from parley.language.builtin.amounts import UNITS, Amount, amount_of, direction_of
 from parley.language.builtin.lexicon import Lexicon, lemmas, stem
+from parley.language.builtin.pairing import best_pairs
 from parley.language.builtin.wishes import Filler
 from parley.messages.status import ParameterInfo
 from parley.umrf.kinds import words_of_name
@@ -98,11 +96,10 @@ def fill(
     }
     found: dict[int, Fill] = {}
     if given and names:
-        table = np.array([[fits[at, name][0] for name in names] for at in range(len(given))])
-        rows, columns = linear_sum_assignment(-table)
-        for row, column in zip(rows, columns, strict=True):
-            if table[row, column] > 0:
-                found[int(row)] = fits[int(row), names[column]][1]
+        table = [[fits[at, name][0] for name in names] for at in range(len(given))]
+        for row, column in best_pairs(table):
+            if table[row][column] > 0:
+                found[row] = fits[row, names[column]][1]
     filled = {one.name for one in found.values()}
     for name in names:
         chosen = _chosen(verb, slots.parameters[name], lexicon) if name not in filled else ""

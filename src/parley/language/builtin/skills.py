@@ -12,10 +12,10 @@ from collections.abc import Sequence
 from dataclasses import dataclass, replace
 
 import numpy as np
-from scipy.optimize import linear_sum_assignment
 
 from parley.language.builtin.labels import OTHER
 from parley.language.builtin.lexicon import Lexicon
+from parley.language.builtin.pairing import best_pairs
 from parley.language.builtin.tagger import Tagger
 from parley.messages.status import ActionInfo
 from parley.umrf.kinds import parameters_of
@@ -103,9 +103,8 @@ class SkillTable:
         beliefs = [self._belief(action) for action in catalogue]
         frames = sorted({frame for belief in beliefs for frame in belief} - {OTHER})
         table = np.array([[belief.get(frame, 0.0) for frame in frames] for belief in beliefs])
-        rows, columns = linear_sum_assignment(-np.log(table + 1e-4))
         found: Skills = {}
-        chosen = {frames[column]: int(row) for row, column in zip(rows, columns, strict=True)}
+        chosen = {frames[column]: row for row, column in best_pairs(np.log(table + 1e-4).tolist())}
         for frame, row in chosen.items():
             share = beliefs[row].get(frame, 0.0)
             if self._is_told_apart(frame, row, chosen, beliefs) and share >= _LEAST:
@@ -188,5 +187,4 @@ class SkillTable:
             for column, role in enumerate(roles):
                 hits = sum(word in self._lexicon.hints.get(role, ()) for word in words)
                 table[row, column] = hits - 0.1 * abs(row - column) - 0.02 * column
-        rows, columns = linear_sum_assignment(-table)
-        return {roles[column]: names[row] for row, column in zip(rows, columns, strict=True)}
+        return {roles[column]: names[row] for row, column in best_pairs(table.tolist())}
