@@ -22,6 +22,10 @@ describe.skipIf(!hasBrowser)('an operator', () => {
     await page.getByRole('button', { name: 'Go to the dining table.' }).tap();
     await page.getByText('I will go to the dining table').waitFor();
     await untilItMoved(stage, from);
+    const fares = page.getByRole('group', { name: 'How David fares' });
+    await fares.getByText('1 of 1: Go to “dining table”').waitFor();
+    expect(await fares.innerText()).toMatch(/^David\s+Working\s+(Living|Dining) room\s+\d+ %\s+1 of 1: Go to “dining table”\s+0:\d\d$/);
+    expect((await page.getByRole('banner').boundingBox())?.height).toBeLessThanOrEqual(56);
   });
 
   it('sees the steps of the plan and what each was given', async () => {
@@ -38,6 +42,7 @@ describe.skipIf(!hasBrowser)('an operator', () => {
     await page.keyboard.press('Escape');
     await page.getByText('David is stopped and stays so until it is released.').waitFor();
     await page.getByText('Stands still (measured)').waitFor();
+    expect(await page.getByRole('group', { name: 'How David fares' }).innerText()).toMatch(/Stopped[^]*1 of 1: Go to “dining table”$/);
 
     const other = await stage.open(sizes.phone);
     await other.getByText('David is stopped and stays so until it is released.').waitFor();

@@ -164,6 +164,7 @@ export const mapView: MapView = {
   actor: 'Ada',
   map_name: 'hall',
   pose: { x: 1, y: 2, yaw: 0 },
+  room: 'hall',
   path: [[3, 1]],
   goal: { x: 3, y: 1, yaw: 0 },
   scan: [[2, 2]],

@@ -11,7 +11,7 @@ import { usePrefs } from '@/state/prefs';
 import { useSelection, useSelectionStore } from '@/state/selection';
 import { Icon, type IconName } from '@/ui/icon';
 import { Panel } from '@/ui/panel';
-import { useIsLow } from '@/ui/use-media';
+import { useLayout } from '@/ui/use-media';
 import { useShortcut } from '@/ui/use-shortcut';
 
 import { Asks } from './asks';
@@ -31,7 +31,7 @@ export function ChatPanel() {
   const { t } = useTranslation('chat');
   const chat = useWorld((world) => world.chat);
   const chosen = useSelection();
-  const low = useIsLow();
+  const phone = useLayout() === 'phone';
   const send = useOutbox((outbox) => outbox.send);
   const { debug, set } = usePrefs();
   const only = useSelectionStore((state) => state.only);
@@ -87,8 +87,8 @@ export function ChatPanel() {
     </>
   );
   return (
-    <Panel title={t('title')} tools={tools} flush bare={low}>
-      <RobotTabs asked={asked} tools={low ? tools : null} />
+    <Panel title={t('title')} tools={tools} flush bare={phone}>
+      <RobotTabs asked={asked} tools={phone ? tools : null} />
       {searching && <SearchBox onGo={goToEntry} onClose={closeSearch} />}
       <History
         key={key}
