@@ -8,6 +8,7 @@ import type {
   MemoryItem,
   PlanView,
   RobotView,
+  RoundView,
   ServerInfo,
   Snapshot,
   StepView,
@@ -55,6 +56,20 @@ export const logPage = (part: Partial<LogPage> = {}): LogPage => ({
   complete: true,
   chain: { entries: 8, since_unix_ms: Date.UTC(2026, 0, 1), last: '', first_broken: 0, problem: '' },
   problem: '',
+  ...part,
+});
+
+export const round = (part: Partial<RoundView> & { number: number }): RoundView => ({
+  robot: 'Ada',
+  words: 'go to the box',
+  by: 'Kim (phone)',
+  approved_by: '',
+  unix_ms: Date.UTC(2026, 0, 2, 9),
+  ended_unix_ms: Date.UTC(2026, 0, 2, 9, 1, 5),
+  state: 'done',
+  steps: ['Go to “box”'],
+  reason: '',
+  pictures: [],
   ...part,
 });
 

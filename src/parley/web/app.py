@@ -23,6 +23,7 @@ from parley.web.routes import (
     chat,
     feeds,
     health,
+    history,
     incidents,
     log,
     map,
@@ -40,8 +41,8 @@ from parley.web.routes import (
 __all__ = ["create_api", "create_app", "openapi_text"]
 
 _RESOURCES = (
-    health, session, me, people, snapshot, chat, stop, plans, robots, memory, rules, incidents, log, map,
-    feeds,
+    health, session, me, people, snapshot, chat, stop, plans, robots, memory, rules, incidents, log,
+    history, map, feeds,
 )  # fmt: skip
 
 

@@ -3,10 +3,11 @@
 from __future__ import annotations
 
 import asyncio
+import hashlib
 import uuid
-from collections.abc import Callable, Sequence
+from collections.abc import Callable, Coroutine, Sequence
 from contextlib import AsyncExitStack, suppress
-from typing import Final, Self
+from typing import Any, Final, Self
 
 import structlog
 
@@ -242,9 +243,7 @@ class Backend:
         for message in composed.messages:
             self.link.send(message)
         self.state.chat.said(composed)
-        keeping = asyncio.create_task(self._keep_later(composed.entry, pictures), name="web keeping")
-        self._keeping.add(keeping)
-        keeping.add_done_callback(self._keeping.discard)
+        self._in_background(self._keep_later(composed.entry, pictures))
         return composed.entry
 
     async def _keep_later(self, entry: ChatEntry, pictures: Sequence[KeptPicture]) -> None:
@@ -357,6 +356,22 @@ class Backend:
     def _on_picture(self, key: tuple[str, str], picture: Picture) -> None:
         for listener in self.picture_listeners:
             listener(key, picture)
+        if not self.state.feeds.infos[key].continuous:
+            self._in_background(self._keep_seen(key, picture))
+
+    async def _keep_seen(self, key: tuple[str, str], picture: Picture) -> None:
+        """A single picture is a finding: it is kept for the history."""
+        digest = hashlib.sha256("\n".join((*key, str(picture.unix_ms))).encode()).hexdigest()[:32]
+        kept = KeptPicture(digest, "image/jpeg", picture.data)
+        try:
+            await self.store.keep_seen(key[0], picture.unix_ms, kept)
+        except StoreError as error:
+            log.error("picture not stored", robot=key[0], problem=str(error))
+
+    def _in_background(self, work: Coroutine[Any, Any, None]) -> None:
+        task = asyncio.create_task(work, name="web keeping")
+        self._keeping.add(task)
+        task.add_done_callback(self._keeping.discard)
 
 
 def _in(loop: asyncio.AbstractEventLoop, deed: Callable[[], None]) -> None:

@@ -24,11 +24,14 @@ __all__ = [
     "Change",
     "ChatEntry",
     "FeedInfo",
+    "Handover",
+    "HistoryPage",
     "MemoryItem",
     "ParameterView",
     "PlanView",
     "ProposalView",
     "RobotView",
+    "RoundView",
     "ServerInfo",
     "Snapshot",
     "StepView",
@@ -291,6 +294,52 @@ class LogPage(WebModel):
     """What checking found, if it was asked for."""
     problem: str = ""
     """Why some of it is not written yet."""
+
+
+class RoundView(WebModel):
+    """One thing that a robot was told to do, and how it ended. Key: `number`."""
+
+    number: int
+    """Of the entry of the log with which it began."""
+    robot: str
+    words: str = ""
+    """What was said; empty: it was not said but pressed or sent."""
+    by: str = ""
+    approved_by: str = ""
+    unix_ms: int
+    ended_unix_ms: int = 0
+    """0: it goes on, or its end was never heard."""
+    state: Literal["running", "done", "failed", "ended"]
+    """`ended`: before it was done."""
+    steps: tuple[str, ...] = ()
+    reason: str = ""
+    """Why it failed."""
+    pictures: tuple[str, ...] = ()
+    """Addresses of what the robot took pictures of meanwhile, below this server."""
+
+
+class HistoryPage(WebModel):
+    """Some of what robots did, newest first."""
+
+    rounds: tuple[RoundView, ...] = ()
+    complete: bool = True
+    """Whether nothing older fits."""
+
+
+class Handover(WebModel):
+    """What the next shift has to know; written by our code from the log and from what stands now."""
+
+    since_unix_ms: int
+    until_unix_ms: int
+    rounds: tuple[RoundView, ...] = ()
+    """Oldest first."""
+    complete: bool = True
+    """Whether all of them are here."""
+    waits: tuple[str, ...] = ()
+    """What stands still until a person does something, now."""
+    stops: tuple[tuple[int, str], ...] = ()
+    """When and what."""
+    rules: tuple[tuple[int, str], ...] = ()
 
 
 class RobotChange(WebModel):
