@@ -265,6 +265,28 @@ async def test_a_map_is_handed_on() -> None:
         assert (await rig.http.get("/api/map/ada")).json()["width"] == 2
 
 
+async def test_an_order_is_kept_under_a_name_told_to_every_page_and_still_there_after_a_restart(
+    tmp_path: Path,
+) -> None:
+    async with served("Ada", data_dir=tmp_path) as rig:
+        page = await rig.page()
+
+        async def put(name: str, words: str, was: str = "") -> int:
+            body = {"words": words, "was": was}
+            return (await rig.http.put("/api/favourites", params={"name": name}, json=body)).status_code
+
+        assert await put("round", "go to the box") == 200
+        assert await put("evening", "go to the door") == 200
+        assert [await put("Round", "x"), await put("emergency stop", "x")] == [409, 422]
+        assert await put("Morning round", "go to the box\ngo to the door", was="round") == 200
+        assert (await rig.http.delete("/api/favourites?name=evening")).status_code == 200
+        kept = [{"name": "Morning round", "words": "go to the box\ngo to the door"}]
+        await page.until(lambda: page.of("favourites") and page.of("favourites")[-1]["favourites"] == kept)
+    async with served("Ada", data_dir=tmp_path) as rig:
+        assert (await rig.http.get("/api/snapshot")).json()["favourites"] == kept
+        assert (await rig.http.get("/api/favourites")).json() == kept
+
+
 async def test_incidents_are_told_live_and_listed() -> None:
     async with served("Ada") as rig:
         page = await rig.page()

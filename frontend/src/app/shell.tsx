@@ -1,5 +1,6 @@
 import { useTranslation } from 'react-i18next';
 
+import { FavouritesBox } from '@/features/favourites';
 import { ConnectionBanner, Sidebar, TopBar } from '@/features/menu';
 import { OpenNote, RoleNote } from '@/features/people';
 import { AddRobot } from '@/features/robots';
@@ -73,6 +74,7 @@ export function Shell(props: Props) {
       <CommandPalette />
       <ShortcutSheet />
       <AddRobot />
+      <FavouritesBox />
     </div>
   );
 }

@@ -152,6 +152,11 @@ export interface Trial {
 export const tryRules = (robot: string, trial: Trial, language: string) =>
   request<RuleVerdict>('POST', 'rules/try', { robot, ...trial, language });
 
+/** `was`: the name it had so far; empty: it is new. */
+export const putFavourite = (name: string, words: string, was = '') =>
+  request<unknown>('PUT', `favourites${named(name)}`, { words, was });
+export const dropFavourite = (name: string) => request<unknown>('DELETE', `favourites${named(name)}`);
+
 export const addRobot = (name: string) => request<unknown>('POST', 'robots', { name });
 export const removeRobot = (name: string) => request<unknown>('DELETE', `robots/${part(name)}`);
 

@@ -126,6 +126,7 @@ export const snapshot = (part: Partial<Snapshot> = {}): Snapshot => ({
   feeds: [],
   incidents: [],
   views: [],
+  favourites: [],
   ...part,
 });
 

@@ -9,6 +9,7 @@ export type RobotView = Schemas['RobotView'];
 export type StopView = Schemas['StopView'];
 export type StopAnswer = Schemas['StopAnswer'];
 export type ChatEntry = Schemas['ChatEntry'];
+export type Favourite = Schemas['Favourite'];
 export type PlanView = Schemas['PlanView'];
 export type ProposalView = Schemas['ProposalView'];
 export type Rule = Schemas['Rule'];
@@ -54,5 +55,6 @@ export type Change =
   | Schemas['ProposalGone']
   | Schemas['FeedChange']
   | Schemas['MemoryChange']
+  | Schemas['FavouritesChange']
   | Schemas['IncidentChange']
   | Schemas['RejectionChange'];

@@ -21,6 +21,7 @@ from parley.web.pages import Pages, built_pages
 from parley.web.problems import RESPONSES, install
 from parley.web.routes import (
     chat,
+    favourites,
     feeds,
     health,
     history,
@@ -41,8 +42,8 @@ from parley.web.routes import (
 __all__ = ["create_api", "create_app", "openapi_text"]
 
 _RESOURCES = (
-    health, session, me, people, snapshot, chat, stop, plans, robots, memory, rules, incidents, log,
-    history, map, feeds,
+    health, session, me, people, snapshot, chat, favourites, stop, plans, robots, memory, rules, incidents,
+    log, history, map, feeds,
 )  # fmt: skip
 
 

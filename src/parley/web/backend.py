@@ -28,7 +28,7 @@ from parley.web.feed_state import Picture
 from parley.web.feeds import Feeds
 from parley.web.keeper import Keeper
 from parley.web.link import Link
-from parley.web.models import ChatEntry, Policy, RobotView, ServerInfo, Snapshot
+from parley.web.models import ChatEntry, Favourite, Policy, RobotView, ServerInfo, Snapshot
 from parley.web.people.store import FILE, PeopleStore
 from parley.web.pictures import kept_picture
 from parley.web.problems import WebProblem
@@ -122,6 +122,7 @@ class Backend:
         self._keeper = await enter(Keeper(self.store, self.state.show))
         for name in await self.store.settings("robot"):
             self.state.robots.add(name)
+        await self._tell_favourites()
         self._policies = await self.store.settings("policy")
         self._policy_by = await self.store.settings("policy_by")
         self.link = await enter(
@@ -328,6 +329,26 @@ class Backend:
             raise WebProblem(409, f"{view.name} is here; it would come back at once.", "Switch it off first.")
         await self.store.unset("robot", view.name)
         self.state.remove_robot(view.name)
+
+    async def keep_favourite(self, favourite: Favourite, was: str = "") -> None:
+        """Keep an order under a name, in the place of the one that had the name `was`."""
+        before = next(
+            (one.name for one in self.state.favourites if one.name.casefold() == was.casefold()), ""
+        )
+        if before:
+            await self.store.rename("favourite", before, favourite.name, favourite.words)
+        else:
+            await self.store.set("favourite", favourite.name, favourite.words)
+        await self._tell_favourites()
+
+    async def drop_favourite(self, name: str) -> None:
+        """Keep it no longer."""
+        await self.store.unset("favourite", name)
+        await self._tell_favourites()
+
+    async def _tell_favourites(self) -> None:
+        kept = await self.store.settings("favourite")
+        self.state.set_favourites(Favourite(name=name, words=words) for name, words in kept.items())
 
     async def set_policy(self, robot: str, policy: Policy, by: Principal) -> None:
         """Decide whether new steps of a robot wait for a yes, also after a restart."""

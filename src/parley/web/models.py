@@ -23,6 +23,7 @@ __all__ = [
     "AbilityView",
     "Change",
     "ChatEntry",
+    "Favourite",
     "FeedInfo",
     "Handover",
     "HistoryPage",
@@ -250,6 +251,14 @@ class ServerInfo(WebModel):
     unattended_after_s: float = 30.0
 
 
+class Favourite(WebModel):
+    """An order that is kept under a name. Key: `name`, whatever its capitals."""
+
+    name: str
+    words: str
+    """Its parts, one a line."""
+
+
 class Snapshot(WebModel):
     """Everything as it stands."""
 
@@ -268,6 +277,7 @@ class Snapshot(WebModel):
     feeds: tuple[FeedInfo, ...] = ()
     incidents: tuple[Incident, ...] = ()
     views: tuple[MapView, ...] = ()
+    favourites: tuple[Favourite, ...] = ()
 
 
 class LogLine(WebModel):
@@ -417,6 +427,14 @@ class MemoryChange(WebModel):
     message: str = ""
 
 
+class FavouritesChange(WebModel):
+    """The favourites are these now."""
+
+    kind: Literal["favourites"] = "favourites"
+    seq: int
+    favourites: tuple[Favourite, ...]
+
+
 class IncidentChange(WebModel):
     """A failure happened, or its record changed."""
 
@@ -444,6 +462,7 @@ Change = Annotated[
     | ProposalGone
     | FeedChange
     | MemoryChange
+    | FavouritesChange
     | IncidentChange
     | RejectionChange,
     Field(discriminator="kind"),

@@ -216,6 +216,14 @@ class WebStore:
             )
         )
 
+    async def rename(self, kind: str, was: str, name: str, value: str) -> None:
+        """Keep a setting under another name; it stands where it stood."""
+        await self._database.run(
+            lambda db: db.execute(
+                "UPDATE setting SET name = ?, value = ? WHERE kind = ? AND name = ?", (name, value, kind, was)
+            )
+        )
+
     async def unset(self, kind: str, name: str) -> None:
         """Drop a setting."""
         await self._database.run(

@@ -4,6 +4,8 @@ import { useTranslation } from 'react-i18next';
 import { getHistory, roundFile } from '@/live/api';
 import { useWorld } from '@/live/store';
 import type { RoundView } from '@/live/types';
+import { useKeeping } from '@/state/favourites';
+import { useOverlays } from '@/state/overlays';
 import { useRobotNames } from '@/state/selection';
 import { Button } from '@/ui/button';
 import { Choice } from '@/ui/choice';
@@ -137,11 +139,27 @@ function Round({ round }: { round: RoundView }) {
             {t('againShort')}
           </Button>
         )}
+        {words && <KeepButton words={words} />}
         <a className={css.file} href={roundFile(round.number, i18n.language)} download aria-label={t('file', { words: title })}>
           <Icon name="down" /> {t('fileShort')}
         </a>
       </div>
     </li>
+  );
+}
+
+function KeepButton({ words }: { words: string }) {
+  const { t } = useTranslation('favourites');
+  const open = useOverlays((state) => state.set);
+  const keep = useKeeping((state) => state.keep);
+  const show = () => {
+    keep(words);
+    open('favourites');
+  };
+  return (
+    <Button needs="speak" icon="star" aria-label={t('keepRound', { words })} onPress={show}>
+      {t('keepShort')}
+    </Button>
   );
 }
 
