@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import asyncio
 import base64
 from pathlib import Path
 from typing import Any
@@ -33,6 +34,7 @@ from parley.messages.status import (
 from parley.messages.wire import encode
 from parley.web.config import MODULES
 from parley.web.robot_state import STOP_DEADLINE_S
+from parley.web.routes.models import KEYS
 from tests.web.rig import JPEG, HandClock, Page, served
 
 GO = ActionCall(name="NavigateTo", reason="go there")
@@ -400,3 +402,34 @@ async def test_the_address_is_shown_as_a_picture_for_phones() -> None:
         answer = await rig.http.get("/api/qr.svg")
         assert answer.headers["content-type"].startswith("image/svg+xml")
         assert answer.text.startswith("<svg")
+
+
+async def test_models_on_this_machine_are_offered_and_only_looked_for_when_asked(
+    monkeypatch: pytest.MonkeyPatch,
+) -> None:
+    asked: list[str] = []
+
+    async def ollama(reader: asyncio.StreamReader, writer: asyncio.StreamWriter) -> None:
+        asked.append((await reader.readline()).decode().split()[1])
+        body = b'{"models": [{"name": "qwen3:8b"}, {"name": 7}, "x"]}'
+        writer.write(b"HTTP/1.0 200 OK\r\nContent-Length: %d\r\n\r\n" % len(body) + body)
+        await writer.drain()
+        writer.close()
+
+    for name in KEYS:
+        monkeypatch.delenv(name, raising=False)
+    monkeypatch.setenv("MISTRAL_API_KEY", "secret-key")
+    async with await asyncio.start_server(ollama, "127.0.0.1", 0) as server:
+        address = f"http://127.0.0.1:{server.sockets[0].getsockname()[1]}"
+        async with served("Ada", local_models=address) as rig:
+            assert asked == []
+            found = await rig.http.get("/api/models")
+            assert [(one["language"], one["found"]) for one in found.json()] == [
+                ("auto:ollama:qwen3:8b", "Ollama"), ("", "MISTRAL_API_KEY"),
+            ]  # fmt: skip
+            assert "secret" not in found.text
+        async with served("Ada", local_models=address, offline_language=False) as rig:
+            assert (await rig.http.get("/api/models")).json() == []
+        assert asked == ["/api/tags"]
+    async with served("Ada", local_models=address) as rig:  # nobody listens any more
+        assert [one["found"] for one in (await rig.http.get("/api/models")).json()] == ["MISTRAL_API_KEY"]

@@ -9,6 +9,7 @@ import type {
   LogPage,
   MapInfo,
   MemoryItem,
+  ModelOffer,
   Policy,
   Rule,
   RulesAnswer,
@@ -156,6 +157,9 @@ export const tryRules = (robot: string, trial: Trial, language: string) =>
 export const putFavourite = (name: string, words: string, was = '') =>
   request<unknown>('PUT', `favourites${named(name)}`, { words, was });
 export const dropFavourite = (name: string) => request<unknown>('DELETE', `favourites${named(name)}`);
+
+/** Models that are here and not used. */
+export const getModels = () => request<ModelOffer[]>('GET', 'models');
 
 export const addRobot = (name: string) => request<unknown>('POST', 'robots', { name });
 export const removeRobot = (name: string) => request<unknown>('DELETE', `robots/${part(name)}`);

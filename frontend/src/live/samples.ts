@@ -109,6 +109,7 @@ const info: ServerInfo = {
   offline_language: true,
   modules: {},
   examples: ['Go to the door.', 'What do you see?', 'What can you do?'],
+  tour: [],
   addresses: [],
   unattended: 'go_on',
   unattended_after_s: 30,

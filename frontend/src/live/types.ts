@@ -27,6 +27,7 @@ export type HistoryPage = Schemas['HistoryPage'];
 export type RoundView = Schemas['RoundView'];
 export type LogLine = Schemas['LogLine'];
 export type LogPage = Schemas['LogPage'];
+export type ModelOffer = Schemas['ModelOffer'];
 export type MapView = Schemas['MapView'];
 export type MapInfo = Schemas['MapInfo'];
 export type MapRoom = Schemas['MapRoom'];

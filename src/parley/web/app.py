@@ -30,6 +30,7 @@ from parley.web.routes import (
     map,
     me,
     memory,
+    models,
     people,
     plans,
     robots,
@@ -43,7 +44,7 @@ __all__ = ["create_api", "create_app", "openapi_text"]
 
 _RESOURCES = (
     health, session, me, people, snapshot, chat, favourites, stop, plans, robots, memory, rules, incidents,
-    log, history, map, feeds,
+    log, history, map, models, feeds,
 )  # fmt: skip
 
 

@@ -170,6 +170,7 @@ class Backend:
             offline_language=config.offline_language,
             modules=config.modules,
             examples=config.examples,
+            tour=config.tour,
             addresses=self.addresses,
             unattended=config.unattended,
             unattended_after_s=config.unattended_after_s,

@@ -28,6 +28,7 @@ __all__ = [
     "Handover",
     "HistoryPage",
     "MemoryItem",
+    "ModelOffer",
     "ParameterView",
     "PlanView",
     "ProposalView",
@@ -244,11 +245,22 @@ class ServerInfo(WebModel):
     """chat, plan, display, map, memory, robots, incidents, log: what is switched on."""
     examples: tuple[str, ...] = ()
     """Sentences to begin with."""
+    tour: tuple[str, ...] = ()
+    """What is said in a story that can be played on the page, one after the other."""
     addresses: tuple[str, ...] = ()
     """Where else this page can be opened, e.g. from a phone in the same network."""
     unattended: Unattended = "go_on"
     """What robots do when nobody is connected for `unattended_after_s`, unless an order says otherwise."""
     unattended_after_s: float = 30.0
+
+
+class ModelOffer(WebModel):
+    """A language model that could understand people here, and is not used."""
+
+    language: str
+    """What `--language` would be; empty: which of its models is for people to choose."""
+    found: str
+    """Where it was found: a program, or the name of a variable with a key."""
 
 
 class Favourite(WebModel):

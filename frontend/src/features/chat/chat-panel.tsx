@@ -23,6 +23,8 @@ import { useOutbox } from '@/state/outbox';
 import { answering, conversation, openQuestions } from '@/live/questions';
 import { RobotTabs } from './robot-tabs';
 import { SearchBox } from './search-box';
+import { Suggestions } from './suggestions';
+import { Tour } from './tour';
 import { Welcome } from './welcome';
 
 /** Talking to robots. */
@@ -52,6 +54,7 @@ export function ChatPanel() {
     [onItsWay, entries],
   );
 
+  const alone = chosen.length === 1 ? chosen[0] : undefined;
   const say = (text: string) => void send({ text, targets: chosen, reply_to: '', images: [] });
   const choose = useCallback(
     (question: ChatEntry, choice: string) =>
@@ -99,7 +102,9 @@ export function ChatPanel() {
         empty={<Welcome chosen={chosen} onSay={say} />}
       />
       <Asks chosen={chosen} asked={askedHere} onChoose={choose} />
+      {maySpeak && alone && <Tour robot={alone} asks={askedHere.length > 0} />}
       {maySpeak && <Composer chosen={chosen} answering={answer} lastSaid={lastSaid} input={input} />}
+      {maySpeak && alone && askedHere.length === 0 && <Suggestions robot={alone} entries={entries} onSay={say} />}
     </Panel>
   );
 }

@@ -19,7 +19,10 @@ it('says where a robot is and for how long it works on what it really does', () 
   expect([...line.querySelectorAll('p > :not([aria-hidden])')].map((one) => one.textContent)).toEqual(
     ['Ada', 'Working', 'Hall', '92 %', '2 of 2: Go to the door', '1:05'],
   );
-  act(() => useLive.getState().takeChanges([{ kind: 'robot', seq: 1, robot: { ...working, state: 'stopped' } }]));
+  const asks = plan({ robot: 'Ada', steps: [step({ id: 'ask', state: 'waiting' })] });
+  act(() => useLive.getState().takeChanges([{ kind: 'plan', seq: 1, plan: asks }]));
+  expect(line.textContent).toMatch(/^AdaWaiting for you/);
+  act(() => useLive.getState().takeChanges([{ kind: 'robot', seq: 2, robot: { ...working, state: 'stopped' } }]));
   expect(line.querySelector('time')).toBeNull();
   act(() => useLive.getState().setConnection('lost', 1));
   expect(line.textContent).toBe('AdaNot known');

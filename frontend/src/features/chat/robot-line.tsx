@@ -21,28 +21,40 @@ const SECOND_MS = 1000;
 export function RobotLine({ name, named }: { name: string; named: boolean }) {
   const { t } = useTranslation(['chat', 'robots']);
   const mood = useMood(name);
-  const room = useWorld((world) => world.views[name]?.room ?? '');
-  const battery = useWorld((world) => world.robots[name]?.battery ?? null);
   const plans = useWorld((world) => world.plans);
-  const task = useMemo(() => Object.values(plans).map((plan) => plan.robot === name && taskOf(plan)).find(Boolean), [plans, name]);
-  const away = mood === 'away' || mood === 'unknown'; // then all else is old
-  const facts = [!away && sentence(room), !away && battery !== null && t('robots:percent', { percent: Math.round(battery * 100) })];
+  const task = useMemo(
+    () => Object.values(plans).flatMap((plan) => (plan.robot === name ? (taskOf(plan) ?? []) : []))[0],
+    [plans, name],
+  );
+  const shown = mood === 'running' && task?.step.state === 'waiting' ? 'waiting' : mood;
+  const here = mood !== 'away' && mood !== 'unknown'; // else the rest is old
   return (
     <div className={css.line} role="group" aria-label={t('fares', { name })}>
       <p>
-        <Dot mood={mood} />
+        <Dot mood={shown} />
         {named && <strong>{name}</strong>}
-        {[t(`robots:state.${mood}`), ...facts].filter(Boolean).map((fact) => (
-          <span key={String(fact)}>{fact}</span>
-        ))}
+        <span>{t(`robots:state.${shown}`)}</span>
+        {here && <Facts name={name} />}
       </p>
-      {task && !away && (
+      {task && here && (
         <p className={css.task}>
           <Link href="/plan">{t('stepOf', { ...task, step: sentence(task.step.label) })}</Link>
           {task.step.started_unix_ms > 0 && mood === 'running' && <Since unixMs={task.step.started_unix_ms} />}
         </p>
       )}
     </div>
+  );
+}
+
+function Facts({ name }: { name: string }) {
+  const { t } = useTranslation('robots');
+  const room = useWorld((world) => world.views[name]?.room ?? '');
+  const battery = useWorld((world) => world.robots[name]?.battery ?? null);
+  return (
+    <>
+      {room && <span className={css.room}>{sentence(room)}</span>}
+      {battery !== null && <span>{t('percent', { percent: Math.round(battery * 100) })}</span>}
+    </>
   );
 }
 

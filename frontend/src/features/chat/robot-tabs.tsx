@@ -71,7 +71,7 @@ export function RobotTabs({ asked, tools = null }: { asked: readonly ChatEntry[]
   return (
     <>
       <div className={css.row}>
-        <Button needs="setting" tone="quiet" icon="plus" iconOnly aria-label={t('addRobot')} onPress={() => open('addRobot')} />
+        {!(alone && tools) && <Button needs="setting" tone="quiet" icon="plus" iconOnly aria-label={t('addRobot')} onPress={() => open('addRobot')} />}
         {alone ? (
           <RobotLine name={names[0] ?? ''} named />
         ) : (
