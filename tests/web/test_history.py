@@ -14,7 +14,7 @@ from parley.messages.principal import person
 from parley.messages.status import GraphEvent, PlanUpdate, StopCommand
 from tests.web.rig import HandClock, Rig, served
 
-KIM = person("Kim", device="phone")
+KIM = person("Kim", device="page on a phone")
 BEGAN_MS = HandClock().unix_ms() - 60_000
 LOOK = ActionCall(name="Inspect", reason="look")
 
@@ -64,7 +64,11 @@ async def test_every_round_stands_with_who_wanted_it_how_it_ended_and_what_was_s
 
         await rig.heard()
         second, first = await rounds()
-        assert (first["words"], first["by"], first["state"]) == ("look at the <box>", "Kim (phone)", "done")
+        assert (first["words"], first["by"], first["state"]) == (
+            "look at the <box>",
+            "Kim (page on a phone)",
+            "done",
+        )
         assert (second["state"], second["ended_unix_ms"], second["pictures"]) == ("running", 0, [])
         (picture,) = first["pictures"]
         assert (await rig.http.get(str(picture))).headers["content-type"] == "image/jpeg"
@@ -75,7 +79,7 @@ async def test_every_round_stands_with_who_wanted_it_how_it_ended_and_what_was_s
         file = await rig.http.get(f"/api/history/file?number={first['number']}&language=et")
         assert "attachment" in file.headers["content-disposition"]
         assert "look at the &lt;box&gt;" in file.text and "<box>" not in file.text
-        assert "data:image/jpeg;base64," in file.text and "Kes seda tahtis" in file.text
+        assert "data:image/jpeg;base64," in file.text and "Kim (leht telefonis)" in file.text
         assert (await rig.http.get("/api/history/file?number=1")).status_code == 404
 
 
@@ -88,7 +92,7 @@ async def test_the_next_shift_is_told_what_was_done_what_failed_what_waits_and_w
         await rig.heard()
         told = (await rig.http.get("/api/history/handover?since=1")).json()
         assert [one["state"] for one in told["rounds"]] == ["failed"]
-        assert [text for _, text in told["stops"]] == ["Kim (phone) stopped Ada."]
+        assert [text for _, text in told["stops"]] == ["Kim (page on a phone) stopped Ada."]
         assert "Ada asks: Which box?" in told["waits"]
         later = (await rig.http.get(f"/api/history/handover?since={BEGAN_MS + 1}")).json()
         assert later["rounds"] == []
