@@ -37,7 +37,7 @@ export default defineConfig({
     // Nothing is inlined: the page's security policy allows files of its own server only.
     assetsInlineLimit: 0,
     target: 'es2022',
-    chunkSizeWarningLimit: 900,
+    chunkSizeWarningLimit: 1000,
   },
   server: {
     proxy: {

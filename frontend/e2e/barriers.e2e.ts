@@ -154,9 +154,11 @@ async function boxes(stage: Stage, page: Page, words: Words, findings: Findings)
   await page.keyboard.press('?');
   await findings.look('keys', box);
   await close();
-  await page.getByRole('button', { name: words('chat', 'addRobot') }).click();
+  await go(stage, page, 'robots');
+  await page.getByRole('button', { name: words('robots', 'add') }).click();
   await findings.look('add a robot', box);
   await close();
+  await go(stage, page, '');
   const chosen = page.waitForEvent('filechooser');
   await page.getByRole('button', { name: words('chat', 'attach') }).click();
   const photo = { name: 'box.png', mimeType: 'image/png', buffer: await page.screenshot({ type: 'png' }) };

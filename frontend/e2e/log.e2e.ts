@@ -28,8 +28,24 @@ describe.skipIf(!hasBrowser)('the log', () => {
     await page.getByText(/peatas mu kell \d\d:\d\d/).waitFor();
   });
 
-  it('is a page that tells it in sentences, by words and by kind, with the keyboard alone', async () => {
+  it('is a page that says what robots did, what the next shift has to know, and who did what, with the keyboard alone', async () => {
     const page = await stage.open(sizes.desktop, '#/log');
+    const round = page.getByRole('listitem').filter({ has: page.getByRole('heading', { name: 'Go to the dining table.' }) });
+    await round.getByText('Not over yet').waitFor();
+    const address = await round.getByRole('link', { name: /^Save with pictures/ }).getAttribute('href');
+    expect(await (await fetch(new URL(address ?? '', stage.system.address))).text()).toContain('<h1>Go to the dining table.</h1>');
+    expect(await barriers(page)).toEqual([]);
+
+    await page.getByRole('button', { name: 'Handover' }).focus();
+    await page.keyboard.press('Enter');
+    const sheet = page.getByRole('article');
+    await sheet.getByText('David is stopped and stays so until somebody releases it.').waitFor();
+    expect(await sheet.innerText()).toMatch(/\d\d:\d\d .* to David: Go to the dining table\.[^]*Stops[^]*stopped all robots\./);
+    await page.emulateMedia({ media: 'print' });
+    expect(await page.getByRole('button', { name: 'Print' }).isVisible()).toBe(false);
+    await page.emulateMedia({ media: 'screen' });
+
+    await page.getByRole('button', { name: 'Who did what' }).press('Enter');
     await page.getByText(/^Unbroken since/).waitFor();
     await page.getByText(/said “Go to the dining table\.” to David\./).waitFor();
     await page.getByLabel('Search the log').focus();

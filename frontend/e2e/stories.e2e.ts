@@ -1,7 +1,7 @@
 /** What operators do, in a real browser with a real system behind the page. */
 import { afterAll, beforeAll, describe, expect, it } from 'vitest';
 
-import { CHROMIUM, hasBrowser, robotNamed, say, sizes, startStage, steps, untilItMoved, type Stage } from './stage';
+import { barriers, CHROMIUM, hasBrowser, robotNamed, say, sizes, startStage, steps, untilItMoved, type Stage } from './stage';
 
 if (!hasBrowser) console.warn(`The stories in the browser are skipped: there is no Chromium at ${CHROMIUM}.`);
 
@@ -22,6 +22,10 @@ describe.skipIf(!hasBrowser)('an operator', () => {
     await page.getByRole('button', { name: 'Go to the dining table.' }).tap();
     await page.getByText('I will go to the dining table').waitFor();
     await untilItMoved(stage, from);
+    const fares = page.getByRole('group', { name: 'How David fares' });
+    await fares.getByText('1 of 1: Go to “dining table”').waitFor();
+    expect(await fares.innerText()).toMatch(/^David\s+Working\s+(Living|Dining) room\s+\d+ %\s+1 of 1: Go to “dining table”\s+0:\d\d$/);
+    expect((await page.getByRole('banner').boundingBox())?.height).toBeLessThanOrEqual(56);
   });
 
   it('sees the steps of the plan and what each was given', async () => {
@@ -38,6 +42,7 @@ describe.skipIf(!hasBrowser)('an operator', () => {
     await page.keyboard.press('Escape');
     await page.getByText('David is stopped and stays so until it is released.').waitFor();
     await page.getByText('Stands still (measured)').waitFor();
+    expect(await page.getByRole('group', { name: 'How David fares' }).innerText()).toMatch(/Stopped[^]*1 of 1: Go to “dining table”$/);
 
     const other = await stage.open(sizes.phone);
     await other.getByText('David is stopped and stays so until it is released.').waitFor();
@@ -55,6 +60,31 @@ describe.skipIf(!hasBrowser)('an operator', () => {
     await choices.getByRole('button', { name: 'small sofa' }).click();
     await page.getByText('I will go to the small sofa').waitFor();
     expect(await choices.count()).toBe(0);
+  });
+
+  it('keeps a round under a name, runs it by that name without one of its parts, and by a tap', async () => {
+    const page = await stage.open(sizes.phone);
+    await page.getByRole('button', { name: 'Favourites' }).tap();
+    const box = page.getByRole('dialog', { name: 'Favourites' });
+    await box.getByLabel('Name').fill('Evening round');
+    await box.getByLabel('What to say').fill('go to the bed\ngo to the bookshelf');
+    await box.getByRole('button', { name: 'Keep' }).tap();
+    await box.getByText('Evening round', { exact: true }).waitFor();
+    expect(await barriers(page)).toEqual([]);
+    await box.getByRole('button', { name: 'Close' }).tap();
+
+    const said = page.locator('li[data-mine="true"]').last();
+    await say(page, 'evening round, but skip the fridge');
+    await page.getByText(/^“the fridge” is not one part of it, so nothing was sent/).waitFor();
+    await say(page, 'evening round, but skip the bed');
+    await said.getByText('go to the bookshelf', { exact: true }).waitFor();
+    await page.getByText('I will go to the bookshelf.').waitFor();
+
+    const other = await stage.open(sizes.desktop);
+    await other.getByRole('button', { name: 'Favourites' }).click();
+    await other.getByRole('button', { name: 'Run “Evening round” by David' }).click();
+    await said.getByText('Go to the bed. Go to the bookshelf.', { exact: true }).waitFor();
+    await page.getByText('I will go to the bed and then go to the bookshelf.').waitFor();
   });
 
   it('finds the same conversation after opening the page again', async () => {

@@ -389,7 +389,8 @@ class System:
         enter = self._stack.enter_async_context
         if "camera" in robot.capabilities:
             await enter(CameraFeed(self.transport, robot, self.config.camera_hz))
-        await enter(MapViews(self.transport, robot, view.occupancy.name, self.clock))
+        areas = view.objects.areas
+        await enter(MapViews(self.transport, robot, view.occupancy.name, self.clock, areas))
         await enter(MapFeed(self.transport, robot, view.occupancy, view.objects.objects, self.clock))
         return engine
 

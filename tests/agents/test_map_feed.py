@@ -69,6 +69,7 @@ async def test_a_driving_robot_shows_the_way_that_is_left_and_none_when_it_is_th
         await home.system.transport.subscribe(topics.MAP_VIEW, note)
         await until(lambda: views)
         assert views[0].path == () and views[0].goal is None and views[0].scan
+        assert views[0].room == "living room"
         thing = home.system.objects.objects[0].description
         home.observer.say(f"go to the {thing}", home.robot)
         await until(lambda: views[-1].path)

@@ -306,6 +306,7 @@ SAMPLES: dict[type[BaseModel], dict[str, Any]] = {
     map.MapView: {
         "actor": "A",
         "map_name": "hall",
+        "room": "hall",
         "pose": POSE,
         "path": [[1.0, 2.0]],
         "goal": POSE,

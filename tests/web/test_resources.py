@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import asyncio
 import base64
 from pathlib import Path
 from typing import Any
@@ -33,6 +34,7 @@ from parley.messages.status import (
 from parley.messages.wire import encode
 from parley.web.config import MODULES
 from parley.web.robot_state import STOP_DEADLINE_S
+from parley.web.routes.models import KEYS
 from tests.web.rig import JPEG, HandClock, Page, served
 
 GO = ActionCall(name="NavigateTo", reason="go there")
@@ -265,6 +267,28 @@ async def test_a_map_is_handed_on() -> None:
         assert (await rig.http.get("/api/map/ada")).json()["width"] == 2
 
 
+async def test_an_order_is_kept_under_a_name_told_to_every_page_and_still_there_after_a_restart(
+    tmp_path: Path,
+) -> None:
+    async with served("Ada", data_dir=tmp_path) as rig:
+        page = await rig.page()
+
+        async def put(name: str, words: str, was: str = "") -> int:
+            body = {"words": words, "was": was}
+            return (await rig.http.put("/api/favourites", params={"name": name}, json=body)).status_code
+
+        assert await put("round", "go to the box") == 200
+        assert await put("evening", "go to the door") == 200
+        assert [await put("Round", "x"), await put("emergency stop", "x")] == [409, 422]
+        assert await put("Morning round", "go to the box\ngo to the door", was="round") == 200
+        assert (await rig.http.delete("/api/favourites?name=evening")).status_code == 200
+        kept = [{"name": "Morning round", "words": "go to the box\ngo to the door"}]
+        await page.until(lambda: page.of("favourites") and page.of("favourites")[-1]["favourites"] == kept)
+    async with served("Ada", data_dir=tmp_path) as rig:
+        assert (await rig.http.get("/api/snapshot")).json()["favourites"] == kept
+        assert (await rig.http.get("/api/favourites")).json() == kept
+
+
 async def test_incidents_are_told_live_and_listed() -> None:
     async with served("Ada") as rig:
         page = await rig.page()
@@ -378,3 +402,34 @@ async def test_the_address_is_shown_as_a_picture_for_phones() -> None:
         answer = await rig.http.get("/api/qr.svg")
         assert answer.headers["content-type"].startswith("image/svg+xml")
         assert answer.text.startswith("<svg")
+
+
+async def test_models_on_this_machine_are_offered_and_only_looked_for_when_asked(
+    monkeypatch: pytest.MonkeyPatch,
+) -> None:
+    asked: list[str] = []
+
+    async def ollama(reader: asyncio.StreamReader, writer: asyncio.StreamWriter) -> None:
+        asked.append((await reader.readline()).decode().split()[1])
+        body = b'{"models": [{"name": "qwen3:8b"}, {"name": 7}, "x"]}'
+        writer.write(b"HTTP/1.0 200 OK\r\nContent-Length: %d\r\n\r\n" % len(body) + body)
+        await writer.drain()
+        writer.close()
+
+    for name in KEYS:
+        monkeypatch.delenv(name, raising=False)
+    monkeypatch.setenv("MISTRAL_API_KEY", "secret-key")
+    async with await asyncio.start_server(ollama, "127.0.0.1", 0) as server:
+        address = f"http://127.0.0.1:{server.sockets[0].getsockname()[1]}"
+        async with served("Ada", local_models=address) as rig:
+            assert asked == []
+            found = await rig.http.get("/api/models")
+            assert [(one["language"], one["found"]) for one in found.json()] == [
+                ("auto:ollama:qwen3:8b", "Ollama"), ("", "MISTRAL_API_KEY"),
+            ]  # fmt: skip
+            assert "secret" not in found.text
+        async with served("Ada", local_models=address, offline_language=False) as rig:
+            assert (await rig.http.get("/api/models")).json() == []
+        assert asked == ["/api/tags"]
+    async with served("Ada", local_models=address) as rig:  # nobody listens any more
+        assert [one["found"] for one in (await rig.http.get("/api/models")).json()] == ["MISTRAL_API_KEY"]

@@ -41,6 +41,7 @@ BODIES: dict[tuple[str, str], list[tuple[Any, Effect]]] = {
     ("PUT", "/api/plans/{robot}/steps"): [({"steps": [], "revision": 0}, Effect.EDIT)],
     ("POST", "/api/robots"): [({"name": "Kim's cart"}, Effect.SETTING)],
     ("PUT", "/api/memory"): [({"data": "the box is red"}, Effect.REMEMBER)],
+    ("PUT", "/api/favourites"): [({"words": "go to the box"}, Effect.SPEAK)],
     ("PUT", "/api/rules/{rule_id}"): [
         ({"id": "r1", "name": "hall", "kind": "keep_out", "rectangle": [0, 0, 1, 1]}, Effect.RULE)
     ],

@@ -3,7 +3,7 @@ import { Link, Route, Switch } from 'wouter';
 
 import { DisplayPanel } from '@/features/display';
 import { IncidentsPage } from '@/features/incidents';
-import { LogPage } from '@/features/log';
+import { HistoryPage } from '@/features/log';
 import { MapPanel } from '@/features/map';
 import { MemoryPage } from '@/features/memory';
 import { here, offered, pathOf, SettingsPage, type Page } from '@/features/menu';
@@ -38,7 +38,7 @@ export function Pages({ layout, ...session }: Props) {
     robots: () => <RobotsPage />,
     rules: () => <RulesPage />,
     incidents: () => <IncidentsPage />,
-    log: () => <LogPage />,
+    log: () => <HistoryPage />,
     people: () => <PeoplePage onChanged={session.onSessionChanged} />,
     settings: () => (
       <SettingsPage>{session.canSignOut && <MyAccountSection onSignedOut={session.onSessionChanged} />}</SettingsPage>

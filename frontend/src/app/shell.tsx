@@ -1,6 +1,7 @@
 import { useTranslation } from 'react-i18next';
 
-import { ConnectionBanner, Sidebar, TopBar } from '@/features/menu';
+import { FavouritesBox } from '@/features/favourites';
+import { ConnectionBanner, ModelNote, Sidebar, TopBar } from '@/features/menu';
 import { OpenNote, RoleNote } from '@/features/people';
 import { AddRobot } from '@/features/robots';
 import { StopBanner } from '@/features/stop';
@@ -62,6 +63,7 @@ export function Shell(props: Props) {
         <StopBanner />
         <ConnectionBanner />
         <OpenNote />
+        <ModelNote />
         <RoleNote />
         <main id="content" className={css.content} tabIndex={-1}>
           <Boundary {...words}>
@@ -73,6 +75,7 @@ export function Shell(props: Props) {
       <CommandPalette />
       <ShortcutSheet />
       <AddRobot />
+      <FavouritesBox />
     </div>
   );
 }

@@ -21,7 +21,7 @@ const themes: readonly Theme[] = ['system', 'light', 'dark', 'contrast'];
 
 /** What can be done now, most urgent first. */
 export function useCommands(): Command[] {
-  const { t } = useTranslation(['menu', 'stop', 'chat']);
+  const { t } = useTranslation(['menu', 'stop', 'chat', 'favourites']);
   const may = useMayAll();
   const [, go] = useLocation();
   const names = useRobotNames();
@@ -39,6 +39,7 @@ export function useCommands(): Command[] {
   return [
     { id: 'stop', label: t('stop:stopAll'), run: () => void stop([]) },
     ...perRobot,
+    ...(may('speak') ? [{ id: 'favourites', label: t('favourites:title'), run: () => open('favourites') }] : []),
     ...offered(info, may).map((page) => ({
       id: `go ${page}`,
       label: t('goTo', { page: t(page) }),

@@ -5,7 +5,7 @@ import { ChatPanel } from '@/features/chat';
 import { DisplayPanel } from '@/features/display';
 import { MapPanel } from '@/features/map';
 import { offered } from '@/features/menu';
-import { PlanPanel, PlanStrip } from '@/features/plan';
+import { PlanPanel } from '@/features/plan';
 import { useWorld } from '@/live/store';
 import { useMayAll } from '@/state/me';
 import { Boundary } from '@/ui/boundary';
@@ -17,7 +17,7 @@ import css from './workspace.module.css';
 /** Chat, plan, pictures and map side by side, as far as there is room. */
 export function Workspace({ layout }: { layout: Layout }) {
   const pages = offered(useWorld((world) => world.info), useMayAll());
-  if (layout === 'phone') return <Narrow hasPlan={pages.includes('plan')} hasDisplay={pages.includes('display')} />;
+  if (layout === 'phone') return <Narrow hasDisplay={pages.includes('display')} />;
   return (
     <div className={css.grid} data-layout={layout}>
       <Area name="chat">
@@ -42,8 +42,8 @@ export function Workspace({ layout }: { layout: Layout }) {
   );
 }
 
-/** On a phone: the conversation, the plan in one line, pictures when wanted. */
-function Narrow({ hasPlan, hasDisplay }: { hasPlan: boolean; hasDisplay: boolean }) {
+/** On a phone: the conversation, and pictures when wanted. */
+function Narrow({ hasDisplay }: { hasDisplay: boolean }) {
   const { t } = useTranslation('menu');
   const some = useWorld((world) => Object.keys(world.feeds).length > 0);
   const [pictures, setPictures] = useState(false);
@@ -62,7 +62,6 @@ function Narrow({ hasPlan, hasDisplay }: { hasPlan: boolean; hasDisplay: boolean
             )}
           </div>
         )}
-        {hasPlan && <PlanStrip />}
       </div>
       <Area name="chat">
         <ChatPanel />

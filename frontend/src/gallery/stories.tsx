@@ -1,7 +1,7 @@
 /** Each part of the page in each of its faces. */
 import { DisplayPanel } from '@/features/display';
 import { IncidentsPage } from '@/features/incidents';
-import { LogPage } from '@/features/log';
+import { LogPart } from '@/features/log';
 import { MapPanel } from '@/features/map';
 import { MemoryPage } from '@/features/memory';
 import { RobotsPage } from '@/features/robots';
@@ -60,8 +60,8 @@ export const stories: readonly Story[] = [
   { name: 'Problems, empty', snapshot: { robots }, answers: { incidents: { json: [] } }, part: () => <IncidentsPage />, shows: 'incidents:emptyText' },
   { name: 'Problems, failed', snapshot: { robots }, answers: { incidents: refused }, part: () => <IncidentsPage />, shows: 'incidents:failed' },
   { name: 'Problems', snapshot: { robots }, answers: { incidents: { json: [incident({ id: 'a' }), incident({ id: 'b', ending: 'solved' })] } }, part: () => <IncidentsPage />, shows: 'incidents:ending.solved' },
-  { name: 'Log, loading', snapshot: null, answers: { audit: 'never' }, part: () => <LogPage />, shows: 'common:loading' },
-  { name: 'Log, empty', snapshot: { robots }, answers: { audit: { json: logPage({ lines: [] }) } }, part: () => <LogPage />, shows: 'log:emptyText' },
-  { name: 'Log, failed', snapshot: { robots }, answers: { audit: refused }, part: () => <LogPage />, shows: 'log:failed' },
-  { name: 'Log', snapshot: { robots }, answers: { audit: { json: logPage({ complete: false }) } }, part: () => <LogPage />, shows: 'log:older' },
+  { name: 'Log, loading', snapshot: null, answers: { audit: 'never' }, part: () => <LogPart />, shows: 'common:loading' },
+  { name: 'Log, empty', snapshot: { robots }, answers: { audit: { json: logPage({ lines: [] }) } }, part: () => <LogPart />, shows: 'log:emptyText' },
+  { name: 'Log, failed', snapshot: { robots }, answers: { audit: refused }, part: () => <LogPart />, shows: 'log:failed' },
+  { name: 'Log', snapshot: { robots }, answers: { audit: { json: logPage({ complete: false }) } }, part: () => <LogPart />, shows: 'log:older' },
 ];

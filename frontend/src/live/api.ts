@@ -3,10 +3,13 @@ import { noteServerDate } from './server-time';
 import type {
   ActionCall,
   ChatEntry,
+  Handover,
+  HistoryPage,
   Incident,
   LogPage,
   MapInfo,
   MemoryItem,
+  ModelOffer,
   Policy,
   Rule,
   RulesAnswer,
@@ -110,13 +113,14 @@ export const closeSession = () => request<unknown>('DELETE', 'session');
 
 export const sendMessage = (message: OutgoingMessage) => request<ChatEntry>('POST', 'chat', message);
 
-export function getChat(options: { before?: number; limit?: number; q?: string; robot?: string }): Promise<ChatPage> {
-  const query = new URLSearchParams();
-  for (const [name, value] of Object.entries(options)) {
-    if (value !== undefined && value !== '') query.set(name, String(value));
-  }
-  return request<ChatPage>('GET', `chat?${query.toString()}`);
+/** What was wished for, behind the question mark; what is empty is left out. */
+function asked(wish: object): string {
+  const given = Object.entries(wish).filter(([, value]) => Boolean(value));
+  return new URLSearchParams(given.map(([name, value]) => [name, String(value)])).toString();
 }
+
+export const getChat = (wish: { before?: number; limit?: number; q?: string; robot?: string }) =>
+  request<ChatPage>('GET', `chat?${asked(wish)}`);
 
 /** A stop is tried again soon, so it is not waited for as long as other answers. */
 const STOP_TIMEOUT_MS = 1500;
@@ -148,6 +152,14 @@ export interface Trial {
 
 export const tryRules = (robot: string, trial: Trial, language: string) =>
   request<RuleVerdict>('POST', 'rules/try', { robot, ...trial, language });
+
+/** `was`: the name it had so far; empty: it is new. */
+export const putFavourite = (name: string, words: string, was = '') =>
+  request<unknown>('PUT', `favourites${named(name)}`, { words, was });
+export const dropFavourite = (name: string) => request<unknown>('DELETE', `favourites${named(name)}`);
+
+/** Models that are here and not used. */
+export const getModels = () => request<ModelOffer[]>('GET', 'models');
 
 export const addRobot = (name: string) => request<unknown>('POST', 'robots', { name });
 export const removeRobot = (name: string) => request<unknown>('DELETE', `robots/${part(name)}`);
@@ -192,10 +204,24 @@ export interface LogWish {
 }
 
 /** Who did what, newest first. */
-export function getLog(wish: LogWish): Promise<LogPage> {
-  const query = new URLSearchParams();
-  for (const [name, value] of Object.entries(wish)) if (value) query.set(name, String(value));
-  return request<LogPage>('GET', `audit?${query.toString()}`);
+export const getLog = (wish: LogWish) => request<LogPage>('GET', `audit?${asked(wish)}`);
+
+export interface HistoryWish {
+  robot?: string;
+  by?: string;
+  q?: string;
+  since?: number;
+  before?: number;
+  language?: string;
 }
+
+/** What robots were told to do and how it ended, newest first. */
+export const getHistory = (wish: HistoryWish) => request<HistoryPage>('GET', `history?${asked(wish)}`);
+
+/** What the next shift has to know. */
+export const getHandover = (wish: HistoryWish) => request<Handover>('GET', `history/handover?${asked(wish)}`);
+
+/** Where one round is to be had as a file. */
+export const roundFile = (number: number, language: string) => `/api/history/file?${asked({ number, language })}`;
 
 export const getMap = (robot: string) => request<MapInfo>('GET', `map/${part(robot)}`);

@@ -38,6 +38,7 @@ function together(step: StepView, finding: readonly StepView[]): StepView {
   return {
     ...step,
     state: begun ? 'running' : step.state,
+    started_unix_ms: finding.find((one) => one.started_unix_ms > 0)?.started_unix_ms ?? step.started_unix_ms,
     worked_ms: finding.reduce((sum, one) => sum + one.worked_ms, step.worked_ms),
   };
 }

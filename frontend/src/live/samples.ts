@@ -8,6 +8,7 @@ import type {
   MemoryItem,
   PlanView,
   RobotView,
+  RoundView,
   ServerInfo,
   Snapshot,
   StepView,
@@ -58,6 +59,20 @@ export const logPage = (part: Partial<LogPage> = {}): LogPage => ({
   ...part,
 });
 
+export const round = (part: Partial<RoundView> & { number: number }): RoundView => ({
+  robot: 'Ada',
+  words: 'go to the box',
+  by: 'Kim (phone)',
+  approved_by: '',
+  unix_ms: Date.UTC(2026, 0, 2, 9),
+  ended_unix_ms: Date.UTC(2026, 0, 2, 9, 1, 5),
+  state: 'done',
+  steps: ['Go to “box”'],
+  reason: '',
+  pictures: [],
+  ...part,
+});
+
 export const step = (part: Partial<StepView> & { id: string }): StepView => ({
   action: 'GoTo',
   label: part.id,
@@ -94,6 +109,7 @@ const info: ServerInfo = {
   offline_language: true,
   modules: {},
   examples: ['Go to the door.', 'What do you see?', 'What can you do?'],
+  tour: [],
   addresses: [],
   unattended: 'go_on',
   unattended_after_s: 30,
@@ -111,6 +127,7 @@ export const snapshot = (part: Partial<Snapshot> = {}): Snapshot => ({
   feeds: [],
   incidents: [],
   views: [],
+  favourites: [],
   ...part,
 });
 
@@ -164,6 +181,7 @@ export const mapView: MapView = {
   actor: 'Ada',
   map_name: 'hall',
   pose: { x: 1, y: 2, yaw: 0 },
+  room: 'hall',
   path: [[3, 1]],
   goal: { x: 3, y: 1, yaw: 0 },
   scan: [[2, 2]],

@@ -9,6 +9,7 @@ export type RobotView = Schemas['RobotView'];
 export type StopView = Schemas['StopView'];
 export type StopAnswer = Schemas['StopAnswer'];
 export type ChatEntry = Schemas['ChatEntry'];
+export type Favourite = Schemas['Favourite'];
 export type PlanView = Schemas['PlanView'];
 export type ProposalView = Schemas['ProposalView'];
 export type Rule = Schemas['Rule'];
@@ -21,8 +22,12 @@ export type ParameterView = Schemas['ParameterView'];
 export type FeedInfo = Schemas['FeedInfo'];
 export type MemoryItem = Schemas['MemoryItem'];
 export type Incident = Schemas['Incident'];
+export type Handover = Schemas['Handover'];
+export type HistoryPage = Schemas['HistoryPage'];
+export type RoundView = Schemas['RoundView'];
 export type LogLine = Schemas['LogLine'];
 export type LogPage = Schemas['LogPage'];
+export type ModelOffer = Schemas['ModelOffer'];
 export type MapView = Schemas['MapView'];
 export type MapInfo = Schemas['MapInfo'];
 export type MapRoom = Schemas['MapRoom'];
@@ -51,5 +56,6 @@ export type Change =
   | Schemas['ProposalGone']
   | Schemas['FeedChange']
   | Schemas['MemoryChange']
+  | Schemas['FavouritesChange']
   | Schemas['IncidentChange']
   | Schemas['RejectionChange'];

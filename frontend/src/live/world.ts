@@ -2,6 +2,7 @@
 import type {
   Change,
   ChatEntry,
+  Favourite,
   FeedInfo,
   Incident,
   MapView,
@@ -36,6 +37,7 @@ export interface World {
   views: Readonly<Record<string, MapView>>;
   /** Counts changes of memories: who shows memories asks again when it grows. */
   memoryChanges: number;
+  favourites: readonly Favourite[];
   /** Refusals, newest last. */
   notices: readonly Notice[];
 }
@@ -56,6 +58,7 @@ export const emptyWorld: World = {
   incidents: {},
   views: {},
   memoryChanges: 0,
+  favourites: [],
   notices: [],
 };
 
@@ -83,6 +86,7 @@ export function fromSnapshot(snapshot: Snapshot, before: World = emptyWorld): Wo
     incidents: keyed(snapshot.incidents, (incident) => incident.id),
     views: keyed(snapshot.views, (view) => view.actor),
     memoryChanges: before.memoryChanges + 1,
+    favourites: snapshot.favourites,
     notices: before.notices,
   };
 }
@@ -128,14 +132,16 @@ function applyOne(world: World, change: Change): World {
       return { ...world, feeds: { ...world.feeds, [feedKey(change.feed)]: change.feed } };
     case 'incident':
       return { ...world, incidents: { ...world.incidents, [change.incident.id]: change.incident } };
+    case 'favourites':
+      return { ...world, favourites: change.favourites };
     case 'memory':
       return { ...world, memoryChanges: world.memoryChanges + 1 };
     case 'rejection': {
       const notice = { id: change.seq, robot: change.robot, message: change.message };
       return { ...world, notices: [...world.notices, notice].slice(-KEPT_NOTICES) };
     }
-    case 'chat':
-      return world; // merged in one go by applyChanges
+    default:
+      return world; // what was said is merged in one go by applyChanges
   }
 }
 

@@ -1,7 +1,7 @@
 /** Which box over the page is open. */
 import { create } from 'zustand';
 
-export type Overlay = 'none' | 'commands' | 'shortcuts' | 'addRobot';
+export type Overlay = 'none' | 'commands' | 'shortcuts' | 'addRobot' | 'favourites';
 
 interface Overlays {
   open: Overlay;

@@ -17,6 +17,8 @@ interface Prefs {
   welcomed: boolean;
   /** Whether it was read that nobody has to sign in here. */
   openNoted: boolean;
+  /** Whether the offer of a model was put away. */
+  modelNoted: boolean;
   /** Whether robots that wait are heard: by sound, buzzing and the system's notes. */
   loud: boolean;
   set: (change: Partial<Omit<Prefs, 'set'>>) => void;
@@ -33,6 +35,7 @@ export const usePrefs = create<Prefs>()(
       debug: false,
       welcomed: false,
       openNoted: false,
+      modelNoted: false,
       loud: false,
       set,
     }),

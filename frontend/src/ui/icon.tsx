@@ -11,6 +11,7 @@ const paths = {
   incidents: 'M12 4 2.5 20h19zM12 10v4M12 17h.01',
   log: 'M6 3h12v18H6zM9 8h6M9 12h6M9 16h3',
   settings: 'M4 7h10M18 7h2M4 17h2M10 17h10M16 5v4M8 15v4',
+  star: 'M12 4l2.4 5.2 5.6.6-4.2 3.8 1.2 5.6-5-2.9-5 2.9 1.2-5.6L4 9.8l5.6-.6z',
   menu: 'M4 7h16M4 12h16M4 17h16',
   close: 'M6 6l12 12M18 6 6 18',
   plus: 'M12 5v14M5 12h14',

@@ -63,6 +63,14 @@ export function timeOrDay(unixMs: number, nowUnixMs: number, language: string): 
   return today ? clockTime(unixMs, language) : dayAndTime(unixMs, nowUnixMs, language);
 }
 
+/** A length of time as a clock shows it: "0:32", "1:05:09". */
+export function span(ms: number): string {
+  const seconds = Math.max(0, Math.floor(ms / 1000));
+  const parts = [Math.floor(seconds / 3600), Math.floor(seconds / 60) % 60, seconds % 60];
+  const shown = parts[0] ? parts : parts.slice(1);
+  return shown.map((part, index) => (index ? String(part).padStart(2, '0') : String(part))).join(':');
+}
+
 const steps = [
   ['second', 60],
   ['minute', 60],

@@ -126,7 +126,7 @@ def demo(
         origins=origin or (),
         without=without,
     )
-    page |= {"examples": loaded.examples, "data_dir": folder, "fresh_robots": True}
+    page |= {"examples": loaded.examples, "tour": loaded.tour, "data_dir": folder, "fresh_robots": True}
     on_loop(_serve(loaded, chosen, page, port_is_wish=port is None, opens=not no_open))
 
 

@@ -44,6 +44,11 @@ class Demo:
     """Names the folder where it keeps what is remembered; two worlds have two."""
 
     @property
+    def tour(self) -> tuple[str, ...]:
+        """What the operator of the story says of their own accord; whoever is shown it answers."""
+        return tuple(step.say for step in self.told.steps if step.say) if self.told is not None else ()
+
+    @property
     def examples(self) -> tuple[str, ...]:
         """Sentences that people may want to try."""
         return self.told.examples if self.told is not None else ()

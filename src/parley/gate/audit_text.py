@@ -13,6 +13,8 @@ from parley.sentences import Sentence, listed, sentence, together
 __all__ = ["moment", "told", "what_of", "who_of"]
 
 _NOTHING: Final = "–"
+_DEVICES: Final = ("page on a computer", "page on a phone", "page on a tablet", "a program", "terminal")
+"""Our own words for what people speak through; other names are theirs."""
 
 
 def who_of(by: Principal | None) -> Sentence:
@@ -21,7 +23,8 @@ def who_of(by: Principal | None) -> Sentence:
         return sentence("A program that nobody vouches for")
     if by.kind == "person":
         named = sentence("{name}", name=by.name) if by.name else sentence("Somebody")
-        return sentence("{who} ({device})", who=named, device=by.device) if by.device else named
+        device = sentence(by.device) if by.device in _DEVICES else by.device
+        return sentence("{who} ({device})", who=named, device=device) if by.device else named
     if by.kind == "robot":
         return sentence("{name}", name=by.name)
     if by.kind == "engine":

@@ -90,11 +90,16 @@ class Heard:
         return events
 
     def on_plan(self, told: PlanUpdate | PlanProposal) -> list[AuditEvent]:
-        """A plan that waits for a yes; of a plan as it stands only the words are kept."""
+        """A plan that waits for a yes, or one that is over: its graph only halts, so that it could go on."""
         if isinstance(told, PlanUpdate):
             self.robots.add(told.target)
+            before = self._plans.get(told.target) or told
             self._plans[told.target] = told
-            return []
+            last = told if told.graph_name == before.graph_name else before
+            if last is told and told.state != "idle":
+                return []
+            facts = self._running.pop(f"{last.target}\n{last.graph_name}", None)
+            return [_over(last, facts)] if facts else []
         if self._proposals.get(told.id) is not None:
             return []
         self._proposals[told.id] = told
@@ -257,6 +262,18 @@ def _label(step: ActionCall | PlanStep) -> str:
 
 def _labels_of(proposal: PlanProposal) -> list[str]:
     return list(proposal.labels) or labels(proposal.steps)
+
+
+def _over(plan: PlanUpdate, facts: dict[str, Any]) -> AuditEvent:
+    """The end of a plan, by what became of its steps."""
+    states = {step.state for step in plan.steps}
+    failed = "failed" in states
+    state = "ERROR" if failed else "FINISHED" if states <= {"finished", "skipped"} else "STOPPED"
+    detail = {**facts["detail"], "state": state, "labels": labels(plan.steps)}
+    return AuditEvent(
+        effect="end", by=facts["by"], robot=plan.target, detail=detail, digest=facts["digest"],
+        outcome="failed" if failed else "done", reason=facts.get("reason", "") if failed else "",
+    )  # fmt: skip
 
 
 def _named(arguments: dict[str, Any]) -> dict[str, Any]:

@@ -65,6 +65,8 @@ class MapView(Payload):
     actor: str
     map_name: str = ""
     pose: PoseInfo
+    room: str = ""
+    """The part of the map with a name that it is in; empty: none."""
     path: tuple[Point, ...] = ()
     """The planned way that still lies ahead."""
     goal: PoseInfo | None = None

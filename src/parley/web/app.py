@@ -21,13 +21,16 @@ from parley.web.pages import Pages, built_pages
 from parley.web.problems import RESPONSES, install
 from parley.web.routes import (
     chat,
+    favourites,
     feeds,
     health,
+    history,
     incidents,
     log,
     map,
     me,
     memory,
+    models,
     people,
     plans,
     robots,
@@ -40,8 +43,8 @@ from parley.web.routes import (
 __all__ = ["create_api", "create_app", "openapi_text"]
 
 _RESOURCES = (
-    health, session, me, people, snapshot, chat, stop, plans, robots, memory, rules, incidents, log, map,
-    feeds,
+    health, session, me, people, snapshot, chat, favourites, stop, plans, robots, memory, rules, incidents,
+    log, history, map, models, feeds,
 )  # fmt: skip
 
 

@@ -3,10 +3,11 @@
 from __future__ import annotations
 
 import asyncio
+import hashlib
 import uuid
-from collections.abc import Callable, Sequence
+from collections.abc import Callable, Coroutine, Sequence
 from contextlib import AsyncExitStack, suppress
-from typing import Final, Self
+from typing import Any, Final, Self
 
 import structlog
 
@@ -27,7 +28,7 @@ from parley.web.feed_state import Picture
 from parley.web.feeds import Feeds
 from parley.web.keeper import Keeper
 from parley.web.link import Link
-from parley.web.models import ChatEntry, Policy, RobotView, ServerInfo, Snapshot
+from parley.web.models import ChatEntry, Favourite, Policy, RobotView, ServerInfo, Snapshot
 from parley.web.people.store import FILE, PeopleStore
 from parley.web.pictures import kept_picture
 from parley.web.problems import WebProblem
@@ -121,6 +122,7 @@ class Backend:
         self._keeper = await enter(Keeper(self.store, self.state.show))
         for name in await self.store.settings("robot"):
             self.state.robots.add(name)
+        await self._tell_favourites()
         self._policies = await self.store.settings("policy")
         self._policy_by = await self.store.settings("policy_by")
         self.link = await enter(
@@ -168,6 +170,7 @@ class Backend:
             offline_language=config.offline_language,
             modules=config.modules,
             examples=config.examples,
+            tour=config.tour,
             addresses=self.addresses,
             unattended=config.unattended,
             unattended_after_s=config.unattended_after_s,
@@ -242,9 +245,7 @@ class Backend:
         for message in composed.messages:
             self.link.send(message)
         self.state.chat.said(composed)
-        keeping = asyncio.create_task(self._keep_later(composed.entry, pictures), name="web keeping")
-        self._keeping.add(keeping)
-        keeping.add_done_callback(self._keeping.discard)
+        self._in_background(self._keep_later(composed.entry, pictures))
         return composed.entry
 
     async def _keep_later(self, entry: ChatEntry, pictures: Sequence[KeptPicture]) -> None:
@@ -330,6 +331,26 @@ class Backend:
         await self.store.unset("robot", view.name)
         self.state.remove_robot(view.name)
 
+    async def keep_favourite(self, favourite: Favourite, was: str = "") -> None:
+        """Keep an order under a name, in the place of the one that had the name `was`."""
+        before = next(
+            (one.name for one in self.state.favourites if one.name.casefold() == was.casefold()), ""
+        )
+        if before:
+            await self.store.rename("favourite", before, favourite.name, favourite.words)
+        else:
+            await self.store.set("favourite", favourite.name, favourite.words)
+        await self._tell_favourites()
+
+    async def drop_favourite(self, name: str) -> None:
+        """Keep it no longer."""
+        await self.store.unset("favourite", name)
+        await self._tell_favourites()
+
+    async def _tell_favourites(self) -> None:
+        kept = await self.store.settings("favourite")
+        self.state.set_favourites(Favourite(name=name, words=words) for name, words in kept.items())
+
     async def set_policy(self, robot: str, policy: Policy, by: Principal) -> None:
         """Decide whether new steps of a robot wait for a yes, also after a restart."""
         await self.store.set("policy", robot, policy)
@@ -357,6 +378,22 @@ class Backend:
     def _on_picture(self, key: tuple[str, str], picture: Picture) -> None:
         for listener in self.picture_listeners:
             listener(key, picture)
+        if not self.state.feeds.infos[key].continuous:
+            self._in_background(self._keep_seen(key, picture))
+
+    async def _keep_seen(self, key: tuple[str, str], picture: Picture) -> None:
+        """A single picture is a finding: it is kept for the history."""
+        digest = hashlib.sha256("\n".join((*key, str(picture.unix_ms))).encode()).hexdigest()[:32]
+        kept = KeptPicture(digest, "image/jpeg", picture.data)
+        try:
+            await self.store.keep_seen(key[0], picture.unix_ms, kept)
+        except StoreError as error:
+            log.error("picture not stored", robot=key[0], problem=str(error))
+
+    def _in_background(self, work: Coroutine[Any, Any, None]) -> None:
+        task = asyncio.create_task(work, name="web keeping")
+        self._keeping.add(task)
+        task.add_done_callback(self._keeping.discard)
 
 
 def _in(loop: asyncio.AbstractEventLoop, deed: Callable[[], None]) -> None:

@@ -21,6 +21,7 @@ __all__ = [
     "DecisionPost",
     "DeviceInfo",
     "Done",
+    "FavouritePut",
     "FeedKey",
     "FrameMeta",
     "Health",
@@ -258,6 +259,15 @@ class ChatPost(WebModel):
         if not self.text.strip() and not self.images:
             raise ValueError("there are neither words nor a picture")
         return self
+
+
+class FavouritePut(WebModel):
+    """Keep an order under a name."""
+
+    words: Annotated[str, StringConstraints(min_length=1, max_length=2000, strip_whitespace=True)]
+    """Its parts, one a line."""
+    was: Annotated[str, StringConstraints(max_length=60, strip_whitespace=True)] = ""
+    """The name it had so far; empty: it is new."""
 
 
 class ChatPage(WebModel):

@@ -65,14 +65,14 @@ def _key(change: Change) -> tuple[str, ...]:
             return ("plan", change.plan.robot, change.plan.graph_name)
         case "plan_gone":
             return ("plan", change.robot, change.graph_name)
-        case "proposal":
-            return ("proposal", change.proposal.id)
-        case "proposal_gone":
-            return ("proposal", change.id)
+        case "proposal" | "proposal_gone":
+            return ("proposal", change.proposal.id if change.kind == "proposal" else change.id)
         case "feed":
             return ("feed", change.feed.robot, change.feed.name)
         case "memory":
             return ("memory", change.event, change.name)
+        case "favourites":
+            return ("favourites",)
         case "incident":
             return ("incident", change.incident.id)
         case "rejection":

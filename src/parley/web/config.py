@@ -46,6 +46,10 @@ class WebConfig(BaseModel):
     """Modules that are switched off."""
     examples: tuple[str, ...] = ()
     """Sentences to begin with."""
+    tour: tuple[str, ...] = ()
+    """What is said in a story that can be played on the page, one after the other."""
+    local_models: str = "http://127.0.0.1:11434"
+    """Where a server for language models usually listens on this machine (Ollama)."""
     language: str = "built in, works without a model"
     """The language engine in words for people."""
     offline_language: bool = True

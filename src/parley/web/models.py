@@ -23,12 +23,17 @@ __all__ = [
     "AbilityView",
     "Change",
     "ChatEntry",
+    "Favourite",
     "FeedInfo",
+    "Handover",
+    "HistoryPage",
     "MemoryItem",
+    "ModelOffer",
     "ParameterView",
     "PlanView",
     "ProposalView",
     "RobotView",
+    "RoundView",
     "ServerInfo",
     "Snapshot",
     "StepView",
@@ -240,11 +245,30 @@ class ServerInfo(WebModel):
     """chat, plan, display, map, memory, robots, incidents, log: what is switched on."""
     examples: tuple[str, ...] = ()
     """Sentences to begin with."""
+    tour: tuple[str, ...] = ()
+    """What is said in a story that can be played on the page, one after the other."""
     addresses: tuple[str, ...] = ()
     """Where else this page can be opened, e.g. from a phone in the same network."""
     unattended: Unattended = "go_on"
     """What robots do when nobody is connected for `unattended_after_s`, unless an order says otherwise."""
     unattended_after_s: float = 30.0
+
+
+class ModelOffer(WebModel):
+    """A language model that could understand people here, and is not used."""
+
+    language: str
+    """What `--language` would be; empty: which of its models is for people to choose."""
+    found: str
+    """Where it was found: a program, or the name of a variable with a key."""
+
+
+class Favourite(WebModel):
+    """An order that is kept under a name. Key: `name`, whatever its capitals."""
+
+    name: str
+    words: str
+    """Its parts, one a line."""
 
 
 class Snapshot(WebModel):
@@ -265,6 +289,7 @@ class Snapshot(WebModel):
     feeds: tuple[FeedInfo, ...] = ()
     incidents: tuple[Incident, ...] = ()
     views: tuple[MapView, ...] = ()
+    favourites: tuple[Favourite, ...] = ()
 
 
 class LogLine(WebModel):
@@ -291,6 +316,52 @@ class LogPage(WebModel):
     """What checking found, if it was asked for."""
     problem: str = ""
     """Why some of it is not written yet."""
+
+
+class RoundView(WebModel):
+    """One thing that a robot was told to do, and how it ended. Key: `number`."""
+
+    number: int
+    """Of the entry of the log with which it began."""
+    robot: str
+    words: str = ""
+    """What was said; empty: it was not said but pressed or sent."""
+    by: str = ""
+    approved_by: str = ""
+    unix_ms: int
+    ended_unix_ms: int = 0
+    """0: it goes on, or its end was never heard."""
+    state: Literal["running", "done", "failed", "ended"]
+    """`ended`: before it was done."""
+    steps: tuple[str, ...] = ()
+    reason: str = ""
+    """Why it failed."""
+    pictures: tuple[str, ...] = ()
+    """Addresses of what the robot took pictures of meanwhile, below this server."""
+
+
+class HistoryPage(WebModel):
+    """Some of what robots did, newest first."""
+
+    rounds: tuple[RoundView, ...] = ()
+    complete: bool = True
+    """Whether nothing older fits."""
+
+
+class Handover(WebModel):
+    """What the next shift has to know; written by our code from the log and from what stands now."""
+
+    since_unix_ms: int
+    until_unix_ms: int
+    rounds: tuple[RoundView, ...] = ()
+    """Oldest first."""
+    complete: bool = True
+    """Whether all of them are here."""
+    waits: tuple[str, ...] = ()
+    """What stands still until a person does something, now."""
+    stops: tuple[tuple[int, str], ...] = ()
+    """When and what."""
+    rules: tuple[tuple[int, str], ...] = ()
 
 
 class RobotChange(WebModel):
@@ -368,6 +439,14 @@ class MemoryChange(WebModel):
     message: str = ""
 
 
+class FavouritesChange(WebModel):
+    """The favourites are these now."""
+
+    kind: Literal["favourites"] = "favourites"
+    seq: int
+    favourites: tuple[Favourite, ...]
+
+
 class IncidentChange(WebModel):
     """A failure happened, or its record changed."""
 
@@ -395,6 +474,7 @@ Change = Annotated[
     | ProposalGone
     | FeedChange
     | MemoryChange
+    | FavouritesChange
     | IncidentChange
     | RejectionChange,
     Field(discriminator="kind"),

@@ -16,6 +16,8 @@ from parley.web.models import (
     AbilityView,
     ChatChange,
     ChatEntry,
+    Favourite,
+    FavouritesChange,
     IncidentChange,
     MemoryChange,
     RejectionChange,
@@ -63,6 +65,7 @@ class WebState:
         self.feeds = FeedBook(self.log.add)
         self.incidents: Latest[str, Incident] = Latest(INCIDENTS_KEPT)
         self.views: dict[str, MapView] = {}
+        self.favourites: tuple[Favourite, ...] = ()
 
     def show(self, entry: ChatEntry) -> None:
         """Tell everybody of a chat entry."""
@@ -84,6 +87,11 @@ class WebState:
         """A failure happened, or its record changed."""
         self.incidents[incident.id] = incident
         self.log.add(IncidentChange(seq=0, incident=incident))
+
+    def set_favourites(self, favourites: Iterable[Favourite]) -> None:
+        """They are these now."""
+        self.favourites = tuple(favourites)
+        self.log.add(FavouritesChange(seq=0, favourites=self.favourites))
 
     def on_memory(self, event: MemoryEvent) -> None:
         """Something was remembered or forgotten."""
@@ -126,6 +134,7 @@ class WebState:
             feeds=tuple(self.feeds.infos.values()),
             incidents=tuple(self.incidents.values()),
             views=tuple(self.views.values()),
+            favourites=self.favourites,
         )
 
     def _on_entry(self, entry: ChatEntry) -> None:

@@ -24,13 +24,13 @@ from parley.web.models import ChatEntry
 __all__ = ["KeptPicture", "WebStore"]
 
 _MESSAGES: Final = TypeAdapter(tuple[ChatInput, ...])
-MAX_PICTURES = 500
+MAX_PICTURES = 1000
 """The oldest pictures go when there are more."""
 
 
 @dataclass(frozen=True, slots=True)
 class KeptPicture:
-    """A picture that was attached to a message."""
+    """A picture that was attached to a message, or that a robot took."""
 
     id: str
     media_type: str
@@ -78,7 +78,7 @@ class WebStore:
             messages: What goes to robots for the first entry; they count as unsent until `mark_sent`.
         """
         rows = [(e.id, e.seq, _names(e.targets), e.message.casefold(), e.model_dump_json()) for e in entries]
-        images = [(picture.id, picture.media_type, picture.data) for picture in pictures]
+        images = [_picture_row(picture) for picture in pictures]
         unsent = [(entries[0].id, _MESSAGES.dump_json(tuple(messages)).decode())] if messages else []
 
         def work(db: sqlite3.Connection) -> None:
@@ -93,10 +93,7 @@ class WebStore:
                 db.executemany("INSERT INTO outbox VALUES (?, ?)", unsent)
                 if images:
                     db.executemany("INSERT OR IGNORE INTO picture VALUES (?, ?, ?)", images)
-                    db.execute(
-                        "DELETE FROM picture WHERE rowid <= (SELECT max(rowid) FROM picture) - ?",
-                        (MAX_PICTURES,),
-                    )
+                    _drop_oldest(db)
                 db.execute("COMMIT")
             except BaseException:
                 if db.in_transaction:
@@ -168,6 +165,39 @@ class WebStore:
         )
         return KeptPicture(*row) if row else None
 
+    async def keep_seen(self, robot: str, unix_ms: int, picture: KeptPicture) -> None:
+        """Store what a robot took a picture of; the same one is stored once."""
+
+        def work(db: sqlite3.Connection) -> None:
+            with db:
+                db.execute("INSERT OR IGNORE INTO picture VALUES (?, ?, ?)", _picture_row(picture))
+                db.execute("INSERT OR IGNORE INTO seen VALUES (?, ?, ?)", (picture.id, robot, unix_ms))
+                _drop_oldest(db)
+
+        await self._database.run(work)
+
+    async def seen(self, robot: str, since_unix_ms: int, until_unix_ms: int) -> list[tuple[int, str]]:
+        """When a robot took which pictures that are still kept, oldest first."""
+        rows = await self._database.run(
+            lambda db: db.execute(
+                "SELECT unix_ms, picture FROM seen JOIN picture ON picture.id = seen.picture"
+                " WHERE robot = ? AND unix_ms BETWEEN ? AND ? ORDER BY unix_ms LIMIT 200",
+                (robot, since_unix_ms, until_unix_ms),
+            ).fetchall()
+        )
+        return [(int(unix_ms), str(key)) for unix_ms, key in rows]
+
+    async def said(self, robot: str, since_unix_ms: int, until_unix_ms: int) -> list[ChatEntry]:
+        """What was said to and by a robot in a time, oldest first."""
+        rows = await self._database.run(
+            lambda db: db.execute(
+                "SELECT entry FROM chat WHERE instr(robots, ?) > 0"
+                " AND entry ->> 'unix_ms' BETWEEN ? AND ? ORDER BY seq LIMIT 500",
+                (_names([robot]), since_unix_ms, until_unix_ms),
+            ).fetchall()
+        )
+        return [ChatEntry.model_validate_json(row[0]) for row in rows]
+
     async def settings(self, kind: str) -> dict[str, str]:
         """All settings of a kind (`robot`, `policy`), name -> value."""
         rows = await self._database.run(
@@ -183,6 +213,14 @@ class WebStore:
             lambda db: db.execute(
                 "INSERT INTO setting VALUES (?, ?, ?) ON CONFLICT DO UPDATE SET value = excluded.value",
                 (kind, name, value),
+            )
+        )
+
+    async def rename(self, kind: str, was: str, name: str, value: str) -> None:
+        """Keep a setting under another name; it stands where it stood."""
+        await self._database.run(
+            lambda db: db.execute(
+                "UPDATE setting SET name = ?, value = ? WHERE kind = ? AND name = ?", (name, value, kind, was)
             )
         )
 
@@ -220,6 +258,10 @@ _FORMS: Final = (
     DROP TABLE session;
     DELETE FROM setting WHERE kind = 'door';
     """,
+    """
+    CREATE TABLE seen (picture TEXT PRIMARY KEY, robot TEXT NOT NULL, unix_ms INTEGER NOT NULL) STRICT;
+    CREATE INDEX seen_when ON seen (robot, unix_ms);
+    """,
 )
 """What each version adds to the one before."""
 
@@ -234,6 +276,15 @@ def _prepare(db: sqlite3.Connection) -> None:
     for path in (Path(f"{file}{ending}") for ending in ("", "-wal", "-shm")):
         if file and path.exists():
             path.chmod(0o600)  # conversations are nobody else's business
+
+
+def _picture_row(picture: KeptPicture) -> tuple[str, str, bytes]:
+    return (picture.id, picture.media_type, picture.data)
+
+
+def _drop_oldest(db: sqlite3.Connection) -> None:
+    db.execute("DELETE FROM picture WHERE rowid <= (SELECT max(rowid) FROM picture) - ?", (MAX_PICTURES,))
+    db.execute("DELETE FROM seen WHERE picture NOT IN (SELECT id FROM picture)")
 
 
 def _names(targets: Iterable[str]) -> str:

@@ -54,6 +54,16 @@ class MapArea:
     corners: tuple[tuple[float, float], ...]
     """x, y in the map frame, metres, one after the other around it."""
 
+    def holds(self, x_m: float, y_m: float) -> bool:
+        """Whether a place is in it: a line from there to the right leaves it an odd number of times."""
+        sides = zip(self.corners, self.corners[1:] + self.corners[:1], strict=True)
+        crossed = [
+            x_m < x + (y_m - y) * (other_x - x) / (other_y - y)
+            for (x, y), (other_x, other_y) in sides
+            if (y > y_m) != (other_y > y_m)
+        ]
+        return sum(crossed) % 2 == 1
+
 
 class _Coordinates(BaseModel):
     model_config = ConfigDict(extra="ignore", allow_inf_nan=False)

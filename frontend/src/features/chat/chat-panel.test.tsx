@@ -79,7 +79,7 @@ describe('the chat', () => {
   it('says who is not connected before one writes to them', () => {
     show({ robots: [robot({ name: 'Ada', connection: 'lost' })] });
     screen.getByText('Ada is not connected'); // above the line one writes in
-    expect(tab('Ada').textContent).toContain('Not connected');
+    expect(screen.getByRole('group', { name: 'How Ada fares' }).textContent).toContain('Not connected');
   });
 
   it('speaks of missing robots only when it knows', () => {

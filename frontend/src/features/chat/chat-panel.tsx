@@ -11,7 +11,7 @@ import { usePrefs } from '@/state/prefs';
 import { useSelection, useSelectionStore } from '@/state/selection';
 import { Icon, type IconName } from '@/ui/icon';
 import { Panel } from '@/ui/panel';
-import { useIsLow } from '@/ui/use-media';
+import { useLayout } from '@/ui/use-media';
 import { useShortcut } from '@/ui/use-shortcut';
 
 import { Asks } from './asks';
@@ -23,6 +23,8 @@ import { useOutbox } from '@/state/outbox';
 import { answering, conversation, openQuestions } from '@/live/questions';
 import { RobotTabs } from './robot-tabs';
 import { SearchBox } from './search-box';
+import { Suggestions } from './suggestions';
+import { Tour } from './tour';
 import { Welcome } from './welcome';
 
 /** Talking to robots. */
@@ -31,7 +33,7 @@ export function ChatPanel() {
   const { t } = useTranslation('chat');
   const chat = useWorld((world) => world.chat);
   const chosen = useSelection();
-  const low = useIsLow();
+  const phone = useLayout() === 'phone';
   const send = useOutbox((outbox) => outbox.send);
   const { debug, set } = usePrefs();
   const only = useSelectionStore((state) => state.only);
@@ -52,6 +54,7 @@ export function ChatPanel() {
     [onItsWay, entries],
   );
 
+  const alone = chosen.length === 1 ? chosen[0] : undefined;
   const say = (text: string) => void send({ text, targets: chosen, reply_to: '', images: [] });
   const choose = useCallback(
     (question: ChatEntry, choice: string) =>
@@ -87,8 +90,8 @@ export function ChatPanel() {
     </>
   );
   return (
-    <Panel title={t('title')} tools={tools} flush bare={low}>
-      <RobotTabs asked={asked} tools={low ? tools : null} />
+    <Panel title={t('title')} tools={tools} flush bare={phone}>
+      <RobotTabs asked={asked} tools={phone ? tools : null} />
       {searching && <SearchBox onGo={goToEntry} onClose={closeSearch} />}
       <History
         key={key}
@@ -99,7 +102,9 @@ export function ChatPanel() {
         empty={<Welcome chosen={chosen} onSay={say} />}
       />
       <Asks chosen={chosen} asked={askedHere} onChoose={choose} />
+      {maySpeak && alone && <Tour robot={alone} asks={askedHere.length > 0} />}
       {maySpeak && <Composer chosen={chosen} answering={answer} lastSaid={lastSaid} input={input} />}
+      {maySpeak && alone && askedHere.length === 0 && <Suggestions robot={alone} entries={entries} onSay={say} />}
     </Panel>
   );
 }

@@ -4,6 +4,8 @@ import { useTranslation } from 'react-i18next';
 
 import { useLive, useWorld } from '@/live/store';
 import { draftKey, emptyDraft, useDrafts } from '@/state/drafts';
+import { spelledOut, useKeeping } from '@/state/favourites';
+import { useOverlays } from '@/state/overlays';
 import { useToasts } from '@/state/toasts';
 import { Button } from '@/ui/button';
 import { nameList } from '@/ui/words';
@@ -39,8 +41,10 @@ export function Composer({ chosen, answering, lastSaid, input }: Props) {
   const submit = () => {
     if (!ready) return;
     const images = draft.photo ? [draft.photo] : [];
-    const reply_to = answering.question?.id ?? '';
-    void send({ text: draft.text.trim(), targets: chosen, reply_to, images, unattended: reply_to ? null : unattended });
+    const text = spelledOut(draft.text.trim());
+    if (text === null) return;
+    const reply_to = text === draft.text.trim() ? (answering.question?.id ?? '') : '';
+    void send({ text, targets: chosen, reply_to, images, unattended: reply_to ? null : unattended });
     setDraft(key, emptyDraft);
     input.current?.focus();
   };
@@ -78,6 +82,7 @@ export function Composer({ chosen, answering, lastSaid, input }: Props) {
         </p>
       )}
       <div className={css.row}>
+        <FavouritesButton text={draft.text} />
         <PhotoButton isDisabled={nobody} onPhoto={(photo) => setDraft(key, { photo })} />
         <textarea
           ref={input}
@@ -120,6 +125,18 @@ function AnswerNote({ answering }: { answering: Answering }) {
       {t('split', { answering: nameList(robots, i18n.language), others: nameList(others, i18n.language) })}
     </p>
   );
+}
+
+/** To what is kept under a name; what is half written can be kept there. */
+function FavouritesButton({ text }: { text: string }) {
+  const { t } = useTranslation('favourites');
+  const open = useOverlays((state) => state.set);
+  const keep = useKeeping((state) => state.keep);
+  const show = () => {
+    keep(text);
+    open('favourites');
+  };
+  return <Button tone="quiet" icon="star" iconOnly aria-label={t('title')} onPress={show} />;
 }
 
 function PhotoButton({ isDisabled, onPhoto }: { isDisabled: boolean; onPhoto: (photo: { name: string; data: string }) => void }) {

@@ -9,6 +9,7 @@ import { useMood } from '@/state/mood';
 import { Button } from '@/ui/button';
 import { Dot } from '@/ui/dot';
 
+import { RobotLine } from './robot-line';
 import css from './robot-tabs.module.css';
 import { useLongPress } from './use-long-press';
 
@@ -56,7 +57,7 @@ function Tab({ name, chosen, awaitsAnswer, onOnly, onToggle }: TabProps) {
   );
 }
 
-/** The robots one can talk to: tap for one; shift-click, long touch or the switch for several. */
+/** The robots one can talk to, and how the chosen ones fare: tap for one; shift-click, long touch or the switch for several. */
 export function RobotTabs({ asked, tools = null }: { asked: readonly ChatEntry[]; tools?: React.ReactNode }) {
   const { t } = useTranslation('chat');
   const names = useRobotNames();
@@ -66,33 +67,47 @@ export function RobotTabs({ asked, tools = null }: { asked: readonly ChatEntry[]
   const asking = new Set([...Object.values(proposals).map((one) => one.robot), ...asked.flatMap((one) => one.targets)]);
   const open = useOverlays((state) => state.set);
   const [several, setSeveral] = useState(false);
+  const alone = names.length === 1;
   return (
-    <div className={css.row}>
-      <Button needs="setting" tone="quiet" icon="plus" iconOnly aria-label={t('addRobot')} onPress={() => open('addRobot')} />
-      <div className={css.tabs} role="group" aria-label={t('robots')}>
-        {names.map((name) => (
-          <Tab
-            key={name}
-            name={name}
-            chosen={chosen.includes(name)}
-            awaitsAnswer={asking.has(name)}
-            onOnly={() => (several ? toggle(name, names) : only(name))}
-            onToggle={() => toggle(name, names)}
-          />
-        ))}
+    <>
+      <div className={css.row}>
+        {!(alone && tools) && <Button needs="setting" tone="quiet" icon="plus" iconOnly aria-label={t('addRobot')} onPress={() => open('addRobot')} />}
+        {alone ? (
+          <RobotLine name={names[0] ?? ''} named />
+        ) : (
+          <div className={css.tabs} role="group" aria-label={t('robots')}>
+            {names.map((name) => (
+              <Tab
+                key={name}
+                name={name}
+                chosen={chosen.includes(name)}
+                awaitsAnswer={asking.has(name)}
+                onOnly={() => (several ? toggle(name, names) : only(name))}
+                onToggle={() => toggle(name, names)}
+              />
+            ))}
+          </div>
+        )}
+        {names.length > 1 && (
+          <button
+            type="button"
+            className={css.several}
+            aria-pressed={several}
+            title={t('severalHelp')}
+            onClick={() => setSeveral(!several)}
+          >
+            {t('several')}
+          </button>
+        )}
+        {tools}
       </div>
-      {names.length > 1 && (
-        <button
-          type="button"
-          className={css.several}
-          aria-pressed={several}
-          title={t('severalHelp')}
-          onClick={() => setSeveral(!several)}
-        >
-          {t('several')}
-        </button>
+      {!alone && chosen.length > 0 && (
+        <div className={css.lines}>
+          {chosen.map((name) => (
+            <RobotLine key={name} name={name} named={chosen.length > 1} />
+          ))}
+        </div>
       )}
-      {tools}
-    </div>
+    </>
   );
 }

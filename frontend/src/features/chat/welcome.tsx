@@ -2,6 +2,7 @@ import { useTranslation } from 'react-i18next';
 
 import { useLive, useWorld } from '@/live/store';
 import { useMay } from '@/state/me';
+import { useTour } from '@/state/tour';
 import { Button } from '@/ui/button';
 import { Empty, Loading } from '@/ui/panel';
 import { nameList } from '@/ui/words';
@@ -20,6 +21,8 @@ const SHOWN = 3;
 export function Welcome({ chosen, onSay }: Props) {
   const { t, i18n } = useTranslation(['chat', 'common']);
   const examples = useWorld((world) => world.info?.examples ?? NO_EXAMPLES);
+  const tour = useWorld((world) => world.info?.tour ?? NO_EXAMPLES);
+  const begin = useTour((state) => state.begin);
   const foreign = useWorld((world) => world.info?.offline_language ?? false) && !i18n.language.startsWith('en');
   const known = useLive((live) => live.world.run !== '');
   const maySpeak = useMay('speak');
@@ -43,6 +46,14 @@ export function Welcome({ chosen, onSay }: Props) {
           </li>
         ))}
       </ul>
+      {tour.length > 0 && chosen.length === 1 && (
+        <>
+          <Button icon="play" onPress={() => begin(tour)}>
+            {t('showMe')}
+          </Button>
+          <p>{t('showMeText')}</p>
+        </>
+      )}
     </Empty>
   );
 }

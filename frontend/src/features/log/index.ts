@@ -1,1 +1,2 @@
-export { LogPage } from './log-page';
+export { HistoryPage } from './history-page';
+export { LogPart } from './log-part';

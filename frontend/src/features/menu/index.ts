@@ -1,4 +1,5 @@
 export { ConnectionBanner } from './connection-banner';
+export { ModelNote } from './understands';
 export { here, offered, pathOf, type Page } from './pages';
 export { SettingsPage } from './settings-page';
 export { Sidebar } from './sidebar';

@@ -10,7 +10,7 @@ export type Page = (typeof pages)[number];
 
 export const pathOf = (page: Page) => (page === 'chat' ? '/' : `/${page}`);
 
-const needs: Partial<Record<Page, Effect>> = { people: 'people', log: 'audit' };
+const needs: Partial<Record<Page, Effect>> = { people: 'people' };
 
 /** Pages that this server has; a part that is switched off there has none. */
 export const here = (info: ServerInfo | null): readonly Page[] => pages.filter((page) => info?.modules?.[page] !== false);

@@ -4,7 +4,7 @@ import { useLive } from '@/live/store';
 
 import css from './menu.module.css';
 import { NavLinks } from './nav-links';
-import { OfflineNote } from './offline-note';
+import { Understands } from './understands';
 
 /** The menu where there is room for it. */
 export function Sidebar() {
@@ -13,7 +13,7 @@ export function Sidebar() {
       <Brand />
       <NavLinks />
       <div className={css.foot}>
-        <OfflineNote />
+        <Understands />
         <ConnectionNote />
       </div>
     </aside>

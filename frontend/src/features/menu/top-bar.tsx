@@ -6,7 +6,7 @@ import { Icon } from '@/ui/icon';
 
 import css from './menu.module.css';
 import { NavLinks } from './nav-links';
-import { OfflineNote } from './offline-note';
+import { Understands } from './understands';
 import { Brand } from './sidebar';
 
 /** The menu as a banner with a list that drops down. */
@@ -23,7 +23,7 @@ export function TopBar({ children }: { children: React.ReactNode }) {
         <Popover className={css.drop ?? ''} placement="bottom start">
           <Dialog aria-label={t('menu')} className={css.dropBody ?? ''}>
             <NavLinks onGo={() => setOpen(false)} />
-            <OfflineNote />
+            <Understands />
           </Dialog>
         </Popover>
       </DialogTrigger>

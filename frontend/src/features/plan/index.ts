@@ -1,2 +1,1 @@
 export { PlanPanel } from './plan-panel';
-export { PlanStrip } from './plan-strip';

@@ -1,6 +1,7 @@
 export { default as chat } from './chat.json';
 export { default as common } from './common.json';
 export { default as display } from './display.json';
+export { default as favourites } from './favourites.json';
 export { default as incidents } from './incidents.json';
 export { default as log } from './log.json';
 export { default as map } from './map.json';

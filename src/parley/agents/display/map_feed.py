@@ -6,7 +6,7 @@ import asyncio
 import base64
 import io
 import math
-from collections.abc import Iterable
+from collections.abc import Iterable, Sequence
 from typing import ClassVar, Final
 
 from PIL import Image
@@ -23,7 +23,7 @@ from parley.messages.status import PoseInfo
 from parley.messages.topics import display_topic
 from parley.robots.base import Robot
 from parley.transport.base import Transport
-from parley.world.object_map import MapObject
+from parley.world.object_map import MapArea, MapObject
 from parley.world.occupancy import OccupancyMap
 
 __all__ = ["FEED", "MapFeed", "MapViews"]
@@ -49,13 +49,16 @@ class MapViews(Node):
         robot: Whose view.
         map_name: Of the map it drives by.
         clock: For time stamps; the pace is wall time.
+        areas: The parts of that map that have names.
     """
 
     name: ClassVar[str] = "map_views"
 
-    def __init__(self, transport: Transport, robot: Robot, map_name: str, clock: Clock) -> None:
+    def __init__(
+        self, transport: Transport, robot: Robot, map_name: str, clock: Clock, areas: Sequence[MapArea] = ()
+    ) -> None:
         super().__init__(transport)
-        self._robot, self._map_name, self._clock = robot, map_name, clock
+        self._robot, self._map_name, self._clock, self._areas = robot, map_name, clock, areas
 
     async def open(self) -> None:
         """See `Node.open`."""
@@ -66,7 +69,7 @@ class MapViews(Node):
         told, quiet_s = None, 0.0
         while True:
             await watched.wait()
-            view = view_of(self._robot, self._map_name, self._clock.unix_ms())
+            view = view_of(self._robot, self._map_name, self._clock.unix_ms(), self._areas)
             where = (view.pose, view.path)
             if where != told or quiet_s >= RESTING_INTERVAL_S:
                 told, quiet_s = where, 0.0
@@ -120,14 +123,15 @@ class MapFeed(Node):
             await asyncio.sleep(PICTURE_INTERVAL_S)
 
 
-def view_of(robot: Robot, map_name: str, unix_ms: int) -> MapView:
+def view_of(robot: Robot, map_name: str, unix_ms: int, areas: Sequence[MapArea] = ()) -> MapView:
     """What a map on a screen shows of a robot now; without lidar there is no sweep."""
     pose, way = robot.pose(), robot.planned_path()
     here = PoseInfo(x=round(pose.x_m, 3), y=round(pose.y_m, 3), yaw=round(pose.yaw_rad, 3))
     goal = PoseInfo(x=way[-1][0], y=way[-1][1]) if way else None
+    room = next((area.name for area in areas if area.holds(here.x, here.y)), "")
     return MapView(
-        actor=robot.name, map_name=map_name, pose=here, path=_thinned(way), goal=goal, scan=_scan(robot),
-        unix_ms=unix_ms,
+        actor=robot.name, map_name=map_name, pose=here, room=room, path=_thinned(way), goal=goal,
+        scan=_scan(robot), unix_ms=unix_ms,
     )  # fmt: skip
 
 

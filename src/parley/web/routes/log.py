@@ -12,11 +12,12 @@ from parley.gate.table import Effect
 from parley.messages import topics
 from parley.messages.audit import AuditList, GetAudit
 from parley.sentences import SpokenLanguage, in_language
+from parley.web.backend import Backend
 from parley.web.models import LogLine, LogPage
 from parley.web.problems import WebProblem
 from parley.web.routes.access import Web, may, module
 
-__all__ = ["router"]
+__all__ = ["Moment", "Part", "ask_log", "router"]
 
 router = APIRouter(prefix="/audit", tags=["log"], dependencies=[module("log"), may(Effect.AUDIT)])
 
@@ -44,12 +45,7 @@ async def get_log(
         robot=robot, by=by, effect=effect, text=q, since_unix_ms=since, until_unix_ms=until, before=before,
         limit=limit + 1, verify=verify,
     )  # fmt: skip
-    try:
-        found = await web.link.ask(topics.GET_AUDIT, wanted, AuditList)
-    except UnavailableError as error:
-        raise WebProblem(503, "Nobody writes down who did what.", "Start the part that does.") from error
-    if found.problem and not found.entries and not found.chain:
-        raise WebProblem(503, "The log cannot be read at the moment.", "Try again.")
+    found = await ask_log(web, wanted)
     lines = tuple(
         LogLine(
             number=entry.number,
@@ -64,3 +60,18 @@ async def get_log(
     )
     complete = len(found.entries) <= limit
     return LogPage(lines=lines, complete=complete, chain=found.chain, problem=found.problem)
+
+
+async def ask_log(web: Backend, wanted: GetAudit) -> AuditList:
+    """Ask whoever writes down who did what.
+
+    Raises:
+        WebProblem: Nobody does, or it cannot be read.
+    """
+    try:
+        found = await web.link.ask(topics.GET_AUDIT, wanted, AuditList)
+    except UnavailableError as error:
+        raise WebProblem(503, "Nobody writes down who did what.", "Start the part that does.") from error
+    if found.problem and not found.entries and not found.chain:
+        raise WebProblem(503, "The log cannot be read at the moment.", "Try again.")
+    return found

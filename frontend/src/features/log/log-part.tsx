@@ -5,17 +5,16 @@ import { getLog, type LogWish } from '@/live/api';
 import { useWorld } from '@/live/store';
 import type { LogLine, LogPage as Found } from '@/live/types';
 import { attempt } from '@/state/do';
-import { draftKey, useDrafts } from '@/state/drafts';
-import { useRobotNames, useSelectionStore } from '@/state/selection';
+import { useRobotNames } from '@/state/selection';
 import { Button } from '@/ui/button';
 import { Choice } from '@/ui/choice';
-import { Empty, Loading, Panel } from '@/ui/panel';
+import { Empty, Loading } from '@/ui/panel';
 import { TextField } from '@/ui/text-field';
-import { goTo } from '@/ui/use-hash';
 import { useNow } from '@/ui/use-now';
 import { useKept, useRequest, type Loaded } from '@/ui/use-request';
 import { timeOrDay } from '@/ui/words';
 
+import { sayAgain } from './again';
 import { ChainMark } from './chain-mark';
 import { kinds, type Kind } from './kinds';
 import css from './log.module.css';
@@ -25,7 +24,7 @@ const ALL = '*';
 const MINUTE_MS = 60_000;
 
 /** Who did what: to look through, narrow down and trust. */
-export function LogPage() {
+export function LogPart() {
   const { t, i18n } = useTranslation(['log', 'common']);
   const [words, setWords] = useState('');
   const [who, setWho] = useState('');
@@ -53,8 +52,8 @@ export function LogPage() {
       setBefore(0);
     };
   return (
-    <Panel title={t('title')} tools={<ChainMark asked={`${run} ${asked}`} />}>
-      <div className={css.page}>
+    <>
+        <ChainMark asked={`${run} ${asked}`} />
         <div className={css.search} role="search">
           <TextField label={t('search')} value={words} onChange={anew(setWords)} maxLength={200} />
           <TextField label={t('who')} value={who} onChange={anew(setWho)} maxLength={200} />
@@ -86,8 +85,7 @@ export function LogPage() {
             <Button onPress={() => setBefore(found.value.lines?.at(-1)?.number ?? 0)}>{t('older')}</Button>
           )}
         </div>
-      </div>
-    </Panel>
+    </>
   );
 }
 
@@ -103,13 +101,6 @@ async function all(wish: LogWish): Promise<LogLine[]> {
     complete = (found.complete ?? true) || (found.lines ?? []).length === 0;
   }
   return lines;
-}
-
-/** Takes an order of then up again: its words stand where one writes, to be changed and sent. */
-function again(line: LogLine): void {
-  if (line.robot) useSelectionStore.getState().only(line.robot);
-  useDrafts.getState().add(draftKey(line.robot ? [line.robot] : []), line.words ?? '');
-  goTo('/');
 }
 
 interface LinesProps {
@@ -153,7 +144,7 @@ function Line({ line }: { line: LogLine }) {
       </time>
       <span>{line.text}</span>
       {line.words && line.robot && (
-        <Button needs="speak" tone="quiet" icon="undo" iconOnly aria-label={t('doAgain', { words: line.words })} onPress={() => again(line)} />
+        <Button needs="speak" tone="quiet" icon="undo" iconOnly aria-label={t('doAgain', { words: line.words })} onPress={() => sayAgain(line.robot ?? '', line.words ?? '')} />
       )}
     </li>
   );

@@ -7,7 +7,7 @@ import { logPage, robot, snapshot } from '@/live/samples';
 import { useLive } from '@/live/store';
 import { useDrafts } from '@/state/drafts';
 
-import { LogPage } from './log-page';
+import { LogPart } from './log-part';
 import { tableOf } from './table';
 
 let asked: Asked[];
@@ -22,13 +22,13 @@ const wishes = () => asked.map(({ path }) => new URLSearchParams(path.split('?')
 
 describe('the log', () => {
   it('tells in sentences who did what, and that nobody changed it', async () => {
-    render(<LogPage />);
+    render(<LogPart />);
     await screen.findByText('Kim (phone) stopped Ada.');
     await screen.findByText(/^Unbroken since/);
   });
 
   it('takes an order of then up again, where one writes, and does not send it', async () => {
-    render(<LogPage />);
+    render(<LogPart />);
     fireEvent.click(await screen.findByLabelText('Do again: go to the box'));
     expect(useDrafts.getState().drafts).toEqual({ Ada: { text: 'go to the box', photo: null } });
   });
@@ -46,13 +46,13 @@ describe('the log', () => {
   it('says so when it was changed', async () => {
     const chain = { entries: 3, since_unix_ms: 1, last: '', first_broken: 2, problem: 'it was changed' };
     vi.stubGlobal('fetch', network({ audit: { json: logPage({ chain }) } }));
-    render(<LogPage />);
+    render(<LogPart />);
     await screen.findByText('Not as it was written from entry 2 on');
   });
 
   it('is narrowed by words and leads on to what is older, and back', async () => {
     const user = userEvent.setup();
-    render(<LogPage />);
+    render(<LogPart />);
     await user.type(await screen.findByLabelText('Search the log'), 'box');
     await user.click(await screen.findByRole('button', { name: 'Older' }));
     await screen.findByRole('button', { name: 'Newest' });

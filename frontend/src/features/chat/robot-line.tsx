@@ -1,0 +1,75 @@
+import { useMemo } from 'react';
+import { useTranslation } from 'react-i18next';
+import { Link } from 'wouter';
+
+import { linesOf } from '@/live/lines';
+import { onServerClock } from '@/live/server-time';
+import { useWorld } from '@/live/store';
+import type { PlanView, StepView } from '@/live/types';
+import { useMood } from '@/state/mood';
+import { Dot } from '@/ui/dot';
+import { useNow } from '@/ui/use-now';
+import { sentence, span } from '@/ui/words';
+
+import css from './robot-line.module.css';
+
+const AT_WORK: ReadonlySet<StepView['state']> = new Set(['running', 'waiting', 'paused', 'stopping']);
+const OVER: ReadonlySet<PlanView['state']> = new Set(['idle', 'ended']);
+const SECOND_MS = 1000;
+
+/** How a robot fares: where it is, what it really does now, and for how long. */
+export function RobotLine({ name, named }: { name: string; named: boolean }) {
+  const { t } = useTranslation(['chat', 'robots']);
+  const mood = useMood(name);
+  const plans = useWorld((world) => world.plans);
+  const task = useMemo(
+    () => Object.values(plans).flatMap((plan) => (plan.robot === name ? (taskOf(plan) ?? []) : []))[0],
+    [plans, name],
+  );
+  const shown = mood === 'running' && task?.step.state === 'waiting' ? 'waiting' : mood;
+  const here = mood !== 'away' && mood !== 'unknown'; // else the rest is old
+  return (
+    <div className={css.line} role="group" aria-label={t('fares', { name })}>
+      <p>
+        <Dot mood={shown} />
+        {named && <strong>{name}</strong>}
+        <span>{t(`robots:state.${shown}`)}</span>
+        {here && <Facts name={name} />}
+      </p>
+      {task && here && (
+        <p className={css.task}>
+          <Link href="/plan">{t('stepOf', { ...task, step: sentence(task.step.label) })}</Link>
+          {task.step.started_unix_ms > 0 && mood === 'running' && <Since unixMs={task.step.started_unix_ms} />}
+        </p>
+      )}
+    </div>
+  );
+}
+
+function Facts({ name }: { name: string }) {
+  const { t } = useTranslation('robots');
+  const room = useWorld((world) => world.views[name]?.room ?? '');
+  const battery = useWorld((world) => world.robots[name]?.battery ?? null);
+  return (
+    <>
+      {room && <span className={css.room}>{sentence(room)}</span>}
+      {battery !== null && <span>{t('percent', { percent: Math.round(battery * 100) })}</span>}
+    </>
+  );
+}
+
+/** The step that really runs, or at which it got stuck. */
+function taskOf(plan: PlanView) {
+  if (OVER.has(plan.state)) return null;
+  const lines = linesOf(plan.steps);
+  const at = lines.findIndex(({ step }) => AT_WORK.has(step.state) || step.state === 'failed');
+  const step = lines[at]?.step;
+  return step ? { step, number: at + 1, all: lines.length } : null;
+}
+
+function Since({ unixMs }: { unixMs: number }) {
+  const { t } = useTranslation('chat');
+  const now = useNow(SECOND_MS);
+  const time = span(onServerClock(now) - unixMs);
+  return <time aria-label={t('since', { time })}>{time}</time>;
+}

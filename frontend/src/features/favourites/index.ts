@@ -1,0 +1,1 @@
+export { FavouritesBox } from './favourites-box';

@@ -1,0 +1,194 @@
+import { useDeferredValue, useState } from 'react';
+import { useTranslation } from 'react-i18next';
+
+import { getHistory, roundFile } from '@/live/api';
+import { useWorld } from '@/live/store';
+import type { RoundView } from '@/live/types';
+import { useKeeping } from '@/state/favourites';
+import { useOverlays } from '@/state/overlays';
+import { useRobotNames } from '@/state/selection';
+import { Button } from '@/ui/button';
+import { Choice } from '@/ui/choice';
+import { Icon, type IconName } from '@/ui/icon';
+import { Empty, Loading } from '@/ui/panel';
+import { TextField } from '@/ui/text-field';
+import { useNow } from '@/ui/use-now';
+import { useKept, useRequest } from '@/ui/use-request';
+import { clockTime, sentence, span, timeOrDay } from '@/ui/words';
+
+import { sayAgain } from './again';
+import css from './log.module.css';
+
+const ALL = '*';
+const MINUTE_MS = 60_000;
+const WEEK_DAYS = 6;
+const days = ['today', 'week', 'any'] as const;
+
+/** Midnight of that many days ago. */
+function midnight(daysAgo: number): number {
+  const day = new Date();
+  day.setHours(0, 0, 0, 0);
+  return day.setDate(day.getDate() - daysAgo);
+}
+
+/** What robots were told to do, how it ended and what they saw. */
+export function Rounds() {
+  const { t, i18n } = useTranslation(['log', 'common']);
+  const [words, setWords] = useState('');
+  const [who, setWho] = useState('');
+  const [robot, setRobot] = useState(ALL);
+  const [day, setDay] = useState<(typeof days)[number]>('today');
+  const [before, setBefore] = useState(0);
+  const names = useRobotNames();
+  const run = useWorld((world) => world.run);
+  const plans = useWorld((world) => Object.values(world.plans).map((plan) => `${plan.graph_name} ${plan.state}`).join());
+  const wish = {
+    q: useDeferredValue(words.trim()),
+    by: useDeferredValue(who.trim()),
+    robot: robot === ALL ? '' : robot,
+    since: { today: midnight(0), week: midnight(WEEK_DAYS), any: 0 }[day],
+    before,
+    language: i18n.language,
+  };
+  const found = useKept(useRequest(JSON.stringify([run, plans, wish]), () => getHistory(wish)));
+  const anew =
+    <T,>(set: (value: T) => void) =>
+    (value: T) => {
+      set(value);
+      setBefore(0);
+    };
+  return (
+    <>
+      <div className={css.search} role="search">
+        <TextField label={t('searchRounds')} value={words} onChange={anew(setWords)} maxLength={200} />
+        <TextField label={t('who')} value={who} onChange={anew(setWho)} maxLength={200} />
+        {names.length > 1 && (
+          <Choice
+            label={t('whose')}
+            value={robot}
+            options={[{ id: ALL, label: t('all') }, ...names.map((name) => ({ id: name, label: name }))]}
+            onChange={anew(setRobot)}
+          />
+        )}
+        <Choice label={t('day')} value={day} options={days.map((id) => ({ id, label: t(`days.${id}`) }))} onChange={anew(setDay)} />
+      </div>
+      {found.state === 'loading' && <Loading />}
+      {found.state === 'failed' && (
+        <Empty title={t('failed')}>
+          <p role="alert">{found.reason}</p>
+        </Empty>
+      )}
+      {found.state === 'ready' && <List rounds={found.value.rounds ?? []} narrowed={Boolean(wish.q || wish.by || wish.robot)} />}
+      <div className={css.foot}>
+        {before > 0 && <Button onPress={() => setBefore(0)}>{t('newest')}</Button>}
+        {found.state === 'ready' && !found.value.complete && (
+          <Button onPress={() => setBefore(found.value.rounds?.at(-1)?.number ?? 0)}>{t('older')}</Button>
+        )}
+      </div>
+    </>
+  );
+}
+
+function List({ rounds, narrowed }: { rounds: readonly RoundView[]; narrowed: boolean }) {
+  const { t } = useTranslation('log');
+  if (rounds.length === 0) return <Empty title={narrowed ? t('none') : t('roundsEmpty')}>{!narrowed && <p>{t('roundsEmptyText')}</p>}</Empty>;
+  return (
+    <ol className={css.rounds}>
+      {rounds.map((round) => (
+        <Round key={round.number} round={round} />
+      ))}
+    </ol>
+  );
+}
+
+const icons: Record<RoundView['state'], IconName> = { running: 'play', done: 'check', failed: 'bang', ended: 'cross' };
+
+function Round({ round }: { round: RoundView }) {
+  const { t, i18n } = useTranslation('log');
+  const now = useNow(MINUTE_MS);
+  const steps = round.steps ?? [];
+  const title = titleOf(round);
+  const { by, words, approved_by: yes, ended_unix_ms: ended = 0 } = round;
+  return (
+    <li className={css.round} data-state={round.state}>
+      <p className={css.roundHead}>
+        <time dateTime={new Date(round.unix_ms).toISOString()}>{timeOrDay(round.unix_ms, now, i18n.language)}</time>
+        <span className={css.roundState}>
+          <Icon name={icons[round.state]} size={16} /> {t(`state.${round.state}`)}
+        </span>
+        {ended > 0 && <span>{span(ended - round.unix_ms)}</span>}
+        <span>{by ? t('by', { who: by, robot: round.robot }) : round.robot}</span>
+      </p>
+      <h3>{title}</h3>
+      {round.reason && <p>{round.reason}</p>}
+      {yes && <p>{t('yes', { who: yes })}</p>}
+      {steps.length > 0 && (
+        <details>
+          <summary>{t('stepsOf', { count: steps.length })}</summary>
+          <ol className={css.steps}>
+            {steps.map((step, index) => (
+              <li key={`${index} ${step}`}>{sentence(step)}</li>
+            ))}
+          </ol>
+        </details>
+      )}
+      <Findings round={round} title={title} />
+      <div className={css.deeds}>
+        {words && (
+          <Button needs="speak" icon="undo" aria-label={t('doAgain', { words })} onPress={() => sayAgain(round.robot, words)}>
+            {t('againShort')}
+          </Button>
+        )}
+        {words && <KeepButton words={words} />}
+        <a className={css.file} href={roundFile(round.number, i18n.language)} download aria-label={t('file', { words: title })}>
+          <Icon name="down" /> {t('fileShort')}
+        </a>
+      </div>
+    </li>
+  );
+}
+
+function KeepButton({ words }: { words: string }) {
+  const { t } = useTranslation('favourites');
+  const open = useOverlays((state) => state.set);
+  const keep = useKeeping((state) => state.keep);
+  const show = () => {
+    keep(words);
+    open('favourites');
+  };
+  return (
+    <Button needs="speak" icon="star" aria-label={t('keepRound', { words })} onPress={show}>
+      {t('keepShort')}
+    </Button>
+  );
+}
+
+function Findings({ round, title }: { round: RoundView; title: string }) {
+  const { t } = useTranslation('log');
+  const pictures = round.pictures ?? [];
+  if (pictures.length === 0) return null;
+  return (
+    <p className={css.pictures}>
+      {pictures.map((address, index) => (
+        <a key={address} href={address} target="_blank" rel="noreferrer">
+          <img src={address} alt={t('picture', { number: index + 1, words: title })} loading="lazy" width={160} height={120} />
+        </a>
+      ))}
+    </p>
+  );
+}
+
+/** What was said, or where nothing was, what was done. */
+export const titleOf = (round: RoundView) => sentence(round.words ?? '') || sentence((round.steps ?? []).join(', ')) || round.robot;
+
+/** One round in one line, for those who come after. */
+export function RoundLine({ round }: { round: RoundView }) {
+  const { t, i18n } = useTranslation('log');
+  const { by } = round;
+  return (
+    <li>
+      <time>{clockTime(round.unix_ms, i18n.language)}</time> {by ? t('by', { who: by, robot: round.robot }) : round.robot}: {titleOf(round)}
+      {round.reason && <> – {round.reason}</>}
+    </li>
+  );
+}

@@ -1,0 +1,124 @@
+"""What robots were told to do and how it ended, and what the next shift has to know. Pure.
+
+All of it is read off the log of who did what, and off what stands now; no language engine words it.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Iterable, Sequence
+from typing import Any, Final, Literal
+
+from pydantic import ValidationError
+
+from parley.gate.audit_text import told, who_of
+from parley.messages.audit import AuditEntry
+from parley.messages.principal import Principal
+from parley.sentences import SpokenLanguage, in_language, sentence
+from parley.web.models import RoundView
+from parley.web.state import WebState
+
+__all__ = ["Graph", "rounds_of", "running_graphs", "told_lines", "waiting"]
+
+Graph = tuple[str, str]
+"""A robot and the name of what it does: never used twice."""
+_OVER: Final = frozenset({"idle", "ended"})
+
+
+def rounds_of(
+    starts: Sequence[AuditEntry],
+    ends: Iterable[AuditEntry],
+    running: frozenset[Graph],
+    language: SpokenLanguage = "en",
+) -> list[RoundView]:
+    """Every beginning with its end.
+
+    Args:
+        starts: Entries of the log with which robots began.
+        ends: Entries with which they came to an end.
+        running: What robots do just now; of what has no end and does not run, the end was never heard.
+        language: Of who it was.
+    """
+    ended = {_graph(entry): entry for entry in ends}
+    return [_round(entry, ended.get(_graph(entry)), _graph(entry) in running, language) for entry in starts]
+
+
+def waiting(state: WebState, robot: str, language: SpokenLanguage = "en") -> tuple[str, ...]:
+    """What stands still until a person does something, in sentences."""
+    found = [
+        sentence("{robot} waits for a yes: {what}", robot=proposal.robot, what=_steps(proposal.steps))
+        for proposal in state.plans.proposals.values()
+        if robot in ("", proposal.robot)
+    ]
+    found += [
+        sentence("{robot} asks: {what}", robot=", ".join(entry.targets), what=entry.message)
+        for entry in state.chat.entries.values()
+        if entry.question == "open" and (not robot or robot in entry.targets)
+    ]
+    found += [
+        sentence("{robot} was held with steps left: {what}", robot=plan.robot, what=_steps(left))
+        for plan in state.plans.views.values()
+        if plan.state in ("paused", "held") and robot in ("", plan.robot)
+        if (left := [step for step in plan.steps if step.state not in ("finished", "skipped", "stopped")])
+    ]
+    found += [
+        sentence("{robot} is stopped and stays so until somebody releases it.", robot=view.name)
+        for view in state.robots.views.values()
+        if view.stop.state != "none" and robot in ("", view.name)
+    ]
+    return tuple(in_language(text, language) for text in found)
+
+
+def running_graphs(state: WebState) -> frozenset[Graph]:
+    """What robots do just now."""
+    return frozenset(key for key, plan in state.plans.views.items() if plan.state not in _OVER)
+
+
+def told_lines(entries: Iterable[AuditEntry], language: SpokenLanguage) -> tuple[tuple[int, str], ...]:
+    """When and what, oldest first; what robots report of themselves is left out."""
+    people = [entry for entry in entries if entry.by is None or entry.by.kind != "robot"]
+    people.sort(key=lambda entry: entry.number)
+    return tuple((entry.unix_ms, in_language(told(entry), language)) for entry in people)
+
+
+def _round(
+    start: AuditEntry, end: AuditEntry | None, is_running: bool, language: SpokenLanguage
+) -> RoundView:
+    last = end or start
+    steps = last.detail.get("labels")
+    by = _principal(start.detail.get("asked_by")) or start.by
+    approved = _principal(start.detail.get("approved_by"))
+    return RoundView(
+        number=start.number,
+        robot=start.robot,
+        words=str(start.detail.get("asked", "")),
+        by=in_language(who_of(by), language) if by else "",
+        approved_by=in_language(who_of(approved), language) if approved else "",
+        unix_ms=start.unix_ms,
+        ended_unix_ms=end.unix_ms if end else 0,
+        state=_state(end, is_running),
+        steps=tuple(map(str, steps)) if isinstance(steps, list) else (),
+        reason=end.reason if end else "",
+    )
+
+
+def _state(end: AuditEntry | None, is_running: bool) -> Literal["running", "done", "failed", "ended"]:
+    if end is None:
+        return "running" if is_running else "ended"
+    if end.outcome == "failed":
+        return "failed"
+    return "ended" if end.detail.get("state") == "STOPPED" else "done"
+
+
+def _graph(entry: AuditEntry) -> Graph:
+    return (entry.robot, str(entry.detail.get("graph", "")))
+
+
+def _principal(value: Any) -> Principal | None:
+    try:
+        return Principal.model_validate(value)
+    except ValidationError:
+        return None
+
+
+def _steps(steps: Iterable[Any]) -> str:
+    return ", ".join(step.label for step in steps if not step.only_finds) or "–"

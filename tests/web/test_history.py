@@ -1,0 +1,98 @@
+"""What robots did: rounds, the handover to the next shift, one round as a file; with the real log."""
+
+from __future__ import annotations
+
+from collections.abc import AsyncIterator
+from contextlib import asynccontextmanager
+from typing import Any
+
+from parley.agents.audit_log import AuditLog
+from parley.gate.audit_store import AuditStore
+from parley.messages import topics
+from parley.messages.chat import ActionCall, ChatAction, ChatInput
+from parley.messages.principal import person
+from parley.messages.status import GraphEvent, PlanUpdate, StopCommand
+from tests.web.rig import HandClock, Rig, served
+
+KIM = person("Kim", device="page on a phone")
+BEGAN_MS = HandClock().unix_ms() - 60_000
+LOOK = ActionCall(name="Inspect", reason="look")
+
+
+@asynccontextmanager
+async def logged() -> AsyncIterator[Rig]:
+    async with served("Ada") as rig:
+        clock, transport = HandClock(), rig.robots.transport
+        async with await AuditStore.open(":memory:", clock) as store, AuditLog(transport, store, clock):
+            yield rig
+
+
+def graph(rig: Rig, name: str, state: str, unix_ms: int, result: str = "") -> None:
+    event = GraphEvent(
+        actor="Ada", graph_name=name, sequence=0, kind="graph", state=state, result=result, unix_ms=unix_ms
+    )
+    rig.robots.tell(topics.GRAPH_EVENTS, event)
+
+
+def plan(rig: Rig, name: str, step: str, state: str) -> None:
+    steps = [{"action": LOOK.model_dump(), "label": f"look at <{name}>", "state": step}]
+    told = {"target": "Ada", "graph_name": name, "state": state, "steps": steps}
+    rig.robots.tell(topics.PLAN, PlanUpdate.model_validate(told))
+
+
+async def order(rig: Rig, name: str, words: str, began_ms: int) -> None:
+    """Somebody says what they want, and the robot begins."""
+    rig.robots.tell(topics.CHAT_INPUT, ChatInput(id=name, message=words, targets=("Ada",), by=KIM))
+    rig.robots.tell(topics.CHAT_ACTION, ChatAction(queue=(LOOK,), targets=("Ada",), reply_to=name))
+    plan(rig, name, "running", "running")
+    await rig.heard()
+    graph(rig, name, "RUNNING", began_ms)
+
+
+async def test_every_round_stands_with_who_wanted_it_how_it_ended_and_what_was_seen() -> None:
+    async with logged() as rig:
+        await order(rig, "one", "look at the <box>", BEGAN_MS)
+        rig.robots.show("Ada", "inspection", unix_ms=BEGAN_MS - 5)  # the feed is known now
+        await rig.until(lambda: rig.server.backend.state.feeds.infos)
+        rig.robots.show("Ada", "inspection", unix_ms=BEGAN_MS + 1000)
+        plan(rig, "one", "finished", "idle")  # its graph only halts
+        await rig.heard()
+        await order(rig, "two", "look at the door", BEGAN_MS + 10_000)
+
+        async def rounds(query: str = "") -> list[dict[str, Any]]:
+            return list((await rig.http.get(f"/api/history?{query}")).json()["rounds"])
+
+        await rig.heard()
+        second, first = await rounds()
+        assert (first["words"], first["by"], first["state"]) == (
+            "look at the <box>",
+            "Kim (page on a phone)",
+            "done",
+        )
+        assert (second["state"], second["ended_unix_ms"], second["pictures"]) == ("running", 0, [])
+        (picture,) = first["pictures"]
+        assert (await rig.http.get(str(picture))).headers["content-type"] == "image/jpeg"
+        assert [one["words"] for one in await rounds("q=door")] == ["look at the door"]
+        assert await rounds("by=ada") == await rounds("robot=Bob") == []
+        assert [one["number"] for one in await rounds(f"before={second['number']}")] == [first["number"]]
+
+        file = await rig.http.get(f"/api/history/file?number={first['number']}&language=et")
+        assert "attachment" in file.headers["content-disposition"]
+        assert "look at the &lt;box&gt;" in file.text and "<box>" not in file.text
+        assert "data:image/jpeg;base64," in file.text and "Kim (leht telefonis)" in file.text
+        assert (await rig.http.get("/api/history/file?number=1")).status_code == 404
+
+
+async def test_the_next_shift_is_told_what_was_done_what_failed_what_waits_and_who_stopped_what() -> None:
+    async with logged() as rig:
+        await order(rig, "one", "look at the box", BEGAN_MS)
+        graph(rig, "one", "FINISHED", BEGAN_MS + 2000, "on_error")
+        rig.robots.tell(topics.STOP, StopCommand(targets=("Ada",), by=KIM))
+        rig.robots.ask("Which box?", "red", "blue")
+        await rig.heard()
+        told = (await rig.http.get("/api/history/handover?since=1")).json()
+        assert [one["state"] for one in told["rounds"]] == ["failed"]
+        assert [text for _, text in told["stops"]] == ["Kim (page on a phone) stopped Ada."]
+        assert "Ada asks: Which box?" in told["waits"]
+        later = (await rig.http.get(f"/api/history/handover?since={BEGAN_MS + 1}")).json()
+        assert later["rounds"] == []
