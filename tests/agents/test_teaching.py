@@ -15,7 +15,7 @@ from parley.messages.memory import taught_name
 from parley.messages.principal import Principal, person
 from parley.messages.status import ActorStatus
 from tests.agents.test_recollections import House, opened_house
-from tests.language.builtin.worlds import CATALOGUE
+from tests.language.builtin.worlds import CATALOGUE, thing
 
 
 @pytest.fixture
@@ -50,6 +50,20 @@ async def test_taught_sentence_is_kept_shown_used_replaced_and_forgotten(house: 
     ).message == "I have forgotten what “quick look” means."
     assert (await house.say("which words did I teach you?")).message.startswith("Nobody has taught me")
     assert "turn left" not in (await house.say("quick look")).message
+
+
+async def test_teaching_which_one_is_meant_answers_the_question_about_it() -> None:
+    things = (thing("blue tray", 1), thing("red tray", 2))
+    async with opened_house(BuiltinLanguage(), objects=things) as house:
+        house.observer.publish(topics.ACTOR_STATUS, ActorStatus(actor="A", catalogue=CATALOGUE))
+        assert "Which one do you mean" in (await house.say("pick up the tray")).message
+        learned = await house.say("no, by tray I mean the blue one")
+        assert learned.message == "I will remember: “tray” is the blue tray."
+        await house.observer.until(lambda: len(house.observer.said) > 2, timeout_s=10)
+        assert house.observer.said[2].message.startswith("I will pick up the blue tray.")
+        await house.say("by the den I mean the red tray")
+        await house.say("which words did I teach you?")
+        assert len(house.observer.said) == 5  # nothing was done again
 
 
 async def test_what_cannot_be_taught_is_said_and_not_kept(house: House) -> None:

@@ -51,10 +51,18 @@ def test_what_only_sounds_like_it_teaches_nothing(message: str) -> None:
         ("Tidy up, please!", kept("tidy up", "go to the desk and inspect the pump"),
          ["drive_to(desk)", "look(pump)"]),
         ("lights out", kept("lights out", "", "off", device="lamp"), ["off(lamp)"]),
+        ("Tidy up, and then go to the yard.", kept("tidy up", "inspect the pump"),
+         ["look(pump)", "drive_to(yard)"]),
+        ("go to the yard, then lights out", kept("lights out", "", "off", device="lamp"),
+         ["drive_to(yard)", "off(lamp)"]),
+        ("tidy up the desk", kept("tidy up", "inspect the pump"), []),
+        ("tidy up, then fly to the moon", kept("tidy up", "inspect the pump"), []),
+        ("if the office is open, tidy up", kept("tidy up", "inspect the pump"), []),
         ("don't tidy up", kept("tidy up", "go to the desk and inspect the pump"), []),
         ("tidy up", kept("tidy up", "", "fly"), []),
         ("tidy up", kept("tidy up", '{"action": 3}'), []),
         ("round", kept("round", "round"), []),
+        ("go to the yard", kept("go to the yard", "go to the desk"), ["drive_to(yard)"]),
     ],
 )  # fmt: skip
 async def test_what_was_taught_is_done(message: str, memory: MemoryEntry, deeds: list[str]) -> None:

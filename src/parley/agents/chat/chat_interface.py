@@ -239,11 +239,11 @@ class ChatInterface(Node):
             mine = ours if self._recollections.asked(ours) else ""
             if not mine and (answer := await log_answer(self.transport, self._clock, target, said)):
                 self._say((target,), answer, "response", said.id)
-            elif not (
-                await self._recollections.handles(target, said, mine)
-                or await self._teaching.handles(target, said)
-            ):
-                await self._answering.answer(target, said, halts)
+            elif not await self._recollections.handles(target, said, mine):
+                order = await self._teaching.handles(target, said)
+                heard = said.model_copy(update={"message": order}) if order else said
+                if order != "":
+                    await self._answering.answer(target, heard, halts)
             self._ask_about_rules_again(target, said)
 
         return work

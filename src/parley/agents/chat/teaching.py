@@ -5,6 +5,7 @@ Wiring only; what a message teaches and whether it may is read in `parley.langua
 
 from __future__ import annotations
 
+import asyncio
 from collections.abc import Awaitable, Callable
 from typing import Final
 
@@ -28,6 +29,8 @@ from parley.sentences import Sentence, listed, sentence
 
 __all__ = ["Teaching"]
 
+_WITHIN_S: Final = 60.0
+"""Wall time in which it must be known whether what is taught is understood."""
 _ONLY_PEOPLE: Final = "Only people teach me what words mean."
 _NOTHING: Final = "Nobody has taught me words of their own yet."
 _NO_ANSWER: Final = (
@@ -54,10 +57,17 @@ class Teaching:
     ) -> None:
         self._node, self._language, self._known, self._remember = node, language, known, remember
 
-    async def handles(self, target: str, said: ChatInput) -> bool:
-        """Learn, forget or tell what words mean; whether a message was about that."""
+    async def handles(self, target: str, said: ChatInput) -> str | None:
+        """Learn, forget or tell what words mean.
+
+        Returns:
+            None if a message is not about that; else the order that was asked about before, if it is certain
+            by what was taught, or an empty text.
+        """
         lesson = lesson_of(said.message)
-        return await (self._learn(lesson, target, said) if lesson else self._about_taught(target, said))
+        if lesson is None:
+            return "" if await self._about_taught(target, said) else None
+        return await self._learn(lesson, target, said)
 
     async def _about_taught(self, target: str, said: ChatInput) -> bool:
         """Tell or forget what was taught; what nobody taught is left to whoever knows of words."""
@@ -84,26 +94,29 @@ class Teaching:
         self._tell(target, said, text)
         return True
 
-    async def _learn(self, lesson: Taught, target: str, said: ChatInput) -> bool:
+    async def _learn(self, lesson: Taught, target: str, said: ChatInput) -> str:
         if not said.who.is_person or verdict(said.who, Effect.REMEMBER) != "allow":
             self._tell(target, said, _ONLY_PEOPLE, "error")
-            return True
+            return ""
         try:
-            situation = await self._known.of(target, said.message, said, sees_pictures=False)
-            found = await weighed(lesson, situation, self._language)
+            async with asyncio.timeout(_WITHIN_S):
+                situation = await self._known.of(target, said.message, said, sees_pictures=False)
+                found = await weighed(lesson, situation, self._language)
         except (LanguageError, TimeoutError) as error:
             self._node.log.warning("not learned", target=target, error=repr(error))
             self._tell(target, said, _NO_ANSWER, "error")
-            return True
+            return ""
         if isinstance(found, Sentence):
             self._tell(target, said, sentence("I did not learn that. {why}", why=found))
-            return True
+            return ""
         entry = entry_of(found.taught, source=said.author or OPERATOR, words=said.message)
         if problem := await self._remember(entry, said.who):
             self._tell(target, said, problem, "error")
-        else:
-            self._tell(target, said, _learned(found, situation))
-        return True
+            return ""
+        asked = situation.dialogue.asked
+        self._tell(target, said, _learned(found, situation))
+        answers = asked is not None and not found.steps and found.taught.means in asked.choices
+        return asked.words if asked is not None and answers else ""
 
     def _tell(self, target: str, said: ChatInput, text: str, kind: str = "response") -> None:
         self._known.note(target, said.message, text)

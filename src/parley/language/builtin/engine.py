@@ -20,10 +20,11 @@ from parley.language.base import (
 from parley.language.builtin import pictures
 from parley.language.builtin.clauses import Clause, clauses
 from parley.language.builtin.deciding import decide
-from parley.language.builtin.decision import Answer, Ask, Decision, Do, Edit
+from parley.language.builtin.decision import Answer, Ask, Decision, Do
 from parley.language.builtin.explaining import explained
 from parley.language.builtin.lexicon import lexicon, stem
 from parley.language.builtin.own import OwnActions, is_promised
+from parley.language.builtin.own_words import own_words
 from parley.language.builtin.reading import Reading, read
 from parley.language.builtin.recovery import Repairer
 from parley.language.builtin.reply import to_chat
@@ -34,19 +35,9 @@ from parley.language.builtin.structure import Part
 from parley.language.builtin.tagger import shipped_tagger
 from parley.language.builtin.things import head_of, link
 from parley.language.builtin.tokens import Token, spoken, tokenize
-from parley.language.dialogue.changes import Change
 from parley.language.dialogue.replies import read_reply
 from parley.language.dialogue.state import Asked, Dialogue, Order
-from parley.language.dialogue.taught import (
-    Taught,
-    call_of,
-    founded,
-    key,
-    meant,
-    problem_of,
-    taught_in,
-    with_names,
-)
+from parley.language.dialogue.taught import founded, taught_in, with_names
 from parley.messages.chat import ChatAction
 from parley.messages.memory import MemoryEntry
 from parley.robots.base import CameraImage
@@ -130,8 +121,8 @@ class BuiltinLanguage:
         if not any(token.is_word for token in tokenize(situation.message)):
             return Ask("I did not understand that. Please say what I should do.")
         situation = self._with_past(situation)
-        if (one := meant(situation)) is not None:
-            return self._as_taught(situation, one)
+        if (taught := own_words(situation, self._lexicon, self.decide)) is not None:
+            return taught
         situation = replace(situation, objects=with_names(situation.objects, taught_in(situation.memory)))
         parts = self._parts(situation.message)
         if len(parts) > 1 and is_promised(situation.message, situation.catalogue):
@@ -157,20 +148,6 @@ class BuiltinLanguage:
             return self.decide(replace(situation, message=text, history=(), objects=objects, dialogue=plain))
 
         return decide(situation, parts, skills, self._lexicon, self.reading, again)
-
-    def _as_taught(self, situation: Situation, one: Taught) -> Decision:
-        """What comes of a sentence of somebody's own: what comes of its meaning."""
-        if one.action:
-            if (problem := problem_of(one, situation.catalogue)) is not None:
-                return Ask(f"You taught me that “{one.words}” means {one.meaning}. {problem}")
-            call = call_of(one, situation.catalogue)
-            return Edit(Change(add=(call,), said=f"I do what “{one.words}” means: {call.reason}."))
-        rest = tuple(entry for entry in situation.memory if key(entry.taught) != one.words)
-        made = self.decide(replace(situation, message=one.means, memory=rest))
-        if not isinstance(made, Ask):
-            return made
-        told = f"You taught me that “{one.words}” means “{one.means}”."
-        return replace(made, question=f"{told} {made.question}")
 
     def _with_past(self, situation: Situation) -> Situation:
         """With the last order and what was asked about it, where nothing but the turns is known of them."""

@@ -14,7 +14,6 @@ from dataclasses import dataclass, field, replace
 from typing import Any, Final
 
 from parley.gate.assent import assent_of
-from parley.gate.cards import labels_of
 from parley.language.base import Situation
 from parley.language.builtin.lexicon import lexicon, stems
 from parley.language.builtin.tokens import tokenize
@@ -22,9 +21,9 @@ from parley.language.control import control_of
 from parley.language.dialogue.questions import plain, question_of
 from parley.language.lexicon import load_data
 from parley.language.stop_words import calls_to_stop, is_no
-from parley.messages.chat import ActionCall, ChatAction
+from parley.messages.chat import ChatAction
 from parley.messages.memory import MemoryEntry, taught_name
-from parley.messages.pvf import NATIVE_TYPES, fits_type, native_type
+from parley.messages.pvf import NATIVE_TYPES, fits_type
 from parley.messages.status import ActionInfo
 from parley.sentences import Sentence, listed, sentence
 from parley.umrf.kinds import parameters_of
@@ -32,7 +31,6 @@ from parley.world.object_map import MapObject
 
 __all__ = [
     "Taught",
-    "call_of",
     "entry_of",
     "founded",
     "key",
@@ -197,19 +195,6 @@ def problem_of(taught: Taught, catalogue: Sequence[ActionInfo]) -> Sentence | No
     return (
         sentence("{action} needs {missing}.", action=info.name, missing=listed(missing)) if missing else None
     )
-
-
-def call_of(taught: Taught, catalogue: Sequence[ActionInfo]) -> ActionCall:
-    """The action that a sentence means, with its arguments; asked only where `problem_of` finds nothing."""
-    info = next(info for info in catalogue if info.name == taught.action)
-    inputs = {
-        name: {"pvf_type": kind if kind in NATIVE_TYPES else native_type(value), "pvf_value": value}
-        for name, value in taught.arguments.items()
-        for kind in (info.inputs[name],)
-    }
-    body: dict[str, Any] = {"input_parameters": inputs, "output_parameters": {}}
-    (label,) = labels_of([ActionCall.model_validate({info.name: body})], catalogue)
-    return ActionCall.model_validate({info.name: body | {"reason": str(label)}})
 
 
 def founded(answer: ChatAction, situation: Situation) -> ChatAction:
