@@ -107,10 +107,11 @@ async def test_what_stops_decides_or_rules_cannot_be_redefined(words: str) -> No
         ("den", "never go to the desk", "neither something on my map nor an order"),
         ("den", "the tray", "may be several things: blue tray, red tray"),
         ("stop", "go to the desk", "keeps its meaning"),
+        ("Ada", "the desk", "calls a robot"),
     ],
 )
 async def test_what_cannot_be_taught_is_refused_with_the_reason(words: str, means: str, why: str) -> None:
-    found = await weighed(Taught(words, means), situation("", objects=TRAYS), ENGINE)
+    found = await weighed(Taught(key(words), means), situation("", objects=TRAYS), ENGINE)
     assert isinstance(found, str)
     assert why in found
 

@@ -117,6 +117,9 @@ class _Weighing:
     language: Language
 
     async def of(self, taught: Taught, alike: Sequence[str]) -> Learned | Sentence:
+        called = {key(name) for name in (self.situation.robot, *self.situation.robots)}
+        if called & {taught.words, *taught.words.split()}:
+            return sentence("“{words}” calls a robot, so it cannot mean anything else.", words=taught.words)
         if named(taught.words, self.situation.objects):
             return sentence("“{words}” is what something on my map is called already.", words=taught.words)
         if await self.steps(taught.words):
