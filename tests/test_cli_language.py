@@ -123,3 +123,33 @@ def test_what_does_not_exist_is_refused_in_one_line(
     err = capsys.readouterr().err
     assert err.startswith("parley: ")
     assert len(err.splitlines()) == 1
+
+
+GOOD = "{say: evening round, means: turn left by ninety degrees}"
+
+
+@pytest.mark.parametrize(
+    ("entry", "why"),
+    [
+        ("{say: stop, means: take a picture}", "teach[1]: “stop” keeps its meaning"),
+        ("{say: hoop}", "teach[1]: say what it means by either means or action"),
+        ("{say: hoop, meens: take a picture}", "teach[1].meens: there is no such setting"),
+        ("{say: hoop, means: the moon}", "teach[1]: “the moon” is neither something on my map nor an order"),
+        ("{say: hoop, action: Fly}", "teach[1]: I have no action Fly"),
+        ("{say: hoop, action: Wait, arguments: {duration: long}}", "duration of Wait cannot be long"),
+        ("{say: hoop, action: Wait}", "teach[1]: Wait needs duration"),
+        ("{say: Evening round!, action: TakePicture}", "stands there twice"),
+    ],
+)
+def test_file_with_one_bad_sentence_teaches_nothing_and_says_which_and_why(
+    entry: str, why: str, tmp_path: Path, monkeypatch: pytest.MonkeyPatch, capsys: pytest.CaptureFixture[str]
+) -> None:
+    file, data = tmp_path / "words.yaml", tmp_path / "data"
+    data.mkdir()
+    file.write_text(f"teach: [{GOOD}, {entry}]", encoding="utf-8")
+    monkeypatch.setattr(sys, "argv", ["parley", "language", "teach", str(file), "--data", str(data)])
+    assert run(command_line("language")) == 2
+    assert why in capsys.readouterr().err
+    monkeypatch.setattr(sys, "argv", ["parley", "language", "teach", "--list", "--data", str(data)])
+    assert run(command_line("language")) == 0
+    assert capsys.readouterr().out == ""

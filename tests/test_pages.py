@@ -21,7 +21,16 @@ from parley.cli import command_line
 
 ROOT = Path(__file__).parent.parent
 DOCS = ROOT / "docs"
-PAGES = ("install", "first-hour", "own-world", "own-action", "own-robot", "own-model", "operations")
+PAGES = (
+    "install",
+    "first-hour",
+    "own-world",
+    "own-action",
+    "own-robot",
+    "own-model",
+    "own-words",
+    "operations",
+)
 EXTRAS = tomllib.loads((ROOT / "pyproject.toml").read_text("utf-8"))["project"]["optional-dependencies"]
 SAVED = re.compile(r"[Ss]ave [^`]{1,60}`([^`]+)`[^`]*?:\n\n```\w+\n(.*?)```", re.DOTALL)
 

@@ -29,6 +29,8 @@ def test_parameters_are_those_of_the_thesis() -> None:
         "TurnBy": ({"angle": "number", "direction": "string"}, {}),
         "TakePicture": ({"target": "string"}, {}),
         "Wait": ({"duration": "number"}, {}),
+        "Say": ({"text": "string", "to": "string"}, {}),
+        "Follow": ({"person": "string", "duration": "number"}, {}),
     }
 
 
@@ -37,6 +39,7 @@ def test_effects_say_who_moves_and_who_asks() -> None:
         "GetCoordinates": ("locates",), "NavigateTo": ("moves",), "Inspect": ("looks",),
         "AskOperator": ("asks_operator",), "KeepPicture": ("remembers",), "MoveBy": ("moves",),
         "TurnBy": ("turns",), "TakePicture": ("looks", "shows"), "Wait": ("waits",),
+        "Say": ("speaks",), "Follow": ("follows", "moves"),
     }  # fmt: skip
 
 

@@ -30,6 +30,7 @@ from parley.messages.ros import CompressedImage, String
 from parley.messages.status import ActorStatus
 from parley.messages.wire import decode
 from parley.transport.local import LocalTransport
+from parley.world.object_map import MapObject
 from tests.memory.photos import opened, photo
 from tests.transport.backends import until
 
@@ -84,7 +85,9 @@ async def house() -> AsyncIterator[House]:
 
 
 @asynccontextmanager
-async def opened_house(engine: Language | None = None) -> AsyncIterator[House]:
+async def opened_house(
+    engine: Language | None = None, objects: Sequence[MapObject] = ()
+) -> AsyncIterator[House]:
     language, clock = ScriptedLanguage(engine), WallClock()
     async with (
         LocalTransport() as transport,
@@ -92,7 +95,7 @@ async def opened_house(engine: Language | None = None) -> AsyncIterator[House]:
         MemoryNode(transport, store, language),
         DisplayInterface(transport, clock, min_interval_s=0.0),
         UmrfPlanner(transport, clock),
-        ChatInterface(transport, engine or language, clock),
+        ChatInterface(transport, engine or language, clock, objects=lambda _: objects),
         Observer(transport, clock, lambda _: None) as observer,
     ):
         house = House(transport, store, language, observer)

@@ -17,7 +17,7 @@ ENGINE = BuiltinLanguage()
 CATALOGUE = tuple(info_of(spec) for spec in BUILTIN_ACTIONS)
 SHOWN = 3
 """So many phrases of an action the page shows."""
-HOLES = {"question": "whether it is warm", "name": "the view"}
+HOLES = {"question": "whether it is warm", "name": "the view", "person": "Kim"}
 
 
 def decided(demo: str, message: str) -> Decision:

@@ -15,7 +15,7 @@ from parley.messages import ros, topics
 from parley.messages.principal import Principal, person
 from parley.messages.status import ActorStatus, GraphEvent, Rejection, StopCommand, StopReport
 from parley.messages.wire import decode, to_string
-from parley.robots.base import CameraImage, LaserScan, NavigationControl, Velocity
+from parley.robots.base import CameraImage, LaserScan, NavigationControl, SeenPerson, Velocity
 from parley.transport.local import LocalTransport
 from parley.world.geometry import Pose2D
 from tests.umrf.spec_actions import CATALOGUE
@@ -52,6 +52,12 @@ class DummyRobot:
 
     def battery(self) -> float | None:
         return None
+
+    def people(self) -> tuple[SeenPerson, ...]:
+        return ()
+
+    async def speak(self, text: str) -> None:
+        self.told.append(f"speak {text}")
 
     async def image(self) -> CameraImage:
         raise ActionFailure(FailureCode.NOT_CAPABLE, "no camera")

@@ -53,7 +53,7 @@ async def eventually(condition: Callable[[], bool]) -> None:
 async def test_it_is_a_robot_with_drive_lidar_and_camera() -> None:
     async with robot_in() as (robot, _):
         as_seen_by_actions: Robot = robot
-        assert as_seen_by_actions.capabilities == {"drive", "lidar", "camera"}
+        assert as_seen_by_actions.capabilities == {"drive", "lidar", "camera", "sees_people"}
         assert as_seen_by_actions.radius_m == 0.2
 
 

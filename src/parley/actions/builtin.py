@@ -3,11 +3,13 @@
 from __future__ import annotations
 
 from parley.actions.ask_operator import ask_operator
+from parley.actions.follow import follow
 from parley.actions.get_coordinates import get_coordinates
 from parley.actions.inspect import inspect
 from parley.actions.keep_picture import keep_picture
 from parley.actions.move_by import move_by
 from parley.actions.navigate_to import navigate_to
+from parley.actions.say import say
 from parley.actions.take_picture import take_picture
 from parley.actions.turn_by import turn_by
 from parley.actions.wait import wait
@@ -27,5 +29,7 @@ BUILTIN_ACTIONS: tuple[ActionSpec, ...] = tuple(
         turn_by,
         take_picture,
         wait,
+        say,
+        follow,
     )
 )

@@ -141,7 +141,8 @@ class MemoryNode(Node):
             self.refuse(topics.GET_MEMORY.name, error)
             raise
         if request.kind == "select":
-            found = [entry for entry in await self._find(request) if request.type in ("", entry.type)]
+            chosen = [*await self._find(request), *await self._store.taught(request.scope or None)]
+            found = [entry for entry in chosen if request.type in ("", entry.type)]
             return ChatResponse(encode(MemoryReply.of(self._fitting(_shown(_time_order(found), request))[0])))
         listed = [entry for entry in await self._list(request) if request.type in ("", entry.type)]
         if request.kind == "search":

@@ -11,7 +11,7 @@ import typer
 
 from parley.actions.builtin import BUILTIN_ACTIONS
 from parley.agents.planner.check import plan_problems
-from parley.cli.language import KeyFileOption, LanguageOption, language_settings
+from parley.cli.choosing import KeyFileOption, LanguageOption, language_settings
 from parley.cli.on_loop import on_loop
 from parley.cli.output import emit_json, fail, quiet_logs
 from parley.config import ModelSettings
@@ -23,7 +23,7 @@ from parley.umrf.catalogue import Catalogue, fully_described
 from parley.umrf.discovery import ActionFolder, export_descriptors, installed_actions
 from parley.umrf.io import write_descriptor
 
-__all__ = ["app"]
+__all__ = ["FolderOption", "app", "catalogue_with"]
 
 app = typer.Typer(help="What robots can do.", no_args_is_help=True)
 
@@ -32,7 +32,7 @@ FolderOption = Annotated[
 ]
 
 
-def _catalogue(folder: Path | None) -> tuple[Catalogue, tuple[str, ...]]:
+def catalogue_with(folder: Path | None) -> tuple[Catalogue, tuple[str, ...]]:
     """Built-in and installed actions, then those of the folder; and what was skipped."""
     found = installed_actions()
     specs: list[ActionSpec] = [*BUILTIN_ACTIONS, *found.specs]
@@ -50,7 +50,7 @@ def list_actions(
     json: Annotated[bool, typer.Option("--json", help="One JSON object per action.")] = False,
 ) -> None:
     """List the actions with their parameters. Exit code 1 if a file had to be skipped."""
-    catalogue, problems = _catalogue(actions)
+    catalogue, problems = catalogue_with(actions)
     for info in catalogue.infos():
         if json:
             emit_json(info.model_dump())
@@ -70,7 +70,7 @@ def show(
     name: Annotated[str, typer.Argument(help="The action's name.")], actions: FolderOption = None
 ) -> None:
     """Print an action's UMRF descriptor (`*.umrf.json`)."""
-    catalogue, _ = _catalogue(actions)
+    catalogue, _ = catalogue_with(actions)
     spec = catalogue.get(name)
     if spec is None:
         near = catalogue.suggestions(name)
@@ -88,7 +88,7 @@ def check(
 ) -> None:
     """Say the test sentences and examples of actions. Exit code 1 if one does not lead to its action."""
     quiet_logs()
-    catalogue, problems = _catalogue(actions)
+    catalogue, problems = catalogue_with(actions)
     if name and catalogue.get(name) is None:
         raise typer.Exit(fail(f"there is no action {name!r}"))
     chosen = language_settings(language, key_file)
@@ -118,7 +118,7 @@ def export(
     actions: FolderOption = None,
 ) -> None:
     """Write the descriptor (`*.umrf.json`) of every action, for other UMRF programs."""
-    catalogue, problems = _catalogue(actions)
+    catalogue, problems = catalogue_with(actions)
     for file in export_descriptors(map(fully_described, catalogue), folder):
         typer.echo(file.name)
     for problem in problems:

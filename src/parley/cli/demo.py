@@ -10,7 +10,7 @@ from typing import Annotated, Any
 
 import typer
 
-from parley.cli.language import (
+from parley.cli.choosing import (
     ConfigOption,
     EmbeddingsKeyOption,
     EmbeddingsOption,

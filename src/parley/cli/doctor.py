@@ -9,8 +9,8 @@ from typing import Annotated
 import typer
 
 import parley.web
+from parley.cli.choosing import ConfigOption, KeyFileOption, LanguageOption, language_settings
 from parley.cli.demo import data_folder
-from parley.cli.language import ConfigOption, KeyFileOption, LanguageOption, language_settings
 from parley.cli.output import emit_json, quiet_logs
 from parley.cli.web import PORT
 from parley.config import SystemConfig

@@ -11,7 +11,7 @@ from typing import Annotated, Any
 import typer
 
 from parley.agents.planner.check import plan_problems
-from parley.cli.language import ConfigOption, KeyFileOption, chosen_settings
+from parley.cli.choosing import ConfigOption, KeyFileOption, chosen_settings
 from parley.cli.on_loop import on_loop
 from parley.cli.output import emit_json, quiet_logs
 from parley.clock import WallClock

@@ -13,7 +13,7 @@ import typer
 
 from parley.actions.builtin import BUILTIN_ACTIONS
 from parley.agents.planner.check import plan_problems
-from parley.cli.language import ConfigOption, KeyFileOption, LanguageOption, chosen_settings
+from parley.cli.choosing import ConfigOption, KeyFileOption, LanguageOption, chosen_settings
 from parley.cli.on_loop import interruptible, on_loop
 from parley.cli.output import quiet_logs
 from parley.errors import ConfigError

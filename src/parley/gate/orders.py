@@ -21,7 +21,7 @@ from parley.gate.evidence import (
     speaks_of_forgetting,
 )
 from parley.messages.chat import ActionCall, ChatAction, SystemCommand
-from parley.messages.memory import MemoryEntry
+from parley.messages.memory import MemoryEntry, is_taught_name
 from parley.messages.plain import one_line
 from parley.messages.principal import Principal
 from parley.sentences import Sentence, sentence
@@ -215,6 +215,7 @@ def _memory(command: SystemCommand, heard: Heard) -> SystemCommand:
     data = str(given.get("data", ""))
     told = heard.by.is_person and is_said(data, heard.words, heard.earlier)
     name = one_line(str(given.get("name", "")))[:200] or f"memory_{uuid.uuid4().hex[:12]}"
+    told = told and not is_taught_name(name)  # what words mean is taught by a person, never by an engine
     before = next((entry for entry in heard.known if entry.name == name), None)
     if not told and before is not None and before.way != "concluded":
         name = f"{name[:180]} (concluded {uuid.uuid4().hex[:6]})"  # nothing a person told is written over

@@ -14,7 +14,7 @@ from parley.memory.retrieval import name_key
 from parley.memory.rows import COLUMNS, COLUMNS_WITHOUT_PICTURES, read_entry
 from parley.memory.search import search_words
 from parley.memory.transfer import MergeCounts, merge
-from parley.messages.memory import MemoryEntry
+from parley.messages.memory import MemoryEntry, taught_name
 
 __all__ = ["MemoryStore"]
 
@@ -175,6 +175,13 @@ class MemoryStore(OnFile):
         return await self._current(
             "AND (:kind = '' OR type = :kind) ORDER BY updated_unix_ms", scope, pictures, kind=kind
         )
+
+    async def taught(self, scope: str | None = None) -> list[MemoryEntry]:
+        """What people taught their words to mean, oldest first; `scope` as in `all`."""
+        rest = "AND name >= :first AND name < :behind ORDER BY updated_unix_ms"
+        first = taught_name("")[0]
+        found = await self._current(rest, scope, first=first, behind=chr(ord(first) + 1))
+        return [entry for entry in found if entry.taught]
 
     async def picture_chars(self, scope: str | None = None) -> int:
         """How long the data of all pictures is together; `scope` as in `all`."""

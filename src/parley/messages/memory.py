@@ -2,8 +2,9 @@
 
 from __future__ import annotations
 
+import re
 from collections.abc import Iterable
-from typing import Annotated, Any, Literal, Self
+from typing import Annotated, Any, Final, Literal, Self
 
 from pydantic import Field, RootModel, ValidationError
 
@@ -20,12 +21,26 @@ __all__ = [
     "MemoryReply",
     "RemoveMemory",
     "StoredMemory",
+    "is_taught_name",
+    "taught_name",
 ]
 
 MemoryName = Annotated[str, Field(min_length=1, max_length=200)]
 
 RETURN_ALL = "return all memories"
 """The request text that returns everything (thesis)."""
+
+_TAUGHT: Final = re.compile(r"“(?P<words>[^“”]+)” means")
+
+
+def taught_name(words: str) -> str:
+    """The name of the memory that says what `words` mean."""
+    return f"“{words}” means"
+
+
+def is_taught_name(name: str) -> bool:
+    """Whether a memory of this name says what some words mean."""
+    return _TAUGHT.fullmatch(name) is not None
 
 
 class _Memory(Payload):
@@ -74,10 +89,16 @@ class MemoryEntry(StoredMemory):
     name: MemoryName
 
     @property
+    def taught(self) -> str:
+        """The words whose meaning it says, as a person told it; empty for any other memory."""
+        found = _TAUGHT.fullmatch(self.name) if self.way == "told" and self.type == "text" else None
+        return found["words"] if found else ""
+
+    @property
     def is_told(self) -> bool:
         """Whether a person said it; what a robot saw or a language engine concluded is never a rule."""
         known = self.way == "told" or (self.way == "" and not self.source.startswith("program"))
-        return known and "/" not in self.source
+        return known and "/" not in self.source and not is_taught_name(self.name)
 
     def body(self) -> dict[str, Any]:
         """The object behind the name on the wire."""

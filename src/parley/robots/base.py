@@ -23,6 +23,7 @@ __all__ = [
     "LaserScan",
     "NavigationControl",
     "Robot",
+    "SeenPerson",
     "Velocity",
 ]
 
@@ -89,6 +90,17 @@ class CameraImage:
 
 
 @dataclass(frozen=True, slots=True)
+class SeenPerson:
+    """Somebody whom a robot sees."""
+
+    name: str
+    """Who it is, as far as the robot can tell; else any words for a person."""
+    x_m: float
+    y_m: float
+    """Where, in the map frame."""
+
+
+@dataclass(frozen=True, slots=True)
 class NavigationControl:
     """How the caller watches and holds a drive."""
 
@@ -105,7 +117,7 @@ class Robot(Protocol):
 
     @property
     def capabilities(self) -> frozenset[str]:
-        """What it has: `drive`, `camera`, `lidar`, ..."""
+        """What it has: `drive`, `camera`, `lidar`, `sees_people`, `loudspeaker`, ..."""
         ...
 
     @property
@@ -138,6 +150,18 @@ class Robot(Protocol):
 
         Raises:
             ActionFailure: `hardware` if the camera gives none, `not_capable` if there is no camera.
+        """
+        ...
+
+    def people(self) -> tuple[SeenPerson, ...]:
+        """Whom it sees now, the nearest first; nobody without `sees_people`."""
+        ...
+
+    async def speak(self, text: str) -> None:
+        """Say something aloud and return when it is said; without `loudspeaker` nothing is heard.
+
+        Raises:
+            ActionFailure: `hardware`.
         """
         ...
 

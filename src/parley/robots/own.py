@@ -23,6 +23,7 @@ from parley.robots.base import (
     DriveLimits,
     LaserScan,
     NavigationControl,
+    SeenPerson,
     Velocity,
 )
 from parley.sentences import sentence
@@ -46,16 +47,17 @@ class RobotBase(ABC):
     """A robot that you tell how to move; implements `parley.robots.base.Robot`.
 
     You write `pose`, `velocity` and `send`. What it has besides you say by overriding `scan` (lidar), `image`
-    (camera) and `battery`, and `go` where the robot finds its way by itself. Commands expire here after
-    `COMMAND_LIFETIME_S` also while the main loop is blocked. They do not when the process dies: the base must
-    come to rest by itself when nobody sends any more.
+    (camera), `battery`, `people` and `speak`, and `go` where the robot finds its way by itself. Commands
+    expire here after `COMMAND_LIFETIME_S` also while the main loop is blocked. They do not when the process
+    dies: the base must come to rest by itself when nobody sends any more.
 
     Args:
         name: How people call it.
     """
 
     capabilities: frozenset[str] = frozenset({"drive"})
-    """What it has: `drive`, `camera`, `lidar`, and words of your own that your actions ask for."""
+    """What it has: `drive`, `camera`, `lidar`, `sees_people`, `loudspeaker`, and words of your own that your
+    actions ask for."""
     radius_m: float = 0.25
     """Radius of its footprint."""
     limits: ClassVar[DriveLimits] = DriveLimits(max_speed_mps=0.4, max_turn_radps=1.5)
@@ -137,6 +139,13 @@ class RobotBase(ABC):
     def battery(self) -> float | None:
         """How full it is, 0 to 1; here it cannot tell."""
         return None
+
+    def people(self) -> tuple[SeenPerson, ...]:
+        """Whom it sees now and where, the nearest first; here nobody. It goes with `sees_people`."""
+        return ()
+
+    async def speak(self, text: str) -> None:  # noqa: B027 - most robots have none
+        """Say something aloud; here there is no loudspeaker. It goes with `loudspeaker`."""
 
     # -- what is done for you ----------------------------------------------------------------------------
 

@@ -6,7 +6,7 @@ import asyncio
 from dataclasses import replace
 
 from parley.errors import ActionFailure, FailureCode
-from parley.robots.base import CameraImage, LaserScan, NavigationControl, Robot, Velocity
+from parley.robots.base import CameraImage, LaserScan, NavigationControl, Robot, SeenPerson, Velocity
 from parley.umrf.motion import Motion
 from parley.world.geometry import Pose2D
 
@@ -58,6 +58,14 @@ class RunRobot:
     async def image(self) -> CameraImage:
         """See `Robot.image`."""
         return await self._robot.image()
+
+    def people(self) -> tuple[SeenPerson, ...]:
+        """See `Robot.people`."""
+        return self._robot.people()
+
+    async def speak(self, text: str) -> None:
+        """See `Robot.speak`."""
+        await self._robot.speak(text)
 
     def drive(self, velocity: Velocity) -> None:
         """See `Robot.drive`; without permission a motion becomes standing still.

@@ -10,7 +10,15 @@ from parley.errors import ActionFailure, FailureCode
 from parley.gate.book import RuleBook
 from parley.gate.fence import Fence
 from parley.gate.judge import RobotFacts
-from parley.robots.base import CameraImage, Detection, DriveLimits, LaserScan, NavigationControl, Velocity
+from parley.robots.base import (
+    CameraImage,
+    Detection,
+    DriveLimits,
+    LaserScan,
+    NavigationControl,
+    SeenPerson,
+    Velocity,
+)
 from parley.robots.navigator import Navigator
 from parley.sim.simulator import Simulator
 from parley.sim.world_file import WorldFile
@@ -45,7 +53,7 @@ class SimulatedRobot:
     @property
     def capabilities(self) -> frozenset[str]:
         """See `Robot.capabilities`."""
-        return frozenset({"drive", "lidar"} | ({"camera"} if self._model.camera else set()))
+        return frozenset({"drive", "lidar"} | ({"camera", "sees_people"} if self._model.camera else set()))
 
     @property
     def radius_m(self) -> float:
@@ -101,6 +109,13 @@ class SimulatedRobot:
             photograph.stamp_s,
             tuple(Detection(s.label, s.pixels, s.box, s.distance_m) for s in photograph.sightings),
         )
+
+    def people(self) -> tuple[SeenPerson, ...]:
+        """See `Robot.people`."""
+        return tuple(SeenPerson(name, x, y) for name, x, y in self._simulator.people(self.name))
+
+    async def speak(self, text: str) -> None:
+        """See `Robot.speak`: it has no loudspeaker."""
 
     async def navigate(self, goal: Pose2D, control: NavigationControl, *, timeout_s: float) -> Pose2D:
         """See `Robot.navigate`; time while it is paused or stopped does not count against `timeout_s`."""

@@ -27,6 +27,7 @@ from parley.sim.entries import RobotEntry
 from parley.sim.floor_plan import bounds_m, survey
 from parley.sim.keeper import Keeper
 from parley.sim.lidar import Sweep, sweep
+from parley.sim.people import people_in_sight
 from parley.sim.robot_model import RobotModel
 from parley.sim.world_file import WorldChanges, WorldFile
 from parley.world.geometry import Pose2D, wrap_angle
@@ -226,6 +227,18 @@ class Simulator:
     def camera_works(self, robot: str) -> bool:
         """Whether the robot's camera gives pictures."""
         return self._world.robot(robot).camera == "working"
+
+    def people(self, robot: str) -> tuple[tuple[str, float, float], ...]:
+        """Which people the robot's camera sees and where, nearest first; none where it gives no pictures."""
+        base = self._bases[robot]
+        camera = base.entry.model.camera
+        if camera is None or not self.camera_works(robot):
+            return ()
+        with self._lock:
+            mujoco.mj_kinematics(self._model, self._data)
+            return people_in_sight(
+                self._world, self._model, self._data, self._names, base.body_id, self.pose(robot), camera
+            )
 
     async def photograph(self, robot: str) -> Photograph:
         """Take a picture of this moment with a robot's camera.

@@ -106,11 +106,12 @@ class Catalogue:
         return found
 
     def infos(self) -> tuple[ActionInfo, ...]:
-        """What others are told about the actions, in the order they were given, then about the graphs."""
+        """What others are told of the actions, as given, then of the graphs; of a robot what it can do."""
         if not self._told:
             graphs = (spec for name in self._graphs if (spec := self._graph_spec(name)) is not None)
             self._told.append(tuple(info_of(spec) for spec in (*self, *graphs)))
-        return self._told[0]
+        has = self.capabilities
+        return tuple(info for info in self._told[0] if has is None or {*info.capabilities} <= has)
 
     def suggestions(self, name: str) -> list[str]:
         """Names that look like `name`, the most similar first, at most three."""

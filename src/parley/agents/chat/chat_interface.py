@@ -18,6 +18,7 @@ from parley.agents.chat.log_answers import log_answer
 from parley.agents.chat.memories import Confirmations
 from parley.agents.chat.recollections import Recollections
 from parley.agents.chat.situations import Situations
+from parley.agents.chat.teaching import Teaching
 from parley.agents.planner.asking import SHALL_I, Offered, wish_of
 from parley.agents.planner.orders import no_robot
 from parley.agents.planner.steps import LATCHED
@@ -103,6 +104,7 @@ class ChatInterface(Node):
         self._holds = Holds(lambda command: self.publish(topics.STOP, command))
         self._confirmations = Confirmations()
         self._recollections = Recollections(self, clock, self._remember, self._presence.names)
+        self._teaching = Teaching(self, language, self._known, self._remember)
         self._answering = Answering(
             self,
             language,
@@ -238,7 +240,10 @@ class ChatInterface(Node):
             if not mine and (answer := await log_answer(self.transport, self._clock, target, said)):
                 self._say((target,), answer, "response", said.id)
             elif not await self._recollections.handles(target, said, mine):
-                await self._answering.answer(target, said, halts)
+                order = await self._teaching.handles(target, said)
+                heard = said.model_copy(update={"message": order}) if order else said
+                if order != "":
+                    await self._answering.answer(target, heard, halts)
             self._ask_about_rules_again(target, said)
 
         return work

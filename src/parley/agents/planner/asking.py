@@ -12,7 +12,17 @@ from parley.messages.chat import ChatFeedback, ChatInput
 from parley.messages.status import PlanDecision, PlanProposal, PlanUpdate, PoseInfo
 from parley.sentences import Sentence, listed, sentence, together
 
-__all__ = ["CHANGED", "REFUSED", "SHALL_I", "Offered", "begun", "offered_again", "past_offer", "wish_of"]
+__all__ = [
+    "CHANGED",
+    "REFUSED",
+    "SHALL_I",
+    "Offered",
+    "begun",
+    "counted",
+    "offered_again",
+    "past_offer",
+    "wish_of",
+]
 
 SHALL_I: Final = sentence("Shall I?")
 REFUSED: Final = "All right, I will not do it."
@@ -38,16 +48,17 @@ def wish_of(lines: Sequence[str], why: str = "") -> str:
         lines: One per step as people read them, written by our code.
         why: Why it is asked though the policy would not ask; may be empty.
     """
-    wish = sentence("This is what I would do: {steps}.", steps=_counted(lines))
+    wish = sentence("This is what I would do: {steps}.", steps=counted(lines))
     return together(sentence("I ask first: {why}.", why=why), wish) if why else wish
 
 
 def begun(lines: Sequence[str]) -> str:
     """What a yes starts, said when it was given."""
-    return sentence("All right: {steps}.", steps=_counted(lines))
+    return sentence("All right: {steps}.", steps=counted(lines))
 
 
-def _counted(lines: Sequence[str]) -> str:
+def counted(lines: Sequence[str]) -> str:
+    """Steps as people read them, with their numbers if there are several."""
     if len(lines) == 1:
         return _ended(lines[0])
     return listed([sentence("{number}. {step}", number=n, step=_ended(x)) for n, x in enumerate(lines, 1)])

@@ -13,6 +13,7 @@ from parley.language.builtin.own import OwnAction
 from parley.language.builtin.owned import owned
 from parley.language.builtin.saying import with_article
 from parley.language.builtin.skills import Skill
+from parley.language.builtin.speaking import followed, spoken
 from parley.language.builtin.structure import Part
 from parley.language.builtin.things import Mention, head_of, link
 from parley.language.builtin.ways import Ways, typed
@@ -270,6 +271,11 @@ class Builder(Ways):
         """What has to be said before a wish is certain."""
         if wish.frame in ("MOVE", "TURN"):
             return self._steering(wish, values)
+        skill = self.skills.get(wish.frame)
+        if wish.frame == "SAY" and skill is not None:
+            return spoken(wish, values, self)
+        if wish.frame == "FOLLOW" and skill is not None and skill.is_for_persons:
+            return followed(wish, values, self)
         if wish.frame == "GO" and "N" in values and "G" in values:
             return Ask(f"Shall I go to {values['G'].said}, or only {values['N'].said} in that direction?")
         if wish.frame == "BRING" and not {"R", "G"} & set(values) and wish.verb.split()[0] not in _TO_ME:

@@ -24,6 +24,7 @@ from parley.language.builtin.decision import Answer, Ask, Decision, Do
 from parley.language.builtin.explaining import explained
 from parley.language.builtin.lexicon import lexicon, stem
 from parley.language.builtin.own import OwnActions, is_promised
+from parley.language.builtin.own_words import own_words
 from parley.language.builtin.reading import Reading, read
 from parley.language.builtin.recovery import Repairer
 from parley.language.builtin.reply import to_chat
@@ -36,6 +37,7 @@ from parley.language.builtin.things import head_of, link
 from parley.language.builtin.tokens import Token, spoken, tokenize
 from parley.language.dialogue.replies import read_reply
 from parley.language.dialogue.state import Asked, Dialogue, Order
+from parley.language.dialogue.taught import founded, taught_in, with_names
 from parley.messages.chat import ChatAction
 from parley.messages.memory import MemoryEntry
 from parley.robots.base import CameraImage
@@ -84,6 +86,7 @@ class BuiltinLanguage:
     async def interpret(self, situation: Situation, *, on_draft: DraftHandler | None = None) -> ChatAction:
         """See `Language.interpret`."""
         chat = self._addressed(to_chat(self.decide(situation), self._lexicon), situation)
+        chat = founded(chat, situation)
         if not situation.pictures:
             return chat
         text = f"I cannot see what is in a picture. {chat.message_response}"
@@ -102,7 +105,7 @@ class BuiltinLanguage:
             return None
         if isinstance(decision, Answer) and not decision.sources:
             return None
-        return self._addressed(to_chat(decision, self._lexicon), situation)
+        return founded(self._addressed(to_chat(decision, self._lexicon), situation), situation)
 
     @staticmethod
     def _addressed(chat: ChatAction, situation: Situation) -> ChatAction:
@@ -118,6 +121,9 @@ class BuiltinLanguage:
         if not any(token.is_word for token in tokenize(situation.message)):
             return Ask("I did not understand that. Please say what I should do.")
         situation = self._with_past(situation)
+        if (taught := own_words(situation, self._lexicon, self.decide)) is not None:
+            return taught
+        situation = replace(situation, objects=with_names(situation.objects, taught_in(situation.memory)))
         parts = self._parts(situation.message)
         if len(parts) > 1 and is_promised(situation.message, situation.catalogue):
             parsed, reading = self._read(situation.message)

@@ -102,7 +102,7 @@ class Grounder:
         if mention.kind in ("speaker", "here"):
             return Value("operator", "you")
         name, rest = noun_phrase(filler.words, filler.head, self.lexicon)
-        text = " ".join((*name, *rest))
+        text = as_said(" ".join((*name, *rest)), filler.text)
         found = Value(text, with_article(text), mention.things, known_place(name, self.known))
         self.last_person = found
         return found

@@ -212,6 +212,8 @@ class Planner:
                     own = wishes[0].own.done(times) if len(wishes) == 1 and wishes[0].own else None
                     if own is not None:
                         wishes, times = (replace(wishes[0], own=own),), 1
+                case "delay" if any(wish.frame == "SAY" for wish in wishes):
+                    return Ask(f"Shall I say it {limit.text}, or is that part of what I say?")
                 case "delay":
                     waited = self.builder.waiting(f"for {' '.join(words[1:])}", words[1:])
                     if isinstance(waited, Ask):

@@ -28,5 +28,6 @@ def with_article(text: str) -> str:
 
 _OWN = frozenset(
     {"the", "a", "an", "my", "your", "his", "her", "our", "their", "this", "that", "these", "those",
-    "you", "it", "all", "what", "whether", "if", "how", "which", "who", "where", "when", "why"}
+    "you", "it", "all", "everyone", "everybody", "what", "whether", "if", "how", "which", "who", "where",
+    "when", "why"}
 )  # fmt: skip

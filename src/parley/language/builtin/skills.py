@@ -33,10 +33,12 @@ _OPPOSITES |= {other: one for one, other in _OPPOSITES.items()}
 _TOO_MANY = 0.2
 """What is left of a belief where an action has more parameters than a frame has roles."""
 _KEPT = 64
-_EFFECTS = {"locates": "LOCATE", "moves": "GO", "looks": "LOOK", "asks_operator": "ASK"}
+_EFFECTS = {
+    "locates": "LOCATE", "follows": "FOLLOW", "moves": "GO", "looks": "LOOK", "asks_operator": "ASK",
+}  # fmt: skip
 _ROLES = {
     "MOVE": "HN", "TURN": "HN", "FACE": "T", "LOCATE": "G", "GO": "G", "LOOK": "TK", "ASK": "X", "PHOTO":
-    "T", "SAY": "XR", "ANSWER": "TX", "WAIT": "D", "OPEN": "T", "CLOSE": "T", "FOLLOW": "T", "FIND": "TL",
+    "T", "SAY": "XR", "ANSWER": "TX", "WAIT": "D", "OPEN": "T", "CLOSE": "T", "FOLLOW": "TD", "FIND": "TL",
     "ON": "TL", "OFF": "TL", "GUIDE": "TGS", "BRING": "TRGS", "COOK": "TLI", "MIX": "TIL",
 }  # fmt: skip
 

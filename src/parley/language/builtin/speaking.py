@@ -1,0 +1,106 @@
+"""What is done about people: words that are said to them, and who is followed."""
+
+from __future__ import annotations
+
+import re
+from collections.abc import MutableMapping
+from dataclasses import replace
+from typing import Final
+
+from parley.language.builtin.decision import Ask
+from parley.language.builtin.grounding import Grounder, Value
+from parley.language.builtin.lexicon import stem
+from parley.language.builtin.wishes import Wish
+from parley.language.lexicon import load_data
+from parley.language.stop_words import has_stop_word
+
+__all__ = ["followed", "spoken"]
+
+_LITERAL: Final = frozenset(
+    {"say", "tell", "announce", "let", "inform", "whisper", "shout", "speak", "wish", "remind"}
+)
+"""Verbs behind which the words stand as they are to be said; "read the sign" is no such."""
+_GREETING: Final = frozenset({"greet", "welcome"})
+_ELSEWHERE: Final = frozenset(
+    {"in", "on", "at", "by", "near", "behind", "under", "beside", "outside", "inside"}
+)
+"""Prepositions that say where somebody is, and not who."""
+_SENTENCE: Final = 3
+"""So many words a sentence has that begins with "the"."""
+_ALOUD: Final = re.compile(r"^(?:aloud|loudly|loud|this|the following)\s*:\s*", re.IGNORECASE)
+_REPORTED: Final = re.compile(
+    r"(?:about|of|how|what|whether|if|who|whom|whose|which|where|when|why|until|once|as|something|it|this|"
+    r"them|so|in)\b|that$",
+    re.IGNORECASE,
+)
+"""How words begin that only tell what is to be said."""
+_SPEAKER: Final = re.compile(
+    r"\b(?:i|i'm|i've|i'll|i'd|me|my|mine|myself|we|we're|us|our|you|you're|your|he|she|his|her|him|they|their)\b",
+    re.IGNORECASE,
+)
+_QUOTED: Final = re.compile(r"[\"“”„«]([^\"“”„»]+)[\"“”»]")
+
+
+def spoken(wish: Wish, values: MutableMapping[str, Value], grounder: Grounder) -> Ask | None:
+    """Put the words to be said as they are said; a question where they are not told word for word."""
+    verb = wish.verb.split()[0]
+    person = values.get("R")
+    whom = f" to {person.said}" if person is not None else ""
+    if person is not None:
+        words = wish.all("R")[0].words
+        if not _is_somebody(wish, "R", person, grounder) or words[0] in _ELSEWHERE:
+            return Ask(f"Is {person.said} somebody I can speak to? Please tell me whom you mean.")
+        if _ELSEWHERE & {*words[1:]}:
+            return Ask(f"I say it where I stand. Where shall I go first, and what shall I say{whom} there?")
+    if "X" not in values and verb in _GREETING:
+        values["X"] = Value("hello", "hello")
+    told = values.get("X")
+    if told is None:
+        return Ask(f"What shall I say{whom}?")
+    quoted = _QUOTED.search(grounder.situation.message)
+    text = quoted[1] if quoted is not None else _ALOUD.sub("", told.argument.strip("\"'“”‘’ "))
+    if quoted is None and verb not in _LITERAL | _GREETING:
+        text = ""
+    elif quoted is None and verb == "say":
+        text = "" if _is_reported(text, grounder) else re.sub(r"^that\s+", "", text, flags=re.IGNORECASE)
+    elif quoted is None:
+        told_of = _is_reported(text, grounder) or _SPEAKER.search(text) is not None
+        text = "" if told_of else re.sub(r"^(?:that|to)\s+", "", text, flags=re.IGNORECASE)
+    if not text:
+        return Ask(f"What exactly shall I say{whom}? Please tell me word for word: say “…”.")
+    values["X"] = replace(told, argument=text, said=text)
+    return None
+
+
+def _is_reported(text: str, grounder: Grounder) -> bool:
+    """Whether words only tell what is to be said: "where the box is", "the time", "the day of the week"."""
+    words = text.lower().split()
+    short = len(words) < _SENTENCE or words[2] == "of"
+    named = bool(words) and words[0] in grounder.lexicon.classes["determiners"] - {"no", "that", "all"}
+    return (named and short) or ":" in text or _REPORTED.match(text) is not None
+
+
+def followed(wish: Wish, values: MutableMapping[str, Value], grounder: Grounder) -> Ask | None:
+    """Who is followed, and how long; a question where it is nobody, or nobody can tell how long."""
+    who = values.get("T")
+    if who is None:
+        return Ask("Whom shall I follow?")
+    if not _is_somebody(wish, "T", who, grounder):
+        return Ask(f"I only follow people. Whom do you mean by “{who.said}”?")
+    if "U" in values and not has_stop_word(values.pop("U").argument):
+        return Ask("I follow until you tell me to stop, or for so many minutes. How shall I do it?")
+    return None
+
+
+def _is_somebody(wish: Wish, role: str, value: Value, grounder: Grounder) -> bool:
+    """Whether a person is meant, as far as words and map tell; a name that no map holds is somebody's."""
+    fillers = wish.all(role)
+    head = stem(fillers[0].words[fillers[0].head]) if fillers else ""
+    if head in load_data("people")["people"] or head.endswith(("man", "men", "woman", "women")):
+        return True
+    if grounder.is_person(fillers, value):
+        return True
+    if value.things:
+        return all(thing.description[:1].isupper() for thing in value.things)
+    words = fillers[0].words if fillers else ()
+    return len(words) == 1 and head not in grounder.lexicon.classes["pronouns"]
