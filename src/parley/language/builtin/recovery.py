@@ -266,7 +266,7 @@ class Repairer:
         meant = any(wish.act == "order" and wish.witness == "agrees" for wish in reading.wishes)
         planned = _stems(" ".join(f"{_words_of(step)} {step.reason}" for step in situation.pending))
         meant = meant or bool(self._other_things(situation) & planned & _stems(situation.reply or ""))
-        if not isinstance(made, Ask) or made.choices or made.offer or made.alarms or made.told or meant:
+        if not isinstance(made, Ask) or made.choices or made.offer or made.alarms or meant:
             return _about_candidates(situation, names) or ChatAction()
         question, choices = _question(situation, names)
         still = any(
