@@ -57,7 +57,8 @@ _WISHING: Final = re.compile(
     r"would like|'d like|asking for|ask(?:s|ed)? for|wait(?:s|ing)? for you|can (?:wait|go)|not sure|"
     r"i (?:think|guess|suppose|doubt)|maybe|perhaps|might|somewhere|nobody|neither|please|could you|"
     r"comes? (?:before|after|first|last)|(?:is|are|isn't|aren't|not) to be|due (?:for|a)|ready (?:for|to be)|"
-    r"the (?:one|thing|next|first|last) to|your next|next stop|says|said|reported|told (?:me|us))\b"
+    r"gets? \w+ed(?! (?:at|every|on|by)\b)|the (?:one|thing|next|first|last) to|your next|next stop|"
+    r"says|said|reported|told (?:me|us))\b"
 )
 """What may be a wish, a guess or hearsay: nothing that is so."""
 _HAPPENED: Final = re.compile(
@@ -83,7 +84,7 @@ def is_wish(text: str) -> bool:
 def is_report(text: str) -> bool:
     """Whether a message tells what has just happened, or is amiss, and does not ask to remember it."""
     low = text.lower().replace("’", "'")
-    return _KEEP.search(low) is None and _HAPPENED.search(low) is not None
+    return not _KEEP.search(low) and "should" not in low and _HAPPENED.search(low) is not None
 
 
 def worth_keeping(situation: Situation, bare: str) -> bool:

@@ -177,7 +177,8 @@ _TAKEN_BACK: Final = re.compile(
     r"about (?:it|that))|"
     r"never ?mind(?: (?:it|that|this))?|scratch (?:that|it)|drop (?:that|it)|leave (?:that|it)|"
     r"cancel (?:that|it)|"
-    r"change of plans?|on second thoughts?|i(?: have|'ve)? changed my mind|that was wrong|nope|no|not that|"
+    r"change of plans?|on second thoughts?|i(?: have|'ve)? changed my mind|that was wrong|nope|not that|"
+    r"no(?! (?:need to (?!hurry)|one|more|way|matter|longer)\b)|"
     r"i mean|i meant|(?:sorry|oops|wait|hang on|hold on)(?=\s*[,.;:!]))"
     r"\W+(?:(?:and|then|please|just|rather|instead|now|but|no|wait|sorry|hang on|hold on|i mean|i meant)\W+)*"
     r"(?P<rest>\w.+?)(?:,? (?:instead|rather))?\W*$",
