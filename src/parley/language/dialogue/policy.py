@@ -130,7 +130,7 @@ def _about_itself(
     if _is_emergency(situation) and _NO_ALARM.fullmatch(bare):
         more = " Say “carry on” when I should go on." if situation.queue else ""
         return Answer(f"I am glad to hear that. I stay here.{more}")
-    if is_thinking(bare):
+    if is_thinking(situation.message if situation.question else bare):
         return Answer("Take your time. I wait.")
     return None
 
