@@ -36,9 +36,11 @@ async def _reading(ctx: ActionContext, question: str, reply: str) -> str:
     if reply in _offers(question):
         return "no" if reply == _CANNOT else "yes"
     literal = assent_of(reply, (ctx.actor,))
-    if literal is not None:
-        return "yes" if literal else "no"
+    if literal:
+        return "yes"
     kind = (await ctx.language.read_reply(question, reply)).kind
+    if literal is False:
+        return "aside" if kind == "aside" else "no"  # "not yet" is no refusal
     if kind in ("yes", "choice", "answer") and "?" in reply:
         return "aside"
     return "unclear" if kind == "yes" and begins_with_no(reply) else kind

@@ -92,6 +92,34 @@ PLANS = {
     "go to the desk after visiting the office": rounds("office", "desk"),
     "go to the desk, but first go to the office": rounds("office", "desk"),
     "once you have been at the pump, go to the desk": rounds("pump", "desk"),
+    "go to the pump. After that come to the desk": rounds("pump", "desk"),
+    "inspect gate 1. Before that, go to gate 2. And before both of them go to the office": [
+        "go office", "go gate 2", "go gate 1", "look gate 1",
+    ],
+    "go to gate 1 and gate 2, but go to the pump first": rounds("pump", "gate 1", "gate 2"),
+    "once you have inspected the pump, go to the desk": ["go pump", "look pump", "go desk"],
+    "before you go to the desk, the office please": rounds("office", "desk"),
+    # what is said once, and meant of the next thing too
+    "go to the office, and once you have been there, the desk": rounds("office", "desk"),
+    "if gate 1 is open go to the desk, otherwise the pump": [
+        "go gate 1", "look whether gate 1 is open", "if 2: go desk", "unless 2: go pump",
+    ],
+    "go to both ramps and see if the doors are shut": [
+        step for name in ("north", "south") for step in (f"go {name} ramp", "look whether the doors are shut")
+    ],
+    "see if the lamps are off at gates 1 and 2": [
+        step
+        for name in ("gate 1", "gate 2")
+        for step in (f"go {name}", f"look whether the lamps are off at {name}")
+    ],
+    # once is enough
+    "inspect the pump, and if it is dripping go to the desk": [
+        "go pump", "look whether the pump is dripping", "if 2: go desk",
+    ],
+    "unless the pump is running, go there": ["go pump", "look whether the pump is running"],
+    # no need, another way
+    "no need to inspect the pump, just go to the desk": rounds("desk"),
+    "take gate 3 instead": rounds("gate 3"),
     # how often, how long
     "go to the desk three times": rounds("desk", "desk", "desk"),
     "in five minutes go to the desk": [f"{WAIT} for five minutes.", "go desk"],
@@ -108,6 +136,7 @@ if I call you go to the desk; if Kim wants tea go to the desk; go to the desk fo
 go to the office until somebody comes
 if it is late go to the desk; otherwise go to the desk; when the pump stops go to the desk
 go to the office and to the desk if the pump is on; check the zebras and then go to the desk
+if gate 1 is open go to the desk, otherwise the zebra
 visit the desk, the zebra and the pump; the box and both ramps are to be inspected"""
 
 

@@ -56,6 +56,19 @@ async def test_an_order_to_go_where_the_plan_waits_to_go_is_the_answer(
     assert (await ENGINE.resolve(failure(reply))).success is None  # a step that is more than a search
 
 
+@pytest.mark.parametrize("reply", ["use the ramp instead", "take the ramp", "no, the ramp"])
+async def test_another_place_may_be_named_where_the_way_is_closed(reply: str) -> None:
+    drives = ActionCall.model_validate(
+        {"drive_to": {"input_parameters": {"place": {"pvf_type": "string", "pvf_value": "front gate"}}}}
+    )
+    closed = replace(failure(reply, FailureCode.UNREACHABLE), failed_action=drives, catalogue=CATALOGUE)
+    answer = await ENGINE.resolve(closed)
+    assert (answer.success, [target(step) for step in answer.queue]) == (True, ["ramp"])
+    blind = ActionCall(name="drive_on", reason="go to the front gate")
+    answer = await ENGINE.resolve(replace(closed, failed_action=blind))
+    assert [(step.name, target(step)) for step in answer.queue] == [("drive_to", "ramp")]
+
+
 @pytest.mark.parametrize(
     ("reply", "success", "steps"),
     [

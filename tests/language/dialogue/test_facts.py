@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import pytest
 from hypothesis import given, settings
 from hypothesis import strategies as st
 
@@ -112,3 +113,50 @@ async def test_an_emergency_stands_still_tells_everybody_and_asks() -> None:
     answer = await ENGINE.interpret(situation("somebody fell in the yard!", status="running"))
     assert answer.alarm and answer.message_response.endswith("?")
     assert [command.command for command in answer.system_cmd] == ["stop"]
+
+
+AMISS = (
+    "there is a puddle next to the pump",
+    "somebody has left the front gate open again",
+    "the parcel is missing from the desk",
+    "nobody has looked at the printer since Monday",
+)
+
+
+@pytest.mark.parametrize("message", AMISS)
+async def test_what_is_amiss_is_not_remembered_and_a_look_is_offered(message: str) -> None:
+    answer = await ENGINE.interpret(situation(message))
+    assert stored(answer) == []
+    assert [call.name for call in answer.offer][-1:] == ["look"], answer.message_response
+
+
+async def test_there_being_something_is_a_fact_and_so_is_what_somebody_asks_to_keep() -> None:
+    for message in (
+        "there is a water bottle in the blue crate",
+        "remember that a bag is missing at the desk",
+    ):
+        assert len(stored(await ENGINE.interpret(situation(message)))) == 1, message
+
+
+TALK = (
+    "thanks, that was quick",
+    "the blue crate is to be painted",
+    "the pump is due a look",
+    "useless tin can",
+)
+
+
+@pytest.mark.parametrize("message", TALK)
+async def test_thanks_wishes_and_insults_are_no_facts(message: str) -> None:
+    assert stored(await ENGINE.interpret(situation(message))) == []
+
+
+async def test_nothing_is_remembered_where_the_rest_is_asked_about() -> None:
+    answer = await ENGINE.interpret(situation("Kim is in the yard. Go to the moon."))
+    assert (stored(answer), answer.queue) == ([], ())
+
+
+async def test_a_stop_is_for_whom_it_calls() -> None:
+    for message, called in (("Bo, stop!", ("Bo",)), ("everybody stop", ("Ada", "Bo")), ("stop", ("Ada",))):
+        answer = await ENGINE.interpret(situation(message, robots=("Ada", "Bo")))
+        assert answer.targets == called, message

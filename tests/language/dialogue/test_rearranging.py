@@ -176,3 +176,18 @@ def test_an_order_that_names_one_of_the_choices_itself_is_not_asked_about_for_ev
         dialogue=Dialogue(asked=asked, now_unix_ms=1),
     )
     assert asyncio.run(ENGINE.interpret(situation)).message_response
+
+
+@pytest.mark.parametrize(
+    ("message", "left"),
+    [
+        ("leave out gate 2", "gate 1, oil, workshop, oil"),
+        ("do the workshop before gate 2", "gate 1, oil, workshop, oil, gate 2, oil"),
+    ],
+)
+def test_what_is_done_at_a_place_goes_with_it(message: str, left: str) -> None:
+    look = ActionCall(name="look", input_parameters={"what": Parameter(type="string", value="oil")})
+    queue = tuple(call for place in PLAN for call in (drive(place), look))
+    situation = replace(answer(message)[0], queue=queue, status="running")
+    made = asyncio.run(ENGINE.interpret(situation))
+    assert ", ".join(text for call in pending(queue, made) for text in texts_of(call)) == left

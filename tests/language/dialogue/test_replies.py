@@ -20,6 +20,14 @@ PUT = "Please put the box on me and tell me when it is done."
         ("one moment, my hands are full", "aside"), ("hm let me think", "aside"), ("which box?", "aside"),
         ("go to the gate first", "aside"), ("Kim is in the office by the way", "aside"),
         ("somebody fell!", "aside"), ("purple umbrellas", "unclear"),
+        ("the box is on your tray", "yes"), ("Kim put it on you", "yes"), ("right, it's in", "yes"),
+        ("secured", "yes"), ("already done", "yes"),
+        ("you have it now", "yes"), ("box loaded", "yes"), ("I strapped it on", "yes"),
+        ("there is none left", "no"), ("it's gone", "no"), ("somebody took it", "no"),
+        ("it is too heavy", "no"),
+        ("we are out of boxes", "no"), ("no box here", "no"), ("are you ready?", "aside"), ("later", "aside"),
+        ("not yet", "aside"), ("it's not on yet", "aside"), ("I will put it on you in a minute", "aside"),
+        ("are you ready", "aside"), ("the box is in the yard", "aside"), ("put it where?", "aside"),
     ],
 )  # fmt: skip
 async def test_a_request_is_closed_by_a_yes_or_a_no_alone(reply: str, kind: str) -> None:

@@ -81,6 +81,9 @@ def _where(builder: Ways, words: Sequence[str], text: str) -> list[tuple[Value |
     each = _each(builder, words)
     if each:
         return each
+    inside = _in_each(builder, words, text)
+    if inside:
+        return inside
     place = _place(builder, words)
     return place if isinstance(place, Ask) else [(place, f"whether {_named_anew(builder, text)}")]
 
@@ -179,6 +182,22 @@ def _each(builder: Ways, words: Sequence[str]) -> list[tuple[Value | None, str]]
             f"whether {with_article(one.description)} {verb} {rest}",
         )
         for one in several.things
+    ]
+
+
+def _in_each(builder: Ways, words: Sequence[str], text: str) -> list[tuple[Value | None, str]] | Ask:
+    """The statement for each of several places: "the windows are shut in rooms 1 to 3"."""
+    at = next((n for n in range(len(words) - 2, 0, -1) if words[n] in _WHERE), 0)
+    several = group(words[at + 1 :], builder.situation.objects, builder.lexicon) if at else None
+    if several is None:
+        return []
+    if several.doubt:
+        return Ask(several.doubt)
+    head = text[: text.lower().rindex(f" {words[at]} ")]
+    return [
+        (Value(name, with_article(name), (one,)), f"whether {head} {words[at]} {with_article(name)}")
+        for one in several.things
+        for name in [one.description]
     ]
 
 

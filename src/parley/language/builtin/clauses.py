@@ -18,14 +18,14 @@ from parley.language.builtin.tokens import Token
 __all__ = ["Clause", "Link", "clauses"]
 
 Link = Literal[
-    "main", "if", "unless", "else", "so", "until", "before", "after", "when", "not", "first", "except",
-    "times", "delay",
+    "main", "if", "unless", "else", "so", "until", "before", "after", "when", "not", "first", "next",
+    "except", "times", "delay",
 ]  # fmt: skip
-_LINKS = tuple(link for link in get_args(Link) if link not in ("main", "times", "delay"))
+_LINKS = tuple(link for link in get_args(Link) if link not in ("main", "next", "times", "delay"))
 _STOPS = frozenset({",", ".", ";", ":", "!", "?", "-", "–", "—"})
 _ENDS = frozenset({".", ";", "!", "?"})
 _JOINS = frozenset({"and", "then", "but", "or"})
-_PREFIXES = frozenset({"else", "so", "first"})
+_PREFIXES = frozenset({"else", "so", "first", "next"})
 """Links that stand before a clause of their own, and open no part of another."""
 _LEADS_IN = frozenset(
     {"i", "you", "please", "just", "'d", "would", "could", "can", "should", "must", "like", "to"}
@@ -117,7 +117,29 @@ def _opened(parse: Parse, low: Sequence[str], at: int, lexicon: Lexicon) -> tupl
                 if (best is None or size > best[1]) and _is_link(parse, low, at, size, link, lexicon):
                     best = (link, size)
                 break
-    return best
+    if low[at] == "but" and best is None and "first" in low[_until(low, at) - 1 : _until(low, at)]:
+        return "first", 1
+    return best if best is None else _pointing_back(low, at, *best)
+
+
+def _until(low: Sequence[str], at: int) -> int:
+    """Where the sentence ends that a word stands in."""
+    return next((end for end in range(at, len(low)) if low[end] in _ENDS), len(low))
+
+
+def _pointing_back(low: Sequence[str], at: int, link: Link, size: int) -> tuple[Link, int]:
+    """For "after that", "before both of them": what was said last comes before, or behind, what follows."""
+    end = at + size
+    while low[end : end + 1] in (["all"], ["both"], ["of"]):
+        end += 1
+    bare = link in ("before", "after") and low[end : end + 1] and low[end] in _BACK
+    if not bare or {*low[end + 1 : end + 2]} & _BEING:
+        return link, size
+    return "first" if link == "before" else "next", end + 1 - at
+
+
+_BACK = frozenset({"that", "this", "it", "which", "them", "those", "these"})
+_BEING = frozenset({"is", "'s", "was", "has", "are", "were", "have", "one", "you", "i", "we", "they"})
 
 
 def _counted(low: Sequence[str], at: int) -> tuple[Link, int] | None:

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable
+from collections.abc import Callable, Sequence
 from dataclasses import replace
 
 from parley.language.base import Situation
@@ -16,9 +16,12 @@ from parley.language.builtin.planner import Planner, orders_of
 from parley.language.builtin.reading import Reading
 from parley.language.builtin.skills import Skills
 from parley.language.builtin.structure import Part, Unclear, arranged
-from parley.language.builtin.tokens import spoken, tokenize
+from parley.language.builtin.tokens import Token, spoken, tokenize
+from parley.language.builtin.wishes import Filler, Wish
 from parley.language.control import control_of
 from parley.language.dialogue import policy
+from parley.language.dialogue.facts import is_report
+from parley.language.dialogue.mentions import named
 from parley.messages.memory import MemoryEntry
 
 __all__ = ["decide"]
@@ -58,7 +61,25 @@ def decide(
     made = _alone(situation, parts, skills, lexicon, reader)
     if isinstance(made, Ask) and (promise := policy.promised(situation, lexicon, again)) is not None:
         return promise
-    return policy.afterwards(made, situation, whole, tokens, lexicon)
+    made = policy.afterwards(made, situation, whole, tokens, lexicon)
+    amiss = isinstance(made, Ask) and not made.offer and not situation.queue and is_report(situation.message)
+    return _seen_to(made, situation, tokens, skills, lexicon) if amiss else made
+
+
+def _seen_to(
+    made: Decision, situation: Situation, tokens: Sequence[Token], skills: Skills, lexicon: Lexicon
+) -> Decision:
+    """What is amiss is not remembered: to have a look is offered, where it is told at what."""
+    places = [name.things[0] for name in named(tokens, situation.objects, lexicon) if len(name.things) == 1]
+    if not places:
+        return made
+    words = tuple(places[-1].description.lower().split())
+    about = Filler("T", 0, len(words), len(words) - 1, words)
+    deeds = Builder(situation, skills, lexicon, ()).deeds(Wish("LOOK", 0, "look", (about,), 1.0, "agrees"))
+    what = f"the {places[-1].description}"
+    return (
+        made if isinstance(deeds, Ask) else Ask(f"Shall I go to {what} and have a look?", offer=tuple(deeds))
+    )
 
 
 def _alone(
@@ -82,22 +103,22 @@ def _alone(
     if isinstance(nodes, Unclear):
         doubt = doubt or Ask(nodes.question)
     if doubt is not None or isinstance(nodes, Unclear):
-        return replace(doubt or Ask("Can you say it in other words?"), told=told)
+        return doubt or Ask("Can you say it in other words?")
     now = [MemoryEntry(name=fact.name, data=fact.text) for fact in told]
     known = places((*situation.memory, *now), reader, lexicon)
     builder = Builder(situation, skills, lexicon, known)
     builder.recall(*policy.spoken_of(situation, known, lexicon))
     deeds = Planner(builder).planned(nodes)
     if isinstance(deeds, Ask):
-        return replace(builder.doubts[0] if builder.doubts else deeds, told=told)
+        return builder.doubts[0] if builder.doubts else deeds
     while deeds and deeds[-1].open_ended:
         deeds.pop()
     if not deeds:
         left = " ".join(note.text for note in builder.notes)
-        return Answer(f"All right. {left}") if left else Ask("I stay here. What shall I do?", told=told)
+        return Answer(f"All right. {left}") if left else Ask("I stay here. What shall I do?")
     if builder.doubts is not None:
         asked, unclear = builder.doubts
-        return replace(asked, told=told, offer=tuple(deeds), unclear=unclear)
+        return replace(asked, offer=tuple(deeds), unclear=unclear)
     return Do(tuple(deeds), tuple(builder.notes), told, () if isinstance(robots, Ask) else robots)
 
 
@@ -142,7 +163,9 @@ def _without_order(
 ) -> Decision:
     command = control_of(situation.message, situation.robots)
     if command is not None:
-        return Control("stop" if command == "emergency_stop" else command)
+        called = addressed(situation, tokenize(situation.message), lexicon)
+        robots = () if isinstance(called, Ask) else called
+        return Control("stop" if command == "emergency_stop" else command, robots)
     if facts:
         return Remember(facts)
     if "question" in reading.acts:

@@ -75,7 +75,6 @@ class Ask:
 
     question: str
     choices: tuple[str, ...] = ()
-    told: tuple[Told, ...] = ()
     offer: tuple[Deed, ...] = ()
     """What a yes would do."""
     unclear: str = ""
@@ -118,6 +117,8 @@ class Control:
     """A command of the closed table."""
 
     command: CommandName
+    robots: tuple[str, ...] = ()
+    """Whom it is said to."""
 
 
 @dataclass(frozen=True, slots=True)

@@ -19,7 +19,8 @@ from parley.language.builtin.things import Mention, head_of, link
 from parley.language.builtin.ways import Ways, typed
 from parley.language.builtin.wishes import Filler, Wish
 from parley.messages.status import Kind
-from parley.umrf.kinds import parameters_of
+from parley.umrf.kinds import is_word_for, parameters_of
+from parley.world.object_map import MapObject
 
 __all__ = ["Builder"]
 
@@ -43,6 +44,12 @@ class Builder(Ways):
         values = self._values(wish)
         if isinstance(values, Ask):
             return values
+        if (
+            wish.frame == "TAKE"
+            and {*values} == {"T"}
+            and all(map(self._is_place, values["T"].things or [None]))
+        ):
+            wish, values = replace(wish, frame="GO"), {"G": values["T"]}  # "take aisle 3": that way
         several = [value for value in values.values() if value.each]
         if len(several) > 1 or (several and (wish.frame in _ONCE or {*"LS"} & {*values})):
             return Ask(f"Do you mean all of them: {several[-1].said}? Please say it for one after the other.")
@@ -58,6 +65,14 @@ class Builder(Ways):
             self.last_thing = values.get("T", self.last_thing)
             made = self._planned(wish, values)
         return made if isinstance(made, Ask) else made * times
+
+    @staticmethod
+    def _is_place(thing: MapObject | None) -> bool:
+        """Whether a thing of the map is a place by its class or by a word of its name."""
+        words = (
+            {*thing.class_name.split(), *thing.description.lower().split()} if thing is not None else set()
+        )
+        return any(is_word_for(word, "place") for word in words)
 
     def _placed(self, wish: Wish) -> Wish:
         """With the place of a thing that no map holds as a role of its own: "the cup on the desk"."""

@@ -16,8 +16,9 @@ from parley.language.builtin.sets import Group, group
 from parley.language.builtin.skills import Skills
 from parley.language.builtin.spatial import picked
 from parley.language.builtin.things import Mention, link, noun_phrase
-from parley.language.builtin.tokens import point_of
+from parley.language.builtin.tokens import Token, point_of
 from parley.language.builtin.wishes import Filler, Wish
+from parley.language.dialogue.mentions import named
 from parley.language.dialogue.places import distance_m, in_room
 from parley.umrf.kinds import is_word_for
 from parley.world.object_map import MapObject
@@ -277,6 +278,20 @@ class Grounder:
                     continue
             found.append(filler)
         return replace(wish, fillers=tuple(found))
+
+    def is_called(self, filler: Filler) -> bool:
+        """Whether a role is a name of something on the map, or of a set, and nothing else."""
+        several = group(filler.words, self.situation.objects, self.lexicon)
+        found = link(filler.words, filler.head, self.situation.objects, self.lexicon)
+        names = {stem(w) for one in found.things for n in (one.description, *one.aliases) for w in n.split()}
+        return not several.doubt if several is not None else {stem(word) for word in filler.words} <= names
+
+    def names_place(self, wish: Wish) -> bool:
+        """Whether a wish says where it is done: by a place, or by a thing that the map knows."""
+        said = [word for filler in wish.fillers for word in filler.words]
+        tokens = [Token(word, at, at + 1) for at, word in enumerate(said)]
+        several = any(map(self.names_set, wish.fillers))
+        return several or wish.has("LGS") or bool(named(tokens, self.situation.objects, self.lexicon))
 
     def names_set(self, filler: Filler) -> bool:
         """Whether a role holds several things."""

@@ -17,6 +17,7 @@ from parley.language.builtin.wishes import Filler, Wish
 __all__ = ["NO_DEED", "Planner", "orders_of"]
 
 NO_DEED = frozenset({"BELOC", "BECAT", "REMEMBER", "FORGET"})
+_NO_ORDER = frozenset({"told", "social", "need"})
 _SPOKEN_OF = frozenset({"it", "them", "there", "they", "each", "one", "these", "those"})
 
 
@@ -34,6 +35,8 @@ class Planner:
     """Makes the deeds of all that a message wants."""
 
     builder: Builder
+    last: Wish | None = None
+    """What was wanted last of something that was named."""
 
     def planned(self, nodes: Sequence[Node]) -> list[Deed] | Ask:
         """The deeds of nodes, in order."""
@@ -42,7 +45,7 @@ class Planner:
             made = self._if(node) if isinstance(node, If) else self._orders(node)
             if isinstance(made, Ask):
                 return made
-            deeds += made
+            deeds = _joined(deeds, made)
         return deeds
 
     # -- conditions --
@@ -63,6 +66,7 @@ class Planner:
             made = self.planned(branch)
             if isinstance(made, Ask):
                 return made
+            made = _from(place, made)
             if any(deed.check is not None for deed in made):
                 return Ask("Several conditions depend on each other here. Can you say one after the other?")
             deeds += [replace(deed, check=check, holds=holds) for deed in made]
@@ -77,6 +81,11 @@ class Planner:
         reading = node.part.reading
         if node.is_order:
             reading = self._as_ordered(node.part)
+        elif not orders_of(reading) and (node.branch or self.last) and not reading.acts & _NO_ORDER:
+            elided = self._elided(node.part)
+            if isinstance(elided, Ask):
+                return elided
+            reading = elided
         wishes = tuple(self.builder.joined(wish) for wish in orders_of(reading))
         known = self.builder.situation
         idle = not known.queue and known.dialogue.proposal is None
@@ -104,6 +113,20 @@ class Planner:
                 return made
             deeds += made
         return [*before, *deeds]
+
+    def _elided(self, part: Part) -> Reading | Ask:
+        """What is wanted of a thing without a word for it: what was wanted of the last one."""
+        words = tuple(
+            w for w in part.low if w[0].isalnum() and w not in self.builder.lexicon.classes["small"]
+        )
+        named = Filler("T", 0, len(words), len(words) - 1, words, 1.0, " ".join(words))
+        last = self.last
+        if words and last is not None and self.builder.is_called(named):
+            role = "G" if last.frame == "GO" else "T"
+            kept = tuple(filler for filler in last.fillers if filler.role not in "TGLA")
+            wish = replace(last, start=0, fillers=(*kept, replace(named, role=role)), negated=False)
+            return Reading(frozenset({"order"}), (wish,), (), ())
+        return Ask(f"What shall I do with “{part.text.strip(' ,.')}”? Please say it in other words.")
 
     def _heard(self, reading: Reading, wishes: Sequence[Wish]) -> Ask | None:
         """Take up what is spoken of besides the orders; a question if it is neither used nor said."""
@@ -144,6 +167,14 @@ class Planner:
         wishes = tuple(replace(wish, act="order") for wish in reading.wishes if wish.frame not in NO_DEED)
         if not wishes:
             words = part.low
+            done = next(
+                (at for at, word in enumerate(words) if word in self.builder.lexicon.classes["seen"]), None
+            )
+            if done is not None and done + 1 < len(words):
+                thing = Filler("T", done + 1, len(words), len(words) - done - 2, words[done + 1 :])
+                return Reading(
+                    frozenset({"order"}), (Wish("LOOK", done, words[done], (thing,), 1.0, "agrees"),), (), ()
+                )
             size = next((at + 1 for at in reversed(range(len(words))) if words[at].isalnum()), 0)
             place = Filler("G", 0, size, max(size - 1, 0), words[:size])
             wishes = (Wish("GO", 0, "", (place,), 1.0, "agrees"),) if size else ()
@@ -155,6 +186,7 @@ class Planner:
         rest = list(wishes)
         while rest:
             wish = rest.pop(0)
+            self.last = wish if wish.frame in ("GO", "LOOK") and wish.has("TG") else None
             if wish.negated:
                 self.builder.forbidden(wish)
                 continue
@@ -168,7 +200,7 @@ class Planner:
                 if isinstance(together, Ask):
                     return together
                 made = together
-            deeds += _without_way(deeds, made)
+            deeds = _joined(deeds, _without_way(deeds, made))
         return deeds
 
     def _also(self, rest: Sequence[Wish]) -> list[Wish]:
@@ -176,9 +208,8 @@ class Planner:
         found = []
         for wish in rest:
             words = {word for filler in wish.fillers for word in filler.words if filler.role not in "XE"}
-            if wish.negated or not (
-                words & _SPOKEN_OF or (not wish.fillers and wish.frame in ("PHOTO", "LOOK"))
-            ):
+            here = wish.frame in ("PHOTO", "LOOK") and not self.builder.names_place(wish)
+            if wish.negated or not (words & _SPOKEN_OF or here):
                 break
             found.append(wish)
         return found
@@ -191,7 +222,7 @@ class Planner:
                 made = self.builder.deeds(wish)
                 if isinstance(made, Ask):
                     return made
-                deeds += _without_way(deeds, made)
+                deeds = _joined(deeds, _without_way(deeds, made))
         self.builder.bound = None
         return deeds
 
@@ -256,3 +287,26 @@ def _without_way(deeds: Sequence[Deed], more: list[Deed]) -> list[Deed]:
     size = len([deed for deed in more if deed.frame == "GO"])
     there = size and deeds and deeds[-1].frame == "GO" and ways[-size:] == more[:size]
     return more[size:] if there else more
+
+
+def _from(place: str, made: list[Deed]) -> list[Deed]:
+    """Deeds without the way to where the robot is already."""
+    there = place and made and made[0].frame == "GO" and place in made[0].arguments.values()
+    return made[2 if made[0].hidden else 1 :] if there else made
+
+
+def _joined(deeds: list[Deed], more: list[Deed]) -> list[Deed]:
+    """Deeds with more, without a plain look at what is looked at again right there for something."""
+    last, first = deeds[-1] if deeds else None, more[0] if more else None
+    if (
+        last is None
+        or first is None
+        or last.frame != "LOOK"
+        or {*last.said} != {"T"}
+        or last.check is not first.check
+    ):
+        return [*deeds, *more]
+    again = first.frame in ("LOOK", "FIND") and first.said != last.said
+    words = {*" ".join(map(str, first.arguments.values())).lower().split()}
+    same = "there" in words or {*" ".join(map(str, last.arguments.values())).lower().split()} <= words
+    return [*deeds[:-1], *more] if again and same else [*deeds, *more]

@@ -37,6 +37,8 @@ _LONGEST: Final = 12
 """So many words an answer has at most that only names a thing."""
 _HELPED: Final = frozenset({FailureCode.NOT_CAPABLE, FailureCode.DECLINED, FailureCode.NOT_UNDERSTOOD})
 """Failures after which a person does the step: when they have done it, it is over."""
+_ON_THE_WAY: Final = frozenset({FailureCode.UNREACHABLE, FailureCode.BLOCKED, FailureCode.TIMED_OUT})
+"""Failures after which another place may be named."""
 _NOT_UNDERSTOOD: Final = "understand"
 _CODE_WORDS: Final = {
     FailureCode.NO_MATCH: "find see there missing unknown gone",
@@ -121,6 +123,9 @@ class Repairer:
         if where.kind != "one":
             return None
         text = with_article(where.things[0].description)
+        if not _looks(situation) and not _words_of(situation.failed_action):
+            way = self._ordered(situation, f"go to {text}")
+            return _solved(situation, f"I go to {text} instead.", way.queue) if way is not None else None
         if not _looks(situation):
             step = _with_words(situation.failed_action, where.things[0].description)
             return _solved(situation, f"I take {text}.", (step,))
@@ -201,10 +206,12 @@ class Repairer:
 
     def _elsewhere(self, situation: ErrorSituation, reply: str) -> ChatAction | None:
         """Where a thing is that was not found, or which other one is meant."""
-        if situation.code not in (FailureCode.NO_MATCH, FailureCode.AMBIGUOUS):
+        sought = situation.code in (FailureCode.NO_MATCH, FailureCode.AMBIGUOUS)
+        other = situation.code in _ON_THE_WAY and not {"look", "check", "inspect"} & {*words_of(reply)}
+        if not sought and (_looks(situation) or not other):
             return None
         said = MemoryEntry(name="told", data=reply)
-        told = places([said], self.reading, self.lexicon)
+        told = places([said], self.reading, self.lexicon) if sought else []
         about = _stems(_words_of(situation.failed_action)) | {"it", "he", "she", "they", "that", "this"}
         for place in told:
             if {stem(word) for word in place.thing.split()} <= about:
@@ -266,7 +273,7 @@ class Repairer:
         meant = any(wish.act == "order" and wish.witness == "agrees" for wish in reading.wishes)
         planned = _stems(" ".join(f"{_words_of(step)} {step.reason}" for step in situation.pending))
         meant = meant or bool(self._other_things(situation) & planned & _stems(situation.reply or ""))
-        if not isinstance(made, Ask) or made.choices or made.offer or made.alarms or made.told or meant:
+        if not isinstance(made, Ask) or made.choices or made.offer or made.alarms or meant:
             return _about_candidates(situation, names) or ChatAction()
         question, choices = _question(situation, names)
         still = any(

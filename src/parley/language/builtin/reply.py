@@ -43,13 +43,12 @@ def to_chat(decision: Decision, lexicon: Lexicon) -> ChatAction:
                 targets=robots,
                 sources=tuple(note.source for note in notes if note.source),
             )
-        case Ask(question, choices, told):
-            words = [_remembered(fact) for fact in told]
+        case Ask(question, choices):
             stop = (SystemCommand(command="stop"),) if decision.stops else ()
             return ChatAction(
-                message_response=" ".join([*words, question]),
+                message_response=question,
                 choices=choices,
-                system_cmd=(*stop, *_memories(told)),
+                system_cmd=stop,
                 alarm=decision.alarms,
                 offer=_calls(decision.offer, lexicon),
                 needs_yes=decision.unclear,
@@ -67,10 +66,11 @@ def to_chat(decision: Decision, lexicon: Lexicon) -> ChatAction:
             return ChatAction(
                 message_response=" ".join(_remembered(fact) for fact in told), system_cmd=_memories(told)
             )
-        case Control(command):
+        case Control(command, robots):
             return ChatAction(
                 message_response=_CONTROLLED.get(command, "Yes."),
                 system_cmd=(SystemCommand(command=command),),
+                targets=robots,
             )
         case Answer(text, sources):
             return ChatAction(message_response=text, sources=sources)

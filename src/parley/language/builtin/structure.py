@@ -35,6 +35,8 @@ class Orders:
 
     part: Part
     limits: list[Part] = field(default_factory=list)
+    branch: bool = False
+    """Whether it depends on something."""
     is_order: bool = False
     """Whether it is wanted although it is put as something that happens ("before you go to the yard")."""
 
@@ -86,6 +88,8 @@ class _Arranger:
     """What comes behind the rest of its sentence."""
     early: bool = False
     """Whether the next orders come before those that were said last."""
+    put: Node | None = None
+    """What was put there last."""
     branch: bool = False
     """Whether a condition waits for what depends on it."""
 
@@ -102,7 +106,9 @@ class _Arranger:
                     w.frame in ("LOOK", "FIND") for w in part.reading.wishes
                 ):
                     self.last = None
-                self._put(Orders(part, [*self.waiting]))
+                self._put(
+                    Orders(part, [*self.waiting], self.target is not self.nodes or self.early or self.branch)
+                )
                 self.waiting.clear()
             case "if" | "unless":
                 return self._if(part)
@@ -112,6 +118,8 @@ class _Arranger:
                 return self._order_of_time(part)
             case "first":
                 self.early = True
+            case "next":
+                pass
             case _:
                 return self._limit(part)
         return None
@@ -124,11 +132,9 @@ class _Arranger:
 
     def _put(self, node: Node) -> None:
         self.branch = False
-        if self.early and self.target:
-            self.target.insert(len(self.target) - 1, node)
-        else:
-            self.target.append(node)
-        self.early = False
+        before = self.target.index(self.put) if self.put in self.target else len(self.target) - 1
+        self.target.insert(max(before, 0) if self.early else len(self.target), node)
+        self.early, self.put = False, node
 
     def _if(self, part: Part) -> Unclear | None:
         words = [word for word in part.low if word.isalnum() or "'" in word]
@@ -200,6 +206,7 @@ class _Arranger:
         if part.clause.link == "before":
             if part.clause.fronted:
                 self.late.append(node)
+                self.branch = True
             else:
                 self.target.append(node)
         elif part.clause.fronted or not self.target:

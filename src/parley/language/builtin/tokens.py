@@ -49,7 +49,8 @@ def tokenize(text: str) -> tuple[Token, ...]:
             at += 1
             continue
         found.append(Token(match[0], match.start(), match.end()))
-        at = match.end()
+        titled = match[0].lower() in _TITLES and text[match.end() : match.end() + 1] == "."
+        at = match.end() + titled  # no sentence ends there
     return tuple(found)
 
 
@@ -59,6 +60,7 @@ def point_of(words: Sequence[str]) -> tuple[float, float] | None:
     return (float(found[0][1]), float(found[0][2])) if len(found) == 1 else None
 
 
+_TITLES = frozenset({"mr", "mrs", "ms", "dr", "prof"})
 _HUM = re.compile(r"u+h+m*|u+m+|h+m+|m+h*m+|e+r+m*|a+h+|o+h+|e+h+|([a-z])\1{1,}|xxx", re.IGNORECASE)
 
 

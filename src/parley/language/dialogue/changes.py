@@ -6,6 +6,7 @@ then, not as the one that stands in its place later.
 
 from __future__ import annotations
 
+import itertools
 import re
 from collections.abc import Sequence
 from dataclasses import dataclass, replace
@@ -135,6 +136,7 @@ def visits(situation: Situation) -> list[Visit]:
 def visits_of(steps: Sequence[PlanStep], situation: Situation) -> list[Visit]:
     """The steps of a plan that are not over, those together that belong together."""
     finding = {info.name for info in situation.catalogue if info.only_finds}
+    finding |= {one.action.name for one, other in itertools.pairwise(steps) if _leads_to(one, other)}
     found: list[Visit] = []
     before: list[PlanStep] = []
     places: list[int] = []
@@ -155,6 +157,13 @@ def visits_of(steps: Sequence[PlanStep], situation: Situation) -> list[Visit]:
             found.append(Visit((*places, place), things, step_words(step.label), calls, words.lower()))
         before, places = [], []
     return found
+
+
+def _leads_to(one: PlanStep, other: PlanStep) -> bool:
+    """Whether a step only finds out where the next one goes."""
+    return not any("::" in name for name in one.action.input_parameters) and any(
+        "::" in name for name in other.action.input_parameters
+    )
 
 
 def _pending(situation: Situation) -> list[PlanStep]:
@@ -298,7 +307,11 @@ def _is_against(low: Sequence[str], name: Named) -> bool:
 
 def _meant(plan: Sequence[Visit], name: Named) -> list[Visit]:
     ids = {item.id for item in name.things}
-    found = [visit for visit in plan if ids & {item.id for item in visit.things}]
+    found: list[Visit] = []
+    for before, visit in zip([None, *plan], plan, strict=False):
+        there = not visit.things and before is not None and before in found  # what is done where it goes
+        if there or ids & {item.id for item in visit.things}:
+            found.append(visit)
     return found or [visit for visit in plan if all(word in visit.words for word in name.words)]
 
 

@@ -17,7 +17,7 @@ from parley.language.dialogue.questions import asks
 from parley.language.stop_words import calls_to_stop, has_stop_word
 from parley.messages.memory import MemoryEntry
 
-__all__ = ["forgotten", "is_wish", "moved_fact", "other_fact", "taken_back", "worth_keeping"]
+__all__ = ["forgotten", "is_report", "is_wish", "moved_fact", "other_fact", "taken_back", "worth_keeping"]
 
 _PRONOUNS: Final = frozenset({"he", "she", "they", "it", "this", "that", "these", "those", "they're", "it's"})
 _POINTING: Final = frozenset({"this", "that", "these", "those"})
@@ -32,9 +32,9 @@ _TURNS: Final = 8
 _BEING: Final = re.compile(
     r"\b(?:is|are|was|were|has|have|had|'s|likes?|needs?|wants?|hates?|prefers?|eats?|drinks?|takes?|"
     r"sleeps?|sits?|"
-    r"lives?|works?|comes?|closes?|opens?|starts?|ends?|stands?|lies|hangs?|belongs?|means|costs?|must|"
-    r"may|should|"
-    r"will|can|cannot|can't|isn't|aren't|doesn't|does|smells?|runs?|calls?|\w{3,}ed)\b"
+    r"lives?|works?|comes?|closes?|opens?|starts?|ends?|stands?|lies|hangs?|belongs?|means|costs?|"
+    r"(?:must|may|should|will|can|cannot|can't) \w+|isn't|aren't|doesn't|does|smells?|runs?|calls?|"
+    r"\w{3,}ed)\b"
 )
 _FORGET: Final = re.compile(
     r"(?:please |you can |you may |can you |could you )*forget (?:about |all about |what (?:i|"
@@ -56,14 +56,35 @@ _WISHING: Final = re.compile(
     r"\b(?:should|shall|must|ought|has to|have to|had better|need(?:s|ed)?|necessary|want(?:s|ed)?|"
     r"would like|'d like|asking for|ask(?:s|ed)? for|wait(?:s|ing)? for you|can (?:wait|go)|not sure|"
     r"i (?:think|guess|suppose|doubt)|maybe|perhaps|might|somewhere|nobody|neither|please|could you|"
-    r"comes? (?:before|after|first|last))\b"
+    r"comes? (?:before|after|first|last)|(?:is|are|isn't|aren't|not) to be|due (?:for|a)|ready (?:for|to be)|"
+    r"gets? \w+ed(?! (?:at|every|on|by)\b)|the (?:one|thing|next|first|last) to|your next|next stop|"
+    r"says|said|reported|told (?:me|us))\b"
 )
-"""What may be a wish, or a guess: nothing that is so."""
+"""What may be a wish, a guess or hearsay: nothing that is so."""
+_HAPPENED: Final = re.compile(
+    r"^(?:(?:and|oh|hey|hello|please|well|look|sorry|listen)\W+)*"
+    r"(?:an?|some|somebody|someone|two|three|four|nobody|no ?one|all the) \w|"
+    r"\bthere(?:'s| is| are| was| were) (?:something|.*(?:lying|standing|sitting|on the (?:floor|ground))|"
+    r"(?:\w+ )*(?:puddle|water|oil|smoke|glass|crumbs?|mess|leak|hole|crack|sand|dirt|noise|smell)"
+    r"(?: (?:on|in|at|by|under|next|near|over)\b|$))|"
+    r"\b(?:missing|disappeared|vanished|gone from|going off|gone off|all over|smashed|leaking|dripping|"
+    r"never (?:arrived|reached|came|turned|showed)|complaints?|alarm|(?:is|are) (?:waiting|expecting)|"
+    r"(?:hasn't|haven't|has not|have not|isn't|aren't) (?:yet )?"
+    r"(?:come|arrived|turned|reached|been|answer\w+|showed)|"
+    r"has come for|asked (?:for|whether|if)|open again|out of (?!order|bounds))\b"
+)
+"""What has just happened, or is amiss: somebody is to see to it, and nobody to remember it."""
 
 
 def is_wish(text: str) -> bool:
     """Whether something that sounds like a fact may be a wish or a guess, and is not kept unasked."""
     return _WISHING.search(text.lower()) is not None
+
+
+def is_report(text: str) -> bool:
+    """Whether a message tells what has just happened, or is amiss, and does not ask to remember it."""
+    low = text.lower().replace("’", "'")
+    return not _KEEP.search(low) and "should" not in low and _HAPPENED.search(low) is not None
 
 
 def worth_keeping(situation: Situation, bare: str) -> bool:
@@ -144,7 +165,7 @@ def other_fact(situation: Situation, reading: Reading, bare: str) -> Told | None
     told = reading.acts <= {"told", "social"} and "told" in reading.acts
     if len(words) < 3 or not (asked or told) or not worth_keeping(situation, bare):
         return None
-    if not asked and is_wish(bare):
+    if not asked and (is_wish(bare) or is_report(situation.message)):
         return None
     if not asked and (words[0] in _FIRST | _PRONOUNS or _BEING.search(" ".join(words[1:])) is None):
         return None

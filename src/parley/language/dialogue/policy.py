@@ -25,6 +25,7 @@ from parley.language.dialogue.changes import (
 )
 from parley.language.dialogue.facts import (
     forgotten,
+    is_report,
     is_wish,
     moved_fact,
     other_fact,
@@ -129,7 +130,7 @@ def _about_itself(
     if _is_emergency(situation) and _NO_ALARM.fullmatch(bare):
         more = " Say “carry on” when I should go on." if situation.queue else ""
         return Answer(f"I am glad to hear that. I stay here.{more}")
-    if is_thinking(bare):
+    if is_thinking(situation.message if situation.question else bare):
         return Answer("Take your time. I wait.")
     return None
 
@@ -176,7 +177,8 @@ _TAKEN_BACK: Final = re.compile(
     r"about (?:it|that))|"
     r"never ?mind(?: (?:it|that|this))?|scratch (?:that|it)|drop (?:that|it)|leave (?:that|it)|"
     r"cancel (?:that|it)|"
-    r"change of plans?|on second thoughts?|i(?: have|'ve)? changed my mind|that was wrong|nope|no|not that|"
+    r"change of plans?|on second thoughts?|i(?: have|'ve)? changed my mind|that was wrong|nope|not that|"
+    r"no(?! (?:need to (?!hurry)|one|more|way|matter|longer)\b)|"
     r"i mean|i meant|(?:sorry|oops|wait|hang on|hold on)(?=\s*[,.;:!]))"
     r"\W+(?:(?:and|then|please|just|rather|instead|now|but|no|wait|sorry|hang on|hold on|i mean|i meant)\W+)*"
     r"(?P<rest>\w.+?)(?:,? (?:instead|rather))?\W*$",
@@ -276,12 +278,12 @@ def afterwards(
         return replace(made, question=f"{hands} {made.question}")
     if isinstance(made, Ask) and (asked := _asked_again(made, situation, reading, tokens)) is not None:
         return asked
-    if isinstance(made, Ask | Answer) and (fact := other_fact(situation, reading, bare)) is not None:
-        return Remember((fact,))
     if isinstance(made, Ask | Answer) and _SOCIAL.fullmatch(bare):
         return Answer(
             "You are welcome." if bare.startswith(("thank", "cheers")) else "Hello. What can I do for you?"
         )
+    if isinstance(made, Ask | Answer) and (fact := other_fact(situation, reading, bare)) is not None:
+        return Remember((fact,))
     return made
 
 
@@ -289,7 +291,7 @@ def _asked_again(made: Ask, situation: Situation, reading: Reading, tokens: Sequ
     """The question which of several things is meant, once more, where an answer to it says nothing."""
     asked = situation.dialogue.asked
     short = sum(token.is_word for token in tokens) <= _ANSWER
-    if asked is None or made.choices or made.offer or made.told or made.stops or not short or reading.wishes:
+    if asked is None or made.choices or made.offer or made.stops or not short or reading.wishes:
         return None
     if not {*asked.choices} <= {item.description for item in situation.objects}:
         return None
@@ -317,6 +319,7 @@ def no_facts(told: tuple[Told, ...], situation: Situation) -> tuple[Told, ...]:
     """The facts of a message, unless it is a stop, an order to go on, a question or an answer."""
     bare = plain(tokenize(situation.message), (situation.robot,))
     kept = tuple(fact for fact in told if fact.is_rule or not is_wish(fact.text))
+    kept = () if is_report(situation.message) else kept
     return kept if kept and worth_keeping(situation, bare) else ()
 
 

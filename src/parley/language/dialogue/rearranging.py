@@ -22,7 +22,7 @@ from parley.language.lexicon import load_data
 __all__ = ["rearranged"]
 
 _Groups = list[list[Visit]]
-"""Steps in a row about the same thing: they stay together."""
+"""Steps in a row about the same thing, or about nothing else on the map: they stay together."""
 
 _SLOT: Final = (
     r"(?:@\d+(?: and @\d+)*|ORD(?: and ORD)*(?: (?:two|three|ones?|stops?|steps?|things?|places?|trip|part|"
@@ -70,7 +70,7 @@ def rearranged(situation: Situation, tokens: Sequence[Token], lexicon: Lexicon) 
 def _grouped(plan: Sequence[Visit]) -> _Groups:
     found: _Groups = []
     for visit in plan:
-        if found and visit.things and found[-1][-1].things == visit.things:
+        if found and (not visit.things or found[-1][-1].things == visit.things):
             found[-1].append(visit)
         else:
             found.append([visit])

@@ -38,18 +38,35 @@ _NOT: Final = frozenset(
      "without", "neither", "none", "hasn't", "won't", "aren't", "couldn't"}
 )  # fmt: skip
 _DONE: Final = re.compile(
-    r"(?:(?:there|here) (?:you (?:go|are)|it is|they are|we go|we are)|voila|all (?:set|done|yours|good)|"
-    r"good to go|(?:you are|you're) "
-    r"(?:good|all set|ready|loaded)|(?:you (?:can|may) )?(?:go on|carry on|continue|go ahead|drive on|"
-    r"move on|go|drive|leave)(?: now)?|(?:i|we|he|she|it|"
-    r"that|they|everything|all|somebody|someone|you|the \w+)?(?:'s|'ve|'re|s| is| are| has| have| was|"
-    r" were| did| just| now| already| been| all)*"
-    r" ?(?:done|did|loaded|ready|finished|put|placed|set|given|gave|handed|got|taken|took|moved|cleared|"
-    r"opened|fixed|"
-    r"removed|complete|completed|over|sorted|in place|on (?:you|your|it|board|the tray|top)|aboard|brought|"
-    r"laid|left|packed|stowed|in (?:your|the) (?:tray|basket|box)|shut|closed|plugged|freed|pushed|pulled|"
-    r"gone|away|settled)\b.*)"
+    r"(?!(?:is|are|was|did|has|have|can|do) (?:you|it|i|he|she|they|we|that|the)\b)"
+    r"(?:(?:ok|okay|right|there|so|yes|yep|now|all|just|already|and|i|we|he|she|it|that|they|everything|"
+    r"somebody|someone|you|the \w+|'s|'m|'ve|'re|s|is|are|has|have|was|were|did|been)\b ?)*"
+    r"\b(?:done|did|loaded|ready|finished|put|placed|set|given|gave|handed|got|taken|took|moved|cleared|opened|"
+    r"fixed|removed|completed?|over|sorted|brought|laid|left|packed|stowed|secured|strapped|slid|sitting|lying|"
+    r"mounted|shut|closed|plugged|freed|pushed|pulled|gone|away|settled|aboard|accomplished|yours|with you|"
+    r"in (?:place|it goes|(?:your|the) (?:tray|basket|box))|"
+    r"(?:on|in|onto)(?= (?:it|you|your|top|board|there|tray|basket|now|already)\b|$)|"
+    r"(?:there|here)(?= (?:it is|they are|now|we (?:go|are)|you (?:go|are))$|$))\b.*|"
+    r"voila|all good|good to go|mission accomplished|"
+    r"(?:you are|you're) good|you(?: have|'ve)(?: got)?(?: it| them)?(?: now)?|off you go|"
+    r"take (?:it|them) away|"
+    r"(?:you (?:can|may) )?(?:go on|carry on|continue|go ahead|drive on|move on|go|drive|leave|take it)"
+    r"(?: now)?"
 )  # fmt: skip
+_TO_COME: Final = frozenset({"will", "i'll", "we'll", "let", "shall", "would", "going", "must", "should"})
+_ONTO: Final = re.compile(
+    r"\b(?:put|placed|laid|set|loaded|slid|strapped|tied|hung|gave|handed|packed|stowed)\b(?: \w+){0,4} "
+    r"(?:(?:on|in|into|onto|to)(?: top of)? (?:you|your)\b|on$|in$|down$|already$)"
+)
+"""Whoever did it: "Kim put it on your tray"."""
+_NO_MORE: Final = re.compile(
+    r"\b(?:none|nothing|nobody|no ?one|no more|any more|(?:we are|we're|i am|i'm) out of|(?:run|ran) out|"
+    r"empty|too (?:heavy|big|large|hot|far|high)|(?:does not|doesn't|won't) (?:fit|work|open)|broke|"
+    r"impossible|missing|can't|cannot|couldn't|unable|"
+    r"some(?:one|body)(?: else)?(?: has|'s)? (?:took|taken))\b|"
+    r"^(?:it|they|the \w+)(?:'s| is| are|'re)(?: already| all)* gone$"
+)
+"""Why somebody does not do what was asked of them."""
 _THINKING: Final = re.compile(
     r"(?:let me (?:think|see|check|look)(?: .*)?|(?:hang on|hold on|wait|just|give me|one|a|half a|only|"
     r"in)?(?: ?(?:just|a|one|me))*"
@@ -58,7 +75,8 @@ _THINKING: Final = re.compile(
     r"(?: .*)?|i(?:'ll| will) (?:think|be right (?:there|back)|come|do it (?:later|soon|in)).*|i (?:don't|"
     r"do not) know(?: yet)?|not sure(?: yet)?|"
     r"good question|.*\bmy hands are (?:full|busy|wet|dirty).*|busy|coming|not ready(?: yet)?|"
-    r"wait(?: a .*)?|later|soon|be patient)"
+    r"wait(?: a .*)?|(?:(?:maybe|i'll do it|do it|no|not now) )?later|soon|be patient|"
+    r"not (?:now|yet)|.*\byet|(?:almost|nearly|about to)\b.*)"
 )
 _FEW: Final = 2
 _SURE: Final = 0.3
@@ -84,12 +102,14 @@ def names_deed(words: Sequence[str]) -> bool:
 
 def is_done(bare: str) -> bool:
     """Whether somebody says that what was asked of them is done."""
-    return not _NOT & set(bare.split()) and _DONE.fullmatch(bare) is not None
+    done = _DONE.fullmatch(bare) or _ONTO.search(bare)
+    return not (_NOT | _TO_COME) & set(bare.split()) and done is not None
 
 
-def is_thinking(bare: str) -> bool:
+def is_thinking(text: str) -> bool:
     """Whether somebody asks for time."""
-    return _THINKING.fullmatch(bare) is not None
+    whole = " ".join(words_of(text))
+    return any(_THINKING.fullmatch(words) for words in (whole, plain(tokenize(text))))
 
 
 def chosen(
@@ -129,11 +149,14 @@ def read_reply(question: str, reply: str, choices: Sequence[str], reading: Readi
         choices: What was offered.
         reading: Of the reply; None if there is no word in it.
     """
-    bare, words = plain(tokenize(reply)), words_of(reply)
+    asked = {*words_of(question)} - {"on", "in", "it", "done", "put", "me", "you", "i", "is"}
+    words, bare = words_of(reply), plain(tokenize(reply))
+    bare = " ".join(word for word in bare.split() if word not in asked) or bare
     if reading is None or not words:
         return ReplyReading("unclear")
     literal = assent_of(reply)
-    if is_thinking(bare) and len(words) > _FEW:
+    waits = is_thinking(bare) and (len(words) > _FEW or control_of(reply) is None)
+    if waits or is_thinking(" ".join(words)):
         return ReplyReading("aside")
     if control_of(reply) is not None and not (literal and not choices):
         return ReplyReading("control" if control_of(reply) != "start" else "yes")
@@ -141,9 +164,11 @@ def read_reply(question: str, reply: str, choices: Sequence[str], reading: Readi
         return ReplyReading("choice", choice)
     if literal is not None:
         return ReplyReading("yes" if literal else "no")
-    if is_done(bare) and "?" not in reply:
+    if _NO_MORE.search(bare) and "?" not in reply:
+        return ReplyReading("no")
+    if is_done(bare) and not _NOT & {*words} and "?" not in reply:
         return ReplyReading("yes")
-    if asks(reply, bare) or is_thinking(bare) or "alarm" in reading.acts or calls_to_stop(reply):
+    if asks(reply, bare) or is_thinking(reply) or "alarm" in reading.acts or calls_to_stop(reply):
         return ReplyReading("aside")
     if any(_is_sure(wish) for wish in reading.wishes) or ("need" in reading.acts and len(words) > _FEW):
         return ReplyReading("aside")
