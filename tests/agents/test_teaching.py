@@ -70,6 +70,8 @@ async def test_what_cannot_be_taught_is_said_and_not_kept(house: House) -> None:
     reply = await house.say("'stop' means take a picture")
     assert "“stop” keeps its meaning" in reply.message
     assert await house.store.all() == []
+    reply = await house.say("a red light means that the pump is broken")
+    assert "learn" not in reply.message  # that is no word of somebody's own
 
 
 async def test_program_teaches_nothing(house: House) -> None:

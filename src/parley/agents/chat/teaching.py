@@ -94,7 +94,7 @@ class Teaching:
         self._tell(target, said, text)
         return True
 
-    async def _learn(self, lesson: Taught, target: str, said: ChatInput) -> str:
+    async def _learn(self, lesson: Taught, target: str, said: ChatInput) -> str | None:
         if not said.who.is_person or verdict(said.who, Effect.REMEMBER) != "allow":
             self._tell(target, said, _ONLY_PEOPLE, "error")
             return ""
@@ -106,6 +106,8 @@ class Teaching:
             self._node.log.warning("not learned", target=target, error=repr(error))
             self._tell(target, said, _NO_ANSWER, "error")
             return ""
+        if isinstance(found, Sentence) and lesson_of(said.message, loose=False) is None:
+            return None  # a fact, perhaps
         if isinstance(found, Sentence):
             self._tell(target, said, sentence("I did not learn that. {why}", why=found))
             return ""

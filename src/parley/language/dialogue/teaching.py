@@ -44,12 +44,17 @@ class Learned:
     """What the robot would do; none where it is a name of a thing."""
 
 
-def lesson_of(message: str) -> Taught | None:
-    """What a person's message teaches, word for word; None if it teaches nothing."""
+def lesson_of(message: str, *, loose: bool = True) -> Taught | None:
+    """What a person's message teaches, word for word; None if it teaches nothing.
+
+    Args:
+        message: What was said.
+        loose: Whether what may as well be a fact counts.
+    """
     if message.rstrip().endswith("?") or len(message) > _MOST_CHARS:
         return None
     text = message[_LEADS.match(message).end() :].strip().rstrip(".!")  # type: ignore[union-attr]
-    for shape in _shapes("shapes"):
+    for shape in (*_shapes("shapes"), *(_shapes("loose") if loose else ())):
         found = shape.fullmatch(text)
         if found is None:
             continue
