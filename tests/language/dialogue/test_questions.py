@@ -102,6 +102,12 @@ async def test_a_choice_that_was_not_understood_is_asked_again() -> None:
     assert "the box in the hall or the gate" in await said("the pink one", asked)
 
 
+@pytest.mark.parametrize("words", ["no", "none of them", "neither, thanks", "oh nothing"])
+async def test_a_choice_of_none_ends_the_question(words: str) -> None:
+    asked = Dialogue(asked=Asked("go to it", ("box in the hall", "gate")))
+    assert await said(words, asked) == "All right, then I leave it."
+
+
 async def test_an_alarm_is_taken_back() -> None:
     alarm = await ENGINE.interpret(Situation("help, fire!", objects=THINGS, robot="Ada"))
     turns = (Turn("operator", "help, fire!"), Turn("assistant", alarm.message_response))

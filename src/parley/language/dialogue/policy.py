@@ -287,18 +287,29 @@ def afterwards(
     return made
 
 
-def _asked_again(made: Ask, situation: Situation, reading: Reading, tokens: Sequence[Token]) -> Ask | None:
-    """The question which of several things is meant, once more, where an answer to it says nothing."""
+def _asked_again(
+    made: Ask, situation: Situation, reading: Reading, tokens: Sequence[Token]
+) -> Ask | Answer | None:
+    """The question which of several things is meant, once more, where an answer to it says nothing.
+
+    None of them may be meant too: then nothing is asked any more.
+    """
     asked = situation.dialogue.asked
     short = sum(token.is_word for token in tokens) <= _ANSWER
     if asked is None or made.choices or made.offer or made.stops or not short or reading.wishes:
         return None
     if not {*asked.choices} <= {item.description for item in situation.objects}:
         return None
+    if _NONE.fullmatch(plain(tokens, (situation.robot,))):
+        return Answer("All right, then I leave it.")
     names = listed([f"the {name}" for name in asked.choices], "or")
     return Ask(f"I did not understand that. Which one do you mean: {names}?")
 
 
+_NONE: Final = re.compile(
+    r"(?:(?:no|nope|sorry|oh|well) )*(?:no|nope|none|neither|nothing|not any)"
+    r"(?: of (?:them|those|these|the two))?(?: thanks| thank you| please)?"
+)
 _BY_HAND: Final = {
     "GIVE": ("give", "hand"),
     "PUT": ("put", "place", "lay"),
