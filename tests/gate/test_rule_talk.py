@@ -63,6 +63,18 @@ async def test_yes_and_no_in_both_languages(answer: str, held: list[str]) -> Non
     assert talk.held == held
 
 
+async def test_who_asks_back_hears_why_and_the_question_stays_open() -> None:
+    talk = Talk()
+    asked = await talk.say("nobody may drive at night")
+    assert asked is not None
+    why = await talk.say("why not?", answers=asked.id)
+    assert why is not None and why.text.startswith("It was said to me as a rule")
+    assert why.text.endswith(asked.text)
+    assert (why.choices, talk.held) == (asked.choices, [])
+    await talk.say("yes", answers=why.id)
+    assert talk.held == ["action"]
+
+
 async def test_of_several_rules_the_one_that_is_chosen_is_dropped() -> None:
     talk = Talk()
     for name in ("north ward", "south ward"):

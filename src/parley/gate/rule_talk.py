@@ -146,6 +146,12 @@ class RuleConfirmations:
         """Ask once more what was not answered, perhaps in other words."""
         return replace(self._asked(self._waiting.pop(question), text), closes=question)
 
+    def explained(self, question: str) -> RuleReply:
+        """Ask once more, for somebody who asks back ("why not?")."""
+        asked = self._waiting[question].text
+        why = "It was said to me as a rule, and a rule counts only with a yes. {asked}"
+        return self.again(question, sentence(why, asked=asked))
+
     def withdraw(self, question: str) -> None:
         """Ask no more."""
         self._waiting.pop(question, None)
@@ -343,6 +349,8 @@ class RuleTalk:
             return RuleReply(sentence("You may not change rules."))
         answered = self._confirmations.answered(question, text)
         if answered is None:
+            if text.rstrip().endswith("?") and len(text.split()) <= _SHORT:
+                return self._confirmations.explained(question)
             unclear = sentence("Please answer with one of the choices, or with no.")
             return self._confirmations.again(question, unclear) if len(text.split()) <= _SHORT else None
         rule, drops = answered

@@ -20,7 +20,7 @@ from parley.messages.status import ActionInfo
 from parley.umrf.catalogue import info_of
 from parley.world.geometry import Pose2D
 from parley.world.object_map import MapObject
-from tests.language.builtin.worlds import CATALOGUE, NAMES, SENTENCES, THINGS, action, situation
+from tests.language.builtin.worlds import CATALOGUE, NAMES, SENTENCES, THINGS, action, situation, thing
 
 ENGINE = BuiltinLanguage()
 STRANGE = "glim pot,zorb,quell stand,vantry,bulber,norrick,plaunt,thrum,skeel,oblex"
@@ -168,3 +168,21 @@ async def test_an_open_engine_has_loaded_what_its_first_message_needs() -> None:
     shipped_tagger.cache_clear()
     async with BuiltinLanguage():
         assert shipped_tagger.cache_info().currsize == 1
+
+
+@pytest.mark.parametrize(
+    ("message", "done"),
+    [
+        ("take yourself to the office", [("GO", ["office"])]),
+        ("would you be so kind as to go to the desk", [("GO", ["desk"])]),
+        ("come to the office with me", [("GO", ["office"])]),
+        ("find me the red box", [("FIND", ["red box"])]),
+        ("turn left by about 45 degrees", [("TURN", ["45 degrees", "left"])]),
+        ("pick up the bottle of glue", [("TAKE", ["bottle"])]),
+    ],
+)
+def test_what_people_put_around_an_order_changes_nothing_of_it(
+    message: str, done: list[tuple[str, list[str]]]
+) -> None:
+    objects = (*THINGS, thing("bottle", 20), thing("glue", 21))
+    assert calls(situation(message, objects=objects)) == done

@@ -137,6 +137,7 @@ go to the office until somebody comes
 if it is late go to the desk; otherwise go to the desk; when the pump stops go to the desk
 go to the office and to the desk if the pump is on; check the zebras and then go to the desk
 if gate 1 is open go to the desk, otherwise the zebra
+check the pump, then if it leaks go to the office, otherwise carry on to gate 1
 visit the desk, the zebra and the pump; the box and both ramps are to be inspected"""
 
 

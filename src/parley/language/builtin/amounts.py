@@ -78,7 +78,7 @@ def amount_of(words: Sequence[str]) -> Amount | None:
     """The one amount that words mean; None if there is none, several, or words that are no part of it."""
     words = [part for word in words for part in _parted(word.lower())]
     unit = next((UNITS[word] for word in words if word in UNITS), "")
-    number = [word for word in words if word not in UNITS]
+    number = [word for word in words if word not in UNITS and word not in _ABOUT]
     if any(not _is_part(word) for word in number) or sum(word in UNITS for word in words) > 1:
         return None
     if "turn" in words or "circle" in words:
@@ -86,6 +86,9 @@ def amount_of(words: Sequence[str]) -> Amount | None:
         return Amount(share, "degrees") if share else None
     value = _number(number)
     return None if value is None else Amount(value, unit)
+
+
+_ABOUT = frozenset({"about", "almost", "roughly", "approximately", "exactly", "nearly"})
 
 
 def _parted(word: str) -> list[str]:

@@ -148,7 +148,7 @@ def _whole(readings: list[Reading]) -> Reading:
 def _without_call(part: Part, robots: tuple[str, ...], together: bool) -> Part:
     """A clause in which the words that call the robots are accounted for."""
     calling = {name.lower() for name in robots}
-    calling |= {"all", "both", "two", "everyone", "everybody"} if together else set()
+    calling |= {"robot", "robots", "all", "both", "two", "everyone", "everybody"} if together else set()
     left = tuple(word for word in part.reading.left_over if word.lower() not in calling)
     loose = tuple(f for f in part.reading.loose if not {*f.words} <= calling | {"and", "of", "you", ","})
     return replace(part, reading=replace(part.reading, left_over=left, loose=loose))

@@ -254,6 +254,11 @@ class Builder(Ways):
 
     def check(self, part: Part) -> Look | Ask:
         """The deeds that find out whether a condition holds."""
+        goes = next(
+            (w for w in part.reading.wishes if w.act == "order" and w.frame == "GO" and w.has("G")), None
+        )
+        if goes is not None and goes.start > 1:
+            return Ask(f"Where does it end, what “{part.text}” depends on? Please say it in two sentences.")
         return check(self, part.low, part.text)
 
     def _planned(self, wish: Wish, values: dict[str, Value]) -> list[Deed] | Ask:
@@ -362,8 +367,9 @@ class Builder(Ways):
             way = self.nearing(value) if role in "SL" and "GO" in self.skills else None
             if isinstance(way, list):
                 before += way
-            elif wish.frame in _LOOSE:
-                self.unheeded(value.said)
+            elif wish.frame in _LOOSE or (value.argument == "operator" and wish.frame not in _TOLD):
+                if wish.frame in _LOOSE:
+                    self.unheeded(value.said)
             else:
                 return way or Ask(f"I can {gloss}, but I do not know what to do about {value.said}.")
         if set(skill.action.inputs) - set(arguments) - set(skill.action.optional):
@@ -432,6 +438,8 @@ _TO_ME = frozenset({"bring", "fetch", "get", "retrieve", "go", "give", "want", "
 """Verbs of bringing that mean the speaker if nobody is named."""
 _ONCE = frozenset({"SAY", "ASK", "WAIT", "TURN", "MOVE", "CONNECT", "DISC", "MIX", "ANSWER", "FOLLOW"})
 """What is not done to one thing after the other."""
+_TOLD = frozenset({"SAY", "ANSWER", "GIVE", "BRING"})
+"""What is done for somebody in particular."""
 _LOOSE = frozenset({"FOLLOW", "PHOTO"})
 """What is done all the same if a part of it has no place in the action; that is said."""
 

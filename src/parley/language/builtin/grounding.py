@@ -140,6 +140,7 @@ class Grounder:
             return Value(place.thing, with_article(place.thing), (), place)
         looked_for = frame in ("FIND", "COUNT", "DO", "MAKE") or rest or not objects or placed
         movable = frame in _MOVABLE and filler.role == "T" and looked_for
+        movable = movable and not {*filler.words[1:]} & lexicon.classes["me"]
         if movable or frame in ("PHOTO", "BELOC"):
             return Value(mention.text, with_article(mention.text))
         return self._unknown(

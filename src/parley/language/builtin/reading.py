@@ -118,7 +118,7 @@ def _without_openers(wishes: list[Wish], parse: Parse) -> list[Wish]:
     kept: list[Wish] = []
     for wish, behind in zip(wishes, [*wishes[1:], None], strict=False):
         near = behind is not None and behind.start - wish.start <= len(wish.verb.split()) + 1
-        opens = wish.frame in ("GO", "TURN", "MOVE") or wish.verb in ("go", "come")
+        opens = wish.frame in ("GO", "TURN", "MOVE") or wish.verb.split(" ")[0] in ("go", "come")
         bare = not wish.fillers and not wish.negated and opens
         between = parse.tokens[wish.start : behind.start] if behind is not None else ()
         apart = any(token.low in ("then", ",", ".") for token in between)
@@ -156,15 +156,15 @@ def _wish(parse: Parse, verb: Verb, mine: list[Filler], lexicon: Lexicon) -> Wis
     end, longer = _reach(parse, verb, lexicon)
     known = longer or lexicon.frames_of(words, particles)
     known |= {general for special, general in _KIND_OF.items() if special in known}
-    witness: Witness = "agrees" if verb.frame in known else "differs" if known else "unknown"
+    meant = len(longer) == 1 and verb.frame not in known and parse.acts[verb.start] == "order"
+    frame = next(iter(longer)) if meant else verb.frame  # several words leave no doubt
+    witness: Witness = "agrees" if frame in known else "differs" if known else "unknown"
     negated = _negated(parse, verb, lexicon)
     if negated is None or verb.mode in _NOT_SIMPLY_NOW:
         witness = "differs"
     act = parse.acts[verb.start]
     said = " ".join([*words, *(token.low for token in parse.tokens[verb.end : end]), *particles])
-    return Wish(
-        verb.frame, verb.start, said, tuple(mine), verb.share, witness, act, bool(negated), verb.otherwise
-    )
+    return Wish(frame, verb.start, said, tuple(mine), verb.share, witness, act, bool(negated), verb.otherwise)
 
 
 _NOT_SIMPLY_NOW = frozenset({"later", "earlier", "allowed"})
@@ -333,7 +333,11 @@ def _left_over(parse: Parse, lexicon: Lexicon) -> tuple[str, ...]:
             or (parse.acts[at] in ("social", "told", "need") and not _runs_on(parse, at))
         ):
             continue
-        if (low[at] in _LEADING or low[at : at + 2] == ["close", "to"]) and at + 1 in starts:
+        if (
+            low[at] in _LEADING or low[at : at + 2] == ["close", "to"] or low[at] == "back"
+        ) and at + 1 in starts:
+            continue
+        if low[at] == "with" and low[at + 1 : at + 2] in (["me"], ["us"]):
             continue
         if low[at] == "but" and at + 1 in starts and any(verb.negated for verb in parse.verbs):
             continue

@@ -89,6 +89,7 @@ def link(words: Sequence[str], head: int, objects: Sequence[MapObject], lexicon:
         if of_whole and len(best) == 1:
             return Mention("part", " ".join((*name, *rest)), tuple(best))
         which = name[part + 1] in lexicon.classes["determiners"]  # "the lid of the jar" is no jar
+        which = which or name[part - 1] in lexicon.classes["containers"]
         if best and not of_whole and not which and _best(whole, objects) not in ([], best):
             return Mention("unclear", " ".join(name), (*best, *_best(whole, objects)))
     best = best or _otherwise_called(name, objects, lexicon)
