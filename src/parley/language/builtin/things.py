@@ -200,24 +200,10 @@ def _rank(wanted: tuple[str, ...], known: tuple[str, ...]) -> int:
     return 9
 
 
-_PLACING = frozenset(
-    {
-        "in",
-        "of",
-        "by",
-        "at",
-        "near",
-        "next",
-        "on",
-        "with",
-        "beside",
-        "behind",
-        "under",
-        "above",
-        "between",
-        "opposite",
-    }
-)
+_PLACING = frozenset({
+    "in", "of", "by", "at", "near", "next", "on", "with", "beside", "behind", "under",
+    "above", "between", "opposite",
+})  # fmt: skip
 
 
 def main_word(known: tuple[str, ...]) -> str:

@@ -34,23 +34,9 @@ __all__ = [
 ]
 
 _OPEN: Final = ("queued", "running", "waiting", "paused", "failed")
-_ORDINALS: Final = frozenset(
-    {
-        "first",
-        "1st",
-        "second",
-        "2nd",
-        "third",
-        "3rd",
-        "fourth",
-        "4th",
-        "fifth",
-        "5th",
-        "last",
-        "final",
-        "next",
-    }
-)
+_ORDINALS: Final = frozenset({
+    "first", "1st", "second", "2nd", "third", "3rd", "fourth", "4th", "fifth", "5th", "last", "final", "next",
+})  # fmt: skip
 _AGAINST: Final = re.compile(
     r"\b(?:not|no|without|skip(?:ping)?|leave(?: \w+)? out|leaving out|drop|omit|forget(?: about)?|except|"
     r"but not|"

@@ -215,22 +215,9 @@ def forgotten(situation: Situation, bare: str) -> tuple[MemoryEntry, ...] | None
     if found is None:
         return None
     small = {
-        "is",
-        "are",
-        "was",
-        "the",
-        "a",
-        "my",
-        "i",
-        "told",
-        "you",
-        "said",
-        "about",
-        "that",
-        "location",
-        "place",
-        "sits",
-    }
+        "is", "are", "was", "the", "a", "my", "i", "told", "you", "said", "about", "that", "location",
+        "place", "sits",
+    }  # fmt: skip
     wanted = {stem(word.removesuffix("'s")) for word in re.findall(r"[\w']+", found["about"])} - small
     hits = [
         entry

@@ -20,19 +20,9 @@ from parley.language.stop_words import calls_to_stop
 __all__ = ["chosen", "is_done", "is_thinking", "names_deed", "read_reply", "words_of"]
 
 _ORDINALS: Final = {
-    "first": 0,
-    "second": 1,
-    "third": 2,
-    "fourth": 3,
-    "one": 0,
-    "two": 1,
-    "three": 2,
-    "last": -1,
-    "1": 0,
-    "2": 1,
-    "3": 2,
-    "4": 3,
-}
+    "first": 0, "second": 1, "third": 2, "fourth": 3, "one": 0, "two": 1, "three": 2,
+    "last": -1, "1": 0, "2": 1, "3": 2, "4": 3,
+}  # fmt: skip
 _NOT: Final = frozenset(
     {"not", "no", "don't", "dont", "never", "can't", "cannot", "didn't", "haven't", "isn't", "nope", "nah",
      "without", "neither", "none", "hasn't", "won't", "aren't", "couldn't"}
