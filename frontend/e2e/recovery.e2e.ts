@@ -23,7 +23,7 @@ describe.skipIf(!hasBrowser)('an operator whose robot needs help', () => {
 
     const asked = page.locator('li[data-question="open"]');
     await asked.first().waitFor({ timeout: 60_000 });
-    expect(await page.getByRole('button', { name: /David is waiting for your answer/ }).count()).toBe(1);
+    await page.getByRole('group', { name: 'How David fares' }).getByText('Waiting for you').waitFor();
     await page.getByText(/^David asks:/).waitFor();
     await say(page, 'I have put it on you.');
     await page.locator('li[data-question="answered"]').first().waitFor();

@@ -62,9 +62,11 @@ export function Shell(props: Props) {
         )}
         <StopBanner />
         <ConnectionBanner />
-        <OpenNote />
-        <ModelNote />
-        <RoleNote />
+        <section aria-label={t('aboutHere')}>
+          <OpenNote />
+          <ModelNote />
+          <RoleNote />
+        </section>
         <main id="content" className={css.content} tabIndex={-1}>
           <Boundary {...words}>
             <Pages {...props} layout={layout} />

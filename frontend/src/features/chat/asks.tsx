@@ -1,5 +1,6 @@
 import { useMemo, useState } from 'react';
 import { useTranslation } from 'react-i18next';
+import { Link } from 'wouter';
 
 import { decidePlan } from '@/live/api';
 import { linesOf } from '@/live/lines';
@@ -79,7 +80,9 @@ function Proposal({ proposal, chosen, children }: { proposal: ProposalView; chos
   const wishes = [...proposal.changes, ...lines.map(({ step }) => sentence(step.label))];
   return (
     <section className={css.ask} aria-label={t('chat:asksHere', { robot: proposal.robot })}>
-      <p className={css.title}>{t('proposalTitle', { robot: proposal.robot })}</p>
+      <p className={css.title}>
+        <Link href="/plan">{t('proposalTitle', { robot: proposal.robot })}</Link>
+      </p>
       <p className={css.wishes}>{wishes.join(' · ')}</p>
       <div className={css.buttons}>
         <Button needs="approve" tone={writing ? 'plain' : 'main'} icon="check" isDisabled={busy} onPress={() => void decide('approve')}>
