@@ -12,7 +12,7 @@ from parley.language.builtin.decision import Answer, Ask, Control, Decision, Do,
 from parley.language.builtin.deeds import Builder
 from parley.language.builtin.facts import places, rule_of, told_of
 from parley.language.builtin.lexicon import Lexicon
-from parley.language.builtin.planner import Planner, orders_of
+from parley.language.builtin.planner import Planner, contradicted, orders_of
 from parley.language.builtin.reading import Reading
 from parley.language.builtin.skills import Skills
 from parley.language.builtin.structure import Part, Unclear, arranged
@@ -111,6 +111,8 @@ def _alone(
     deeds = Planner(builder).planned(nodes)
     if isinstance(deeds, Ask):
         return builder.doubts[0] if builder.doubts else deeds
+    if (both := contradicted(deeds, builder.refused)) is not None:
+        return both
     while deeds and deeds[-1].open_ended:
         deeds.pop()
     if not deeds:

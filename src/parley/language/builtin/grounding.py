@@ -74,6 +74,9 @@ class Grounder:
     mentioned: list[MapObject] = field(default_factory=list)
     """Things that were named so far, whatever is done with them."""
 
+    refused: list[tuple[str, str]] = field(default_factory=list)
+    """Frame and thing of what is not to be done."""
+
     def value(self, wish: Wish, filler: Filler) -> Value | Ask | None:
         """What a role of a wish holds, by the type that the frame gives it."""
         kind = self.lexicon.frames[wish.frame].roles.get(filler.role, "text")
@@ -347,7 +350,9 @@ class Grounder:
         for filler in wish.all("T") + wish.all("G"):
             named = group(filler.words, self.situation.objects, self.lexicon)
             mention = link(filler.words, filler.head, self.situation.objects, self.lexicon)
-            self.mentioned += named.things if named is not None else mention.things
+            things = named.things if named is not None else mention.things
+            self.mentioned += things
+            self.refused += [(wish.frame, thing.description or thing.id) for thing in things]
         self.left_undone(" ".join([wish.verb, *(filler.text for filler in wish.fillers)]))
 
     def left_undone(self, text: str) -> None:

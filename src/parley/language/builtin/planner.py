@@ -14,7 +14,7 @@ from parley.language.builtin.reading import Reading
 from parley.language.builtin.structure import If, Node, Orders, Part
 from parley.language.builtin.wishes import Filler, Wish
 
-__all__ = ["NO_DEED", "Planner", "orders_of"]
+__all__ = ["NO_DEED", "Planner", "contradicted", "orders_of"]
 
 NO_DEED = frozenset({"BELOC", "BECAT", "REMEMBER", "FORGET"})
 _NO_ORDER = frozenset({"told", "social", "need"})
@@ -279,6 +279,21 @@ class Planner:
             return True
         self.builder.left_undone(f"not {limit.text}")
         return not self.builder.names_same(words, wishes)
+
+
+def contradicted(deeds: Sequence[Deed], refused: Sequence[tuple[str, str]]) -> Ask | None:
+    """A question where the same message says to do something and not to: not yet, not first, not at all?
+
+    Args:
+        deeds: Of the whole message.
+        refused: Frame and thing of what is not to be done.
+    """
+    for deed in deeds:
+        said = {str(words).removeprefix("the ") for words in (*deed.arguments.values(), *deed.said.values())}
+        thing = next((name for frame, name in refused if deed.frame == frame and name in said), "")
+        if thing:
+            return Ask(f"Of the {thing} you say that I should, and that I should not. What shall I do?")
+    return None
 
 
 def _without_way(deeds: Sequence[Deed], more: list[Deed]) -> list[Deed]:
