@@ -123,3 +123,10 @@ def test_of_many_steps_the_first_are_named(ada: Follower) -> None:
     done = tuple(PlanStep(action=ActionCall(name="Drive"), label=f"{n}", state="finished") for n in range(5))
     text = ada.finishing.on_update(PlanUpdate(target="Ada", graph_name="g1", steps=done), CATALOGUE)
     assert text == "I have finished: 0; 1; 2 and 2 more."
+
+
+def test_who_does_what_a_waiting_robot_asked_for_hears_what_it_waits_for(ada: Follower) -> None:
+    ada.plan("running", ("Drive", "finished"), ("Ask", "running"), ("Drive", "queued"))
+    for state in ("running", "paused", "finished", "finished"):
+        ada.plan("paused", ("Drive", "finished"), ("Ask", state), ("Drive", "queued"))
+    assert ada.told == ["I go on when you say “carry on”."]

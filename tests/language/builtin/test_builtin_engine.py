@@ -28,9 +28,8 @@ ODD = ["uh", "and", "then", "not", "if", ",", ".", "…", "3", "½", "it", "’s
 UNCERTAIN = """don't go to the office; go to the zeppelin; frobnicate it;
 check every door except the last one; turn left; move forward; ; ?!; the; go to the office at six; stop;
 hello; somebody fell; Kim is in the office; where is the red box; bring it to me; never open the front gate;
-go to all the gates; go between the desk and the lamp; go to the desk, then to the office. don't go to the office;
-    visit every box, but don't go to the red box
-"""
+go to all the gates; go between the desk and the lamp; go to the desk, then to the office. don't go to
+the office; visit every box, but don't go to the red box"""
 
 
 def calls(given: Situation) -> list[tuple[str, list[str]]]:

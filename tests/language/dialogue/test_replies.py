@@ -22,6 +22,7 @@ PUT = "Please put the box on me and tell me when it is done."
         ("somebody fell!", "aside"), ("purple umbrellas", "unclear"),
         ("the box is on your tray", "yes"), ("Kim put it on you", "yes"), ("right, it's in", "yes"),
         ("secured", "yes"), ("already done", "yes"),
+        ("thats done", "yes"), ("its on there", "yes"), ("here you go it is on your tray", "yes"),
         ("you have it now", "yes"), ("box loaded", "yes"), ("I strapped it on", "yes"),
         ("there is none left", "no"), ("it's gone", "no"), ("somebody took it", "no"),
         ("it is too heavy", "no"),

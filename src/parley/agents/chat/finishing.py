@@ -6,6 +6,7 @@ from collections.abc import Callable, Sequence
 from dataclasses import dataclass, field
 from typing import Final
 
+from parley.agents.chat.texts import SAY_CARRY_ON
 from parley.messages.status import ActionInfo, PlanStep, PlanUpdate
 from parley.sentences import sentence
 
@@ -24,6 +25,8 @@ class _Job:
 
     state: str = "idle"
     began_s: float = 0.0
+    ended: int = 0
+    """How many steps were done."""
     failed: list[PlanStep] = field(default_factory=list)
     """The plan as it was when a step of it failed."""
 
@@ -56,7 +59,9 @@ class Finishing:
             job.began_s = self._now_s()
         if update.state == "held":
             job.failed = list(update.steps)
-        return ""
+        before, job.ended = job.ended, sum(step.state == "finished" for step in update.steps)
+        # Whoever did what it had asked for waits for it to go on.
+        return sentence(SAY_CARRY_ON) if was == update.state == "paused" and job.ended > before else ""
 
     def _told(self, job: _Job, steps: Sequence[PlanStep], catalogue: Sequence[ActionInfo]) -> str:
         done = [step for step in steps if step.state == "finished"]

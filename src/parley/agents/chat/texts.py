@@ -7,7 +7,7 @@ from collections.abc import Sequence
 from typing import Final
 
 from parley.language.control import Control
-from parley.language.stop_words import calls_to_stop
+from parley.language.stop_words import calls_to_stop, only_takes_back
 from parley.sentences import sentence, together
 
 __all__ = [
@@ -91,7 +91,7 @@ def still_standing(reply: str, message: str, *, paused: bool) -> str:
         message: The words. Who calls to stop is told that it stands; who asks wants just the answer.
         paused: Whether it has something to go on with.
     """
-    if calls_to_stop(message):
+    if calls_to_stop(message) and not only_takes_back(message):
         reply = sentence(_NOTHING_TO_DO["stop"])
     elif message.rstrip().endswith("?"):
         return reply

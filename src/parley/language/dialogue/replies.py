@@ -29,7 +29,8 @@ _NOT: Final = frozenset(
 )  # fmt: skip
 _DONE: Final = re.compile(
     r"(?!(?:is|are|was|did|has|have|can|do) (?:you|it|i|he|she|they|we|that|the)\b)"
-    r"(?:(?:ok|okay|right|there|so|yes|yep|now|all|just|already|and|i|we|he|she|it|that|they|everything|"
+    r"(?:(?:(?:there|here) (?:you (?:go|are)|we go)|"
+    r"ok|okay|right|there|so|yes|yep|now|all|just|already|and|i|we|he|she|it|that|they|everything|"
     r"somebody|someone|you|the \w+|'s|'m|'ve|'re|s|is|are|has|have|was|were|did|been)\b ?)*"
     r"\b(?:done|did|loaded|ready|finished|put|placed|set|given|gave|handed|got|taken|took|moved|cleared|opened|"
     r"fixed|removed|completed?|over|sorted|brought|laid|left|packed|stowed|secured|strapped|slid|sitting|lying|"
@@ -43,6 +44,9 @@ _DONE: Final = re.compile(
     r"(?:you (?:can|may) )?(?:go on|carry on|continue|go ahead|drive on|move on|go|drive|leave|take it)"
     r"(?: now)?"
 )  # fmt: skip
+_RUN_TOGETHER: Final = re.compile(
+    r"\b(?:(that|it|there|here|he|she)(s)|(i|you|we|they)(ve)|(you|they)(re))\b"
+)
 _TO_COME: Final = frozenset({"will", "i'll", "we'll", "let", "shall", "would", "going", "must", "should"})
 _ONTO: Final = re.compile(
     r"\b(?:put|placed|laid|set|loaded|slid|strapped|tied|hung|gave|handed|packed|stowed)\b(?: \w+){0,4} "
@@ -92,6 +96,7 @@ def names_deed(words: Sequence[str]) -> bool:
 
 def is_done(bare: str) -> bool:
     """Whether somebody says that what was asked of them is done."""
+    bare = _RUN_TOGETHER.sub(lambda found: "'".join(filter(None, found.groups())), bare)
     done = _DONE.fullmatch(bare) or _ONTO.search(bare)
     return not (_NOT | _TO_COME) & set(bare.split()) and done is not None
 
