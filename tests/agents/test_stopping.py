@@ -12,7 +12,7 @@ from collections.abc import AsyncIterator
 import pytest
 
 from parley.messages import ros, topics
-from parley.messages.chat import ChatAction, ChatFeedback, SystemCommand
+from parley.messages.chat import ChatAction, ChatFeedback, ChatInput, SystemCommand
 from parley.messages.principal import person
 from parley.messages.status import StopCommand
 from tests.agents.crew import Crew, ask, crew, decide, drive, look, proposals
@@ -146,6 +146,18 @@ async def test_what_a_person_stopped_an_engine_neither_lets_go_on_nor_gives_up(
     assert dropped(party) == []
     assert await party.body.stands_still()
     assert party.observer.state("A") == "paused"
+
+
+@pytest.mark.parametrize("words", ["stop! there is a child", "wait, go to the box instead"])
+async def test_who_may_only_look_stops_robots_by_words_too_and_orders_nothing(
+    party: Crew, words: str
+) -> None:
+    party.language.will("interpret", ChatAction(message_response="Yes.", queue=(look("box"),)))
+    viewer = person("Lee", role="viewer")
+    party.observer.publish(topics.CHAT_INPUT, ChatInput(message=words, targets=("A",), id="v", by=viewer))
+    await party.hears("I have stopped")
+    await party.state("paused")
+    assert len(party.steps()) == 2 and proposals(party) == []
 
 
 async def test_a_step_that_has_not_begun_is_left_out_while_the_robot_stands(party: Crew) -> None:

@@ -23,7 +23,10 @@ PASSWORD = "correct horse battery"
 WHO = ("nobody", *ROLES)
 
 BODIES: dict[tuple[str, str], list[tuple[Any, Effect]]] = {
-    ("POST", "/api/chat"): [({"id": "m1", "text": "hello", "targets": ["Ada"]}, Effect.SPEAK)],
+    ("POST", "/api/chat"): [
+        ({"id": "m1", "text": "hello", "targets": ["Ada"]}, Effect.SPEAK),
+        ({"id": "m2", "text": "stop! there is a child", "targets": ["Ada"]}, Effect.STOP),
+    ],
     ("POST", "/api/stop"): [({"command": "stop"}, Effect.STOP), ({"command": "reset"}, Effect.RESET)],
     ("POST", "/api/plans/{robot}/command"): [
         ({"command": "pause"}, Effect.PAUSE),

@@ -155,7 +155,7 @@ class ChatInterface(Node):
             return
         control = control_of(said.message, self._presence.names())
         if control not in _HALTING and verdict(said.who, Effect.SPEAK) != "allow":
-            self._say(said.targets, texts.ONLY_LOOKS, "error", said.id)
+            self._only_stops(said)
             return
         if control not in _HALTING and self._questions.is_late(said):
             self._say(said.targets, texts.settled(said.message), "response", said.id)
@@ -203,6 +203,14 @@ class ChatInterface(Node):
             self._mailboxes.post(target, self._work(target, said, ours))
         elif said.images:
             self._mailboxes.post(target, self._keep_pictures(target, said, question.message))
+
+    def _only_stops(self, said: ChatInput) -> None:
+        """Hear who may give no orders: everybody may call to stop, and what else is in it does not count."""
+        if not calls_to_stop(said.message):
+            self._say(said.targets, texts.ONLY_LOOKS, "error", said.id)
+            return
+        for target in self._addressed(said):
+            self._control(target, "stop", said)
 
     def _hand_on(self, target: str, decision: PlanDecision, said: ChatInput) -> None:
         """Hand a yes or no on, if the question about the plan is what the robot said last; else ask again."""

@@ -8,6 +8,7 @@ from fastapi import APIRouter, Path, Query
 from starlette.responses import Response
 
 from parley.gate.table import Effect
+from parley.language.stop_words import calls_to_stop
 from parley.web.bodies import ChatPage, ChatPost
 from parley.web.models import ChatEntry
 from parley.web.problems import WebProblem
@@ -31,9 +32,11 @@ async def get_chat(
     return ChatPage(entries=tuple(entries), complete=complete)
 
 
-@router.post("", dependencies=[may(Effect.SPEAK)])
+@router.post("", dependencies=[may(Effect.SPEAK, Effect.STOP)])
 async def post_chat(post: ChatPost, web: Web, who: Who) -> ChatEntry:
-    """Say something to robots; it is kept durably before it is sent and answered here."""
+    """Say something to robots; it is kept durably before it is sent. Everybody may call to stop."""
+    if not calls_to_stop(post.text):
+        who.need(Effect.SPEAK)
     return await web.say(post, who.by)
 
 
