@@ -235,7 +235,7 @@ class System:
             begin_for=self.rules.act_for,
         )
         await enter(self._speaking(planner))
-        rules = RuleTalk(self.rules, keeper)
+        rules = RuleTalk(self.rules, keeper, self.objects.areas)
         incidents = await enter(await IncidentStore.open(config.incidents_file or ":memory:", clock))
         recovery = ErrorHandler(
             transport,

@@ -14,6 +14,7 @@ CATALOGUE = (
     ActionInfo(name="Find", effects=("locates",)),
     ActionInfo(name="Drive", effects=("moves",)),
     ActionInfo(name="Look", effects=("looks",)),
+    ActionInfo(name="Ask", effects=("asks_operator",)),
 )
 State = Literal["idle", "awaiting_approval", "running", "paused", "held"]
 
@@ -126,7 +127,9 @@ def test_of_many_steps_the_first_are_named(ada: Follower) -> None:
 
 
 def test_who_does_what_a_waiting_robot_asked_for_hears_what_it_waits_for(ada: Follower) -> None:
-    ada.plan("running", ("Drive", "finished"), ("Ask", "running"), ("Drive", "queued"))
-    for state in ("running", "paused", "finished", "finished"):
+    ada.plan("running", ("Drive", "running"), ("Ask", "queued"), ("Drive", "queued"))
+    ada.plan("paused", ("Drive", "running"), ("Ask", "queued"), ("Drive", "queued"))
+    ada.plan("paused", ("Drive", "finished"), ("Ask", "running"), ("Drive", "queued"))
+    for state in ("paused", "finished", "finished"):
         ada.plan("paused", ("Drive", "finished"), ("Ask", state), ("Drive", "queued"))
     assert ada.told == ["I go on when you say “carry on”."]

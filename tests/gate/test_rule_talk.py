@@ -45,7 +45,7 @@ async def test_a_rule_of_anybody_else_never_holds(by: Principal) -> None:
         assert talk.held == []
     await talk.say("yes", answers=asked.id)
     assert talk.held == ["action"]
-    await talk.say("drop the rule", by)
+    await talk.say("drop that rule", by)
     assert talk.held == ["action"]
 
 

@@ -10,7 +10,7 @@ from parley.gate.told import DraftRule, NotUnderstood, lifted_place, told_rule
 from parley.gate.told_hours import hours_in
 from parley.messages.rules import Rule
 from parley.messages.status import ActionInfo
-from parley.world.object_map import MapObject
+from parley.world.object_map import MapArea, MapObject
 
 PLACES = (
     MapObject("r1", "storeroom", 5, 0, "room", 2, 2),
@@ -181,3 +181,13 @@ def test_of_a_robot_with_nothing_to_do_a_dont_is_a_rule_whatever_its_reason(text
 )
 def test_a_place_is_free_again(text: str, place: str) -> None:
     assert lifted_place(text) == place
+
+
+def test_a_room_is_what_the_map_shows_as_that_room() -> None:
+    corners = ((4.0, 4.0), (12.0, 4.0), (12.0, 10.0), (4.0, 10.0))
+    draft = told_rule(
+        "stay out of the ward", places=PLACES, catalogue=CATALOGUE, robots=("Ada",), robot="Ada",
+        areas=(MapArea("Ward", corners),),
+    )  # fmt: skip
+    assert isinstance(draft, DraftRule)
+    assert (draft.rule.name, draft.rule.polygon, draft.rule.rectangle) == ("Ward", corners, None)

@@ -20,7 +20,7 @@ from parley.messages.principal import Principal
 from parley.messages.rules import Rule
 from parley.messages.status import ActionInfo
 from parley.sentences import in_language, listed, sentence, together
-from parley.world.object_map import MapObject
+from parley.world.object_map import MapArea, MapObject
 
 __all__ = ["Listener", "RuleConfirmations", "RuleReply", "RuleTalk", "left_over_rule"]
 
@@ -35,7 +35,8 @@ _LIST: Final = re.compile(
     r"|^(?:mis|millised) reeglid(?: on| kehtivad| sul on)?$"
 )
 _DROP: Final = re.compile(
-    r"^(?:please )?(?:drop|delete|remove|forget|lift|cancel) the rules?"
+    r"^(?:please )?(?:drop|delete|remove|forget|lift|cancel) (?:the|that|this|those|your)(?: last| new)? "
+    r"rules?"
     r"(?: (?:about|on|for|that) (?P<about>.+))?$"
     r"|^(?:palun )?(?:kustuta|tühista|unusta) reegel(?: (?P<kohta>.+?)(?: kohta)?)?$"
 )
@@ -193,10 +194,11 @@ class RuleTalk:
     Args:
         book: The rules in force.
         keeper: Where they are kept.
+        areas: Rooms and other named parts of the map.
     """
 
-    def __init__(self, book: RuleBook, keeper: RuleKeeper) -> None:
-        self._book, self._keeper = book, keeper
+    def __init__(self, book: RuleBook, keeper: RuleKeeper, areas: Sequence[MapArea] = ()) -> None:
+        self._book, self._keeper, self._areas = book, keeper, areas
         self._confirmations = RuleConfirmations()
         self._refused: Latest[str, tuple[str, ...]] = Latest()
         """By which rules what a robot was told last was refused."""
@@ -283,7 +285,7 @@ class RuleTalk:
     def _told(self, text: str, to: Listener) -> DraftRule | NotUnderstood | None:
         return told_rule(
             text, places=to.places, catalogue=to.catalogue, robots=to.robots, robot=to.robot, busy=to.busy,
-            zones=self._book.rules.rules,
+            zones=self._book.rules.rules, areas=self._areas,
         )  # fmt: skip
 
     def _proposed(self, told: DraftRule, to: Listener) -> RuleReply:

@@ -15,7 +15,7 @@ from parley.gate.told_hours import hours_in
 from parley.messages.rules import Hours, Rule
 from parley.messages.status import ActionInfo
 from parley.sentences import sentence
-from parley.world.object_map import MapObject
+from parley.world.object_map import MapArea, MapObject
 
 __all__ = ["DraftRule", "NotUnderstood", "lifted_place", "told_rule"]
 
@@ -102,6 +102,7 @@ class _World:
     robots: Sequence[str]
     robot: str
     zones: Sequence[Rule]
+    areas: Sequence[MapArea]
 
 
 def told_rule(
@@ -112,6 +113,7 @@ def told_rule(
     robots: Sequence[str],
     robot: str = "",
     zones: Sequence[Rule] = (),
+    areas: Sequence[MapArea] = (),
     busy: bool = True,
 ) -> DraftRule | NotUnderstood | None:
     """What a person told as a rule; None if it is no rule.
@@ -123,6 +125,7 @@ def told_rule(
         robots: Names of all robots.
         robot: Who is spoken to; "you" means it.
         zones: Zones that there are already: their names are places, too.
+        areas: Rooms and other named parts of the map.
         busy: Whether the robot has something to do: then "don't go there" is about that, and no rule.
     """
     if len(text) > _MAX_CHARS or text.rstrip().endswith("?"):
@@ -130,7 +133,7 @@ def told_rule(
     said = re.sub(r"\s+", " ", text.replace("’", "'").casefold()).strip(" .!")
     said = _BEGIN.sub("", said).replace("don't ever", "never").replace("do not ever", "never")
     said = said if busy else _DONT.sub("never ", said)
-    world = _World(places, catalogue, robots, robot, zones)
+    world = _World(places, catalogue, robots, robot, zones, areas)
     missed: NotUnderstood | None = None
     for tried in dict.fromkeys((said, _REASON.sub("", said))):  # why it holds may stand behind it
         meant, plain = hours_in(tried)
@@ -334,6 +337,9 @@ def _area(words: str, world: _World, margin_m: float = _MARGIN_M) -> dict[str, A
     for zone in world.zones:
         if zone.corners and words in {zone.name.casefold() + end for end in _ENDINGS}:
             return {"name": zone.name, "map": zone.map, "rectangle": zone.rectangle, "polygon": zone.polygon}
+    for area in world.areas:
+        if words in {area.name.casefold() + end for end in _ENDINGS}:
+            return {"name": area.name, "polygon": area.corners}
     named = [item for item in world.places if words in _names(item)] or [
         item for item in world.places if any(words == n + end for n in _names(item) for end in _ENDINGS)
     ]

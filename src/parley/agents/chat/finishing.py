@@ -25,8 +25,8 @@ class _Job:
 
     state: str = "idle"
     began_s: float = 0.0
-    ended: int = 0
-    """How many steps were done."""
+    answered: int = 0
+    """How many of its questions were answered."""
     failed: list[PlanStep] = field(default_factory=list)
     """The plan as it was when a step of it failed."""
 
@@ -59,9 +59,11 @@ class Finishing:
             job.began_s = self._now_s()
         if update.state == "held":
             job.failed = list(update.steps)
-        before, job.ended = job.ended, sum(step.state == "finished" for step in update.steps)
+        asking = {info.name for info in catalogue if "asks_operator" in info.effects}
+        done = sum(step.state == "finished" and step.action.name in asking for step in update.steps)
+        before, job.answered = job.answered, done
         # Whoever did what it had asked for waits for it to go on.
-        return sentence(SAY_CARRY_ON) if was == update.state == "paused" and job.ended > before else ""
+        return sentence(SAY_CARRY_ON) if was == update.state == "paused" and done > before else ""
 
     def _told(self, job: _Job, steps: Sequence[PlanStep], catalogue: Sequence[ActionInfo]) -> str:
         done = [step for step in steps if step.state == "finished"]
