@@ -93,6 +93,10 @@ async def test_questions_are_answered_from_the_state(message: str, dialogue: Dia
     assert words in await said(message, dialogue)
 
 
+async def test_a_greeting_is_answered_with_one() -> None:
+    assert await said("hello", Dialogue()) == "Hello. What can I do for you?"
+
+
 async def test_what_it_waits_for_is_its_open_question() -> None:
     assert "Which gate?" in await said("what are you waiting for?", Dialogue("held"), "Which gate?")
 
