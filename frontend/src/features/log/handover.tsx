@@ -5,11 +5,11 @@ import { getHandover } from '@/live/api';
 import type { Handover, RoundView } from '@/live/types';
 import { Button } from '@/ui/button';
 import { Choice } from '@/ui/choice';
-import { Empty, Loading } from '@/ui/panel';
 import { useRequest } from '@/ui/use-request';
 import { clockTime, dayAndTime } from '@/ui/words';
 
 import css from './log.module.css';
+import { Shown } from './narrowing';
 import { RoundLine } from './rounds';
 
 const HOUR_MS = 3_600_000;
@@ -18,7 +18,7 @@ const hours = ['8', '12', '24'] as const;
 
 /** What the next shift has to know, to read or to print. */
 export function HandoverPart() {
-  const { t, i18n } = useTranslation(['log', 'common']);
+  const { t, i18n } = useTranslation('log');
   const [of, setOf] = useState<(typeof hours)[number]>('8');
   const [asked, setAsked] = useState(() => Date.now());
   const wish = { since: asked - Number(of) * HOUR_MS, language: i18n.language };
@@ -37,13 +37,9 @@ export function HandoverPart() {
           {t('print')}
         </Button>
       </div>
-      {found.state === 'loading' && <Loading />}
-      {found.state === 'failed' && (
-        <Empty title={t('failed')}>
-          <p role="alert">{found.reason}</p>
-        </Empty>
-      )}
-      {found.state === 'ready' && <Sheet told={found.value} />}
+      <Shown found={found} onAgain={() => setAsked(Date.now())}>
+        {(told) => <Sheet told={told} />}
+      </Shown>
     </>
   );
 }

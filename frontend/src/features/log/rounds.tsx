@@ -1,4 +1,4 @@
-import { useDeferredValue, useState } from 'react';
+import { useState } from 'react';
 import { useTranslation } from 'react-i18next';
 
 import { getHistory, roundFile } from '@/live/api';
@@ -6,20 +6,18 @@ import { useWorld } from '@/live/store';
 import type { RoundView } from '@/live/types';
 import { useKeeping } from '@/state/favourites';
 import { useOverlays } from '@/state/overlays';
-import { useRobotNames } from '@/state/selection';
 import { Button } from '@/ui/button';
 import { Choice } from '@/ui/choice';
 import { Icon, type IconName } from '@/ui/icon';
-import { Empty, Loading } from '@/ui/panel';
-import { TextField } from '@/ui/text-field';
+import { Empty } from '@/ui/panel';
 import { useNow } from '@/ui/use-now';
 import { useKept, useRequest } from '@/ui/use-request';
 import { clockTime, sentence, span, timeOrDay } from '@/ui/words';
 
 import { sayAgain } from './again';
 import css from './log.module.css';
+import { NarrowBy, Paging, Shown, useNarrowing } from './narrowing';
 
-const ALL = '*';
 const MINUTE_MS = 60_000;
 const WEEK_DAYS = 6;
 const days = ['today', 'week', 'any'] as const;
@@ -33,57 +31,25 @@ function midnight(daysAgo: number): number {
 
 /** What robots were told to do, how it ended and what they saw. */
 export function Rounds() {
-  const { t, i18n } = useTranslation(['log', 'common']);
-  const [words, setWords] = useState('');
-  const [who, setWho] = useState('');
-  const [robot, setRobot] = useState(ALL);
+  const { t, i18n } = useTranslation('log');
+  const by = useNarrowing();
   const [day, setDay] = useState<(typeof days)[number]>('today');
-  const [before, setBefore] = useState(0);
-  const names = useRobotNames();
+  const [asked, setAsked] = useState(0);
   const run = useWorld((world) => world.run);
   const plans = useWorld((world) => Object.values(world.plans).map((plan) => `${plan.graph_name} ${plan.state}`).join());
-  const wish = {
-    q: useDeferredValue(words.trim()),
-    by: useDeferredValue(who.trim()),
-    robot: robot === ALL ? '' : robot,
-    since: { today: midnight(0), week: midnight(WEEK_DAYS), any: 0 }[day],
-    before,
-    language: i18n.language,
-  };
-  const found = useKept(useRequest(JSON.stringify([run, plans, wish]), () => getHistory(wish)));
-  const anew =
-    <T,>(set: (value: T) => void) =>
-    (value: T) => {
-      set(value);
-      setBefore(0);
-    };
+  const since = { today: midnight(0), week: midnight(WEEK_DAYS), any: 0 }[day];
+  const wish = { ...by.wish, since, language: i18n.language };
+  const found = useKept(useRequest(JSON.stringify([run, plans, asked, wish]), () => getHistory(wish)));
   return (
     <>
-      <div className={css.search} role="search">
-        <TextField label={t('searchRounds')} value={words} onChange={anew(setWords)} maxLength={200} />
-        <TextField label={t('who')} value={who} onChange={anew(setWho)} maxLength={200} />
-        {names.length > 1 && (
-          <Choice
-            label={t('whose')}
-            value={robot}
-            options={[{ id: ALL, label: t('all') }, ...names.map((name) => ({ id: name, label: name }))]}
-            onChange={anew(setRobot)}
-          />
-        )}
-        <Choice label={t('day')} value={day} options={days.map((id) => ({ id, label: t(`days.${id}`) }))} onChange={anew(setDay)} />
-      </div>
-      {found.state === 'loading' && <Loading />}
-      {found.state === 'failed' && (
-        <Empty title={t('failed')}>
-          <p role="alert">{found.reason}</p>
-        </Empty>
-      )}
-      {found.state === 'ready' && <List rounds={found.value.rounds ?? []} narrowed={Boolean(wish.q || wish.by || wish.robot)} />}
+      <NarrowBy by={by} label={t('searchRounds')}>
+        <Choice label={t('day')} value={day} options={days.map((id) => ({ id, label: t(`days.${id}`) }))} onChange={by.anew(setDay)} />
+      </NarrowBy>
+      <Shown found={found} onAgain={() => setAsked(asked + 1)}>
+        {(page) => <List rounds={page.rounds ?? []} narrowed={by.narrowed} />}
+      </Shown>
       <div className={css.foot}>
-        {before > 0 && <Button onPress={() => setBefore(0)}>{t('newest')}</Button>}
-        {found.state === 'ready' && !found.value.complete && (
-          <Button onPress={() => setBefore(found.value.rounds?.at(-1)?.number ?? 0)}>{t('older')}</Button>
-        )}
+        {found.state === 'ready' && <Paging by={by} complete={found.value.complete ?? true} last={found.value.rounds?.at(-1)?.number} />}
       </div>
     </>
   );

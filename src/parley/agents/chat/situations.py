@@ -140,10 +140,6 @@ class Situations:
         """Whether some steps of a robot wait for a person's yes."""
         return target in self.plans and self.plans[target].policy != "run_at_once"
 
-    def waits_for_answer(self, target: str) -> bool:
-        """Whether a robot stands with a failed step and has asked what to do."""
-        return self.state(target) == "held" and self.questions.newest(target) is not None
-
     async def of(
         self,
         target: str,
