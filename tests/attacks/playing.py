@@ -75,7 +75,7 @@ async def converse(house: House, case: Case) -> None:
     images = (ChatImage(name="p.png", data=PICTURE),) if case.picture else ()
     house.say(case.say, case.to, answers=asked, images=images)
     if case.late:
-        await house.until(lambda: house.language.asked)
+        await house.until(lambda: house.language.asked or len(house.witness.said) > heard)
         _late(house, case)
         await house.settled(0.2)
         gate.set()
