@@ -29,7 +29,15 @@ from parley.messages.chat import (
 from parley.messages.failure import ErrorHandlingMessage
 from parley.messages.memory import MemoryEvent
 from parley.messages.pvf import Parameter
-from parley.messages.status import ActionInfo, ActorStatus, PlanStep, PlanUpdate, StopCommand
+from parley.messages.status import (
+    ActionInfo,
+    ActorStatus,
+    PlanDecision,
+    PlanProposal,
+    PlanStep,
+    PlanUpdate,
+    StopCommand,
+)
 from parley.transport.local import LocalTransport
 
 LOOK = ActionInfo(name="Look", inputs={"what": "string"}, description="Look at something.")
@@ -511,3 +519,33 @@ def test_words_that_let_go_are_known(text: str) -> None:
 @pytest.mark.parametrize("text", ["forget the box", "never mind the dog, go on", "mind the step", ""])
 def test_words_that_mean_more_do_not_let_go(text: str) -> None:
     assert not is_never_mind(text)
+
+
+@pytest.mark.parametrize("words", ["no, leave it", "no, not that one", "actually no, forget it, stay"])
+async def test_a_no_in_any_words_goes_to_the_plan_that_waits_before_any_step(room: Room, words: str) -> None:
+    heard: asyncio.Queue[PlanDecision] = asyncio.Queue()
+    await room.transport.subscribe(
+        topics.PLAN_DECISION, lambda said: heard.put_nowait(PlanDecision.model_validate_json(said.data))
+    )
+    room.observer.publish(topics.PLAN, PlanProposal(id="p1", target="A", steps=(look(),), digest="d"))
+    room.observer.publish(topics.PLAN, running("A", waits=("p1",)))
+    await room.observer.until(lambda: "A" in room.observer.plans)
+    room.observer.say(words, "A")
+    async with asyncio.timeout(5):
+        decided = await heard.get()
+    assert (decided.id, decided.decision, room.planner.orders) == ("p1", "reject", [])
+
+
+async def test_a_no_to_a_robot_that_asked_nothing_holds_it(room: Room) -> None:
+    room.observer.publish(topics.PLAN, running("A").model_copy(update={"state": "paused"}))
+    await room.observer.until(lambda: "A" in room.observer.plans)
+    room.observer.say("actually no, forget it, stay", "A")
+    (order,) = await room.orders()
+    assert [command.command for command in order.system_cmd] == ["stop"]
+
+
+def running(robot: str, **more: Any) -> PlanUpdate:
+    """A plan under way."""
+    return PlanUpdate(
+        target=robot, state="running", steps=(PlanStep(action=look(), state="running"),), **more
+    )

@@ -475,3 +475,26 @@ async def test_an_edit_that_the_rules_forbid_is_refused_when_it_is_made(waits: b
         await party.until(lambda: "look lid" in party.body.did)
         await party.state("idle")
         assert not party.body.way
+
+
+@pytest.mark.parametrize("more", [True, False])
+async def test_what_waits_for_a_yes_is_asked_about_as_it_is_after_a_part_of_it_is_over(more: bool) -> None:
+    async with crew("A") as party:
+        await begun(party, look("door"))
+        await policy(party, "ask_first")
+        party.order(*([look("lid")] if more else []), commands=[skip()])
+        await party.until(lambda: proposals(party))
+        old = proposals(party)[0]
+        assert old["lines"][0] == "Leave out: Look: what “box”"
+        party.body.gate("box").set()
+        await party.hears("over by now")
+        await party.state("awaiting_approval" if more else "idle")
+        decide(party, id=old["id"], decision="approve")
+        await party.hears("no longer waiting")
+        assert party.body.did == ["look box", "look door"]
+        assert [item["lines"] for item in proposals(party)[1:]] == ([["Look: what “lid”"]] if more else [])
+
+
+def skip() -> SystemCommand:
+    """Leave out what is being done."""
+    return SystemCommand(command="skip")

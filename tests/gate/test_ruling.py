@@ -46,6 +46,12 @@ def test_what_a_person_holds_an_engine_changes_only_after_a_yes() -> None:
     assert (free.do, free.begins) == (commands("clear"), "now")
 
 
+def test_what_is_asked_about_is_not_done_in_part_before_the_answer() -> None:
+    drop, skip = commands("pop", "skip")
+    both = rule(ENGINE, "run_at_once", (), (drop, skip), held_by=KIM, harmless=[drop])
+    assert (both.do, both.ask) == ((), (drop, skip))
+
+
 def test_a_rule_lets_go_on_what_it_held_itself_and_nothing_else() -> None:
     assert rule(RULE, "run_at_once", (), commands("start"), held_by=RULE).do == commands("start")
     assert rule(RULE, "run_at_once", (), commands("start"), held_by=KIM).do == ()

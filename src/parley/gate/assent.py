@@ -44,7 +44,9 @@ _NO_PARTS: Final = frozenset({
     "no need", "not necessary", "that is not necessary", "that is not needed", "not needed", "forget that",
     "cancel that", "cancel it", "cancel", "stay", "stay here", "stay there", "stay where you are", "stop",
     "maybe later", "later", "another time", "some other time", "not like that", "i do not think so",
-    "better not do that", "skip it", "i said no", "you may not", "you must not",
+    "better not do that", "skip it", "i said no", "not that", "not that one", "not this", "not this one",
+    "not those", "wrong one", "the wrong one", "that is the wrong one", "not what i meant",
+    "that is not what i meant", "you may not", "you must not",
 })  # fmt: skip
 _FILLERS: Final = frozenset({
     "please", "thanks", "thank you", "then", "now", "well", "oh", "um", "uh", "so", "sorry", "actually",

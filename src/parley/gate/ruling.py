@@ -82,7 +82,7 @@ def rule(
         begins = "refuse"
     elif calls and (ask or found == "yes" or (found == "policy" and asks)):
         begins = "ask"
-    if begins == "ask":  # one question about all of it; what was to come first waits too
+    if begins == "ask" or ask:  # one question about all of it; what was to come first waits too
         halting = [command for command in do if EFFECT_OF[command.command] is Effect.PAUSE]
         ask = [command for command in commands if command not in halting and command not in refused]
         do = halting

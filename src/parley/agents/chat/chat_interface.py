@@ -27,6 +27,7 @@ from parley.agents.questions import SeenIds
 from parley.agents.thinking import PATIENCE_S, Thinking
 from parley.clock import Clock
 from parley.errors import FailureCode
+from parley.gate.assent import assent_of, begins_with_no
 from parley.gate.rule_talk import Listener, RuleReply, RuleTalk
 from parley.gate.table import Effect, verdict
 from parley.language.base import Language
@@ -166,19 +167,24 @@ class ChatInterface(Node):
         targets = self._addressed(said)
         if control is not None:
             targets = self._presence.named_in(said.message) or targets
-        calls, refuses = calls_to_stop(said.message), is_no(said.message)
+        calls, refuses = calls_to_stop(said.message), self._says_no(said.message, control)
         for target in targets:
             question = self._questions.newest(target) if said.type == "response" else None
-            unasked = refuses and question is None and self._offered.newest(target) is None
+            offered = self._offered.newest(target) is not None and question is None
+            unasked = refuses and question is None and not offered
             moves = self._known.moves(target, self._presence.get(target))
             # Somebody else may just have said yes: what begins by that has not set the robot in motion yet.
-            halts = (calls and moves) or (unasked and (moves or self._known.is_under_way(target)))
+            stands = self._known.state(target) == "paused"
+            halts = (calls and moves) or (unasked and (moves or stands or self._known.is_under_way(target)))
             turns = question is None and control in (None, "stop")
             if turns and only_takes_back(said.message, moves=moves):
                 self._mailboxes.post(target, self._correction(target, said, moves=moves))
             elif halts and control not in _HALTING:
                 self._control(target, "stop", said, more=control is None)
-            elif control is not None and not self._answers(target, question, control):
+            elif control is not None and not (
+                self._answers(target, question, control)
+                or (offered and control == "skip" and self._refuses(target, said))
+            ):
                 self._control(target, control, said)
             elif not self._presence.is_there(target):
                 text = texts.not_there(target)
@@ -237,6 +243,17 @@ class ChatInterface(Node):
     def _answers(self, target: str, question: ChatFeedback | None, control: Control) -> bool:
         """Whether "go on" answers a question; while the robot is paused it means to go on."""
         return question is not None and control == "start" and self._known.state(target) != "paused"
+
+    def _says_no(self, message: str, control: Control | None) -> bool:
+        """Whether somebody says no in any words that are not a control word or about an older message."""
+        if control is not None or texts.is_never_mind(message):
+            return is_no(message)
+        return is_no(message) or assent_of(message, self._presence.names()) is False
+
+    def _refuses(self, target: str, said: ChatInput) -> bool:
+        """Whether "leave it" is a no to what the robot asked last, not a step that is to be left out."""
+        asked = self._offered.is_asked(target) or begins_with_no(said.message)
+        return asked and assent_of(said.message, self._presence.names()) is False
 
     def _work(self, target: str, said: ChatInput, ours: str = "") -> Callable[[], Awaitable[None]]:
         halts = dict(self._halts)
@@ -408,6 +425,8 @@ class ChatInterface(Node):
             )
             self.publish(topics.CHAT_ACTION, order)
         reply = reply or texts.CONTROL_REPLIES[control]
+        if control == "start" and state == "paused" and offered is not None:
+            reply = together(sentence(reply), texts.STILL_ASKED)
         if more and len(said.message.split()) > _SHORT_WORDS:  # there may be an order in it
             reply = together(sentence(reply), texts.REST_LEFT)
         self._known.note(target, said.message, reply)

@@ -46,6 +46,8 @@ MAX_CHARS: Final = 10_000
 _QUOTED_CHARS: Final = 200
 AFTERWARDS: Final = sentence("I will do that afterwards; first I need your answer to my question.")
 """Added to the reply to an order that has to wait until a failed step is settled."""
+STILL_ASKED: Final = sentence("What I asked about still waits for your yes.")
+"""Added when a robot goes on with its plan while something else waits."""
 
 CANNOT: Final = "I worked out a plan that I cannot carry out, so I did nothing. Please say it another way."
 CONTROL_REPLIES: Final[dict[Control, str]] = {

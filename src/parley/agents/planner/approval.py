@@ -70,9 +70,9 @@ class Approvals:
         """What a yes to the proposal of that id changes before its steps begin."""
         return self._bound.get(identity, ())
 
-    def repairs(self, identity: str) -> bool:
-        """Whether the proposal takes the place of a step that failed."""
-        return identity in self._repairs
+    def repairs(self, identity: str) -> Step | None:
+        """The failed step in whose place the proposal would be done; None: it repairs nothing."""
+        return self._repairs.get(identity)
 
     def of(self, target: str) -> list[PlanProposal]:
         """What waits of a robot, oldest first."""

@@ -140,7 +140,7 @@ class Decisions:
             if problems:
                 self._plans.refuse_plan(plan, problems, decided=True)
                 return
-        calls = self._plans.accept(plan, calls or (), correcting=repairs, decided=edited)
+        calls = self._plans.accept(plan, calls or (), correcting=repairs is not None, decided=edited)
         if calls is None:
             return  # it goes on waiting, for a better edit
         self._begin(plan, decision, proposal, calls)

@@ -30,6 +30,7 @@ class Proposals:
 
     def __init__(self, node: Node, plans: RobotPlans) -> None:
         self._node, self._plans = node, plans
+        plans.settle = self.settle
 
     def propose(
         self,
@@ -47,22 +48,17 @@ class Proposals:
         bound: list[Bound] = []
         for command in commands:
             bound.append((command, plan.meant(command)))
-        shown = zip(plan.steps, self._labels(plan, [step.call for step in plan.steps]), strict=True)
-        texts = {id(step): label for step, label in shown}
-        changes = [command_label(command, texts.get(id(step), "")) for command, step in bound]
-        labels = self._labels(plan, calls)
         proposal = PlanProposal(
             id="new",
             target=target,
             message=order.message_response,
             steps=tuple(calls),
             commands=tuple(commands),
-            labels=self._spoken(changes, labels),
-            lines=self._spoken(changes, self._lines(plan, calls, labels)),
             digest=digest_of(target, calls, commands, self._plans.objects(target)),
             by=order.by,
             why=self._node.spoken(why),
             words=order.words,
+            **self._told(plan, calls, bound),
         )
         for same in [item for item in self._plans.approvals.of(target) if item.digest == proposal.digest]:
             self._plans.approvals.drop(same.id)  # said once more, it is asked about once
@@ -78,31 +74,59 @@ class Proposals:
 
         `why` it is asked now, though it was not then; may be empty.
         """
-        self._plans.approvals.drop(proposal.id)
-        labels = self._labels(plan, proposal.steps)
-        told = {
-            "labels": self._spoken(labels),
-            "lines": self._spoken(self._lines(plan, proposal.steps, labels)),
-        }
-        renewed = proposal.model_copy(
-            update={"digest": self.digest(proposal), "why": why or proposal.why, **told}
+        self._renew(plan, proposal, self._plans.approvals.bound(proposal.id), orders.NOT_AS_SHOWN, why)
+
+    def settle(self, plan: TargetPlan) -> None:
+        """Ask no longer about what is over: failures that were repaired, changes of steps that have ended."""
+        approvals = self._plans.approvals
+        approvals.drop_settled(plan)
+        for proposal in approvals.of(plan.target):
+            bound = approvals.bound(proposal.id)
+            left = [(command, step) for command, step in bound if step is None or step in plan.pending]
+            if len(left) == len(bound):
+                continue
+            if left or proposal.steps:
+                self._renew(plan, proposal, left, orders.PARTLY_OVER)
+            else:
+                approvals.drop(proposal.id)
+                self._plans.say(plan.target, orders.STEP_OVER, "info")
+
+    def _renew(
+        self, plan: TargetPlan, proposal: PlanProposal, bound: Sequence[Bound], said: str, why: str = ""
+    ) -> None:
+        """Let what a proposal has become wait in its place, and ask about just that."""
+        approvals = self._plans.approvals
+        repairs = approvals.repairs(proposal.id)
+        approvals.drop(proposal.id)
+        changed = proposal.model_copy(update={"commands": tuple(command for command, _ in bound)})
+        told = self._told(plan, proposal.steps, bound)
+        renewed = changed.model_copy(
+            update={"digest": self.digest(changed), "why": why or proposal.why, **told}
         )
-        if proposal.commands:
-            self._plans.say(plan.target, orders.PLAN_CHANGED, "error")
-            self._plans.send(plan, [])
-            return
-        shown = self._plans.approvals.propose(renewed, self._plans.presence.get(plan.target))
+        status = self._plans.presence.get(plan.target)
+        shown = approvals.propose(renewed, status, repairs=repairs, bound=bound)
         self._node.publish(topics.PLAN, shown)
         self._plans.send(plan, [])
-        self._plans.say(
-            plan.target, together(orders.NOT_AS_SHOWN, wish_of(shown.lines, why), SHALL_I), "info"
-        )
+        self._plans.say(plan.target, together(said, wish_of(shown.lines, why), SHALL_I), "info")
 
     def digest(self, proposal: PlanProposal) -> str:
         """What a proposal stands for by now."""
         return digest_of(
             proposal.target, proposal.steps, proposal.commands, self._plans.objects(proposal.target)
         )
+
+    def _told(
+        self, plan: TargetPlan, calls: Sequence[ActionCall], bound: Sequence[Bound]
+    ) -> dict[str, tuple[str, ...]]:
+        """What is shown of changes and steps: a label and a line of each."""
+        shown = zip(plan.steps, self._labels(plan, [step.call for step in plan.steps]), strict=True)
+        texts = {id(step): label for step, label in shown}
+        changes = [command_label(command, texts.get(id(step), "")) for command, step in bound]
+        labels = self._labels(plan, calls)
+        return {
+            "labels": self._spoken(changes, labels),
+            "lines": self._spoken(changes, self._lines(plan, calls, labels)),
+        }
 
     def _labels(self, plan: TargetPlan, calls: Sequence[ActionCall]) -> Labels:
         return labels_of(calls, self._plans.catalogue(plan.target), self._plans.objects(plan.target))

@@ -69,6 +69,8 @@ class RobotPlans:
         self.by_robot: dict[str, TargetPlan] = {}
         """By robot: those that were ever needed."""
         self.approvals, self.objects = approvals, objects
+        self.settle = approvals.drop_settled
+        """Forgets what waits for a yes and is over; looked at whenever a plan changes."""
         self.board = PlanBoard(self.catalogue, objects)
         self.held_by: dict[str, Principal] = {}
         """Who told each robot to stand still, until it goes on."""
@@ -199,7 +201,7 @@ class RobotPlans:
         """Send all of it, then the plan as it is now."""
         for effect in effects:
             self._sender.send(plan, effect)
-        self.approvals.drop_settled(plan)
+        self.settle(plan)
         update = self.board.show(plan, self.approvals, self.held_by.get(plan.target))
         if update is not None:
             self._node.publish(topics.PLAN, update)
