@@ -135,7 +135,8 @@ def told_rule(
     said = said if busy else _DONT.sub("never ", said)
     world = _World(places, catalogue, robots, robot, zones, areas)
     missed: NotUnderstood | None = None
-    for tried in dict.fromkeys((said, _REASON.sub("", said))):  # why it holds may stand behind it
+    # Why it holds may stand behind it, and until when: that is asked without, and ends when people say so.
+    for tried in dict.fromkeys((said, _REASON.sub("", said), _UNTIL.sub("", said))):
         meant, plain = hours_in(tried)
         for form in (_asked, _slowed, _forbidden):
             found = form(_FOR_NOW.sub("", plain), world)
@@ -150,6 +151,7 @@ _DONT: Final = re.compile(
     r"^(?:(?:you )?(?:don't|do not)|stop) (?=(?:go|drive|come|move|going|driving|enter)\b)"
 )
 _REASON: Final = re.compile(r"(?:\s*(?:,|;|:|\.|\s-|–)\s*|\s+(?:because|since|as|sest)\s+).*$")
+_UNTIL: Final = re.compile(r",? (?:until|till|while|whilst|as long as|so long as|(?:seni )?kuni) .+$")
 _FOR_NOW: Final = re.compile(
     r"(?: (?:today|tonight|for now|for the moment|at the moment|right now|now|any ?more|until further notice|"
     r"this (?:morning|afternoon|evening)|for a while|please|täna|praegu))+$"
