@@ -48,7 +48,17 @@ def test_a_no_is_a_no(said: str) -> None:
 
 @pytest.mark.parametrize(
     "said",
-    ["yes?", "ok, no", "fine, but later", "yes, but go to the chair first", "no, the other one", "", "Ada"],
+    [
+        "yes?",
+        "ok, no",
+        "fine, but later",
+        "yes, but go to the chair first",
+        "no, the other one",
+        "",
+        "Ada",
+        "don't stop",
+        "never cancel it",
+    ],
 )
 def test_everything_else_is_neither(said: str) -> None:
     assert assent_of(said, ["Ada"]) is None

@@ -57,6 +57,9 @@ _IN_FULL: Final = (
     (r"\bi'd\b", "i would"),
     (r"\blet'?s\b", "let us"), (r"\bi've\b", "i have"), (r"\bnever ?mind\b", "never mind"),
 )  # fmt: skip
+_GIVING_UP: Final = frozenset(
+    {"stop", "cancel", "drop", "skip", "scrap", "forget", "stay", "leave", "bother"}
+)
 _LONGEST: Final = 8
 """So many words such phrases put together have at most."""
 
@@ -93,11 +96,14 @@ def assent_of(text: str, names: Sequence[str] = ()) -> bool | None:
 def _put_together(words: Sequence[str]) -> bool | None:
     """A yes or a no of several such phrases ("yes, like that", "nah, leave it"); one word more is neither."""
     found: set[bool] = set()
-    at = 0
+    at, negated = 0, False
     while at < len(words) <= _LONGEST:
         for end in range(len(words), at, -1):
             phrase = " ".join(words[at:end])
             if phrase in _FILLERS or phrase in _YES | _YES_PARTS or phrase in _NO | _NO_PARTS:
+                if negated and words[at] in _GIVING_UP:
+                    return None  # "don't stop", "never cancel it": no refusal at all
+                negated = phrase.endswith(("do not", "never", "must not", "rather not"))
                 if phrase not in _FILLERS:
                     found.add(phrase in _YES | _YES_PARTS)
                 at = end

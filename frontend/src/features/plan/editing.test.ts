@@ -68,13 +68,27 @@ describe('changing a plan', () => {
   });
 
   it('puts a step back where it stood, however many have begun meanwhile', () => {
-    const steps = ['a', 'b', 'c', 'd'].map((id) => step({ id, call: { [id]: {} } }));
+    const steps = ['a', 'b', 'c', 'd'].map((id) => step({ id, risk: 'looks_and_speaks', call: { [id]: {} } }));
     const [, b, c, d] = steps;
     if (!b || !c || !d) throw new Error('there are four');
     const renamed = { ...d, id: 'd2' };
-    expect(putBack(b, steps, [c, renamed]).map((one) => one.id)).toEqual(['b', 'c', 'd2']);
-    expect(putBack(c, steps, [renamed]).map((one) => one.id)).toEqual(['c', 'd2']);
-    expect(putBack(d, steps, []).map((one) => one.id)).toEqual(['d']);
+    expect(ids(putBack([b], steps, [c, renamed]))).toBe('bcd2');
+    expect(ids(putBack([b, c], steps, [renamed]))).toBe('bcd2');
+    expect(ids(putBack([b], steps, [renamed]))).toBe('bd2');
+    expect(ids(putBack([d], steps, []))).toBe('d');
+  });
+
+  it('puts nothing between a way and what is done at its end', () => {
+    const looks = (id: string) => step({ id, risk: 'looks_and_speaks', call: { [id]: {} } });
+    const [ways, sights] = [['A', 'B', 'C'].map((id) => step({ id, call: { [id]: {} } })), ['a', 'b', 'c'].map(looks)];
+    const steps = ways.flatMap((way, at) => [way, sights[at] ?? way]);
+    expect(ids(steps)).toBe('AaBbCc');
+    const [wayA, seeA] = steps;
+    if (!wayA || !seeA) throw new Error('there are six');
+    // B is on its way: what is done there comes first, and nobody looks at A from B.
+    expect(ids(putBack([wayA], steps, steps.slice(3)))).toBe('bACc');
+    expect(ids(putBack([seeA], steps, steps.slice(3)))).toBe('bAaCc');
+    expect(ids(putBack([seeA], steps, steps.slice(5)))).toBe('cAa');
   });
 
   it('lets people write words, not coordinates', () => {

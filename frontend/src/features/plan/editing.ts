@@ -88,11 +88,32 @@ export function nudged(steps: readonly DraftStep[], id: string, by: -1 | 1): rea
 export const editable = (input: ParameterView) =>
   ['string', 'number', 'bool'].includes(input.type) && !/(?:^|::)(?:position|orientation)::/.test(input.name);
 
-/** A step that was taken out, put where it stood: in front of the first that came after it and still waits. */
-export function putBack(step: StepView, before: readonly StepView[], now: readonly StepView[]): readonly StepView[] {
-  const sameCall = (one: StepView, other: StepView) => JSON.stringify(one.call) === JSON.stringify(other.call);
-  const behind = before.slice(before.findIndex((one) => one.id === step.id) + 1);
-  const successor = now.findIndex((one) => behind.some((other) => sameCall(one, other)));
-  const at = successor < 0 ? now.length : successor;
-  return [...now.slice(0, at), step, ...now.slice(at)];
+/**
+ * Steps that were taken out, put where they stood. Where the robot has left for another place meanwhile, what is done
+ * there comes first, and who is to look somewhere goes there again: the way belongs to what is done at its end.
+ */
+export function putBack(gone: readonly StepView[], before: readonly StepView[], now: readonly StepView[]): readonly StepView[] {
+  const [first, last] = [gone[0], gone.at(-1)];
+  if (!first || !last) return now;
+  const sameCall = (one: StepView) => (other: StepView) => JSON.stringify(one.call) === JSON.stringify(other.call);
+  const waits = (one: StepView) => now.some(sameCall(one));
+  const behind = before.slice(before.findIndex((one) => one.id === last.id) + 1);
+  const next = behind.findIndex(waits);
+  const left = behind.slice(0, next < 0 ? behind.length : next).some(goesAway);
+  const successor = behind[next];
+  const place = left ? now.findIndex(goesAway) : successor ? now.findIndex(sameCall(successor)) : -1;
+  const at = place < 0 ? now.length : place;
+  const way = left && !goesAway(first) ? wayTo(first, before) : [];
+  return [...now.slice(0, at), ...way, ...gone, ...now.slice(at)];
+}
+
+const goesAway = (step: StepView) => step.only_finds || step.risk === 'moves';
+
+/** The last steps before one that took the robot to where it is done. */
+function wayTo(step: StepView, before: readonly StepView[]): readonly StepView[] {
+  const earlier = before.slice(0, before.findIndex((one) => one.id === step.id));
+  const end = earlier.findLastIndex((one) => one.risk === 'moves');
+  if (end < 0) return [];
+  const start = earlier.slice(0, end).findLastIndex((one) => !one.only_finds) + 1;
+  return earlier.slice(start, end + 1);
 }

@@ -40,8 +40,7 @@ export function usePutBack(plan: PlanView) {
         (one) => one.robot === plan.robot && one.kind === 'plan',
       );
       const still = now ? pendingSteps(now.steps) : [];
-      const steps = gone.toReversed().reduce<readonly StepView[]>((known, one) => putBack(one, plan.steps, known), still);
-      void save(plan.robot, steps.map(callOf), now?.revision ?? plan.revision, '');
+      void save(plan.robot, putBack(gone, plan.steps, still).map(callOf), now?.revision ?? plan.revision, '');
     };
     show({ tone: 'info', message, action: { label, run: undo } });
   };
