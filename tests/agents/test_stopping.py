@@ -125,9 +125,10 @@ async def test_a_correction_that_opens_with_wait_is_carried_out_and_stops_nothin
     assert "pause" not in party.wire.commands()
 
 
-async def test_a_correction_of_which_nothing_comes_leaves_the_robot_standing(party: Crew) -> None:
+@pytest.mark.parametrize("words", ["no wait, not that one", "no! I said the other one"])
+async def test_a_correction_of_which_nothing_comes_leaves_the_robot_standing(party: Crew, words: str) -> None:
     party.language.will("interpret", ChatAction(message_response="Which one do you mean?"))
-    party.observer.say("no wait, not that one", "A")
+    party.observer.say(words, "A")
     await party.hears("Which one do you mean?")
     await party.hears("I have stopped")
     await party.state("paused")

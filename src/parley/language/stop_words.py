@@ -11,7 +11,7 @@ import re
 import unicodedata
 from typing import Final
 
-__all__ = ["calls_to_stop", "has_stop_word", "is_no", "only_takes_back"]
+__all__ = ["calls_to_stop", "has_stop_word", "is_no", "only_takes_back", "opens_with_no"]
 
 _WORDS: Final = (
     r"s+t+o+p+p*|stp+|sto|sotp|stpo|tsop|stpp|stopp?it|h+a+l+t+|w+a+i+t+|f+r+e+e+z+e+|w+h?o+a+h?|brake|"
@@ -121,6 +121,17 @@ _BEHIND: Final = re.compile(
 def is_no(text: str) -> bool:
     """Whether a message says no and nothing else; a robot that drives and asked nothing then stands."""
     return _NO.fullmatch(_plain(text)) is not None
+
+
+def opens_with_no(text: str) -> bool:
+    """Whether a message is a no with more behind it ("no! I said the other one"); "no sugar" is none."""
+    return _OPENS.match(_plain(text)) is not None
+
+
+_OPENS: Final = re.compile(
+    r"\W*(?:no+|nope|nah|ei)\b(?:\s*[,.!;:–-]+\s*\w|\s+(?:i|you|not|that|this|it|the|wait|do|don't)\b)",
+    re.IGNORECASE,
+)
 
 
 def _plain(text: str) -> str:

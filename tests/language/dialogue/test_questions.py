@@ -106,6 +106,24 @@ async def test_a_choice_that_was_not_understood_is_asked_again() -> None:
     assert "the box in the hall or the gate" in await said("the pink one", asked)
 
 
+@pytest.mark.parametrize(
+    ("words", "answers"),
+    [
+        ("the red one", True),
+        ("wait, first the red one", False),
+        ("then the red one", False),
+        ("the red one then", True),
+        ("the first", True),
+    ],
+)
+async def test_a_name_with_what_comes_first_is_no_answer_to_which_one(words: str, answers: bool) -> None:
+    boxes = (MapObject("r", "red box", 0.0, 0.0), MapObject("b", "blue box", 9.0, 0.0))
+    asked = Dialogue(asked=Asked("drive to the box", ("red box", "blue box")))
+    situation = Situation(words, objects=boxes, robot="Ada", catalogue=(*CATALOGUE, WAY), dialogue=asked)
+    made = await ENGINE.interpret(situation)
+    assert bool(made.queue) is answers, made.message_response
+
+
 @pytest.mark.parametrize("words", ["no", "none of them", "neither, thanks", "oh nothing"])
 async def test_a_choice_of_none_ends_the_question(words: str) -> None:
     asked = Dialogue(asked=Asked("go to it", ("box in the hall", "gate")))

@@ -32,7 +32,7 @@ from parley.gate.rule_talk import Listener, RuleReply, RuleTalk
 from parley.gate.table import Effect, verdict
 from parley.language.base import Language
 from parley.language.control import Control, control_of
-from parley.language.stop_words import calls_to_stop, is_no, only_takes_back
+from parley.language.stop_words import calls_to_stop, is_no, only_takes_back, opens_with_no
 from parley.messages import topics
 from parley.messages.chat import ChatAction, ChatFeedback, ChatInput, SystemCommand
 from parley.messages.failure import ErrorHandlingMessage
@@ -177,7 +177,8 @@ class ChatInterface(Node):
             stands = self._known.state(target) == "paused"
             halts = (calls and moves) or (unasked and (moves or stands or self._known.is_under_way(target)))
             turns = question is None and control in (None, "stop")
-            if turns and only_takes_back(said.message, moves=moves):
+            objects = moves and not offered and control is None and opens_with_no(said.message)
+            if turns and (objects or only_takes_back(said.message, moves=moves)):
                 self._mailboxes.post(target, self._correction(target, said, moves=moves))
             elif halts and control not in _HALTING:
                 self._control(target, "stop", said, more=control is None)

@@ -102,10 +102,21 @@ def _chosen(situation: Situation, tokens: Sequence[Token], again: Again) -> Deci
         return None
     also = {item.description: item.aliases for item in situation.objects}
     choice = chosen(words, asked.choices, also)
-    if choice is None or names_deed(words):
+    if choice is None or names_deed(words) or _orders(words, choice, asked.choices):
         return None
     made = again(asked.words, [name for name in asked.choices if name != choice])
     return made if isinstance(made, Do | Edit) else None
+
+
+def _orders(words: Sequence[str], choice: str, choices: Sequence[str]) -> bool:
+    """Whether a name is said with what comes first or later: "first the workshop" answers no "which one?"."""
+    order = _ORDER - set(choice.lower().split())
+    words = words[:-1] if words[-1] == "then" else words  # "the workshop then"
+    rest = [word for word in words if word not in order]
+    return len(rest) < len(words) and chosen(rest, choices) is not None
+
+
+_ORDER: Final = frozenset({"first", "before", "then", "afterwards", "later", "also", "next"})
 
 
 def _about_itself(
