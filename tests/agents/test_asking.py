@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from parley.agents.planner.asking import Offered, begun, offered_again, wish_of
-from parley.messages.chat import ChatInput
+from parley.messages.chat import ChatFeedback, ChatInput
 from parley.messages.principal import person
 from parley.messages.status import PlanDecision, PlanProposal, PlanUpdate, PoseInfo
 
@@ -48,6 +48,16 @@ def test_a_yes_means_nothing_where_nothing_waits() -> None:
     waiting.on_update(PlanUpdate(target="Ada", state="awaiting_approval"))
     waiting.on_update(PlanUpdate(target="Ada", state="idle"))
     assert waiting.decided("Ada", said("yes"), ["Ada"]) is None
+
+
+def test_a_yes_in_words_counts_once_the_robot_has_asked_about_just_that() -> None:
+    waiting = offered("p1")
+    assert not waiting.is_asked("Ada")
+    waiting.on_said(ChatFeedback(message="Go to the box. Shall I?", targets=("Ada",)), "Shall I?")
+    waiting.on_proposal(PlanProposal(id="p1", target="Ada"))  # told once more to who listens newly
+    assert waiting.is_asked("Ada")
+    waiting.on_proposal(PlanProposal(id="p2", target="Ada"))
+    assert not waiting.is_asked("Ada")
 
 
 def test_a_yes_does_not_go_to_what_was_replaced() -> None:

@@ -9,6 +9,7 @@ import pytest
 from hypothesis import given
 from hypothesis import strategies as st
 
+from parley.agents.planner.approval import Approvals, PlanBoard
 from parley.agents.planner.effects import (
     Effect,
     EndStep,
@@ -25,6 +26,7 @@ from parley.errors import FailureCode
 from parley.messages.chat import ActionCall, Flow, SystemCommand
 from parley.messages.failure import FailureReport
 from parley.messages.pvf import Parameter
+from parley.messages.status import ActionInfo
 from parley.umrf.model import Graph, GraphState, LogMessage, Node, NodeState
 
 
@@ -627,3 +629,22 @@ def test_a_pause_or_a_clear_that_a_robot_did_not_hear_holds_when_it_is_back(
     assert plan.reports.on_no_end("graph_0") == []
     assert plan.reports.on_return({"graph_0": "PAUSED"}) == [StopGraph("graph_0")]
     assert plan.reports.on_return({"graph_0": "STOPPED"}) == []
+
+
+def test_steps_are_put_into_words_anew_when_it_comes_to_be_known_what_a_robot_can_do(
+    plan: TargetPlan,
+) -> None:
+    can: list[ActionInfo] = []
+    approvals = Approvals()
+    board = PlanBoard(lambda _: tuple(can))
+    plan.append([look()], "")
+
+    def label() -> str:
+        board.show(plan, approvals)
+        return board.shown[0].steps[0].label
+
+    assert label() == "Look: what “box”"
+    can.append(ActionInfo(name="Look", inputs={"what": "string"}, label="Look at {what}"))
+    assert label() == "Look at “box”"
+    can.clear()
+    assert label() == "Look at “box”", "a robot that is gone for a moment can do what it could"

@@ -113,6 +113,8 @@ class PlanBoard:
     ) -> None:
         self._catalogue, self._objects = catalogue, objects
         self._shown: dict[str, PlanUpdate] = {}
+        self._known: dict[str, Sequence[ActionInfo]] = {}
+        """What each robot could do when its steps were put into words: a robot may come after its plan."""
         self._free: dict[str, tuple[Step, ...]] = {}
         self._free_since: dict[str, int] = {}
 
@@ -143,10 +145,12 @@ class PlanBoard:
     def _labelled(self, update: PlanUpdate, before: PlanUpdate | None) -> PlanUpdate:
         """With what each step does in our words; worked out anew only where the steps are others."""
         calls = [step.action for step in update.steps]
-        if before is not None and calls == [step.action for step in before.steps]:
+        catalogue = self._catalogue(update.target)
+        same = before is not None and calls == [step.action for step in before.steps]
+        if before is not None and same and (not catalogue or self._known.get(update.target) == catalogue):
             told = [{"label": step.label, "for_next": step.for_next} for step in before.steps]
         else:
-            catalogue = self._catalogue(update.target)
+            self._known[update.target] = catalogue
             labels = labels_of(calls, catalogue, self._objects(update.target))
             pairs = zip(labels, for_next(calls, catalogue), strict=True)
             told = [{"label": str(text), "for_next": hidden} for text, hidden in pairs]

@@ -103,9 +103,10 @@ class Offered:
         self._asked: Latest[str, bool] = Latest()
 
     def on_proposal(self, proposal: PlanProposal) -> None:
-        """Steps wait for a yes."""
+        """Steps wait for a yes; one in words counts once the robot has asked about them."""
         waiting = self._waiting.setdefault(proposal.target, [])
         if all(other.id != proposal.id for other in waiting):
+            self._asked[proposal.target] = False
             waiting.append(proposal)
 
     def on_decision(self, decision: PlanDecision) -> None:
@@ -133,7 +134,7 @@ class Offered:
 
     def is_asked(self, target: str) -> bool:
         """Whether the question about what waits is the last thing the robot said."""
-        return self._asked.get(target, True)
+        return self._asked.get(target, False)
 
     def newest(self, target: str) -> PlanProposal | None:
         """What was proposed last of what waits."""

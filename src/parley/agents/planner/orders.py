@@ -12,7 +12,7 @@ from parley.messages.chat import ActionCall, ChatAction, SystemCommand
 from parley.sentences import sentence
 
 __all__ = [
-    "BEGUN_ALREADY", "LEFT", "MOST_WAITING", "NOTHING_DONE", "NOT_AS_SHOWN", "PARTLY_OVER", "PLAN_CHANGED",
+    "BEGUN_ALREADY", "LEFT", "MOST_WAITING", "NOTHING_DONE", "NOT_AS_SHOWN", "PLAN_CHANGED",
     "STEP_OVER", "TOO_MANY_WAIT",
     "WAITING", "WAITING_HELPLESS", "bare", "forgetting", "in_order", "no_robot", "of_memory", "of_plans",
     "reasons", "take_repair",
@@ -26,7 +26,6 @@ WAITING_HELPLESS: Final = sentence(
 NOTHING_DONE: Final = "I worked out a plan that I cannot carry out, so I did nothing."
 LEFT: Final = "I cannot carry out these steps, so I left everything as it is."
 NOT_AS_SHOWN: Final = sentence("That is not what waits for your yes by now, so I have not begun.")
-PARTLY_OVER: Final = sentence("A part of what waits for your yes is over by now.")
 BEGUN_ALREADY: Final = sentence(
     "Somebody had said yes already, so I have stopped. Say “carry on” when I should go on."
 )

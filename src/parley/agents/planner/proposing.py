@@ -11,7 +11,7 @@ from parley.agents.planner.asking import SHALL_I, wish_of
 from parley.agents.planner.plan import TargetPlan
 from parley.agents.planner.robot_plans import RobotPlans
 from parley.agents.planner.steps import Step
-from parley.gate.cards import Labels, command_label, digest_of, labels_of, lines_of
+from parley.gate.cards import Labels, command_label, digest_of, for_next, labels_of, lines_of
 from parley.messages import topics
 from parley.messages.chat import ActionCall, ChatAction, SystemCommand
 from parley.messages.status import PlanProposal
@@ -74,7 +74,9 @@ class Proposals:
 
         `why` it is asked now, though it was not then; may be empty.
         """
-        self._renew(plan, proposal, self._plans.approvals.bound(proposal.id), orders.NOT_AS_SHOWN, why)
+        shown = self._renew(plan, proposal, self._plans.approvals.bound(proposal.id), why)
+        text = together(orders.NOT_AS_SHOWN, wish_of(shown.lines, why), SHALL_I)
+        self._plans.say(plan.target, text, "info")
 
     def settle(self, plan: TargetPlan) -> None:
         """Ask no longer about what is over: failures that were repaired, changes of steps that have ended."""
@@ -86,15 +88,15 @@ class Proposals:
             if len(left) == len(bound):
                 continue
             if left or proposal.steps:
-                self._renew(plan, proposal, left, orders.PARTLY_OVER)
+                self._renew(plan, proposal, left)  # in silence: a yes in words is asked for once more
             else:
                 approvals.drop(proposal.id)
                 self._plans.say(plan.target, orders.STEP_OVER, "info")
 
     def _renew(
-        self, plan: TargetPlan, proposal: PlanProposal, bound: Sequence[Bound], said: str, why: str = ""
-    ) -> None:
-        """Let what a proposal has become wait in its place, and ask about just that."""
+        self, plan: TargetPlan, proposal: PlanProposal, bound: Sequence[Bound], why: str = ""
+    ) -> PlanProposal:
+        """Let what a proposal has become wait in its place."""
         approvals = self._plans.approvals
         repairs = approvals.repairs(proposal.id)
         approvals.drop(proposal.id)
@@ -107,7 +109,7 @@ class Proposals:
         shown = approvals.propose(renewed, status, repairs=repairs, bound=bound)
         self._node.publish(topics.PLAN, shown)
         self._plans.send(plan, [])
-        self._plans.say(plan.target, together(said, wish_of(shown.lines, why), SHALL_I), "info")
+        return shown
 
     def digest(self, proposal: PlanProposal) -> str:
         """What a proposal stands for by now."""
@@ -119,13 +121,23 @@ class Proposals:
         self, plan: TargetPlan, calls: Sequence[ActionCall], bound: Sequence[Bound]
     ) -> dict[str, tuple[str, ...]]:
         """What is shown of changes and steps: a label and a line of each."""
-        shown = zip(plan.steps, self._labels(plan, [step.call for step in plan.steps]), strict=True)
-        texts = {id(step): label for step, label in shown}
+        known = [step.call for step in plan.steps]
+        texts = {id(step): label for step, label in zip(plan.steps, self._labels(plan, known), strict=True)}
         changes = [command_label(command, texts.get(id(step), "")) for command, step in bound]
         labels = self._labels(plan, calls)
+        steps = zip(
+            plan.steps, plan.steps[1:], for_next(known, self._plans.catalogue(plan.target)), strict=False
+        )
+        parts = {
+            id(step): id(next_) for step, next_, hidden in steps if hidden
+        }  # a search is a part of its way
+        out = {id(step) for _, step in bound}
+        shown = [
+            text for text, (_, step) in zip(changes, bound, strict=True) if parts.get(id(step)) not in out
+        ]
         return {
             "labels": self._spoken(changes, labels),
-            "lines": self._spoken(changes, self._lines(plan, calls, labels)),
+            "lines": self._spoken(shown, self._lines(plan, calls, labels)),
         }
 
     def _labels(self, plan: TargetPlan, calls: Sequence[ActionCall]) -> Labels:
