@@ -12,6 +12,7 @@ from parley.gate.book import RuleBook
 from parley.gate.judge import Judgement, Place, PlannedStep, RobotFacts
 from parley.messages.chat import ActionCall
 from parley.messages.principal import Principal, person
+from parley.messages.pvf import Parameter
 from parley.messages.rules import Rule, RuleSet
 from parley.messages.status import ActionInfo
 from parley.world.geometry import Pose2D
@@ -52,6 +53,17 @@ def test_a_plan_into_a_zone_is_forbidden_and_the_step_is_named() -> None:
     found = judged(book(STORE), do(LOOK), go(5, 0)).forbidden
     assert [(item.step, item.rule, item.code) for item in found] == [(1, "store", "zone_entered")]
     assert found[0].sentence == "Step 2 leads into “storeroom”, where Ada must not go."
+
+
+def test_steps_are_counted_as_people_see_them() -> None:
+    where = {"pose": Parameter("number")}
+    finds = ActionInfo(name="Find", outputs={"pose": "number"}, effects=("locates",))
+    search = PlannedStep(ActionCall(name="Find", output_parameters=where), finds)
+    way = PlannedStep(ActionCall(name="NavigateTo", input_parameters=where), GO, Place(5, 0))
+    assert judged(book(STORE), search, way).forbidden[0].sentence.startswith("Step 1 leads into")
+    two = {"id": "few", "kind": "plan", "max_steps": 2}
+    assert judged(book(two), do(LOOK), search, way).forbidden == ()
+    assert judged(book(two), do(LOOK), search, way, do(LOOK)).forbidden
 
 
 def test_a_way_that_leads_only_through_a_zone_is_forbidden_too() -> None:

@@ -12,6 +12,7 @@ from typing import Final, NamedTuple
 import numpy as np
 from numpy.typing import NDArray
 
+from parley.gate.cards import for_next
 from parley.gate.hours import holds_at
 from parley.gate.risk import always_asks, risk_of
 from parley.gate.shapes import Shape, dense
@@ -123,6 +124,8 @@ class _Walk:
     here: Point | None
     path: WayPlanner | None
     at: datetime = field(init=False)
+    number: int = 1
+    """Of the step, as people count: finding out where something is belongs to the step that goes there."""
     length_m: float = 0.0
     forbidden: list[Finding] = field(default_factory=list)
     ask: list[Finding] = field(default_factory=list)
@@ -140,7 +143,7 @@ class _Walk:
         if step.place is not None and risk_of(step.info) is not RiskClass.LOOKS:
             way = self._drive(index, Place(*step.place), began)
         elif step.info is not None and "moves" in step.info.effects and self._zones("keep_out"):
-            text = sentence("I cannot say beforehand where step {number} leads.", number=index + 1)
+            text = sentence("I cannot say beforehand where step {number} leads.", number=self.number)
             self.risky.append(Finding(index, "", "way_unknown", text))
         self.ways.append(way)
         if step.info is not None and step.info.duration_s is not None and not way:
@@ -155,14 +158,16 @@ class _Walk:
             return
         known = class_text(risk_of(step.info))
         text = sentence(
-            "Step {number} is of a kind that waits for a yes: {kind}.", number=index + 1, kind=known
+            "Step {number} is of a kind that waits for a yes: {kind}.", number=self.number, kind=known
         )
         self.risky.append(Finding(index, "", "risk", text))
 
     def _action(self, index: int, step: PlannedStep, began: datetime) -> None:
         for rule in self._zones("action"):
             if _concerns(rule, step.call.name, step.info) and _holds_during(rule, began, self.at):
-                self._put(index, rule, "action", _action_sentence(rule, index, step.call.name, self.robot))
+                self._put(
+                    index, rule, "action", _action_sentence(rule, self.number, step.call.name, self.robot)
+                )
 
     def _drive(self, index: int, place: Place, began: datetime) -> tuple[Point, ...]:
         goal = (place.x, place.y)
@@ -178,7 +183,7 @@ class _Walk:
                 self._zone(index, rule, way)
         passed = [person for person in self.people if math.dist(goal, person) >= _PERSON_NEAR_M]
         if any(_nearest(way, person) < _PERSON_NEAR_M for person in passed):  # it may be sent to somebody
-            text = sentence("Somebody stands in the way of step {number}.", number=index + 1)
+            text = sentence("Somebody stands in the way of step {number}.", number=self.number)
             self.risky.append(Finding(index, "", "person_near", text))
         return tuple((float(x), float(y)) for x, y in way)
 
@@ -190,7 +195,8 @@ class _Walk:
         if not inside.any():
             return
         words = {
-            "number": index + 1, "zone": zone_text(rule), "robot": self.robot, "hours": hours_text(rule.when),
+            "number": self.number, "zone": zone_text(rule), "robot": self.robot,
+            "hours": hours_text(rule.when),
         }  # fmt: skip
         if rule.kind == "slow":
             text = sentence("Step {number} leads through {zone}, where {robot} goes slowly{hours}.", **words)
@@ -256,9 +262,12 @@ def judge_plan(
     """
     mine = tuple(rule for rule in rules.rules if holds_for(rule, robot, facts, by))
     walk = _Walk(mine, robot, facts, now, people, here, path)
-    for index, step in enumerate(steps):
+    infos = [step.info for step in steps if step.info is not None]
+    searches = for_next([step.call for step in steps], infos)
+    for index, (step, search) in enumerate(zip(steps, searches, strict=True)):
         walk.step(index, step)
-    walk.limits(len(steps), rules.unusual_distance_m)
+        walk.number += not search
+    walk.limits(walk.number - 1, rules.unusual_distance_m)
     return Judgement(
         tuple(walk.forbidden),
         tuple(walk.ask),
@@ -372,9 +381,9 @@ def _over(rule: Rule, steps: int, length_m: float, expected_s: float) -> Iterato
         )
 
 
-def _action_sentence(rule: Rule, index: int, action: str, robot: str) -> str:
+def _action_sentence(rule: Rule, number: int, action: str, robot: str) -> str:
     words = {
-        "number": index + 1, "robot": robot, "hours": hours_text(rule.when), "action": action_text(action),
+        "number": number, "robot": robot, "hours": hours_text(rule.when), "action": action_text(action),
     }  # fmt: skip
     if rule.verdict == "ask":
         return sentence("Step {number}, “{action}”, always needs a yes{hours}.", **words)
