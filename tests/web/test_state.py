@@ -485,6 +485,9 @@ def test_the_time_while_a_step_stood_still_is_not_work() -> None:
     book.on_update(update(step("MoveTo", "running", "MoveTo_0")))
     for state, at_ms in [("RUNNING", 100), ("PAUSED", 400), ("RUNNING", 9_000), ("FINISHED", 9_100)]:
         book.on_event(event("MoveTo_0", state, unix_ms=at_ms))
+        if at_ms == 9_000:
+            now = plan_of(book).steps[0]
+            assert (now.worked_ms, now.working_since_unix_ms) == (300, 9_000)
     book.on_update(update(step("MoveTo", "finished", "MoveTo_0")))
     assert plan_of(book).steps[0].worked_ms == 400
 

@@ -9,7 +9,8 @@ export interface Line {
 
 /** States in which a search has something to say of its own. */
 const ALONE: ReadonlySet<StepState> = new Set(['failed', 'waiting', 'paused', 'stopping', 'stopped']);
-const OVER: ReadonlySet<StepState> = new Set(['finished', 'failed', 'stopped', 'skipped']);
+/** States of a step that is over. */
+export const OVER: ReadonlySet<StepState> = new Set(['finished', 'failed', 'stopped', 'skipped']);
 
 /** Finding out where something is belongs to the step that goes there. */
 export function linesOf(steps: readonly StepView[]): readonly Line[] {
@@ -40,5 +41,6 @@ function together(step: StepView, finding: readonly StepView[]): StepView {
     state: begun ? 'running' : step.state,
     started_unix_ms: finding.find((one) => one.started_unix_ms > 0)?.started_unix_ms ?? step.started_unix_ms,
     worked_ms: finding.reduce((sum, one) => sum + one.worked_ms, step.worked_ms),
+    working_since_unix_ms: Math.max(step.working_since_unix_ms, ...finding.map((one) => one.working_since_unix_ms)),
   };
 }

@@ -88,6 +88,7 @@ export const step = (part: Partial<StepView> & { id: string }): StepView => ({
   started_unix_ms: 0,
   ended_unix_ms: 0,
   worked_ms: 0,
+  working_since_unix_ms: 0,
   only_finds: false,
   ...part,
 });

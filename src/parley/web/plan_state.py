@@ -258,7 +258,8 @@ class PlanBook:
             call=call.model_dump(),
             started_unix_ms=node.started_unix_ms,
             ended_unix_ms=node.ended_unix_ms if is_over else 0,
-            worked_ms=node.worked_ms if is_over else 0,
+            worked_ms=node.worked_ms,
+            working_since_unix_ms=node.working_since_unix_ms,
             **self._nature(robot, call.name),
         )
 

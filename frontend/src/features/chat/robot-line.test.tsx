@@ -9,7 +9,7 @@ import { RobotLine } from './robot-line';
 it('says where a robot is and for how long it works on what it really does', () => {
   vi.useFakeTimers({ now: 100_000 });
   const place = [{ name: 'pose::position::x', type: 'number', value: null }];
-  const finds = step({ id: 'a', state: 'running', only_finds: true, outputs: place, started_unix_ms: 35_000 });
+  const finds = step({ id: 'a', state: 'running', only_finds: true, outputs: place, worked_ms: 5_000, working_since_unix_ms: 40_000 });
   const steps = [step({ id: 'look at it', state: 'finished' }), finds, step({ id: 'go to the door', inputs: place })];
   const views = [{ ...mapView, actor: 'Ada', room: 'hall' }];
   const working = robot({ name: 'Ada', state: 'running', battery: 0.915 });

@@ -39,7 +39,7 @@ export function RobotLine({ name, named }: { name: string; named: boolean }) {
       {task && here && (
         <p className={css.task}>
           <Link href="/plan">{t('stepOf', { ...task, step: sentence(task.step.label) })}</Link>
-          {task.step.started_unix_ms > 0 && mood === 'running' && <Since unixMs={task.step.started_unix_ms} />}
+          {task.step.working_since_unix_ms > 0 && mood === 'running' && <Worked step={task.step} />}
         </p>
       )}
     </div>
@@ -67,9 +67,10 @@ function taskOf(plan: PlanView) {
   return step ? { step, number: at + 1, all: lines.length } : null;
 }
 
-function Since({ unixMs }: { unixMs: number }) {
+/** For how long a step has worked; while it stood still does not count. */
+function Worked({ step }: { step: StepView }) {
   const { t } = useTranslation('chat');
   const now = useNow(SECOND_MS);
-  const time = span(onServerClock(now) - unixMs);
+  const time = span(step.worked_ms + onServerClock(now) - step.working_since_unix_ms);
   return <time aria-label={t('since', { time })}>{time}</time>;
 }

@@ -1,6 +1,7 @@
 import { useState } from 'react';
 import { useTranslation } from 'react-i18next';
 
+import { OVER } from '@/live/lines';
 import type { StepState, StepView } from '@/live/types';
 import { Icon, type IconName } from '@/ui/icon';
 import { needsCare } from '@/ui/risk';
@@ -109,7 +110,7 @@ function Progress({ step }: { step: StepView }) {
 
 function Took({ step }: { step: StepView }) {
   const { t } = useTranslation('plan');
-  if (step.worked_ms <= 0) return null;
+  if (step.worked_ms <= 0 || !OVER.has(step.state)) return null;
   const seconds = Math.max(1, Math.round(step.worked_ms / 1000));
   const time =
     seconds < 60
