@@ -77,6 +77,8 @@ class Situation:
     """The robot that is spoken to."""
     robots: tuple[str, ...] = ()
     """All robots there are."""
+    speaker: str = ""
+    """The name of who says it, as far as it is known."""
     catalogue: tuple[ActionInfo, ...] = ()
     """What `robot` can do."""
     failure: ErrorSituation | None = None

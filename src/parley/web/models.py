@@ -162,7 +162,7 @@ class StepView(WebModel):
     started_unix_ms: int = 0
     ended_unix_ms: int = 0
     worked_ms: int = 0
-    """For how long it has worked, up to `working_since_unix_ms` while it works; standing still does not count."""
+    """For how long it has worked, until `working_since_unix_ms` if it works; standing does not count."""
     working_since_unix_ms: int = 0
     """Since when it works; 0: it does not."""
 

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import asyncio
+import re
 from collections.abc import Sequence
 from typing import Final
 
@@ -63,7 +64,11 @@ def keeping_order(situation: Situation) -> ChatAction | None:
     return ChatAction(message_response="I will keep what I see now.", queue=(call,))
 
 
-def memory_query(message: str, turns: Sequence[Turn]) -> str:
-    """What to look up: the message, and what it may refer back to."""
+def memory_query(message: str, turns: Sequence[Turn], speaker: str = "") -> str:
+    """What to look up: the message, what it may refer back to, and who speaks of themselves in it."""
     recent = [turn.content[:_RECALLED_CHARS] for turn in turns[-_RECALLED_TURNS:]]
-    return "\n".join([message, *reversed(recent)])
+    oneself = [f"{speaker or 'operator'} location"] if _ONESELF.search(message) else []
+    return "\n".join([message, *oneself, *reversed(recent)])
+
+
+_ONESELF: Final = re.compile(r"\b(?:i|me|my|us|we|here)\b", re.IGNORECASE)

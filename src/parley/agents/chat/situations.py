@@ -159,7 +159,8 @@ class Situations:
             proposal: What waits for a yes.
         """
         turns = self.conversation(target).turns
-        memory = await self._recalled(target, message)
+        speaker = said.who.name if said.who.is_person else ""
+        memory = await self._recalled(target, message, speaker)
         pictures = await sent_pictures(said.images)
         if sees_pictures:
             known = await remembered_pictures(self._transport, memory, target)
@@ -183,6 +184,7 @@ class Situations:
             robot_pose=Pose2D(pose.x, pose.y, pose.yaw) if pose is not None else None,
             robot=target,
             robots=self._presence.names(),
+            speaker=speaker,
             catalogue=status.catalogue if status else (),
             failure=failed_situation(failure, memory=memory, objects=objects, status=status)
             if failure is not None and question and self.state(target) == "held"
@@ -192,8 +194,8 @@ class Situations:
             dialogue=self.log(target).state(status, proposal, self._clock.unix_ms()),
         )
 
-    async def _recalled(self, target: str, message: str) -> tuple[MemoryEntry, ...]:
+    async def _recalled(self, target: str, message: str, speaker: str) -> tuple[MemoryEntry, ...]:
         if asks_for_all(message):
             return await recall_newest(self._transport, scope=target)
-        query = memory_query(message, self.conversation(target).turns)
+        query = memory_query(message, self.conversation(target).turns, speaker)
         return await recall(self._transport, query, scope=target)

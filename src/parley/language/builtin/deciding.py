@@ -22,6 +22,7 @@ from parley.language.control import control_of
 from parley.language.dialogue import policy
 from parley.language.dialogue.facts import is_report
 from parley.language.dialogue.mentions import named
+from parley.language.dialogue.speaker import Again
 from parley.messages.memory import MemoryEntry
 
 __all__ = ["decide"]
@@ -33,7 +34,7 @@ def decide(
     skills: Skills,
     lexicon: Lexicon,
     reader: Callable[[str], Reading],
-    again: policy.Again,
+    again: Again,
 ) -> Decision:
     """What to do, ask, change, remember or say.
 

@@ -142,10 +142,13 @@ class BuiltinLanguage:
             for one in parts
         )
 
-        def again(text: str, without: Sequence[str] = ()) -> Decision:
+        def again(text: str, without: Sequence[str] = (), told: Sequence[MemoryEntry] = ()) -> Decision:
             objects = tuple(item for item in situation.objects if item.description not in without)
             plain = replace(situation.dialogue, asked=None)  # it is no answer to what was asked about it
-            return self.decide(replace(situation, message=text, history=(), objects=objects, dialogue=plain))
+            memory = (*situation.memory, *told)
+            return self.decide(
+                replace(situation, message=text, history=(), objects=objects, dialogue=plain, memory=memory)
+            )
 
         return decide(situation, parts, skills, self._lexicon, self.reading, again)
 

@@ -20,6 +20,7 @@ from parley.language.builtin.tokens import Token, point_of
 from parley.language.builtin.wishes import Filler, Wish
 from parley.language.dialogue.mentions import named
 from parley.language.dialogue.places import distance_m, in_room
+from parley.language.dialogue.speaker import name_of
 from parley.umrf.kinds import is_word_for
 from parley.world.object_map import MapObject
 
@@ -104,12 +105,17 @@ class Grounder:
         if mention.kind == "pronoun":
             return self.last_person or Ask(f"Who is “{filler.text}”?")
         if mention.kind in ("speaker", "here"):
-            return Value("operator", "you")
+            return self._speaker()
         name, rest = noun_phrase(filler.words, filler.head, self.lexicon)
         text = as_said(" ".join((*name, *rest)), filler.text)
         found = Value(text, with_article(text), mention.things, known_place(name, self.known))
         self.last_person = found
         return found
+
+    def _speaker(self) -> Value:
+        """Whoever speaks, where they said they are."""
+        name = name_of(self.situation).lower().split()
+        return Value("operator", "you", place=known_place(name, self.known))
 
     def _thing(self, frame: str, filler: Filler, mention: Mention, *, placed: bool = False) -> Value | Ask:
         """A thing or a place; `placed`: where it is, is said."""
@@ -132,7 +138,7 @@ class Grounder:
         if self.left_out or {*filler.words} & lexicon.classes["quantifiers"]:
             return Ask(f"I do not know which ones you mean by “{filler.text}”. Please name them.")
         if mention.kind in ("speaker", "here"):
-            return Value("operator", "you")
+            return self._speaker()
         if mention.kind == "part":
             return Value(mention.text, with_article(mention.text), mention.things)
         if mention.things:

@@ -106,7 +106,7 @@ def link(words: Sequence[str], head: int, objects: Sequence[MapObject], lexicon:
 def _referring(words: Sequence[str], head: int, lexicon: Lexicon) -> Mention | None:
     """What "me", "here" and pronouns mean."""
     small = lexicon.classes["determiners"] | lexicon.classes["prepositions"]
-    bare = [word for word in words if word not in small]
+    bare = [word for word in words if word not in small and word != "back"]  # "come back to me"
     if words[head] in lexicon.classes["me"] or any(word in lexicon.classes["me"] for word in bare[:1]):
         return Mention("speaker", "me")
     if " ".join(words) in lexicon.classes["here"]:

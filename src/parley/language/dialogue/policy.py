@@ -5,7 +5,7 @@ from __future__ import annotations
 import re
 from collections.abc import Callable, Sequence
 from dataclasses import replace
-from typing import Final, Protocol
+from typing import Final
 
 from parley.language.base import Situation
 from parley.language.builtin.decision import Answer, Ask, Decision, Do, Edit, Forget, Remember, Told
@@ -39,17 +39,10 @@ from parley.language.dialogue.places import in_room, rooms
 from parley.language.dialogue.questions import plain, question_of
 from parley.language.dialogue.rearranging import rearranged
 from parley.language.dialogue.replies import chosen, is_thinking, names_deed
+from parley.language.dialogue.speaker import Again, answered_place, told_place
 from parley.world.object_map import MapObject
 
 __all__ = ["Again", "afterwards", "beforehand", "no_facts", "promised", "spoken_of"]
-
-
-class Again(Protocol):
-    """Decides about other words in the same situation."""
-
-    def __call__(self, text: str, without: Sequence[str] = ()) -> Decision:
-        """What comes of `text`, as if the things called `without` were not there."""
-        ...
 
 
 _SOCIAL: Final = re.compile(
@@ -84,12 +77,15 @@ def beforehand(
     said = _about_itself(situation, reading, tokens, lexicon, told_in)
     if said is not None:
         return said
-    chose = _chosen(situation, tokens, again)
+    chose = answered_place(situation, lexicon, again) or _chosen(situation, tokens, again)
     if chose is not None:
         return chose
     meant = _about_what_was_said(situation, reading, tokens, lexicon, again)
     if meant is not None:
         return meant
+    here = told_place(situation, lexicon)
+    if here is not None:
+        return here
     moved = moved_fact(situation, reading, tokens, lexicon, told_in)
     return Remember((moved,)) if moved is not None else None
 

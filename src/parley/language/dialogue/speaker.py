@@ -1,0 +1,116 @@
+"""Where the person is who speaks: told by the way, or in answer to the robot's question about it."""
+
+from __future__ import annotations
+
+import re
+from collections.abc import Sequence
+from dataclasses import replace
+from typing import Final, Protocol
+
+from parley.language.base import Situation
+from parley.language.builtin.decision import Ask, Decision, Do, Remember, Told
+from parley.language.builtin.lexicon import Lexicon
+from parley.language.builtin.tokens import Token, tokenize
+from parley.language.dialogue.mentions import named
+from parley.language.dialogue.places import rooms
+from parley.language.dialogue.replies import chosen
+from parley.messages.memory import MemoryEntry
+
+__all__ = ["WHICH_PLACE", "answered_place", "name_of", "told_place"]
+
+WHICH_PLACE: Final = "Which place is it near?"
+"""How the question ends that `answered_place` reads the answer to."""
+_ASKED: Final = re.compile(rf"I do not know where (?P<what>.+) (?:is|are)\. {re.escape(WHICH_PLACE)}")
+_TURNS: Final = 4
+"""So many turns back the question may have been asked."""
+
+_AT: Final = (
+    r"(?:right |over |down |up |out |back |in here |here |there )*"
+    r"(?P<side>at|in|on|near|by|beside|next to|close to|in front of|behind|around|inside) "
+)
+_HERE: Final = re.compile(
+    r"(?:(?:ok|okay|well|oh|yes|hello|hi|hey|sorry|and|so|please)\W+)*(?:i'm|i am|we're|we are) "
+    r"(?:(?:still|now|just|currently) )*(?:(?:sitting|standing|lying|waiting|working|resting|staying) )?"
+    rf"{_AT}(?P<where>.+)"
+)
+_ANSWER: Final = re.compile(
+    r"(?:(?:ok|okay|well|oh|yes|sorry|so|please|it is|it's|that is|that's|i'm|i am|we're|we are|probably|"
+    r"sitting|standing)\W+)*"
+    rf"(?:{_AT})?(?P<where>.+)"
+)
+_DETERMINERS: Final = frozenset({"the", "a", "an", "my", "our", "your", "this", "that", "please", "now"})
+
+
+class Again(Protocol):
+    """Decides about other words in the same situation."""
+
+    def __call__(self, text: str, without: Sequence[str] = (), told: Sequence[MemoryEntry] = ()) -> Decision:
+        """What comes of `text`, with `told` remembered."""
+        ...
+
+
+def name_of(situation: Situation) -> str:
+    """What the person who speaks is called in memories."""
+    return situation.speaker or "operator"
+
+
+def told_place(situation: Situation, lexicon: Lexicon) -> Decision | None:
+    """What comes of "I am at the desk": it is remembered."""
+    found = _HERE.fullmatch(_plain(situation.message))
+    where = _place(found["where"], situation, lexicon) if found is not None else None
+    if found is None or where is None:
+        return None
+    return where if isinstance(where, Ask) else Remember((_told(_who(situation), found["side"], where),))
+
+
+def answered_place(situation: Situation, lexicon: Lexicon, again: Again) -> Decision | None:
+    """What comes of the order that was asked about, where the message says which place it is near."""
+    turns = situation.history[-_TURNS:]
+    asked = next(
+        ((turns[at - 1], found) for at, turn in reversed([*enumerate(turns)])
+         if at and turn.role == "assistant" and (found := _ASKED.search(turn.content))),
+        None,
+    )  # fmt: skip
+    said = _ANSWER.fullmatch(_plain(situation.message))
+    if asked is None or said is None or situation.message.rstrip().endswith("?"):
+        return None
+    choices = situation.dialogue.asked.choices if situation.dialogue.asked else ()
+    where: str | Ask | None = chosen(said["where"].split(), choices) or _place(
+        said["where"], situation, lexicon
+    )
+    if where is None or isinstance(where, Ask):
+        return where
+    order, what = asked[0].content, asked[1]["what"]
+    told = _told(_who(situation) if what == "you" else what, said["side"] or "near", where)
+    made = again(order, told=(MemoryEntry(name=told.name, data=told.text),))
+    return replace(made, told=(told, *made.told)) if isinstance(made, Do) else None
+
+
+def _plain(message: str) -> str:
+    return re.sub(r"\s+", " ", message.replace("’", "'").lower()).strip(" .!,")
+
+
+def _who(situation: Situation) -> str:
+    return situation.speaker or "the operator"
+
+
+def _told(who: str, side: str, where: str) -> Told:
+    key = "_".join(re.findall(r"\w+", who.lower().removeprefix("the ")))[:140]
+    return Told(f"{key}_location", f"{who} is {side} the {where}", f"Where {who} is")
+
+
+def _place(words: str, situation: Situation, lexicon: Lexicon) -> str | Ask | None:
+    """The one place that words name and nothing else; a question where they name several."""
+    tokens: Sequence[Token] = tokenize(words)
+    room = " ".join(token.low for token in tokens if token.low not in _DETERMINERS)
+    if room in rooms(situation.objects):
+        return room
+    found = named(tokens, situation.objects, lexicon)
+    rest = {token.low for at, token in enumerate(tokens) if not any(n.start <= at < n.end for n in found)}
+    if len(found) != 1 or rest - _DETERMINERS:
+        return None
+    things = found[0].things
+    if len(things) == 1:
+        return things[0].description
+    names = tuple(thing.description for thing in things)
+    return Ask(f"Which one do you mean: {', '.join(names[:-1])} or {names[-1]}?", names)

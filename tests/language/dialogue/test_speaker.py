@@ -1,0 +1,89 @@
+"""Where the person is who speaks: remembered when told, asked for when missing, and used for "me"."""
+
+from __future__ import annotations
+
+import pytest
+
+from parley.language.base import Situation, Turn
+from parley.language.builtin.engine import BuiltinLanguage
+from parley.messages.chat import ChatAction
+from parley.messages.memory import MemoryEntry
+from parley.world.object_map import MapObject
+from tests.language.builtin.worlds import CATALOGUE
+
+ENGINE = BuiltinLanguage()
+THINGS = (
+    MapObject("r", "red desk", 0.0, 0.0),
+    MapObject("b", "blue desk", 9.0, 0.0),
+    MapObject("g", "gate", 5.0, 5.0),
+)
+ASKED = (
+    Turn("operator", "come to me"),
+    Turn("assistant", "I do not know where you are. Which place is it near?"),
+)
+
+
+async def answer(message: str, history: tuple[Turn, ...] = (), **more: object) -> ChatAction:
+    situation = Situation(
+        message,
+        objects=THINGS,
+        robot="Ada",
+        catalogue=CATALOGUE,
+        history=history,
+        **more,  # type: ignore[arg-type]
+    )
+    return await ENGINE.interpret(situation)
+
+
+def kept(answered: ChatAction) -> list[str]:
+    return [str(command.arguments.get("data")) for command in answered.system_cmd]
+
+
+def places(answered: ChatAction) -> list[object]:
+    return [
+        value.value for call in answered.queue for value in call.input_parameters.values() if value.has_data
+    ]
+
+
+@pytest.mark.parametrize(
+    ("message", "speaker", "memory"),
+    [
+        ("I'm at the gate", "", "the operator is at the gate"),
+        ("ok, I am now sitting over there next to the red desk", "Kim", "Kim is next to the red desk"),
+    ],
+)
+async def test_where_the_speaker_is_is_remembered_under_their_name(
+    message: str, speaker: str, memory: str
+) -> None:
+    made = await answer(message, speaker=speaker)
+    assert (kept(made), made.queue) == ([memory], ())
+
+
+@pytest.mark.parametrize("message", ["I'm at a loss", "I am at the desk", "I am near the moon"])
+async def test_what_names_no_one_place_is_not_kept(message: str) -> None:
+    assert kept(await answer(message)) == []
+
+
+@pytest.mark.parametrize("words", ["near the gate", "I'm at the gate", "the gate", "it's by the gate"])
+async def test_the_answer_to_where_somebody_is_lets_the_order_be_done(words: str) -> None:
+    made = await answer(words, ASKED)
+    assert kept(made) == [
+        f"the operator is {'at' if 'at' in words.split() else 'by' if 'by' in words else 'near'} the gate"
+    ]
+    assert places(made) == ["gate"]
+
+
+@pytest.mark.parametrize("words", ["near the desk", "never mind", "is it the gate?"])
+async def test_what_does_not_say_which_place_lets_nothing_be_done(words: str) -> None:
+    made = await answer(words, ASKED)
+    assert (made.queue, kept(made)) == ((), [])
+
+
+async def test_me_is_where_the_one_who_speaks_said_they_are() -> None:
+    told = (
+        MemoryEntry(name="kim_location", data="Kim is at the gate"),
+        MemoryEntry(name="bo_location", data="Bo is at the red desk"),
+    )
+    made = await answer("go to the blue desk, then come back to me", memory=told, speaker="Kim")
+    assert places(made) == ["blue desk", "gate"]
+    assert places(await answer("come to me", memory=told, speaker="Ann")) == ["operator"]  # whoever finds Ann
