@@ -12,7 +12,9 @@ from typing import Any, Generic, Self, TypeVar
 import structlog
 
 from parley.errors import TransportError, TransportTimeoutError, TypeMismatchError, UnavailableError
+from parley.messages.actions import Action
 from parley.messages.topics import Service, Topic
+from parley.transport.actions import CallingActionClient
 from parley.transport.base import Endpoint, Handler, Subscription
 
 __all__ = ["LocalTransport"]
@@ -20,6 +22,9 @@ __all__ = ["LocalTransport"]
 M = TypeVar("M")
 Req = TypeVar("Req")
 Res = TypeVar("Res")
+Goal = TypeVar("Goal")
+Result = TypeVar("Result")
+Feedback = TypeVar("Feedback")
 
 log = structlog.get_logger(__name__)
 
@@ -253,6 +258,14 @@ class LocalTransport:
                     f"service {service.name} did not answer within {timeout_s} s"
                 ) from error
             raise TransportError(f"service {service.name} failed: {error}") from error
+
+    async def action_client(
+        self, action: Action[Goal, Result, Feedback]
+    ) -> CallingActionClient[Goal, Result, Feedback]:
+        """See `Transport.action_client`."""
+        client = CallingActionClient(self, action)
+        await client.open()
+        return client
 
     def endpoints(self) -> tuple[Endpoint, ...]:
         """See `Transport.endpoints`."""
