@@ -24,6 +24,7 @@ __all__ = [
     "Server",
     "Subscription",
     "Transport",
+    "absolute",
 ]
 
 M = TypeVar("M")
@@ -219,3 +220,8 @@ class Transport(Protocol):
     def on_endpoints_changed(self, handler: Callable[[], Any]) -> Callable[[], None]:
         """Call `handler` whenever `endpoints` changes; returns how to stop that."""
         ...
+
+
+def absolute(name: str) -> str:
+    """Relative names live in the root namespace here."""
+    return name if name.startswith("/") else f"/{name}"
