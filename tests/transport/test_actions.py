@@ -40,6 +40,8 @@ class WaitGoal:
 @dataclass(frozen=True, slots=True)
 class WaitResult:
     total_elapsed_time: Duration = field(default_factory=Duration)
+    error_code: int = 0
+    error_msg: str = ""
 
 
 @dataclass(frozen=True, slots=True)
