@@ -76,7 +76,7 @@ soak: $(VENV)/.dev ## The long tests: ten minutes, or PARLEY_SOAK_S seconds, and
 lock: $(VENV)/.dev ## Renew requirements.lock from constraints.txt
 	@$(PIP) install --quiet -c constraints.txt --group release
 	@$(BIN)/pip-compile --quiet --generate-hashes --strip-extras --allow-unsafe --build-deps-for editable \
-	    --no-header --no-annotate --extra sim --extra web -c constraints.txt -o requirements.lock pyproject.toml
+	    --no-header --no-annotate --extra sim --extra web --extra zenoh -c constraints.txt -o requirements.lock pyproject.toml
 	@sed -i.old '/^--/d; /^$$/d' requirements.lock && rm requirements.lock.old
 
 sbom: $(VENV)/.dev frontend/node_modules/.installed ## Lists of what is inside (CycloneDX), into build

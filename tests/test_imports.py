@@ -38,6 +38,8 @@ INSIDE: dict[str, tuple[str, ...]] = {
     "agents": ("base", "display", "planner", "recovery", "chat"),
     # Words and prompts know no engine; what is built in and its dialogue know each other.
     "language": ("lexicon", "prompts", "dialogue builtin", "llm"),
+    # One backend each; what all share knows none.
+    "transport": ("zenoh",),
     "umrf": ("bt",),
     "web": ("people", "routes"),
     "api": (),
@@ -45,7 +47,7 @@ INSIDE: dict[str, tuple[str, ...]] = {
 """Rooms inside rooms by height: one knows those before it, and those that stand beside it. One that is not
 named is known by none of them."""
 
-CLOSED = {"language": {"builtin", "llm", "prompts"}, "umrf": {"bt"}}
+CLOSED = {"language": {"builtin", "llm", "prompts"}, "transport": {"zenoh"}, "umrf": {"bt"}}
 """What the single files of a room, which all others in it use, do not know."""
 
 ONLY_IN = {
@@ -57,6 +59,8 @@ ONLY_IN = {
     "openai": {"language/llm/"},
     "argon2": {"web/people/"},
     "webauthn": {"web/people/"},
+    "zenoh": {"transport/zenoh/"},
+    "rosbags": {"transport/zenoh/"},
 }
 """Third parties that one place hides from the rest."""
 

@@ -292,6 +292,4 @@ def _ros(_: Subject) -> Finding:
 
 
 def _zenoh(_: Subject) -> Finding:
-    if importlib.util.find_spec("zenoh") is not None:
-        return Finding("Zenoh", "ok", "found")
-    return Finding("Zenoh", "unused", "Not here; only several machines without ROS need it.")
+    return _extra("zenoh", "Zenoh", "zenoh", "Not here; only several machines without ROS need it.")

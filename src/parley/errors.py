@@ -13,7 +13,8 @@
     │   ├── UnavailableError       nobody serves this name
     │   ├── TransportTimeoutError  somebody does, but did not answer in time
     │   ├── TypeMismatchError      both sides disagree on the type of a name
-    │   └── UnsupportedError       this backend cannot do that
+    │   ├── UnsupportedError       this backend cannot do that
+    │   └── GoalRefusedError       an action server does not take this goal
     ├── StoreError             whoever runs the machine: the memory file cannot be read or written
     ├── LanguageError          nobody directly: the language engine failed, the operator is told
     └── ActionFailure          the recovery (then the operator): acting in the world did not work out
@@ -34,6 +35,7 @@ __all__ = [
     "ConfigError",
     "FailureCode",
     "FileFormatError",
+    "GoalRefusedError",
     "GraphRefusedError",
     "InvalidMessageError",
     "LanguageError",
@@ -152,6 +154,10 @@ class TypeMismatchError(TransportError):
 
 class UnsupportedError(TransportError):
     """The chosen transport backend has no such ability."""
+
+
+class GoalRefusedError(TransportError):
+    """An action server was asked for something that it does not take."""
 
 
 class StoreError(ParleyError):

@@ -14,6 +14,7 @@ EXTRAS: Final = {
     "maps": "driving by a map",
     "sim": "the simulator",
     "web": "the page for operators",
+    "zenoh": "the network of several machines",
 }
 """Extra -> what it brings. Those of language models: `parley.language.llm`."""
 

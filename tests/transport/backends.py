@@ -3,12 +3,20 @@
 from __future__ import annotations
 
 import asyncio
+import socket
 from collections.abc import AsyncIterator, Callable
 from contextlib import AbstractAsyncContextManager, asynccontextmanager
 from dataclasses import dataclass
+from pathlib import Path
+from typing import Any, cast
 
-from parley.transport.base import Transport
+from parley.transport import zenoh as zenoh_backend
+from parley.transport.base import Server, Subscription, Transport
 from parley.transport.local import LocalTransport
+from parley.transport.zenoh import ZenohTransport
+
+DEFINITIONS = (Path(__file__).parent / "definitions",)
+"""Of types that only tests use."""
 
 
 @dataclass(frozen=True)
@@ -25,7 +33,54 @@ async def local() -> AsyncIterator[Network]:
         yield Network(transport, transport)
 
 
-BACKENDS: dict[str, Callable[[], AbstractAsyncContextManager[Network]]] = {"local": local}
+class Settled:
+    """A transport whose ends are open when the other party sees them: on a network that takes a moment."""
+
+    def __init__(self, transport: Transport, other: Transport) -> None:
+        self._transport, self._other = transport, other
+
+    def __getattr__(self, name: str) -> Any:
+        return getattr(self._transport, name)
+
+    async def subscribe(self, *args: Any, **options: Any) -> Subscription:
+        seen = self._seen("subscription")
+        end = await self._transport.subscribe(*args, **options)
+        await until(lambda: self._seen("subscription") > seen)
+        return end
+
+    async def serve(self, *args: Any) -> Server:
+        seen = self._seen("server")
+        end = await self._transport.serve(*args)
+        await until(lambda: self._seen("server") > seen)
+        return end
+
+    def _seen(self, role: str) -> int:
+        return sum(end.role == role for end in self._other.endpoints())
+
+
+def free_port() -> int:
+    with socket.socket() as taken:
+        taken.bind(("127.0.0.1", 0))
+        return int(taken.getsockname()[1])
+
+
+@asynccontextmanager
+async def zenoh() -> AsyncIterator[Network]:
+    """Two sessions, each as of a process of its own, that find each other at a port of this machine."""
+    at = (f"tcp/127.0.0.1:{free_port()}",)
+    async with (
+        ZenohTransport(zenoh_backend.Network(listen=at, interface=""), definitions=DEFINITIONS) as here,
+        ZenohTransport(
+            zenoh_backend.Network(listen=(), connect=at, interface=""), definitions=DEFINITIONS
+        ) as there,
+    ):
+        yield Network(cast(Transport, Settled(here, there)), cast(Transport, Settled(there, here)))
+
+
+BACKENDS: dict[str, Callable[[], AbstractAsyncContextManager[Network]]] = {
+    "local": local,
+    "zenoh": zenoh,
+}
 
 
 async def until(condition: Callable[[], object], *, within_s: float = 10.0) -> None:

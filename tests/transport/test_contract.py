@@ -4,7 +4,6 @@ from __future__ import annotations
 
 import asyncio
 import gc
-from collections.abc import AsyncIterator
 from typing import Any
 
 import pytest
@@ -28,12 +27,6 @@ SHALLOW = Topic("contract/shallow", String, "std_msgs/msg/String", QoS(depth=3))
 KEPT = Topic("contract/kept", String, "std_msgs/msg/String", QoS(depth=3, keep_all=True))
 LATCHED = Topic("contract/latched", String, "std_msgs/msg/String", QoS(latched=True, depth=1))
 ECHO = Service("contract/echo", ChatRequest, ChatResponse, "nl_interface_msgs/srv/Chat")
-
-
-@pytest.fixture(params=sorted(BACKENDS))
-async def network(request: pytest.FixtureRequest) -> AsyncIterator[Network]:
-    async with BACKENDS[request.param]() as parties:
-        yield parties
 
 
 async def echo(request: ChatRequest) -> ChatResponse:

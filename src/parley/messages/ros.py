@@ -33,7 +33,7 @@ class String:
     data: str = ""
 
 
-@dataclass(frozen=True, slots=True)
+@dataclass(frozen=True, slots=True, order=True)
 class Time:
     """builtin_interfaces/msg/Time."""
 

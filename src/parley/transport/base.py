@@ -1,4 +1,4 @@
-"""The doorway between nodes: publish, subscribe, serve, call (design section 3).
+"""The doorway between nodes: publish, subscribe, serve, call, and ask for long tasks (design section 3).
 
 Handlers run on the loop, one message of a subscription after the other. `Publisher.publish` never blocks and
 never raises because of a subscriber. A handler that raises is logged and goes on with the next message.
@@ -9,16 +9,34 @@ from __future__ import annotations
 from collections.abc import Awaitable, Callable
 from dataclasses import dataclass
 from types import TracebackType
-from typing import Any, Protocol, Self, TypeVar
+from typing import Any, Generic, Protocol, Self, TypeVar
 
+from parley.messages.actions import Action, GoalState
 from parley.messages.topics import Service, Topic
 
-__all__ = ["Endpoint", "Handler", "Publisher", "Server", "Subscription", "Transport"]
+__all__ = [
+    "ActionClient",
+    "Endpoint",
+    "Handler",
+    "Outcome",
+    "Publisher",
+    "SentGoal",
+    "Server",
+    "Subscription",
+    "Transport",
+    "absolute",
+]
 
 M = TypeVar("M")
 M_contra = TypeVar("M_contra", contravariant=True)
 Req = TypeVar("Req")
 Res = TypeVar("Res")
+Goal = TypeVar("Goal")
+Result = TypeVar("Result")
+Feedback = TypeVar("Feedback")
+Goal_contra = TypeVar("Goal_contra", contravariant=True)
+Result_co = TypeVar("Result_co", covariant=True)
+Feedback_co = TypeVar("Feedback_co", covariant=True)
 
 Handler = Callable[[M], Awaitable[None] | None]
 """Gets each message; plain or async."""
@@ -64,6 +82,67 @@ class Server(Protocol):
 
     async def close(self) -> None:
         """Stop answering. Idempotent."""
+        ...
+
+
+@dataclass(frozen=True, slots=True)
+class Outcome(Generic[Result_co]):
+    """How a goal ended."""
+
+    state: GoalState
+    """`SUCCEEDED`, `CANCELED` or `ABORTED`; `UNKNOWN` if the server knows the goal no more."""
+    result: Result_co
+
+
+class SentGoal(Protocol[Result_co]):
+    """A goal that an action server has accepted."""
+
+    @property
+    def state(self) -> GoalState:
+        """Where it stands, as far as the server has told."""
+        ...
+
+    async def outcome(self, *, timeout_s: float) -> Outcome[Result_co]:
+        """Wait until it is over, at most `timeout_s` of wall time. Giving up waiting does not call it off.
+
+        Raises:
+            UnavailableError: The server went away.
+            TransportTimeoutError: It is not over yet; may be asked again.
+        """
+        ...
+
+    async def cancel(self, *, timeout_s: float) -> bool:
+        """Call it off; whether the server does so. It is over when `outcome` says so, not before.
+
+        Raises:
+            UnavailableError: The server went away.
+            TransportTimeoutError: No answer in time.
+        """
+        ...
+
+
+class ActionClient(Protocol[Goal_contra, Result_co, Feedback_co]):
+    """The asking end of an action."""
+
+    async def send(
+        self, goal: Goal_contra, *, timeout_s: float, on_feedback: Handler[Feedback_co] | None = None
+    ) -> SentGoal[Result_co]:
+        """Ask for `goal`; returns when the server has accepted it.
+
+        Args:
+            goal: What to reach.
+            timeout_s: How long to wait for the server's word.
+            on_feedback: Gets what the server tells on the way.
+
+        Raises:
+            UnavailableError: Nobody serves this action.
+            TransportTimeoutError: No word in time; the goal may have been accepted all the same.
+            GoalRefusedError: The server does not take it.
+        """
+        ...
+
+    async def close(self) -> None:
+        """Take the end away; goals go on without it. Idempotent."""
         ...
 
 
@@ -124,6 +203,16 @@ class Transport(Protocol):
         """
         ...
 
+    async def action_client(
+        self, action: Action[Goal, Result, Feedback]
+    ) -> ActionClient[Goal, Result, Feedback]:
+        """Open the asking end of `action`.
+
+        Raises:
+            TypeMismatchError: Its names are in use with other types.
+        """
+        ...
+
     def endpoints(self) -> tuple[Endpoint, ...]:
         """Who is there now."""
         ...
@@ -131,3 +220,8 @@ class Transport(Protocol):
     def on_endpoints_changed(self, handler: Callable[[], Any]) -> Callable[[], None]:
         """Call `handler` whenever `endpoints` changes; returns how to stop that."""
         ...
+
+
+def absolute(name: str) -> str:
+    """Relative names live in the root namespace here."""
+    return name if name.startswith("/") else f"/{name}"

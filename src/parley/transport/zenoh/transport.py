@@ -1,0 +1,372 @@
+"""The backend itself. See `parley.transport.base.Transport` for the contract."""
+
+from __future__ import annotations
+
+import asyncio
+import contextlib
+import itertools
+from collections.abc import Awaitable, Callable
+from pathlib import Path
+from types import TracebackType
+from typing import Any, Final, Self, TypeVar
+
+import structlog
+import zenoh
+from zenoh import ext
+from zenoh.handlers import Callback
+
+from parley.clock import Clock, WallClock
+from parley.errors import TransportError, TransportTimeoutError, TypeMismatchError, UnavailableError
+from parley.messages.actions import Action
+from parley.messages.topics import QoS, Service, Topic
+from parley.transport.actions import CallingActionClient
+from parley.transport.base import Endpoint, Handler, Subscription, absolute
+from parley.transport.zenoh.cdr import Codec
+from parley.transport.zenoh.definitions import Definitions
+from parley.transport.zenoh.ends import ZenohPublisher, ZenohServer, ZenohSubscription
+from parley.transport.zenoh.graph import Graph
+from parley.transport.zenoh.keys import Attachment, Node, all_tokens, gid_of, key
+from parley.transport.zenoh.lane import Lane
+from parley.transport.zenoh.session import Network, config
+
+__all__ = ["ZenohTransport"]
+
+M = TypeVar("M")
+T = TypeVar("T")
+Req = TypeVar("Req")
+Res = TypeVar("Res")
+Goal = TypeVar("Goal")
+Result = TypeVar("Result")
+Feedback = TypeVar("Feedback")
+_Declared = (
+    zenoh.Publisher
+    | zenoh.Subscriber[None]
+    | zenoh.Queryable[None]
+    | ext.AdvancedPublisher
+    | ext.AdvancedSubscriber[None]
+)
+_End = ZenohPublisher[Any] | ZenohSubscription[Any] | ZenohServer
+
+CLOSING_S: Final = 5.0
+"""How long closing waits for the library; then the process goes on without."""
+SERVICE_QOS: Final = QoS(depth=10)
+_BLOCK: Final = zenoh.CongestionControl.BLOCK
+
+log = structlog.get_logger(__name__)
+
+
+class ZenohTransport:
+    """Messages between processes and machines: ``async with ZenohTransport(...):``.
+
+    Stops, calls and everything else go each their own way, so that none waits for the other.
+
+    Args:
+        network: Which network, and how to reach it.
+        node: How this process is called there; letters, digits and underscores.
+        definitions: Folders with the definitions of types that are not ours: `<package>/msg/<Name>.msg`.
+        clock: For the stamps of messages.
+    """
+
+    def __init__(
+        self,
+        network: Network | None = None,
+        *,
+        node: str = "parley",
+        definitions: tuple[Path, ...] = (),
+        clock: Clock | None = None,
+    ) -> None:
+        self._network, self._node_name = network or Network(), node
+        self._clock: Clock = clock or WallClock()
+        self._definitions = Definitions(*definitions)
+        self._codecs: dict[tuple[type[Any], str], Codec[Any]] = {}
+        self._graph = Graph()
+        self._numbers = itertools.count(1)
+        self._ends: dict[str, _End] = {}
+        self._tokens: dict[str, zenoh.LivelinessToken] = {}
+        self._waiting: set[asyncio.Future[Any]] = set()
+        self._tasks: set[asyncio.Task[Any]] = set()
+        self.handler_failures = 0
+        """How many times a handler raised; tests assert that it stays 0."""
+
+    async def __aenter__(self) -> Self:
+        self._loop = asyncio.get_running_loop()
+        self._stops, self._calls, self._data = Lane("stops"), Lane("calls"), Lane("messages")
+        try:
+            self._session = await self.ask(lambda: zenoh.open(config(self._network)))
+        except zenoh.ZError as error:
+            self._end_lanes()
+            raise UnavailableError(f"the network cannot be reached: {error}") from error
+        self._node = Node(self._network.domain, str(self._session.zid()), self._node_name)
+        self._stamp_call = self.stamps(self._node.token())
+        await self.ask(self._begin)
+        return self
+
+    async def __aexit__(
+        self, kind: type[BaseException] | None, error: BaseException | None, trace: TracebackType | None
+    ) -> None:
+        try:
+            async with asyncio.timeout(CLOSING_S):
+                for end in list(self._ends.values()):
+                    if isinstance(end, ZenohPublisher):
+                        end.close()
+                    else:
+                        await end.close()
+                for waiting in self._waiting:
+                    if not waiting.done():
+                        waiting.set_result(None)
+                for task in list(self._tasks):
+                    task.cancel()
+                await asyncio.gather(*self._tasks, return_exceptions=True)
+                for lane in (self._stops, self._data, self._calls):  # what was published before is sent yet
+                    await lane.ask(lambda: None)
+                await self.ask(self._session.close)
+        except TimeoutError:
+            log.warning("the network did not close in time; going on without")
+        finally:
+            self._end_lanes()
+
+    def publisher(self, topic: Topic[M]) -> ZenohPublisher[M]:
+        """See `Transport.publisher`."""
+        place, token = self._place(topic.name, topic.ros_type, topic.qos, "publisher")
+        codec = self._codec(topic.type, topic.ros_type)
+        options: dict[str, Any] = {
+            "congestion_control": _BLOCK if topic.qos.reliable else zenoh.CongestionControl.DROP,
+            "priority": zenoh.Priority.REAL_TIME if topic.qos.keep_all else zenoh.Priority.DATA,
+            "express": topic.qos.keep_all,
+        }
+
+        def declare() -> zenoh.Publisher | ext.AdvancedPublisher:
+            made: zenoh.Publisher | ext.AdvancedPublisher
+            if topic.qos.latched:
+                cache = ext.CacheConfig(topic.qos.depth)
+                made = ext.declare_advanced_publisher(
+                    self._session, place, cache=cache, publisher_detection=True, **options
+                )
+            else:
+                made = self._session.declare_publisher(place, **options)
+            self._show(token)
+            return made
+
+        lane = self._stops if topic.qos.keep_all else self._data
+        publisher = ZenohPublisher(self, topic, codec, lane, declare, token)
+        self._opened(publisher, Endpoint(absolute(topic.name), topic.ros_type, "publisher"))
+        return publisher
+
+    async def subscribe(
+        self,
+        topic: Topic[M],
+        handler: Handler[M],
+        *,
+        depth: int | None = None,
+        along: Subscription | None = None,
+    ) -> ZenohSubscription[M]:
+        """See `Transport.subscribe`."""
+        place, token = self._place(topic.name, topic.ros_type, topic.qos, "subscription")
+        codec = self._codec(topic.type, topic.ros_type)
+        subscription = ZenohSubscription(
+            self, topic, codec, token, {"handler": handler, "depth": depth, "along": along}
+        )
+        receive = Callback(subscription.on_sample, indirect=False)
+
+        def declare() -> None:
+            if topic.qos.latched:
+                history = ext.HistoryConfig(detect_late_publishers=True, max_samples=topic.qos.depth)
+                subscription.end = ext.declare_advanced_subscriber(
+                    self._session, place, receive, history=history
+                )
+            else:
+                subscription.end = self._session.declare_subscriber(place, receive)
+            self._show(token)
+
+        self._opened(subscription, Endpoint(absolute(topic.name), topic.ros_type, "subscription"))
+        await self.ask(declare)
+        return subscription
+
+    async def serve(
+        self, service: Service[Req, Res], handler: Callable[[Req], Awaitable[Res]]
+    ) -> ZenohServer:
+        """See `Transport.serve`."""
+        place, token = self._place(service.name, service.ros_type, SERVICE_QOS, "server")
+        if self._graph.serves(service.name):
+            raise UnavailableError(f"service {service.name} is answered already; stop the other one first")
+        requests, responses = self._codecs_of(service)
+
+        async def answer(data: bytes) -> bytes:
+            return responses.encode(await handler(requests.decode(data)))
+
+        server = ZenohServer(self, service.name, answer, place, token)
+        receive = Callback(server.on_query, indirect=False)
+
+        def declare() -> None:
+            server.end = self._session.declare_queryable(place, receive, complete=True)
+            self._show(token)
+
+        self._opened(server, Endpoint(absolute(service.name), service.ros_type, "server"))
+        await self.ask(declare)
+        return server
+
+    async def call(self, service: Service[Req, Res], request: Req, *, timeout_s: float) -> Res:
+        """See `Transport.call`."""
+        self._graph.check(service.name, service.ros_type, service=True)
+        if not self._graph.serves(service.name):
+            raise UnavailableError(f"nobody answers service {service.name}; is its node running?")
+        if not isinstance(request, service.request):
+            raise TypeMismatchError(
+                f"{service.name} takes {service.ros_type}; got a {type(request).__name__}"
+            )
+        requests, responses = self._codecs_of(service)
+        try:
+            async with asyncio.timeout(timeout_s):
+                answer = await self._ask_server(service, requests.encode(request), timeout_s)
+        except TimeoutError as error:
+            raise TransportTimeoutError(
+                f"service {service.name} did not answer within {timeout_s} s"
+            ) from error
+        if answer is None:
+            raise UnavailableError(f"service {service.name} went away before it answered")
+        if isinstance(answer, str):
+            raise TransportError(f"service {service.name} failed: {answer}")
+        return responses.decode(answer)
+
+    async def action_client(
+        self, action: Action[Goal, Result, Feedback]
+    ) -> CallingActionClient[Goal, Result, Feedback]:
+        """See `Transport.action_client`."""
+        client = CallingActionClient(self, action)
+        await client.open()
+        return client
+
+    def endpoints(self) -> tuple[Endpoint, ...]:
+        """See `Transport.endpoints`."""
+        return self._graph.endpoints()
+
+    def on_endpoints_changed(self, handler: Callable[[], Any]) -> Callable[[], None]:
+        """See `Transport.on_endpoints_changed`."""
+        return self._graph.on_changed(handler)
+
+    # What its ends ask of it
+
+    async def ask(self, job: Callable[[], T]) -> T:
+        """Have something done that may wait for the network."""
+        return await self._calls.ask(job)
+
+    def send(self, job: Callable[[], object]) -> None:
+        """Have an answer sent."""
+        self._calls.do(job)
+
+    def keep(self, task: asyncio.Task[Any]) -> None:
+        """A call is being answered; it ends with the transport at the latest."""
+        self._tasks.add(task)
+        task.add_done_callback(self._tasks.discard)
+
+    def count_failure(self) -> None:
+        """A handler raised."""
+        self.handler_failures += 1
+
+    def stamps(self, whose: str) -> Callable[[], bytes]:
+        """What goes with each message of one end, numbered from 1."""
+        numbers, gid = itertools.count(1), gid_of(whose)
+        return lambda: Attachment(next(numbers), self._clock.unix_ms() * 1_000_000, gid).to_bytes()
+
+    def closed(self, token: str) -> None:
+        """An end is closed for this process; `take_away` tells others."""
+        self._ends.pop(token, None)
+        self._graph.remove_own(token)
+
+    def take_away(self, token: str, end: _Declared) -> None:
+        """Tell others that an end is closed. Not on the loop."""
+        shown = self._tokens.pop(token, None)
+        if shown is not None:
+            shown.undeclare()
+        end.undeclare()
+
+    # Inside
+
+    def _begin(self) -> None:
+        self._show(self._node.token())
+        self._session.liveliness().declare_subscriber(
+            all_tokens(self._network.domain), Callback(self._on_token, indirect=False), history=True
+        )
+
+    def _on_token(self, sample: zenoh.Sample) -> None:
+        """Somebody came or went; on a thread of the library."""
+        is_there = sample.kind == zenoh.SampleKind.PUT
+        with contextlib.suppress(RuntimeError):  # the loop has ended, and nobody looks
+            self._loop.call_soon_threadsafe(lambda: self._graph.seen(str(sample.key_expr), is_there=is_there))
+
+    def _place(self, name: str, ros_type: str, qos: QoS, role: str) -> tuple[str, str]:
+        """Key and token of an end that is to be opened."""
+        self._graph.check(name, ros_type, service=role == "server")
+        type_hash = self._definitions.hash(ros_type)
+        endpoint = Endpoint(absolute(name), ros_type, role)
+        token = self._node.end_token(next(self._numbers), endpoint, type_hash, qos)
+        return key(self._node.domain, name, ros_type, type_hash), token
+
+    def _codec(self, python_type: type[M], ros_type: str) -> Codec[M]:
+        known = self._codecs.get((python_type, ros_type))
+        if known is None:
+            known = self._codecs[python_type, ros_type] = Codec(self._definitions, python_type, ros_type)
+        return known
+
+    def _codecs_of(self, service: Service[Req, Res]) -> tuple[Codec[Req], Codec[Res]]:
+        return (
+            self._codec(service.request, f"{service.ros_type}_Request"),
+            self._codec(service.response, f"{service.ros_type}_Response"),
+        )
+
+    def _opened(self, end: _End, endpoint: Endpoint) -> None:
+        self._ends[end.token] = end
+        self._graph.add_own(end.token, endpoint)
+
+    def _show(self, token: str) -> None:
+        """Let others see that an end is there. Not on the loop."""
+        self._tokens[token] = self._session.liveliness().declare_token(token)
+
+    async def _ask_server(
+        self, service: Service[Any, Any], data: bytes, timeout_s: float
+    ) -> bytes | str | None:
+        """The answer, or why there is none; None: the server went away."""
+        waiting: asyncio.Future[bytes | str | None] = self._loop.create_future()
+        self._waiting.add(waiting)
+        given_up = zenoh.CancellationToken()
+
+        def settle(answer: bytes | str | None) -> None:
+            if not waiting.done():
+                waiting.set_result(answer)
+
+        def on_reply(reply: zenoh.Reply) -> None:
+            if reply.ok is not None:
+                settle_soon(reply.ok.payload.to_bytes())
+            elif reply.err is not None:
+                settle_soon(reply.err.payload.to_string())
+
+        def settle_soon(answer: bytes | str | None) -> None:
+            with contextlib.suppress(RuntimeError):  # the loop has ended, and nobody waits
+                self._loop.call_soon_threadsafe(settle, answer)
+
+        def get() -> None:
+            if not waiting.done():
+                self._session.get(
+                    key(self._node.domain, service.name, service.ros_type, type_hash),
+                    Callback(on_reply, drop=lambda: settle_soon(None), indirect=False),
+                    target=zenoh.QueryTarget.ALL_COMPLETE,
+                    consolidation=zenoh.ConsolidationMode.NONE,
+                    timeout=timeout_s + 1.0,  # ours comes first
+                    congestion_control=_BLOCK,
+                    priority=zenoh.Priority.INTERACTIVE_HIGH,
+                    payload=data,
+                    attachment=self._stamp_call(),
+                    cancellation_token=given_up,
+                )
+
+        type_hash = self._definitions.hash(service.ros_type)
+        self._calls.do(get)
+        try:
+            return await waiting
+        finally:
+            self._waiting.discard(waiting)
+            self._calls.do(given_up.cancel)
+
+    def _end_lanes(self) -> None:
+        for lane in (self._stops, self._calls, self._data):
+            lane.close()
