@@ -33,6 +33,7 @@ __all__ = [
     "PlanView",
     "ProposalView",
     "RobotView",
+    "RoundState",
     "RoundView",
     "ServerInfo",
     "Snapshot",
@@ -318,6 +319,9 @@ class LogPage(WebModel):
     """Why some of it is not written yet."""
 
 
+RoundState = Literal["running", "done", "failed", "ended", "unrecorded"]
+
+
 class RoundView(WebModel):
     """One thing that a robot was told to do, and how it ended. Key: `number`."""
 
@@ -331,8 +335,8 @@ class RoundView(WebModel):
     unix_ms: int
     ended_unix_ms: int = 0
     """0: it goes on, or its end was never heard."""
-    state: Literal["running", "done", "failed", "ended"]
-    """`ended`: before it was done."""
+    state: RoundState
+    """`ended`: before it was done; `unrecorded`: it does not go on, and the log has no end of it."""
     steps: tuple[str, ...] = ()
     reason: str = ""
     """Why it failed."""
