@@ -35,6 +35,7 @@ __all__ = [
     "RobotView",
     "RoundState",
     "RoundView",
+    "RulesChange",
     "ServerInfo",
     "Snapshot",
     "StepView",
@@ -451,6 +452,13 @@ class FavouritesChange(WebModel):
     favourites: tuple[Favourite, ...]
 
 
+class RulesChange(WebModel):
+    """A rule holds or was dropped: ask again."""
+
+    kind: Literal["rules"] = "rules"
+    seq: int
+
+
 class IncidentChange(WebModel):
     """A failure happened, or its record changed."""
 
@@ -479,6 +487,7 @@ Change = Annotated[
     | FeedChange
     | MemoryChange
     | FavouritesChange
+    | RulesChange
     | IncidentChange
     | RejectionChange,
     Field(discriminator="kind"),

@@ -11,7 +11,7 @@ import { Choice } from '@/ui/choice';
 import { Empty, Loading, Panel } from '@/ui/panel';
 import { useMap, type Shown } from '@/ui/use-map';
 import { useNow } from '@/ui/use-now';
-import { useRequest } from '@/ui/use-request';
+import { useKept, useRequest } from '@/ui/use-request';
 import { ago } from '@/ui/words';
 
 import type { Rover } from './map-drawing';
@@ -118,7 +118,8 @@ const NO_RULES: readonly Rule[] = [];
 function useZones(mapName: string): readonly Rule[] {
   const { i18n } = useTranslation();
   const known = useWorld((world) => world.info?.modules?.rules ?? false);
-  const found = useRequest(known ? `zones\n${mapName}` : '', () => getRules(i18n.language));
+  const changes = useWorld((world) => world.ruleChanges);
+  const found = useKept(useRequest(known ? `zones\n${changes}` : '', () => getRules(i18n.language)));
   return useMemo(() => {
     const rules = found.state === 'ready' ? (found.value.rules ?? []).map((view) => view.rule) : NO_RULES;
     return rules.filter((rule) => (rule.rectangle ?? rule.polygon) && (!rule.map || rule.map === mapName));

@@ -9,7 +9,7 @@ import { attempt } from '@/state/do';
 import { Button } from '@/ui/button';
 import { Empty, Loading, Panel } from '@/ui/panel';
 import { useMap } from '@/ui/use-map';
-import { useRequest, type Loaded } from '@/ui/use-request';
+import { useKept, useRequest, type Loaded } from '@/ui/use-request';
 
 import { RuleForm } from './rule-form';
 import css from './rules.module.css';
@@ -29,7 +29,8 @@ export function RulesPage() {
   const [editing, setEditing] = useState<Rule | 'new' | null>(null);
   const shown = useMap(robot, mapName, 0);
   const map = shown.state === 'ready' ? shown.map : null;
-  const found = useRequest(`${asked}\n${i18n.language}`, () => getRules(i18n.language));
+  const changes = useWorld((world) => world.ruleChanges);
+  const found = useKept(useRequest(`${asked} ${changes} ${i18n.language}`, () => getRules(i18n.language)));
   const views = found.state === 'ready' ? (found.value.rules ?? NOTHING) : NOTHING;
   const rules = views.map((view) => view.rule);
   const done = () => {
