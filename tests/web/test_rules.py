@@ -39,6 +39,9 @@ async def test_rules_are_looked_at_changed_and_tried() -> None:
             node,
         ):
             assert (await rig.http.get("/api/rules")).json()["rules"] == []
+            worded = await rig.http.post("/api/rules/words", json=DOOR)
+            assert worded.json()["text"] == "Stays out of “north door”: every robot."
+            assert (await rig.http.get("/api/rules")).json()["rules"] == []
             put = await rig.http.put("/api/rules/door", json=DOOR)
             assert put.status_code == 200, put.text
             shown = (await rig.http.get("/api/rules?language=et")).json()["rules"]

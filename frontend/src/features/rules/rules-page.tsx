@@ -38,7 +38,7 @@ export function RulesPage() {
     setAsked(asked + 1);
   };
   const add = (
-    <Button tone="quiet" icon="plus" onPress={() => setEditing('new')}>
+    <Button needs="rule" tone="quiet" icon="plus" onPress={() => setEditing('new')}>
       {t('add')}
     </Button>
   );
@@ -105,10 +105,10 @@ function RuleCard({ view: { rule, text, holds_now: holds }, onChange, onDropped 
         {!rule.words && rule.by && <p className={css.quiet}>{t('madeBy', { by: rule.by })}</p>}
       </div>
       <div className={css.deeds}>
-        <Button tone="quiet" icon="edit" aria-label={`${t('change')}: ${text}`} onPress={onChange}>
+        <Button needs="rule" tone="quiet" icon="edit" aria-label={`${t('change')}: ${text}`} onPress={onChange}>
           {t('change')}
         </Button>
-        <Button tone={sure ? 'danger' : 'quiet'} icon="trash" aria-label={`${t(sure ? 'dropSure' : 'drop')}: ${text}`} onPress={() => void drop()}>
+        <Button needs="rule" tone={sure ? 'danger' : 'quiet'} icon="trash" aria-label={`${t(sure ? 'dropSure' : 'drop')}: ${text}`} onPress={() => void drop()}>
           {t(sure ? 'dropSure' : 'drop')}
         </Button>
       </div>

@@ -98,6 +98,8 @@ class RuleNode(Node):
         if request.what == "try":
             judged = await self._try(request)
             return self._answer(request.language).model_copy(update={"verdict": judged})
+        if request.what == "word" and request.rule is not None:
+            return RulesAnswer(rules=(self._view(request.rule, request.language),))
         if request.what != "list" and verdict(request.by, Effect.RULE) != "allow":
             return self._answer(request.language, problem="You may not change rules.")
         if request.what == "put" and request.rule is not None:
@@ -109,20 +111,16 @@ class RuleNode(Node):
         return self._answer(request.language)
 
     def _answer(self, language: SpokenLanguage, problem: str = "") -> RulesAnswer:
-        now = self._book.now()
         path = self._keeper.path
         return RulesAnswer(
-            rules=tuple(
-                RuleView(
-                    rule=rule,
-                    text=in_language(rule_text(rule), language),
-                    holds_now=holds_at(rule.when, now),
-                )
-                for rule in self._book.rules.rules
-            ),
+            rules=tuple(self._view(rule, language) for rule in self._book.rules.rules),
             problem=in_language(problem, language),
             file=path.name if path is not None else "",
         )
+
+    def _view(self, rule: Rule, language: SpokenLanguage) -> RuleView:
+        text = in_language(rule_text(rule), language)
+        return RuleView(rule=rule, text=text, holds_now=holds_at(rule.when, self._book.now()))
 
     def _on_change(self, rule: Rule, dropped: bool, by: Principal | None) -> None:
         said = rule.model_dump(mode="json", by_alias=True, exclude_defaults=True)
