@@ -45,6 +45,23 @@ describe.skipIf(!hasBrowser)('rules', () => {
     await page.getByText(/fridge corner.*David must not go/).first().waitFor();
   });
 
+  it('are drawn on the map, shown as what they become, and hold after a yes', async () => {
+    const page = await stage.open(sizes.phone, '#/map');
+    await page.getByRole('button', { name: 'Draw an area for a rule' }).tap();
+    const box = await page.getByRole('application').boundingBox();
+    if (!box) throw new Error('the map is not there');
+    await page.mouse.move(box.x + box.width * 0.6, box.y + box.height * 0.6);
+    await page.mouse.down();
+    await page.mouse.move(box.x + box.width * 0.7, box.y + box.height * 0.7, { steps: 4 });
+    await page.mouse.up();
+    await page.getByText('It becomes this rule: Stays out of “part of the').waitFor();
+    expect(await barriers(page)).toEqual([]);
+    expect((await stage.get<{ rules: unknown[] }>('rules')).rules).toHaveLength(1);
+    await page.getByRole('button', { name: 'Let it hold' }).tap();
+    await expect.poll(() => page.locator('svg polygon[data-kind=keep_out]').count()).toBe(2);
+    expect((await stage.get<{ rules: unknown[] }>('rules')).rules).toHaveLength(2);
+  });
+
   it('are drawn with a mouse and dropped after a second yes', async () => {
     const page = await stage.open(sizes.desktop, '#/rules');
     await page.getByRole('button', { name: 'Add a rule' }).click();

@@ -256,6 +256,7 @@ class System:
             history_exchanges=config.history_exchanges,
             language_timeout_s=config.language_timeout_s,
             rules=rules,
+            rooms=self.objects.rooms,
         )
         await enter(self._speaking(chat))
         await enter(self._speaking(Lookout(transport, clock)))
@@ -276,7 +277,7 @@ class System:
         watchdog = LoopWatchdog(self.stop_line, self.robot_names, clock, self._tell_all)
         watchdog.open()
         self._stack.push_async_callback(watchdog.close)
-        floors = {name: MapOf(view.occupancy, view.objects.objects) for name, view in views.items()}
+        floors = {name: MapOf(view.occupancy, view.objects.places) for name, view in views.items()}
         await enter(RuleNode(transport, keeper, self.rules, clock, ground=self.language.ground, maps=floors))
         engines = {name: await self._open_robot(name, views[name]) for name in self.robot_names}
         self._tell_interrupted(journal, planner, notices, engines)
@@ -411,7 +412,7 @@ class System:
             return None
         view, radius_m = self._view(robot), self.robots[robot].radius_m
         resolver = Resolver(
-            self.language.ground, view.objects.objects, view.occupancy, radius_m=radius_m, clock=self.clock
+            self.language.ground, view.objects.places, view.occupancy, radius_m=radius_m, clock=self.clock
         )
         steps = await resolver.resolve(calls, catalogue, pose)
         return await judge_with_ways(

@@ -2,6 +2,8 @@
 
 from __future__ import annotations
 
+from dataclasses import replace
+
 import pytest
 
 from parley.actions.get_coordinates import get_coordinates
@@ -9,7 +11,7 @@ from parley.actions.navigate_to import navigate_to
 from parley.errors import ActionFailure, FailureCode, LanguageError
 from parley.language.base import Grounding
 from parley.language.builtin.engine import BuiltinLanguage
-from parley.world.object_map import MapObject
+from parley.world.object_map import MapArea, MapObject
 from tests.actions.room import room
 from tests.sim.worlds import box
 
@@ -23,6 +25,14 @@ async def test_spot_is_free_near_the_thing_and_faces_it() -> None:
         assert here.view.occupancy.is_free(spot.x_m, spot.y_m)
         assert 0.2 < ((spot.x_m - crate.x_m) ** 2 + (spot.y_m - crate.y_m) ** 2) ** 0.5 < 1.3
         assert spot.bearing_to(crate.x_m, crate.y_m) == pytest.approx(spot.yaw_rad, abs=0.3)
+
+
+async def test_a_room_leads_into_it() -> None:
+    hall = MapArea("packing hall", ((4.0, 1.0), (6.0, 1.0), (6.0, 3.0), (4.0, 3.0)))
+    async with room(language=BuiltinLanguage()) as here:
+        here.view = replace(here.view, objects=replace(here.view.objects, areas=(hall,)))
+        spot = (await get_coordinates(here.context, "packing hall")).pose.planar()
+        assert hall.holds(spot.x_m, spot.y_m) and here.view.occupancy.is_free(spot.x_m, spot.y_m)
 
 
 async def test_robot_can_really_stand_there() -> None:

@@ -79,7 +79,7 @@ async def test_of_several_rules_the_one_that_is_chosen_is_dropped() -> None:
     talk = Talk()
     for name in ("north ward", "south ward"):
         await talk.keeper.put(
-            Rule(id=name.replace(" ", "-"), kind="keep_out", name=name, rectangle=(0, 0, 1, 1))
+            Rule(id=name.replace(" ", "-"), kind="keep_out", name=name, rectangle=(0, 0, 1, 1)), None
         )
     which = await talk.say("drop the rule about the ward")
     assert which is not None and len(which.choices) == 3

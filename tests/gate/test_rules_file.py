@@ -139,14 +139,14 @@ async def test_rules_are_kept_and_a_file_that_others_changed_is_left_alone(tmp_p
     book = RuleBook(SimClock())
     keeper = RuleKeeper(book, path)
     store = Rule(id="store", kind="keep_out", rectangle=(0, 0, 1, 1))
-    await keeper.put(store)
-    await keeper.put(store.model_copy(update={"name": "storeroom"}))
+    await keeper.put(store, None)
+    await keeper.put(store.model_copy(update={"name": "storeroom"}), None)
     again = RuleBook(SimClock())
     RuleKeeper(again, path)
     assert [rule.name for rule in again.rules.rules] == ["storeroom"]
     path.write_text(WRITTEN, encoding="utf-8")
     with pytest.raises(ConfigError, match="changed by somebody else"):
-        await keeper.drop("store")
+        await keeper.drop("store", None)
     assert path.read_text(encoding="utf-8") == WRITTEN
     assert book.rules.get("store") is not None
     assert sorted(item.name for item in path.parent.iterdir()) == ["rules.yaml"]
@@ -155,6 +155,6 @@ async def test_rules_are_kept_and_a_file_that_others_changed_is_left_alone(tmp_p
 async def test_without_a_file_rules_hold_while_the_process_runs() -> None:
     book = RuleBook(SimClock())
     keeper = RuleKeeper(book)
-    await keeper.put(Rule(id="a", kind="action"))
-    assert await keeper.drop("a") == Rule(id="a", kind="action")
-    assert await keeper.drop("a") is None
+    await keeper.put(Rule(id="a", kind="action"), None)
+    assert await keeper.drop("a", None) == Rule(id="a", kind="action")
+    assert await keeper.drop("a", None) is None

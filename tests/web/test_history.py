@@ -9,9 +9,12 @@ from typing import Any
 from parley.agents.audit_log import AuditLog
 from parley.gate.audit_store import AuditStore
 from parley.messages import topics
+from parley.messages.audit import AuditEntry
 from parley.messages.chat import ActionCall, ChatAction, ChatInput
 from parley.messages.principal import person
 from parley.messages.status import GraphEvent, PlanUpdate, StopCommand
+from parley.web.round_file import round_file
+from parley.web.rounds import rounds_of
 from tests.web.rig import HandClock, Rig, served
 
 KIM = person("Kim", device="page on a phone")
@@ -96,3 +99,13 @@ async def test_the_next_shift_is_told_what_was_done_what_failed_what_waits_and_w
         assert "Ada asks: Which box?" in told["waits"]
         later = (await rig.http.get(f"/api/history/handover?since={BEGAN_MS + 1}")).json()
         assert later["rounds"] == []
+
+
+def test_what_has_no_end_in_the_log_is_not_said_to_have_been_ended() -> None:
+    start = AuditEntry(
+        number=1, unix_ms=BEGAN_MS, effect="start", robot="Ada", detail={"graph": "one"}, prev="", hash=""
+    )
+    (lost,) = rounds_of([start], [], frozenset())
+    (goes_on,) = rounds_of([start], [], frozenset({("Ada", "one")}))
+    assert (lost.state, goes_on.state) == ("unrecorded", "running")
+    assert "Its end was not recorded." in round_file(lost, (), (), "en")

@@ -48,6 +48,9 @@ BODIES: dict[tuple[str, str], list[tuple[Any, Effect]]] = {
     ("PUT", "/api/rules/{rule_id}"): [
         ({"id": "r1", "name": "hall", "kind": "keep_out", "rectangle": [0, 0, 1, 1]}, Effect.RULE)
     ],
+    ("POST", "/api/rules/words"): [
+        ({"id": "r1", "name": "hall", "kind": "keep_out", "rectangle": [0, 0, 1, 1]}, Effect.RULE)
+    ],
     ("POST", "/api/rules/try"): [({"robot": "Ada", "goal": [1.0, 1.0]}, Effect.SEE)],
     ("PUT", "/api/me/password"): [({"old": "wrong", "new": PASSWORD}, Effect.SEE)],
     ("POST", "/api/me/passkeys"): [({"id": "x", "name": "key", "credential": {}}, Effect.SEE)],

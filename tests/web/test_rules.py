@@ -5,8 +5,10 @@ from __future__ import annotations
 import json
 from typing import Any
 
+from parley.agents.audit_log import AuditLog
 from parley.agents.rules.rules import MapOf, RuleNode
 from parley.clock import SimClock
+from parley.gate.audit_store import AuditStore
 from parley.gate.book import RuleBook
 from parley.gate.rules import RuleKeeper
 from parley.language.builtin.engine import BuiltinLanguage
@@ -31,7 +33,14 @@ async def test_rules_are_looked_at_changed_and_tried() -> None:
             ground=BuiltinLanguage().ground,
             maps={"A": floor},
         )
-        async with node:
+        async with (
+            await AuditStore.open(":memory:", clock) as store,
+            AuditLog(rig.robots.transport, store, clock),
+            node,
+        ):
+            assert (await rig.http.get("/api/rules")).json()["rules"] == []
+            worded = await rig.http.post("/api/rules/words", json=DOOR)
+            assert worded.json()["text"] == "Stays out of “north door”: every robot."
             assert (await rig.http.get("/api/rules")).json()["rules"] == []
             put = await rig.http.put("/api/rules/door", json=DOOR)
             assert put.status_code == 200, put.text
@@ -51,6 +60,14 @@ async def test_rules_are_looked_at_changed_and_tried() -> None:
             assert (await rig.http.put("/api/rules/gate", json=DOOR)).status_code == 422
             assert (await rig.http.delete("/api/rules/none")).status_code == 409
             assert (await rig.http.delete("/api/rules/door")).json()["rules"] == []
+
+            log = rig.server.backend.state.log
+            await rig.until(lambda: any(change.kind == "rules" for change in log.since(0) or ()))
+            told = (await rig.http.get("/api/history/handover?since=1")).json()["rules"]
+            assert [text.partition(") ")[2] for _, text in told] == [
+                "let this rule hold: Stays out of “north door”: every robot.",
+                "dropped this rule: Stays out of “north door”: every robot.",
+            ]
 
 
 async def test_where_nobody_keeps_rules_it_says_so() -> None:

@@ -11,7 +11,7 @@ from hypothesis import strategies as st
 
 from parley.world.approach import approach_pose
 from parley.world.geometry import Pose2D, wrap_angle
-from parley.world.object_map import MapObject
+from parley.world.object_map import MapArea, MapObject
 from parley.world.occupancy import FREE, NO_MAP, OCCUPIED, OccupancyMap
 from parley.world.planning import plan_path
 
@@ -111,3 +111,13 @@ def test_what_is_closed_in_cannot_be_approached() -> None:
 def test_from_outside_the_map_nothing_can_be_approached() -> None:
     target = block(2.5, 2.5)
     assert approach_pose(ground(target), target, Pose2D(-3.0, 0.0), radius_m=RADIUS_M) is None
+
+
+def test_in_a_room_the_robot_stands_inside_and_nowhere_else() -> None:
+    corner = ((3.0, 0.0), (5.0, 0.0), (5.0, 5.0), (4.0, 5.0), (4.0, 2.0), (3.0, 2.0))
+    area = MapArea("hall", corner)
+    pose = approach_pose(ground(block(4.2, 2.6)), area.goal, START, radius_m=RADIUS_M)
+    assert pose is not None and area.holds(pose.x_m, pose.y_m)
+    assert pose.distance_to(Pose2D(4.0, 2.5)) < 0.7
+    outside = MapArea("attic", ((9.0, 9.0), (9.5, 9.0), (9.5, 9.5)))
+    assert approach_pose(ground(), outside.goal, START, radius_m=RADIUS_M) is None

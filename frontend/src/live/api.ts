@@ -14,6 +14,7 @@ import type {
   Rule,
   RulesAnswer,
   RuleVerdict,
+  RuleView,
   ServerInfo,
   SessionInfo,
   StopAnswer,
@@ -142,6 +143,8 @@ export const putSteps = (robot: string, steps: readonly ActionCall[], revision: 
 export const getRules = (language: string) => request<RulesAnswer>('GET', `rules?language=${part(language)}`);
 export const putRule = (rule: Rule, language: string) =>
   request<RulesAnswer>('PUT', `rules/${part(rule.id)}?language=${part(language)}`, rule);
+export const wordRule = (rule: Rule, language: string) =>
+  request<RuleView>('POST', `rules/words?language=${part(language)}`, rule);
 export const dropRule = (id: string) => request<RulesAnswer>('DELETE', `rules/${part(id)}`);
 /** What would become of places in words, of a point, or of a plan. */
 export interface Trial {

@@ -57,5 +57,6 @@ export type Change =
   | Schemas['FeedChange']
   | Schemas['MemoryChange']
   | Schemas['FavouritesChange']
+  | Schemas['RulesChange']
   | Schemas['IncidentChange']
   | Schemas['RejectionChange'];

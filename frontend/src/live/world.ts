@@ -37,6 +37,8 @@ export interface World {
   views: Readonly<Record<string, MapView>>;
   /** Counts changes of memories: who shows memories asks again when it grows. */
   memoryChanges: number;
+  /** The same for rules. */
+  ruleChanges: number;
   favourites: readonly Favourite[];
   /** Refusals, newest last. */
   notices: readonly Notice[];
@@ -58,6 +60,7 @@ export const emptyWorld: World = {
   incidents: {},
   views: {},
   memoryChanges: 0,
+  ruleChanges: 0,
   favourites: [],
   notices: [],
 };
@@ -86,6 +89,7 @@ export function fromSnapshot(snapshot: Snapshot, before: World = emptyWorld): Wo
     incidents: keyed(snapshot.incidents, (incident) => incident.id),
     views: keyed(snapshot.views, (view) => view.actor),
     memoryChanges: before.memoryChanges + 1,
+    ruleChanges: before.ruleChanges + 1,
     favourites: snapshot.favourites,
     notices: before.notices,
   };
@@ -132,10 +136,20 @@ function applyOne(world: World, change: Change): World {
       return { ...world, feeds: { ...world.feeds, [feedKey(change.feed)]: change.feed } };
     case 'incident':
       return { ...world, incidents: { ...world.incidents, [change.incident.id]: change.incident } };
+    default:
+      return applyOther(world, change);
+  }
+}
+
+/** What is not kept by a key of its own. */
+function applyOther(world: World, change: Change): World {
+  switch (change.kind) {
     case 'favourites':
       return { ...world, favourites: change.favourites };
     case 'memory':
       return { ...world, memoryChanges: world.memoryChanges + 1 };
+    case 'rules':
+      return { ...world, ruleChanges: world.ruleChanges + 1 };
     case 'rejection': {
       const notice = { id: change.seq, robot: change.robot, message: change.message };
       return { ...world, notices: [...world.notices, notice].slice(-KEPT_NOTICES) };

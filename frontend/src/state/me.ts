@@ -14,6 +14,7 @@ export type Effect =
   | 'remember'
   | 'forget'
   | 'policy'
+  | 'rule'
   | 'setting'
   | 'people'
   | 'audit';

@@ -1,7 +1,9 @@
-/** Corners of zones: as written text, as drawn, as the server takes them. Metres in the map. */
+/** Zones: their corners as written text, as drawn, as the server takes them, in metres of the map; and ids of rules. */
 import type { MapThing, Rule } from '@/live/types';
 
 export type Corner = readonly [number, number];
+
+export const cornerAt = ({ x, y }: { x: number; y: number }): Corner => [round(x), round(y)];
 
 const round = (value: number) => Math.round(value * 100) / 100;
 
@@ -51,4 +53,13 @@ export function around(thing: MapThing): Corner[] {
     [round(thing.x - wide), round(thing.y - high)],
     [round(thing.x + wide), round(thing.y + high)],
   ];
+}
+
+/** An id that no other rule has, from words about it. */
+export function idFor(words: string, rules: readonly Rule[]): string {
+  const base = (words.toLowerCase().match(/[a-z0-9]+/g) ?? ['rule']).join('-').slice(0, 50);
+  const taken = new Set(rules.map((rule) => rule.id));
+  let id = base;
+  for (let count = 2; taken.has(id); count += 1) id = `${base}-${count}`;
+  return id;
 }

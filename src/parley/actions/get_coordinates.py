@@ -42,7 +42,7 @@ async def get_coordinates(ctx: ActionContext, target: str) -> Coordinates:
     """
     here = ctx.robot.pose()
     try:
-        grounding = await ctx.language.ground(target, ctx.world.objects.objects, here)
+        grounding = await ctx.language.ground(target, ctx.world.objects.places, here)
     except LanguageError as error:
         raise ActionFailure(FailureCode.UNAVAILABLE, "I cannot look up places just now.") from error
     thing = _single(target, grounding)
@@ -51,9 +51,10 @@ async def get_coordinates(ctx: ActionContext, target: str) -> Coordinates:
             approach_pose, ctx.world.occupancy, thing, here, radius_m=ctx.robot.radius_m
         )
     if spot is None:
+        side = "in" if thing.area else "in front of"
         raise ActionFailure(
             FailureCode.UNREACHABLE,
-            f"I know the {thing.description}, but I see no free spot in front of it that I can get to.",
+            f"I know the {thing.description}, but I see no free spot {side} it that I can get to.",
             {"target": target, "object": thing.id},
         )
     return Coordinates(Pose.of(spot))

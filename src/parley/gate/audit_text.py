@@ -6,8 +6,10 @@ import re
 from datetime import datetime, tzinfo
 from typing import Any, Final
 
+from parley.gate.wording import rule_text
 from parley.messages.audit import AuditEvent
 from parley.messages.principal import Principal
+from parley.messages.rules import Rule
 from parley.sentences import Sentence, listed, sentence, together
 
 __all__ = ["moment", "told", "what_of", "who_of"]
@@ -67,7 +69,17 @@ def told(event: AuditEvent) -> Sentence:
         return together(refused, event.reason)
     if event.outcome == "failed" and event.effect not in ("end", "gap"):
         return together(sentence("Did not work: {what}.", what=_plain(event)), event.reason)
+    if event.effect == "rule" and "rule" in event.detail:
+        return _ruled(event)
     return together(sentence("{what}.", what=_plain(event)), _more(event))
+
+
+def _ruled(event: AuditEvent) -> Sentence:
+    rule = rule_text(Rule.model_validate(event.detail["rule"]))
+    who = who_of(event.by)
+    if event.detail.get("dropped"):
+        return sentence("{who} dropped this rule: {rule}", who=who, rule=rule)
+    return sentence("{who} let this rule hold: {rule}", who=who, rule=rule)
 
 
 def moment(unix_ms: int, now_unix_ms: int, zone: tzinfo | None = None) -> Sentence:
@@ -167,7 +179,6 @@ _TEMPLATES: Final = {
     "repair": "{who} found another way for {robot}: {what}",
     "remember": "{who} wants this remembered: {what}",
     "forget": "{who} wants this forgotten: {what}",
-    "rule": "{who} changed a rule: {what}",
     "policy": "{who} chose when {robot} asks first: {what}",
     "setting": "{who} changed a setting: {what}",
     "people": "{who} changed who may do what: {what}",

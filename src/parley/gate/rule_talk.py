@@ -360,9 +360,9 @@ class RuleTalk:
             return RuleReply(sentence("All right, the rules stay as they are."), closes=question)
         try:
             if drops:
-                await self._keeper.drop(rule.id)
+                await self._keeper.drop(rule.id, by)
                 return RuleReply(sentence("The rule does not hold any more."), closes=question)
-            await self._keeper.put(rule.model_copy(update={"by": by.name}))
+            await self._keeper.put(rule.model_copy(update={"by": by.name}), by)
         except ConfigError as error:
             said = sentence("I could not keep that: {reason}.", reason=str(error))
             return RuleReply(said, closes=question)

@@ -10,7 +10,7 @@ import asyncio
 import os
 import tempfile
 import textwrap
-from collections.abc import Sequence
+from collections.abc import Callable, Sequence
 from dataclasses import dataclass
 from itertools import pairwise
 from pathlib import Path
@@ -22,11 +22,15 @@ import yaml
 from parley.errors import ConfigError
 from parley.files import read_text, validated_yaml
 from parley.gate.book import RuleBook
+from parley.messages.principal import Principal
 from parley.messages.rules import Rule, RuleSet
 
-__all__ = ["FILE_NAME", "RuleKeeper", "read_rules", "rule_yaml", "with_rules"]
+__all__ = ["FILE_NAME", "RuleChanged", "RuleKeeper", "read_rules", "rule_yaml", "with_rules"]
 
 FILE_NAME: Final = "rules.yaml"
+
+RuleChanged = Callable[[Rule, bool, Principal | None], None]
+"""A rule, whether it was dropped, and by whom."""
 
 _ASKED: Final = ".asked.yaml"
 log = structlog.get_logger(__name__)
@@ -119,6 +123,7 @@ class RuleKeeper:
     def __init__(self, book: RuleBook, path: Path | None = None) -> None:
         self._book, self._path = book, path
         self._saving = asyncio.Lock()
+        self._watchers: list[RuleChanged] = []
         self._written = _Written("", RuleSet())
         if path is not None and path.exists():
             text = read_text(path)
@@ -147,7 +152,11 @@ class RuleKeeper:
             return
         self._asking = _Written(text, after)
 
-    async def put(self, rule: Rule) -> None:
+    def on_change(self, told: RuleChanged) -> None:
+        """Have `told` called with each rule that a person lets hold or drops, once it is on the disk."""
+        self._watchers.append(told)
+
+    async def put(self, rule: Rule, by: Principal | None) -> None:
         """Add a rule, or replace the one of its id; it is on the disk when this returns.
 
         Raises:
@@ -160,8 +169,9 @@ class RuleKeeper:
             else:
                 rules[rules.index(known)] = rule
             await self._save(rules)
+        self._tell(rule, False, by)
 
-    async def drop(self, rule_id: str) -> Rule | None:
+    async def drop(self, rule_id: str, by: Principal | None) -> Rule | None:
         """Remove a rule; None if there is none of that id.
 
         Raises:
@@ -171,7 +181,13 @@ class RuleKeeper:
             known = self._book.rules.get(rule_id)
             if known is not None:
                 await self._save([rule for rule in self._book.rules.rules if rule is not known])
-            return known
+        if known is not None:
+            self._tell(known, True, by)
+        return known
+
+    def _tell(self, rule: Rule, dropped: bool, by: Principal | None) -> None:
+        for told in self._watchers:
+            told(rule, dropped, by)
 
     async def _save(self, rules: list[Rule]) -> None:
         after = self._book.rules.model_copy(update={"rules": tuple(rules)})

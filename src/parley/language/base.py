@@ -72,6 +72,8 @@ class Situation:
     """Their ids in the plan, as far as they are known: whatever changes later, these steps are meant."""
     status: Status = "idle"
     objects: tuple[MapObject, ...] = ()
+    rooms: tuple[MapObject, ...] = ()
+    """Parts of the map with a name, as goals."""
     robot_pose: Pose2D | None = None
     robot: str = ""
     """The robot that is spoken to."""

@@ -15,9 +15,9 @@ __all__ = ["RuleFinding", "RuleRequest", "RuleVerdict", "RuleView", "RulesAnswer
 class RuleRequest(Payload):
     """Request of `/parley/rules`."""
 
-    what: Literal["list", "put", "drop", "try"] = "list"
+    what: Literal["list", "word", "put", "drop", "try"] = "list"
     rule: Rule | None = None
-    """For `put`."""
+    """For `put`, and for `word`: what it says in words; it does not hold."""
     id: str = ""
     """For `drop`."""
     robot: str = ""
@@ -68,6 +68,7 @@ class RulesAnswer(Payload):
     """Response of `/parley/rules`."""
 
     rules: tuple[RuleView, ...] = ()
+    """All that hold; of `word` the one that was asked about."""
     verdict: RuleVerdict | None = None
     problem: str = ""
     """Why nothing was done, in plain words; empty if it was."""

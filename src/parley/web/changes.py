@@ -71,8 +71,8 @@ def _key(change: Change) -> tuple[str, ...]:
             return ("feed", change.feed.robot, change.feed.name)
         case "memory":
             return ("memory", change.event, change.name)
-        case "favourites":
-            return ("favourites",)
+        case "favourites" | "rules":
+            return (change.kind,)
         case "incident":
             return ("incident", change.incident.id)
         case "rejection":

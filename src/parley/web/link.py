@@ -138,6 +138,7 @@ class Link:
         )
         await self._listen(topics.REJECTION, _reader(Rejection), state.on_rejection)
         await self._listen(topics.MEMORY_EVENT, _reader(MemoryEvent), self._on_memory)
+        await self._listen(topics.AUDIT, _reader(AuditEvent), state.on_audit)
         await self._listen(topics.INCIDENT, _reader(Incident), state.on_incident)
         await self._listen(topics.MAP_VIEW, _reader(MapView), self._on_view)
         for work in (self._tick(), self._fetch_incidents()):

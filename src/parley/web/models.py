@@ -33,7 +33,9 @@ __all__ = [
     "PlanView",
     "ProposalView",
     "RobotView",
+    "RoundState",
     "RoundView",
+    "RulesChange",
     "ServerInfo",
     "Snapshot",
     "StepView",
@@ -320,6 +322,9 @@ class LogPage(WebModel):
     """Why some of it is not written yet."""
 
 
+RoundState = Literal["running", "done", "failed", "ended", "unrecorded"]
+
+
 class RoundView(WebModel):
     """One thing that a robot was told to do, and how it ended. Key: `number`."""
 
@@ -333,8 +338,8 @@ class RoundView(WebModel):
     unix_ms: int
     ended_unix_ms: int = 0
     """0: it goes on, or its end was never heard."""
-    state: Literal["running", "done", "failed", "ended"]
-    """`ended`: before it was done."""
+    state: RoundState
+    """`ended`: before it was done; `unrecorded`: it does not go on, and the log has no end of it."""
     steps: tuple[str, ...] = ()
     reason: str = ""
     """Why it failed."""
@@ -449,6 +454,13 @@ class FavouritesChange(WebModel):
     favourites: tuple[Favourite, ...]
 
 
+class RulesChange(WebModel):
+    """A rule holds or was dropped: ask again."""
+
+    kind: Literal["rules"] = "rules"
+    seq: int
+
+
 class IncidentChange(WebModel):
     """A failure happened, or its record changed."""
 
@@ -477,6 +489,7 @@ Change = Annotated[
     | FeedChange
     | MemoryChange
     | FavouritesChange
+    | RulesChange
     | IncidentChange
     | RejectionChange,
     Field(discriminator="kind"),

@@ -20,7 +20,7 @@ _STYLE: Final = (
 )
 _STATES: Final = {
     "running": "It goes on.", "done": "It was done.", "failed": "It was not got done.",
-    "ended": "It was ended before it was done.",
+    "ended": "It was ended before it was done.", "unrecorded": "Its end was not recorded.",
 }  # fmt: skip
 
 

@@ -6,7 +6,7 @@ All of it is read off the log of who did what, and off what stands now; no langu
 from __future__ import annotations
 
 from collections.abc import Iterable, Sequence
-from typing import Any, Final, Literal
+from typing import Any, Final
 
 from pydantic import ValidationError
 
@@ -14,7 +14,7 @@ from parley.gate.audit_text import told, who_of
 from parley.messages.audit import AuditEntry
 from parley.messages.principal import Principal
 from parley.sentences import SpokenLanguage, in_language, sentence
-from parley.web.models import RoundView
+from parley.web.models import RoundState, RoundView
 from parley.web.state import WebState
 
 __all__ = ["Graph", "rounds_of", "running_graphs", "told_lines", "waiting"]
@@ -101,9 +101,9 @@ def _round(
     )
 
 
-def _state(end: AuditEntry | None, is_running: bool) -> Literal["running", "done", "failed", "ended"]:
+def _state(end: AuditEntry | None, is_running: bool) -> RoundState:
     if end is None:
-        return "running" if is_running else "ended"
+        return "running" if is_running else "unrecorded"
     if end.outcome == "failed":
         return "failed"
     return "ended" if end.detail.get("state") == "STOPPED" else "done"

@@ -4,7 +4,9 @@ from __future__ import annotations
 
 from collections.abc import Callable, Iterable
 
+from parley.gate.table import Effect
 from parley.latest import Latest
+from parley.messages.audit import AuditEvent
 from parley.messages.incident import Incident
 from parley.messages.map import MapView
 from parley.messages.memory import MemoryEvent
@@ -21,6 +23,7 @@ from parley.web.models import (
     IncidentChange,
     MemoryChange,
     RejectionChange,
+    RulesChange,
     ServerInfo,
     Snapshot,
 )
@@ -96,6 +99,11 @@ class WebState:
     def on_memory(self, event: MemoryEvent) -> None:
         """Something was remembered or forgotten."""
         self.log.add(MemoryChange(seq=0, event=event.kind, name=event.name, message=event.message))
+
+    def on_audit(self, event: AuditEvent) -> None:
+        """Somebody did something; of rules nothing else tells."""
+        if event.effect == Effect.RULE and event.outcome == "done":
+            self.log.add(RulesChange(seq=0))
 
     def on_view(self, view: MapView) -> None:
         """A robot moved."""

@@ -10,7 +10,7 @@ from numpy.typing import NDArray
 
 from parley.world import grids
 from parley.world.geometry import Pose2D, wrap_angle
-from parley.world.object_map import MapObject
+from parley.world.object_map import MapArea, MapObject
 from parley.world.occupancy import NO_MAP, OccupancyMap
 from parley.world.planning import clearance_m, passable, travel_costs
 
@@ -49,7 +49,7 @@ def approach_pose(
 
     Args:
         occupancy: The map. With `NO_MAP` whoever drives has to find out what is free.
-        target: The object; with `front_rad`, only spots on that side count.
+        target: The object; with `front_rad`, only spots on that side count. Of a room: a spot in it.
         start: Where the robot is; of equally good spots it gets the one with the shorter way.
         radius_m: Of the robot.
         standoff_m: Wished distance between the robot's edge and the object's bounding box.
@@ -67,10 +67,12 @@ def approach_pose(
     if not occupancy.contains(row, column):
         return None
     allowed[row, column] = True
-    near = _near(occupancy, target, allowed, wished_m + _FARTHER_M)
+    near = _near(occupancy, target, allowed, 0.0 if target.area else wished_m + _FARTHER_M)
     if len(near.cells) == 0:
         return None
     way, _ = grids.MCP_Geometric(travel_costs(allowed, clearance, radius_m)).find_costs([(row, column)])
+    if target.area is not None:
+        return _inside(near, target.area, target, start, np.isfinite(way[tuple(near.cells.T)]))
     score = (
         _STANDOFF_WEIGHT * np.abs(near.gap_m - wished_m)
         + _WAY_WEIGHT * way[tuple(near.cells.T)] * occupancy.resolution_m
@@ -85,8 +87,21 @@ def approach_pose(
     return None
 
 
+def _inside(
+    near: _Candidates, area: MapArea, target: MapObject, start: Pose2D, reached: NDArray[np.bool_]
+) -> Pose2D | None:
+    """The spot in a room that is nearest to its middle, looking on in the direction of the drive."""
+    for choice in np.argsort(np.hypot(near.x_m - target.x_m, near.y_m - target.y_m), kind="stable"):
+        x, y = float(near.x_m[choice]), float(near.y_m[choice])
+        if reached[choice] and area.holds(x, y):
+            return Pose2D(x, y, start.bearing_to(x, y))
+    return None
+
+
 def _before(target: MapObject, start: Pose2D, wished_m: float) -> Pose2D:
     """The spot so far in front of an object, or else on the side from which the robot comes."""
+    if target.area is not None:
+        return Pose2D(target.x_m, target.y_m, start.bearing_to(target.x_m, target.y_m))
     side = target.front_rad
     if side is None:
         side = math.atan2(start.y_m - target.y_m, start.x_m - target.x_m)

@@ -9,7 +9,7 @@
 `dimensions` are the bounding box in the map plane: `width` along x, `height` along y, in metres.
 Ours, optional: `aliases` (other names people use for it) and `front` (the direction its open or usable side
 faces, radians in the map frame: stand there to use it); beside `items`, `areas`: rooms and the like, each
-with a `name` and its `corners`, for people to see on the map.
+with a `name` and its `corners`, for people to see on the map and to send robots to.
 """
 
 from __future__ import annotations
@@ -44,6 +44,8 @@ class MapObject:
     aliases: tuple[str, ...] = ()
     front_rad: float | None = None
     """Map-frame direction its usable side faces; None: it can be used from anywhere."""
+    area: MapArea | None = None
+    """A room as a goal: one stands in it, not before it."""
 
 
 @dataclass(frozen=True, slots=True)
@@ -53,6 +55,14 @@ class MapArea:
     name: str
     corners: tuple[tuple[float, float], ...]
     """x, y in the map frame, metres, one after the other around it."""
+
+    @property
+    def goal(self) -> MapObject:
+        """As something to drive to."""
+        xs, ys = zip(*self.corners, strict=True)
+        wide, high = max(xs) - min(xs), max(ys) - min(ys)
+        middle = (min(xs) + wide / 2, min(ys) + high / 2)
+        return MapObject(f"room {self.name}", self.name, *middle, "room", wide, high, area=self)
 
     def holds(self, x_m: float, y_m: float) -> bool:
         """Whether a place is in it: a line from there to the right leaves it an odd number of times."""
@@ -106,6 +116,16 @@ class ObjectMap(TextFile):
 
     objects: tuple[MapObject, ...] = field(default=())
     areas: tuple[MapArea, ...] = field(default=())
+
+    @property
+    def rooms(self) -> tuple[MapObject, ...]:
+        """The areas as goals."""
+        return tuple(area.goal for area in self.areas)
+
+    @property
+    def places(self) -> tuple[MapObject, ...]:
+        """All to which words may lead: objects and rooms."""
+        return self.objects + self.rooms
 
     def get(self, object_id: str) -> MapObject | None:
         """The object of that id, or None."""

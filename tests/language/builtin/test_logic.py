@@ -12,7 +12,7 @@ from parley.language.base import Situation
 from parley.language.builtin.engine import BuiltinLanguage
 from parley.messages.memory import MemoryEntry
 from parley.world.geometry import Pose2D
-from parley.world.object_map import MapObject
+from parley.world.object_map import MapArea, MapObject
 
 ENGINE = BuiltinLanguage()
 PLACES = (
@@ -201,3 +201,20 @@ async def test_what_to_do_in_a_case_that_may_come_is_remembered(message: str) ->
     answer = await ENGINE.interpret(situation(message))
     assert [command.arguments["data"] for command in answer.system_cmd] == [message.rstrip(".")]
     assert answer.queue == ()
+
+
+@pytest.mark.parametrize(
+    ("message", "goal"),
+    [
+        ("drive into the Gate Hall", "gate hall"),
+        ("go to the office", "office"),
+        ("go to gate 1", "gate 1"),
+        ("go to the hall", None),
+    ],
+)
+async def test_a_room_of_the_map_is_a_goal_by_its_whole_name(message: str, goal: str | None) -> None:
+    square = ((0.0, 0.0), (5.0, 0.0), (5.0, 5.0))
+    rooms = tuple(MapArea(name, square).goal for name in ("gate hall", "office"))
+    answer = await ENGINE.interpret(replace(situation(message), rooms=rooms))
+    steps = read_steps(answer.queue, situation(message).catalogue)
+    assert [step.arguments for step in steps if step.verb == "go"] == ([(goal,)] if goal else [])

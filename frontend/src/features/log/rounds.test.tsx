@@ -10,11 +10,12 @@ import { useDrafts } from '@/state/drafts';
 import { HistoryPage } from './history-page';
 
 let asked: Asked[];
+const lost = round({ number: 5, words: 'look at the door', state: 'unrecorded' });
 const looked = round({ number: 7, words: 'look at the box', state: 'failed', reason: 'It is hidden.', pictures: ['/api/chat/images/a'] });
 
 beforeEach(() => {
   asked = [];
-  const handover = { since_unix_ms: 1, until_unix_ms: 2, rounds: [looked, round({ number: 9 })], waits: [], stops: [[1, 'Kim stopped Ada.']], rules: [] };
+  const handover = { since_unix_ms: 1, until_unix_ms: 2, rounds: [looked, lost, round({ number: 9 })], waits: [], stops: [[1, 'Kim stopped Ada.']], rules: [] };
   const answers = { history: { json: { rounds: [round({ number: 9 }), looked], complete: false } }, 'history/handover': { json: handover } };
   vi.stubGlobal('fetch', network(answers, asked));
   useLive.getState().takeSnapshot(snapshot({ robots: [robot({ name: 'Ada' })] }));
@@ -41,7 +42,8 @@ it('tells the next shift what failed, apart from what was done, and who stopped 
   await user.click(screen.getByRole('button', { name: 'Handover' }));
   const part = (name: string) => within(screen.getByRole('heading', { name }).closest('section') ?? document.body);
   await screen.findByRole('article');
-  part('Did not work or was ended early').getByText(/Look at the box – It is hidden\./);
+  part('Did not work, was ended early, or its end was not recorded').getByText(/Look at the box – It is hidden\./);
+  part('Did not work, was ended early, or its end was not recorded').getByText(/Look at the door/);
   part('Done').getByText(/Kim \(phone\) to Ada: Go to the box/);
   part('Stops').getByText(/Kim stopped Ada\./);
   part('Waits for somebody').getByText('Nothing.');

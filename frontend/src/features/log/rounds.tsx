@@ -67,7 +67,7 @@ function List({ rounds, narrowed }: { rounds: readonly RoundView[]; narrowed: bo
   );
 }
 
-const icons: Record<RoundView['state'], IconName> = { running: 'play', done: 'check', failed: 'bang', ended: 'cross' };
+const icons: Record<RoundView['state'], IconName> = { running: 'play', done: 'check', failed: 'bang', ended: 'cross', unrecorded: 'question' };
 
 function Round({ round }: { round: RoundView }) {
   const { t, i18n } = useTranslation('log');

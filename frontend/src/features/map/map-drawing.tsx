@@ -1,7 +1,7 @@
 import { memo } from 'react';
 
 import type { MapInfo, MapRoom, MapThing, MapView, Rule } from '@/live/types';
-import { cornersOf, outline } from '@/ui/corners';
+import { cornersOf, outline, type Corner } from '@/ui/corners';
 
 import css from './map.module.css';
 import { nameOf, type Candidates, type Mark } from './marks';
@@ -30,16 +30,19 @@ interface Props {
   showScan: boolean;
   /** Rules that hold for a part of the map. */
   zones: readonly Rule[];
+  /** The corners of an area that is being drawn. */
+  drawn: readonly Corner[] | null;
 }
 
 const ROBOT_M = 0.18;
 const ROBOT_LEAST_PX = 11;
 const LABEL_BELOW_PX = 20;
 const ASIDE_PX = 16;
+const DOT_PX = 5;
 const ROOM_LETTER_PX = 9.5;
 
 /** The map as a picture; whoever cannot see it has the list. */
-export const MapDrawing = memo(function MapDrawing({ map, view, size, rovers, marked, trials, candidates, showScan, zones }: Props) {
+export const MapDrawing = memo(function MapDrawing({ map, view, size, rovers, marked, trials, candidates, showScan, zones, drawn }: Props) {
   const { x: left, y: top } = toScreen(view, size, { x: 0, y: 0 });
   const { origin, resolution } = map;
   const turned = ((origin.yaw ?? 0) * 180) / Math.PI;
@@ -73,6 +76,7 @@ export const MapDrawing = memo(function MapDrawing({ map, view, size, rovers, ma
         {zones.map((zone) => (
           <polygon key={zone.id} className={css.zone} data-kind={zone.kind} points={outline(cornersOf(zone)).join(' ')} />
         ))}
+        {drawn && <Drawn corners={drawn} dotM={DOT_PX / view.scale} />}
         {trials.map((trial, index) => trial.state === 'found' && <Tried key={index} points={trial.points} />)}
         {rovers.map((rover) => (
           <Way key={rover.name} rover={rover} showScan={showScan} />
@@ -109,6 +113,18 @@ function Tried({ points }: { points: readonly (readonly [number, number])[] }) {
     <g className={css.tried}>
       <polyline points={pointsOf(points)} />
       <circle cx={x} cy={y} r={0.14} />
+    </g>
+  );
+}
+
+/** An area that is no rule yet. */
+function Drawn({ corners, dotM }: { corners: readonly Corner[]; dotM: number }) {
+  return (
+    <g className={css.drawn}>
+      <polygon points={pointsOf(outline(corners))} />
+      {corners.map(([x, y], index) => (
+        <circle key={index} cx={x} cy={y} r={dotM} />
+      ))}
     </g>
   );
 }

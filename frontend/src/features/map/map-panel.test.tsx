@@ -2,7 +2,7 @@ import { act, fireEvent, render, screen, within } from '@testing-library/react';
 import userEvent from '@testing-library/user-event';
 import { beforeEach, describe, expect, it, vi } from 'vitest';
 
-import { network, type Answer, type Answers } from '@/gallery/network';
+import { network, type Answer, type Answers, type Asked } from '@/gallery/network';
 import { entry, mapInfo, mapView, robot, snapshot, step } from '@/live/samples';
 import { useLive } from '@/live/store';
 import { useDrafts } from '@/state/drafts';
@@ -90,6 +90,24 @@ describe('the map', () => {
     fireEvent.keyDown(map, { key: 'Enter' }); // the room first, then the very place
     await user.click(screen.getByRole('button', { name: 'Ada: Go there' }));
     expect(said()).toEqual([{ text: 'Go to the point (3.00, 2.54).', targets: ['Ada'] }]);
+  });
+
+  it('makes a rule of an area drawn by keys, which holds after a yes', async () => {
+    const asked: Asked[] = [];
+    vi.stubGlobal('fetch', network({ map: { json: mapInfo }, 'rules/words?language=en': { json: { text: 'Stays out of it.' } } }, asked));
+    useLive.getState().takeSnapshot(snapshot({ info: { ...snapshot().info, modules: { rules: true } }, robots: [robot({ name: 'Ada' })], views: [mapView] }));
+    render(<MapPanel />);
+    const user = userEvent.setup();
+    await user.click(await screen.findByRole('button', { name: 'Draw an area for a rule' }));
+    const map = screen.getByRole('application');
+    for (const key of ['Enter', 'ArrowUp', 'ArrowRight', 'Enter']) fireEvent.keyDown(map, { key });
+    await screen.findByText('It becomes this rule: Stays out of it. It holds only after your yes.');
+    expect(asked.some(({ method }) => method === 'PUT')).toBe(false);
+    await user.click(screen.getByRole('button', { name: 'Let it hold' }));
+    expect(asked.find(({ method }) => method === 'PUT')).toMatchObject({
+      path: 'rules/keep-out-part-of-the-hall?language=en',
+      body: { kind: 'keep_out', name: 'part of the hall', map: 'hall', rectangle: [3, 1.5, 4.04, 2.54] },
+    });
   });
 
   it('says in words where each robot of the same map is', async () => {

@@ -7,11 +7,12 @@ import type { MapInfo, Rule } from '@/live/types';
 import { useAsked } from '@/state/asked';
 import { useRobotNames, useSelection } from '@/state/selection';
 import { Button } from '@/ui/button';
+import type { Corner } from '@/ui/corners';
 import { Choice } from '@/ui/choice';
 import { Empty, Loading, Panel } from '@/ui/panel';
 import { useMap, type Shown } from '@/ui/use-map';
 import { useNow } from '@/ui/use-now';
-import { useRequest } from '@/ui/use-request';
+import { useKept, useRequest } from '@/ui/use-request';
 import { ago } from '@/ui/words';
 
 import type { Rover } from './map-drawing';
@@ -19,6 +20,8 @@ import { MapList } from './map-list';
 import { MapStage } from './map-stage';
 import css from './map.module.css';
 import { candidatesOf, type Mark } from './marks';
+import { areaOfMark, roomOf, type Area } from './areas';
+import { DrawBar } from './draw-bar';
 import { PlaceBar } from './place-bar';
 import { useProposedWay, useWayTo } from './use-way';
 
@@ -94,6 +97,7 @@ interface ReadyProps {
 }
 
 function Ready({ map, mapName, robot, listed, children }: ReadyProps) {
+  const { t } = useTranslation('map');
   const [marked, setMarked] = useState<Mark | null>(null);
   const way = useWayTo(robot, marked);
   const proposed = useProposedWay(robot);
@@ -101,29 +105,41 @@ function Ready({ map, mapName, robot, listed, children }: ReadyProps) {
   const candidates = useMemo(() => candidatesOf(map, question), [map, question]);
   const trials = useMemo(() => [proposed, way], [proposed, way]);
   const rovers = useRovers(mapName, robot);
-  const zones = useZones(mapName);
+  const rules = useRules();
+  const zones = useMemo(() => zonesOf(rules, mapName), [rules, mapName]);
+  const nameFor = (room: string) => (room ? t('partOf', { room }) : t('anArea'));
+  const [area, setArea] = useState<Area | null>(null);
+  const onDraw = (corners: readonly Corner[] | null) => setArea(corners && { corners, name: nameFor(roomOf(map, corners)) });
+  const onRule = (mark: Mark) => setArea(areaOfMark(mark));
+  const { corners: drawn = null } = area ?? {};
   return (
     <div className={css.layout}>
       {children}
-      <MapStage map={map} rovers={rovers} zones={zones} marked={marked} trials={trials} candidates={candidates} onMark={setMarked} />
+      <MapStage map={map} rovers={rovers} zones={zones} marked={marked} trials={trials} candidates={candidates} onMark={setMarked} drawn={drawn} onDraw={onDraw} />
       {listed && <MapList map={map} rovers={rovers} onMark={setMarked} />}
-      <PlaceBar robot={robot} marked={marked} way={way} question={question} candidates={candidates} onClear={() => setMarked(null)} />
+      {area ? (
+        <DrawBar area={area} mapName={mapName} rules={rules} onDone={() => setArea(null)} />
+      ) : (
+        <PlaceBar robot={robot} marked={marked} way={way} question={question} candidates={candidates} onClear={() => setMarked(null)} onRule={onRule} />
+      )}
     </div>
   );
 }
 
 const NO_RULES: readonly Rule[] = [];
 
-/** The rules that hold for a part of this map; none where nobody keeps rules. */
-function useZones(mapName: string): readonly Rule[] {
+/** All rules; none where nobody keeps any. */
+function useRules(): readonly Rule[] {
   const { i18n } = useTranslation();
   const known = useWorld((world) => world.info?.modules?.rules ?? false);
-  const found = useRequest(known ? `zones\n${mapName}` : '', () => getRules(i18n.language));
-  return useMemo(() => {
-    const rules = found.state === 'ready' ? (found.value.rules ?? []).map((view) => view.rule) : NO_RULES;
-    return rules.filter((rule) => (rule.rectangle ?? rule.polygon) && (!rule.map || rule.map === mapName));
-  }, [found, mapName]);
+  const changes = useWorld((world) => world.ruleChanges);
+  const found = useKept(useRequest(known ? `zones\n${changes}` : '', () => getRules(i18n.language)));
+  return useMemo(() => (found.state === 'ready' ? (found.value.rules ?? []).map((view) => view.rule) : NO_RULES), [found]);
 }
+
+/** Those that hold for a part of a map. */
+const zonesOf = (rules: readonly Rule[], mapName: string) =>
+  rules.filter((rule) => (rule.rectangle ?? rule.polygon) && (!rule.map || rule.map === mapName));
 
 /** The robots that share a map, the chosen one last, so that it is drawn over the others. */
 function useRovers(mapName: string, robot: string): readonly Rover[] {

@@ -1,5 +1,6 @@
 import { useTranslation } from 'react-i18next';
 
+import { useWorld } from '@/live/store';
 import type { ChatEntry } from '@/live/types';
 import { useOutbox } from '@/state/outbox';
 import { useRobotNames } from '@/state/selection';
@@ -18,10 +19,12 @@ interface Props {
   question: ChatEntry | undefined;
   candidates: Candidates;
   onClear: () => void;
+  /** It is to become a rule. */
+  onRule: (marked: Mark) => void;
 }
 
 /** What can be done with what is picked out. */
-export function PlaceBar({ robot, marked, way, question, candidates, onClear }: Props) {
+export function PlaceBar({ robot, marked, way, question, candidates, onClear, onRule }: Props) {
   const { t } = useTranslation('map');
   if (!marked) {
     return (
@@ -39,7 +42,7 @@ export function PlaceBar({ robot, marked, way, question, candidates, onClear }: 
       {candidate && question ? (
         <Answer question={question} choice={candidate.choice} onDone={onClear} />
       ) : (
-        <Deeds robot={robot} marked={marked} way={way} />
+        <Deeds robot={robot} marked={marked} way={way} onRule={onRule} />
       )}
       <Button tone="quiet" icon="close" iconOnly aria-label={t('unmark')} onPress={onClear} />
     </div>
@@ -62,9 +65,10 @@ function WayWords({ robot, way }: { robot: string; way: Way }) {
   return <span className={css.hint}>{t('far', { metres: way.metres.toFixed(1), seconds: Math.ceil(way.seconds) })}</span>;
 }
 
-function Deeds({ robot, marked, way }: Pick<Props, 'robot' | 'way'> & { marked: Mark }) {
+function Deeds({ robot, marked, way, onRule }: Pick<Props, 'robot' | 'way' | 'onRule'> & { marked: Mark }) {
   const { t } = useTranslation('map');
   const say = useSaying(robot);
+  const hasRules = useWorld((world) => world.info?.modules?.rules ?? false);
   const several = useRobotNames().length > 1;
   const thing = marked.kind === 'room' ? marked.room.name : marked.kind === 'thing' ? nameOf(marked.thing) : '';
   const go = thing ? t('goTo', { thing }) : t('goThere');
@@ -79,6 +83,11 @@ function Deeds({ robot, marked, way }: Pick<Props, 'robot' | 'way'> & { marked: 
       <Button needs="speak" onPress={() => say('mention', marked)}>
         {t('mention')}
       </Button>
+      {hasRules && marked.kind !== 'place' && (
+        <Button needs="rule" onPress={() => onRule(marked)}>
+          {t('rule')}
+        </Button>
+      )}
     </>
   );
 }

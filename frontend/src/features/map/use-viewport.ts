@@ -26,10 +26,15 @@ interface Options {
   onMoved: () => void;
   /** A place was tapped, or chosen by Enter. */
   onPick: (place: Place) => void;
+  /** One finger draws from one place to another rather than moving the map. */
+  onDrag: Drag | null;
 }
 
-/** Moves and zooms a map by mouse, touch and keys. */
-export function useViewport({ map, followed, onMoved, onPick }: Options) {
+/** `isOver`: the finger is up; null: it was no drawing after all. */
+type Drag = (ends: readonly [Place, Place] | null, isOver: boolean) => void;
+
+/** Moves and zooms a map by mouse, touch and keys; or one finger draws on it. */
+export function useViewport({ map, followed, onMoved, onPick, onDrag }: Options) {
   const box = useRef<HTMLDivElement>(null);
   const [size, setSize] = useState(BEFORE_MEASURED);
   const [chosen, setChosen] = useState<Viewport | null>(null);
@@ -83,7 +88,12 @@ export function useViewport({ map, followed, onMoved, onPick }: Options) {
     event.preventDefault();
   };
 
-  const fingers = useFingers({ panBy, zoomBy, onTap: (point) => onPick(toMap(view, size, point)) });
+  const fingers = useFingers({
+    panBy,
+    zoomBy,
+    onTap: (point) => onPick(toMap(view, size, point)),
+    onDrag: onDrag && ((ends, isOver) => onDrag(ends && [toMap(view, size, ends[0]), toMap(view, size, ends[1])], isOver)),
+  });
   return { box, size, view, zoomBy, fitAll: () => setChosen(null), handlers: { onKeyDown, ...fingers } };
 }
 
@@ -91,17 +101,22 @@ interface FingerOptions {
   panBy: (dx: number, dy: number) => void;
   zoomBy: (factor: number, at: Place) => void;
   onTap: (point: Place) => void;
+  onDrag: Drag | null;
 }
 
-/** One finger moves, two zoom, one that stays where it is taps. */
-function useFingers({ panBy, zoomBy, onTap }: FingerOptions) {
+/** One finger moves or draws, two zoom, one that stays where it is taps. */
+function useFingers({ panBy, zoomBy, onTap, onDrag }: FingerOptions) {
   const down = useRef(new Map<number, Place>());
+  const start = useRef<Place | null>(null);
   const moved = useRef(false);
   const onPointerDown = (event: React.PointerEvent<HTMLDivElement>) => {
     if (event.button === MIDDLE_BUTTON || event.target instanceof HTMLButtonElement) return;
     event.currentTarget.setPointerCapture(event.pointerId);
     moved.current = down.current.size > 0;
-    down.current.set(event.pointerId, inside(event.currentTarget, event));
+    const here = inside(event.currentTarget, event);
+    start.current = moved.current ? null : here;
+    if (moved.current) onDrag?.(null, false);
+    down.current.set(event.pointerId, here);
   };
   const onPointerMove = (event: React.PointerEvent<HTMLDivElement>) => {
     const before = down.current.get(event.pointerId);
@@ -112,14 +127,17 @@ function useFingers({ panBy, zoomBy, onTap }: FingerOptions) {
       zoomBy(distance(now, other) / Math.max(1, distance(before, other)), { x: (now.x + other.x) / 2, y: (now.y + other.y) / 2 });
     } else if (moved.current || distance(before, now) > STILL_PX) {
       moved.current = true;
-      panBy(now.x - before.x, now.y - before.y);
+      if (onDrag) onDrag(start.current && [start.current, now], false);
+      else panBy(now.x - before.x, now.y - before.y);
     } else return;
     down.current.set(event.pointerId, now);
   };
   const onPointerUp = (event: React.PointerEvent<HTMLDivElement>) => {
-    const start = down.current.get(event.pointerId);
-    down.current.delete(event.pointerId);
-    if (start && !moved.current && event.type === 'pointerup') onTap(inside(event.currentTarget, event));
+    const known = down.current.delete(event.pointerId);
+    const now = inside(event.currentTarget, event);
+    const isUp = known && event.type === 'pointerup';
+    if (moved.current) onDrag?.(isUp && start.current ? [start.current, now] : null, true);
+    else if (isUp) onTap(now);
   };
   return { onPointerDown, onPointerMove, onPointerUp, onPointerCancel: onPointerUp };
 }

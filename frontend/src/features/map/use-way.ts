@@ -48,12 +48,12 @@ function wayOf({ forbidden = [], unknown = [], way = [], length_m = 0, expected_
   return length_m > 0 ? { state: 'found', points: way, metres: length_m, seconds: expected_s } : { state: 'none' };
 }
 
-/** The way to what is picked out. A room is large enough to be reached somewhere. */
+/** The way to what is picked out. */
 export function useWayTo(robot: string, marked: Mark | null): Way {
   const trials: Record<Mark['kind'], (mark: Mark) => Trial | null> = {
     place: ({ at }) => ({ goal: [at.x, at.y] }),
     thing: (mark) => (mark.kind === 'thing' ? { words: [nameOf(mark.thing)] } : null),
-    room: () => null,
+    room: (mark) => (mark.kind === 'room' ? { words: [mark.room.name] } : null),
   };
   return useTrial(robot, marked && trials[marked.kind](marked));
 }

@@ -145,7 +145,7 @@ export const roomAt = (rooms: readonly MapRoom[], place: Place): MapRoom | null 
   rooms.filter((room) => isInside(room, place)).sort((a, b) => areaOf(a) - areaOf(b))[0] ?? null;
 
 /** The middle of a room's corners. */
-export const middleOf = ({ corners }: MapRoom): Place => ({
+export const middleOf = ({ corners }: { corners: readonly (readonly [number, number])[] }): Place => ({
   x: corners.reduce((sum, [x]) => sum + x, 0) / corners.length,
   y: corners.reduce((sum, [, y]) => sum + y, 0) / corners.length,
 });

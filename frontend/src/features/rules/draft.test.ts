@@ -1,9 +1,9 @@
 import { describe, expect, it } from 'vitest';
 
 import type { Rule } from '@/live/types';
-import { around, areaOf, outline, readCorners, writeCorners } from '@/ui/corners';
+import { around, areaOf, idFor, outline, readCorners, writeCorners } from '@/ui/corners';
 
-import { draftOf, idFor, ruleOf } from './draft';
+import { draftOf, ruleOf } from './draft';
 
 const store = {
   id: 'store',
@@ -31,7 +31,7 @@ describe('a rule in the form', () => {
   });
 
   it('gets an id of its own', () => {
-    expect(idFor({ ...draftOf(null), name: 'Ward 3' }, new Set(['keep-out-ward-3']))).toBe('keep-out-ward-3-2');
+    expect(idFor('keep_out Ward 3', [{ ...store, id: 'keep-out-ward-3' }])).toBe('keep-out-ward-3-2');
   });
 });
 

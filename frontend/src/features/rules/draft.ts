@@ -54,15 +54,6 @@ function hoursOf({ when }: Rule): Pick<Draft, 'from' | 'to' | 'days'> {
   return { from: when?.from ?? '', to: when?.to ?? '', days: when?.days ?? [] };
 }
 
-/** An id that no other rule has, from words of the draft. */
-export function idFor(draft: Draft, taken: ReadonlySet<string>): string {
-  const words = `${draft.kind} ${draft.name || draft.what}`.toLowerCase().match(/[a-z0-9]+/g) ?? ['rule'];
-  const base = words.join('-').slice(0, 50);
-  let id = base;
-  for (let count = 2; taken.has(id); count += 1) id = `${base}-${count}`;
-  return id;
-}
-
 const number = (value: string) => (value.trim() === '' ? null : Number(value.replace(',', '.')));
 
 /** What only rules of this kind say. */

@@ -10,8 +10,8 @@ import { Choice } from '@/ui/choice';
 import { TextField } from '@/ui/text-field';
 import { inWords } from '@/ui/words';
 
-import { around, readCorners, writeCorners } from '@/ui/corners';
-import { days, draftOf, idFor, isLimited, isZone, kinds, ruleOf, type Day, type Draft } from './draft';
+import { around, idFor, readCorners, writeCorners } from '@/ui/corners';
+import { days, draftOf, isLimited, isZone, kinds, ruleOf, type Day, type Draft } from './draft';
 import css from './rules.module.css';
 import { ZoneMap } from './zone-map';
 
@@ -34,7 +34,7 @@ export function RuleForm({ rule, rules, map, robots, abilities, onDone }: Props)
   const corners = readCorners(draft.corners) ?? [];
   const lacking = isZone(draft.kind) && corners.length < 2;
   const save = async () => {
-    const id = rule?.id ?? idFor(draft, new Set(rules.map((one) => one.id)));
+    const id = rule?.id ?? idFor(`${draft.kind} ${draft.name || draft.what}`, rules);
     if (await attempt(() => putRule(ruleOf(draft, rule, id), i18n.language))) onDone();
   };
   return (

@@ -9,7 +9,7 @@ import { attempt } from '@/state/do';
 import { Button } from '@/ui/button';
 import { Empty, Loading, Panel } from '@/ui/panel';
 import { useMap } from '@/ui/use-map';
-import { useRequest, type Loaded } from '@/ui/use-request';
+import { useKept, useRequest, type Loaded } from '@/ui/use-request';
 
 import { RuleForm } from './rule-form';
 import css from './rules.module.css';
@@ -29,7 +29,8 @@ export function RulesPage() {
   const [editing, setEditing] = useState<Rule | 'new' | null>(null);
   const shown = useMap(robot, mapName, 0);
   const map = shown.state === 'ready' ? shown.map : null;
-  const found = useRequest(`${asked}\n${i18n.language}`, () => getRules(i18n.language));
+  const changes = useWorld((world) => world.ruleChanges);
+  const found = useKept(useRequest(`${asked} ${changes} ${i18n.language}`, () => getRules(i18n.language)));
   const views = found.state === 'ready' ? (found.value.rules ?? NOTHING) : NOTHING;
   const rules = views.map((view) => view.rule);
   const done = () => {
@@ -37,7 +38,7 @@ export function RulesPage() {
     setAsked(asked + 1);
   };
   const add = (
-    <Button tone="quiet" icon="plus" onPress={() => setEditing('new')}>
+    <Button needs="rule" tone="quiet" icon="plus" onPress={() => setEditing('new')}>
       {t('add')}
     </Button>
   );
@@ -104,10 +105,10 @@ function RuleCard({ view: { rule, text, holds_now: holds }, onChange, onDropped 
         {!rule.words && rule.by && <p className={css.quiet}>{t('madeBy', { by: rule.by })}</p>}
       </div>
       <div className={css.deeds}>
-        <Button tone="quiet" icon="edit" aria-label={`${t('change')}: ${text}`} onPress={onChange}>
+        <Button needs="rule" tone="quiet" icon="edit" aria-label={`${t('change')}: ${text}`} onPress={onChange}>
           {t('change')}
         </Button>
-        <Button tone={sure ? 'danger' : 'quiet'} icon="trash" aria-label={`${t(sure ? 'dropSure' : 'drop')}: ${text}`} onPress={() => void drop()}>
+        <Button needs="rule" tone={sure ? 'danger' : 'quiet'} icon="trash" aria-label={`${t(sure ? 'dropSure' : 'drop')}: ${text}`} onPress={() => void drop()}>
           {t(sure ? 'dropSure' : 'drop')}
         </Button>
       </div>

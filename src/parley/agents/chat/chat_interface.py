@@ -73,6 +73,7 @@ class ChatInterface(Node):
         known_robots: Robots that send no heartbeat of ours.
         patience_s: Wall time after which the operator is told that an answer takes long.
         rules: Hears what people say about rules before any language engine does.
+        rooms: Parts of the map with a name, as goals.
     """
 
     name: ClassVar[str] = "chat_interface"
@@ -89,6 +90,7 @@ class ChatInterface(Node):
         known_robots: Sequence[str] = (),
         patience_s: float = PATIENCE_S,
         rules: RuleTalk | None = None,
+        rooms: Sequence[MapObject] = (),
     ) -> None:
         super().__init__(transport)
         self._rules = rules
@@ -97,7 +99,7 @@ class ChatInterface(Node):
         self._presence = Presence(clock, tuple(known_robots), linked=linked_to(transport))
         self._halts: dict[str, int] = {}
         """How often each robot was told to stop."""
-        self._known = Situations(transport, self._presence, objects, history_exchanges, clock)
+        self._known = Situations(transport, self._presence, objects, history_exchanges, clock, rooms)
         self._questions = self._known.questions
         self._mailboxes: Mailboxes[str] = Mailboxes(self._on_defect)
         self._offered, self._finishing = Offered(), Finishing(clock.now_s)

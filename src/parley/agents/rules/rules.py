@@ -19,9 +19,12 @@ from parley.gate.table import Effect, verdict
 from parley.gate.ways import judge_with_ways
 from parley.gate.wording import rule_text
 from parley.messages import topics
+from parley.messages.audit import AuditEvent
 from parley.messages.chat import ActionCall
+from parley.messages.principal import Principal
 from parley.messages.ros import ChatRequest, ChatResponse
 from parley.messages.rule_requests import RuleFinding, RuleRequest, RulesAnswer, RuleVerdict, RuleView
+from parley.messages.rules import Rule
 from parley.messages.status import ActionInfo, ActorStatus
 from parley.messages.wire import decode, encode
 from parley.sentences import SpokenLanguage, in_language
@@ -75,6 +78,7 @@ class RuleNode(Node):
     async def open(self) -> None:
         """See `Node.open`."""
         await self.subscribe(topics.ACTOR_STATUS, ActorStatus, self._presence.on_status)
+        self._keeper.on_change(self._on_change)
         server = await self.transport.serve(topics.RULES, self._on_request)
         self.opened.push_async_callback(server.close)
 
@@ -94,30 +98,34 @@ class RuleNode(Node):
         if request.what == "try":
             judged = await self._try(request)
             return self._answer(request.language).model_copy(update={"verdict": judged})
+        if request.what == "word" and request.rule is not None:
+            return RulesAnswer(rules=(self._view(request.rule, request.language),))
         if request.what != "list" and verdict(request.by, Effect.RULE) != "allow":
             return self._answer(request.language, problem="You may not change rules.")
         if request.what == "put" and request.rule is not None:
             name = request.by.name if request.by is not None else ""
-            await self._keeper.put(request.rule.model_copy(update={"by": request.rule.by or name}))
-        elif request.what == "drop" and await self._keeper.drop(request.id) is None:
+            rule = request.rule.model_copy(update={"by": request.rule.by or name})
+            await self._keeper.put(rule, request.by)
+        elif request.what == "drop" and await self._keeper.drop(request.id, request.by) is None:
             return self._answer(request.language, problem="There is no such rule any more.")
         return self._answer(request.language)
 
     def _answer(self, language: SpokenLanguage, problem: str = "") -> RulesAnswer:
-        now = self._book.now()
         path = self._keeper.path
         return RulesAnswer(
-            rules=tuple(
-                RuleView(
-                    rule=rule,
-                    text=in_language(rule_text(rule), language),
-                    holds_now=holds_at(rule.when, now),
-                )
-                for rule in self._book.rules.rules
-            ),
+            rules=tuple(self._view(rule, language) for rule in self._book.rules.rules),
             problem=in_language(problem, language),
             file=path.name if path is not None else "",
         )
+
+    def _view(self, rule: Rule, language: SpokenLanguage) -> RuleView:
+        text = in_language(rule_text(rule), language)
+        return RuleView(rule=rule, text=text, holds_now=holds_at(rule.when, self._book.now()))
+
+    def _on_change(self, rule: Rule, dropped: bool, by: Principal | None) -> None:
+        said = rule.model_dump(mode="json", by_alias=True, exclude_defaults=True)
+        detail = {"rule": said, "dropped": dropped}
+        self.publish(topics.AUDIT, AuditEvent(effect=Effect.RULE, by=by, words=rule.words, detail=detail))
 
     # -- trying -------------------------------------------------------------------------------------------
 

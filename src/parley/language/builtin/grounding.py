@@ -119,7 +119,7 @@ class Grounder:
 
     def _thing(self, frame: str, filler: Filler, mention: Mention, *, placed: bool = False) -> Value | Ask:
         """A thing or a place; `placed`: where it is, is said."""
-        before = self._spoken_of(filler, mention) or _at_point(filler)
+        before = self._spoken_of(filler, mention) or _at_point(filler) or self._room(frame, filler)
         if before is not None:
             return before
         objects, lexicon = self.situation.objects, self.lexicon
@@ -204,8 +204,20 @@ class Grounder:
         alone = len(far_m) > 1 and far_m[0][0] < _BESIDE_M and far_m[0][0] < far_m[1][0] / 2
         return things[far_m[0][1]] if alone else None
 
+    def _room(self, frame: str, filler: Filler) -> Value | None:
+        """A room of the map as a goal, by its whole name; a thing that is called so goes before."""
+        if frame not in ("GO", "BRING") or filler.role not in "GL":
+            return None
+        small = self.lexicon.classes["prepositions"] | self.lexicon.classes["determiners"]
+        name = [word for word in filler.words if word not in small]
+        things = {item.description.lower() for item in self.situation.objects}
+        found = [room for room in self.situation.rooms if room.description.lower().split() == name]
+        if len(found) != 1 or " ".join(name) in things:
+            return None
+        return Value(found[0].description, with_article(found[0].description), (found[0],))
+
     def _in_room(self, frame: str, filler: Filler) -> MapObject | None:
-        """Of a room as a goal the nearest thing that stands in it: a room is no thing of its own."""
+        """Of a room as a goal the nearest thing in it, where the map has no rooms but things tell of them."""
         if frame not in ("GO", "BRING") or filler.role not in "GL":
             return None
         return self.inside(filler.words)

@@ -9,7 +9,7 @@ from fastapi import APIRouter, Path
 from parley.errors import UnavailableError
 from parley.gate.table import Effect
 from parley.messages import topics
-from parley.messages.rule_requests import RuleRequest, RulesAnswer, RuleVerdict
+from parley.messages.rule_requests import RuleRequest, RulesAnswer, RuleVerdict, RuleView
 from parley.messages.rules import Rule
 from parley.web.backend import Backend
 from parley.web.bodies import RuleTryPost
@@ -43,6 +43,12 @@ async def _ask(web: Backend, request: RuleRequest) -> RulesAnswer:
 async def get_rules(web: Web, language: Language = "en") -> RulesAnswer:
     """All rules, each in words."""
     return await _ask(web, RuleRequest(language=language))
+
+
+@router.post("/words", dependencies=[may(Effect.RULE)])
+async def word_rule(rule: Rule, web: Web, language: Language = "en") -> RuleView:
+    """What a rule would say, in words; it does not hold yet."""
+    return (await _ask(web, RuleRequest(what="word", rule=rule, language=language))).rules[0]
 
 
 @router.put("/{rule_id}", dependencies=[may(Effect.RULE)])
