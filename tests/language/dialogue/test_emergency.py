@@ -1,4 +1,4 @@
-"""What alarms beside an order: a nuisance does not; else it is told and asked about, and the order is kept."""
+"""What alarms beside an order: a nuisance does not, a real one is told and asked about, with the order."""
 
 from __future__ import annotations
 
