@@ -138,6 +138,21 @@ def test_turning_around_is_half_a_turn_and_back_is_nowhere_where_nothing_came_be
     assert len(calls(situation("go to the office and come back", catalogue=catalogue, robot_pose=here))) == 3
 
 
+def test_how_far_a_move_goes_stays_open_only_on_the_way_to_something_that_the_action_can_do_without() -> None:
+    described = "Move forward, back or sideways by a distance."
+    free = (action("shift", described, "direction", "distance", optional=("distance",)), *CATALOGUE[4:])
+    order = "move to your right and look for the red box"
+    found = ("FIND", ["red box"])
+    assert calls(situation(order, catalogue=free)) == [("MOVE", ["right"]), found]
+    assert calls(situation(order)) == calls(situation("move to your right", catalogue=free)) == []
+
+
+async def test_a_side_of_a_place_is_that_place_and_it_is_said() -> None:
+    given = situation("carry the red box to the side of the desk")
+    assert calls(given) == [("BRING", ["desk", "red box"])]
+    assert "“side of the desk” into account" in (await ENGINE.interpret(given)).message_response
+
+
 def test_a_thing_that_no_map_holds_is_looked_for_where_it_is_said_to_be() -> None:
     catalogue = tuple(info_of(spec) for spec in BUILTIN_ACTIONS)
     rack = MapObject("rack_1", "rack", 5.0, 1.0, aliases=("stand with the cups",))

@@ -53,7 +53,7 @@ def decide(
 
     tokens = spoken(tokenize(situation.message)) or tokenize(situation.message)
     whole = reader(situation.message)
-    early = policy.beforehand(situation, whole, tokens, lexicon, told_in, again)
+    early = policy.beforehand(situation, whole, tokens, lexicon, told_in, reader, again)
     if early is not None:
         return early
     rule = rule_of(parts, situation.message, lexicon)

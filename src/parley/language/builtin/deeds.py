@@ -331,11 +331,16 @@ class Builder(Ways):
             return which
         if "N" not in values and values["H"].argument == "back" and {*wish.verb.split()} & _RETURNING:
             return Ask("Back to which place? Or how far shall I move back?")
-        if "N" not in values and values["H"].argument != "around":
-            return Ask(
-                "By how many degrees shall I turn?" if wish.frame == "TURN" else "How far shall I move?"
-            )
-        return None
+        if "N" in values or values["H"].argument == "around" or self._may_stay_open(wish.frame):
+            return None
+        return Ask("By how many degrees shall I turn?" if wish.frame == "TURN" else "How far shall I move?")
+
+    def _may_stay_open(self, frame: str) -> bool:
+        """Whether the action knows by itself how far, and it is only on the way to what is wanted there."""
+        skill, behind = self.skills.get(frame), self.behind
+        slot = skill.roles.get("N", "") if skill is not None else ""
+        wanted = behind is not None and behind.has("TK") and behind.frame not in (*_ONCE, "FACE", "PHOTO")
+        return wanted and skill is not None and slot in skill.action.optional
 
     def _turned_around(self, values: dict[str, Value]) -> Ask | None:
         """For "turn around" where an action knows but left and right: half a turn."""

@@ -74,7 +74,8 @@ class Grounder:
     """What is not certain, and the words that were not understood: the deeds are only offered then."""
     mentioned: list[MapObject] = field(default_factory=list)
     """Things that were named so far, whatever is done with them."""
-
+    behind: Wish | None = None
+    """What is wanted next in the same breath."""
     refused: list[tuple[str, str]] = field(default_factory=list)
     """Frame and thing of what is not to be done."""
 
@@ -139,10 +140,8 @@ class Grounder:
             return Ask(f"I do not know which ones you mean by “{filler.text}”. Please name them.")
         if mention.kind in ("speaker", "here"):
             return self._speaker()
-        if mention.kind == "part":
-            return Value(mention.text, with_article(mention.text), mention.things)
         if mention.things:
-            return self._one_of(mention.things)
+            return self._mentioned(filler, mention)
         name, rest = noun_phrase(filler.words, filler.head, lexicon)
         place = known_place(name, self.known)
         if place is not None:
@@ -155,6 +154,14 @@ class Grounder:
         return self._unknown(
             as_said(mention.text, filler.text), frame, sought=frame in _MOVABLE and filler.role == "T"
         )
+
+    def _mentioned(self, filler: Filler, mention: Mention) -> Value | Ask:
+        """What is named, or a part of it; a place is the whole: no map knows its sides."""
+        if mention.kind == "part" and filler.role not in "GLS":
+            return Value(mention.text, with_article(mention.text), mention.things)
+        if mention.kind == "part":
+            self.unheeded(mention.text)
+        return self._one_of(mention.things)
 
     def _unknown(self, text: str, frame: str, *, sought: bool) -> Ask:
         """That nothing is called so, with what is near and known: nobody knows all that a robot knows."""

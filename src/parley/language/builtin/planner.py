@@ -190,6 +190,7 @@ class Planner:
             if wish.negated:
                 self.builder.forbidden(wish)
                 continue
+            self.builder.behind = next((one for one in rest if not one.negated), None)
             made = self.builder.deeds(wish)
             if isinstance(made, Ask):
                 return made

@@ -141,7 +141,7 @@ def _filler(parse: Parse, span: Span, lexicon: Lexicon) -> Filler:
         behind = (at for at in range(first, len(words)) if words[at] in small - {"of", "'s"})
         stop = next(behind, len(words))
         if words[head] in small or head >= stop:
-            head = stop - 1
+            head = stop - 2 if words[stop - 1] == "of" else stop - 1
     return Filler(span.role, span.start, span.end, head, words, span.share, parse.said(span.start, end))
 
 

@@ -23,6 +23,7 @@ from parley.language.dialogue.changes import (
     texts_of,
     visits,
 )
+from parley.language.dialogue.emergency import NO_ALARM, emergency, is_emergency
 from parley.language.dialogue.facts import (
     forgotten,
     is_report,
@@ -62,6 +63,7 @@ def beforehand(
     tokens: Sequence[Token],
     lexicon: Lexicon,
     told_in: Callable[[str], tuple[Told, ...]],
+    reader: Callable[[str], Reading],
     again: Again,
 ) -> Decision | None:
     """What is decided without reading orders.
@@ -72,11 +74,15 @@ def beforehand(
         tokens: Of the message.
         lexicon: Words.
         told_in: The facts of a text.
+        reader: Reads a text.
         again: What is decided about a part of the message, or about what was said before.
     """
-    said = _about_itself(situation, reading, tokens, lexicon, told_in)
+    alarm = emergency(situation, tokens, lexicon, reader, again)
+    said = alarm or _about_itself(situation, tokens, told_in)
     if said is not None:
         return said
+    if is_emergency(situation) and (agreed := _agreed(situation, reading, again)) is not None:
+        return afterwards(agreed, situation, reading, tokens, lexicon)
     chose = answered_place(situation, lexicon, again) or _chosen(situation, tokens, again)
     if chose is not None:
         return chose
@@ -115,14 +121,19 @@ def _orders(words: Sequence[str], choice: str, choices: Sequence[str]) -> bool:
 _ORDER: Final = frozenset({"first", "before", "then", "afterwards", "later", "also", "next"})
 
 
+def _agreed(situation: Situation, reading: Reading, again: Again) -> Decision | None:
+    """What was asked last, where that is said yes to."""
+    asked = situation.dialogue.asked
+    if asked is None or not asked.choices or "yes" not in reading.moves or reading.wishes:
+        return None
+    return again(asked.choices[0])
+
+
 def _about_itself(
-    situation: Situation, reading: Reading, tokens: Sequence[Token], lexicon: Lexicon,
-    told_in: Callable[[str], tuple[Told, ...]],
-) -> Decision | None:  # fmt: skip
-    """An alarm, a question about the robot, a wish to forget, a word to wait."""
+    situation: Situation, tokens: Sequence[Token], told_in: Callable[[str], tuple[Told, ...]]
+) -> Decision | None:
+    """A question about the robot, a wish to forget, a word to wait."""
     bare = plain(tokens, (situation.robot,))
-    if "alarm" in reading.acts and "question" not in reading.acts:
-        return _alarm(situation, tokens, lexicon)
     question = None if is_promised(bare, situation.catalogue) else question_of(bare)
     asked = situation.dialogue.asked
     if question is not None and question.topic == "difference" and asked is not None:
@@ -134,7 +145,7 @@ def _about_itself(
         return Forget(tuple(entry.name for entry in lost), tuple(entry.data for entry in lost))
     if lost is not None and situation.memory and bare.startswith("forget") and not _known_plan(situation):
         return Answer("I know nothing of that, so there is nothing to forget.")
-    if _is_emergency(situation) and _NO_ALARM.fullmatch(bare):
+    if is_emergency(situation) and NO_ALARM.fullmatch(bare):
         more = " Say “carry on” when I should go on." if situation.queue else ""
         return Answer(f"I am glad to hear that. I stay here.{more}")
     if is_thinking(situation.message if situation.question else bare):
@@ -169,9 +180,6 @@ def _about_what_was_said(
     if change is None and situation.dialogue.orders:
         change = followed(situation, tokens, lexicon, situation.dialogue.orders[-1])
     return _edit(change, situation) if change is not None else None
-
-
-_ALARMED: Final = "That sounds like an emergency"
 
 
 def _ordered(made: Decision) -> Do | None:
@@ -235,19 +243,6 @@ def _beyond(
     return Answer(f"I am sorry, I cannot {verb}: none of my actions does that.{near}")
 
 
-_NO_ALARM: Final = re.compile(
-    r"(?:(?:no|it was|it is|it's|that was|that's|just|only|a|an|the|sorry|it) )*(?:false alarm|"
-    r"joke|mistake|test|drill|no emergency|nothing(?: happened| is wrong| at all)?|over|out)|"
-    r"(?:all|everything|everybody|everyone|it|we|he|she|they)(?: is|'s| are|'re)? "
-    r"(?:ok|okay|good|fine|clear|well|safe|all right|alright|under control)"
-)
-
-
-def _is_emergency(situation: Situation) -> bool:
-    """Whether somebody was just told of an emergency and asked what to do."""
-    return any(_ALARMED in turn.content for turn in situation.history[-4:] if turn.role == "assistant")
-
-
 def _known_plan(situation: Situation) -> bool:
     return bool(situation.queue) or situation.dialogue.proposal is not None
 
@@ -277,7 +272,7 @@ def afterwards(
         if proposal is not None and proposal.why and not situation.queue:
             return Edit(Change(), made, proposal.id)  # what was only offered gives way to an order
         change = change_of(situation, tokens, lexicon, orders=True)
-        if change is None and situation.queue and _is_emergency(situation):
+        if change is None and situation.queue and is_emergency(situation):
             change = before_all(situation)
         return made if change is None else _edit(change, situation, made)
     bare = plain(tokens, (situation.robot,))
@@ -350,29 +345,6 @@ def _edit(change: Change, situation: Situation, do: Do | None = None) -> Decisio
     gone = set(change.drop)
     kept = tuple(call for visit in visits(situation) if not gone & {*visit.steps} for call in visit.calls)
     return Edit(replace(change, kept=kept), do, proposal.id)
-
-
-# -- emergencies --------------------------------------------------------------------------------------
-
-
-def _alarm(situation: Situation, tokens: Sequence[Token], lexicon: Lexicon) -> Decision:
-    """Somebody is in need or something is on fire: say what can be done, stand still, ask; never a fact."""
-    low = [token.low for token in tokens]
-    places = named(tokens, situation.objects, lexicon)
-    room = next((room for room in rooms(situation.objects) if set(room.split()) <= set(low)), "")
-    where = f"the {room}" if room else f"the {places[-1].things[0].description}" if places else ""
-    moving = situation.status == "running"
-    still = "I have stopped. " if moving else ""
-    offer = f"Shall I go to {where}, or stay here?" if where else "Where is it? Shall I go there?"
-    choices = (f"Go to {where}", "Stay here") if where else ()
-    return Ask(
-        f"{still}{_ALARMED}, and I cannot help with hands, nor call anybody by phone: "
-        f"please "
-        f"get help at once. I tell everybody who is connected to me. {offer}",
-        choices,
-        stops=moving,
-        alarms=True,
-    )
 
 
 # -- what was spoken of -------------------------------------------------------------------------------

@@ -1,0 +1,146 @@
+"""Emergencies: everybody is told and a person is asked; an order beside what alarms is not lost."""
+
+from __future__ import annotations
+
+import re
+from collections.abc import Callable, Sequence
+from typing import Final
+
+from parley.language.base import Situation
+from parley.language.builtin.decision import Ask, Decision, Do, Edit
+from parley.language.builtin.lexicon import Lexicon, lemmas
+from parley.language.builtin.reading import Reading
+from parley.language.builtin.tokens import Token, tokenize
+from parley.language.dialogue.mentions import named
+from parley.language.dialogue.places import rooms
+
+__all__ = ["NO_ALARM", "emergency", "is_emergency"]
+
+_ALARMED: Final = "That sounds like an emergency"
+NO_ALARM: Final = re.compile(
+    r"(?:(?:no|it was|it is|it's|that was|that's|just|only|a|an|the|sorry|it) )*(?:false alarm|"
+    r"joke|mistake|test|drill|no emergency|nothing(?: happened| is wrong| at all)?|over|out)|"
+    r"(?:all|everything|everybody|everyone|it|we|he|she|they)(?: is|'s| are|'re)? "
+    r"(?:ok|okay|good|fine|clear|well|safe|all right|alright|under control)"
+)
+_PIECE: Final = re.compile(
+    r"\w.*?(?=[.,;:!?]+(?:\s|$)|\s+(?:and\s+)?(?:so|please|can you|could you|would you)\b|$)",
+    re.IGNORECASE | re.DOTALL,
+)
+_TOLD: Final = frozenset({"told", "need", "alarm", "social"})
+_BINDING: Final = frozenset(
+    {"if", "unless", "until", "till", "when", "while", "except", "otherwise", "else", "or", "before", "after"}
+)
+"""Words on which an order may depend: what holds one is not left out of it."""
+_LONGEST: Final = 60
+"""So many words at most are looked through for an order beside what alarms."""
+
+
+def is_emergency(situation: Situation) -> bool:
+    """Whether somebody was just told of an emergency and asked what to do."""
+    return any(_ALARMED in turn.content for turn in situation.history[-4:] if turn.role == "assistant")
+
+
+def emergency(
+    situation: Situation,
+    tokens: Sequence[Token],
+    lexicon: Lexicon,
+    reader: Callable[[str], Reading],
+    again: Callable[[str], Decision],
+) -> Decision | None:
+    """What is decided where somebody is in need or something is on fire; None if nothing alarms.
+
+    A complaint beside a clear order is no emergency. A real one is told and asked about, with the order.
+
+    Args:
+        situation: What is known.
+        tokens: Of the message.
+        lexicon: Words.
+        reader: Reads a text.
+        again: Decides about a part of the message.
+    """
+    text = situation.message
+    acts = reader(text).acts
+    pieces = [match.span() for match in _PIECE.finditer(text)] if len(tokens) <= _LONGEST else []
+    ends = [text[slice(*pieces[at])] for at in (0, -1)] if len(pieces) > 1 else []
+    if len(ends) > 1 and _danger(text[: pieces[-1][0]], lexicon):
+        del ends[1]  # "look for smoke, gas" is a list
+    if "question" in acts or not ("alarm" in acts or any(_calls(one, lexicon, reader) for one in ends)):
+        return None
+    order, told = _beside(text, pieces, lexicon, reader, again)
+    serious = [one for one in told if _NUISANCE.search(one) is None]
+    danger = any(_danger(one, lexicon) for one in told)
+    if len(serious) < len(told) and not danger and not any("alarm" in reader(one).acts for one in serious):
+        return again(order)
+    return _alarm(situation, tokens, lexicon, order)
+
+
+def _danger(text: str, lexicon: Lexicon) -> list[str]:
+    """The words of danger in a text, without those of a nuisance."""
+    serious = [token.low for token in tokenize(_NUISANCE.sub(" ", text))]
+    return [word for word in serious if not lexicon.classes["danger"].isdisjoint((word, *lemmas(word)))]
+
+
+def _calls(text: str, lexicon: Lexicon, reader: Callable[[str], Reading]) -> bool:
+    """Whether a part of a message alarms by itself: it is read so, or is nothing but a word of danger."""
+    found = _danger(text, lexicon)
+    rest = {token.low for token in tokenize(text) if token.is_word} - {*found} - lexicon.classes["small"]
+    return bool(found) and (not rest or "alarm" in reader(text).acts)
+
+
+def _beside(
+    text: str,
+    pieces: Sequence[tuple[int, int]],
+    lexicon: Lexicon,
+    reader: Callable[[str], Reading],
+    again: Callable[[str], Decision],
+) -> tuple[str, list[str]]:
+    """The clear order in a message in which something alarms, and what is only told beside it.
+
+    Nothing but what is told may stand before the order or behind it, and nothing that it may depend on.
+    """
+    said = [text[start:end] for start, end in pieces]
+    told = [reader(one).acts <= _TOLD or _calls(one, lexicon, reader) for one in said]
+    orders = [number for number, plain in enumerate(told) if not plain]
+    if not orders:
+        return "", []
+    first, last = orders[0], orders[-1]
+    order = text[pieces[first][0] : pieces[last][1]]
+    beside = [*said[:first], *said[last + 1 :]]
+    bound = any(not _BINDING.isdisjoint(one.lower().split()) for one in beside)
+    if not beside or bound or not isinstance(again(order), Do | Edit):
+        return "", []
+    return order, beside
+
+
+def _alarm(situation: Situation, tokens: Sequence[Token], lexicon: Lexicon, order: str) -> Decision:
+    """Say what can be done, stand still, ask; never a fact."""
+    low = [token.low for token in tokens]
+    places = named(tokens, situation.objects, lexicon)
+    room = next((room for room in rooms(situation.objects) if set(room.split()) <= set(low)), "")
+    where = f"the {room}" if room else f"the {places[-1].things[0].description}" if places else ""
+    what = order or (f"Go to {where}" if where else "")
+    moving = situation.status == "running"
+    still = "I have stopped. " if moving else ""
+    wanted = f"Shall I do as you say (“{order}”), or stay here?" if order else ""
+    offer = wanted or (f"Shall I go to {where}, or stay here?" if where else "Where is it? Shall I go there?")
+    return Ask(
+        f"{still}{_ALARMED}, and I cannot help with hands, nor call anybody by phone: "
+        f"please "
+        f"get help at once. I tell everybody who is connected to me. {offer}",
+        (what, "Stay here") if what else (),
+        stops=moving,
+        alarms=True,
+    )
+
+
+_NUISANCE: Final = re.compile(
+    r"\b(?:my|our|his|her|their) (?:\w+ )?(?:back|knees?|foot|feet|legs?|head|neck|shoulders?|hips?|joints|"
+    r"bones|muscles|throat|tooth|teeth)\b.{0,20}\b(?:killing|hurts?|hurting|ach(?:e|es|ing)|sore|stiff|tired|"
+    r"splitting|bad|playing up|worn out|bother\w*)\b|"
+    r"\bstuck (?:in|behind|at) (?:\w+ )*(?:traffic|work|meeting|jam)\b|\bdown (?:my|our) necks?\b|"
+    r"\b(?:would|could|'d) (?:kill|murder) for\b|\bdying (?:for|to)\b|\bup to (?:my|our) (?:ears|eyes)\b|"
+    r"\b(?:rushed|run|running) off (?:my|our) feet\b|\brunning late\b",
+    re.IGNORECASE,
+)
+"""What is told to be a nuisance, and is no emergency."""

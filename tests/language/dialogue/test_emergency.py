@@ -1,0 +1,51 @@
+"""What alarms beside an order: a nuisance does not, a real one is told and asked about, with the order."""
+
+from __future__ import annotations
+
+import pytest
+
+from parley.language.base import Turn
+from parley.language.builtin.decision import Ask, Do
+from parley.language.builtin.engine import BuiltinLanguage
+from parley.language.dialogue.state import Asked, Dialogue
+from tests.language.builtin.worlds import situation
+
+ENGINE = BuiltinLanguage()
+
+
+@pytest.mark.parametrize(
+    "message",
+    [
+        "my knees are killing me so please drive to the desk",
+        "the driver is stuck in traffic. Go to the desk.",
+        "My neck hurts today, would you go to the desk?",
+    ],
+)
+def test_a_nuisance_beside_a_clear_order_is_no_emergency(message: str) -> None:
+    made = ENGINE.decide(situation(message))
+    assert isinstance(made, Do) and [deed.arguments for deed in made.deeds] == [{"place": "desk"}]
+
+
+@pytest.mark.parametrize(
+    ("told", "order"),
+    [
+        ("Kim fell,", "go to the desk"),
+        ("my back is killing me and there is smoke in the yard,", "go to the desk"),
+        ("SOS,", "go to the desk"),
+        ("someone is bleeding.", "Go to the office and then look for the red box"),
+        ("the old man does not wake up,", "please go to the desk"),
+    ],
+)
+def test_a_real_one_is_told_and_the_order_beside_it_is_offered(told: str, order: str) -> None:
+    message = f"{told} {order}"
+    asked = ENGINE.decide(situation(message))
+    assert isinstance(asked, Ask) and asked.alarms and asked.choices == (order, "Stay here")
+    past = (Turn("operator", message), Turn("assistant", asked.question))
+    open_question = Dialogue(asked=Asked(message, asked.choices))
+    agreed = ENGINE.decide(situation("yes", history=past, dialogue=open_question))
+    assert isinstance(agreed, Do) and agreed == ENGINE.decide(situation(order))
+
+
+def test_an_order_that_depends_on_something_is_not_taken_out_of_it() -> None:
+    asked = ENGINE.decide(situation("if the pump is on, Kim fell, go to the desk"))
+    assert isinstance(asked, Ask) and asked.alarms and "go to the desk" not in asked.choices
